@@ -38,7 +38,7 @@ class Solver {
   // The particle at the front, of those whose mass together is so much [kg].
   virtual mpm::OnWay front(const mpm::Way<Dim>& way, double mass) = 0;
   // Where those stand that the last step told as strays, from the domain's lower corner [m].
-  virtual std::vector<Vector<Real, Dim>> places_of_strays() = 0;
+  virtual std::vector<Vector<Real, Dim>> escaped_positions() = 0;
   // Particles move in memory to stand in canonical order. Results do not depend on it.
   virtual void sort_in_memory() = 0;
   // To as many particles, in the order in which they came to the device.

@@ -8,12 +8,12 @@
 #include "device/band_stages.hpp"
 #include "device/base_laws.hpp"
 #include "device/erodible_bed.hpp"
+#include "device/escape_check.hpp"
 #include "device/front.hpp"
 #include "device/looks.hpp"
 #include "device/maps.hpp"
 #include "device/material_stress.hpp"
 #include "device/step_passes.hpp"
-#include "device/strays.hpp"
 #include "device/velocity_filter.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/position_kernel.hpp"
@@ -93,8 +93,8 @@ class Step {
     return front_.find(way, mass, passes_.cells.tables(), passes_.particles.view(), passes_.particles.size());
   }
   // Where those stand that the last step told as strays, from the domain's lower corner [m].
-  std::vector<Vector<Real, Dim>> places_of_strays() {
-    return strays_.places(passes_, strays_kernel(), sums_.get(0).strays);
+  std::vector<Vector<Real, Dim>> escaped_positions() {
+    return escape_check_.places(passes_, escape_kernel(), sums_.get(0).escapes);
   }
   void sample_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapSample& look) {
     if constexpr (Dim == 3) {
@@ -228,18 +228,18 @@ class Step {
   void take_positions() {
     const mpm::TakePosition<Dim, Real> take{passes_.model.lower, passes_.model.upper};
     const FindExtremes<Dim, Real> extremes{passes_.model.band, band_.hydraulic(), {free_gaps_.data()}};
-    const CountStrays<Dim, Real> strays = strays_kernel();
-    if (passes_.model.tells_extremes && passes_.model.tells_strays) {
-      take_positions(take, extremes, strays);
-    } else if (passes_.model.tells_extremes) {
+    const CountEscaped<Dim, Real> escapes = escape_kernel();
+    if (passes_.model.finds_extremes && passes_.model.counts_escaped) {
+      take_positions(take, extremes, escapes);
+    } else if (passes_.model.finds_extremes) {
       take_positions(take, extremes);
-    } else if (passes_.model.tells_strays) {
-      take_positions(take, strays);
+    } else if (passes_.model.counts_escaped) {
+      take_positions(take, escapes);
     } else {
       take_positions(take);
     }
   }
-  [[nodiscard]] CountStrays<Dim, Real> strays_kernel() const {
+  [[nodiscard]] CountEscaped<Dim, Real> escape_kernel() const {
     return {passes_.cells.tables().blocks_about_tile,
             passes_.ground.exists() ? passes_.ground.partly_unknown() : nullptr, passes_.model.faces.extent};
   }
@@ -251,7 +251,7 @@ class Step {
   // Where in the device's memory what the last pass sums is kept.
   mpm::BadParticle* place_of(const mpm::BadParticle* /*sum*/) { return &sums_.data()->bad; }
   band::StepExtremes* place_of(const band::StepExtremes* /*sum*/) { return &sums_.data()->extremes; }
-  std::uint64_t* place_of(const std::uint64_t* /*sum*/) { return &sums_.data()->strays; }
+  std::uint64_t* place_of(const std::uint64_t* /*sum*/) { return &sums_.data()->escapes; }
 
   Passes passes_;
   Array<Sums, Backend> sums_;
@@ -261,7 +261,7 @@ class Step {
   ErodibleBed<Backend, Dim, Real> bed_;
   Array<Real, Backend> free_gaps_{passes_.backend};
   Array<ContactInput<Real>, Backend> bases_{passes_.backend};
-  Strays<Backend, Dim, Real> strays_{passes_.backend};
+  EscapeCheck<Backend, Dim, Real> escape_check_{passes_.backend};
   Front<Backend, Dim, Real> front_{passes_.backend};
   Array<mpm::WatchedSums<Real>, Backend> watched_{passes_.backend, 1};
   Array<band::BodySums<Dim, Real>, Backend> body_{passes_.backend, 1};

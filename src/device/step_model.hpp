@@ -49,8 +49,8 @@ struct StepModel {
   bool lubrication = true;        // off: the base sees the initial porosity and saturation
   mpm::DomainFaces<Dim, Real> faces;
   Vector<Real, Dim> lower, upper;  // particles may be between these [m]
-  bool tells_extremes = false;     // StepSums::extremes is asked for
-  bool tells_strays = false;       // and StepSums::strays
+  bool finds_extremes = false;     // StepSums::extremes is asked for
+  bool counts_escaped = false;     // and StepSums::strays
   terrain::BasalLaw<Real> base;
   bool base_holds = false;        // no slip at all
   bool pore_pressure = true;      // off: P = 0 at contact nodes
@@ -156,7 +156,7 @@ struct StepSums {
   Real vented = 0;                   // water lost to frozen pores [kg]
   mpm::BadParticle bad;              // after the particles have moved
   band::StepExtremes extremes;
-  std::uint64_t strays = 0;  // particles beyond the domain's sides, or in a block whose ground is partly unknown
+  std::uint64_t escapes = 0;  // particles beyond the domain's sides, or in a block whose ground is partly unknown
 };
 
 }  // namespace thawslide::device

@@ -61,8 +61,8 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
   device.lower = -beyond;
   device.upper = model.constraints.extent + beyond;
-  device.tells_extremes = parameters.time.stepping == config::Stepping::adaptive;
-  device.tells_strays =
+  device.finds_extremes = parameters.time.stepping == config::Stepping::adaptive;
+  device.counts_escaped =
       parameters.grid.leaving == config::Policy::remove || parameters.terrain.kind == config::TerrainKind::dem;
   device.base = model.contact.law;
   device.base_holds = model.contact.base_holds;

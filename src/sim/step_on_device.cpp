@@ -81,11 +81,11 @@ bool Simulation<Dim, Real>::nothing_befell_on_device() const {
   if (!device_solver_ || bad_.id >= 0) {
     return false;
   }
-  std::vector<Vector<Real, Dim>> strays;
-  if (device_sums_.strays > 0) {
-    on_device([&] { strays = device_solver_->places_of_strays(); });
+  std::vector<Vector<Real, Dim>> escapes;
+  if (device_sums_.escapes > 0) {
+    on_device([&] { escapes = device_solver_->escaped_positions(); });
   }
-  return !any_has_left(strays);
+  return !any_has_left(escapes);
 }
 
 template <int Dim, class Real>

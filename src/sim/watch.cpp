@@ -64,7 +64,7 @@ bool starts_faster(const mpm::Particles<Dim, Real>& particles, double speed) {
     mass += static_cast<double>(particles.mass(p));
     fast_mass += static_cast<double>(velocity.norm()) > speed ? static_cast<double>(particles.mass(p)) : 0.0;
   }
-  return fast_mass > stray_share * mass;
+  return fast_mass > escaped_fraction * mass;
 }
 
 // How long a slide has to be slow since the start to be at rest [s].
@@ -80,7 +80,7 @@ bool has_gone_further(const mpm::Particles<Dim, Real>& particles, Real way) {
     mass += particles.mass(p);
     far_mass += particles.path_length(p) > way ? particles.mass(p) : Real(0);
   }
-  return far_mass > static_cast<Real>(stray_share) * mass;
+  return far_mass > static_cast<Real>(escaped_fraction) * mass;
 }
 
 }  // namespace
@@ -147,7 +147,7 @@ void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::WatchedSums<Real>& s
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::note_rest(const mpm::WatchedSums<Real>& seen) {
-  const bool moves = seen.fast_mass > static_cast<Real>(stray_share) * seen.mass;
+  const bool moves = seen.fast_mass > static_cast<Real>(escaped_fraction) * seen.mass;
   if (parameters_.time.stop_at_rest <= 0.0) {
     watch_.has_moved = not_looked_at;
   } else if (watch_.has_moved == not_looked_at) {
@@ -186,7 +186,7 @@ std::string Simulation<Dim, Real>::rest_rule() const {
   const std::string or_from_start =
       from_start < times.rest_time ? fmt::format(", or {:.2g} s from the start,", from_start) : "";
   return fmt::format("for {:g} s{} no more than {:g} % of the mass faster than {:g} m/s", times.rest_time,
-                     or_from_start, 100.0 * stray_share, rest_speed(times));
+                     or_from_start, 100.0 * escaped_fraction, rest_speed(times));
 }
 
 template <int Dim, class Real>
@@ -210,7 +210,7 @@ template <int Dim, class Real>
 std::string Simulation<Dim, Real>::rest_text() const {
   return fmt::format(
       "{}: since t = {:g} s no more than {:g} % of its mass has moved faster than {:g} m/s (time.stop_at_rest)",
-      at_rest, watch_.rest_since, 100.0 * stray_share, parameters_.time.stop_at_rest);
+      at_rest, watch_.rest_since, 100.0 * escaped_fraction, parameters_.time.stop_at_rest);
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                    \

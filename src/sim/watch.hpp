@@ -15,7 +15,7 @@ inline constexpr std::int64_t watch_interval = 10;
 
 // The share of the mass that may move while the slide is at rest: the front leaves the same share out, and so a stray
 // particle keeps no deposit from being one.
-inline constexpr double stray_share = 0.005;
+inline constexpr double escaped_fraction = 0.005;
 
 // The speed that a slide may move at and is at rest where time.stop_at_rest gives none [m/s]: it moves by less than a
 // cell in time.rest_time then.

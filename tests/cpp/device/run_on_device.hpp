@@ -39,7 +39,7 @@ class PassesOn : public device::Solver<Dim, double> {
     return steps_->sum_over_body(of_particle);
   }
   mpm::OnWay front(const mpm::Way<Dim>& way, double mass) override { return steps_->front(way, mass); }
-  std::vector<Vector<double, Dim>> places_of_strays() override { return steps_->places_of_strays(); }
+  std::vector<Vector<double, Dim>> escaped_positions() override { return steps_->escaped_positions(); }
   void sort_in_memory() override { steps_->sort_in_memory(); }
   void copy_to(const mpm::ParticleView<Dim, double>& particles) override { steps_->copy_to(particles); }
   void time_stages() override {}

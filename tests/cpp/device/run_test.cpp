@@ -198,7 +198,7 @@ TEST(DeviceRun, StaysOnGroundThatIsKnown) {
 }
 
 // Above a block whose ground is not known everywhere, and well away from where it is not.
-TEST(DeviceRun, LooksAtStraysAlone) {
+TEST(DeviceRun, ChecksEscapedParticlesAlone) {
   std::ofstream(folder_of_this_test() / "dem.tif");
   const config::Case parameters = sliding_bodies<3>({}, "type = \"dem\"\nfile = \"dem.tif\"\n");
   for (double known_to = 30.0;; known_to -= 0.5) {

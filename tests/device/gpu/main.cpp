@@ -122,7 +122,7 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& 
                               extremes.diffusivity.value,
                               extremes.seepage.value,
                               extremes.pore_stiffness,
-                              static_cast<double>(sums.strays),
+                              static_cast<double>(sums.escapes),
                               seen.kinetic,
                               seen.potential,
                               seen.mass,
@@ -135,12 +135,12 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& 
     const mpm::OnWay front = steps.front({way, {5.0, 7.0}}, body.mass);
     numbers.insert(numbers.end(), {front.along, front.mass, front.place[0], front.place[1]});
   }
-  std::vector<std::array<Real, 2>> strays;  // they come in the order of the device's memory
-  for (const Vector<Real, Dim>& place : steps.places_of_strays()) {
-    strays.push_back({place[0], place[Dim - 1]});
+  std::vector<std::array<Real, 2>> escapes;  // they come in the order of the device's memory
+  for (const Vector<Real, Dim>& place : steps.escaped_positions()) {
+    escapes.push_back({place[0], place[Dim - 1]});
   }
-  std::sort(strays.begin(), strays.end());
-  for (const auto& [along, height] : strays) {
+  std::sort(escapes.begin(), escapes.end());
+  for (const auto& [along, height] : escapes) {
     numbers.insert(numbers.end(), {along, height});
   }
   device::MapSample map;

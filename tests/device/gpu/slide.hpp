@@ -164,7 +164,7 @@ device::StepModel<Dim, Real> model_of_slide() {
   model.base.grounds[0].friction = physics::basal::ConstantFriction<Real>{std::tan(20.0 * pi<Real> / 180.0)};
   model.base.grounds[0].cohesion = physics::basal::ConstantCohesion<Real>{0.0};
   model.distance_check = true;
-  model.tells_extremes = model.tells_strays = true;
+  model.finds_extremes = model.counts_escaped = true;
   return model;
 }
 

@@ -16,7 +16,7 @@ namespace thawslide::device {
 
 // A kernel (mpm/kernel.hpp).
 template <int Dim, class Real>
-struct CountStrays {
+struct CountEscaped {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
   using Account = std::uint64_t;
@@ -24,55 +24,55 @@ struct CountStrays {
   const std::int32_t* blocks_about_tile;
   const std::uint8_t* partly_unknown;  // by block; null: the ground is known everywhere, or there is none
   Vector<Real, Dim> extent;            // of the domain [m]
-  bool all_stray = false;              // of the tile
+  bool all_escaped = false;            // of the tile
 
-  [[nodiscard]] THAWSLIDE_HD CountStrays in_tile(std::size_t tile) const {
+  [[nodiscard]] THAWSLIDE_HD CountEscaped in_tile(std::size_t tile) const {
     constexpr auto stencil = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
-    CountStrays of_tile = *this;
-    of_tile.all_stray =
+    CountEscaped of_tile = *this;
+    of_tile.all_escaped =
         partly_unknown != nullptr && partly_unknown[blocks_about_tile[tile * stencil + stencil / 2]] != 0;
     return of_tile;
   }
 
   template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD bool strays(const Particles& particles, std::uint32_t p) const {
-    bool strays_off = all_stray;
+  [[nodiscard]] THAWSLIDE_HD bool escapes(const Particles& particles, std::uint32_t p) const {
+    bool has_escaped = all_escaped;
     for (int a = 0; a < Dim; ++a) {
       const Real position = particles.position(p, a);
-      strays_off = strays_off || position < Real(0) || position > extent[a];
+      has_escaped = has_escaped || position < Real(0) || position > extent[a];
     }
-    return strays_off;
+    return has_escaped;
   }
 
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
                                Account& count) const {
-    count = strays(particles, at.particle[0]) ? 1 : 0;
+    count = escapes(particles, at.particle[0]) ? 1 : 0;
   }
 };
 
 // The same, of which each leaves a mark.
 template <int Dim, class Real>
-struct MarkStrays {
+struct MarkEscaped {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
   using Account = mpm::NoAccount;
 
-  CountStrays<Dim, Real> count;
+  CountEscaped<Dim, Real> count;
   std::uint32_t* marks;  // by particle: 1 or 0
 
-  [[nodiscard]] THAWSLIDE_HD MarkStrays in_tile(std::size_t tile) const { return {count.in_tile(tile), marks}; }
+  [[nodiscard]] THAWSLIDE_HD MarkEscaped in_tile(std::size_t tile) const { return {count.in_tile(tile), marks}; }
 
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
                                Account& /*account*/) const {
-    marks[at.particle[0]] = count.strays(particles, at.particle[0]) ? 1 : 0;
+    marks[at.particle[0]] = count.escapes(particles, at.particle[0]) ? 1 : 0;
   }
 };
 
 // Where the marked ones stand, one after the other.
 template <int Dim, class Real>
-struct ListStrays {
+struct ListEscaped {
   mpm::ParticleView<Dim, Real> particles;
   const std::uint32_t* marks;
   const std::uint32_t* marked_before;
@@ -88,21 +88,21 @@ struct ListStrays {
 };
 
 template <class Backend, int Dim, class Real>
-class Strays {
+class EscapeCheck {
  public:
-  explicit Strays(Backend& backend) : marks_(backend), marked_before_(backend), places_(backend) {}
+  explicit EscapeCheck(Backend& backend) : marks_(backend), marked_before_(backend), places_(backend) {}
 
   // Positions [m] of the strays, of which there are so many.
   template <class Passes>
-  std::vector<Vector<Real, Dim>> places(Passes& passes, const CountStrays<Dim, Real>& count, std::size_t strays) {
+  std::vector<Vector<Real, Dim>> places(Passes& passes, const CountEscaped<Dim, Real>& count, std::size_t escapes) {
     const std::size_t particles = passes.particles.size();
     marks_.resize(particles);
     marked_before_.resize(particles);
-    places_.resize(strays);
-    passes.run(passes.linear(), MarkStrays<Dim, Real>{count, marks_.data()});
+    places_.resize(escapes);
+    passes.run(passes.linear(), MarkEscaped<Dim, Real>{count, marks_.data()});
     passes.backend.sum_before(marks_.data(), marked_before_.data(), particles);
-    passes.backend.for_each(particles, ListStrays<Dim, Real>{passes.particles.view(), marks_.data(),
-                                                             marked_before_.data(), places_.data()});
+    passes.backend.for_each(particles, ListEscaped<Dim, Real>{passes.particles.view(), marks_.data(),
+                                                              marked_before_.data(), places_.data()});
     return places_.get();
   }
 
