@@ -178,7 +178,7 @@ bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, 
           simulation.time());
       return false;
     }
-    simulation.wait_for_rest_anew();
+    simulation.restart_rest_time();
   } else if (next.earlier.message.rfind(sim::at_rest, 0) != 0 &&
              simulation.time() < next.earlier_end - 0.5 * simulation.last_step() && !falls_back &&
              !next.earlier.message.empty()) {

@@ -13,8 +13,8 @@
 #include "device/failure.hpp"
 #include "device/step_model.hpp"
 #include "mpm/front.hpp"
+#include "mpm/monitor_sums.hpp"
 #include "mpm/particle_view.hpp"
-#include "mpm/watched_sums.hpp"
 
 namespace thawslide::device {
 
@@ -30,7 +30,7 @@ class Solver {
   // One step of dt [s] from a time [s] on.
   virtual StepSums<Dim, Real> step(Real time, Real dt) = 0;
   // What a look at the particles after a step finds.
-  virtual mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) = 0;
+  virtual mpm::MonitorSums<Real> watch(const mpm::MonitorKernel<Dim, Real>& look) = 0;
   // The same for maps, in space.
   virtual void sample_map(const mpm::MapCells& cells, MapSample& look) = 0;
   // What a row of the history sums.

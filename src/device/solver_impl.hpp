@@ -19,7 +19,7 @@ class SolverImpl final : public Solver<Dim, Real> {
       : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(ask)) {}
 
   StepSums<Dim, Real> step(Real time, Real dt) override { return step_.step(time, dt); }
-  mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) override { return step_.watch(look); }
+  mpm::MonitorSums<Real> watch(const mpm::MonitorKernel<Dim, Real>& look) override { return step_.watch(look); }
   void sample_map(const mpm::MapCells& cells, MapSample& look) override { step_.sample_map(cells, look); }
   band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) override {
     return step_.sum_over_body(of_particle);

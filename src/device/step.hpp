@@ -10,9 +10,9 @@
 #include "device/erodible_bed.hpp"
 #include "device/escape_check.hpp"
 #include "device/front.hpp"
-#include "device/looks.hpp"
 #include "device/maps.hpp"
 #include "device/material_stress.hpp"
+#include "device/reductions.hpp"
 #include "device/step_passes.hpp"
 #include "device/velocity_filter.hpp"
 #include "mpm/motion_kernels.hpp"
@@ -77,14 +77,14 @@ class Step {
       band_.drain_pore_pressure(dt);
       passes_.backend.end_stage("drain_pore_pressure");
     }
-    take_positions();
-    passes_.backend.end_stage("take_new_positions");
+    update_positions();
+    passes_.backend.end_stage("update_positions");
     return sums_.get(0);
   }
 
   // Of the particles as they are after a step.
-  mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) {
-    return passes_.sum_over_particles(Watch<Dim, Real>{look}, watched_);
+  mpm::MonitorSums<Real> watch(const mpm::MonitorKernel<Dim, Real>& look) {
+    return passes_.sum_over_particles(RunMonitor<Dim, Real>{look}, watched_);
   }
   band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) {
     return passes_.sum_over_particles(SumOverBody<Dim, Real>{of_particle}, body_);
@@ -225,18 +225,18 @@ class Step {
   }
 
   // And what the processor asks of the particles at their new places.
-  void take_positions() {
+  void update_positions() {
     const mpm::TakePosition<Dim, Real> take{passes_.model.lower, passes_.model.upper};
     const FindExtremes<Dim, Real> extremes{passes_.model.band, band_.hydraulic(), {free_gaps_.data()}};
     const CountEscaped<Dim, Real> escapes = escape_kernel();
     if (passes_.model.finds_extremes && passes_.model.counts_escaped) {
-      take_positions(take, extremes, escapes);
+      update_positions(take, extremes, escapes);
     } else if (passes_.model.finds_extremes) {
-      take_positions(take, extremes);
+      update_positions(take, extremes);
     } else if (passes_.model.counts_escaped) {
-      take_positions(take, escapes);
+      update_positions(take, escapes);
     } else {
-      take_positions(take);
+      update_positions(take);
     }
   }
   [[nodiscard]] CountEscaped<Dim, Real> escape_kernel() const {
@@ -244,7 +244,7 @@ class Step {
             passes_.ground.exists() ? passes_.ground.partly_unknown() : nullptr, passes_.model.faces.extent};
   }
   template <class... Kernels>
-  void take_positions(const Kernels&... kernels) {
+  void update_positions(const Kernels&... kernels) {
     const auto* all = passes_.run(passes_.linear(), kernels...);
     (passes_.keep(&all->template of<Kernels>(), place_of(&all->template of<Kernels>())), ...);
   }
@@ -263,7 +263,7 @@ class Step {
   Array<ContactInput<Real>, Backend> bases_{passes_.backend};
   EscapeCheck<Backend, Dim, Real> escape_check_{passes_.backend};
   Front<Backend, Dim, Real> front_{passes_.backend};
-  Array<mpm::WatchedSums<Real>, Backend> watched_{passes_.backend, 1};
+  Array<mpm::MonitorSums<Real>, Backend> watched_{passes_.backend, 1};
   Array<band::BodySums<Dim, Real>, Backend> body_{passes_.backend, 1};
   Array<mpm::MassMoments, Backend> moments_{passes_.backend, 1};
 };

@@ -61,7 +61,7 @@ Real momentum_to_grid(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& p
 
 // New velocities (Eq. 13, or another transfer) and displacements (Eq. 14, with the sum sign it lost) from node motion;
 // then the moved particles' momentum to the patches of nodes.velocity (MUSL), not yet summed. The displacement takes
-// effect in take_new_positions.
+// effect in update_positions.
 template <int Dim, class Real>
 MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
                               const MotionModel<Dim, Real>& model, Real dt, Nodes<Dim, Real>& nodes);
@@ -74,7 +74,7 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
 
 // Lets the step's displacement take effect; reports a particle that is not finite or outside [lower, upper].
 template <int Dim, class Real>
-void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper,
-                        BadParticle& bad);
+void update_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper,
+                      BadParticle& bad);
 
 }  // namespace thawslide::mpm

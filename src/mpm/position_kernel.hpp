@@ -1,4 +1,4 @@
-// What a particle does in take_new_positions: a kernel (mpm/kernel.hpp).
+// What a particle does in update_positions: a kernel (mpm/kernel.hpp).
 #pragma once
 
 #include <cmath>

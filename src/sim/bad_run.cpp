@@ -278,7 +278,7 @@ void Simulation<Dim, Real>::stop_if_bad() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::stop_for_energy(double growth, double share) const {
-  bring_particles_back();
+  sync_to_host();
   const std::size_t fastest = fastest_particle(particles_);
   const BodySums<Dim, Real> sums = sum_over_body();
   const std::string cause =

@@ -17,7 +17,7 @@ BodySums<Dim, Real> Simulation<Dim, Real>::sum_over_body() const {
 
 template <int Dim, class Real>
 BodySums<Dim, Real> Simulation<Dim, Real>::sum_over_marked(const std::vector<std::uint8_t>& marked) const {
-  bring_particles_back();
+  sync_to_host();
   return sum_over_particles(marked.data());
 }
 

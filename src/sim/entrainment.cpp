@@ -202,7 +202,7 @@ void Simulation<Dim, Real>::take_up_bed() {
   if (columns.empty()) {
     return;
   }
-  bring_particles_back();
+  sync_to_host();
   const auto places = places_below_slide(columns);
   std::vector<NewParticle<Dim, Real>> joining;
   for (std::size_t k = 0; k < parts.size(); ++k) {

@@ -39,7 +39,7 @@ void Simulation<Dim, Real>::append(const std::vector<NewParticle<Dim, Real>>& jo
   if (joining.empty()) {
     return;
   }
-  leave_device();
+  release_device();
   const std::size_t first = particles_.append(joining.size());
   fill_new(joining, first, next_id_, model_, particles_);
   band::set_heat_content(model_.band, particles_, first);

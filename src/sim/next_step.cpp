@@ -72,9 +72,9 @@ void Simulation<Dim, Real>::stop_if_step_collapses(double dt) const {
   const config::Guards& guards = parameters_.guards;
   const double steps = (parameters_.time.end - time_) / dt;
   std::string why;
-  if (dt < guards.smallest_step * watch_.first_step) {
+  if (dt < guards.smallest_step * monitor_.first_step) {
     why = fmt::format("{:.2g} of the first one, {:.4g} s, where guards.smallest_step allows {:g}",
-                      dt / watch_.first_step, watch_.first_step, guards.smallest_step);
+                      dt / monitor_.first_step, monitor_.first_step, guards.smallest_step);
   } else if (steps > guards.most_steps) {
     why = fmt::format("and {:.2g} of them would be left to time.end, where guards.most_steps allows {:g}", steps,
                       guards.most_steps);
@@ -84,7 +84,7 @@ void Simulation<Dim, Real>::stop_if_step_collapses(double dt) const {
   const StepLimit limit = step_limit();
   std::string where;
   if (limit.particle >= 0) {
-    bring_particles_back();
+    sync_to_host();
     const std::size_t p = place_in_memory(limit.particle);
     where = fmt::format(", of {}, whose volume is {:.3g} of that at t = 0", particle_text(p),
                         static_cast<double>(particles_.volume(p) / particles_.initial_volume(p)));

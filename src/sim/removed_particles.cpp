@@ -131,7 +131,7 @@ void Simulation<Dim, Real>::mark_left_particles() {
 // What the marked particles take along. Of one that is not finite mass and place are known, and no more: the residuals
 // of the other accounts show what it had.
 template <int Dim, class Real>
-void Simulation<Dim, Real>::book_marked_particles() {
+void Simulation<Dim, Real>::add_removed_particles() {
   std::vector<std::uint8_t> known = marks_;
   for (const std::uint32_t p : grid_.order()) {
     if (marks_[p] == is_not_finite) {
@@ -151,7 +151,7 @@ void Simulation<Dim, Real>::book_marked_particles() {
 
 // What a step with a particle that is not finite did is not known either: its accounts stay as they were.
 template <int Dim, class Real>
-void Simulation<Dim, Real>::mend_ledger() {
+void Simulation<Dim, Real>::correct_energy_for_removal() {
   std::vector<Real> before;
   ledger_before_.for_each([&](const Real& account) { before.push_back(account); });
   std::size_t k = 0;
@@ -192,9 +192,9 @@ void Simulation<Dim, Real>::remove_marked_particles() {
         time_, step_number_, static_cast<double>(sum_over_body().mass), Dim == 2 ? " per m of width" : ""));
   }
   if (now.not_finite > 0) {
-    mend_ledger();
+    correct_energy_for_removal();
   }
-  book_marked_particles();
+  add_removed_particles();
   removed_.left += now.left;
   removed_.not_finite += now.not_finite;
   removed_.volume += now.volume;
@@ -203,7 +203,7 @@ void Simulation<Dim, Real>::remove_marked_particles() {
   if (none_stays || share > parameters_.guards.removed_mass) {
     stop_for_removed_mass(share);
   }
-  leave_device();
+  release_device();
   grid_.remove(particles_, particles_.remove(marks_));
   update_ground();
 }
@@ -211,8 +211,8 @@ void Simulation<Dim, Real>::remove_marked_particles() {
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                              \
   template void Simulation<Dim, Real>::mark_bad_particles();          \
   template void Simulation<Dim, Real>::mark_left_particles();         \
-  template void Simulation<Dim, Real>::book_marked_particles();       \
-  template void Simulation<Dim, Real>::mend_ledger();                 \
+  template void Simulation<Dim, Real>::add_removed_particles();       \
+  template void Simulation<Dim, Real>::correct_energy_for_removal();  \
   template void Simulation<Dim, Real>::stop_for_removed_mass(double); \
   template void Simulation<Dim, Real>::remove_marked_particles();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)

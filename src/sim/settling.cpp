@@ -20,7 +20,7 @@ bool Simulation<Dim, Real>::settle(const std::function<bool()>& goes_on) {
   }
   THAWSLIDE_ASSERT(particles_.size() == static_cast<std::size_t>(next_id_), "{} particles joined before the settling",
                    static_cast<std::size_t>(next_id_) - particles_at_start_);
-  leave_device();
+  release_device();
   const Model<Dim, Real> model = model_;
   model_.band.heat = model_.band.pressure = false;
   model_.constraints.frames.clear();
@@ -44,7 +44,7 @@ bool Simulation<Dim, Real>::settle(const std::function<bool()>& goes_on) {
   }
   parameters_.grid.leaving = leaving;
   parameters_.guards = guards;
-  leave_device();
+  release_device();
   // The settled stress goes to particles as they were seeded, so that nothing else of the settling stays.
   std::vector<SymmetricTensor<Real>> settled(particles_.size());
   for (std::size_t p = 0; p < particles_.size(); ++p) {

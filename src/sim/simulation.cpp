@@ -38,17 +38,17 @@ void Simulation<Dim, Real>::step(double dt) {
   dt_ = static_cast<Real>(dt);
   ledger_before_ = ledger_;
   if (step_number_ == 0) {
-    start_watch();  // once more: who set the run up may have changed the state
+    start_monitor();  // once more: who set the run up may have changed the state
   }
   if (make_solver_) {
-    stopwatch_.time("step_on_device", [&] { take_step_on_device(); });
+    stopwatch_.time("step_on_device", [&] { advance_on_device(); });
   } else {
-    take_step_here();
+    step_on_cpu();
   }
   ++step_number_;
   time_ = time_after(dt);
   last_step_ = dt;
-  look_after_step();
+  post_step();
 }
 
 // The time at the end of the step that was taken. No round-off gathers in that of fixed steps, which are counted from
@@ -56,17 +56,17 @@ void Simulation<Dim, Real>::step(double dt) {
 template <int Dim, class Real>
 double Simulation<Dim, Real>::time_after(double dt) {
   if (parameters_.time.stepping != config::Stepping::fixed || dt != parameters_.time.step) {
-    even_steps_ = {};
+    fixed_step_clock_ = {};
     return time_ + dt;
   }
-  if (dt != even_steps_.step) {
-    even_steps_ = {dt, time_, step_number_ - 1};
+  if (dt != fixed_step_clock_.step) {
+    fixed_step_clock_ = {dt, time_, step_number_ - 1};
   }
-  return even_steps_.from_time + static_cast<double>(step_number_ - even_steps_.from_number) * dt;
+  return fixed_step_clock_.from_time + static_cast<double>(step_number_ - fixed_step_clock_.from_number) * dt;
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::take_step_here() {
+void Simulation<Dim, Real>::step_on_cpu() {
   stopwatch_.time("find_cells", [&] { find_particles_cells(); });
   stopwatch_.time("average_band_on_grid", [&] { average_band_on_grid(); });
   if (parameters_.mechanics.enabled) {
@@ -77,15 +77,15 @@ void Simulation<Dim, Real>::take_step_here() {
   }
   stopwatch_.time("conduct_heat", [&] { conduct_heat(); });
   stopwatch_.time("drain_pore_pressure", [&] { drain_pore_pressure(); });
-  stopwatch_.time("take_new_positions", [&] { take_new_positions(); });
+  stopwatch_.time("update_positions", [&] { update_positions(); });
 }
 
 // What ends a run, or takes particles out of it, or brings new ones.
 template <int Dim, class Real>
-void Simulation<Dim, Real>::look_after_step() {
+void Simulation<Dim, Real>::post_step() {
   watch();
-  if (!nothing_befell_on_device()) {
-    bring_particles_back();
+  if (!needs_no_host_check()) {
+    sync_to_host();
     stop_for_or_remove_particles();
   }
   if (bed_in_reach() != nullptr) {
@@ -166,8 +166,8 @@ void Simulation<Dim, Real>::resolve_contact() {
                                       dt_, nodes_, bed_to_meet());
   contact_.force[0] -= force_of_walls_;  // the walls are part of the ground
   collect_bed();
-  book_contact();
-  book_bed();
+  add_contact_energy();
+  add_bed_energy();
   if (model_.ground) {
     terrain::mark_band_and_slip(grid_, ground_, dt_, nodes_, particles_);
   }
@@ -192,7 +192,7 @@ void Simulation<Dim, Real>::move_particles() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::update_stress_and_porosity() {
-  book_stress_work(mpm::update_stress_and_porosity(grid_, particles_, model_.motion, dt_, nodes_, bad_));
+  add_stress_work(mpm::update_stress_and_porosity(grid_, particles_, model_.motion, dt_, nodes_, bad_));
 }
 
 template <int Dim, class Real>
@@ -202,9 +202,9 @@ void Simulation<Dim, Real>::rescale_band() {
   }
   Real added = 0;
   const bool depends_on_place = model_.band.region != band::ScaledRegion::all || model_.layer_thickness;
-  if (depends_on_place || band_thickness() != thickness_in_force_) {
-    thickness_in_force_ = band_thickness();
-    added = band::rescale_band(grid_, model_.band, static_cast<Real>(thickness_in_force_), model_.layer_thickness,
+  if (depends_on_place || band_thickness() != current_band_thickness_) {
+    current_band_thickness_ = band_thickness();
+    added = band::rescale_band(grid_, model_.band, static_cast<Real>(current_band_thickness_), model_.layer_thickness,
                                particles_);
   }
   ledger_.band_rescale += model_.band.heat ? added : Real(0);
@@ -223,7 +223,7 @@ void Simulation<Dim, Real>::conduct_heat() {
   if (!model_.band.heat) {
     return;
   }
-  book_heat(band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, particles_));
+  add_heat_gain(band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, particles_));
 }
 
 template <int Dim, class Real>
@@ -240,13 +240,13 @@ void Simulation<Dim, Real>::drain_pore_pressure() {
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::take_new_positions() {
+void Simulation<Dim, Real>::update_positions() {
   if (parameters_.mechanics.enabled) {
     // Those that are to be removed may be on their way out of the domain until the end of the step.
     const Real margin = parameters_.grid.leaving == config::Policy::remove ? grid_.cell() : Real(0);
     const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
-    mpm::take_new_positions(particles_, Vector<Real, Dim>(-beyond),
-                            Vector<Real, Dim>(model_.constraints.extent + beyond), bad_);
+    mpm::update_positions(particles_, Vector<Real, Dim>(-beyond), Vector<Real, Dim>(model_.constraints.extent + beyond),
+                          bad_);
     return;
   }
   for (std::size_t p = 0; p < particles_.size(); ++p) {
@@ -312,7 +312,7 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::begin() {
   time_ = last_step_ = 0.0;
   step_number_ = 0;
-  even_steps_ = {};
+  fixed_step_clock_ = {};
   contact_ = {};
   find_particles_cells();
   if (model_.ground) {
@@ -328,7 +328,7 @@ void Simulation<Dim, Real>::begin() {
   band::set_pore_pressure(model_.band, particles_);
   start_band_columns();
   start_ledger();
-  start_watch();
+  start_monitor();
 }
 
 template <int Dim, class Real>

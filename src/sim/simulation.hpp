@@ -21,8 +21,8 @@
 #include "sim/grid_of_device.hpp"
 #include "sim/ledger.hpp"
 #include "sim/model.hpp"
+#include "sim/monitor.hpp"
 #include "sim/time_step.hpp"
-#include "sim/watch.hpp"
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::mpm {
@@ -79,16 +79,16 @@ class Simulation {
   [[nodiscard]] double next_step(double until) const;
 
   // Whether the slide is at rest: for time.rest_time no more than the stray share has been faster than
-  // time.stop_at_rest or, where that is not given, the usual speed (sim/watch.hpp). The rule in words; and since when
+  // time.stop_at_rest or, where that is not given, the usual speed (sim/monitor.hpp). The rule in words; and since when
   // it holds [s].
   [[nodiscard]] bool is_at_rest() const;
   [[nodiscard]] std::string rest_rule() const;
-  [[nodiscard]] double rest_since() const { return watch_.rest_since; }
+  [[nodiscard]] double rest_since() const { return monitor_.rest_since; }
   // Whether the run ends for it: the case asks for that, and the slide has moved before. Since when, in words.
   [[nodiscard]] bool ends_at_rest() const;
   [[nodiscard]] std::string rest_text() const;
   // What has come to rest is to rest for time.rest_time once more.
-  void wait_for_rest_anew();
+  void restart_rest_time();
   // What is to be said of energy that came slowly and without a cause, by more than guards.energy_growth; empty:
   // nothing.
   [[nodiscard]] std::string energy_note() const;
@@ -107,7 +107,7 @@ class Simulation {
   [[nodiscard]] std::int64_t step_number() const { return step_number_; }
   // Who may change them must not keep the reference over a step that a device takes.
   [[nodiscard]] mpm::Particles<Dim, Real>& particles() {
-    leave_device();
+    release_device();
     return particles_;
   }
   [[nodiscard]] const mpm::Particles<Dim, Real>& particles() const {
@@ -115,7 +115,7 @@ class Simulation {
     return particles_;
   }
   [[nodiscard]] const mpm::SparseGrid<Dim, Real>& grid() const {
-    bring_particles_back();
+    sync_to_host();
     return grid_;
   }
   [[nodiscard]] std::size_t particle_count() const { return particles_.size(); }
@@ -160,30 +160,30 @@ class Simulation {
 
  private:
   // The step on a device (step_on_device.cpp).
-  void take_step_on_device();
+  void advance_on_device();
   void on_device(const std::function<void()>& work) const;
   [[nodiscard]] device::StepSums<Dim, Real> step_on_device();
   // Where particles stand on a device, copies them; they stay there. And brings the grid to where they are.
   void copy_particles_back() const;
-  void bring_particles_back() const;
+  void sync_to_host() const;
   // The same, and the next step on the device begins with those of the processor.
-  void leave_device();
+  void release_device();
   [[nodiscard]] BodySums<Dim, Real> sum_over_particles(const std::uint8_t* marked) const;
   [[nodiscard]] band::SumsOfParticle<Dim, Real> sums_of_particle() const;
   [[nodiscard]] bool any_has_left(const std::vector<Vector<Real, Dim>>& places) const;
   // Whether a device took the step, and no particle is bad or has left: it is asked where strays are.
-  [[nodiscard]] bool nothing_befell_on_device() const;
+  [[nodiscard]] bool needs_no_host_check() const;
 
   // What a step did goes to the accounts (step_accounts.cpp).
-  void book_contact();
-  void book_bed();
-  void book_stress_work(const mpm::StressWork<Real>& work);
-  void book_heat(const band::HeatGain<Real>& gain);
+  void add_contact_energy();
+  void add_bed_energy();
+  void add_stress_work(const mpm::StressWork<Real>& work);
+  void add_heat_gain(const band::HeatGain<Real>& gain);
 
   // The stages of a step, in order (simulation.cpp).
   [[nodiscard]] double time_after(double dt);
-  void take_step_here();
-  void look_after_step();
+  void step_on_cpu();
+  void post_step();
   void find_particles_cells();
   void update_ground() const;
   void momentum_to_grid();
@@ -194,7 +194,7 @@ class Simulation {
   void update_stress_and_porosity();
   void conduct_heat();
   void drain_pore_pressure();
-  void take_new_positions();
+  void update_positions();
   void watch();
   void stop_for_or_remove_particles();
   void mark_bad_particles();
@@ -211,12 +211,12 @@ class Simulation {
   void seed();
   // Everything that follows from positions and stress at t = 0.
   void begin();
-  void start_watch();
-  [[nodiscard]] mpm::WatchedSums<Real> look_at_particles() const;
-  void stop_if_energy_grows(const mpm::WatchedSums<Real>& seen);
-  void note_rest(const mpm::WatchedSums<Real>& seen);
-  void book_marked_particles();
-  void mend_ledger();
+  void start_monitor();
+  [[nodiscard]] mpm::MonitorSums<Real> monitor_sums() const;
+  void stop_if_energy_grows(const mpm::MonitorSums<Real>& seen);
+  void update_rest(const mpm::MonitorSums<Real>& seen);
+  void add_removed_particles();
+  void correct_energy_for_removal();
   [[nodiscard]] band::StepExtremes extremes() const;
   [[nodiscard]] double adaptive_step() const;
   void stop_if_step_collapses(double dt) const;
@@ -273,22 +273,22 @@ class Simulation {
   terrain::ContactWork<Dim, Real> contact_;
   std::unique_ptr<mpm::BodyContact<Dim, Real>> body_contact_;  // null: all bodies share nodes
   Ledger<Dim, Real> ledger_, ledger_before_;                   // of now, and before the step
-  Watch watch_;
+  RunMonitor monitor_;
   Removed removed_;
   mpm::BadParticle bad_;
   std::vector<std::uint8_t> marks_;  // by particle, of those that are to be removed
   Stopwatch stopwatch_;
-  double time_ = 0.0, last_step_ = 0.0, rear_at_start_ = 0.0, thickness_in_force_ = -1.0,
+  double time_ = 0.0, last_step_ = 0.0, rear_at_start_ = 0.0, current_band_thickness_ = -1.0,
          column_time_ = 0.0;  // since the last step of the band columns
   std::int64_t step_number_ = 0, next_id_ = 0;
   // Fixed steps of one size: that size, and the time and the number of steps when the first of them began.
-  struct EvenSteps {
+  struct FixedStepClock {
     double step = 0.0, from_time = 0.0;
     std::int64_t from_number = 0;
-  } even_steps_;
+  } fixed_step_clock_;
   std::size_t particles_at_start_ = 0;
   int sorting_interval_ = 64;
-  mutable bool particles_are_here_ = true, grid_is_here_ = true, device_has_failed_ = false;
+  mutable bool host_particles_valid_ = true, host_grid_valid_ = true, device_has_failed_ = false;
   Real dt_ = 0, force_of_walls_ = 0;  // of the step, the latter along x [N]
 };
 

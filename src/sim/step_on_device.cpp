@@ -16,7 +16,7 @@ void Simulation<Dim, Real>::use_device(const std::string& device, device::Solver
     throw UserError(fmt::format("{}: no step on {} does {} yet. Run it on the processor: --device cpu",
                                 parameters_.name, device, missing));
   }
-  leave_device();
+  release_device();
   device_name_ = device;
   make_solver_ = std::move(make);
 }
@@ -28,7 +28,7 @@ void Simulation<Dim, Real>::on_device(const std::function<void()>& work) const {
   try {
     work();
   } catch (const device::Failure& error) {
-    particles_are_here_ = grid_is_here_ = device_has_failed_ = true;
+    host_particles_valid_ = host_grid_valid_ = device_has_failed_ = true;
     device_solver_.reset();
     throw DeviceError(fmt::format("{} failed at step {}: {}", device_name_, step_number_, error.what()));
   }
@@ -46,28 +46,28 @@ device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device() {
   if (sorting_interval_ > 0 && step_number_ % sorting_interval_ == 0) {
     device_solver_->sort_in_memory();
   }
-  particles_are_here_ = grid_is_here_ = false;
+  host_particles_valid_ = host_grid_valid_ = false;
   return device_solver_->step(static_cast<Real>(time_), dt_);
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::take_step_on_device() {
+void Simulation<Dim, Real>::advance_on_device() {
   on_device([&] { device_sums_ = step_on_device(); });
   const device::StepSums<Dim, Real>& sums = device_sums_;
   if (parameters_.mechanics.enabled) {
     contact_ = sums.contact;
-    book_contact();
-    book_bed();
+    add_contact_energy();
+    add_bed_energy();
   }
   ledger_.numerical += sums.particle_kinetic - contact_.node_kinetic;
   ledger_.numerical += sums.filtered;
   ledger_.numerical += sums.mapped_back;
-  book_stress_work(sums.deformed.work);
+  add_stress_work(sums.deformed.work);
   ledger_.band_rescale += model_.band.heat ? sums.band_rescale : Real(0);
   if (band_columns_) {  // the body keeps its temperature
     ledger_.friction_heat += contact_.friction_work - contact_.converted;
   } else {
-    book_heat(sums.heat);
+    add_heat_gain(sums.heat);
   }
   ledger_.drained_water += sums.drained.mass;
   ledger_.drained_heat += sums.drained.heat;
@@ -77,7 +77,7 @@ void Simulation<Dim, Real>::take_step_on_device() {
 }
 
 template <int Dim, class Real>
-bool Simulation<Dim, Real>::nothing_befell_on_device() const {
+bool Simulation<Dim, Real>::needs_no_host_check() const {
   if (!device_solver_ || bad_.id >= 0) {
     return false;
   }
@@ -106,20 +106,20 @@ bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>& p
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::copy_particles_back() const {
-  if (!particles_are_here_) {
+  if (!host_particles_valid_) {
     on_device([&] { device_solver_->copy_to(mpm::view_of(particles_)); });
-    particles_are_here_ = true;
+    host_particles_valid_ = true;
   }
 }
 
 // The grid becomes that of where they stand: what is summed in its order does not depend on when they came.
 template <int Dim, class Real>
-void Simulation<Dim, Real>::bring_particles_back() const {
+void Simulation<Dim, Real>::sync_to_host() const {
   copy_particles_back();
-  if (!grid_is_here_) {
+  if (!host_grid_valid_) {
     grid_.update(particles_, 0);
     update_ground();
-    grid_is_here_ = true;
+    host_grid_valid_ = true;
   }
 }
 
@@ -133,8 +133,8 @@ const device::MapSample* Simulation<Dim, Real>::sample_map(const mpm::MapCells& 
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::leave_device() {
-  bring_particles_back();
+void Simulation<Dim, Real>::release_device() {
+  sync_to_host();
   device_solver_.reset();
   grid_of_device_.reset();
   bed_of_device_.reset();
@@ -144,13 +144,13 @@ void Simulation<Dim, Real>::leave_device() {
   template void Simulation<Dim, Real>::use_device(const std::string&, device::SolverFactory<Dim, Real>); \
   template void Simulation<Dim, Real>::on_device(const std::function<void()>&) const;                    \
   template device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device();                          \
-  template void Simulation<Dim, Real>::take_step_on_device();                                            \
-  template bool Simulation<Dim, Real>::nothing_befell_on_device() const;                                 \
+  template void Simulation<Dim, Real>::advance_on_device();                                              \
+  template bool Simulation<Dim, Real>::needs_no_host_check() const;                                      \
   template bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>&) const;        \
   template void Simulation<Dim, Real>::copy_particles_back() const;                                      \
-  template void Simulation<Dim, Real>::bring_particles_back() const;                                     \
+  template void Simulation<Dim, Real>::sync_to_host() const;                                             \
   template const device::MapSample* Simulation<Dim, Real>::sample_map(const mpm::MapCells&) const;       \
-  template void Simulation<Dim, Real>::leave_device();
+  template void Simulation<Dim, Real>::release_device();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

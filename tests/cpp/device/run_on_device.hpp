@@ -33,7 +33,7 @@ class PassesOn : public device::Solver<Dim, double> {
   explicit PassesOn(std::unique_ptr<device::Solver<Dim, double>> steps) : steps_(std::move(steps)) {}
 
   device::StepSums<Dim, double> step(double time, double dt) override { return steps_->step(time, dt); }
-  mpm::WatchedSums<double> watch(const mpm::LookAtParticle<Dim, double>& look) override { return steps_->watch(look); }
+  mpm::MonitorSums<double> watch(const mpm::MonitorKernel<Dim, double>& look) override { return steps_->watch(look); }
   void sample_map(const mpm::MapCells& cells, device::MapSample& look) override { steps_->sample_map(cells, look); }
   band::BodySums<Dim, double> sum_over_body(const band::SumsOfParticle<Dim, double>& of_particle) override {
     return steps_->sum_over_body(of_particle);

@@ -143,7 +143,7 @@ class ManufacturedVibration {
     terrain::constrain_mapped_back(grid_, no_ground, constraints_, terrain::ContactModel<2, double>{}, model_.gravity,
                                    time_, dt, nodes_);
     mpm::update_stress_and_porosity(grid_, particles_, model_, dt, nodes_, bad);
-    mpm::take_new_positions(particles_, Vector<double, 2>(Vector<double, 2>::Zero()), constraints_.extent, bad);
+    mpm::update_positions(particles_, Vector<double, 2>(Vector<double, 2>::Zero()), constraints_.extent, bad);
     THAWSLIDE_ASSERT(bad.id < 0, "particle {} failed at {} s", bad.id, time_);
     time_ += dt;
   }

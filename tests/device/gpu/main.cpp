@@ -108,13 +108,13 @@ sim::PathLine bent_line() {
 // What a run asks of its particles after a step, but for whole numbers.
 template <int Dim>
 std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& sums) {
-  mpm::LookAtParticle<Dim, Real> look;
+  mpm::MonitorKernel<Dim, Real> look;
   look.gravity = model_of_slide<Dim>().gravity;
   look.origin.setZero();
   look.fast_way = 6.0 * time_step;
   look.smallest_volume = 0.1;
   look.largest_volume = 10.0;
-  const mpm::WatchedSums<Real> seen = steps.watch(look);
+  const mpm::MonitorSums<Real> seen = steps.watch(look);
   const band::StepExtremes& extremes = sums.extremes;
   std::vector<double> numbers{extremes.density.value,
                               extremes.elastic_density.value,

@@ -1,4 +1,4 @@
-// What a look at all particles finds: what a run is watched for (sim/watch.hpp).
+// What a look at all particles finds: what a run is watched for (sim/monitor.hpp).
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 namespace thawslide::mpm {
 
 template <class Real>
-struct WatchedSums {
+struct MonitorSums {
   Real kinetic = 0, potential = 0;  // [J]
   Real mass = 0, fast_mass = 0;     // [kg]
   BadParticle volumes;              // of smallest id whose volume is out of range
 
-  THAWSLIDE_HD WatchedSums& operator+=(const WatchedSums& part) {
+  THAWSLIDE_HD MonitorSums& operator+=(const MonitorSums& part) {
     kinetic += part.kinetic;
     potential += part.potential;
     mass += part.mass;
@@ -25,16 +25,16 @@ struct WatchedSums {
 };
 
 template <int Dim, class Real>
-struct LookAtParticle {
+struct MonitorKernel {
   Vector<Real, Dim> gravity, origin;     // [m/s2]; of positions [m]
   Real fast_way;                         // of a particle that is fast, in a step [m]
   Real smallest_volume, largest_volume;  // of that at t = 0
 
   template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD WatchedSums<Real> operator()(const Particles& particles, std::uint32_t p) const {
+  [[nodiscard]] THAWSLIDE_HD MonitorSums<Real> operator()(const Particles& particles, std::uint32_t p) const {
     const Real mass = particles.mass(p);
     Real speed2 = 0, way2 = 0;
-    WatchedSums<Real> seen;
+    MonitorSums<Real> seen;
     for (int a = 0; a < Dim; ++a) {
       speed2 += particles.velocity(p, a) * particles.velocity(p, a);
       way2 += particles.step_displacement(p, a) * particles.step_displacement(p, a);

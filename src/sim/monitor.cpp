@@ -1,5 +1,5 @@
 // What a run is watched for while it goes well: energy without a cause, volumes out of range, and rest.
-#include "sim/watch.hpp"
+#include "sim/monitor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,13 +35,13 @@ double rest_speed(const config::Time& times) {
 constexpr double fall_times = 50.0;
 
 // Watch::has_moved of a run that was not asked to stop at rest.
-constexpr double not_looked_at = -1.0;
+constexpr double not_sampled = -1.0;
 
 // Energy that is there or went where the accounts say, less what came in [J]: what the transfers and the time steps
 // made, or lost. It is mechanical_residual_J and numerical_J of the history together, which in a stable run keep each
 // other's balance.
 template <int Dim, class Real>
-double energy_made(const Ledger<Dim, Real>& ledger, const mpm::WatchedSums<Real>& seen) {
+double energy_made(const Ledger<Dim, Real>& ledger, const mpm::MonitorSums<Real>& seen) {
   const Real there = seen.kinetic + seen.potential + ledger.stress_work + ledger.pore_work + ledger.left_mechanical;
   const Real gone = ledger.viscous + ledger.damping + ledger.friction_work + ledger.contact_loss + ledger.bed_work;
   const Real came = ledger.frame_work + ledger.joined_mechanical + ledger.initial_mechanical;
@@ -50,7 +50,7 @@ double energy_made(const Ledger<Dim, Real>& ledger, const mpm::WatchedSums<Real>
 
 // All energy that matter held or moved with, or that has been dissipated [J].
 template <int Dim, class Real>
-double energy_so_far(const Ledger<Dim, Real>& ledger, const mpm::WatchedSums<Real>& seen, double held_at_start) {
+double energy_so_far(const Ledger<Dim, Real>& ledger, const mpm::MonitorSums<Real>& seen, double held_at_start) {
   return held_at_start + static_cast<double>(seen.kinetic + std::abs(ledger.stress_work) + ledger.viscous +
                                              ledger.damping + ledger.friction_work + ledger.contact_loss);
 }
@@ -86,37 +86,37 @@ bool has_gone_further(const mpm::Particles<Dim, Real>& particles, Real way) {
 }  // namespace
 
 template <int Dim, class Real>
-mpm::WatchedSums<Real> Simulation<Dim, Real>::look_at_particles() const {
+mpm::MonitorSums<Real> Simulation<Dim, Real>::monitor_sums() const {
   // A way of more than this in a step is fast. The velocity of a particle has parts beside that the grid does not see,
   // and which move nothing (FLIP).
   const Real fast_way = static_cast<Real>(rest_speed(parameters_.time)) * dt_;
-  const mpm::LookAtParticle<Dim, Real> look{model_.motion.gravity, model_.origin.template cast<Real>(), fast_way,
-                                            static_cast<Real>(parameters_.guards.smallest_volume),
-                                            static_cast<Real>(parameters_.guards.largest_volume)};
-  mpm::WatchedSums<Real> seen;
+  const mpm::MonitorKernel<Dim, Real> look{model_.motion.gravity, model_.origin.template cast<Real>(), fast_way,
+                                           static_cast<Real>(parameters_.guards.smallest_volume),
+                                           static_cast<Real>(parameters_.guards.largest_volume)};
+  mpm::MonitorSums<Real> seen;
   if (device_solver_) {
     on_device([&] { seen = device_solver_->watch(look); });
     return seen;
   }
-  return mpm::sum_over_particles<mpm::WatchedSums<Real>>(grid_, [&](std::uint32_t p) { return look(particles_, p); });
+  return mpm::sum_over_particles<mpm::MonitorSums<Real>>(grid_, [&](std::uint32_t p) { return look(particles_, p); });
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::start_watch() {
-  watch_ = {};
+void Simulation<Dim, Real>::start_monitor() {
+  monitor_ = {};
   removed_ = {};
-  watch_.first_step = parameters_.time.stepping == config::Stepping::adaptive ? adaptive_step() : 0.0;
+  monitor_.first_step = parameters_.time.stepping == config::Stepping::adaptive ? adaptive_step() : 0.0;
   if (!parameters_.mechanics.enabled) {
     return;
   }
   for (const std::uint32_t p : grid_.order()) {
     const auto& material = model_.motion.materials[static_cast<std::size_t>(particles_.material(p))];
     const SymmetricTensor<Real> stress = mpm::full_tensor<Dim, Real>(particles_.stress, p);
-    watch_.held_at_start +=
+    monitor_.held_at_start +=
         static_cast<double>(particles_.volume(p) * physics::elastic_energy_density(material.elastic, stress));
   }
-  watch_.lowest_made = energy_made(ledger_, look_at_particles());
-  watch_.rest_since = starts_faster(particles_, rest_speed(parameters_.time)) ? -1.0 : 0.0;
+  monitor_.lowest_made = energy_made(ledger_, monitor_sums());
+  monitor_.rest_since = starts_faster(particles_, rest_speed(parameters_.time)) ? -1.0 : 0.0;
 }
 
 template <int Dim, class Real>
@@ -124,59 +124,59 @@ void Simulation<Dim, Real>::watch() {
   if (!parameters_.mechanics.enabled || (step_number_ % watch_interval != 0 && bad_.id < 0)) {
     return;
   }
-  const mpm::WatchedSums<Real> seen = look_at_particles();
+  const mpm::MonitorSums<Real> seen = monitor_sums();
   stop_if_energy_grows(seen);
   bad_ += seen.volumes;
-  note_rest(seen);
+  update_rest(seen);
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::WatchedSums<Real>& seen) {
+void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::MonitorSums<Real>& seen) {
   const double made = energy_made(ledger_, seen);
-  watch_.lowest_made = std::min(made, watch_.lowest_made + forgotten_share * (made - watch_.lowest_made));
-  watch_.largest_energy = std::max(watch_.largest_energy, energy_so_far(ledger_, seen, watch_.held_at_start));
-  const double growth = made - watch_.lowest_made;
+  monitor_.lowest_made = std::min(made, monitor_.lowest_made + forgotten_share * (made - monitor_.lowest_made));
+  monitor_.largest_energy = std::max(monitor_.largest_energy, energy_so_far(ledger_, seen, monitor_.held_at_start));
+  const double growth = made - monitor_.lowest_made;
   const double weight = static_cast<double>(seen.mass * model_.motion.gravity.norm());
-  const double energy = std::max(watch_.largest_energy, weight * noticed_fall * parameters_.grid.cell);
+  const double energy = std::max(monitor_.largest_energy, weight * noticed_fall * parameters_.grid.cell);
   const double round_off_of_sums = round_off * static_cast<double>(std::abs(seen.potential));
-  watch_.made_share = made > round_off_of_sums ? made / energy : 0.0;
+  monitor_.made_share = made > round_off_of_sums ? made / energy : 0.0;
   if (growth > parameters_.guards.energy_growth * energy + round_off_of_sums) {
     stop_for_energy(growth, growth / energy);
   }
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::note_rest(const mpm::WatchedSums<Real>& seen) {
+void Simulation<Dim, Real>::update_rest(const mpm::MonitorSums<Real>& seen) {
   const bool moves = seen.fast_mass > static_cast<Real>(escaped_fraction) * seen.mass;
   if (parameters_.time.stop_at_rest <= 0.0) {
-    watch_.has_moved = not_looked_at;
-  } else if (watch_.has_moved == not_looked_at) {
+    monitor_.has_moved = not_sampled;
+  } else if (monitor_.has_moved == not_sampled) {
     // Rest was judged by another speed so far.
-    watch_.rest_since = -1.0;
-    watch_.has_moved =
+    monitor_.rest_since = -1.0;
+    monitor_.has_moved =
         has_gone_further(std::as_const(*this).particles(), static_cast<Real>(parameters_.grid.cell)) ? 1.0 : 0.0;
   }
   if (moves) {
-    watch_.has_moved = parameters_.time.stop_at_rest > 0.0 ? 1.0 : not_looked_at;
-    watch_.rest_since = -1.0;
-  } else if (watch_.rest_since < 0.0) {
-    watch_.rest_since = time_;
+    monitor_.has_moved = parameters_.time.stop_at_rest > 0.0 ? 1.0 : not_sampled;
+    monitor_.rest_since = -1.0;
+  } else if (monitor_.rest_since < 0.0) {
+    monitor_.rest_since = time_;
   }
 }
 
 template <int Dim, class Real>
 bool Simulation<Dim, Real>::is_at_rest() const {
   const config::Time& times = parameters_.time;
-  const double needed = watch_.rest_since > 0.0
+  const double needed = monitor_.rest_since > 0.0
                             ? times.rest_time
                             : rest_time_from_start(times, static_cast<double>(model_.motion.gravity.norm()));
-  return watch_.rest_since >= 0.0 && step_number_ >= watch_interval &&
-         time_ - watch_.rest_since >= needed * (1.0 - 1e-9);
+  return monitor_.rest_since >= 0.0 && step_number_ >= watch_interval &&
+         time_ - monitor_.rest_since >= needed * (1.0 - 1e-9);
 }
 
 template <int Dim, class Real>
 bool Simulation<Dim, Real>::ends_at_rest() const {
-  return parameters_.time.stop_at_rest > 0.0 && watch_.has_moved > 0.0 && is_at_rest();
+  return parameters_.time.stop_at_rest > 0.0 && monitor_.has_moved > 0.0 && is_at_rest();
 }
 
 template <int Dim, class Real>
@@ -190,40 +190,40 @@ std::string Simulation<Dim, Real>::rest_rule() const {
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::wait_for_rest_anew() {
-  watch_.rest_since = -1.0;
+void Simulation<Dim, Real>::restart_rest_time() {
+  monitor_.rest_since = -1.0;
 }
 
 template <int Dim, class Real>
 std::string Simulation<Dim, Real>::energy_note() const {
-  if (watch_.made_share <= parameters_.guards.energy_growth) {
+  if (monitor_.made_share <= parameters_.guards.energy_growth) {
     return "";
   }
   return fmt::format(
       "note: by t = {:.6g} s the steps have made {:.3g} % of all energy, little by little and without a cause: do not "
       "trust what the slide does from here on. A body without viscosity flutters: give its material a viscosity_time "
       "(0.001 to 0.02 s), or take smaller steps",
-      time_, 100.0 * watch_.made_share);
+      time_, 100.0 * monitor_.made_share);
 }
 
 template <int Dim, class Real>
 std::string Simulation<Dim, Real>::rest_text() const {
   return fmt::format(
       "{}: since t = {:g} s no more than {:g} % of its mass has moved faster than {:g} m/s (time.stop_at_rest)",
-      at_rest, watch_.rest_since, 100.0 * escaped_fraction, parameters_.time.stop_at_rest);
+      at_rest, monitor_.rest_since, 100.0 * escaped_fraction, parameters_.time.stop_at_rest);
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                    \
-  template mpm::WatchedSums<Real> Simulation<Dim, Real>::look_at_particles() const;         \
-  template void Simulation<Dim, Real>::start_watch();                                       \
+  template mpm::MonitorSums<Real> Simulation<Dim, Real>::monitor_sums() const;              \
+  template void Simulation<Dim, Real>::start_monitor();                                     \
   template void Simulation<Dim, Real>::watch();                                             \
-  template void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::WatchedSums<Real>&); \
-  template void Simulation<Dim, Real>::note_rest(const mpm::WatchedSums<Real>&);            \
+  template void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::MonitorSums<Real>&); \
+  template void Simulation<Dim, Real>::update_rest(const mpm::MonitorSums<Real>&);          \
   template bool Simulation<Dim, Real>::is_at_rest() const;                                  \
   template bool Simulation<Dim, Real>::ends_at_rest() const;                                \
   template std::string Simulation<Dim, Real>::rest_rule() const;                            \
   template std::string Simulation<Dim, Real>::energy_note() const;                          \
-  template void Simulation<Dim, Real>::wait_for_rest_anew();                                \
+  template void Simulation<Dim, Real>::restart_rest_time();                                 \
   template std::string Simulation<Dim, Real>::rest_text() const;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

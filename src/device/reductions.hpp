@@ -4,18 +4,18 @@
 #include "band/body_sums.hpp"
 #include "band/step_extremes.hpp"
 #include "mpm/kernel.hpp"
-#include "mpm/watched_sums.hpp"
+#include "mpm/monitor_sums.hpp"
 
 namespace thawslide::device {
 
 // For guards and rest.
 template <int Dim, class Real>
-struct Watch {
+struct RunMonitor {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Account = mpm::WatchedSums<Real>;
+  using Account = mpm::MonitorSums<Real>;
 
-  mpm::LookAtParticle<Dim, Real> look;
+  mpm::MonitorKernel<Dim, Real> look;
 
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "mpm/watched_sums.hpp"
+#include "mpm/monitor_sums.hpp"
 
 namespace thawslide::sim {
 
@@ -24,7 +24,7 @@ inline constexpr double usual_rest_speed = 0.05;
 // How a run tells that it has ended at rest.
 inline constexpr const char* at_rest = "the slide is at rest";
 
-struct Watch {
+struct RunMonitor {
   double held_at_start = 0.0;   // elastic energy at t = 0 [J]
   double largest_energy = 0.0;  // largest so far of all that was held, moved or dissipated [J]
   double lowest_made = 0.0;     // lowest of late of the energy that nothing accounts for [J]
