@@ -255,7 +255,7 @@ int main(int count, char** arguments) {
     return static_cast<int>(ExitCode::user_mistake);
   } catch (const thawslide::RunError& error) {
     say_error("error: {}\n", printable(error.what()));
-    return static_cast<int>(ExitCode::run_went_bad);
+    return static_cast<int>(ExitCode::run_failed);
   } catch (const std::filesystem::filesystem_error& error) {
     const std::string paths = error.path1().string() + (error.path2().empty() ? "" : " and " + error.path2().string());
     say_error("error: {}: {}\n", printable(paths), error.code().message());

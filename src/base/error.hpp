@@ -17,7 +17,7 @@ namespace thawslide {
 enum class ExitCode : int {
   done = 0,
   user_mistake = 2,
-  run_went_bad = 3,
+  run_failed = 3,
   stopped_by_signal = 4,
   not_written = 5,
   device_failed = 6

@@ -249,7 +249,7 @@ class Step {
     (passes_.keep(&all->template of<Kernels>(), place_of(&all->template of<Kernels>())), ...);
   }
   // Where in the device's memory what the last pass sums is kept.
-  mpm::BadParticle* place_of(const mpm::BadParticle* /*sum*/) { return &sums_.data()->bad; }
+  mpm::InvalidParticle* place_of(const mpm::InvalidParticle* /*sum*/) { return &sums_.data()->invalid; }
   band::StepExtremes* place_of(const band::StepExtremes* /*sum*/) { return &sums_.data()->extremes; }
   std::uint64_t* place_of(const std::uint64_t* /*sum*/) { return &sums_.data()->escapes; }
 

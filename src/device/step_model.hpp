@@ -154,7 +154,7 @@ struct StepSums {
   band::HeatGain<Real> heat;
   band::DrainedWater<Real> drained;  // at the surface
   Real vented = 0;                   // water lost to frozen pores [kg]
-  mpm::BadParticle bad;              // after the particles have moved
+  mpm::InvalidParticle invalid;      // after the particles have moved
   band::StepExtremes extremes;
   std::uint64_t escapes = 0;  // particles beyond the domain's sides, or in a block whose ground is partly unknown
 };

@@ -38,7 +38,7 @@ enum class Fault : std::int64_t {
 };
 
 // A particle found in a bad state, the one of smallest id; id < 0 if all are well.
-struct BadParticle {
+struct InvalidParticle {
   std::int64_t id = -1;
   Fault fault = Fault::none;
 
@@ -48,7 +48,7 @@ struct BadParticle {
       fault = found;
     }
   }
-  THAWSLIDE_HD BadParticle& operator+=(const BadParticle& part) {
+  THAWSLIDE_HD InvalidParticle& operator+=(const InvalidParticle& part) {
     note(part.id, part.fault);
     return *this;
   }

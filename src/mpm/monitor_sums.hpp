@@ -12,7 +12,7 @@ template <class Real>
 struct MonitorSums {
   Real kinetic = 0, potential = 0;  // [J]
   Real mass = 0, fast_mass = 0;     // [kg]
-  BadParticle volumes;              // of smallest id whose volume is out of range
+  InvalidParticle volumes;          // of smallest id whose volume is out of range
 
   THAWSLIDE_HD MonitorSums& operator+=(const MonitorSums& part) {
     kinetic += part.kinetic;

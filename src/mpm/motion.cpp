@@ -83,8 +83,8 @@ MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, 
 
 template <int Dim, class Real>
 void update_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper,
-                      BadParticle& bad) {
-  bad += for_particles_in_memory(particles, TakePosition<Dim, Real>{lower, upper});
+                      InvalidParticle& invalid) {
+  invalid += for_particles_in_memory(particles, TakePosition<Dim, Real>{lower, upper});
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                               \
@@ -94,7 +94,7 @@ void update_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& 
   template MoveWork<Real> move_particles<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&,               \
                                                     const MotionModel<Dim, Real>&, Real, Nodes<Dim, Real>&);           \
   template void update_positions<Dim, Real>(Particles<Dim, Real>&, const Vector<Real, Dim>&, const Vector<Real, Dim>&, \
-                                            BadParticle&);
+                                            InvalidParticle&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

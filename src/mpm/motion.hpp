@@ -70,11 +70,11 @@ MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, 
 template <int Dim, class Real>
 StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
                                             const MotionModel<Dim, Real>& model, Real dt, Nodes<Dim, Real>& nodes,
-                                            BadParticle& bad);
+                                            InvalidParticle& invalid);
 
 // Lets the step's displacement take effect; reports a particle that is not finite or outside [lower, upper].
 template <int Dim, class Real>
 void update_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper,
-                      BadParticle& bad);
+                      InvalidParticle& invalid);
 
 }  // namespace thawslide::mpm

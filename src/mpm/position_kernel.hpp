@@ -17,13 +17,13 @@ template <int Dim, class Real>
 struct TakePosition {
   using Reads = RecordList<>;
   using Adds = RecordList<>;
-  using Account = BadParticle;
+  using Account = InvalidParticle;
 
   Vector<Real, Dim> lower, upper;  // [m]
 
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& /*added*/, Account& bad) const {
+                                                       Added& /*added*/, Account& invalid) const {
     using std::abs, std::sqrt, thawslide::select;
     using Value = typename At::Value;
     using VectorOfValues = Vector<Value, Dim>;
@@ -36,7 +36,7 @@ struct TakePosition {
       well = well & (old[a] + step[a] >= lower[a]) & (old[a] + step[a] <= upper[a]);
     }
     if (any(!well)) {
-      for_each_lane(!well, [&](std::size_t lane) { note_fault(particles, at.particle[lane], bad); });
+      for_each_lane(!well, [&](std::size_t lane) { record_fault(particles, at.particle[lane], invalid); });
       for (int a = 0; a < Dim; ++a) {
         step[a] = select(well, step[a], Value(Real(0)));
       }
@@ -50,13 +50,13 @@ struct TakePosition {
  private:
   // Of a particle that is not well.
   template <class Particles>
-  THAWSLIDE_HD static void note_fault(const Particles& particles, std::uint32_t p, BadParticle& bad) {
+  THAWSLIDE_HD static void record_fault(const Particles& particles, std::uint32_t p, InvalidParticle& invalid) {
     bool finite = std::isfinite(particles.temperature(p)) && std::isfinite(particles.pore_pressure(p)) &&
                   std::isfinite(particles.stress(p, 0));
     for (int a = 0; a < Dim; ++a) {
       finite = finite && std::isfinite(particles.position(p, a) + particles.step_displacement(p, a));
     }
-    bad.note(particles.id(p), finite ? Fault::left_domain : Fault::state_not_finite);
+    invalid.note(particles.id(p), finite ? Fault::left_domain : Fault::state_not_finite);
   }
 };
 

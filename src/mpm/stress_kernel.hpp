@@ -26,11 +26,11 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value double_contraction(const SymmetricTen
 template <class Real>
 struct Deformed {
   StressWork<Real> work;
-  BadParticle bad;
+  InvalidParticle invalid;
 
   THAWSLIDE_HD Deformed& operator+=(const Deformed& part) {
     work += part.work;
-    bad += part.bad;
+    invalid += part.invalid;
     return *this;
   }
 };
@@ -96,7 +96,7 @@ struct Deform {
     }
     particles.porosity.store(
         at, physics::updated_porosity(phases, particles.porosity.load(at), volume_strain, Value(Real(0))));
-    note_bad_volumes(particles, at, account.bad);
+    record_inverted(particles, at, account.invalid);
   }
 
  private:
@@ -130,15 +130,15 @@ struct Deform {
   }
 
   template <class Particles, class At>
-  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static void note_bad_volumes(const Particles& particles, const At& at,
-                                                                    BadParticle& bad) {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static void record_inverted(const Particles& particles, const At& at,
+                                                                   InvalidParticle& invalid) {
     if (!any(!(particles.volume.load(at) > Real(0)))) {
       return;
     }
     at.for_each([&](std::uint32_t p) {
       if (!(particles.volume(p) > Real(0))) {
-        bad.note(particles.id(p),
-                 std::isnan(particles.volume(p)) ? Fault::volume_not_finite : Fault::volume_not_positive);
+        invalid.note(particles.id(p),
+                     std::isnan(particles.volume(p)) ? Fault::volume_not_finite : Fault::volume_not_positive);
       }
     });
   }

@@ -121,12 +121,12 @@ void Simulation<Dim, Real>::start_monitor() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::watch() {
-  if (!parameters_.mechanics.enabled || (step_number_ % watch_interval != 0 && bad_.id < 0)) {
+  if (!parameters_.mechanics.enabled || (step_number_ % watch_interval != 0 && invalid_.id < 0)) {
     return;
   }
   const mpm::MonitorSums<Real> seen = monitor_sums();
   stop_if_energy_grows(seen);
-  bad_ += seen.volumes;
+  invalid_ += seen.volumes;
   update_rest(seen);
 }
 

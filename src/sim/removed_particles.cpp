@@ -14,7 +14,7 @@ namespace thawslide::sim {
 namespace {
 
 // Why a particle is removed.
-enum Mark : std::uint8_t { stays, has_left, is_not_finite, has_bad_volume };
+enum Mark : std::uint8_t { stays, has_left, is_not_finite, has_inverted };
 
 Mark mark_of(mpm::Fault fault, const config::Guards& guards) {
   switch (fault) {
@@ -24,7 +24,7 @@ Mark mark_of(mpm::Fault fault, const config::Guards& guards) {
     case mpm::Fault::volume_not_positive:
     case mpm::Fault::volume_too_small:
     case mpm::Fault::volume_too_large:
-      return guards.volume == config::Policy::remove ? has_bad_volume : stays;
+      return guards.volume == config::Policy::remove ? has_inverted : stays;
     case mpm::Fault::left_domain:
     case mpm::Fault::left_map:
     case mpm::Fault::none:
@@ -79,21 +79,21 @@ std::int64_t count_of(const std::vector<std::uint8_t>& marks, Mark mark) {
 
 }  // namespace
 
-// Leaves in bad_ what has to end the run.
+// Leaves in invalid_ what has to end the run.
 template <int Dim, class Real>
-void Simulation<Dim, Real>::mark_bad_particles() {
+void Simulation<Dim, Real>::mark_invalid_particles() {
   const config::Guards& guards = parameters_.guards;
   marks_.clear();
-  if (bad_.id < 0 || mark_of(bad_.fault, guards) == stays) {
+  if (invalid_.id < 0 || mark_of(invalid_.fault, guards) == stays) {
     return;
   }
-  bad_ = {};
+  invalid_ = {};
   marks_.assign(particles_.size(), stays);
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     const mpm::Fault fault = fault_of(particles_, p, guards);
     marks_[p] = mark_of(fault, guards);
     if (fault != mpm::Fault::none && marks_[p] == stays) {
-      bad_.note(particles_.id(p), fault);
+      invalid_.note(particles_.id(p), fault);
     }
   }
 }
@@ -106,7 +106,7 @@ void Simulation<Dim, Real>::mark_left_particles() {
     mark_left_domain<Dim, Real>(particles_, model_.constraints.extent, marks_);
   }
   const std::size_t tiles = model_.ground ? grid_.tiles().size() : 0;
-  bad_ += parallel_sum<mpm::BadParticle>(tiles, [&](std::size_t t, mpm::BadParticle& bad) {
+  invalid_ += parallel_sum<mpm::InvalidParticle>(tiles, [&](std::size_t t, mpm::InvalidParticle& invalid) {
     // The tile's own block stands in the middle of those about it; its ground is looked at a cell further.
     // After steps of a device tiles may be those of long ago: all particles are looked at.
     const auto own = static_cast<std::size_t>(grid_.blocks_about_tile(t)[mpm::Tile<Dim>::stencil / 2]);
@@ -122,7 +122,7 @@ void Simulation<Dim, Real>::mark_left_particles() {
       if (removes) {
         marks_[p] = has_left;
       } else {
-        bad.note(particles_.id(p), mpm::Fault::left_map);
+        invalid.note(particles_.id(p), mpm::Fault::left_map);
       }
     }
   });
@@ -139,7 +139,7 @@ void Simulation<Dim, Real>::add_removed_particles() {
       ledger_.left_mass += particles_.mass(p);
       ledger_.left_mechanical -= particles_.mass(p) * model_.motion.gravity.dot(place_of(p).template cast<Real>());
     }
-    ledger_.removed_mass += marks_[p] == is_not_finite || marks_[p] == has_bad_volume ? particles_.mass(p) : Real(0);
+    ledger_.removed_mass += marks_[p] == is_not_finite || marks_[p] == has_inverted ? particles_.mass(p) : Real(0);
   }
   const BodySums<Dim, Real> sums = sum_over_marked(known);
   ledger_.left_mass += sums.mass;
@@ -165,11 +165,11 @@ void Simulation<Dim, Real>::correct_energy_for_removal() {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::stop_for_removed_mass(double share) {
   for (std::size_t p = 0; p < particles_.size(); ++p) {
-    if (marks_[p] == is_not_finite || marks_[p] == has_bad_volume) {
-      bad_.note(particles_.id(p), fault_of(particles_, p, parameters_.guards));
+    if (marks_[p] == is_not_finite || marks_[p] == has_inverted) {
+      invalid_.note(particles_.id(p), fault_of(particles_, p, parameters_.guards));
     }
   }
-  const std::size_t last = place_in_memory(bad_.id);
+  const std::size_t last = place_in_memory(invalid_.id);
   throw RunError(
       fmt::format("the run failed at t = {:.6g} s (step {}): [guards] has removed {}, {:.3g} % of all mass, where "
                   "guards.removed_mass allows {:g} %; among the last: {}: {}. {}",
@@ -179,7 +179,7 @@ void Simulation<Dim, Real>::stop_for_removed_mass(double share) {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::remove_marked_particles() {
-  const Removed now{count_of(marks_, has_left), count_of(marks_, is_not_finite), count_of(marks_, has_bad_volume)};
+  const Removed now{count_of(marks_, has_left), count_of(marks_, is_not_finite), count_of(marks_, has_inverted)};
   if (now.left + now.by_guards() == 0) {
     return;
   }
@@ -209,7 +209,7 @@ void Simulation<Dim, Real>::remove_marked_particles() {
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                              \
-  template void Simulation<Dim, Real>::mark_bad_particles();          \
+  template void Simulation<Dim, Real>::mark_invalid_particles();      \
   template void Simulation<Dim, Real>::mark_left_particles();         \
   template void Simulation<Dim, Real>::add_removed_particles();       \
   template void Simulation<Dim, Real>::correct_energy_for_removal();  \

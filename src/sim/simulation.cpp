@@ -95,13 +95,13 @@ void Simulation<Dim, Real>::post_step() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::stop_for_or_remove_particles() {
-  mark_bad_particles();
-  stop_if_bad();
+  mark_invalid_particles();
+  stop_if_invalid();
   mark_left_particles();
-  if (bad_.id >= 0) {
+  if (invalid_.id >= 0) {
     watch();  // what an explosion throws off the known ground is not told to get a larger one
   }
-  stop_if_bad();
+  stop_if_invalid();
   remove_marked_particles();
 }
 
@@ -192,7 +192,7 @@ void Simulation<Dim, Real>::move_particles() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::update_stress_and_porosity() {
-  add_stress_work(mpm::update_stress_and_porosity(grid_, particles_, model_.motion, dt_, nodes_, bad_));
+  add_stress_work(mpm::update_stress_and_porosity(grid_, particles_, model_.motion, dt_, nodes_, invalid_));
 }
 
 template <int Dim, class Real>
@@ -246,12 +246,12 @@ void Simulation<Dim, Real>::update_positions() {
     const Real margin = parameters_.grid.leaving == config::Policy::remove ? grid_.cell() : Real(0);
     const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
     mpm::update_positions(particles_, Vector<Real, Dim>(-beyond), Vector<Real, Dim>(model_.constraints.extent + beyond),
-                          bad_);
+                          invalid_);
     return;
   }
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     if (!std::isfinite(particles_.temperature(p)) || !std::isfinite(particles_.pore_pressure(p))) {
-      bad_.note(particles_.id(p), mpm::Fault::state_not_finite);
+      invalid_.note(particles_.id(p), mpm::Fault::state_not_finite);
     }
   }
 }

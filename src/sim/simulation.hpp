@@ -197,7 +197,7 @@ class Simulation {
   void update_positions();
   void watch();
   void stop_for_or_remove_particles();
-  void mark_bad_particles();
+  void mark_invalid_particles();
   void mark_left_particles();
   void remove_marked_particles();
   // Null where there is none, and while the base holds.
@@ -230,7 +230,7 @@ class Simulation {
   [[noreturn]] void stop_for_energy(double growth, double share) const;
   [[noreturn]] void stop_for_removed_mass(double share);
   [[nodiscard]] std::string likely_cause(std::size_t particle) const;
-  [[nodiscard]] std::string way_ahead(std::size_t particle) const;
+  [[nodiscard]] std::string terrain_ahead(std::size_t particle) const;
   void mark_band();
   void update_columns();
   void update_normal_load(std::size_t first = 0);
@@ -248,7 +248,7 @@ class Simulation {
   [[nodiscard]] NewParticle<Dim, Real> particle_of_bed(Vector<double, Dim - 1> place,
                                                        const terrain::LooseMatter<Dim, Real>& matter,
                                                        std::int64_t number) const;
-  void stop_if_bad();
+  void stop_if_invalid();
   [[nodiscard]] double band_thickness() const;
 
   config::Case parameters_;
@@ -275,7 +275,7 @@ class Simulation {
   Ledger<Dim, Real> ledger_, ledger_before_;                   // of now, and before the step
   RunMonitor monitor_;
   Removed removed_;
-  mpm::BadParticle bad_;
+  mpm::InvalidParticle invalid_;
   std::vector<std::uint8_t> marks_;  // by particle, of those that are to be removed
   Stopwatch stopwatch_;
   double time_ = 0.0, last_step_ = 0.0, rear_at_start_ = 0.0, current_band_thickness_ = -1.0,

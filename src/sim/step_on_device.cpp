@@ -72,13 +72,13 @@ void Simulation<Dim, Real>::advance_on_device() {
   ledger_.drained_water += sums.drained.mass;
   ledger_.drained_heat += sums.drained.heat;
   ledger_.vented_water += sums.vented;
-  bad_ += sums.deformed.bad;
-  bad_ += sums.bad;
+  invalid_ += sums.deformed.invalid;
+  invalid_ += sums.invalid;
 }
 
 template <int Dim, class Real>
 bool Simulation<Dim, Real>::needs_no_host_check() const {
-  if (!device_solver_ || bad_.id >= 0) {
+  if (!device_solver_ || invalid_.id >= 0) {
     return false;
   }
   std::vector<Vector<Real, Dim>> escapes;

@@ -91,9 +91,9 @@ inline void take_sum(double sum, std::vector<double>& numbers) { numbers.push_ba
 inline void take_sum(const mpm::NoAccount& /*sum*/, std::vector<double>& /*numbers*/) {}
 inline void take_sum(const mpm::Deformed<double>& sum, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), {sum.work.total, sum.work.plastic, sum.work.viscous, sum.work.pore,
-                                 static_cast<double>(sum.bad.id), static_cast<double>(sum.bad.fault)});
+                                 static_cast<double>(sum.invalid.id), static_cast<double>(sum.invalid.fault)});
 }
-inline void take_sum(const mpm::BadParticle& sum, std::vector<double>& numbers) {
+inline void take_sum(const mpm::InvalidParticle& sum, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), {static_cast<double>(sum.id), static_cast<double>(sum.fault)});
 }
 inline void take_sum(const band::DrainedWater<double>& sum, std::vector<double>& numbers) {

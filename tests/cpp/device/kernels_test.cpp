@@ -64,10 +64,10 @@ void expect_the_same_positions(Scene<Dim>& scene) {
   Vector<double, Dim> lower = Vector<double, Dim>::Constant(-1e3), upper = -lower;
   upper[0] = scene.particles.position(scene.particles.size() / 2, 0);
   const mpm::TakePosition<Dim, double> kernel{lower, upper};
-  std::vector<mpm::BadParticle> bad;
+  std::vector<mpm::InvalidParticle> invalid;
   const auto bits = [&](const auto& run) {
     return bits_of<mpm::RecordList<>>(scene, everywhere, [&](auto& particles, auto& /*sums*/) {
-      bad.push_back(run(particles));
+      invalid.push_back(run(particles));
       return std::vector<double>{};
     });
   };
@@ -82,9 +82,9 @@ void expect_the_same_positions(Scene<Dim>& scene) {
       "positions", scene.nodes, mpm::every_tile, everywhere,
       false};  // the bad particle of smallest id may be of a later chunk
   expect_the_bits_of_lanes(pass, scene, mpm::LinearWeights{}, kernel);
-  for (const mpm::BadParticle& found : bad) {
+  for (const mpm::InvalidParticle& found : invalid) {
     EXPECT_EQ(found.fault, mpm::Fault::left_domain);
-    EXPECT_EQ(found.id, bad.front().id);
+    EXPECT_EQ(found.id, invalid.front().id);
   }
 }
 

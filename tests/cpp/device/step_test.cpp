@@ -150,7 +150,7 @@ void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int 
     const auto sums = mechanics.step(time, dt);
     const std::string when = fmt::format("step {}", k);
     expect_the_same_contact(simulation.contact(), sums.contact, when);
-    EXPECT_EQ(sums.bad.id, -1) << when;
+    EXPECT_EQ(sums.invalid.id, -1) << when;
     brought.add(sums);
     expect_the_same_ledger(simulation, brought, when);
     if (::testing::Test::HasFailure()) {

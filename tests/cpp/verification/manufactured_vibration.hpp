@@ -133,7 +133,7 @@ class ManufacturedVibration {
   }
 
   void step(double dt) {
-    mpm::BadParticle bad;
+    mpm::InvalidParticle invalid;
     grid_.update(particles_, 64);
     mpm::momentum_to_grid(grid_, particles_, model_, nodes_);
     add_body_force();
@@ -142,9 +142,9 @@ class ManufacturedVibration {
     mpm::move_particles(grid_, particles_, model_, dt, nodes_);
     terrain::constrain_mapped_back(grid_, no_ground, constraints_, terrain::ContactModel<2, double>{}, model_.gravity,
                                    time_, dt, nodes_);
-    mpm::update_stress_and_porosity(grid_, particles_, model_, dt, nodes_, bad);
-    mpm::update_positions(particles_, Vector<double, 2>(Vector<double, 2>::Zero()), constraints_.extent, bad);
-    THAWSLIDE_ASSERT(bad.id < 0, "particle {} failed at {} s", bad.id, time_);
+    mpm::update_stress_and_porosity(grid_, particles_, model_, dt, nodes_, invalid);
+    mpm::update_positions(particles_, Vector<double, 2>(Vector<double, 2>::Zero()), constraints_.extent, invalid);
+    THAWSLIDE_ASSERT(invalid.id < 0, "particle {} failed at {} s", invalid.id, time_);
     time_ += dt;
   }
 

@@ -37,8 +37,7 @@ std::string heading(double x, double y) {
 
 // The axis along which a particle within the domain is the first to come to a side of it.
 template <int Dim, class Real>
-int axis_of_way_out(const Vector<Real, Dim>& place, const Vector<Real, Dim>& velocity,
-                    const Vector<Real, Dim>& extent) {
+int axis_of_exit(const Vector<Real, Dim>& place, const Vector<Real, Dim>& velocity, const Vector<Real, Dim>& extent) {
   int first = 0;
   double soonest = HUGE_VAL;
   for (int a = 0; a < Dim; ++a) {
@@ -54,7 +53,7 @@ int axis_of_way_out(const Vector<Real, Dim>& place, const Vector<Real, Dim>& vel
 }
 
 // How far the terrain model reaches from a place on, the way it moves over the plane [m].
-double room_on(const config::Site& site, const Place2& place, const Place2& velocity) {
+double distance_to_domain_edge(const config::Site& site, const Place2& place, const Place2& velocity) {
   const double speed = std::hypot(velocity[0], velocity[1]);
   const Raster& ground = *site.ground;
   const auto [low, high] = site.terrain_model.value_or(
@@ -140,12 +139,12 @@ std::string Simulation<Dim, Real>::particle_text(std::size_t p) const {
                      model_.body_names[static_cast<std::size_t>(particles_.body(p))], numbers);
 }
 
-// Of the particle that bad_ is about.
+// Of the particle that invalid_ is about.
 template <int Dim, class Real>
 std::string Simulation<Dim, Real>::fault_text(std::size_t p) const {
   const auto ratio = static_cast<double>(particles_.volume(p) / particles_.initial_volume(p));
   const config::Guards& guards = parameters_.guards;
-  switch (bad_.fault) {
+  switch (invalid_.fault) {
     case mpm::Fault::volume_not_finite:
       return "its volume is not a finite number";
     case mpm::Fault::volume_not_positive:
@@ -171,7 +170,7 @@ std::string Simulation<Dim, Real>::fault_text(std::size_t p) const {
 // How much further a particle would go the way it moves, until friction has taken its energy, v2/(2 g tan(angle)), and
 // how far the terrain model reaches there.
 template <int Dim, class Real>
-std::string Simulation<Dim, Real>::way_ahead(std::size_t p) const {
+std::string Simulation<Dim, Real>::terrain_ahead(std::size_t p) const {
   const Vector<double, Dim> velocity = particles_.velocity.template get<Vector<Real, Dim>>(p).template cast<double>();
   const double gravity = static_cast<double>(model_.motion.gravity.norm());
   constexpr double angle = config::usual_reach_angle, degree = pi<double> / 180.0, rounded_to = 10.0;
@@ -181,12 +180,12 @@ std::string Simulation<Dim, Real>::way_ahead(std::size_t p) const {
       "With {:g} degrees of friction, the angle of reach that `thawslide new` starts from, it would go about {:.0f} m "
       "further on level ground, and more where the ground falls. ",
       angle, further);
-  if (Dim == 2 || site_.ground == nullptr || bad_.fault == mpm::Fault::left_map) {
+  if (Dim == 2 || site_.ground == nullptr || invalid_.fault == mpm::Fault::left_map) {
     return level;
   }
   const Place2 place{static_cast<double>(particles_.position(p, 0)) + model_.origin[0],
                      static_cast<double>(particles_.position(p, 1)) + model_.origin[1]};
-  const double room = room_on(site_, place, {velocity[0], velocity[1]});
+  const double room = distance_to_domain_edge(site_, place, {velocity[0], velocity[1]});
   return level + (room <= further
                       ? fmt::format("The DEM ends {:.0f} m ahead of it: it has to be larger, and [grid] with "
                                     "it. {}",
@@ -228,7 +227,7 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
     return too_long;
   }
   const bool pressurized = model_.band.heat && model_.band.pressure;
-  if (bad_.fault == mpm::Fault::state_not_finite && pressurized) {
+  if (invalid_.fault == mpm::Fault::state_not_finite && pressurized) {
     const std::string closed = closed_pores(particles_);
     return closed.empty() ? too_long : closed;
   }
@@ -236,13 +235,13 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   const double own = static_cast<double>(velocity.norm());
   const std::string towards =
       Dim == 2 ? "" : " towards the " + heading(static_cast<double>(velocity[0]), static_cast<double>(velocity[1]));
-  if (bad_.fault == mpm::Fault::left_map) {
-    return fmt::format("It moves at {:.4g} m/s{}. {}", own, towards, way_ahead(p)) +
+  if (invalid_.fault == mpm::Fault::left_map) {
+    return fmt::format("It moves at {:.4g} m/s{}. {}", own, towards, terrain_ahead(p)) +
            "Give a DEM that reaches further there, and [grid] with it, or set grid.leaving = \"remove\" to let such "
            "particles go. " +
            anew;
   }
-  if (bad_.fault != mpm::Fault::left_domain) {
+  if (invalid_.fault != mpm::Fault::left_domain) {
     return too_long;
   }
   const BodySums<Dim, Real> sums = sum_over_body();
@@ -255,23 +254,23 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
         step_to_halve());
   }
   const std::string too_far = speeds + "Likely cause: the slide ran further than [grid] min and max allow";
-  const int way_out = axis_of_way_out<Dim, Real>(particles_.position.template get<Vector<Real, Dim>>(p), velocity,
-                                                 model_.constraints.extent);
+  const int exit_axis = axis_of_exit<Dim, Real>(particles_.position.template get<Vector<Real, Dim>>(p), velocity,
+                                                model_.constraints.extent);
   if (Dim == 2) {
     return too_far + "; widen them in its direction.";
   }
-  if (way_out == Dim - 1) {
-    return too_far + (velocity[way_out] > Real(0) ? "; widen them upwards." : "; widen them downwards.");
+  if (exit_axis == Dim - 1) {
+    return too_far + (velocity[exit_axis] > Real(0) ? "; widen them upwards." : "; widen them downwards.");
   }
-  return too_far + ". " + way_ahead(p) + (site_.ground ? "" : "Widen [grid] that way.");
+  return too_far + ". " + terrain_ahead(p) + (site_.ground ? "" : "Widen [grid] that way.");
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::stop_if_bad() {
-  if (bad_.id < 0) {
+void Simulation<Dim, Real>::stop_if_invalid() {
+  if (invalid_.id < 0) {
     return;
   }
-  const std::size_t p = place_in_memory(bad_.id);
+  const std::size_t p = place_in_memory(invalid_.id);
   throw RunError(fmt::format("the run failed at t = {:.6g} s (step {}): {}: {}. {}", time_, step_number_,
                              particle_text(p), fault_text(p), likely_cause(p)));
 }
@@ -301,13 +300,13 @@ void Simulation<Dim, Real>::stop_for_energy(double growth, double share) const {
   template Vector<double, Dim> Simulation<Dim, Real>::place_of(std::size_t) const;  \
   template std::string Simulation<Dim, Real>::particle_text(std::size_t) const;     \
   template std::string Simulation<Dim, Real>::fault_text(std::size_t) const;        \
-  template std::string Simulation<Dim, Real>::way_ahead(std::size_t) const;         \
+  template std::string Simulation<Dim, Real>::terrain_ahead(std::size_t) const;     \
   template bool Simulation<Dim, Real>::is_too_soft(std::size_t) const;              \
   template std::string Simulation<Dim, Real>::step_to_halve() const;                \
   template std::string Simulation<Dim, Real>::cause_in_material(std::size_t) const; \
   template std::string Simulation<Dim, Real>::likely_cause(std::size_t) const;      \
   template void Simulation<Dim, Real>::stop_for_energy(double, double) const;       \
-  template void Simulation<Dim, Real>::stop_if_bad();
+  template void Simulation<Dim, Real>::stop_if_invalid();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 
