@@ -41,7 +41,7 @@ struct AddUp {
 };
 
 // How many sums add_up needs room for, of so many parts.
-constexpr std::size_t room_to_add_up(std::size_t parts) { return parts + runs_of(parts) + 1; }
+constexpr std::size_t partial_sum_count(std::size_t parts) { return parts + runs_of(parts) + 1; }
 
 // sums: the parts, and room after them. Returns where in it their sum stands.
 template <class Backend, class Sum>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "device/array.hpp"
-#include "device/node_works.hpp"
+#include "device/node_kernels.hpp"
 #include "device/step_model.hpp"
 
 namespace thawslide::device {

@@ -5,8 +5,8 @@
 
 #include "band/averages_kernel.hpp"
 #include "device/columns.hpp"
-#include "device/heat_works.hpp"
-#include "device/pressure_works.hpp"
+#include "device/heat_kernels.hpp"
+#include "device/pressure_kernels.hpp"
 #include "device/step_passes.hpp"
 
 namespace thawslide::device {
@@ -26,13 +26,13 @@ class BandStages {
   }
 
   // Blocks have changed; there are so many nodes.
-  void make_room(std::size_t nodes) {
+  void resize_for(std::size_t nodes) {
     if (passes_.model.heat) {
-      passes_.nodes.template make_room<mpm::HeatRates, mpm::OrphanHeat>(nodes);
+      passes_.nodes.template resize_for<mpm::HeatRates, mpm::OrphanHeat>(nodes);
       secant_rates_.resize(passes_.template of<mpm::HeatRates>().size());
     }
     if (passes_.model.pressure_changes) {
-      passes_.nodes.template make_room<mpm::Seepage, mpm::SeepingWater>(nodes);
+      passes_.nodes.template resize_for<mpm::Seepage, mpm::SeepingWater>(nodes);
       columns_.update(passes_.cells.tables());
     }
   }
@@ -118,8 +118,7 @@ class BandStages {
                              SumPatches<mpm::HeatRates, void, EveryTile, Dim, Real>{
                                  passes_.cells.tables(), {}, passes_.memory.patches(0), secant_rates_.data()});
     passes_.keep(&solve_rates(passes_.marks.blocks(), dt)->gain, &sums_->heat);
-    passes_.marks.mark_tiles(passes_.cells.tables(),
-                             HoldsHeat<Dim, Real>{passes_.template of<mpm::OrphanHeat>().data()});
+    passes_.marks.mark_tiles(passes_.cells.tables(), HasHeat<Dim, Real>{passes_.template of<mpm::OrphanHeat>().data()});
     passes_.run(passes_.momentum(passes_.marks.tiles()), band::TakeOrphanHeat<Dim, Real>{dt});
     passes_.run(passes_.linear(), TakeHeat<Dim, Real, Content>{content, passes_.model.band, dt});
   }
@@ -137,7 +136,7 @@ class BandStages {
                                       passes_.model.starts,
                                       passes_.model.cell};
     return block_pass<Dim>(passes_.backend, blocks, solve,
-                           passes_.memory.template sums<band::NodalHeat<Real>>(room_to_add_up(blocks)));
+                           passes_.memory.template sums<band::NodalHeat<Real>>(partial_sum_count(blocks)));
   }
 
   // Marks the blocks that water seeps to, and the tiles about them; false if there are none.
@@ -172,7 +171,7 @@ class BandStages {
     const Real* taken =
         block_pass<Dim>(passes_.backend, blocks,
                         SolveSeepage<Dim, Real>{passes_.views(), passes_.template of<mpm::Seepage>().data(), dt},
-                        passes_.memory.template sums<Real>(room_to_add_up(blocks)));
+                        passes_.memory.template sums<Real>(partial_sum_count(blocks)));
     passes_.backend.for_each(1, KeepVented<Real>{taken, passes_.model.band.phases, &sums_->vented});
   }
   template <bool Seeps>

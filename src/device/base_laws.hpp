@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "device/ground.hpp"
-#include "device/node_works.hpp"
+#include "device/node_kernels.hpp"
 
 namespace thawslide::device {
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "device/array.hpp"
-#include "device/cell_works.hpp"
-#include "device/first_of_keys.hpp"
+#include "device/cell_kernels.hpp"
 #include "device/tile_tables.hpp"
+#include "device/unique_keys.hpp"
 
 namespace thawslide::device {
 
@@ -109,7 +109,7 @@ class Cells {
   Array<std::uint32_t, Backend> first_of_tile_{backend_}, first_of_cell_{backend_};
   Array<std::int32_t, Backend> blocks_about_tile_{backend_}, tiles_about_block_{backend_};
   Array<std::int32_t, Backend> blocks_about_block_{backend_};
-  FirstOfKeys<Backend> first_{backend_};
+  UniqueKeys<Backend> first_{backend_};
   bool blocks_changed_ = true;
 };
 

@@ -10,9 +10,9 @@
 #include "band/at_columns.hpp"
 #include "device/array.hpp"
 #include "device/body_sizes.hpp"
-#include "device/column_works.hpp"
-#include "device/first_of_keys.hpp"
+#include "device/column_kernels.hpp"
 #include "device/former_places.hpp"
+#include "device/unique_keys.hpp"
 
 namespace thawslide::device {
 
@@ -106,7 +106,7 @@ class Columns {
   ColumnQuery slope_cosine_, normal_gravity_;
   std::vector<std::uint64_t> known_keys_;  // of the columns
   BodySizes<Backend, Real> sizes_;         // of particles [m]
-  FirstOfKeys<Backend> first_{backend_};
+  UniqueKeys<Backend> first_{backend_};
   Array<std::uint64_t, Backend> keys_listed_{backend_}, keys_of_seen_{backend_}, keys_{backend_};
   Array<std::uint32_t, Backend> listed_{backend_}, seen_{backend_}, first_seen_{backend_};
   Array<std::int32_t, Backend> column_{backend_}, beside_{backend_};

@@ -149,19 +149,19 @@ class Cuda {
 
   void sort(const std::uint64_t* keys, const std::uint32_t* values, std::uint64_t* sorted_keys,
             std::uint32_t* sorted_values, std::size_t count) {
-    with_working_room("sorting", [&](void* memory, std::size_t& bytes) {
+    with_scratch("sorting", [&](void* memory, std::size_t& bytes) {
       return cub::DeviceRadixSort::SortPairs(memory, bytes, keys, sorted_keys, values, sorted_values,
                                              static_cast<std::uint32_t>(count));
     });
   }
   void sort(const std::uint64_t* keys, std::uint64_t* sorted_keys, std::size_t count) {
-    with_working_room("sorting", [&](void* memory, std::size_t& bytes) {
+    with_scratch("sorting", [&](void* memory, std::size_t& bytes) {
       return cub::DeviceRadixSort::SortKeys(memory, bytes, keys, sorted_keys, static_cast<std::uint32_t>(count));
     });
   }
 
   void sum_before(const std::uint32_t* numbers, std::uint32_t* sums, std::size_t count) {
-    with_working_room("summing", [&](void* memory, std::size_t& bytes) {
+    with_scratch("summing", [&](void* memory, std::size_t& bytes) {
       return cub::DeviceScan::ExclusiveSum(memory, bytes, numbers, sums, static_cast<int>(count));
     });
   }
@@ -206,7 +206,7 @@ class Cuda {
 
   // Calls work(memory, bytes): without memory it tells how much it needs.
   template <class Work>
-  void with_working_room(const char* doing, const Work& work) {
+  void with_scratch(const char* doing, const Work& work) {
     launch_waiting();
     std::size_t bytes = 0;
     expect_done(work(nullptr, bytes), doing);

@@ -9,7 +9,7 @@
 
 #include "device/array.hpp"
 #include "device/ground.hpp"
-#include "device/node_works.hpp"
+#include "device/node_kernels.hpp"
 #include "device/stacks.hpp"
 #include "device/step_model.hpp"
 #include "terrain/bed_node.hpp"
@@ -123,7 +123,7 @@ struct PackPressure {
   }
 };
 
-// As ResolveContact asks (device/node_works.hpp).
+// As ResolveContact asks (device/node_kernels.hpp).
 template <int Dim, class Real>
 struct BedBelowNodes {
   terrain::BedMatter<Real> matter;

@@ -29,7 +29,7 @@ struct ListAlongWay {
 
 // Some of a list from its end on, the last one first.
 template <int Dim, class Real>
-struct TakeForemost {
+struct KeepForemost {
   mpm::Way<Dim> way;
   mpm::ParticleView<Dim, Real> particles;
   const std::uint32_t* end;
@@ -58,7 +58,7 @@ class Front {
     const std::size_t at_a_time = count / 150 + 1024;
     for (std::size_t left = count;; left -= taken_.size()) {
       taken_.resize(std::min(left, at_a_time));
-      backend_.for_each(taken_.size(), TakeForemost<Dim, Real>{here, particles, sorted_.data() + left, taken_.data()});
+      backend_.for_each(taken_.size(), KeepForemost<Dim, Real>{here, particles, sorted_.data() + left, taken_.data()});
       for (const mpm::OnWay& one : taken_.get()) {
         if (search.is_at(one.mass)) {
           return one;

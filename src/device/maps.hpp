@@ -8,10 +8,10 @@
 
 #include "device/array.hpp"
 #include "device/body_sizes.hpp"
-#include "device/column_works.hpp"
-#include "device/first_of_keys.hpp"
-#include "device/map_works.hpp"
+#include "device/column_kernels.hpp"
+#include "device/map_kernels.hpp"
 #include "device/step_model.hpp"
+#include "device/unique_keys.hpp"
 
 namespace thawslide::device {
 
@@ -71,7 +71,7 @@ class Maps {
   MapPlaces places_;
   bool knows_tiles_ = false;
   std::vector<std::uint64_t> known_keys_;  // of cells below some tile
-  FirstOfKeys<Backend> first_{backend_};
+  UniqueKeys<Backend> first_{backend_};
   Array<std::uint64_t, Backend> keys_listed_{backend_}, keys_of_seen_{backend_}, keys_{backend_};
   Array<std::uint32_t, Backend> listed_{backend_}, seen_{backend_}, first_seen_{backend_};
   Array<mpm::MapSums, Backend> parts_{backend_}, sums_{backend_};

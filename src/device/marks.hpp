@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/array.hpp"
-#include "device/cell_works.hpp"
+#include "device/cell_kernels.hpp"
 #include "device/tile_tables.hpp"
 
 namespace thawslide::device {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/array.hpp"
-#include "device/node_works.hpp"
+#include "device/node_kernels.hpp"
 #include "device/passes.hpp"
 
 namespace thawslide::device {
@@ -14,7 +14,7 @@ class NodeMemory {
 
   // For so many nodes; what was in it is lost.
   template <class... Names>
-  void make_room(std::size_t nodes) {
+  void resize_for(std::size_t nodes) {
     (of<Names>().resize(nodes * mpm::record_size(mpm::components_of<Names, Dim>)), ...);
   }
   void clear_base(std::size_t nodes) {

@@ -7,7 +7,7 @@
 
 #include <limits>
 
-#include "device/pass_room.hpp"
+#include "device/shared_memory_layout.hpp"
 #include "device/tile_tables.hpp"
 
 namespace thawslide::device {
@@ -32,13 +32,13 @@ template <class Over, class Reads, class Adds, int Dim, class Real, class... Ker
 struct ParticlePass;
 template <class Over, class... Reads, class... Adds, int Dim, class Real, class... Kernels>
 struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...> {
-  using Room = PassRoom<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...>;
+  using MemoryLayout = SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...>;
   using T = mpm::Tile<Dim>;
   using Sums = SumsOf<Kernels...>;
   static constexpr auto nodes = static_cast<std::size_t>(T::nodes);
   static constexpr auto patch_nodes = static_cast<std::size_t>(T::patch_nodes);
-  static constexpr std::size_t cell_nodes = Room::cell_nodes, size = Room::size;
-  static constexpr bool adds = sizeof...(Adds) > 0, adds_up = Room::adds_up;
+  static constexpr std::size_t cell_nodes = MemoryLayout::cell_nodes, size = MemoryLayout::size;
+  static constexpr bool adds = sizeof...(Adds) > 0, adds_up = MemoryLayout::adds_up;
 
   Over over;
   mpm::ByName<mpm::Named<Reads, const Real*>...> records;
@@ -58,7 +58,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
 
   template <class Group>
   THAWSLIDE_HD void operator()(Group& group, std::size_t tile) const {
-    const Room room(group.shared());
+    const MemoryLayout room(group.shared());
     const std::size_t end = first_of_cell(tile, nodes);
     if (!over.takes(tile)) {
       group.each(1, [this, tile](std::size_t /*k*/) { sums[tile] = {}; });
@@ -72,9 +72,9 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
       while (first_of_cell(tile, chunk.cell + 1) <= chunk.first) {
         ++chunk.cell;
       }
-      chunk.cells = chunk.cell + Room::most_cells < nodes ? Room::most_cells : nodes - chunk.cell;
+      chunk.cells = chunk.cell + MemoryLayout::most_cells < nodes ? MemoryLayout::most_cells : nodes - chunk.cell;
       const std::size_t of_cells = first_of_cell(tile, chunk.cell + chunk.cells);
-      chunk.last = chunk.first + Room::capacity < of_cells ? chunk.first + Room::capacity : of_cells;
+      chunk.last = chunk.first + MemoryLayout::capacity < of_cells ? chunk.first + MemoryLayout::capacity : of_cells;
       group.each(chunk.last - chunk.first, [this, chunk, room](std::size_t k) { visit(chunk, room, k); });
       group.barrier();
       if constexpr (adds_up) {
@@ -95,7 +95,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
 
   // A thread a number.
   template <class Name, class Group>
-  THAWSLIDE_HD void fetch(Group& group, const Room& room, std::size_t tile) const {
+  THAWSLIDE_HD void fetch(Group& group, const MemoryLayout& room, std::size_t tile) const {
     constexpr std::size_t of_record = mpm::record_size(mpm::components_of<Name, Dim>);
     group.each(patch_nodes * of_record, [this, room, tile](std::size_t k) {
       const PlaceInBlock<Dim> place = place_in_block<Dim>(k / of_record);
@@ -109,10 +109,10 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
 
   // The patch before anything is added. An owner's record has been added to already.
   template <class Group>
-  THAWSLIDE_HD void prepare(Group& group, const Room& room, std::size_t tile) const {
+  THAWSLIDE_HD void prepare(Group& group, const MemoryLayout& room, std::size_t tile) const {
     if constexpr (adds) {
       group.each(patch_nodes * size, [this, room, tile](std::size_t k) {
-        room.patch()[k] = Room::goes_on ? patches[tile * patch_nodes * size + k] : Real(0);
+        room.patch()[k] = MemoryLayout::goes_on ? patches[tile * patch_nodes * size + k] : Real(0);
         (raise<Adds>(k % size, room.patch()[k]), ...);
       });
     }
@@ -121,7 +121,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     }
   }
   template <class Group>
-  THAWSLIDE_HD void leave(Group& group, const Room& room, std::size_t tile) const {
+  THAWSLIDE_HD void leave(Group& group, const MemoryLayout& room, std::size_t tile) const {
     if constexpr (adds) {
       group.barrier();
       group.each(patch_nodes * size,
@@ -149,7 +149,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   }
 
   // A thread a particle.
-  THAWSLIDE_HD void visit(const Chunk& chunk, const Room& room, std::size_t k) const {
+  THAWSLIDE_HD void visit(const Chunk& chunk, const MemoryLayout& room, std::size_t k) const {
     auto& slot = room.slots()[k];
     slot.sums = {};
     const TileTables<Dim>& tables = over.tables;
@@ -171,8 +171,8 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     mpm::OneWeights<Dim, Real> weights;
     over.weights.set(weights, from_node, over.particles, at, over.cell, inverse_cell);
     const auto patches_read = room.patches_read();
-    const mpm::SeenByOne<mpm::OneWeights<Dim, Real>, typename Room::PatchesRead> seen{weights, patches_read};
-    typename Room::Carried carried{};
+    const mpm::SeenByOne<mpm::OneWeights<Dim, Real>, typename MemoryLayout::PatchesRead> seen{weights, patches_read};
+    typename MemoryLayout::Carried carried{};
     Sums of_particle{};
     mpm::ParticleView<Dim, Real> particles = over.particles;
     (run(kernel_of(kernels.template of<Kernels>(), chunk.tile), particles, at, seen, carried,
@@ -184,11 +184,11 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   }
   template <class Kernel, class Seen, class Sum>
   THAWSLIDE_HD static void run(const Kernel& kernel, mpm::ParticleView<Dim, Real>& particles, const mpm::One<Real>& at,
-                               const Seen& seen, typename Room::Carried& carried, Sum& sum) {
+                               const Seen& seen, typename MemoryLayout::Carried& carried, Sum& sum) {
     kernel(particles, at, seen, carried, sum);
   }
 
-  THAWSLIDE_HD static void add_up(const Chunk& chunk, const Room& room) {
+  THAWSLIDE_HD static void add_up(const Chunk& chunk, const MemoryLayout& room) {
     Sums sum = *room.sums();
     for (std::size_t k = 0; k < chunk.last - chunk.first; ++k) {
       sum += room.slots()[k].sums;
@@ -215,9 +215,9 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
 
   // A thread a node of a cell, then a thread a number of the patch.
   template <class Name, class Group>
-  THAWSLIDE_HD void add(Group& group, const Room& room, const Chunk& chunk) const {
+  THAWSLIDE_HD void add(Group& group, const MemoryLayout& room, const Chunk& chunk) const {
     constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
-    if (!Room::template is_first<Name>()) {
+    if (!MemoryLayout::template is_first<Name>()) {
       group.barrier();
     }
     group.each(chunk.cells * cell_nodes, [this, room, chunk](std::size_t k) { sum_in_cell<Name>(room, chunk, k); });
@@ -229,7 +229,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   }
 
   template <class Name>
-  THAWSLIDE_HD void sum_in_cell(const Room& room, const Chunk& chunk, std::size_t k) const {
+  THAWSLIDE_HD void sum_in_cell(const MemoryLayout& room, const Chunk& chunk, std::size_t k) const {
     constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
     const CellPart part = part_of_cell(chunk, k / cell_nodes);
     if (!part.is_there()) {
@@ -257,7 +257,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   }
 
   template <class Name>
-  THAWSLIDE_HD void add_cells(const Room& room, const Chunk& chunk, const Layers& layers, std::size_t node,
+  THAWSLIDE_HD void add_cells(const MemoryLayout& room, const Chunk& chunk, const Layers& layers, std::size_t node,
                               std::size_t component) const {
     constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
     Real& number = room.patch()[node * size + first_component<Name> + component];

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "device/array.hpp"
-#include "device/cell_works.hpp"
+#include "device/cell_kernels.hpp"
 #include "mpm/particle_view.hpp"
 
 namespace thawslide::device {
@@ -29,13 +29,13 @@ struct GatherField {
 };
 
 // Where each particle of a list stands, once they stand in memory in some order.
-struct NotePlace {
+struct StorePlace {
   const std::uint32_t* order;
   std::uint32_t* place;
 
   THAWSLIDE_HD void operator()(std::size_t k) const { place[order[k]] = static_cast<std::uint32_t>(k); }
 };
-struct TakePlace {
+struct GatherPlace {
   const std::uint32_t* place;
   std::uint32_t* particles;
 
@@ -53,7 +53,7 @@ class Particles {
       here = {};
       if (there.is_kept()) {
         const std::size_t numbers = numbers_of(here);
-        here.numbers = room_for(here, numbers);
+        here.numbers = buffer_for(here, numbers);
         backend_.copy_in(here.numbers, there.numbers, numbers);
       }
     });
@@ -82,9 +82,9 @@ class Particles {
       }
     });
     place_.resize(count_);
-    backend_.for_each(count_, NotePlace{order, place_.data()});
-    backend_.for_each(count_, TakePlace{place_.data(), by_id_.data()});
-    backend_.for_each(count_, TakePlace{place_.data(), as_they_came_.data()});
+    backend_.for_each(count_, StorePlace{order, place_.data()});
+    backend_.for_each(count_, GatherPlace{place_.data(), by_id_.data()});
+    backend_.for_each(count_, GatherPlace{place_.data(), as_they_came_.data()});
   }
 
  private:
@@ -94,7 +94,7 @@ class Particles {
     return (count_ + block - 1) / block * block * Components;
   }
   template <class T, int Components>
-  T* room_for(const mpm::FieldView<T, Components>& /*field*/, std::size_t numbers) {
+  T* buffer_for(const mpm::FieldView<T, Components>& /*field*/, std::size_t numbers) {
     fields_.emplace_back(backend_, numbers * sizeof(T));
     return reinterpret_cast<T*>(fields_.back().data());
   }

@@ -49,13 +49,13 @@ SumsOf<Kernels...>* particle_pass(Backend& backend, PassMemory<Backend, Real>& m
   using Adds = mpm::AllOf<typename Kernels::Adds...>;
   using Pass = ParticlePass<PassOver<Weights, Takes, Dim, Real>, Reads, Adds, Dim, Real, Kernels...>;
   const std::size_t tiles = over.tables.tiles;
-  auto* sums = memory.template sums<SumsOf<Kernels...>>(room_to_add_up(tiles));
+  auto* sums = memory.template sums<SumsOf<Kernels...>>(partial_sum_count(tiles));
   const Pass pass{over,
                   RecordsRead<Reads, Real>::from(records),
                   memory.patches(tiles * Pass::patch_nodes * Pass::size),
                   sums,
                   {{kernels}...}};
-  backend.for_groups(tiles, Pass::Room::threads, Pass::Room::bytes, pass);
+  backend.for_groups(tiles, Pass::MemoryLayout::threads, Pass::MemoryLayout::bytes, pass);
   if constexpr (Pass::adds_up) {
     return add_up(backend, sums, tiles);
   }

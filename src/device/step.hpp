@@ -111,11 +111,11 @@ class Step {
       return;
     }
     const std::size_t nodes = passes_.cells.tables().blocks * Passes::block_nodes;
-    passes_.nodes.template make_room<mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact,
-                                     mpm::Motion, mpm::Velocity>(nodes);
+    passes_.nodes.template resize_for<mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact,
+                                      mpm::Motion, mpm::Velocity>(nodes);
     passes_.marks.resize(passes_.cells.tables());
     maps_.forget_tiles();
-    band_.make_room(nodes);
+    band_.resize_for(nodes);
     if (!passes_.model.moves) {
       for (Array<Real, Backend>* records :
            {&passes_.template of<mpm::Momentum>(), &passes_.template of<mpm::Contact>()}) {
@@ -181,13 +181,14 @@ class Step {
   template <class Beds>
   void resolve_contact(const NodeStageArgs<Dim, Real>& step, const Beds& beds) {
     const std::size_t blocks = step.tables.blocks;
-    passes_.keep(block_pass<Dim>(passes_.backend, blocks,
-                                 ResolveContact<Beds, Dim, Real>{
-                                     step, passes_.ground.exists() ? passes_.ground.number() : nullptr, bases_.data(),
-                                     passes_.model.base.clamp, passes_.model.base.cap_pressure,
-                                     passes_.model.base.heat_fraction, beds},
-                                 passes_.memory.template sums<terrain::ContactWork<Dim, Real>>(room_to_add_up(blocks))),
-                 &sums_.data()->contact);
+    passes_.keep(
+        block_pass<Dim>(
+            passes_.backend, blocks,
+            ResolveContact<Beds, Dim, Real>{step, passes_.ground.exists() ? passes_.ground.number() : nullptr,
+                                            bases_.data(), passes_.model.base.clamp, passes_.model.base.cap_pressure,
+                                            passes_.model.base.heat_fraction, beds},
+            passes_.memory.template sums<terrain::ContactWork<Dim, Real>>(partial_sum_count(blocks))),
+        &sums_.data()->contact);
   }
 
   void move(Real time, Real dt) {
@@ -207,7 +208,7 @@ class Step {
     passes_.template sum<mpm::Velocity, void>(EveryTile{});
     const std::size_t blocks = passes_.cells.tables().blocks;
     passes_.keep(block_pass<Dim>(passes_.backend, blocks, MapBack<Dim, Real>{passes_.nodes_in_step(time, dt)},
-                                 passes_.memory.template sums<Real>(room_to_add_up(blocks))),
+                                 passes_.memory.template sums<Real>(partial_sum_count(blocks))),
                  &sums_.data()->mapped_back);
   }
 

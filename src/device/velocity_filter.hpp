@@ -36,7 +36,7 @@ void filter_velocities(StepPasses<Backend, Shape, Dim, Real>& passes, Real* gain
   using Passes = StepPasses<Backend, Shape, Dim, Real>;
   using Taking = mpm::TakeFiltered<Dim, Real>;
   const std::size_t nodes = passes.cells.tables().blocks * Passes::block_nodes;
-  passes.nodes.template make_room<mpm::FilterMoments, mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>(
+  passes.nodes.template resize_for<mpm::FilterMoments, mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>(
       nodes);
   const auto make_increments = [&](bool first) {
     passes.template sum<mpm::FilterMomentum, void>(EveryTile{});

@@ -192,7 +192,7 @@ class Field final : public FieldBase {
   [[nodiscard]] bool is_kept() const { return kept_; }
 
   void resize(std::size_t particles) override {
-    expect_room(particles);
+    expect_capacity(particles);
     particles_ = particles;
     data_.assign(kept_ ? (particles + lanes - 1) / lanes * lanes * Components : 0, T{});
     data_.shrink_to_fit();
@@ -200,7 +200,7 @@ class Field final : public FieldBase {
 
   // What a block holds beyond the last particle is nobody's: whole blocks come back from a device.
   void set_size(std::size_t particles) override {
-    expect_room(particles);
+    expect_capacity(particles);
     const std::size_t known = std::min(particles_, particles);
     particles_ = particles;
     if (kept_) {
@@ -245,7 +245,7 @@ class Field final : public FieldBase {
   }
 
  private:
-  void expect_room(std::size_t particles) const {
+  void expect_capacity(std::size_t particles) const {
     THAWSLIDE_ASSERT(particles <= most_numbers / Components, "field {}: {} particles of {} numbers are too many",
                      info().name, particles, Components);
   }

@@ -22,7 +22,7 @@ struct ActivityMarks {
 
 template <int Dim, class Real>
 struct Nodes {
-  std::shared_ptr<PatchRoom> room = std::make_shared<PatchRoom>();
+  std::shared_ptr<PatchPool> room = std::make_shared<PatchPool>();
   RecordsOf<Momentum, Dim, Real> momentum{room};
   RecordsOf<Motion, Dim, Real> motion;
   RecordsOf<Velocity, Dim, Real> velocity{room};

@@ -59,7 +59,7 @@ struct Patch {
 };
 
 // Room for the patches of one stage at a time: what a stage has summed into its nodes, the next one overwrites.
-class PatchRoom {
+class PatchPool {
  public:
   template <class AnyPatch>
   [[nodiscard]] std::span<AnyPatch> take(std::size_t tiles) {
@@ -87,7 +87,7 @@ class NodeRecords {
 
   // Without room for patches: what nodes work out for themselves, or sum from the patches of others.
   NodeRecords() = default;
-  explicit NodeRecords(std::shared_ptr<PatchRoom> room) : room_(std::move(room)) {}
+  explicit NodeRecords(std::shared_ptr<PatchPool> room) : room_(std::move(room)) {}
 
   [[nodiscard]] Record& operator()(std::size_t block, std::size_t node) { return records_[block * nodes + node]; }
   [[nodiscard]] const Record& operator()(std::size_t block, std::size_t node) const {
@@ -107,7 +107,7 @@ class NodeRecords {
 
  private:
   AlignedVector<Record> records_;
-  std::shared_ptr<PatchRoom> room_;
+  std::shared_ptr<PatchPool> room_;
 };
 
 // One record a node of the active blocks that are asked for; those of other blocks read as zeros.
@@ -118,7 +118,7 @@ class SparseRecords {
   static constexpr std::size_t nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
 
   SparseRecords() = default;
-  explicit SparseRecords(std::shared_ptr<PatchRoom> room) : records_(std::move(room)) {}
+  explicit SparseRecords(std::shared_ptr<PatchPool> room) : records_(std::move(room)) {}
 
   // Holds the blocks, of so many, for which holds(block) is true; what is in them then is any numbers.
   template <class Holds>

@@ -34,7 +34,7 @@ double on_device(const std::vector<double>& parts, ThreadOrder order) {
   Host host(order);
   Array<double, Host> sums(host);
   std::vector<double> with_room = parts;
-  with_room.resize(room_to_add_up(parts.size()));
+  with_room.resize(partial_sum_count(parts.size()));
   sums.set(with_room);
   const double* sum = add_up(host, sums.data(), parts.size());
   double found = 0.0;

@@ -123,7 +123,7 @@ template <int Dim>
 void expect_patches_of_seen_rows() {
   Sprinkled<Dim> scene;
   const auto& grid = scene.grid;
-  NodeRecords<Dim, double, 3> records(std::make_shared<PatchRoom>());
+  NodeRecords<Dim, double, 3> records(std::make_shared<PatchPool>());
   auto patches = records.patches(grid.tiles().size());
   for (std::size_t t = 0; t < patches.size(); ++t) {
     std::fill(patches[t].records.begin(), patches[t].records.end(), std::array<double, 4>{nowhere});

@@ -155,7 +155,7 @@ class ManufacturedVibration {
   mpm::Particles<2, double> particles_;
   mpm::SparseGrid<2, double> grid_;
   mpm::Nodes<2, double> nodes_;
-  mpm::NodeRecords<2, double, 2> body_force_{std::make_shared<mpm::PatchRoom>()};
+  mpm::NodeRecords<2, double, 2> body_force_{std::make_shared<mpm::PatchPool>()};
 };
 
 }  // namespace thawslide::sim

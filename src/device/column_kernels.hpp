@@ -2,7 +2,7 @@
 #pragma once
 
 #include "band/columns_of_tile.hpp"
-#include "device/cell_works.hpp"
+#include "device/cell_kernels.hpp"
 #include "device/tile_tables.hpp"
 #include "mpm/particle_view.hpp"
 

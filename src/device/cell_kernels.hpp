@@ -79,7 +79,7 @@ struct MarkFirst {
 };
 
 // Gathers what begins at these places. number: how many begin before.
-struct TakeFirst {
+struct KeepFirst {
   const std::uint64_t* keys;
   int shift;
   const std::uint32_t *is_first, *number;

@@ -59,10 +59,10 @@ struct OwnerOfList<mpm::RecordList<Name, Names...>> {
 };
 
 // With one more number after it, or without.
-template <class Contents, class Real, bool has_room>
-struct WithRoomAfter : Contents {};
+template <class Contents, class Real, bool is_padded>
+struct PaddedTo : Contents {};
 template <class Contents, class Real>
-struct WithRoomAfter<Contents, Real, true> : Contents {
+struct PaddedTo<Contents, Real, true> : Contents {
   Real after;
 };
 
@@ -75,9 +75,9 @@ struct PatchRead {
 };
 
 template <class Reads, class Adds, int Dim, class Real, class... Kernels>
-class PassRoom;
+class SharedMemoryLayout;
 template <class... Reads, class... Adds, int Dim, class Real, class... Kernels>
-class PassRoom<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...> {
+class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...> {
   using Names = mpm::RecordList<Adds...>;
   static_assert(mpm::all_apart<Names, Dim>, "particles add to these components of a record in different ways");
   static_assert(mpm::one_record<Names>, "a pass has room for one patch that is added to");
@@ -106,7 +106,7 @@ class PassRoom<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, K
   static constexpr bool has_even_numbers = alignof(T) == alignof(Real) && sizeof(T) / sizeof(Real) > 0 &&
                                            sizeof(T) / sizeof(Real) % 2 == 0;
   // An odd number of numbers, so that those of threads side by side lie in different banks of the memory.
-  struct Slot : WithRoomAfter<Contents, Real, has_even_numbers<Contents>> {
+  struct Slot : PaddedTo<Contents, Real, has_even_numbers<Contents>> {
     THAWSLIDE_HD void keep(const mpm::OneWeights<Dim, Real>& weights) { this->stencils.keep(weights); }
     template <class Name>
     [[nodiscard]] THAWSLIDE_HD const auto& stencil() const {
@@ -115,7 +115,7 @@ class PassRoom<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, K
   };
   static_assert(!has_even_numbers<Slot>);
 
-  THAWSLIDE_HD explicit PassRoom(std::byte* memory) : memory_(memory) {}
+  THAWSLIDE_HD explicit SharedMemoryLayout(std::byte* memory) : memory_(memory) {}
 
   [[nodiscard]] THAWSLIDE_HD Slot* slots() const { return at<Slot>(0); }
   [[nodiscard]] THAWSLIDE_HD SumsOf<Kernels...>* sums() const { return at<SumsOf<Kernels...>>(sums_at); }

@@ -5,8 +5,8 @@
 #include "band/averages_kernel.hpp"
 #include "band/nodal_seepage.hpp"
 #include "band/pressure_kernels.hpp"
-#include "device/column_works.hpp"
-#include "device/node_works.hpp"
+#include "device/column_kernels.hpp"
+#include "device/node_kernels.hpp"
 
 namespace thawslide::device {
 

@@ -6,7 +6,7 @@
 #include "band/nodal_heat.hpp"
 #include "band/rescaling.hpp"
 #include "device/layer_thickness.hpp"
-#include "device/node_works.hpp"
+#include "device/node_kernels.hpp"
 
 namespace thawslide::device {
 
@@ -194,7 +194,7 @@ struct MayChange {
 
 // Where nodes hold friction heat for particles.
 template <int Dim, class Real>
-struct HoldsHeat {
+struct HasHeat {
   const Real* orphan_heat;
 
   [[nodiscard]] THAWSLIDE_HD bool of_node(std::size_t node) const {

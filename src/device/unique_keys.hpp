@@ -2,14 +2,14 @@
 #pragma once
 
 #include "device/array.hpp"
-#include "device/cell_works.hpp"
+#include "device/cell_kernels.hpp"
 
 namespace thawslide::device {
 
 template <class Backend>
-class FirstOfKeys {
+class UniqueKeys {
  public:
-  explicit FirstOfKeys(Backend& backend) : backend_(backend) {}
+  explicit UniqueKeys(Backend& backend) : backend_(backend) {}
 
   // The different keys of a list, bits below `shift` left out, and the places at which they begin, if asked for.
   void find(const Array<std::uint64_t, Backend>& keys, int shift, Array<std::uint64_t, Backend>& found,
@@ -24,7 +24,7 @@ class FirstOfKeys {
     if (places != nullptr) {
       places->resize(different);
     }
-    backend_.for_each(count, TakeFirst{keys.data(), shift, is_first_.data(), number_.data(), found.data(),
+    backend_.for_each(count, KeepFirst{keys.data(), shift, is_first_.data(), number_.data(), found.data(),
                                        places != nullptr ? places->data() : nullptr});
   }
 
