@@ -73,9 +73,9 @@ std::string BoilingWatch::note(const sim::Simulation<Dim, double>& simulation) {
         columns == nullptr ? "Nothing in the model boils" : "Nothing boils, as heat.steam is false";
     return once(is_hot_, hottest > boiling) ? of_no_boiling(time, reason) : "";
   }
-  const auto& pieces = columns->pieces();
-  const auto dry =
-      std::count_if(pieces.begin(), pieces.end(), [](const auto& piece) { return has_boiled_dry(piece.column); });
+  const auto& segments = columns->segments();
+  const auto dry = std::count_if(segments.begin(), segments.end(),
+                                 [](const auto& segment) { return has_boiled_dry(segment.column); });
   const double hottest = columns->means().hottest;
   if (once(is_dry_, dry > 0)) {
     return of_dry(time, dry, hottest);

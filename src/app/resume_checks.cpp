@@ -185,12 +185,12 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
 
 void require_case_of_start(const fs::path& folder, const io::Provenance& facts, const std::vector<std::string>& sets) {
   const fs::path file = folder / "case.toml";
-  const bool is_there = fs::exists(file);
-  const auto cut_off = changes_cut_off(facts, is_there ? io::sha256_of_file(file) : "");
+  const bool is_present = fs::exists(file);
+  const auto cut_off = changes_cut_off(facts, is_present ? io::sha256_of_file(file) : "");
   if (!cut_off) {
     throw UserError(fmt::format(
         "{} {}, and there is no checkpoint to tell what it was. Put back what was there, or run the case anew.",
-        file.string(), is_there ? "has changed since the run began (run.json has its SHA-256)" : "is missing"));
+        file.string(), is_present ? "has changed since the run began (run.json has its SHA-256)" : "is missing"));
   }
   require_told_again(folder, *cut_off, sets);
 }

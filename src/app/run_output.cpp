@@ -77,8 +77,8 @@ void write_what_is_missing(const fs::path& folder, const sim::Simulation<Dim, do
   if (!fs::exists(folder / "terrain.csv")) {
     write_terrain(folder, simulation);
   }
-  const auto is_there = [&](const char* name) { return fs::exists(folder / "maps" / name); };
-  if (!is_there("terrain.tif") || !is_there("release.tif") || !is_there("release.qml")) {
+  const auto is_present = [&](const char* name) { return fs::exists(folder / "maps" / name); };
+  if (!is_present("terrain.tif") || !is_present("release.tif") || !is_present("release.qml")) {
     write_ground_maps(folder, simulation.site());
   }
 }

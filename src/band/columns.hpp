@@ -91,7 +91,7 @@ struct Pile {
   Real volume = 0;
   Real top = std::numeric_limits<Real>::lowest();
 
-  [[nodiscard]] THAWSLIDE_HD bool is_there() const { return volume > Real(0); }
+  [[nodiscard]] THAWSLIDE_HD bool is_present() const { return volume > Real(0); }
   THAWSLIDE_HD Pile& operator+=(const Pile& part) {
     volume += part.volume;
     top = max(top, part.top);
@@ -123,7 +123,7 @@ THAWSLIDE_HD Real footprint_of(Real cell, bool at_edge, const Extent<Dim, Real>&
 
 template <class Real>
 THAWSLIDE_HD Real thickness_of(const Pile<Real>& pile, Real footprint) {
-  return pile.is_there() ? pile.volume / footprint : Real(0);
+  return pile.is_present() ? pile.volume / footprint : Real(0);
 }
 
 // What a metre of the column presses on the ground with [Pa/m]. normal_gravity: of the column [m/s2].
@@ -133,7 +133,7 @@ THAWSLIDE_HD Real load_per_depth(const Pile<Real>& pile, Real mass, Real normal_
 }
 
 template <class Particles, class Real>
-THAWSLIDE_HD void take_load(Particles& particles, std::uint32_t particle, Real load) {
+THAWSLIDE_HD void update_load(Particles& particles, std::uint32_t particle, Real load) {
   particles.load_change(particle) = load - particles.normal_load(particle);
   particles.normal_load(particle) = load;
 }

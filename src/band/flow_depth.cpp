@@ -107,7 +107,7 @@ template <int Dim, class Real>
 void FlowDepth<Dim, Real>::find_edge() {
   for (Column& column : columns_) {
     column.extent = {};
-    column.at_edge = column.pile.is_there() &&
+    column.at_edge = column.pile.is_present() &&
                      lacks_neighbour<Dim>([&](std::size_t side) { return is_filled(column.beside[side]); });
   }
   edge_tiles_.clear();
@@ -220,7 +220,7 @@ void FlowDepth<Dim, Real>::load_to_particles(const mpm::SparseGrid<Dim, Real>& g
   sum_masses(grid, particles);
   load_per_depth_.assign(columns_.size(), Real(0));
   for (std::size_t c = 0; c < columns_.size(); ++c) {
-    if (columns_[c].pile.is_there()) {
+    if (columns_[c].pile.is_present()) {
       load_per_depth_[c] = load_per_depth(columns_[c].pile, masses_[c],
                                           normal_gravities_.at(column_keys_[c], grid.cell(), normal_gravity));
     }
@@ -235,7 +235,7 @@ void FlowDepth<Dim, Real>::load_to_particles(const mpm::SparseGrid<Dim, Real>& g
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         const std::uint32_t p = batch.particle[lane];
         if (p >= first) {
-          take_load(particles, p, load[lane]);
+          update_load(particles, p, load[lane]);
         }
       }
     }

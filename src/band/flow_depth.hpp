@@ -70,7 +70,7 @@ class FlowDepth {
   void sum_masses(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles);
   // Whether the slide stands in a column that may be absent.
   [[nodiscard]] bool is_filled(std::int32_t column) const {
-    return column != KeyIndex::absent && columns_[static_cast<std::size_t>(column)].pile.is_there();
+    return column != KeyIndex::absent && columns_[static_cast<std::size_t>(column)].pile.is_present();
   }
 
   std::vector<std::uint64_t> numbered_;  // the tiles that columns, their numbers and sizes_ are of

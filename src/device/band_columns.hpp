@@ -1,5 +1,5 @@
-// The band columns under the slide (band/base_columns.hpp), which stay with the processor: what nodes in contact learn
-// of them, and they of the nodes.
+// The band columns under the slide (band/basal_segments.hpp), which stay with the processor: what nodes in contact
+// learn of them, and they of the nodes.
 #pragma once
 
 #include <cstdint>

@@ -154,14 +154,14 @@ struct FinishColumns {
     const ColumnPart<Dim, Real> sum = sums[column];
     const auto filled = [&](std::size_t side) {
       const std::int32_t other = beside[column * band::column_sides<Dim> + side];
-      return other != absent && sums[other].pile.is_there();
+      return other != absent && sums[other].pile.is_present();
     };
-    const bool at_edge = sum.pile.is_there() && band::lacks_neighbour<Dim>(filled);
+    const bool at_edge = sum.pile.is_present() && band::lacks_neighbour<Dim>(filled);
     thickness[column] = band::thickness_of(sum.pile, band::footprint_of<Dim>(cell, at_edge, sum.extent, filled));
     top[column] = sum.pile.top;
     if (normal_gravity != nullptr) {
       load_per_depth[column] =
-          sum.pile.is_there() ? band::load_per_depth(sum.pile, sum.mass, normal_gravity[column]) : Real(0);
+          sum.pile.is_present() ? band::load_per_depth(sum.pile, sum.mass, normal_gravity[column]) : Real(0);
     }
   }
 };

@@ -45,8 +45,8 @@ struct ListMapCells {
     const MapPlaces::Window window = places.window(tile_keys[k / places.of_tile()]);
     const int column = window.columns.first + static_cast<int>(place % places.across);
     const int row = window.rows.first + static_cast<int>(place / places.across);
-    const bool is_there = column <= window.columns.last && row <= window.rows.last;
-    keys[k] = is_there ? mpm::map_cell_key(column, row) : MapPlaces::no_cell;
+    const bool is_present = column <= window.columns.last && row <= window.rows.last;
+    keys[k] = is_present ? mpm::map_cell_key(column, row) : MapPlaces::no_cell;
     seen[k] = static_cast<std::uint32_t>(k);
   }
 };

@@ -200,14 +200,14 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   struct CellPart {
     std::size_t first, last;
     bool begins, ends;
-    [[nodiscard]] THAWSLIDE_HD bool is_there() const { return first < last; }
+    [[nodiscard]] THAWSLIDE_HD bool is_present() const { return first < last; }
   };
   [[nodiscard]] THAWSLIDE_HD CellPart part_of_cell(const Chunk& chunk, std::size_t k) const {
     const std::size_t cell = chunk.cell + k;
     const std::size_t from = first_of_cell(chunk.tile, cell), to = first_of_cell(chunk.tile, cell + 1);
     CellPart part{from < chunk.first ? chunk.first : from, to < chunk.last ? to : chunk.last, from >= chunk.first,
                   to <= chunk.last};
-    if (!part.is_there() || !over.takes(chunk.tile, cell)) {
+    if (!part.is_present() || !over.takes(chunk.tile, cell)) {
       part.last = part.first;
     }
     return part;
@@ -232,7 +232,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   THAWSLIDE_HD void sum_in_cell(const MemoryLayout& room, const Chunk& chunk, std::size_t k) const {
     constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
     const CellPart part = part_of_cell(chunk, k / cell_nodes);
-    if (!part.is_there()) {
+    if (!part.is_present()) {
       return;
     }
     const std::size_t node = k % cell_nodes;
@@ -267,7 +267,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
         return;
       }
       const CellPart part = part_of_cell(chunk, k);
-      if (part.is_there() && part.ends) {
+      if (part.is_present() && part.ends) {
         const Real brought = room.cell_sums()[(k * cell_nodes + node_of_cell) * carried + component];
         number = mpm::IsLowered<Name> ? min(number, brought) : number + brought;
       }

@@ -117,7 +117,7 @@ struct AddPressureLoad {
     template <class Particles, class At, class Seen, class Added>
     THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
                                  Account& /*account*/) const {
-      band::take_load(particles, at.particle[0], columns.flow_depth(particles, at));
+      band::update_load(particles, at.particle[0], columns.flow_depth(particles, at));
     }
   };
 

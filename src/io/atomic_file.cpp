@@ -53,7 +53,7 @@ bool synchronise_folder(const fs::path& folder) {
 
 // Appends what is left of a file of about so many bytes. Returns the system's reason where that fails, 0 otherwise.
 int read_to_end(int descriptor, std::size_t bytes, std::string& text) {
-  constexpr std::size_t piece = 65536;
+  constexpr std::size_t segment = 65536;
   std::size_t length = 0;
   text.resize(bytes + 1);  // so that its end is seen without another piece
   while (true) {
@@ -64,7 +64,7 @@ int read_to_end(int descriptor, std::size_t bytes, std::string& text) {
     }
     length += got > 0 ? static_cast<std::size_t>(got) : 0;
     if (length == text.size()) {
-      text.resize(length + std::max(piece, length / 2));
+      text.resize(length + std::max(segment, length / 2));
     }
   }
 }

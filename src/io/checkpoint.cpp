@@ -124,7 +124,7 @@ std::string damage_of(const std::filesystem::path& file, const std::string& byte
 }
 
 // Whether anything has the name, be it a link that leads nowhere.
-bool is_there(const std::filesystem::path& file) {
+bool is_present(const std::filesystem::path& file) {
   std::error_code unknown;
   return std::filesystem::exists(std::filesystem::symlink_status(file, unknown));
 }
@@ -170,7 +170,7 @@ void read_field(Reader& reader, const std::filesystem::path& file, std::size_t p
 }  // namespace
 
 bool has_checkpoint(const std::filesystem::path& folder) {
-  return is_there(folder / checkpoint_name) || is_there(folder / previous_checkpoint_name);
+  return is_present(folder / checkpoint_name) || is_present(folder / previous_checkpoint_name);
 }
 
 std::string case_of(const WholeCheckpoint& checkpoint) { return reader_of(checkpoint).text(); }
@@ -185,7 +185,7 @@ WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder) {
   WholeCheckpoint found;
   for (const char* name : {checkpoint_name, previous_checkpoint_name}) {
     found.file = folder / name;
-    const bool has_name = is_there(found.file);
+    const bool has_name = is_present(found.file);
     const std::string fault = has_name ? fault_of(found.file, found.bytes) : found.file.string() + " is missing";
     if (fault.empty()) {
       return found;

@@ -34,9 +34,9 @@ void write_base(hid_t file, const NamedNumbers& base) {
     return;
   }
   const hdf5::Handle group = hdf5::make_group(file, "base");
-  const std::size_t pieces = base.at("position_m").size() / 3;
+  const std::size_t segments = base.at("position_m").size() / 3;
   for (const auto& [name, numbers] : base) {
-    const hdf5::Shape shape = numbers.size() == pieces ? hdf5::Shape{pieces} : hdf5::Shape{pieces, 3};
+    const hdf5::Shape shape = numbers.size() == segments ? hdf5::Shape{segments} : hdf5::Shape{segments, 3};
     hdf5::write_dataset(group, name, shape, numbers.data());
   }
 }

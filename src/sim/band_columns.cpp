@@ -57,9 +57,9 @@ void Simulation<Dim, Real>::restore_band_columns(const std::vector<double>& stat
   band_columns_->restore(state);
   // Pieces go with the slide, whose cells reach beyond the domain.
   const Real margin = Real(8) * static_cast<Real>(parameters_.grid.cell);
-  for (const auto& piece : band_columns_->pieces()) {
-    if (!is_about_domain<Dim, Real>(piece.position, model_.constraints.extent, margin)) {
-      StateNumbers(state, "band columns").fail(fmt::format("the piece {} lies far beyond the domain", piece.id));
+  for (const auto& segment : band_columns_->segments()) {
+    if (!is_about_domain<Dim, Real>(segment.position, model_.constraints.extent, margin)) {
+      StateNumbers(state, "band columns").fail(fmt::format("the piece {} lies far beyond the domain", segment.id));
     }
   }
 }
@@ -90,14 +90,14 @@ void Simulation<Dim, Real>::band_columns_follow(const mpm::SparseGrid<Dim, Real>
   }
   const double cell = parameters_.grid.cell;
   const terrain::Surface<Dim>& surface = *model_.ground;
-  const typename band::BaseColumns<Dim, Real>::Ground ground{
+  const typename band::BasalSegments<Dim, Real>::Ground ground{
       [&](const auto& place) { return static_cast<Real>(surface.height(place.template cast<double>())); },
       [&](const auto& place) -> Vector<Real, Dim> {
         return surface.normal_below(place.template cast<double>(), cell).template cast<Real>();
       },
       [&](const auto& place) { return model_.motion.width.at(place[0]); }};
   const auto node_ground = [&](std::size_t b, std::size_t k) {
-    using NodeGround = typename band::BaseColumns<Dim, Real>::NodeGround;
+    using NodeGround = typename band::BasalSegments<Dim, Real>::NodeGround;
     if (!ground_on_grid.any_candidate(b) || !ground_on_grid.block(b)[k].candidate) {
       return NodeGround{nullptr, Real(0)};
     }

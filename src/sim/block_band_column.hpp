@@ -1,8 +1,8 @@
-// The band under the rigid block as one band column (band/piece_step.hpp): a piece of base of 1 m2 that does not
+// The band under the rigid block as one band column (band/segment_step.hpp): a piece of base of 1 m2 that does not
 // stretch.
 #pragma once
 
-#include "band/piece_step.hpp"
+#include "band/segment_step.hpp"
 #include "sim/block_column.hpp"
 #include "sim/columns_model.hpp"
 
@@ -18,11 +18,11 @@ class BlockBandColumn {
   // What the law of the base sees under a normal pressure [Pa].
   [[nodiscard]] BlockBase base(double normal_pressure) const;
   [[nodiscard]] BlockBand band() const;
-  [[nodiscard]] const band::BasePiece<2, double>& piece() const { return piece_; }
+  [[nodiscard]] const band::BasalSegment<2, double>& segment() const { return segment_; }
 
  private:
   band::ColumnsModel<double> model_;
-  band::BasePiece<2, double> piece_;
+  band::BasalSegment<2, double> segment_;
   double column_step_, waiting_ = 0.0;
 };
 

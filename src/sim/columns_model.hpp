@@ -1,7 +1,7 @@
 // From the case to the model of band columns.
 #pragma once
 
-#include "band/base_columns.hpp"
+#include "band/basal_segments.hpp"
 #include "config/case.hpp"
 #include "sim/model.hpp"
 

@@ -37,7 +37,7 @@ void update_blocks(const Model<Dim, Real>& model, const std::vector<std::uint64_
 }
 
 template <int Dim, class Real>
-void list_states(band::BaseColumns<Dim, Real>& columns, GridOfDevice<Dim, Real>& base) {
+void list_states(band::BasalSegments<Dim, Real>& columns, GridOfDevice<Dim, Real>& base) {
   columns.to_nodes(base.grid, base.nodes);
   base.states.clear();
   for (std::size_t b = 0; b < base.grid.blocks().size(); ++b) {

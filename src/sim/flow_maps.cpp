@@ -193,17 +193,17 @@ void FlowMaps::add_stack(const Grid& grid, const Particles& particles, const Sta
 }
 
 // Its heat and pressure count to the cells that the slide may reach, by the share of its width over each.
-void FlowMaps::add_piece(const PieceBelow& piece) {
+void FlowMaps::add_segment(const SegmentBelow& segment) {
   using One = Lanes<double>;
-  const mpm::CellRange x = mpm::cell_spans(One((piece.x - cells_.corner_x) * cells_.inverse_cell_x),
-                                           One(piece.half_x * cells_.inverse_cell_x),
-                                           One(0.5 * map_grid_.cell_x / piece.half_x), map_grid_.columns)
+  const mpm::CellRange x = mpm::cell_spans(One((segment.x - cells_.corner_x) * cells_.inverse_cell_x),
+                                           One(segment.half_x * cells_.inverse_cell_x),
+                                           One(0.5 * map_grid_.cell_x / segment.half_x), map_grid_.columns)
                                .of_lane(0);
-  const mpm::CellRange y = mpm::cell_spans(One((piece.y - cells_.corner_y) * cells_.inverse_cell_y),
-                                           One(piece.half_y * cells_.inverse_cell_y),
-                                           One(0.5 * map_grid_.cell_y / piece.half_y), map_grid_.rows)
+  const mpm::CellRange y = mpm::cell_spans(One((segment.y - cells_.corner_y) * cells_.inverse_cell_y),
+                                           One(segment.half_y * cells_.inverse_cell_y),
+                                           One(0.5 * map_grid_.cell_y / segment.half_y), map_grid_.rows)
                                .of_lane(0);
-  const mpm::BandSums band{piece.area, piece.area * piece.temperature, piece.area * piece.pressure};
+  const mpm::BandSums band{segment.area, segment.area * segment.temperature, segment.area * segment.pressure};
   for (int row = y.first; row <= y.last; ++row) {
     for (int column = x.first; column <= x.last; ++column) {
       const std::int32_t number = tile_index_.find(tile_key(column >> edge_bits, row >> edge_bits));
@@ -214,14 +214,14 @@ void FlowMaps::add_piece(const PieceBelow& piece) {
       const std::size_t place = place_in_tile(column, row);
       const double share = y.share(row) * x.share(column);
       below.band[place].add(share, band);
-      below.sums[place].water += share * piece.area * piece.liquid;
+      below.sums[place].water += share * segment.area * segment.liquid;
     }
   }
 }
 
 void FlowMaps::gather(const Grid& grid, const Particles& particles, double time,
-                      const std::vector<PieceBelow>* pieces) {
-  band_is_of_particles_ = pieces == nullptr;
+                      const std::vector<SegmentBelow>* segments) {
+  band_is_of_particles_ = segments == nullptr;
   const bool same_tiles = std::equal(seen_.begin(), seen_.end(), grid.tiles().begin(), grid.tiles().end(),
                                      [](std::uint64_t key, const auto& tile) { return key == tile.key; });
   if (!same_tiles) {
@@ -231,14 +231,14 @@ void FlowMaps::gather(const Grid& grid, const Particles& particles, double time,
     const std::size_t first = colours_[c];
     parallel_for(colours_[c + 1] - first, [&](std::size_t k) { add_stack(grid, particles, stacks_[first + k]); });
   }
-  if (pieces != nullptr) {
-    std::for_each(pieces->begin(), pieces->end(), [&](const PieceBelow& piece) { add_piece(piece); });
+  if (segments != nullptr) {
+    std::for_each(segments->begin(), segments->end(), [&](const SegmentBelow& segment) { add_segment(segment); });
   }
   take_sums(time);
 }
 
 void FlowMaps::gather(const std::vector<std::uint64_t>& keys, const std::vector<mpm::MapSums>& sums, double time,
-                      const std::vector<PieceBelow>* pieces) {
+                      const std::vector<SegmentBelow>* segments) {
   seen_.clear();
   window_tiles_.clear();
   for (std::size_t k = 0; k < keys.size(); ++k) {
@@ -246,12 +246,12 @@ void FlowMaps::gather(const std::vector<std::uint64_t>& keys, const std::vector<
     MapTile& tile = touch(column >> edge_bits, row >> edge_bits);
     const std::size_t place = place_in_tile(column, row);
     tile.sums[place] = sums[k].column;
-    tile.band[place] = pieces == nullptr ? sums[k].band : mpm::BandSums{};
+    tile.band[place] = segments == nullptr ? sums[k].band : mpm::BandSums{};
     window_tiles_.push_back(&tile);
   }
   note_active();
-  if (pieces != nullptr) {
-    std::for_each(pieces->begin(), pieces->end(), [&](const PieceBelow& piece) { add_piece(piece); });
+  if (segments != nullptr) {
+    std::for_each(segments->begin(), segments->end(), [&](const SegmentBelow& segment) { add_segment(segment); });
   }
   take_sums(time);
 }

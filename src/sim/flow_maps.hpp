@@ -22,7 +22,7 @@ namespace thawslide::sim {
 enum class MapExtent { whole_grid, slide };
 
 // A piece of base with a band column, in the particles' frame.
-struct PieceBelow {
+struct SegmentBelow {
   double x, y, half_x, half_y;           // its middle and half of its width [m]
   double area;                           // [m2]
   double temperature, pressure, liquid;  // means over the band [C], [Pa]; volume of water over the area [m]
@@ -46,10 +46,10 @@ class FlowMaps {
   // Takes the particles as they are at a time [s], with the tiles and the order of the step that brought them there.
   // pieces: of the base, where the band is of columns, which then tell its heat and pressure in place of the particles.
   void gather(const Grid& grid, const Particles& particles, double time,
-              const std::vector<PieceBelow>* pieces = nullptr);
+              const std::vector<SegmentBelow>* segments = nullptr);
   // The same from sums over cells by key (mpm::map_cell_key): what a device made of the particles.
   void gather(const std::vector<std::uint64_t>& keys, const std::vector<mpm::MapSums>& sums, double time,
-              const std::vector<PieceBelow>* pieces = nullptr);
+              const std::vector<SegmentBelow>* segments = nullptr);
   // At t = 0: what changes of elevation count from.
   void start(const Grid& grid, const Particles& particles);
 
@@ -115,7 +115,7 @@ class FlowMaps {
   void note_active();
   void take_sums(double time);
   void add_stack(const Grid& grid, const Particles& particles, const Stack& stack);
-  void add_piece(const PieceBelow& piece);
+  void add_segment(const SegmentBelow& segment);
   void add_box(const Particles& particles, std::size_t particle, const mpm::CellRange& x, const mpm::CellRange& y,
                const Stack& stack);
   [[nodiscard]] std::vector<const MapTile*> tiles_in_order() const;

@@ -41,9 +41,9 @@ Real add_columns(const Simulation<Dim, Real>& simulation, const Add& add) {
   }
   const band::ColumnSums<Real> sums = columns->sums();
   const band::ColumnLedger<Real>& ledger = columns->ledger();
-  const Real heat_in = ledger.laid_heat + ledger.body_heat + ledger.ground_heat;
+  const Real heat_in = ledger.created_heat + ledger.body_heat + ledger.ground_heat;
   const Real heat_out = ledger.vented_heat + ledger.steam_heat + ledger.left_heat;
-  const Real water_in = ledger.laid_water + ledger.body_water;
+  const Real water_in = ledger.created_water + ledger.body_water;
   const Real water_out = ledger.vented_water + ledger.steam + ledger.left_water;
   add("base_area_m2", sums.area);
   add("column_heat_J", sums.heat);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "band/base_piece.hpp"
+#include "band/basal_segment.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "config/fitting_cell.hpp"
@@ -115,8 +115,8 @@ template <int Dim>
 MemoryNeed memory_need(const config::Case& parameters, const config::Site& site, const BodiesAtStart& bodies) {
   MemoryNeed need = memory_of_particles<Dim>(bodies.particles);
   if (config::has_band_columns(parameters)) {
-    const double pieces = usual_spread * bodies.area / std::pow(parameters.grid.cell, Dim - 1);
-    need.columns = pieces * sizeof(band::BasePiece<Dim, double>);
+    const double segments = usual_spread * bodies.area / std::pow(parameters.grid.cell, Dim - 1);
+    need.columns = segments * sizeof(band::BasalSegment<Dim, double>);
   }
   if (parameters.bed.law != config::BedLaw::none) {
     need.bed = bytes_of_bed<Dim>(parameters.grid);

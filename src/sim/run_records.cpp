@@ -43,21 +43,21 @@ double highest_point(const Simulation<3, double>& simulation) {
 }
 
 // The pieces of base as maps take them; none where the band is not of columns.
-std::vector<PieceBelow> pieces_below(const Simulation<3, double>& simulation) {
-  std::vector<PieceBelow> pieces;
+std::vector<SegmentBelow> segments_below(const Simulation<3, double>& simulation) {
+  std::vector<SegmentBelow> segments;
   const auto* columns = simulation.band_columns();
   if (columns == nullptr) {
-    return pieces;
+    return segments;
   }
-  pieces.resize(columns->pieces().size());
-  parallel_for(pieces.size(), [&](std::size_t p) {
-    const auto& piece = columns->pieces()[p];
-    const auto means = columns->means_now(piece);
-    const Vector<double, 3> half = 0.5 * piece.sides.cwiseAbs().rowwise().sum();
-    pieces[p] = {piece.position[0], piece.position[1],   half[0],     half[1], piece.area,
-                 means.temperature, means.pore_pressure, piece.liquid};
+  segments.resize(columns->segments().size());
+  parallel_for(segments.size(), [&](std::size_t p) {
+    const auto& segment = columns->segments()[p];
+    const auto means = columns->means_now(segment);
+    const Vector<double, 3> half = 0.5 * segment.sides.cwiseAbs().rowwise().sum();
+    segments[p] = {segment.position[0], segment.position[1], half[0],       half[1], segment.area,
+                   means.temperature,   means.pore_pressure, segment.liquid};
   });
-  return pieces;
+  return segments;
 }
 
 // Corners of the cell about a point of a raster.
@@ -133,8 +133,8 @@ void RunRecords<Dim>::start(const Simulation& simulation) {
 template <int Dim>
 void RunRecords<Dim>::after_step(const Simulation& simulation) {
   if constexpr (Dim == 3) {
-    const std::vector<PieceBelow> pieces = pieces_below(simulation);
-    const std::vector<PieceBelow>* below = simulation.band_columns() != nullptr ? &pieces : nullptr;
+    const std::vector<SegmentBelow> segments = segments_below(simulation);
+    const std::vector<SegmentBelow>* below = simulation.band_columns() != nullptr ? &segments : nullptr;
     if (const device::MapSample* look = simulation.sample_map(maps_->cells())) {
       const double mass = std::accumulate(look->sums.begin(), look->sums.end(), 0.0,
                                           [](double sum, const mpm::MapSums& cell) { return sum + cell.column.mass; });

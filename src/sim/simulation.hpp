@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "band/base_columns.hpp"
+#include "band/basal_segments.hpp"
 #include "band/body_sums.hpp"
 #include "band/heat.hpp"
 #include "band/pore_pressure.hpp"
@@ -136,7 +136,7 @@ class Simulation {
   [[nodiscard]] const Ledger<Dim, Real>& ledger() const { return ledger_; }
   [[nodiscard]] const terrain::ContactWork<Dim, Real>& contact() const { return contact_; }
   // Null where the band is not of columns.
-  [[nodiscard]] const band::BaseColumns<Dim, Real>* band_columns() const {
+  [[nodiscard]] const band::BasalSegments<Dim, Real>* band_columns() const {
     return band_columns_ ? &*band_columns_ : nullptr;
   }
   void restore_band_columns(const std::vector<double>& state);
@@ -266,7 +266,7 @@ class Simulation {
   mutable device::MapSample map_sample_;     // the last one
   std::string device_name_;
   band::FlowDepth<Dim, Real> flow_depth_;
-  std::optional<band::BaseColumns<Dim, Real>> band_columns_;
+  std::optional<band::BasalSegments<Dim, Real>> band_columns_;
   std::unique_ptr<GridOfDevice<Dim, Real>> grid_of_device_;  // as band columns see it; null: none do
   std::optional<terrain::Bed<Dim, Real>> bed_;
   std::unique_ptr<BedOfDevice<Dim, Real>> bed_of_device_;  // null: it lies below no step of a device

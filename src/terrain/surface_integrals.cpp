@@ -53,11 +53,11 @@ struct RulePoint {
 constexpr std::array<RulePoint, 2> rule{RulePoint{0.22338158967801146570, 0.44594849091596488632},
                                         RulePoint{0.10995174365532186764, 0.09157621350977074346}};
 
-Moments moments(const ConvexPolygon& piece, const Vector<double, 3>& floor) {
+Moments moments(const ConvexPolygon& segment, const Vector<double, 3>& floor) {
   Moments sum;
-  const Vector<double, 3> a = piece[0] - floor;
-  for (int k = 1; k + 1 < piece.size(); ++k) {
-    const Vector<double, 3> b = piece[k] - floor, c = piece[k + 1] - floor;
+  const Vector<double, 3> a = segment[0] - floor;
+  for (int k = 1; k + 1 < segment.size(); ++k) {
+    const Vector<double, 3> b = segment[k] - floor, c = segment[k + 1] - floor;
     const double plan = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
     for (const auto& [weight, twice] : rule) {
       const Vector<double, 3> all = twice * (a + b + c);
@@ -104,26 +104,26 @@ void SurfaceIntegrals::add(const std::array<Vector<double, 3>, 3>& triangle) {
     if (column < 0 || column > edge_) {
       return;
     }
-    for_slices(strip, 1, edge_ + 1, [&](int row, const ConvexPolygon& piece) {
+    for_slices(strip, 1, edge_ + 1, [&](int row, const ConvexPolygon& segment) {
       if (row >= 0 && row <= edge_) {
-        add_to_column(column, row, facet, piece);
+        add_to_column(column, row, facet, segment);
       }
     });
   });
 }
 
-void SurfaceIntegrals::add_to_column(int column, int row, const Facet& facet, const ConvexPolygon& piece) {
+void SurfaceIntegrals::add_to_column(int column, int row, const Facet& facet, const ConvexPolygon& segment) {
   double& top = top_[static_cast<std::size_t>(column + (edge_ + 1) * row)];
-  top = std::max(top, piece.extent(2).greatest);
-  for_slices(piece, 2, edge_ + 1, [&](int layer, const ConvexPolygon& part) {
+  top = std::max(top, segment.extent(2).greatest);
+  for_slices(segment, 2, edge_ + 1, [&](int layer, const ConvexPolygon& part) {
     if (layer <= edge_) {
       add_to_cell(column, row, layer, facet, part);
     }
   });
 }
 
-void SurfaceIntegrals::add_to_cell(int column, int row, int layer, const Facet& facet, const ConvexPolygon& piece) {
-  const Moments sum = moments(piece, Vector<double, 3>(column, row, layer));
+void SurfaceIntegrals::add_to_cell(int column, int row, int layer, const Facet& facet, const ConvexPolygon& segment) {
+  const Moments sum = moments(segment, Vector<double, 3>(column, row, layer));
   for (int corner = 0; corner < 4; ++corner) {
     const int i = column - 1 + corner % 2, j = row - 1 + corner / 2;
     if (i < 0 || j < 0 || i >= edge_ || j >= edge_) {

@@ -36,8 +36,8 @@ class SurfaceIntegrals {
   struct Facet {
     double slope_x, slope_y, stretch;  // dz/dx, dz/dy, sqrt(1 + dz/dx^2 + dz/dy^2)
   };
-  void add_to_column(int column, int row, const Facet& facet, const ConvexPolygon& piece);
-  void add_to_cell(int column, int row, int layer, const Facet& facet, const ConvexPolygon& piece);
+  void add_to_column(int column, int row, const Facet& facet, const ConvexPolygon& segment);
+  void add_to_cell(int column, int row, int layer, const Facet& facet, const ConvexPolygon& segment);
   [[nodiscard]] int node(int i, int j, int k) const { return i + edge_ * (j + edge_ * k); }
 
   Vector<double, 3> corner_;  // lowest corner of what the shape functions reach

@@ -277,7 +277,7 @@ __global__ void column(std::uint64_t tile_key, Real cell, const bool* filled, co
 template <int Dim>
 __global__ void load(TileOnDevice<Dim> tile, band::ColumnsOfTile<Dim, Real, band::NumbersOfColumns<Real>> columns) {
   const mpm::One<Real> at{{tile.particle[threadIdx.x]}};
-  band::take_load(tile.particles, at.particle[0], columns.flow_depth(tile.particles, at));
+  band::update_load(tile.particles, at.particle[0], columns.flow_depth(tile.particles, at));
 }
 
 template <int Dim>

@@ -94,12 +94,12 @@ void expect_the_same_columns(int steps) {
   EXPECT_EQ(expect_the_same_run<Dim>(parameters, steps), 0);
   Simulation<Dim, double> emulated(parameters), on_device(parameters);
   on_device.use_device("a card", emulated_gpu<Dim>(ThreadOrder::forward));
-  const std::size_t at_start = emulated.band_columns()->pieces().size();
+  const std::size_t at_start = emulated.band_columns()->segments().size();
   for (int k = 0; k < steps; ++k) {
     emulated.step(0.002);
     on_device.step(0.002);
   }
-  EXPECT_GT(emulated.band_columns()->pieces().size(), at_start);
+  EXPECT_GT(emulated.band_columns()->segments().size(), at_start);
   EXPECT_EQ(on_device.band_columns()->state(), emulated.band_columns()->state());
 }
 TEST(DeviceRun, KeepsTheBandColumnsOfTheCpu) {

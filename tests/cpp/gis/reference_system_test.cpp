@@ -91,8 +91,8 @@ TEST(ReferenceSystemTest, TagOfDegreesOverMetricNumbers) {
 }
 
 TEST(ReferenceSystemTest, Feet) {
-  const Located feet{"dem.tif", {6000000.0, 2000000.0, 6010000.0, 2010000.0}, 10.0, 10.0};
-  EXPECT_EQ(error_of_system(feet, "EPSG:2227"),
+  const Located footpoints{"dem.tif", {6000000.0, 2000000.0, 6010000.0, 2010000.0}, 10.0, 10.0};
+  EXPECT_EQ(error_of_system(footpoints, "EPSG:2227"),
             "dem.tif: the coordinates are in the unit 'US survey foot' (EPSG:2227); allowed: a map projection in "
             "metres, and elevations in metres. Reproject: gdalwarp -t_srs EPSG:32610 -tr 3 3 -r bilinear dem.tif "
             "dem-EPSG32610.tif");

@@ -68,8 +68,8 @@ skeleton_compressibility = 2e-9
 template <class Simulation, class Of>
 double median_over_base(const Simulation& simulation, const Of& of) {
   std::vector<double> numbers;
-  for (const auto& piece : simulation.band_columns()->pieces()) {
-    numbers.push_back(of(piece));
+  for (const auto& segment : simulation.band_columns()->segments()) {
+    numbers.push_back(of(segment));
   }
   const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
   std::nth_element(numbers.begin(), middle, numbers.end());

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "band/piece_step.hpp"
+#include "band/segment_step.hpp"
 #include "base/named_numbers.hpp"
 #include "mpm/nodes.hpp"
 
@@ -30,13 +30,14 @@ struct ColumnSums {
 // What columns got and gave since the start [J], [kg]. Laid: with pieces that were laid; left: with those taken up.
 template <class Real>
 struct ColumnLedger {
-  Real laid_heat = 0, friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0, left_heat = 0;
-  Real laid_water = 0, body_water = 0, vented_water = 0, steam = 0, left_water = 0;
+  Real created_heat = 0, friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0,
+       left_heat = 0;
+  Real created_water = 0, body_water = 0, vented_water = 0, steam = 0, left_water = 0;
 
   template <class Visit>
   void for_each(const Visit& visit) {
-    for (Real* account : {&laid_heat, &friction_heat, &body_heat, &ground_heat, &vented_heat, &steam_heat, &left_heat,
-                          &laid_water, &body_water, &vented_water, &steam, &left_water}) {
+    for (Real* account : {&created_heat, &friction_heat, &body_heat, &ground_heat, &vented_heat, &steam_heat,
+                          &left_heat, &created_water, &body_water, &vented_water, &steam, &left_water}) {
       visit(*account);
     }
   }
@@ -52,7 +53,7 @@ struct BaseMeans {
 };
 
 template <int Dim, class Real>
-class BaseColumns {
+class BasalSegments {
  public:
   // Of the ground below a horizontal place [m].
   struct Ground {
@@ -62,7 +63,7 @@ class BaseColumns {
 
     // Of the ground below edges about a place [m2].
     [[nodiscard]] Real area_of(const Vector<Real, Dim>& place,
-                               const typename BasePiece<Dim, Real>::Sides& sides) const {
+                               const typename BasalSegment<Dim, Real>::Sides& sides) const {
       return width(place.template head<Dim - 1>()) * band::area_of<Dim, Real>(sides);
     }
   };
@@ -74,7 +75,7 @@ class BaseColumns {
   using NodeGroundOf = std::function<NodeGround(std::size_t block, std::size_t node)>;
 
   // gravity [m/s2].
-  BaseColumns(ColumnsModel<Real> model, const Vector<Real, Dim>& gravity)
+  BasalSegments(ColumnsModel<Real> model, const Vector<Real, Dim>& gravity)
       : model_(std::move(model)), gravity_(gravity) {}
 
   // Fills nodes.base_state of the blocks with contact. Call it before each take, which uses the same stencils.
@@ -93,15 +94,15 @@ class BaseColumns {
   // Then steps all columns over it, at the end of which the case wants a band so thick [m].
   void step(Real thickness, Real duration);
 
-  [[nodiscard]] const std::vector<BasePiece<Dim, Real>>& pieces() const { return pieces_; }
+  [[nodiscard]] const std::vector<BasalSegment<Dim, Real>>& segments() const { return segments_; }
   // Means of the column after its last step, with the pore pressure under the present load.
-  [[nodiscard]] static physics::BandMeans<Real> means_now(const BasePiece<Dim, Real>& piece) {
-    physics::BandMeans<Real> means = piece.means;
-    means.pore_pressure = physics::band_pressure(piece.load, piece.column);
+  [[nodiscard]] static physics::BandMeans<Real> means_now(const BasalSegment<Dim, Real>& segment) {
+    physics::BandMeans<Real> means = segment.means;
+    means.pore_pressure = physics::band_pressure(segment.load, segment.column);
     return means;
   }
-  [[nodiscard]] physics::ColumnVolumes<Real> volumes_of(const BasePiece<Dim, Real>& piece) const {
-    return band::volumes_of(model_, piece);
+  [[nodiscard]] physics::ColumnVolumes<Real> volumes_of(const BasalSegment<Dim, Real>& segment) const {
+    return band::volumes_of(model_, segment);
   }
   [[nodiscard]] const ColumnLedger<Real>& ledger() const { return ledger_; }
   [[nodiscard]] ColumnSums<Real> sums() const;
@@ -112,7 +113,7 @@ class BaseColumns {
   void restore(const std::vector<double>& numbers);
 
  private:
-  using Piece = BasePiece<Dim, Real>;
+  using Segment = BasalSegment<Dim, Real>;
   using Stencil = BaseStencil<Dim, Real>;
 
   using Lattice = std::array<int, Dim - 1>;  // a cell of the horizontal lattice on which pieces are laid
@@ -124,7 +125,7 @@ class BaseColumns {
   };
   // Foot of a node in contact: its point on the ground, the lattice cell of this point, and the number of parts of a
   // cell on ground of this slope.
-  struct Foot {
+  struct Footpoint {
     Lattice cell, parts;
     Vector<Real, Dim> place;
   };
@@ -133,62 +134,62 @@ class BaseColumns {
   [[nodiscard]] Lattice lattice_part(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place,
                                      const Lattice& cell, const Lattice& parts) const;
   [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place) const;
-  [[nodiscard]] std::vector<Foot> feet_in_contact(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
-                                                  const NodeGroundOf& node_ground,
-                                                  const mpm::Nodes<Dim, Real>& nodes) const;
+  [[nodiscard]] std::vector<Footpoint> contact_footpoints(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+                                                          const NodeGroundOf& node_ground,
+                                                          const mpm::Nodes<Dim, Real>& nodes) const;
   [[nodiscard]] std::vector<LatticePart> parts_below(const mpm::SparseGrid<Dim, Real>& grid,
-                                                     std::vector<Foot> feet) const;
+                                                     std::vector<Footpoint> footpoints) const;
   void leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid, std::vector<LatticePart>& parts) const;
   [[nodiscard]] bool some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
                                        const mpm::Nodes<Dim, Real>& nodes) const;
-  void lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
-                  Real thickness, mpm::Nodes<Dim, Real>& nodes);
-  void list_pieces_by_block(std::size_t blocks);
-  void add_area(const Stencil& stencil, const Piece& piece, mpm::Nodes<Dim, Real>& nodes, Real share = 1) const;
+  void create_segments(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+                       Real thickness, mpm::Nodes<Dim, Real>& nodes);
+  void list_segments_by_block(std::size_t blocks);
+  void add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim, Real>& nodes, Real share = 1) const;
   struct InContact {
     Real area = 0, normal_force = 0;  // [m2], [N]
   };
-  void begin_piece(const Stencil& stencil, const Ground& ground, const InContact& contact, Real thickness,
-                   mpm::Nodes<Dim, Real>& nodes, Piece& piece);
+  void start_segment(const Stencil& stencil, const Ground& ground, const InContact& contact, Real thickness,
+                     mpm::Nodes<Dim, Real>& nodes, Segment& segment);
   [[nodiscard]] InContact in_contact(const Stencil& stencil, const mpm::Nodes<Dim, Real>& nodes,
-                                     const Piece& piece) const;
-  [[nodiscard]] Piece new_piece(const Vector<Real, Dim - 1>& middle, const Vector<Real, Dim - 1>& size,
-                                const Ground& ground);
+                                     const Segment& segment) const;
+  [[nodiscard]] Segment new_segment(const Vector<Real, Dim - 1>& middle, const Vector<Real, Dim - 1>& size,
+                                    const Ground& ground);
   // How the slide about a piece moves.
   struct Nearby {
     Matrix<Real, Dim> gradient = Matrix<Real, Dim>::Zero();  // of the velocity, along the ground [1/s]
     Vector<Real, Dim> velocity = Vector<Real, Dim>::Zero();  // along the ground [m/s]
-    bool is_there = false;
+    bool is_present = false;
   };
   [[nodiscard]] Nearby slide_near(const mpm::SparseGrid<Dim, Real>& grid, const Stencil& stencil,
                                   const NodeGroundOf& node_ground, const mpm::Nodes<Dim, Real>& nodes,
-                                  const Piece& piece) const;
-  void take_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes, Piece& piece) const;
-  void stretch_with(const Nearby& slide, const Ground& ground, Real dt, Piece& piece) const;
-  void part_long_pieces(Real most, const Ground& ground);
-  void join_small_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground);
-  void join(const Piece& other, const Ground& ground, Piece& piece);
+                                  const Segment& segment) const;
+  void gather_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes, Segment& segment) const;
+  void stretch_with(const Nearby& slide, const Ground& ground, Real dt, Segment& segment) const;
+  void split_long_segments(Real most, const Ground& ground);
+  void merge_small_segments(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground);
+  void join(const Segment& other, const Ground& ground, Segment& segment);
   void keep_only(const std::vector<std::uint8_t>& left);
   void add_to_ledger(const physics::ColumnAccount<Real>& account);
-  void take_up(const Piece& piece);
-  void place_on(const Ground& ground, Piece& piece) const;
-  void take_load(Real normal_pressure, Real borne, Real dt, Piece& piece) const;
+  void remove_segment(const Segment& segment);
+  void place_on(const Ground& ground, Segment& segment) const;
+  void update_load(Real normal_pressure, Real borne, Real dt, Segment& segment) const;
 
   ColumnsModel<Real> model_;
   Vector<Real, Dim> gravity_;
-  std::vector<Piece> pieces_;
+  std::vector<Segment> segments_;
   // Stencils of this step, by piece, and the pieces whose stencils reach a block: those of b from first_of_block_[b]
   // on.
   std::vector<Stencil> stencils_;
   struct Seen {
-    std::uint32_t piece;
+    std::uint32_t segment;
     int corner;  // of the piece's stencil
   };
   std::vector<std::uint32_t> first_of_block_;
   std::vector<Seen> by_block_;
   ColumnLedger<Real> ledger_;
   std::int64_t next_id_ = 0;
-  bool look_for_gaps_ = true;
+  bool checks_gaps_ = true;
 };
 
 }  // namespace thawslide::band

@@ -14,7 +14,7 @@
 namespace thawslide::band {
 
 template <int Dim, class Real>
-struct BasePiece {
+struct BasalSegment {
   using Sides = Eigen::Matrix<Real, Dim, Dim - 1>;
 
   std::int64_t id = 0;
@@ -99,11 +99,11 @@ class BaseStencil {
     }
   }
 
-  // Calls visit(block, node, weight, from_piece) for each of its nodes, x fastest. from_piece: vector from the piece to
-  // the node [m].
+  // Calls visit(block, node, weight, from_segment) for each of its nodes, x fastest. from_segment: vector from the
+  // piece to the node [m].
   template <class Visit>
   THAWSLIDE_ALWAYS_INLINE void for_each_with_place(const Visit& visit) const {
-    Vector<Real, Dim> from_piece;
+    Vector<Real, Dim> from_segment;
     for (int row = 0; about_ != nullptr && row < mpm::power(width, Dim - 1); ++row) {
       int direction = T::stencil / 2, first = local_;
       Real of_row = Real(1);
@@ -112,23 +112,22 @@ class BaseStencil {
         direction += direction_[a][k];
         first += shift_[a][k];
         of_row *= weight_[static_cast<std::size_t>(a)][static_cast<std::size_t>(k)];
-        from_piece[a] = first_[static_cast<std::size_t>(a)] + static_cast<Real>(k) * cell_;
+        from_segment[a] = first_[static_cast<std::size_t>(a)] + static_cast<Real>(k) * cell_;
       }
       for (int x = 0; x < width; ++x) {
         const std::int32_t block = about_[direction + direction_[0][x]];
         const Real weight = weight_[0][static_cast<std::size_t>(x)] * of_row;
         if (block != KeyIndex::absent && weight > Real(0)) {
-          from_piece[0] = first_[0] + static_cast<Real>(x) * cell_;
-          visit(static_cast<std::size_t>(block), static_cast<std::size_t>(first + shift_[0][x]), weight, from_piece);
+          from_segment[0] = first_[0] + static_cast<Real>(x) * cell_;
+          visit(static_cast<std::size_t>(block), static_cast<std::size_t>(first + shift_[0][x]), weight, from_segment);
         }
       }
     }
   }
   template <class Visit>
   THAWSLIDE_ALWAYS_INLINE void for_each(const Visit& visit) const {
-    for_each_with_place([&](std::size_t block, std::size_t node, Real weight, const Vector<Real, Dim>& /*from_piece*/) {
-      visit(block, node, weight);
-    });
+    for_each_with_place([&](std::size_t block, std::size_t node, Real weight,
+                            const Vector<Real, Dim>& /*from_segment*/) { visit(block, node, weight); });
   }
   // Its nodes lie in one or two blocks along each axis. Calls visit(block, corner) for each active one of these; bit a
   // of a corner is set for the second block along axis a.
@@ -136,13 +135,13 @@ class BaseStencil {
   void for_each_block(const Visit& visit) const {
     for (int corner = 0; about_ != nullptr && corner < mpm::power(2, Dim); ++corner) {
       int direction = T::stencil / 2;
-      bool is_there = true;
+      bool is_present = true;
       for (int a = 0; a < Dim; ++a) {
         const bool second = (corner >> a & 1) != 0;
         direction += direction_[a][second ? width - 1 : 0];
-        is_there = is_there && !(second && of_first_[a] == width);
+        is_present = is_present && !(second && of_first_[a] == width);
       }
-      if (is_there && about_[direction] != KeyIndex::absent) {
+      if (is_present && about_[direction] != KeyIndex::absent) {
         visit(static_cast<std::size_t>(about_[direction]), corner);
       }
     }

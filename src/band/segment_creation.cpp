@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "band/base_columns.hpp"
+#include "band/basal_segments.hpp"
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
 
@@ -19,8 +19,8 @@ constexpr double most_parts = 64.0;   // of such a cell, on ground as steep as a
 }  // namespace
 
 template <int Dim, class Real>
-typename BaseColumns<Dim, Real>::Lattice BaseColumns<Dim, Real>::lattice_cell(const mpm::SparseGrid<Dim, Real>& grid,
-                                                                              const Vector<Real, Dim>& place) const {
+typename BasalSegments<Dim, Real>::Lattice BasalSegments<Dim, Real>::lattice_cell(
+    const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place) const {
   Lattice cell;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     cell[a] = static_cast<int>(std::floor(place[static_cast<int>(a)] * grid.inverse_cell()));
@@ -29,7 +29,7 @@ typename BaseColumns<Dim, Real>::Lattice BaseColumns<Dim, Real>::lattice_cell(co
 }
 
 template <int Dim, class Real>
-typename BaseColumns<Dim, Real>::Lattice BaseColumns<Dim, Real>::parts_on(const Vector<Real, Dim>& normal) {
+typename BasalSegments<Dim, Real>::Lattice BasalSegments<Dim, Real>::parts_on(const Vector<Real, Dim>& normal) {
   Lattice parts;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     const Real gradient = std::abs(normal[static_cast<int>(a)] / normal[Dim - 1]);
@@ -39,10 +39,9 @@ typename BaseColumns<Dim, Real>::Lattice BaseColumns<Dim, Real>::parts_on(const 
 }
 
 template <int Dim, class Real>
-typename BaseColumns<Dim, Real>::Lattice BaseColumns<Dim, Real>::lattice_part(const mpm::SparseGrid<Dim, Real>& grid,
-                                                                              const Vector<Real, Dim>& place,
-                                                                              const Lattice& cell,
-                                                                              const Lattice& parts) const {
+typename BasalSegments<Dim, Real>::Lattice BasalSegments<Dim, Real>::lattice_part(
+    const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place, const Lattice& cell,
+    const Lattice& parts) const {
   Lattice part;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     const Real within = place[static_cast<int>(a)] * grid.inverse_cell() - static_cast<Real>(cell[a]);
@@ -52,8 +51,8 @@ typename BaseColumns<Dim, Real>::Lattice BaseColumns<Dim, Real>::lattice_part(co
 }
 
 template <int Dim, class Real>
-bool BaseColumns<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
-                                               const mpm::Nodes<Dim, Real>& nodes) const {
+bool BasalSegments<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
+                                                 const mpm::Nodes<Dim, Real>& nodes) const {
   return parallel_any(grid.blocks().size(), [&](std::size_t b) {
     for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
       if (nodes.contact(b, k)[Contact::touching] > Real(0) && !(nodes.base_state(b, k)[BaseState::area] > Real(0))) {
@@ -67,13 +66,13 @@ bool BaseColumns<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>&
 // Feet of nodes in contact, in order of blocks and nodes: of those that no piece reaches, and of those with so much
 // contact that a piece is needed there.
 template <int Dim, class Real>
-std::vector<typename BaseColumns<Dim, Real>::Foot> BaseColumns<Dim, Real>::feet_in_contact(
+std::vector<typename BasalSegments<Dim, Real>::Footpoint> BasalSegments<Dim, Real>::contact_footpoints(
     const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
     const mpm::Nodes<Dim, Real>& nodes) const {
   constexpr std::size_t of_a_task = 32;  // blocks
   const Real least_area = static_cast<Real>(0.25) * static_cast<Real>(std::pow(grid.cell(), Dim - 1));
   const std::size_t blocks = grid.blocks().size();
-  std::vector<std::vector<Foot>> of_task((blocks + of_a_task - 1) / of_a_task);
+  std::vector<std::vector<Footpoint>> of_task((blocks + of_a_task - 1) / of_a_task);
   parallel_for(of_task.size(), 1, [&](std::size_t task) {
     for (std::size_t b = task * of_a_task; b < std::min(blocks, (task + 1) * of_a_task); ++b) {
       for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
@@ -90,25 +89,26 @@ std::vector<typename BaseColumns<Dim, Real>::Foot> BaseColumns<Dim, Real>::feet_
       }
     }
   });
-  std::vector<Foot> feet;
-  for (const std::vector<Foot>& some : of_task) {
-    feet.insert(feet.end(), some.begin(), some.end());
+  std::vector<Footpoint> footpoints;
+  for (const std::vector<Footpoint>& some : of_task) {
+    footpoints.insert(footpoints.end(), some.begin(), some.end());
   }
-  return feet;
+  return footpoints;
 }
 
 // Parts of lattice cells that contain feet, sorted and each once. The first foot in a cell determines the number of its
 // parts.
 template <int Dim, class Real>
-std::vector<typename BaseColumns<Dim, Real>::LatticePart> BaseColumns<Dim, Real>::parts_below(
-    const mpm::SparseGrid<Dim, Real>& grid, std::vector<Foot> feet) const {
-  std::stable_sort(feet.begin(), feet.end(), [](const Foot& a, const Foot& b) { return a.cell < b.cell; });
+std::vector<typename BasalSegments<Dim, Real>::LatticePart> BasalSegments<Dim, Real>::parts_below(
+    const mpm::SparseGrid<Dim, Real>& grid, std::vector<Footpoint> footpoints) const {
+  std::stable_sort(footpoints.begin(), footpoints.end(),
+                   [](const Footpoint& a, const Footpoint& b) { return a.cell < b.cell; });
   std::vector<LatticePart> result;
   Lattice parts{};
-  for (std::size_t k = 0; k < feet.size(); ++k) {
-    const Lattice& cell = feet[k].cell;
-    parts = k > 0 && cell == feet[k - 1].cell ? parts : feet[k].parts;
-    result.push_back({cell, lattice_part(grid, feet[k].place, cell, parts), parts});
+  for (std::size_t k = 0; k < footpoints.size(); ++k) {
+    const Lattice& cell = footpoints[k].cell;
+    parts = k > 0 && cell == footpoints[k - 1].cell ? parts : footpoints[k].parts;
+    result.push_back({cell, lattice_part(grid, footpoints[k].place, cell, parts), parts});
   }
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
@@ -118,12 +118,12 @@ std::vector<typename BaseColumns<Dim, Real>::LatticePart> BaseColumns<Dim, Real>
 // Removes the parts that a piece covers. A piece covers a part if their centres differ by less than three quarters of
 // the part's size along each axis.
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid,
-                                               std::vector<LatticePart>& parts) const {
+void BasalSegments<Dim, Real>::leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid,
+                                                 std::vector<LatticePart>& parts) const {
   constexpr auto last = static_cast<std::size_t>(Dim - 2);  // the axis that varies fastest in the order of cells
   std::vector<std::uint8_t> covered(parts.size(), 0);
-  parallel_for(pieces_.size(), [&](std::size_t p) {
-    const Vector<Real, Dim>& position = pieces_[p].position;
+  parallel_for(segments_.size(), [&](std::size_t p) {
+    const Vector<Real, Dim>& position = segments_[p].position;
     const Lattice own = lattice_cell(grid, position);
     for (int row = 0; row < mpm::power(3, Dim - 2); ++row) {
       Lattice from = own;
@@ -161,11 +161,12 @@ void BaseColumns<Dim, Real>::leave_out_covered(const mpm::SparseGrid<Dim, Real>&
 // Pieces are laid in the cells of a horizontal lattice, so that they do not depend on the order of nodes: where a node
 // in contact has its foot, unless some piece covers the place.
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
-                                        const NodeGroundOf& node_ground, Real thickness, mpm::Nodes<Dim, Real>& nodes) {
-  std::vector<LatticePart> bare = parts_below(grid, feet_in_contact(grid, ground, node_ground, nodes));
+void BasalSegments<Dim, Real>::create_segments(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+                                               const NodeGroundOf& node_ground, Real thickness,
+                                               mpm::Nodes<Dim, Real>& nodes) {
+  std::vector<LatticePart> bare = parts_below(grid, contact_footpoints(grid, ground, node_ground, nodes));
   leave_out_covered(grid, bare);
-  const std::size_t known = pieces_.size();
+  const std::size_t known = segments_.size();
   for (const LatticePart& one : bare) {
     Vector<Real, Dim - 1> middle, size;
     for (std::size_t a = 0; a + 1 < Dim; ++a) {
@@ -174,58 +175,58 @@ void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>& grid, 
       middle[axis] =
           static_cast<Real>(one.cell[a]) * grid.cell() + (static_cast<Real>(one.part[a]) + Real(0.5)) * size[axis];
     }
-    pieces_.push_back(new_piece(middle, size, ground));
-    stencils_.emplace_back(grid, pieces_.back().position);
-    add_area(stencils_.back(), pieces_.back(), nodes);
+    segments_.push_back(new_segment(middle, size, ground));
+    stencils_.emplace_back(grid, segments_.back().position);
+    add_area(stencils_.back(), segments_.back(), nodes);
   }
   std::vector<InContact> contacts;
-  for (std::size_t p = known; p < pieces_.size(); ++p) {
-    contacts.push_back(in_contact(stencils_[p], nodes, pieces_[p]));
+  for (std::size_t p = known; p < segments_.size(); ++p) {
+    contacts.push_back(in_contact(stencils_[p], nodes, segments_[p]));
   }
-  for (std::size_t p = known; p < pieces_.size(); ++p) {
-    begin_piece(stencils_[p], ground, contacts[p - known], thickness, nodes, pieces_[p]);
-    pieces_[p].velocity = slide_near(grid, stencils_[p], node_ground, nodes, pieces_[p]).velocity;
+  for (std::size_t p = known; p < segments_.size(); ++p) {
+    start_segment(stencils_[p], ground, contacts[p - known], thickness, nodes, segments_[p]);
+    segments_[p].velocity = slide_near(grid, stencils_[p], node_ground, nodes, segments_[p]).velocity;
   }
 }
 
 // At the edge of the slide a piece is smaller than its part of the lattice.
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::begin_piece(const Stencil& stencil, const Ground& ground, const InContact& contact,
-                                         Real thickness, mpm::Nodes<Dim, Real>& nodes, Piece& piece) {
-  const Real share = std::clamp(contact.area / piece.area, Real(0.1), Real(1));
-  add_area(stencil, piece, nodes, share - Real(1));
-  piece.sides *= std::pow(share, Real(1) / static_cast<Real>(Dim - 1));
-  piece.area = piece.area_of_column = ground.area_of(piece.position, piece.sides);
-  take_load(contact.area > Real(0) ? contact.normal_force / contact.area : Real(0), contact.normal_force / piece.area,
-            Real(0), piece);
-  start_column_of(model_, thickness, piece);
-  keep_means(model_, piece);
-  ledger_.laid_heat += piece.area * physics::heat_of(piece.column);
-  ledger_.laid_water += piece.area * physics::water_of(piece.column);
+void BasalSegments<Dim, Real>::start_segment(const Stencil& stencil, const Ground& ground, const InContact& contact,
+                                             Real thickness, mpm::Nodes<Dim, Real>& nodes, Segment& segment) {
+  const Real share = std::clamp(contact.area / segment.area, Real(0.1), Real(1));
+  add_area(stencil, segment, nodes, share - Real(1));
+  segment.sides *= std::pow(share, Real(1) / static_cast<Real>(Dim - 1));
+  segment.area = segment.area_of_column = ground.area_of(segment.position, segment.sides);
+  update_load(contact.area > Real(0) ? contact.normal_force / contact.area : Real(0),
+              contact.normal_force / segment.area, Real(0), segment);
+  start_column_of(model_, thickness, segment);
+  keep_means(model_, segment);
+  ledger_.created_heat += segment.area * physics::heat_of(segment.column);
+  ledger_.created_water += segment.area * physics::water_of(segment.column);
 }
 
 // Adds a share of a piece's area to what nodes see.
 template <int Dim, class Real>
-void BaseColumns<Dim, Real>::add_area(const Stencil& stencil, const Piece& piece, mpm::Nodes<Dim, Real>& nodes,
-                                      Real share) const {
+void BasalSegments<Dim, Real>::add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim, Real>& nodes,
+                                        Real share) const {
   stencil.for_each([&](std::size_t b, std::size_t node, Real weight) {
     if (nodes.base_state.holds(b)) {
-      nodes.base_state.of_block(b)[node][BaseState::area] += share * weight * piece.area;
+      nodes.base_state.of_block(b)[node][BaseState::area] += share * weight * segment.area;
     }
   });
 }
 
 // What of contact falls to a piece, as nodes share it out among those that they see.
 template <int Dim, class Real>
-typename BaseColumns<Dim, Real>::InContact BaseColumns<Dim, Real>::in_contact(const Stencil& stencil,
-                                                                              const mpm::Nodes<Dim, Real>& nodes,
-                                                                              const Piece& piece) const {
+typename BasalSegments<Dim, Real>::InContact BasalSegments<Dim, Real>::in_contact(const Stencil& stencil,
+                                                                                  const mpm::Nodes<Dim, Real>& nodes,
+                                                                                  const Segment& segment) const {
   InContact result;
   stencil.for_each([&](std::size_t b, std::size_t node, Real weight) {
     const Real seen = nodes.base_state(b, node)[BaseState::area];
     if (seen > Real(0)) {
       const auto& contact = nodes.contact(b, node);
-      const Real share = weight * piece.area / seen;
+      const Real share = weight * segment.area / seen;
       result.area += share * contact[Contact::area];
       result.normal_force += share * contact[Contact::normal_force];
     }
@@ -234,29 +235,29 @@ typename BaseColumns<Dim, Real>::InContact BaseColumns<Dim, Real>::in_contact(co
 }
 
 template <int Dim, class Real>
-BasePiece<Dim, Real> BaseColumns<Dim, Real>::new_piece(const Vector<Real, Dim - 1>& middle,
-                                                       const Vector<Real, Dim - 1>& size, const Ground& ground) {
-  Piece piece;
-  piece.id = next_id_++;
-  piece.normal = ground.normal(middle);
-  piece.position.template head<Dim - 1>() = middle;
-  piece.position[Dim - 1] = ground.height(middle);
-  piece.sides = sides_on<Dim, Real>(piece.normal, size);
-  piece.area = piece.area_of_column = ground.area_of(piece.position, piece.sides);
-  return piece;
+BasalSegment<Dim, Real> BasalSegments<Dim, Real>::new_segment(const Vector<Real, Dim - 1>& middle,
+                                                              const Vector<Real, Dim - 1>& size, const Ground& ground) {
+  Segment segment;
+  segment.id = next_id_++;
+  segment.normal = ground.normal(middle);
+  segment.position.template head<Dim - 1>() = middle;
+  segment.position[Dim - 1] = ground.height(middle);
+  segment.sides = sides_on<Dim, Real>(segment.normal, size);
+  segment.area = segment.area_of_column = ground.area_of(segment.position, segment.sides);
+  return segment;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                    \
-  template std::array<int, Dim - 1> BaseColumns<Dim, Real>::lattice_cell(const mpm::SparseGrid<Dim, Real>&, \
-                                                                         const Vector<Real, Dim>&) const;   \
-  template std::array<int, Dim - 1> BaseColumns<Dim, Real>::parts_on(const Vector<Real, Dim>&);             \
-  template std::array<int, Dim - 1> BaseColumns<Dim, Real>::lattice_part(                                   \
-      const mpm::SparseGrid<Dim, Real>&, const Vector<Real, Dim>&, const std::array<int, Dim - 1>&,         \
-      const std::array<int, Dim - 1>&) const;                                                               \
-  template bool BaseColumns<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>&,                \
-                                                          const mpm::Nodes<Dim, Real>&) const;              \
-  template void BaseColumns<Dim, Real>::lay_pieces(const mpm::SparseGrid<Dim, Real>&, const Ground&,        \
-                                                   const NodeGroundOf&, Real, mpm::Nodes<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                      \
+  template std::array<int, Dim - 1> BasalSegments<Dim, Real>::lattice_cell(const mpm::SparseGrid<Dim, Real>&, \
+                                                                           const Vector<Real, Dim>&) const;   \
+  template std::array<int, Dim - 1> BasalSegments<Dim, Real>::parts_on(const Vector<Real, Dim>&);             \
+  template std::array<int, Dim - 1> BasalSegments<Dim, Real>::lattice_part(                                   \
+      const mpm::SparseGrid<Dim, Real>&, const Vector<Real, Dim>&, const std::array<int, Dim - 1>&,           \
+      const std::array<int, Dim - 1>&) const;                                                                 \
+  template bool BasalSegments<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>&,                \
+                                                            const mpm::Nodes<Dim, Real>&) const;              \
+  template void BasalSegments<Dim, Real>::create_segments(const mpm::SparseGrid<Dim, Real>&, const Ground&,   \
+                                                          const NodeGroundOf&, Real, mpm::Nodes<Dim, Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 
