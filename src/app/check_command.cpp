@@ -112,7 +112,7 @@ int check_case(const CheckOptions& options) {
     add_notes_of_setup(simulation, facts.bodies, facts.disk, facts.disk_folder, notes);
     facts.notes = notes.all();
     if (options.draws) {
-      facts.picture = options.picture.empty() ? picture_beside(parameters.file) : options.picture;
+      facts.picture = options.picture.empty() ? picture_path(parameters.file) : options.picture;
       require_no_input_at(facts.picture, "--picture", parameters);
       draw_setup(setup_json<Dim>(simulation), facts.picture);
     }

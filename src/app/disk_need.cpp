@@ -20,12 +20,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double bytes_of_number = 19.0;     // in history.csv, with its comma: 16 digits, a point, an exponent
-constexpr double columns_of_probe = 4.0;     // in probes.csv, of a section; a point has fewer
-constexpr double generations = 3.0;          // of checkpoints: two, and the one that is being written
-constexpr double ground_map_count = 2.0;     // terrain and release, on the DEM's points
-constexpr double bytes_beside_points = 1e4;  // of a snapshot, and of a checkpoint, which holds the case
-constexpr double most_of_free = 0.9;         // what a run may take of the free disk without a word
+constexpr double bytes_of_number = 19.0;      // in history.csv, with its comma: 16 digits, a point, an exponent
+constexpr double columns_of_probe = 4.0;      // in probes.csv, of a section; a point has fewer
+constexpr double generations = 3.0;           // of checkpoints: two, and the one that is being written
+constexpr double ground_map_count = 2.0;      // terrain and release, on the DEM's points
+constexpr double bytes_besides_points = 1e4;  // of a snapshot, and of a checkpoint, which holds the case
+constexpr double most_of_free = 0.9;          // what a run may take of the free disk without a word
 constexpr double gigabyte = 1e9;
 
 // Number of whole intervals until the end, plus one for the start. It is limited to the number of steps, unless steps
@@ -65,7 +65,7 @@ double bytes_of(const std::vector<double>& numbers) { return static_cast<double>
 // Sets how large checkpoints are. Bed and particles stay as many as they are.
 template <int Dim>
 void count_checkpoint(const sim::Simulation<Dim, double>& simulation, const sim::FlowMaps* maps, DiskNeed& need) {
-  const double lasting = bytes_beside_points +
+  const double lasting = bytes_besides_points +
                          static_cast<double>(simulation.particles().size()) *
                              static_cast<double>(io::checkpoint_bytes_of_particle<Dim>()) +
                          (simulation.bed() == nullptr ? 0.0 : bytes_of(simulation.bed()->state()));
@@ -88,7 +88,7 @@ DiskNeed disk_need(const sim::Simulation<Dim, double>& simulation, const sim::Fl
   const auto particles = static_cast<double>(simulation.particles().size());
   DiskNeed need;
   need.snapshots = count_of(time, time.output_interval, steps, time.stepping == config::Stepping::adaptive);
-  need.snapshot = particles * static_cast<double>(io::snapshot_bytes_of_particle<Dim>()) + bytes_beside_points;
+  need.snapshot = particles * static_cast<double>(io::snapshot_bytes_of_particle<Dim>()) + bytes_besides_points;
   count_checkpoint(simulation, maps, need);
   need.history_rows = time.history_interval > 0.0 ? count_of(time, time.history_interval, steps, false) : steps + 1.0;
   const double columns = static_cast<double>(sim::history_row(simulation).size()) +

@@ -382,7 +382,7 @@ void RunOutput<Dim>::write_provenance(const Simulation& simulation, const std::s
   provenance_.removed = {{"left", removed.left}, {"not_finite", removed.not_finite}, {"volume", removed.volume}};
   provenance_.parts.back().wall_seconds = wall_seconds;
   provenance_.seconds_per_stage = seconds_per_stage(simulation);
-  provenance_.seconds_beside = snapshots_.seconds_beside();
+  provenance_.writer_seconds = snapshots_.writer_seconds();
   io::write_provenance(folder_ / "run.json", provenance_);
 }
 

@@ -37,7 +37,7 @@ class NamelessFile {
 
 }  // namespace
 
-std::string picture_beside(const std::filesystem::path& case_file) {
+std::string picture_path(const std::filesystem::path& case_file) {
   const std::string variant = case_file.stem() == "case" ? "" : case_file.stem().string() + "-";
   return (case_file.parent_path() / (variant + "setup.png")).string();
 }

@@ -91,9 +91,9 @@ class BaseStencil {
     about_ = grid.blocks_about_block(static_cast<std::size_t>(found - grid.blocks().begin()));
     for (int a = 0; a < Dim; ++a) {
       for (int k = 0; k < width; ++k) {
-        const typename T::Beside beside = T::beside(local_, a, k - 1);
-        direction_[a][k] = beside.direction - T::stencil / 2;
-        shift_[a][k] = beside.local - local_;
+        const typename T::Adjacent adjacent = T::adjacent(local_, a, k - 1);
+        direction_[a][k] = adjacent.direction - T::stencil / 2;
+        shift_[a][k] = adjacent.local - local_;
         of_first_[a] += direction_[a][k] == direction_[a][0] ? 1 : 0;
       }
     }

@@ -50,7 +50,7 @@ THAWSLIDE_HD std::uint64_t column_key(std::uint64_t tile_key, std::size_t place)
 // The next column on a side; each axis has two, the lower one first.
 template <int Dim>
 inline constexpr std::size_t column_sides = 2 * (static_cast<std::size_t>(Dim) - 1);
-THAWSLIDE_HD inline std::uint64_t column_beside(std::uint64_t key, std::size_t side) {
+THAWSLIDE_HD inline std::uint64_t neighbour_column(std::uint64_t key, std::size_t side) {
   const std::uint64_t step = std::uint64_t{1} << (32 * (side / 2));
   return side % 2 == 0 ? key - step : key + step;
 }
@@ -87,12 +87,12 @@ struct Extent {
 
 // What stands in a column: volume [m3], and the upper end of its highest box [m].
 template <class Real>
-struct Pile {
+struct ColumnMass {
   Real volume = 0;
   Real top = std::numeric_limits<Real>::lowest();
 
   [[nodiscard]] THAWSLIDE_HD bool is_present() const { return volume > Real(0); }
-  THAWSLIDE_HD Pile& operator+=(const Pile& part) {
+  THAWSLIDE_HD ColumnMass& operator+=(const ColumnMass& part) {
     volume += part.volume;
     top = max(top, part.top);
     return *this;
@@ -122,14 +122,14 @@ THAWSLIDE_HD Real footprint_of(Real cell, bool at_edge, const Extent<Dim, Real>&
 }
 
 template <class Real>
-THAWSLIDE_HD Real thickness_of(const Pile<Real>& pile, Real footprint) {
-  return pile.is_present() ? pile.volume / footprint : Real(0);
+THAWSLIDE_HD Real thickness_of(const ColumnMass<Real>& column_mass, Real footprint) {
+  return column_mass.is_present() ? column_mass.volume / footprint : Real(0);
 }
 
 // What a metre of the column presses on the ground with [Pa/m]. normal_gravity: of the column [m/s2].
 template <class Real>
-THAWSLIDE_HD Real load_per_depth(const Pile<Real>& pile, Real mass, Real normal_gravity) {
-  return mass / pile.volume * normal_gravity;
+THAWSLIDE_HD Real load_per_depth(const ColumnMass<Real>& column_mass, Real mass, Real normal_gravity) {
+  return mass / column_mass.volume * normal_gravity;
 }
 
 template <class Particles, class Real>

@@ -31,7 +31,7 @@ void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid
   normal_gravities_.forget_if_many(columns_.size());
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     for (std::size_t side = 0; side < column_sides<Dim>; ++side) {
-      columns_[c].beside[side] = column_index_.find(column_beside(column_keys_[c], side));
+      columns_[c].adjacent[side] = column_index_.find(neighbour_column(column_keys_[c], side));
     }
     columns_[c].width = width.at(middle_of_column<Dim, Real>(column_keys_[c], grid.cell())[0]);
     if (slope_cosine) {
@@ -46,7 +46,7 @@ void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, cons
                                     std::size_t t) {
   constexpr std::size_t corners = static_cast<std::size_t>(1) << (Dim - 1);
   TilePart& part = tiles_[t];
-  part.pile.fill({});
+  part.column_mass.fill({});
   const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
   for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
     const Lanes<Real> top = particles.position.load(batch, Dim - 1) + sizes_.of(particles, batch).half;
@@ -64,7 +64,7 @@ void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, cons
     for (std::size_t lane = 0; lane < batch.count; ++lane) {
       for (std::size_t k = 0; k < seen; ++k) {
         if (volumes[k][lane] > Real(0)) {
-          part.pile[static_cast<std::size_t>(columns[k][lane])] += {volumes[k][lane], top[lane]};
+          part.column_mass[static_cast<std::size_t>(columns[k][lane])] += {volumes[k][lane], top[lane]};
         }
       }
     }
@@ -93,11 +93,11 @@ void FlowDepth<Dim, Real>::add_extents(const mpm::SparseGrid<Dim, Real>& grid,
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::sum_columns() {
   for (Column& column : columns_) {
-    column.pile = {};
+    column.column_mass = {};
   }
   for (const TilePart& tile : tiles_) {
     for (std::size_t place = 0; place < places; ++place) {
-      columns_[static_cast<std::size_t>(tile.number[place])].pile += tile.pile[place];
+      columns_[static_cast<std::size_t>(tile.number[place])].column_mass += tile.column_mass[place];
     }
   }
 }
@@ -107,8 +107,8 @@ template <int Dim, class Real>
 void FlowDepth<Dim, Real>::find_edge() {
   for (Column& column : columns_) {
     column.extent = {};
-    column.at_edge = column.pile.is_present() &&
-                     lacks_neighbour<Dim>([&](std::size_t side) { return is_filled(column.beside[side]); });
+    column.at_edge = column.column_mass.is_present() &&
+                     lacks_neighbour<Dim>([&](std::size_t side) { return is_filled(column.adjacent[side]); });
   }
   edge_tiles_.clear();
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
@@ -129,7 +129,7 @@ void FlowDepth<Dim, Real>::set_footprints(Real cell) {
   }
   for (Column& column : columns_) {
     column.footprint = column.width * footprint_of<Dim>(cell, column.at_edge, column.extent, [&](std::size_t side) {
-                         return is_filled(column.beside[side]);
+                         return is_filled(column.adjacent[side]);
                        });
   }
 }
@@ -159,8 +159,8 @@ ColumnsOfTile<Dim, Real> FlowDepth<Dim, Real>::of_tile(const mpm::SparseGrid<Dim
   columns.sizes = sizes_.view();
   for (std::size_t place = 0; place < places; ++place) {
     const Column& here = columns_[static_cast<std::size_t>(tiles_[t].number[place])];
-    columns.thickness.numbers[place] = thickness_of(here.pile, here.footprint);
-    columns.top.numbers[place] = here.pile.top;
+    columns.thickness.numbers[place] = thickness_of(here.column_mass, here.footprint);
+    columns.top.numbers[place] = here.column_mass.top;
     columns.cosine.numbers[place] = here.cosine;
   }
   return columns;
@@ -220,8 +220,8 @@ void FlowDepth<Dim, Real>::load_to_particles(const mpm::SparseGrid<Dim, Real>& g
   sum_masses(grid, particles);
   load_per_depth_.assign(columns_.size(), Real(0));
   for (std::size_t c = 0; c < columns_.size(); ++c) {
-    if (columns_[c].pile.is_present()) {
-      load_per_depth_[c] = load_per_depth(columns_[c].pile, masses_[c],
+    if (columns_[c].column_mass.is_present()) {
+      load_per_depth_[c] = load_per_depth(columns_[c].column_mass, masses_[c],
                                           normal_gravities_.at(column_keys_[c], grid.cell(), normal_gravity));
     }
   }

@@ -45,17 +45,17 @@ class FlowDepth {
   static constexpr std::size_t places = columns_per_tile<Dim>;
 
   struct Column {
-    Pile<Real> pile;
+    ColumnMass<Real> column_mass;
     Extent<Dim, Real> extent;  // of a column at the body's edge
     bool at_edge = false;
     Real footprint = 0;
-    Real cosine = 1;                                       // of the terrain's slope
-    Real width = 1;                                        // of the section, relative
-    std::array<std::int32_t, column_sides<Dim>> beside{};  // the next columns, or KeyIndex::absent
+    Real cosine = 1;                                         // of the terrain's slope
+    Real width = 1;                                          // of the section, relative
+    std::array<std::int32_t, column_sides<Dim>> adjacent{};  // the next columns, or KeyIndex::absent
   };
   // What one tile's particles are to the columns they see, by place.
   struct TilePart {
-    std::array<Pile<Real>, places> pile;
+    std::array<ColumnMass<Real>, places> column_mass;
     std::array<Extent<Dim, Real>, places> extent;  // where one of the columns is at the edge
     std::array<std::int32_t, places> number;
   };
@@ -70,7 +70,7 @@ class FlowDepth {
   void sum_masses(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles);
   // Whether the slide stands in a column that may be absent.
   [[nodiscard]] bool is_filled(std::int32_t column) const {
-    return column != KeyIndex::absent && columns_[static_cast<std::size_t>(column)].pile.is_present();
+    return column != KeyIndex::absent && columns_[static_cast<std::size_t>(column)].column_mass.is_present();
   }
 
   std::vector<std::uint64_t> numbered_;  // the tiles that columns, their numbers and sizes_ are of

@@ -33,26 +33,26 @@ struct NumberColumns {
 };
 
 template <int Dim>
-struct FindColumnsBeside {
+struct FindNeighbourColumns {
   const std::uint64_t* keys;
   std::size_t columns;
-  std::int32_t* beside;
+  std::int32_t* adjacent;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     constexpr std::size_t sides = band::column_sides<Dim>;
-    beside[k] = place_of_key(keys, columns, band::column_beside(keys[k / sides], k % sides));
+    adjacent[k] = place_of_key(keys, columns, band::neighbour_column(keys[k / sides], k % sides));
   }
 };
 
 // What some particles bring to a column.
 template <int Dim, class Real>
 struct ColumnPart {
-  band::Pile<Real> pile;
+  band::ColumnMass<Real> column_mass;
   band::Extent<Dim, Real> extent;
   Real mass = 0;
 
   THAWSLIDE_HD ColumnPart& operator+=(const ColumnPart& part) {
-    pile += part.pile;
+    column_mass += part.column_mass;
     extent += part.extent;
     mass += part.mass;
     return *this;
@@ -113,7 +113,7 @@ struct SumInTile {
         }
         const Real volume = share * box.volume;
         if (volume > Real(0)) {
-          sum.pile += {volume, box.top};
+          sum.column_mass += {volume, box.top};
         }
         sum.extent += band::extent_in_column<Dim>(box.along, side, 0);
         sum.mass += share * box.mass;
@@ -145,7 +145,7 @@ struct SumParts {
 template <int Dim, class Real>
 struct FinishColumns {
   const ColumnPart<Dim, Real>* sums;
-  const std::int32_t* beside;
+  const std::int32_t* adjacent;
   const Real* normal_gravity;  // null: the load is not asked for
   Real cell;
   Real *thickness, *top, *load_per_depth;
@@ -153,15 +153,16 @@ struct FinishColumns {
   THAWSLIDE_HD void operator()(std::size_t column) const {
     const ColumnPart<Dim, Real> sum = sums[column];
     const auto filled = [&](std::size_t side) {
-      const std::int32_t other = beside[column * band::column_sides<Dim> + side];
-      return other != absent && sums[other].pile.is_present();
+      const std::int32_t other = adjacent[column * band::column_sides<Dim> + side];
+      return other != absent && sums[other].column_mass.is_present();
     };
-    const bool at_edge = sum.pile.is_present() && band::lacks_neighbour<Dim>(filled);
-    thickness[column] = band::thickness_of(sum.pile, band::footprint_of<Dim>(cell, at_edge, sum.extent, filled));
-    top[column] = sum.pile.top;
+    const bool at_edge = sum.column_mass.is_present() && band::lacks_neighbour<Dim>(filled);
+    thickness[column] = band::thickness_of(sum.column_mass, band::footprint_of<Dim>(cell, at_edge, sum.extent, filled));
+    top[column] = sum.column_mass.top;
     if (normal_gravity != nullptr) {
-      load_per_depth[column] =
-          sum.pile.is_present() ? band::load_per_depth(sum.pile, sum.mass, normal_gravity[column]) : Real(0);
+      load_per_depth[column] = sum.column_mass.is_present()
+                                   ? band::load_per_depth(sum.column_mass, sum.mass, normal_gravity[column])
+                                   : Real(0);
     }
   }
 };

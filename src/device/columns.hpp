@@ -43,8 +43,8 @@ class Columns {
     backend_.sort(keys_listed_.data(), listed_.data(), keys_of_seen_.data(), seen_.data(), seen_.size());
     first_.find(keys_of_seen_, 0, keys_, &first_seen_);
     backend_.for_each(seen_.size(), NumberColumns{seen_.data(), first_.is_first(), first_.number(), column_.data()});
-    beside_.resize(keys_.size() * band::column_sides<Dim>);
-    backend_.for_each(beside_.size(), FindColumnsBeside<Dim>{keys_.data(), keys_.size(), beside_.data()});
+    adjacent_.resize(keys_.size() * band::column_sides<Dim>);
+    backend_.for_each(adjacent_.size(), FindNeighbourColumns<Dim>{keys_.data(), keys_.size(), adjacent_.data()});
     sums_.resize(keys_.size());
     for (Array<Real, Backend>* numbers : {&thickness_, &top_, &load_per_depth_}) {
       numbers->resize(keys_.size());
@@ -60,7 +60,7 @@ class Columns {
     backend_.for_each(keys_.size(), SumParts<Part>{first_seen_.data(), seen_.data(), keys_.size(), seen_.size(),
                                                    parts_.data(), sums_.data()});
     backend_.for_each(keys_.size(),
-                      FinishColumns<Dim, Real>{sums_.data(), beside_.data(),
+                      FinishColumns<Dim, Real>{sums_.data(), adjacent_.data(),
                                                normal_gravity_.ask ? normal_gravity_.values.data() : nullptr, cell_,
                                                thickness_.data(), top_.data(), load_per_depth_.data()});
   }
@@ -109,7 +109,7 @@ class Columns {
   UniqueKeys<Backend> first_{backend_};
   Array<std::uint64_t, Backend> keys_listed_{backend_}, keys_of_seen_{backend_}, keys_{backend_};
   Array<std::uint32_t, Backend> listed_{backend_}, seen_{backend_}, first_seen_{backend_};
-  Array<std::int32_t, Backend> column_{backend_}, beside_{backend_};
+  Array<std::int32_t, Backend> column_{backend_}, adjacent_{backend_};
   Array<Part, Backend> parts_{backend_}, sums_{backend_};
   Array<Real, Backend> thickness_{backend_}, top_{backend_}, load_per_depth_{backend_};
 };

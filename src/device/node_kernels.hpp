@@ -191,7 +191,7 @@ struct GatherContactInput {
     const Real pressure =
         terrain::base_pressure_of_node<Dim>(normal, step.dt, smallest_area, [&](std::size_t n) -> const Real* {
           std::size_t other = 0;
-          return find_beside(node, n, other) ? nodes.base_at(other) : none;
+          return find_neighbour(node, n, other) ? nodes.base_at(other) : none;
         });
     base.area = load / (pressure * step.dt);  // the base is shared among nodes by the load they carry
     base.node = terrain::contact_node_of<Dim>(
@@ -206,7 +206,7 @@ struct GatherContactInput {
 
  private:
   // Neighbour n of 3^Dim, x fastest.
-  THAWSLIDE_HD bool find_beside(std::size_t node, std::size_t n, std::size_t& other) const {
+  THAWSLIDE_HD bool find_neighbour(std::size_t node, std::size_t n, std::size_t& other) const {
     using T = mpm::Tile<Dim>;
     typename T::Index index = T::node({}, static_cast<int>(node % NodeStageArgs<Dim, Real>::block_nodes));
     for (std::size_t a = 0; a < Dim; ++a) {

@@ -55,9 +55,9 @@ THAWSLIDE_HD std::size_t place_of_column(const TileTables<Dim>& tables, const st
   using T = mpm::Tile<Dim>;
   int direction = T::stencil / 2, in_stack = 0;
   for (std::size_t a = Dim - 1; a-- > 0;) {
-    const int beside = column[a] >> T::edge_bits;  // rounds down
-    direction += beside * mpm::power(3, static_cast<int>(a));
-    in_stack = in_stack * T::edge + (column[a] - beside * T::edge);
+    const int adjacent = column[a] >> T::edge_bits;  // rounds down
+    direction += adjacent * mpm::power(3, static_cast<int>(a));
+    in_stack = in_stack * T::edge + (column[a] - adjacent * T::edge);
   }
   const std::int32_t block =
       tables.blocks_about_tile[tile * static_cast<std::size_t>(T::stencil) + static_cast<std::size_t>(direction)];

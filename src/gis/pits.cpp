@@ -46,7 +46,7 @@ class Patches {
 
   // Calls work(column, row, distance) for the points beside one that are known.
   template <class Work>
-  void for_each_beside(const Place& place, const Work& work) const {
+  void for_each_neighbour(const Place& place, const Work& work) const {
     constexpr std::array<Place, 4> ways{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
     for (const Place& way : ways) {
       const int column = place.column + way.column, row = place.row + way.row;
@@ -66,7 +66,7 @@ class Patches {
     const double height = ground_.at(column, row);
     bool at_cliff = false;
     if (seen_[ground_.index(column, row)] == 0 && !std::isnan(height)) {
-      for_each_beside({column, row}, [&](int i, int j, double distance) {
+      for_each_neighbour({column, row}, [&](int i, int j, double distance) {
         at_cliff = at_cliff || is_cliff(height, ground_.at(i, j), distance);
       });
     }
@@ -86,7 +86,7 @@ class Patches {
       const Place place = open.back();
       open.pop_back();
       ++patch.points;
-      for_each_beside(place, [&](int column, int row, double distance) {
+      for_each_neighbour(place, [&](int column, int row, double distance) {
         const double other = ground_.at(column, row);
         if (other != height) {
           cliffs_about = cliffs_about && is_cliff(height, other, distance);

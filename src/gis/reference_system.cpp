@@ -312,10 +312,10 @@ std::string place_note(const Located& raster, const std::string& wkt) {
     return "";  // none is told, or one across the date line
   }
   const auto [longitude, latitude] = middle_in_degrees(raster, wkt);
-  const double beside = std::max({0.0, west - longitude, longitude - east});
+  const double adjacent = std::max({0.0, west - longitude, longitude - east});
   const double along = std::max({0.0, south - latitude, latitude - north});
   const double distance =
-      kilometres_per_degree * std::hypot(beside * std::cos(latitude * std::numbers::pi / 180.0), along);
+      kilometres_per_degree * std::hypot(adjacent * std::cos(latitude * std::numbers::pi / 180.0), along);
   if (distance <= far) {
     return "";
   }

@@ -32,14 +32,14 @@ namespace fs = std::filesystem;
 constexpr std::string_view unfinished = ".thawslide-part";
 
 // Where a file is written before it takes its place: .NAME.PROCESS.thawslide-part beside it.
-fs::path name_beside(const fs::path& file) {
+fs::path temporary_name(const fs::path& file) {
   constexpr std::size_t longest_name = 200;  // letters: file systems take 255, of the whole
   return file.parent_path() /
          fmt::format(".{}.{}{}", file.filename().string().substr(0, longest_name), getpid(), unfinished);
 }
 
 // Whatever has that name is of a process that is gone, or a trap: a link, or a pipe that nobody reads.
-int open_anew(const fs::path& file) {
+int create_file(const fs::path& file) {
   unlink(file.c_str());
   return open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
@@ -72,8 +72,8 @@ int read_to_end(int descriptor, std::size_t bytes, std::string& text) {
 }  // namespace
 
 void write_file_atomically(const fs::path& file, const void* data, std::size_t bytes, const fs::path& previous) {
-  const fs::path temporary = name_beside(file);
-  const int descriptor = open_anew(temporary);
+  const fs::path temporary = temporary_name(file);
+  const int descriptor = create_file(temporary);
   if (descriptor < 0) {
     fail(file, temporary, errno);
   }
@@ -157,9 +157,9 @@ void remove_or_throw(const fs::path& file) {
 }
 
 void copy_file_atomically(const fs::path& file, const fs::path& copy, std::string_view content) {
-  const fs::path temporary = name_beside(copy);
+  const fs::path temporary = temporary_name(copy);
   const int from = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  const int to = open_anew(temporary);
+  const int to = create_file(temporary);
   bool is_cloned = from >= 0 && to >= 0 && ioctl(to, FICLONE, from) == 0 && fsync(to) == 0;
   for (const int descriptor : {from, to}) {
     is_cloned = (descriptor < 0 || close(descriptor) == 0) && is_cloned;

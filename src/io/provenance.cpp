@@ -156,7 +156,7 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   json["particle_steps_per_second"] = wall > 0.0 ? particle_steps / wall : 0.0;
   json["parts"] = std::move(parts);
   json["seconds_per_stage"] = p.seconds_per_stage;
-  json["seconds_beside"] = p.seconds_beside;
+  json["seconds_beside"] = p.writer_seconds;
   json["origin_m"] = p.origin;
   json["gravity_m_s2"] = p.gravity;
   json["crs"] = p.crs.empty() ? Json() : Json(p.crs);

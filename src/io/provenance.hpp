@@ -48,7 +48,7 @@ struct Provenance {
   std::vector<std::pair<std::string, double>> figures;    // results in numbers; NaN: not known
   std::vector<std::pair<std::string, double>> roughness;  // of a terrain model, and the filter; empty: there is none
   std::string crs;                                        // name of the reference system; empty: none is known
-  double seconds_beside = 0.0;  // processor time that writing snapshots took while steps went on, in the last part
+  double writer_seconds = 0.0;  // processor time that writing snapshots took while steps went on, in the last part
 };
 
 // Version, commit, command line, host and time of start filled in.

@@ -205,7 +205,7 @@ bool SnapshotSeries::take(std::size_t number, const fs::path& file) {
 
 void SnapshotSeries::finish_writing() {
   if (writing_.valid()) {
-    seconds_beside_ += writing_.get();
+    writer_seconds_ += writing_.get();
   }
 }
 

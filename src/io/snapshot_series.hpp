@@ -35,7 +35,7 @@ class SnapshotSeries {
   // How many were written, whatever has become of them.
   [[nodiscard]] std::size_t size() const { return next_; }
   // Processor time that snapshots took while the caller went on [s], but for the last one if it is still being written.
-  [[nodiscard]] double seconds_beside() const { return seconds_beside_; }
+  [[nodiscard]] double writer_seconds() const { return writer_seconds_; }
 
  private:
   struct Entry {
@@ -60,7 +60,7 @@ class SnapshotSeries {
   std::vector<Column> columns_;
   std::chrono::steady_clock::time_point indexed_;
   std::future<double> writing_;  // the last snapshot; HDF5 is in one thread's hands at a time
-  double seconds_beside_ = 0.0;
+  double writer_seconds_ = 0.0;
 };
 
 }  // namespace thawslide::io

@@ -72,10 +72,10 @@ struct Tile {
   }
   // The node `shift` nodes further along an axis from the local node of a tile, |shift| < edge: the tile it lies in, by
   // its direction from this one, and its place there.
-  struct Beside {
+  struct Adjacent {
     int direction, local;
   };
-  THAWSLIDE_HD static Beside beside(int local, int axis, int shift) {
+  THAWSLIDE_HD static Adjacent adjacent(int local, int axis, int shift) {
     const int along = ((local >> (axis * edge_bits)) & (edge - 1)) + shift;
     const int tile = along >> edge_bits;  // rounds down
     return {stencil / 2 + tile * power(3, axis), local + (shift - tile * edge) * power(edge, axis)};

@@ -74,7 +74,7 @@ THAWSLIDE_HD Real covered_share(std::size_t node, const Vector<Real, Dim>& into_
   const int outward = into_ground[axis] > Real(0) ? -1 : 1;
   Real share = filled(T::stencil / 2, static_cast<int>(node));
   for (int step = 1; step <= 2 && share < Real(1); ++step) {
-    const typename T::Beside further = T::beside(static_cast<int>(node), axis, step * outward);
+    const typename T::Adjacent further = T::adjacent(static_cast<int>(node), axis, step * outward);
     share = max(share, filled(further.direction, further.local));
   }
   return share;

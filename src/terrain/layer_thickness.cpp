@@ -90,12 +90,12 @@ double LayerThickness<Dim>::at_middle(const Number& number) {
     double filled = 0.0, ground = 0.0;
     for_offsets<Dim - 1>(-reach, reach, [&](const Number& offset) {
       double weight = 1.0;
-      Number beside = number;
+      Number adjacent = number;
       for (std::size_t a = 0; a + 1 < Dim; ++a) {
         weight *= static_cast<double>(reach + 1 - std::abs(offset[a]));
-        beside[a] += offset[a];
+        adjacent[a] += offset[a];
       }
-      const Column there = column(beside);
+      const Column there = column(adjacent);
       filled += weight * there.filled;
       ground += weight * there.ground;
     });

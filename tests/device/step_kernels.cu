@@ -265,12 +265,12 @@ __global__ void box_in_columns(std::uint64_t tile_key, TileOnDevice<Dim> tile, b
                                               tile.sizes, tile.particles, at);
 }
 template <int Dim>
-__global__ void column(std::uint64_t tile_key, Real cell, const bool* filled, const band::Pile<Real>* piles,
+__global__ void column(std::uint64_t tile_key, Real cell, const bool* filled, const band::ColumnMass<Real>* piles,
                        const band::Extent<Dim, Real>* extents, std::uint64_t* keys, Real* thickness, Real* load) {
   const std::size_t k = threadIdx.x;
   const auto is_filled = [&](std::size_t side) { return filled[k * band::column_sides<Dim> + side]; };
   const bool at_edge = band::lacks_neighbour<Dim>(is_filled);
-  keys[k] = band::column_beside(band::column_key<Dim>(tile_key, k), k % 2);
+  keys[k] = band::neighbour_column(band::column_key<Dim>(tile_key, k), k % 2);
   thickness[k] = band::thickness_of(piles[k], band::footprint_of<Dim>(cell, at_edge, extents[k], is_filled));
   load[k] = band::load_per_depth(piles[k], load[k], Real(10));
 }

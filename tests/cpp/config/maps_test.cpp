@@ -346,7 +346,7 @@ TEST_F(Maps, FilesOfLinesNeedADem) {
 TEST_F(Maps, GoWithTheRun) {
   for (const char* name : {"dem.tif.aux.xml", "dem.tfw", "release.shp", "release.shx", "release.dbf", "release.prj",
                            "release.CPG", "release.sbn", "before.asc", "before.prj", "water.tif", "section.geojson"}) {
-    write_beside_the_case(name, "");
+    write_next_to_the_case(name, "");
   }
   const Case found =
       read({{"release.geojson", "release.shp"},
@@ -365,10 +365,10 @@ TEST_F(Maps, GoWithTheRun) {
                                           "before.prj", "water.tif", "map.tif", "line.geojson", "section.geojson"}));
   const fs::path run = folder_of_this_test() / "run";
   for (const std::string& name : names) {
-    write_beside_the_case("run/inputs/" + name, "");
+    write_next_to_the_case("run/inputs/" + name, "");
   }
   const std::string resolved = resolved_toml(found, "inputs");
-  write_beside_the_case("run/case.toml", resolved);
+  write_next_to_the_case("run/case.toml", resolved);
   const Case again = read_case(run);
   EXPECT_EQ(resolved_toml(again, "inputs"), resolved);
   EXPECT_EQ(again.bodies.at("slide").release, (run / "inputs" / "release.shp").string());

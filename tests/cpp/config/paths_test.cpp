@@ -16,7 +16,7 @@ TEST(Paths, DoNotLeaveTheFolderOfTheCase) {
   };
   const fs::path folder = folder_of_this_test();
   fs::remove_all(folder);
-  write_beside_the_case("profile.csv", header + "0,0\n100,0\n");
+  write_next_to_the_case("profile.csv", header + "0,0\n100,0\n");
   fs::create_directories(folder / "inside");
   const fs::path outside = folder.string() + ".csv";
   fs::copy_file(folder / "profile.csv", outside, fs::copy_options::overwrite_existing);

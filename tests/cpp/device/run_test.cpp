@@ -205,12 +205,12 @@ TEST(DeviceRun, ChecksEscapedParticlesAlone) {
     ASSERT_GT(known_to, 0.0) << "no ground ends beside the slide";
     const config::Site site = bumpy_site(known_to, 0.5);
     Simulation<3, double> simulation(parameters, site);
-    bool beside = false;
+    bool adjacent = false;
     for (std::size_t t = 0; t < simulation.grid().tiles().size(); ++t) {
       const auto own = static_cast<std::size_t>(simulation.grid().blocks_about_tile(t)[mpm::Tile<3>::stencil / 2]);
-      beside = beside || simulation.ground()->partly_unknown(own);
+      adjacent = adjacent || simulation.ground()->partly_unknown(own);
     }
-    if (beside) {
+    if (adjacent) {
       EXPECT_EQ(expect_the_same_run<3>(parameters, 4, site), 0);
       return;
     }

@@ -73,17 +73,17 @@ TEST_F(HostileFiles, ALongNameIsWrittenAllTheSame) {
 }
 
 TEST_F(HostileFiles, WhatWaitsInThePlaceOfAnUnfinishedOneIsReplaced) {
-  const fs::path beside = folder_ / fmt::format(".a.txt.{}.thawslide-part", getpid()), victim = folder_ / "victim";
+  const fs::path adjacent = folder_ / fmt::format(".a.txt.{}.thawslide-part", getpid()), victim = folder_ / "victim";
   put(victim, "mine");
   const auto expect_replaced = [&] {
     write_file_atomically(folder_ / "a.txt", "text");
     EXPECT_EQ(content(folder_ / "a.txt"), "text");
     EXPECT_EQ(content(victim), "mine");
-    EXPECT_FALSE(fs::exists(fs::symlink_status(beside)));
+    EXPECT_FALSE(fs::exists(fs::symlink_status(adjacent)));
   };
-  fs::create_symlink(victim, beside);
+  fs::create_symlink(victim, adjacent);
   expect_replaced();
-  ASSERT_EQ(mkfifo(beside.c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo(adjacent.c_str(), 0600), 0);
   expect_replaced();
 }
 

@@ -273,9 +273,9 @@ TEST(Tile, FindsTheNodeBesideAnother) {
         node[static_cast<std::size_t>(axis)] += shift;
         int place = 0;
         T::split(node, tile, place);
-        const auto beside = T::beside(local, axis, shift);
-        EXPECT_EQ(beside.local, place);
-        EXPECT_EQ(beside.direction, ((tile[2] + 1) * 3 + tile[1] + 1) * 3 + tile[0] + 1);
+        const auto adjacent = T::adjacent(local, axis, shift);
+        EXPECT_EQ(adjacent.local, place);
+        EXPECT_EQ(adjacent.direction, ((tile[2] + 1) * 3 + tile[1] + 1) * 3 + tile[0] + 1);
       }
     }
   }

@@ -127,18 +127,18 @@ class ScalarContact {
     const int across = terrain::main_axis<Dim, double>(ground_.at(node).normal);
     double load = 0.0, covered = 0.0;
     for (int n = 0; n < mpm::power(3, Dim); ++n) {
-      Index beside = node;
+      Index adjacent = node;
       double weight = 1.0;
       int rest = n;
       for (int a = 0; a < Dim; ++a) {
         const int shift = rest % 3 - 1;
         rest /= 3;
-        beside[static_cast<std::size_t>(a)] += shift;
+        adjacent[static_cast<std::size_t>(a)] += shift;
         weight *= a == across ? 1.0 : shift == 0 ? 0.5 : 0.25;
       }
-      if (covered_.count(beside) == 1) {
-        load += weight * load_.at(beside);
-        covered += weight * covered_.at(beside);
+      if (covered_.count(adjacent) == 1) {
+        load += weight * load_.at(adjacent);
+        covered += weight * covered_.at(adjacent);
       }
     }
     return load / (dt_ * std::max(covered, smallest_share * std::pow(cell_, Dim - 1)));
