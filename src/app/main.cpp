@@ -244,7 +244,7 @@ std::string printable(std::string text) { return thawslide::config::printable(st
 int main(int count, char** arguments) {
   hold_standard_streams();
   survive_size_limits();
-  thawslide::let_threads_wait_passively(arguments);
+  thawslide::set_passive_wait(arguments);
   try {
     return run_program(count, arguments);
   } catch (const thawslide::WriteError& error) {

@@ -40,8 +40,8 @@ std::size_t calls_at_a_time(std::size_t count) {
   return std::clamp<std::size_t>(count / (parts * static_cast<std::size_t>(thread_count())), 1, most);
 }
 
-void share_out(std::size_t count, std::size_t at_a_time,
-               void (*run)(const void* body, std::size_t first, std::size_t last), const void* body) {
+void parallel_chunks(std::size_t count, std::size_t at_a_time,
+                     void (*run)(const void* body, std::size_t first, std::size_t last), const void* body) {
   const auto threads = static_cast<std::size_t>(thread_count());
   if (threads == 1 || count < fewest_shared_calls) {
     run(body, 0, count);
@@ -76,7 +76,7 @@ void share_out(std::size_t count, std::size_t at_a_time,
   }
 }
 
-void let_threads_wait_passively(char** arguments) {
+void set_passive_wait(char** arguments) {
   if (std::getenv("OMP_WAIT_POLICY") == nullptr) {
     setenv("OMP_WAIT_POLICY", "passive", 1);
     setenv("GOMP_SPINCOUNT", "1000", 0);

@@ -16,12 +16,12 @@ namespace thawslide {
 void set_thread_count(int threads);
 
 // While one lives, the loops below run on the thread that made it alone: for many that are too short to share out.
-class LoneThread {
+class SingleThreadScope {
  public:
-  LoneThread() : threads_(thread_count()) { set_thread_count(1); }
-  ~LoneThread() { set_thread_count(threads_); }
-  LoneThread(const LoneThread&) = delete;
-  LoneThread& operator=(const LoneThread&) = delete;
+  SingleThreadScope() : threads_(thread_count()) { set_thread_count(1); }
+  ~SingleThreadScope() { set_thread_count(threads_); }
+  SingleThreadScope(const SingleThreadScope&) = delete;
+  SingleThreadScope& operator=(const SingleThreadScope&) = delete;
 
  private:
   int threads_;
@@ -36,7 +36,7 @@ inline constexpr std::size_t fewest_shared_calls = 9;
 // Makes threads that wait spin for some microseconds, which spares most waits within a step a trip through the kernel,
 // and then sleep, so that they do not burn a core another process needs. The OpenMP library reads this before main
 // begins: unless the user has chosen otherwise the program starts itself once more with it set.
-void let_threads_wait_passively(char** arguments);
+void set_passive_wait(char** arguments);
 
 // Calls a thread takes at a time: few enough for threads to end together, enough for the handing out not to count.
 [[nodiscard]] std::size_t calls_at_a_time(std::size_t count);
@@ -44,8 +44,8 @@ void let_threads_wait_passively(char** arguments);
 // Calls run(body, first, last) until the calls 0 .. count-1 have been run, so many at a time. Every thread begins with
 // a share of its own, the same in every loop, so that it finds in its caches what it left there, and then takes from
 // the others'.
-void share_out(std::size_t count, std::size_t at_a_time,
-               void (*run)(const void* body, std::size_t first, std::size_t last), const void* body);
+void parallel_chunks(std::size_t count, std::size_t at_a_time,
+                     void (*run)(const void* body, std::size_t first, std::size_t last), const void* body);
 
 // Calls body(k) for k = 0 .. count-1, each once, on any thread. Calls may not depend on one another: results must not
 // depend on which thread runs which k. The first exception thrown by a call is thrown again here; calls that had not
@@ -57,7 +57,7 @@ void parallel_for(std::size_t count, std::size_t at_a_time, const Body& body) {
       (*static_cast<const Body*>(calls))(k);
     }
   };
-  share_out(count, at_a_time, run, &body);
+  parallel_chunks(count, at_a_time, run, &body);
 }
 template <class Body>
 void parallel_for(std::size_t count, const Body& body) {

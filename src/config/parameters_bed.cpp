@@ -43,7 +43,7 @@ std::vector<Parameter<Bed>> law_parameters() {
   };
 }
 
-std::vector<Parameter<Bed>> matter_parameters() {
+std::vector<Parameter<Bed>> bed_material_parameters() {
   return {
       parameter(&Bed::material, {.key = "material", .text = "name of the material that the bed is made of"})
           .required_if(when_erodible, is_erodible)
@@ -70,7 +70,7 @@ std::vector<Parameter<Bed>> matter_parameters() {
 
 void declare_bed(Tables& tables) {
   std::vector<Parameter<Bed>> parameters = law_parameters();
-  for (auto& more : matter_parameters()) {
+  for (auto& more : bed_material_parameters()) {
     parameters.push_back(std::move(more));
   }
   tables.push_back(std::make_unique<SingleTable<Bed>>("bed", "Ice or debris on the ground that the slide takes up",

@@ -126,12 +126,12 @@ struct PackPressure {
 // As ResolveContact asks (device/node_kernels.hpp).
 template <int Dim, class Real>
 struct BedBelowNodes {
-  terrain::BedMatter<Real> matter;
+  terrain::BedMaterial<Real> material;
   Real* records;
 
   [[nodiscard]] THAWSLIDE_HD terrain::BedBelowNode<Dim, Real> below(std::size_t candidate, Real area, Real strength,
                                                                     Real dt, Real mass) const {
-    return {&matter, records + candidate * bed_record_size<Dim>, area, strength, dt, mass};
+    return {&material, records + candidate * bed_record_size<Dim>, area, strength, dt, mass};
   }
 };
 
@@ -140,7 +140,7 @@ class ErodibleBed {
  public:
   ErodibleBed(Backend& backend, HostBed<Dim, Real> processor) : backend_(backend), cpu_(std::move(processor)) {}
 
-  [[nodiscard]] bool exists() const { return static_cast<bool>(cpu_.share_out); }
+  [[nodiscard]] bool exists() const { return static_cast<bool>(cpu_.parallel_chunks); }
 
   // To be called after blocks changed.
   void update(const std::vector<std::uint64_t>& blocks, const Ground<Backend, Dim, Real>& ground) {
@@ -163,20 +163,20 @@ class ErodibleBed {
   }
 
   // The base has been asked: what candidate nodes may take.
-  void share_out(const TileTables<Dim>& tables, const mpm::ParticleView<Dim, Real>& particles,
-                 const mpm::SizesOfBodies<Real>& sizes, const Ground<Backend, Dim, Real>& ground, Real cell,
-                 const NodeViews<Dim, Real>& nodes) {
+  void parallel_chunks(const TileTables<Dim>& tables, const mpm::ParticleView<Dim, Real>& particles,
+                       const mpm::SizesOfBodies<Real>& sizes, const Ground<Backend, Dim, Real>& ground, Real cell,
+                       const NodeViews<Dim, Real>& nodes) {
     constexpr std::size_t threads = 128;
     backend_.for_groups(
         tables.tiles, threads, 0,
         CoverBed<Dim, Real>{tables, particles, sizes, ground.sees_candidates(), cell, stack_.data(), covered_.data()});
     backend_.for_each(parts_.size(), PackParts<Dim>{covered_.data(), parts_.data()});
     backend_.for_each(loads_.size(), PackLoad<Dim, Real>{nodes, ground.candidates(), loads_.data()});
-    available_.set(cpu_.share_out(parts_.get(), loads_.get()));
+    available_.set(cpu_.parallel_chunks(parts_.get(), loads_.get()));
     backend_.for_each(loads_.size(), OfferBed<Dim, Real>{available_.data(), records_.data()});
   }
 
-  [[nodiscard]] BedBelowNodes<Dim, Real> below_nodes() { return {cpu_.matter, records_.data()}; }
+  [[nodiscard]] BedBelowNodes<Dim, Real> below_nodes() { return {cpu_.material, records_.data()}; }
 
   // Contact has been resolved.
   void collect(const NodeViews<Dim, Real>& nodes, const std::uint32_t* candidates) {

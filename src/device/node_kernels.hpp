@@ -329,7 +329,7 @@ struct ResolveContact {
                       base.drag;
     const Real strength = step.base_holds ? std::numeric_limits<Real>::infinity() : held;
     const terrain::GroundAtNode<Dim, Real>& known = step.nodes.known[node];
-    const terrain::HoldOnNode<Dim, Real> hold{
+    const terrain::ContactConditions<Dim, Real> hold{
         known.normal, step.nodes.base_at(node)[mpm::BaseLayout::load], known.bend, base.area, strength, base.friction};
     terrain::apply_contact(walls, hold, heat_fraction, step.dt,
                            beds.below(candidate, base.area, strength, step.dt, state.mass), state, work, contact);

@@ -108,14 +108,14 @@ template <int Dim, class Real>
 struct HostBed {
   using Columns = std::vector<std::array<int, Dim - 1>>;  // by the indices of their nodes along the horizontal axes
 
-  terrain::BedMatter<Real> matter;
+  terrain::BedMaterial<Real> material;
   // Told of the columns of the active blocks and of those that the nodes stand in that may touch the ground, when
   // blocks have changed; some are beyond the domain.
   std::function<void(const Columns& of_blocks, const Columns& of_candidates)> set_columns;
   // Told which parts of the former the slide has come to cover (terrain/bed.hpp) and how the latter press on the
   // ground: what of the bed is available to these [kg].
   std::function<const std::vector<Real>&(const std::vector<std::uint32_t>& parts, const std::vector<Real>& loads)>
-      share_out;
+      parallel_chunks;
   // After contact: a record of bed_record_size<Dim> numbers of each of the latter.
   std::function<void(const std::vector<Real>& nodes)> collect;
 };

@@ -14,9 +14,9 @@ namespace {
 
 // Of the particles in the band, by volume; all of one material.
 template <int Dim, class Real>
-ColumnMatter matter_of_base(const config::Case& parameters, const Model<Dim, Real>& model,
-                            const mpm::Particles<Dim, Real>& particles) {
-  ColumnMatter matter{};
+ColumnMaterial material_of_base(const config::Case& parameters, const Model<Dim, Real>& model,
+                                const mpm::Particles<Dim, Real>& particles) {
+  ColumnMaterial material{};
   double volume = 0.0;
   std::int32_t material = -1;
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -32,9 +32,9 @@ ColumnMatter matter_of_base(const config::Case& parameters, const Model<Dim, Rea
     material = particles.material(p);
     const auto of_particle = static_cast<double>(particles.initial_volume(p));
     volume += of_particle;
-    matter.depth += of_particle * static_cast<double>(particles.flow_depth(p));
-    matter.temperature += of_particle * static_cast<double>(particles.temperature(p));
-    matter.porosity += of_particle * static_cast<double>(particles.initial_porosity(p));
+    material.depth += of_particle * static_cast<double>(particles.flow_depth(p));
+    material.temperature += of_particle * static_cast<double>(particles.temperature(p));
+    material.porosity += of_particle * static_cast<double>(particles.initial_porosity(p));
   }
   if (material < 0) {
     throw UserError(
@@ -42,12 +42,12 @@ ColumnMatter matter_of_base(const config::Case& parameters, const Model<Dim, Rea
                     "the ground, or set band.model = \"scaled\".",
                     config::place_of(parameters, "band.model")));
   }
-  matter.depth /= volume;
-  matter.temperature /= volume;
-  matter.porosity /= volume;
-  matter.hydraulic_conductivity =
+  material.depth /= volume;
+  material.temperature /= volume;
+  material.porosity /= volume;
+  material.hydraulic_conductivity =
       static_cast<double>(model.motion.materials[static_cast<std::size_t>(material)].hydraulic_conductivity);
-  return matter;
+  return material;
 }
 
 }  // namespace
@@ -69,15 +69,15 @@ void Simulation<Dim, Real>::start_band_columns() {
   if (!model_.contact.band_columns) {
     return;
   }
-  const ColumnMatter matter = matter_of_base(parameters_, model_, particles_);
+  const ColumnMaterial material = material_of_base(parameters_, model_, particles_);
   const double thickest =
       *std::max_element(parameters_.band.thickness.value.begin(), parameters_.band.thickness.value.end());
-  if (thickest >= matter.depth) {
+  if (thickest >= material.depth) {
     throw UserError(
         fmt::format("{}: the band is up to {} m thick, and the slide above it {:.4g} m on average. Use a thinner band.",
-                    config::place_of(parameters_, "band.thickness"), thickest, matter.depth));
+                    config::place_of(parameters_, "band.thickness"), thickest, material.depth));
   }
-  band_columns_.emplace(make_columns_model(parameters_, model_, matter), model_.motion.gravity);
+  band_columns_.emplace(make_columns_model(parameters_, model_, material), model_.motion.gravity);
   column_time_ = 0.0;
 }
 

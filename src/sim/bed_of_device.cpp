@@ -14,7 +14,7 @@ device::HostBed<Dim, Real> Simulation<Dim, Real>::host_bed() {
   }
   using Columns = typename device::HostBed<Dim, Real>::Columns;
   bed_of_device_ = std::make_unique<BedOfDevice<Dim, Real>>();
-  return {bed_->matter(),
+  return {bed_->material(),
           [this](const Columns& of_blocks, const Columns& of_candidates) {
             bed_of_device_->columns.clear();
             for (const auto& column : of_blocks) {
@@ -35,7 +35,7 @@ device::HostBed<Dim, Real> Simulation<Dim, Real>::host_bed() {
             for (std::size_t n = 0; n < loads.size(); ++n) {
               below.nodes[n].load = loads[n];
             }
-            bed_->share_out(below.nodes);
+            bed_->parallel_chunks(below.nodes);
             below.available.clear();
             for (const auto& node : below.nodes) {
               below.available.push_back(node.available);

@@ -191,8 +191,8 @@ class Block {
     const double saturation =
         model_.band.with_heat_content([&](const auto& content) { return content.curve.saturation(temperature); });
     const double conductivity = model_.band.hydraulic_conductivity[static_cast<std::size_t>(material)];
-    const ColumnMatter matter{temperature, rows.porosity(rows.thickness, saturation), conductivity, rows.thickness};
-    return AnyColumn(std::in_place_type<BlockBandColumn>, make_columns_model(parameters_, model_, matter),
+    const ColumnMaterial material{temperature, rows.porosity(rows.thickness, saturation), conductivity, rows.thickness};
+    return AnyColumn(std::in_place_type<BlockBandColumn>, make_columns_model(parameters_, model_, material),
                      band_thickness(), rows.normal_pressure, parameters_.band.column_step);
   }
 
@@ -316,7 +316,7 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
   const double interval = std::max(parameters.time.history_interval, dt);
   const auto steps = static_cast<long>(std::ceil(parameters.time.end / dt * (1.0 - 1e-12)));
   const long every = std::max(1L, std::lround(interval / dt));
-  const LoneThread alone;  // waking others for a column takes longer than its step
+  const SingleThreadScope alone;  // waking others for a column takes longer than its step
   std::vector<HistoryRow> rows{block.row()};
   for (long k = 1; k <= steps; ++k) {
     block.step(dt);

@@ -9,12 +9,12 @@ namespace thawslide::sim {
 
 // What columns are made of, and where: temperature of the body's base [C], its porosity and hydraulic conductivity
 // [m/s], its largest thickness [m].
-struct ColumnMatter {
+struct ColumnMaterial {
   double temperature, porosity, hydraulic_conductivity, depth;
 };
 
 template <int Dim, class Real>
 band::ColumnsModel<Real> make_columns_model(const config::Case& parameters, const Model<Dim, Real>& model,
-                                            const ColumnMatter& matter);
+                                            const ColumnMaterial& material);
 
 }  // namespace thawslide::sim

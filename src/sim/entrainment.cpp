@@ -48,7 +48,7 @@ double volume_below(const config::Case& parameters, const config::Site& site,
 }
 
 template <class Real>
-terrain::BedMatter<Real> make_matter(const config::Bed& bed, Real density) {
+terrain::BedMaterial<Real> make_bed_material(const config::Bed& bed, Real density) {
   return {bed.law == config::BedLaw::strength ? terrain::BedLaw::strength : terrain::BedLaw::momentum,
           static_cast<Real>(bed.strength), static_cast<Real>(std::tan(bed.friction_angle * pi<double> / 180.0)),
           static_cast<Real>(bed.depth_per_slip), density};
@@ -76,7 +76,7 @@ std::optional<terrain::Bed<Dim, Real>> make_bed(const config::Case& parameters, 
       at[a] = 0;
     }
   }
-  return terrain::Bed<Dim, Real>(make_matter(parameters.bed, model.bed_density), columns, std::move(mass));
+  return terrain::Bed<Dim, Real>(make_bed_material(parameters.bed, model.bed_density), columns, std::move(mass));
 }
 
 // Places below the slide where what was taken off columns may join, relative to the domain's lower corner: under the
@@ -122,13 +122,13 @@ std::vector<Vector<double, Dim - 1>> Simulation<Dim, Real>::places_below_slide(
 // that the forces on nodes are what they were.
 template <int Dim, class Real>
 NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(Vector<double, Dim - 1> place,
-                                                              const terrain::LooseMatter<Dim, Real>& matter,
+                                                              const terrain::LooseMaterial<Dim, Real>& material,
                                                               std::int64_t number) const {
   const double cell = parameters_.grid.cell;
   const auto body = static_cast<std::int32_t>(model_.body_names.size() - 1);
   const double half = static_cast<double>(model_.motion.sizes.half(static_cast<std::size_t>(body))) * cell;
   const double turn = 0.6180339887498949 * static_cast<double>(number);
-  const Vector<double, Dim - 1> along = matter.momentum.template head<Dim - 1>().template cast<double>();
+  const Vector<double, Dim - 1> along = material.momentum.template head<Dim - 1>().template cast<double>();
   if (along.norm() > 0.0) {
     place -= 2.0 * half * (turn - std::floor(turn)) * along.normalized();
   }
@@ -146,13 +146,13 @@ NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(Vector<double, Dim
     one.position[a] = static_cast<Real>(place[a]);
   }
   one.position[Dim - 1] = static_cast<Real>(height);
-  one.velocity = matter.momentum / matter.mass;
-  one.volume = matter.mass / model_.bed_density;
+  one.velocity = material.momentum / material.mass;
+  one.volume = material.mass / model_.bed_density;
   one.temperature = static_cast<Real>(parameters_.bed.temperature);
   one.porosity = static_cast<Real>(parameters_.bed.porosity);
   const Real weight = model_.bed_density * model_.motion.gravity.norm() * static_cast<Real>(std::abs(normal[Dim - 1]));
-  one.flow_depth = weight > Real(0) ? matter.normal_pressure / weight : Real(0);
-  one.heat = matter.work - Real(0.5) * matter.momentum.squaredNorm() / matter.mass;
+  one.flow_depth = weight > Real(0) ? material.normal_pressure / weight : Real(0);
+  one.heat = material.work - Real(0.5) * material.momentum.squaredNorm() / material.mass;
   return one;
 }
 
@@ -176,22 +176,22 @@ void Simulation<Dim, Real>::collect_bed() {
 // What is loose joins as soon as it makes a particle; as a smaller one where nothing is left of the bed, or where the
 // slide has gone on by a cell.
 template <int Dim, class Real>
-void Simulation<Dim, Real>::take_up_bed() {
+void Simulation<Dim, Real>::entrain_bed() {
   if (step_number_ % joining_interval != 0) {
     return;
   }
   const Real whole =
       model_.bed_density * static_cast<Real>(std::pow(parameters_.grid.cell / parameters_.bed.particles_per_axis, Dim));
   std::vector<typename terrain::Bed<Dim, Real>::Column> columns;
-  std::vector<terrain::LooseMatter<Dim, Real>> parts;
-  bed_->release([&](const auto& column, const terrain::LooseMatter<Dim, Real>& matter) {
-    const bool has_passed = matter.idle * matter.momentum.norm() > grid_.cell() * matter.mass;
+  std::vector<terrain::LooseMaterial<Dim, Real>> parts;
+  bed_->release([&](const auto& column, const terrain::LooseMaterial<Dim, Real>& material) {
+    const bool has_passed = material.idle * material.momentum.norm() > grid_.cell() * material.mass;
     const bool is_last = bed_->is_exhausted(column) || has_passed;
-    if (!(matter.mass >= whole || (is_last && matter.mass >= static_cast<Real>(least_share) * whole))) {
+    if (!(material.mass >= whole || (is_last && material.mass >= static_cast<Real>(least_share) * whole))) {
       return false;
     }
-    const auto count = static_cast<std::size_t>(std::max(Real(1), std::floor(matter.mass / whole)));
-    terrain::LooseMatter<Dim, Real> part = matter;
+    const auto count = static_cast<std::size_t>(std::max(Real(1), std::floor(material.mass / whole)));
+    terrain::LooseMaterial<Dim, Real> part = material;
     part.mass /= static_cast<Real>(count);
     part.momentum /= static_cast<Real>(count);
     part.work /= static_cast<Real>(count);
@@ -220,10 +220,10 @@ void Simulation<Dim, Real>::take_up_bed() {
   template std::vector<Vector<double, Dim - 1>> Simulation<Dim, Real>::places_below_slide(                      \
       const std::vector<typename terrain::Bed<Dim, Real>::Column>&) const;                                      \
   template NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(                                       \
-      Vector<double, Dim - 1>, const terrain::LooseMatter<Dim, Real>&, std::int64_t) const;                     \
+      Vector<double, Dim - 1>, const terrain::LooseMaterial<Dim, Real>&, std::int64_t) const;                   \
   template const terrain::Bed<Dim, Real>* Simulation<Dim, Real>::bed_to_meet();                                 \
   template void Simulation<Dim, Real>::collect_bed();                                                           \
-  template void Simulation<Dim, Real>::take_up_bed();
+  template void Simulation<Dim, Real>::entrain_bed();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -74,7 +74,7 @@ void add_bed(const Simulation<Dim, Real>& simulation, const Add& add) {
   const Ledger<Dim, Real>& ledger = simulation.ledger();
   const Real taken = sums.loose + ledger.bed_joined_mass;
   add("entrained_mass_kg", taken);
-  add("entrained_volume_m3", taken / bed->matter().density);
+  add("entrained_volume_m3", taken / bed->material().density);
   add("entrained_work_J", ledger.bed_work);
   add("entrained_heat_J", ledger.bed_heat);
   add("loose_mass_kg", sums.loose);

@@ -89,7 +89,7 @@ void Simulation<Dim, Real>::post_step() {
     stop_for_or_remove_particles();
   }
   if (bed_in_reach() != nullptr) {
-    stopwatch_.time("take_up_bed", [&] { take_up_bed(); });
+    stopwatch_.time("take_up_bed", [&] { entrain_bed(); });
   }
 }
 
@@ -260,8 +260,8 @@ namespace {
 
 // What makes a wave fast, which may be a slip of the pen; empty for other limits.
 template <int Dim, class Real>
-std::string matter_text(const config::Case& parameters, const Model<Dim, Real>& model,
-                        const mpm::Particles<Dim, Real>& particles, const StepLimit& limit) {
+std::string material_text(const config::Case& parameters, const Model<Dim, Real>& model,
+                          const mpm::Particles<Dim, Real>& particles, const StepLimit& limit) {
   if (limit.kind != LimitKind::wave && limit.kind != LimitKind::viscosity) {
     return "";
   }
@@ -295,7 +295,7 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::
           fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}{}. Use a smaller time.step, or "
                       "time.stepping = \"adaptive\".",
                       config::place_of(parameters_, "time.step"), parameters_.time.step, rounded_down(limit.step, 4),
-                      limit.what, matter_text(parameters_, model_, particles_, limit)));
+                      limit.what, material_text(parameters_, model_, particles_, limit)));
     }
   }
   begin();

@@ -206,7 +206,7 @@ class Simulation {
   }
   const terrain::Bed<Dim, Real>* bed_to_meet();
   void collect_bed();
-  void take_up_bed();
+  void entrain_bed();
 
   void seed();
   // Everything that follows from positions and stress at t = 0.
@@ -246,7 +246,7 @@ class Simulation {
   [[nodiscard]] std::vector<Vector<double, Dim - 1>> places_below_slide(
       const std::vector<typename terrain::Bed<Dim, Real>::Column>& columns) const;
   [[nodiscard]] NewParticle<Dim, Real> particle_of_bed(Vector<double, Dim - 1> place,
-                                                       const terrain::LooseMatter<Dim, Real>& matter,
+                                                       const terrain::LooseMaterial<Dim, Real>& material,
                                                        std::int64_t number) const;
   void stop_if_invalid();
   [[nodiscard]] double band_thickness() const;

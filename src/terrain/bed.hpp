@@ -17,7 +17,7 @@ namespace thawslide::terrain {
 
 // Bed matter that has been taken up and waits to join the slide as a particle.
 template <int Dim, class Real>
-struct LooseMatter {
+struct LooseMaterial {
   Real mass = 0;                                           // [kg]
   Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();  // [kg m/s]
   Real work = 0;                                           // that the slide has lost to it [J]
@@ -33,8 +33,12 @@ class Bed {
 
   // columns: how many along each axis, the first at the domain's lower corner; mass: of the bed below each [kg], x
   // fastest.
-  Bed(const BedMatter<Real>& matter, const Column& columns, std::vector<Real> mass)
-      : matter_(matter), columns_(columns), initial_(std::move(mass)), left_(initial_), covered_(initial_.size(), 0) {}
+  Bed(const BedMaterial<Real>& material, const Column& columns, std::vector<Real> mass)
+      : material_(material),
+        columns_(columns),
+        initial_(std::move(mass)),
+        left_(initial_),
+        covered_(initial_.size(), 0) {}
 
   // Number of a column, x fastest; `outside` for one beyond the domain.
   static constexpr std::size_t outside = ~std::size_t{0};
@@ -48,14 +52,14 @@ class Bed {
 
   // Shares out what is left below each column among its nodes, by how they press on the ground (nodes.base): none takes
   // what another one does, and none where the slide has never been. Fills nodes.bed.
-  void share_out(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
+  void parallel_chunks(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
   // The same among nodes of a list, of any columns.
   struct Pressing {
     std::size_t column = outside;
     Real load = 0;       // as BaseLayout has it
     Real available = 0;  // of the bed [kg]
   };
-  void share_out(std::vector<Pressing>& nodes) const;
+  void parallel_chunks(std::vector<Pressing>& nodes) const;
 
   // What nodes took in a step of dt goes from the bed to what is loose.
   void collect(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes, Real dt);
@@ -64,9 +68,9 @@ class Bed {
   void collect(std::size_t column, const Real* record, Real normal_pressure);
 
   // Loose matter that is to join: join(column, matter) says whether it does, and it is loose no more.
-  void release(const std::function<bool(const Column&, const LooseMatter<Dim, Real>&)>& join);
+  void release(const std::function<bool(const Column&, const LooseMaterial<Dim, Real>&)>& join);
 
-  [[nodiscard]] const BedMatter<Real>& matter() const { return matter_; }
+  [[nodiscard]] const BedMaterial<Real>& material() const { return material_; }
   [[nodiscard]] bool is_exhausted(const Column& column) const { return !(left_[number_of(column)] > Real(0)); }
   [[nodiscard]] const std::vector<Real>& left() const { return left_; }  // [kg], by column
   [[nodiscard]] const Column& columns() const { return columns_; }
@@ -86,11 +90,11 @@ class Bed {
   [[nodiscard]] Column column_of(const mpm::SparseGrid<Dim, Real>& grid, std::size_t block, std::size_t node) const;
   [[nodiscard]] Column column_at(std::size_t number) const;
 
-  BedMatter<Real> matter_;
+  BedMaterial<Real> material_;
   Column columns_;
-  std::vector<Real> initial_, left_;                     // [kg], by column
-  std::vector<std::uint16_t> covered_;                   // by column: a bit for each of its parts
-  std::map<std::size_t, LooseMatter<Dim, Real>> loose_;  // by number of the column
+  std::vector<Real> initial_, left_;                       // [kg], by column
+  std::vector<std::uint16_t> covered_;                     // by column: a bit for each of its parts
+  std::map<std::size_t, LooseMaterial<Dim, Real>> loose_;  // by number of the column
 };
 
 }  // namespace thawslide::terrain

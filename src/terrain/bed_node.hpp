@@ -15,7 +15,7 @@ namespace thawslide::terrain {
 enum class BedLaw { strength, momentum };
 
 template <class Real>
-struct BedMatter {
+struct BedMaterial {
   BedLaw law = BedLaw::momentum;
   Real cohesion = 0, tangent = 0;  // of what it withstands: c_b [Pa], tan(phi_b)
   Real depth_per_slip = 0;         // [1]
@@ -41,14 +41,15 @@ THAWSLIDE_HD PartsCovered parts_covered(Real position, Real half, Real cell) {
 // What a node of so much mass [kg] takes of the bed that slides at `speed` > 0 [m/s] after friction of the strength
 // `shear` [Pa]. available: to it of the bed [kg].
 template <class Real>
-THAWSLIDE_HD Bite<Real> bite_of(const BedMatter<Real>& matter, Real available, Real mass, Real speed, Real shear,
-                                Real normal_pressure, Real area, Real dt) {
-  const Real strength = physics::bed_strength(matter.cohesion, matter.tangent, normal_pressure);
-  const Real rate = matter.law == BedLaw::strength
-                        ? physics::erosion_by_strength(shear, strength, speed, matter.depth_per_slip)
-                        : physics::erosion_by_momentum(shear, strength, matter.density, speed, matter.depth_per_slip);
-  const Real taken = min(available, matter.density * rate * area * dt);
-  if (matter.law == BedLaw::momentum) {
+THAWSLIDE_HD EntrainmentImpulse<Real> entrainment_of(const BedMaterial<Real>& material, Real available, Real mass,
+                                                     Real speed, Real shear, Real normal_pressure, Real area, Real dt) {
+  const Real strength = physics::bed_strength(material.cohesion, material.tangent, normal_pressure);
+  const Real rate =
+      material.law == BedLaw::strength
+          ? physics::erosion_by_strength(shear, strength, speed, material.depth_per_slip)
+          : physics::erosion_by_momentum(shear, strength, material.density, speed, material.depth_per_slip);
+  const Real taken = min(available, material.density * rate * area * dt);
+  if (material.law == BedLaw::momentum) {
     return {taken, taken * speed, taken * speed};
   }
   return {taken, taken * physics::speed_with_taken(mass, speed, taken), Real(0)};
@@ -58,25 +59,26 @@ THAWSLIDE_HD Bite<Real> bite_of(const BedMatter<Real>& matter, Real available, R
 // after friction. matter: null where there is no bed.
 template <int Dim, class Real>
 struct BedBelowNode {
-  const BedMatter<Real>* matter;
+  const BedMaterial<Real>* material;
   Real* record;
   Real area, strength, dt, mass;
 
   template <int>
-  [[nodiscard]] THAWSLIDE_HD Bite<Real> bite(const physics::ContactImpulse<Real>& impulse, Real normal_pressure,
-                                             const Vector<Real, Dim>& along, Real tangential_size) const {
+  [[nodiscard]] THAWSLIDE_HD EntrainmentImpulse<Real> entrain(const physics::ContactImpulse<Real>& impulse,
+                                                              Real normal_pressure, const Vector<Real, Dim>& along,
+                                                              Real tangential_size) const {
     using Layout = mpm::BedLayout<Dim>;
-    if (matter == nullptr || !impulse.slides || !(record[Layout::available] > Real(0))) {
+    if (material == nullptr || !impulse.slides || !(record[Layout::available] > Real(0))) {
       return {};
     }
     const Real speed = (tangential_size - impulse.tangential) / mass;
-    const Bite<Real> bite =
-        bite_of(*matter, record[Layout::available], mass, speed, strength, normal_pressure, area, dt);
-    record[Layout::taken] = bite.taken;
+    const EntrainmentImpulse<Real> entrain =
+        entrainment_of(*material, record[Layout::available], mass, speed, strength, normal_pressure, area, dt);
+    record[Layout::taken] = entrain.taken;
     for (std::size_t a = 0; a < Dim; ++a) {
-      record[Layout::impulse + a] = bite.impulse * along[static_cast<int>(a)];
+      record[Layout::impulse + a] = entrain.impulse * along[static_cast<int>(a)];
     }
-    return bite;
+    return entrain;
   }
   THAWSLIDE_HD void note_work(Real work) const { record[mpm::BedLayout<Dim>::work] = work; }
 };

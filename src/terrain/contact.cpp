@@ -101,8 +101,8 @@ const typename GroundOnGrid<Dim, Real>::Block* candidates_of(const GroundOnGrid<
 }
 
 template <int Dim, class Real>
-void hold_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
-                  mpm::Nodes<Dim, Real>& nodes) {
+void apply_contact_conditions(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
+                              mpm::Nodes<Dim, Real>& nodes) {
   nodes.contact.hold(grid.blocks().size(), [&](std::size_t b) { return candidates_of(ground, b) != nullptr; });
 }
 
@@ -161,7 +161,7 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
 template <int Dim, class Real>
 void start_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                    mpm::Nodes<Dim, Real>& nodes) {
-  hold_contact(grid, ground, nodes);
+  apply_contact_conditions(grid, ground, nodes);
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (nodes.contact.holds(b)) {
       start_block(ground->block(b), b, nodes);
@@ -188,10 +188,10 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
                                        mpm::Nodes<Dim, Real>& nodes, const Bed<Dim, Real>* bed) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   nodes.motion.resize(grid.blocks().size());
-  hold_contact(grid, ground, nodes);
+  apply_contact_conditions(grid, ground, nodes);
   const Real smallest = static_cast<Real>(smallest_area) * (Dim == 2 ? grid.cell() : grid.cell() * grid.cell());
   if (bed != nullptr) {
-    bed->share_out(grid, nodes);
+    bed->parallel_chunks(grid, nodes);
   }
   using Work = ContactWork<Dim, Real>;
   return parallel_sum<Work>(grid.blocks().size(), [&](std::size_t b, Work& work) {
@@ -223,15 +223,15 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
     for (std::size_t c = 0; c < contact.basal.count; ++c) {
       const std::size_t k = contact.node[c];
       const Real strength = model.base_holds ? std::numeric_limits<Real>::infinity() : contact.basal.strength[c];
-      const BedBelowNode<Dim, Real> below{bed != nullptr ? &bed->matter() : nullptr,
+      const BedBelowNode<Dim, Real> below{bed != nullptr ? &bed->material() : nullptr,
                                           bed != nullptr ? nodes.bed.of_block(b)[k].data() : nullptr,
                                           contact.area[c],
                                           strength,
                                           dt,
                                           contact.state[c].mass};
-      const HoldOnNode<Dim, Real> hold{(*known)[k].normal, nodes.base(b, k)[BaseLayout::load],
-                                       (*known)[k].bend,   contact.area[c],
-                                       strength,           contact.basal.friction[c]};
+      const ContactConditions<Dim, Real> hold{(*known)[k].normal, nodes.base(b, k)[BaseLayout::load],
+                                              (*known)[k].bend,   contact.area[c],
+                                              strength,           contact.basal.friction[c]};
       apply_contact(mpm::NodeConstraints<Dim, Real>{on_block, k}, hold, model.law.heat_fraction, dt, below,
                     contact.state[c], work, nodes.contact.of_block(b)[k]);
       finish(contact.state[c], k);

@@ -159,7 +159,7 @@ THAWSLIDE_HD void take_columns_state(const Record& state, bool pore_pressure, ph
 
 // What a contact node gives to the bed's matter in a step.
 template <class Real>
-struct Bite {
+struct EntrainmentImpulse {
   Real taken = 0;        // [kg]
   Real impulse = 0;      // along the slip [N s]
   Real of_friction = 0;  // what of it friction had taken already [N s]
@@ -168,8 +168,9 @@ struct Bite {
 // Where there is no bed.
 struct NoBed {
   template <int Dim, class Real>
-  THAWSLIDE_HD Bite<Real> bite(const physics::ContactImpulse<Real>& /*impulse*/, Real /*normal_pressure*/,
-                               const Vector<Real, Dim>& /*along*/, Real /*tangential_size*/) const {
+  THAWSLIDE_HD EntrainmentImpulse<Real> entrain(const physics::ContactImpulse<Real>& /*impulse*/,
+                                                Real /*normal_pressure*/, const Vector<Real, Dim>& /*along*/,
+                                                Real /*tangential_size*/) const {
     return {};
   }
   template <class Real>
@@ -181,7 +182,7 @@ struct NoBed {
 // they bring to the ground, which friction, cohesion and entrainment go by (GroundAtNode::bend; a V channel of half
 // angle a has 1/sin(a)). The paper has one contact normal a node and flat ground.
 template <int Dim, class Real>
-struct HoldOnNode {
+struct ContactConditions {
   const Vector<Real, Dim>& normal;  // into the ground
   Real load;                        // normal impulse times bend [kg m/s]
   Real bend;
@@ -191,8 +192,8 @@ struct HoldOnNode {
 // Applies the contact impulse of one node and adds its work. state.momentum goes from trial to final. left: the node's
 // record of Contact.
 template <int Dim, class Real, class Walls, class FromBed, class Record>
-THAWSLIDE_HD void apply_contact(const Walls& walls, const HoldOnNode<Dim, Real>& hold, Real heat_fraction, Real dt,
-                                const FromBed& bed, NodeState<Dim, Real>& state, ContactWork<Dim, Real>& work,
+THAWSLIDE_HD void apply_contact(const Walls& walls, const ContactConditions<Dim, Real>& hold, Real heat_fraction,
+                                Real dt, const FromBed& bed, NodeState<Dim, Real>& state, ContactWork<Dim, Real>& work,
                                 Record& left) {
   using mpm::Contact;
   const Vector<Real, Dim>& normal = hold.normal;
@@ -203,16 +204,17 @@ THAWSLIDE_HD void apply_contact(const Walls& walls, const HoldOnNode<Dim, Real>&
   if (tangential_size > Real(0)) {
     along = tangential / tangential_size;
   }
-  const Bite<Real> bite = bed.template bite<Dim>(impulse, hold.load / (hold.area * dt), along, tangential_size);
-  impulse.tangential -= bite.of_friction;
+  const EntrainmentImpulse<Real> entrain =
+      bed.template entrain<Dim>(impulse, hold.load / (hold.area * dt), along, tangential_size);
+  impulse.tangential -= entrain.of_friction;
   const Vector<Real, Dim> total = -impulse.normal * normal - impulse.tangential * along;
-  const Vector<Real, Dim> to_bed = bite.impulse * along;
+  const Vector<Real, Dim> to_bed = entrain.impulse * along;
   state.momentum += total - to_bed;
   constrain(walls, state);  // walls and frames outrank the ground
   const Vector<Real, Dim> middle = (state.old_momentum + state.momentum) / (Real(2) * state.mass);
   const Real slip_speed = max(Real(0), Real(middle.dot(along)));
   const Real friction_work = impulse.slides ? impulse.tangential * slip_speed : Real(0);
-  if (bite.taken > Real(0)) {
+  if (entrain.taken > Real(0)) {
     bed.note_work(to_bed.dot(middle));
     work.bed_work += to_bed.dot(middle);
     work.bed_impulse += to_bed;

@@ -27,7 +27,7 @@ TEST(Bed, LawThatLacksItsStrength) {
             "[Pa].");
 }
 
-TEST(Bed, NoMatter) {
+TEST(Bed, NoMaterial) {
   EXPECT_EQ(error_of_bed("material = \"rock\"\n", ""),
             "FOLDER/case.toml:22:1: key 'bed.material' is missing: it is needed when bed.law is not \"none\". Add "
             "'material = ...' to [bed]: name of the material that the bed is made of, a text in quotes.");

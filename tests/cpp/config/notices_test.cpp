@@ -31,7 +31,7 @@ std::vector<std::string> notices_of(const std::string& of_material) {
   return without_folder(notices(found));
 }
 
-TEST(Notices, TellOfBrokenMatterThatIsUnusual) {
+TEST(Notices, WarnOfUnusualBrokenMaterial) {
   EXPECT_EQ(
       notices_of("residual_cohesion = 6e4\nresidual_friction_angle = 12.0\nsoftening_strain = 0.5"),
       (std::vector<std::string>{
@@ -43,7 +43,7 @@ TEST(Notices, TellOfBrokenMatterThatIsUnusual) {
           "rock and ice (not checked)"}));
 }
 
-TEST(Notices, HaveNothingAgainstUsualBrokenMatterNorThePaper) {
+TEST(Notices, AcceptUsualBrokenMaterialAndThePaper) {
   const std::vector<std::string> none;
   EXPECT_EQ(notices_of("residual_cohesion = 1e4\nresidual_friction_angle = 25.0\nsoftening_strain = 0.02"), none);
   EXPECT_EQ(notices_of("residual_cohesion = 1e4\nresidual_friction_angle = 25.0\nsoftening_slip = 3.0"), none);

@@ -82,7 +82,7 @@ Jump jump(const std::string& change, double temperature) {
 double heat(const HistoryRow& row) { return value_of(row, "sensible_J") + value_of(row, "latent_J"); }
 
 // Volumes V/xi = V e/L_e of 5 m2: 0.5 and 5 m2.
-TEST(ThicknessChange, ConservingMixesInMatterAsItWas) {
+TEST(ThicknessChange, ConservingMixesInMaterialUnchanged) {
   for (const double temperature : {400.0, 30.0, -1.0}) {
     const Jump found = jump("conserving", temperature);
     const double brought = 4.5 * found.cold;

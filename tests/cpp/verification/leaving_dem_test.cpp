@@ -103,7 +103,7 @@ Seen leave(int threads) {
   return seen;
 }
 
-TEST(LeavingDem, AccountsCloseAndThreadsDoNotMatter) {
+TEST(LeavingDem, AccountsCloseForAnyNumberOfThreads) {
   Record record("A slide that leaves the DEM",
                 "Debris with heat and pore pressure runs 4 s down a gully; particles beyond the edge of the DEM are "
                 "removed and counted. Maximum residual of the budgets, each half second.",

@@ -120,11 +120,11 @@ template <int Dim>
 device::HostBed<Dim, Real> bed_below(const std::shared_ptr<Told>& told) {
   using Bed = device::HostBed<Dim, Real>;
   Bed bed;
-  bed.matter = {terrain::BedLaw::strength, 0.0, 0.01, 0.5, 1000.0};
+  bed.material = {terrain::BedLaw::strength, 0.0, 0.01, 0.5, 1000.0};
   const auto available = std::make_shared<std::vector<Real>>();
   bed.set_columns = [](const typename Bed::Columns& /*of_blocks*/, const typename Bed::Columns& /*of_candidates*/) {};
-  bed.share_out = [told, available](const std::vector<std::uint32_t>& parts,
-                                    const std::vector<Real>& loads) -> const std::vector<Real>& {
+  bed.parallel_chunks = [told, available](const std::vector<std::uint32_t>& parts,
+                                          const std::vector<Real>& loads) -> const std::vector<Real>& {
     Real covered = 0;
     for (const std::uint32_t of_column : parts) {
       told->push_back(of_column);
