@@ -139,8 +139,8 @@ struct SecantCapacity {
 // Friction heat of nodes that the linear shape functions do not reach goes to the particles whose momentum does, as a
 // change within the cell.
 template <int Dim, class Real>
-struct TakeOrphanHeat {
-  using Reads = mpm::RecordList<mpm::OrphanHeat>;
+struct RedistributeUnreachedHeat {
+  using Reads = mpm::RecordList<mpm::UnreachedHeat>;
   using Adds = mpm::RecordList<>;
   using Account = mpm::NoAccount;
 
@@ -149,7 +149,7 @@ struct TakeOrphanHeat {
   template <class Particles, class At, class Seen, class Added>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
                                                        Added& /*added*/, Account& /*account*/) const {
-    const auto specific = seen.template read<mpm::OrphanHeat, 1>().value[0];
+    const auto specific = seen.template read<mpm::UnreachedHeat, 1>().value[0];
     const auto gain = dt * specific * particles.mass.load(at) * particles.thermal_scaling.load(at) /
                       particles.initial_volume.load(at);  // [J/m3]
     particles.conduction_in_cell.store(at,
@@ -172,7 +172,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void follow_temperature(const Phases& phase
 
 // Eq. 18 for the heat content: the gain goes to the particle's account, and its temperature follows.
 template <int Dim, class Real, class Law>
-struct TakeHeat {
+struct UpdateHeat {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<>;
   using Account = mpm::NoAccount;
@@ -203,7 +203,7 @@ struct TakeHeat {
 // Eqs. 18 and 19 as printed: the old apparent capacity turns heat into a change of temperature. The heat a particle
 // then holds is not what it was given; the difference is counted [J].
 template <int Dim, class Real, class Law>
-struct TakeHeatAsPrinted {
+struct UpdateHeatApparentCapacity {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<>;
   using Account = Real;
@@ -234,7 +234,7 @@ struct TakeHeatAsPrinted {
 
 // Heat made by masses that follow porosity and volume [J]: temperatures stay, the heat the particles hold does not.
 template <int Dim, class Real, class Law>
-struct CountMassesAnew {
+struct UpdateHeatMass {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
   using Account = Real;

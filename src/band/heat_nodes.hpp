@@ -35,16 +35,16 @@ struct SolveTemperatureRate {
 
   void operator()(mpm::Nodes<Dim, Real>& nodes, const mpm::NodeAt& at, Real capacity, Real subgrid,
                   NodalHeat<Real>& sum) const {
-    const bool held = nodes.orphan_heat.holds(at.block);
+    const bool held = nodes.unreached_heat.holds(at.block);
     Real none = 0;
-    Real& orphan = held ? nodes.orphan_heat.of_block(at.block)[at.node][0] : none;
+    Real& unreached = held ? nodes.unreached_heat.of_block(at.block)[at.node][0] : none;
     solve_temperature_rate<Dim>(
         nodes.heat_rates(at), capacity, subgrid, nodes.contact(at)[mpm::Contact::friction_heat], nodes.momentum(at), dt,
-        nodes.state(at)[mpm::NodalState::temperature_rate], orphan, sum, [&](Real& rate, Real& power) {
+        nodes.state(at)[mpm::NodalState::temperature_rate], unreached, sum, [&](Real& rate, Real& power) {
           return has_faces && meets_face(model.at_faces.at(mpm::node_position(grid, at.block, at.node)), first_step,
                                          nodes.averages(at), capacity, grid.cell(), dt, rate, power, sum.gain.boundary);
         });
-    THAWSLIDE_ASSERT(held || !(orphan > Real(0)), "friction heat at node {} of block {}, which is in no contact",
+    THAWSLIDE_ASSERT(held || !(unreached > Real(0)), "friction heat at node {} of block {}, which is in no contact",
                      at.node, at.block);
   }
 };

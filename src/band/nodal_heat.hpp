@@ -31,11 +31,11 @@ struct HeatGain {
 template <class Real>
 struct NodalHeat {
   HeatGain<Real> gain;
-  std::uint64_t orphans = 0;  // nodes with heat and without linear weight
+  std::uint64_t unreached_nodes = 0;  // nodes with heat and without linear weight
 
   THAWSLIDE_HD NodalHeat& operator+=(const NodalHeat& part) {
     gain += part.gain;
-    orphans += part.orphans;
+    unreached_nodes += part.unreached_nodes;
     return *this;
   }
 };
@@ -46,15 +46,15 @@ struct NodalHeat {
 // it may add to the power [W].
 template <int Dim, class Real, class Rates, class MomentumRecord, class MeetsFace>
 THAWSLIDE_HD void solve_temperature_rate(const Rates& rates, Real capacity, Real subgrid, Real friction,
-                                         const MomentumRecord& momentum, Real dt, Real& rate, Real& orphan,
+                                         const MomentumRecord& momentum, Real dt, Real& rate, Real& unreached,
                                          NodalHeat<Real>& sum, const MeetsFace& meets_face) {
   using mpm::HeatRates;
-  rate = orphan = Real(0);
+  rate = unreached = Real(0);
   sum.gain.friction += dt * friction;
   if (!(capacity > Real(0))) {
     if (friction > Real(0)) {
-      orphan = friction / momentum[mpm::MomentumLayout<Dim>::mass];
-      ++sum.orphans;
+      unreached = friction / momentum[mpm::MomentumLayout<Dim>::mass];
+      ++sum.unreached_nodes;
     }
     return;
   }

@@ -30,7 +30,7 @@ struct BandPhysics {
   bool thermal_pressurization = true;
   bool volumetric_term = false;  // Eq. 8's -div v, which Eq. 23 drops
   bool seepage = true;
-  bool seepage_as_printed = false;  // Eq. 23 with one xi over the whole pore space
+  bool published_seepage = false;  // Eq. 23 with one xi over the whole pore space
   bool thickness_each_step = true;
   FrozenRows frozen_rows = FrozenRows::draining;
   bool ice_presses = true;              // P is that of ice and liquid while frozen; off: 0

@@ -87,7 +87,7 @@ struct SeepageFlows {
     const Value zero = Real(0);
     const Value hydraulic = hydraulic_conductivity(particles, at);
     const Value scaling = particles.thermal_scaling.load(at);
-    const Value pore_scaling = physics::pore_space_scaling(scaling, model.seepage_as_printed);
+    const Value pore_scaling = physics::pore_space_scaling(scaling, model.published_seepage);
     const Value volume = particles.volume.load(at);
     const Value storing =
         physics::storing_porosity(model.phases, particles.porosity.load(at), model.skeleton_compressibility);
@@ -251,7 +251,7 @@ struct PorePressure {
     using Value = typename At::Value;
     const Value storage =
         physics::pore_storage(model.phases, particles.porosity.load(at), model.skeleton_compressibility);
-    const Value scaling = physics::pore_space_scaling(particles.thermal_scaling.load(at), model.seepage_as_printed);
+    const Value scaling = physics::pore_space_scaling(particles.thermal_scaling.load(at), model.published_seepage);
     return model.phases.water_density * storage * pressure * particles.volume.load(at) / scaling;
   }
 

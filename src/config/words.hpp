@@ -123,17 +123,17 @@ inline std::vector<Choice<EndOfWater>> choices(EndOfWater) {
   return {{EndOfWater::sealed, "sealed", "nothing passes"}, {EndOfWater::vented, "vented", "air, at P = 0"}};
 }
 inline std::vector<Choice<ThicknessChange>> choices(ThicknessChange) {
-  return {{ThicknessChange::as_printed, "as_printed",
+  return {{ThicknessChange::as_published, "as_printed",
            "temperatures stay: the heat that a thicker band then holds, or a thinner one lacks, is band_rescale_J"},
           {ThicknessChange::conserving, "conserving",
            "a band that thickens takes in matter as it was at t = 0 and mixes with it; one that thins leaves its own "
            "behind: what comes and goes is band_rescale_J"}};
 }
 inline std::vector<Choice<AdvectionForm>> choices(AdvectionForm) {
-  return {
-      {AdvectionForm::as_printed, "as_printed", "rho_L C_L q_L.grad T, as Eq. 9 has it: what it makes is advection_J"},
-      {AdvectionForm::conservative, "conservative",
-       "-div(rho_L C_L q_L (T - Tref)): nothing is made, and water that drains takes its heat along"}};
+  return {{AdvectionForm::as_published, "as_printed",
+           "rho_L C_L q_L.grad T, as Eq. 9 has it: what it makes is advection_J"},
+          {AdvectionForm::conservative, "conservative",
+           "-div(rho_L C_L q_L (T - Tref)): nothing is made, and water that drains takes its heat along"}};
 }
 inline std::vector<Choice<WaterExpansionLaw>> choices(WaterExpansionLaw) {
   return {{WaterExpansionLaw::constant, "constant", "water_expansion"},

@@ -28,7 +28,7 @@ class BandStages {
   // Blocks have changed; there are so many nodes.
   void resize_for(std::size_t nodes) {
     if (passes_.model.heat) {
-      passes_.nodes.template resize_for<mpm::HeatRates, mpm::OrphanHeat>(nodes);
+      passes_.nodes.template resize_for<mpm::HeatRates, mpm::UnreachedHeat>(nodes);
       secant_rates_.resize(passes_.template of<mpm::HeatRates>().size());
     }
     if (passes_.model.pressure_changes) {
@@ -118,9 +118,10 @@ class BandStages {
                              SumPatches<mpm::HeatRates, void, EveryTile, Dim, Real>{
                                  passes_.cells.tables(), {}, passes_.memory.patches(0), secant_rates_.data()});
     passes_.keep(&solve_rates(passes_.marks.blocks(), dt)->gain, &sums_->heat);
-    passes_.marks.mark_tiles(passes_.cells.tables(), HasHeat<Dim, Real>{passes_.template of<mpm::OrphanHeat>().data()});
-    passes_.run(passes_.momentum(passes_.marks.tiles()), band::TakeOrphanHeat<Dim, Real>{dt});
-    passes_.run(passes_.linear(), TakeHeat<Dim, Real, Content>{content, passes_.model.band, dt});
+    passes_.marks.mark_tiles(passes_.cells.tables(),
+                             HasHeat<Dim, Real>{passes_.template of<mpm::UnreachedHeat>().data()});
+    passes_.run(passes_.momentum(passes_.marks.tiles()), band::RedistributeUnreachedHeat<Dim, Real>{dt});
+    passes_.run(passes_.linear(), UpdateHeat<Dim, Real, Content>{content, passes_.model.band, dt});
   }
   const band::NodalHeat<Real>* solve_rates(const std::uint8_t* changing_blocks, Real dt) {
     const std::size_t blocks = passes_.cells.tables().blocks;
@@ -128,7 +129,7 @@ class BandStages {
                                       passes_.template of<mpm::HeatRates>().data(),
                                       secant_rates_.data(),
                                       changing_blocks,
-                                      passes_.template of<mpm::OrphanHeat>().data(),
+                                      passes_.template of<mpm::UnreachedHeat>().data(),
                                       dt,
                                       passes_.cells.tables().block_keys,
                                       passes_.model.heat_faces,

@@ -112,9 +112,9 @@ struct SecantCapacity {
 };
 
 template <int Dim, class Real, class Content>
-struct TakeHeat {
+struct UpdateHeat {
   using Law = band::ParticleHeat<Content, band::InitialMasses>;
-  using Kernel = band::TakeHeat<Dim, Real, Law>;
+  using Kernel = band::UpdateHeat<Dim, Real, Law>;
   using Reads = typename Kernel::Reads;
   using Adds = typename Kernel::Adds;
   using Account = typename Kernel::Account;
@@ -142,7 +142,7 @@ struct SolveRates {
   NodeViews<Dim, Real> nodes;
   const Real *tangent_rates, *secant_rates;
   const std::uint8_t* changing_blocks;  // null: none yet
-  Real* orphan_heat;
+  Real* unreached_heat;
   Real dt;
   const std::uint64_t* block_keys;
   band::HeatFaces<Dim, Real> faces;
@@ -152,17 +152,17 @@ struct SolveRates {
   THAWSLIDE_HD void visit(std::size_t node, Part& part) const {
     using mpm::HeatRates;
     constexpr std::size_t size = mpm::record_size(HeatRates::size<Dim>);
-    constexpr std::size_t orphan_size = mpm::record_size(mpm::OrphanHeat::size<Dim>);
+    constexpr std::size_t unreached_size = mpm::record_size(mpm::UnreachedHeat::size<Dim>);
     const bool changes = changing_blocks != nullptr && changing_blocks[node / block_nodes] != 0;
     const Real* rates = (changes ? secant_rates : tangent_rates) + node * size;
     const Real* tangent = tangent_rates + node * size;
-    for (std::size_t c = 1; c < orphan_size; ++c) {
-      orphan_heat[node * orphan_size + c] = Real(0);  // a pass that reads the record reads all of it
+    for (std::size_t c = 1; c < unreached_size; ++c) {
+      unreached_heat[node * unreached_size + c] = Real(0);  // a pass that reads the record reads all of it
     }
     band::solve_temperature_rate<Dim>(
         tangent, rates[HeatRates::capacity], rates[HeatRates::subgrid],
         nodes.contact_at(node)[mpm::Contact::friction_heat], static_cast<const Real*>(nodes.momentum_at(node)), dt,
-        nodes.state_at(node)[mpm::NodalState::temperature_rate], orphan_heat[node * orphan_size], part,
+        nodes.state_at(node)[mpm::NodalState::temperature_rate], unreached_heat[node * unreached_size], part,
         [&](Real& rate, Real& power) {
           return has_faces && band::meets_face(faces.at(place_of_node<Dim>(block_keys, node, cell)), first_step,
                                                static_cast<const Real*>(nodes.averages_at(node)),
@@ -195,10 +195,10 @@ struct MayChange {
 // Where nodes hold friction heat for particles.
 template <int Dim, class Real>
 struct HasHeat {
-  const Real* orphan_heat;
+  const Real* unreached_heat;
 
   [[nodiscard]] THAWSLIDE_HD bool of_node(std::size_t node) const {
-    return orphan_heat[node * mpm::record_size(mpm::OrphanHeat::size<Dim>)] != Real(0);
+    return unreached_heat[node * mpm::record_size(mpm::UnreachedHeat::size<Dim>)] != Real(0);
   }
   [[nodiscard]] THAWSLIDE_HD bool of_particle(std::uint32_t /*particle*/) const { return false; }
 };

@@ -232,7 +232,7 @@ struct EvaluateFriction {
     if (known[candidates[k]].substrate == substrate && base.area > Real(0)) {
       base.friction = law.coefficient(base.node);
       base.drag = physics::basal::drag_of(law, base.node);
-      base.relief = Law::feels_pore_pressure ? base.node.pore_pressure : Real(0);
+      base.relief = Law::depends_on_pore_pressure ? base.node.pore_pressure : Real(0);
     }
   }
 };

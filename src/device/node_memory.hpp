@@ -47,7 +47,7 @@ class NodeMemory {
   Backend& backend_;
   Array<Real, Backend> base_{backend_};
   NodeArrays<Backend, Real, mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact, mpm::Motion,
-             mpm::Velocity, mpm::HeatRates, mpm::OrphanHeat, mpm::Seepage, mpm::SeepingWater, mpm::FilterMoments,
+             mpm::Velocity, mpm::HeatRates, mpm::UnreachedHeat, mpm::Seepage, mpm::SeepingWater, mpm::FilterMoments,
              mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>
       records_{backend_};
 };

@@ -227,7 +227,7 @@ class Step {
 
   // And what the processor asks of the particles at their new places.
   void update_positions() {
-    const mpm::TakePosition<Dim, Real> take{passes_.model.lower, passes_.model.upper};
+    const mpm::UpdatePosition<Dim, Real> take{passes_.model.lower, passes_.model.upper};
     const FindExtremes<Dim, Real> extremes{passes_.model.band, band_.hydraulic(), {free_gaps_.data()}};
     const CountEscaped<Dim, Real> escapes = escape_kernel();
     if (passes_.model.finds_extremes && passes_.model.counts_escaped) {

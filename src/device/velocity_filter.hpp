@@ -34,7 +34,7 @@ struct MakeIncrement {
 template <class Backend, class Shape, int Dim, class Real>
 void filter_velocities(StepPasses<Backend, Shape, Dim, Real>& passes, Real* gained) {
   using Passes = StepPasses<Backend, Shape, Dim, Real>;
-  using Taking = mpm::TakeFiltered<Dim, Real>;
+  using Taking = mpm::ApplyFiltered<Dim, Real>;
   const std::size_t nodes = passes.cells.tables().blocks * Passes::block_nodes;
   passes.nodes.template resize_for<mpm::FilterMoments, mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>(
       nodes);

@@ -95,7 +95,7 @@ struct SweepFilter {
 // The velocities that the nodes' motions give, in place of the particles' own; their momentum back to the nodes (MUSL).
 // Sums the kinetic energy that is gained [J].
 template <int Dim, class Real>
-struct TakeFiltered {
+struct ApplyFiltered {
   using Reads = RecordList<FilterTotal>;
   using Adds = RecordList<Velocity>;
   using Account = Real;

@@ -84,7 +84,7 @@ MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, 
 template <int Dim, class Real>
 void update_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper,
                       InvalidParticle& invalid) {
-  invalid += for_particles_in_memory(particles, TakePosition<Dim, Real>{lower, upper});
+  invalid += for_particles_in_memory(particles, UpdatePosition<Dim, Real>{lower, upper});
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                               \

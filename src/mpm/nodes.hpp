@@ -39,7 +39,7 @@ struct Nodes {
   SparseRecordsOf<Contact, Dim, Real> contact;
   SparseRecordsOf<NearGround, Dim, Real> near_ground{room};
   SparseRecords<Dim, Real, BedLayout<Dim>::size> bed;  // where the ground is erodible
-  SparseRecordsOf<OrphanHeat, Dim, Real> orphan_heat;
+  SparseRecordsOf<UnreachedHeat, Dim, Real> unreached_heat;
   SparseRecordsOf<BaseState, Dim, Real> base_state;    // where band columns lie under the slide
   SparseRecordsOf<HeatRates, Dim, Real> secant_rates;  // with the secant capacity, of blocks where temperatures change
   SparseRecordsOf<Seepage, Dim, Real> seepage{room};   // of blocks to whose nodes water seeps

@@ -14,7 +14,7 @@ namespace thawslide::mpm {
 // The displacement of the step takes effect, but for a particle that is not finite or would leave [lower, upper]. Sums
 // those.
 template <int Dim, class Real>
-struct TakePosition {
+struct UpdatePosition {
   using Reads = RecordList<>;
   using Adds = RecordList<>;
   using Account = InvalidParticle;

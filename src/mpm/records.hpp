@@ -175,12 +175,12 @@ struct HeatRates {
 };
 
 // Friction heat of nodes without linear weight, per mass [W/kg].
-struct OrphanHeat {
+struct UnreachedHeat {
   using Functions = MomentumFunctions;
   template <int Dim>
   static constexpr int size = 1;
   static constexpr int flux = no_flux;
-  static auto& in(auto& nodes) { return nodes.orphan_heat; }
+  static auto& in(auto& nodes) { return nodes.unreached_heat; }
 };
 
 // Sums over particles of what changes their pore pressure (Eq. 23).

@@ -42,7 +42,7 @@ Real filter_velocities(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& 
       pass(SweepFilter<Dim, Real>{});
       make_increments(grid, false, nodes);
     }
-    gained = pass(TakeFiltered<Dim, Real>{});
+    gained = pass(ApplyFiltered<Dim, Real>{});
   });
   return gained;
 }

@@ -28,8 +28,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_stiffness(const Phases<Real>& ph
 // What the pore space is divided by when flow is multiplied by xi: xi, as Eq. 19 divides the capacity, or, as Eq. 23
 // is printed, nothing.
 template <class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_space_scaling(Value scaling, bool as_printed) {
-  return as_printed ? Value(1) : scaling;
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_space_scaling(Value scaling, bool as_published) {
+  return as_published ? Value(1) : scaling;
 }
 
 // D = K_L k_L/(n S gamma_w) [m2/s]; hydraulic conductivity k_L [m/s].

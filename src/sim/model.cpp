@@ -210,7 +210,7 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
   band.thermal_pressurization = parameters.pressure.thermal_pressurization;
   band.volumetric_term = parameters.pressure.volumetric_term;
   band.seepage = parameters.pressure.seepage;
-  band.seepage_as_printed = parameters.pressure.seepage_scaling == config::SeepageScaling::printed;
+  band.published_seepage = parameters.pressure.seepage_scaling == config::SeepageScaling::printed;
   band.clapeyron_sign = parameters.pressure.clapeyron == config::ClapeyronSign::usual ? Real(1) : Real(-1);
   band.normal_thickness = parameters.pressure.thickness_direction == config::ThicknessDirection::normal;
   band.thickness_each_step = parameters.pressure.thickness_update == config::ThicknessUpdate::each_step;

@@ -88,7 +88,7 @@ void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, d
          found.diffusivity.particle, [&] { return fmt::format("heat conduction over {:.4g} m", length); });
   }
   if (parameters.pressure.enabled && parameters.pressure.seepage && found.seepage.value > 0.0) {
-    const double pore_length = model.band.seepage_as_printed ? std::sqrt(cell * length) : length;
+    const double pore_length = model.band.published_seepage ? std::sqrt(cell * length) : length;
     take(diffusion_share * pore_length * pore_length / (2.0 * Dim * found.seepage.value), LimitKind::seepage,
          found.seepage.particle, [&] { return fmt::format("seepage over {:.4g} m", pore_length); });
   }

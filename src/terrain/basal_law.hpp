@@ -63,7 +63,7 @@ void evaluate_ground_law(const GroundLaw<Real>& law, int substrate, Real time, B
             const auto node = nodes.node(k, time);
             nodes.friction[k] = friction.coefficient(node);
             nodes.drag[k] = physics::basal::drag_of(friction, node);
-            nodes.relief[k] = Friction::feels_pore_pressure ? nodes.pore_pressure[k] : Real(0);
+            nodes.relief[k] = Friction::depends_on_pore_pressure ? nodes.pore_pressure[k] : Real(0);
           }
         }
       },

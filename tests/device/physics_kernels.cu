@@ -208,7 +208,7 @@ __global__ void mixture(Phases<Real> phases, Real* numbers, Real* results, std::
   result.put(mixed(porosity, row.take(), row.take()));
 }
 
-__global__ void pore_water(Phases<Real> phases, Real gravity, Real dt, Real sign, bool as_printed, Real* numbers,
+__global__ void pore_water(Phases<Real> phases, Real gravity, Real dt, Real sign, bool as_published, Real* numbers,
                            Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
   const Real porosity = row.take(), saturation = row.take(), temperature = row.take();
@@ -217,7 +217,7 @@ __global__ void pore_water(Phases<Real> phases, Real gravity, Real dt, Real sign
   result.put(pore_pressure(saturation, liquid, ice));
   result.put(undrained_pressure_coefficient(phases, porosity, saturation));
   result.put(pore_stiffness(phases, porosity, saturation));
-  const Real scaling = pore_space_scaling(row.take(), as_printed);
+  const Real scaling = pore_space_scaling(row.take(), as_published);
   const Real diffusivity = hydraulic_diffusivity(phases, porosity, saturation, scaling * row.take());
   result.put(share_of_subgrid_diffusion(diffusivity, row.take(), 3, dt));
 }

@@ -173,8 +173,8 @@ __global__ void sweep_filter(TileOnDevice<Dim> tile, Results<Dim, mpm::SweepFilt
 }
 
 template <int Dim>
-__global__ void take_filtered(TileOnDevice<Dim> tile, Results<Dim, mpm::TakeFiltered<Dim, Real>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::TakeFiltered<Dim, Real>{});
+__global__ void take_filtered(TileOnDevice<Dim> tile, Results<Dim, mpm::ApplyFiltered<Dim, Real>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::ApplyFiltered<Dim, Real>{});
 }
 
 template <int Dim, class Law>
@@ -207,30 +207,32 @@ __global__ void secant_capacity(TileOnDevice<Dim> tile, Results<Dim, band::Secan
 }
 
 template <int Dim, class Curve>
-__global__ void take_heat(TileOnDevice<Dim> tile, Results<Dim, band::TakeHeat<Dim, Real, Law<Curve>>> to,
+__global__ void take_heat(TileOnDevice<Dim> tile, Results<Dim, band::UpdateHeat<Dim, Real, Law<Curve>>> to,
                           Content<Curve> content, band::BandPhysics<Real> model, Real dt) {
   const Law<Curve> law{content};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::TakeHeat<Dim, Real, Law<Curve>>{model, law, dt});
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::UpdateHeat<Dim, Real, Law<Curve>>{model, law, dt});
 }
 
 template <int Dim, class Curve>
-__global__ void take_heat_as_printed(TileOnDevice<Dim> tile,
-                                     Results<Dim, band::TakeHeatAsPrinted<Dim, Real, Law<Curve>>> to,
-                                     Content<Curve> content, band::BandPhysics<Real> model, Real dt) {
+__global__ void update_heat_as_published(TileOnDevice<Dim> tile,
+                                         Results<Dim, band::UpdateHeatApparentCapacity<Dim, Real, Law<Curve>>> to,
+                                         Content<Curve> content, band::BandPhysics<Real> model, Real dt) {
   const Law<Curve> law{content};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::TakeHeatAsPrinted<Dim, Real, Law<Curve>>{model, law, dt});
+  visit<Shape<Dim>>(tile, to.carried, to.accounts,
+                    band::UpdateHeatApparentCapacity<Dim, Real, Law<Curve>>{model, law, dt});
 }
 
 template <int Dim, class Curve>
-__global__ void masses_anew(TileOnDevice<Dim> tile, Results<Dim, band::CountMassesAnew<Dim, Real, Law<Curve>>> to,
-                            Content<Curve> content) {
+__global__ void new_heat_masses(TileOnDevice<Dim> tile, Results<Dim, band::UpdateHeatMass<Dim, Real, Law<Curve>>> to,
+                                Content<Curve> content) {
   const Law<Curve> law{content};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::CountMassesAnew<Dim, Real, Law<Curve>>{law});
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::UpdateHeatMass<Dim, Real, Law<Curve>>{law});
 }
 
 template <int Dim>
-__global__ void orphan_heat(TileOnDevice<Dim> tile, Results<Dim, band::TakeOrphanHeat<Dim, Real>> to, Real dt) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::TakeOrphanHeat<Dim, Real>{dt});
+__global__ void unreached_heat(TileOnDevice<Dim> tile, Results<Dim, band::RedistributeUnreachedHeat<Dim, Real>> to,
+                               Real dt) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::RedistributeUnreachedHeat<Dim, Real>{dt});
 }
 
 template <int Dim>
@@ -281,8 +283,8 @@ __global__ void load(TileOnDevice<Dim> tile, band::ColumnsOfTile<Dim, Real, band
 }
 
 template <int Dim>
-__global__ void take_position(TileOnDevice<Dim> tile, Results<Dim, mpm::TakePosition<Dim, Real>> to,
-                              mpm::TakePosition<Dim, Real> kernel) {
+__global__ void take_position(TileOnDevice<Dim> tile, Results<Dim, mpm::UpdatePosition<Dim, Real>> to,
+                              mpm::UpdatePosition<Dim, Real> kernel) {
   visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
 }
 
@@ -331,9 +333,9 @@ void instantiate() {
   secant_capacity<Dim, Line><<<1, 128>>>(tile, {}, {}, 0);
   take_heat<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, {}, 0);
   take_heat<Dim, Line><<<1, 128>>>(tile, {}, {}, {}, 0);
-  take_heat_as_printed<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, {}, 0);
-  masses_anew<Dim, PowerLaw><<<1, 128>>>(tile, {}, {});
-  orphan_heat<Dim><<<1, 128>>>(tile, {}, 0);
+  update_heat_as_published<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, {}, 0);
+  new_heat_masses<Dim, PowerLaw><<<1, 128>>>(tile, {}, {});
+  unreached_heat<Dim><<<1, 128>>>(tile, {}, 0);
   seepage<Dim><<<1, 128>>>(tile, {}, {}, {}, 0);
   seeping_water<Dim><<<1, 128>>>(tile, {}, {}, {});
   box_in_columns<Dim><<<1, 128>>>(0, tile, nullptr);

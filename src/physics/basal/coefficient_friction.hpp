@@ -12,7 +12,7 @@ template <class Real>
 struct CoefficientFriction {
   static constexpr const char* word = "coefficient";
   static constexpr const char* text = "friction_coefficient times N, whatever the pore pressure";
-  static constexpr bool feels_pore_pressure = false;
+  static constexpr bool depends_on_pore_pressure = false;
   static constexpr auto parameters = parameter_list(friction_coefficient);
 
   Real given;  // mu

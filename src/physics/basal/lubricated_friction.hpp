@@ -35,7 +35,7 @@ template <class Real>
 struct LubricatedFriction {
   static constexpr const char* word = "lubricated";
   static constexpr const char* text = "tan(friction_angle) times a factor that falls as ice melts (Eq. 25)";
-  static constexpr bool feels_pore_pressure = true;
+  static constexpr bool depends_on_pore_pressure = true;
   static constexpr auto parameters =
       parameter_list(friction_angle, lubrication_exponent, min_solid_fraction, max_solid_fraction);
 

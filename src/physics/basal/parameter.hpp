@@ -3,8 +3,8 @@
 //   word, text          what the case file calls it, and what it does
 //   parameters          the numbers that it takes, declared here or shared with others (shared_parameters.hpp)
 //   from(numbers)       the law, from a function that gives the number of a parameter
-//   coefficient(node)   of a friction law: mu_e; feels_pore_pressure: of N - P; drag(node), if any: no share of N [Pa]
-//   cohesion(node)      of a cohesion law: c_S [Pa]
+//   coefficient(node)   of a friction law: mu_e; depends_on_pore_pressure: of N - P; drag(node), if any: no share of N
+//   [Pa] cohesion(node)      of a cohesion law: c_S [Pa]
 #pragma once
 
 #include <array>

@@ -23,7 +23,7 @@ template <class Real>
 struct VoellmyFriction {
   static constexpr const char* word = "voellmy";
   static constexpr const char* text = "friction_coefficient (N - P) + rho g v^2/turbulent_friction, v the slip speed";
-  static constexpr bool feels_pore_pressure = true;
+  static constexpr bool depends_on_pore_pressure = true;
   static constexpr auto parameters = parameter_list(friction_coefficient, turbulent_friction);
 
   Real given;       // mu

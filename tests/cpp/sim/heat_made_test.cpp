@@ -103,7 +103,7 @@ TEST(ThicknessChange, ConservingMixesInMaterialUnchanged) {
   }
 }
 
-TEST(ThicknessChange, AsPrintedMakesTheHeatThatItsColumnShows) {
+TEST(ThicknessChange, PublishedCreatesTheHeatInItsColumn) {
   const Jump found = jump("as_printed", 30.0);
   EXPECT_EQ(found.temperature_thick, 30.0);
   EXPECT_NEAR(value_of(found.thick, "band_rescale_J"), 4.5 * found.hot, 1e-9 * found.hot);

@@ -193,7 +193,7 @@ class ScalarStep {
   }
 
   // The friction heat of nodes without linear weight [J/m3], by the weight of the particle's momentum there.
-  [[nodiscard]] double orphan_heat(const Point<Dim>& p, const Sums& stored) const {
+  [[nodiscard]] double unreached_heat(const Point<Dim>& p, const Sums& stored) const {
     double power = 0.0;
     for_nodes(p, Transfer::ugimp, [&](const Index& node, double weight, const Place& /*gradient*/) {
       const auto held = stored.find(node);
@@ -253,7 +253,7 @@ class ScalarStep {
       const Sums held = stored();
       const auto second = rates(flows, held);
       for (Point<Dim>& p : points_) {
-        const double taken = p.capacity * change(p, second) + orphan_heat(p, held);
+        const double taken = p.capacity * change(p, second) + unreached_heat(p, held);
         p.old_temperature = p.temperature;
         if (p.heat_content + taken != p.heat_content) {
           p.heat_content += taken;
