@@ -48,7 +48,7 @@ class Cells {
   }
 
   // Particles stand in memory in canonical order now.
-  void note_order_in_memory() { backend_.for_each(order_.size(), Count{order_.data()}); }
+  void store_memory_order() { backend_.for_each(order_.size(), Count{order_.data()}); }
 
   [[nodiscard]] TileTables<Dim> tables() const {
     return {keys_.size(),

@@ -16,8 +16,8 @@ namespace thawslide::device {
 
 // By rank in canonical order: how far the particle is, to be sorted, and which it is.
 template <int Dim, class Real>
-struct ListAlongWay {
-  mpm::Way<Dim> way;
+struct ListAlongPath {
+  mpm::Transformation<Dim> way;
   mpm::ParticleView<Dim, Real> particles;
   const std::uint32_t* order;
   std::uint64_t* keys;
@@ -30,10 +30,10 @@ struct ListAlongWay {
 // Some of a list from its end on, the last one first.
 template <int Dim, class Real>
 struct KeepForemost {
-  mpm::Way<Dim> way;
+  mpm::Transformation<Dim> way;
   mpm::ParticleView<Dim, Real> particles;
   const std::uint32_t* end;
-  mpm::OnWay* taken;
+  mpm::PathSample* taken;
 
   THAWSLIDE_HD void operator()(std::size_t k) const { taken[k] = way.of(particles, *(end - 1 - k)); }
 };
@@ -45,13 +45,13 @@ class Front {
 
   // Of so many particles, of some mass together [kg]; at least one. Of those equally far the one of the higher rank in
   // canonical order counts as further.
-  mpm::OnWay find(const mpm::Way<Dim>& way, double mass, const TileTables<Dim>& tables,
-                  const mpm::ParticleView<Dim, Real>& particles, std::size_t count) {
-    const mpm::Way<Dim> here{copied(way.line), way.origin};
+  mpm::PathSample find(const mpm::Transformation<Dim>& way, double mass, const TileTables<Dim>& tables,
+                       const mpm::ParticleView<Dim, Real>& particles, std::size_t count) {
+    const mpm::Transformation<Dim> here{copied(way.line), way.origin};
     keys_.resize(count);
     sorted_keys_.resize(count);
     sorted_.resize(count);
-    backend_.for_each(count, ListAlongWay<Dim, Real>{here, particles, tables.order, keys_.data()});
+    backend_.for_each(count, ListAlongPath<Dim, Real>{here, particles, tables.order, keys_.data()});
     backend_.sort(keys_.data(), tables.order, sorted_keys_.data(), sorted_.data(), count);
     mpm::FrontSearch search(mass);
     // Some more at a time than are ahead of the front where all have the same mass.
@@ -59,7 +59,7 @@ class Front {
     for (std::size_t left = count;; left -= taken_.size()) {
       taken_.resize(std::min(left, at_a_time));
       backend_.for_each(taken_.size(), KeepForemost<Dim, Real>{here, particles, sorted_.data() + left, taken_.data()});
-      for (const mpm::OnWay& one : taken_.get()) {
+      for (const mpm::PathSample& one : taken_.get()) {
         if (search.is_at(one.mass)) {
           return one;
         }
@@ -88,7 +88,7 @@ class Front {
   Backend& backend_;
   Array<std::uint64_t, Backend> keys_{backend_}, sorted_keys_{backend_};  // kept: what a row needs is there
   Array<std::uint32_t, Backend> sorted_{backend_};
-  Array<mpm::OnWay, Backend> taken_{backend_};
+  Array<mpm::PathSample, Backend> taken_{backend_};
   Array<Place2, Backend> corners_{backend_}, directions_{backend_};
   Array<double, Backend> along_{backend_};
   Array<BoxOfLine, Backend> boxes_{backend_};

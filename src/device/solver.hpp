@@ -36,7 +36,7 @@ class Solver {
   // What a row of the history sums.
   virtual band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) = 0;
   // The particle at the front, of those whose mass together is so much [kg].
-  virtual mpm::OnWay front(const mpm::Way<Dim>& way, double mass) = 0;
+  virtual mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) = 0;
   // Where those stand that the last step told as strays, from the domain's lower corner [m].
   virtual std::vector<Vector<Real, Dim>> escaped_positions() = 0;
   // Particles move in memory to stand in canonical order. Results do not depend on it.

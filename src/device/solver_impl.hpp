@@ -24,7 +24,7 @@ class SolverImpl final : public Solver<Dim, Real> {
   band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) override {
     return step_.sum_over_body(of_particle);
   }
-  mpm::OnWay front(const mpm::Way<Dim>& way, double mass) override { return step_.front(way, mass); }
+  mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) override { return step_.front(way, mass); }
   std::vector<Vector<Real, Dim>> escaped_positions() override { return step_.escaped_positions(); }
   void sort_in_memory() override { step_.sort_in_memory(); }
   void copy_to(const mpm::ParticleView<Dim, Real>& particles) override { step_.copy_to(particles); }

@@ -49,7 +49,7 @@ class Step {
   void sort_in_memory() {
     find_cells();
     passes_.particles.reorder(passes_.cells.tables().order);
-    passes_.cells.note_order_in_memory();
+    passes_.cells.store_memory_order();
   }
 
   // One step of dt [s] from a time [s] on.
@@ -89,7 +89,7 @@ class Step {
   band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) {
     return passes_.sum_over_particles(SumOverBody<Dim, Real>{of_particle}, body_);
   }
-  mpm::OnWay front(const mpm::Way<Dim>& way, double mass) {
+  mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) {
     return front_.find(way, mass, passes_.cells.tables(), passes_.particles.view(), passes_.particles.size());
   }
   // Where those stand that the last step told as strays, from the domain's lower corner [m].

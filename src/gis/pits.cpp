@@ -47,8 +47,8 @@ class Patches {
   // Calls work(column, row, distance) for the points beside one that are known.
   template <class Work>
   void for_each_neighbour(const Place& place, const Work& work) const {
-    constexpr std::array<Place, 4> ways{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
-    for (const Place& way : ways) {
+    constexpr std::array<Place, 4> directions{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+    for (const Place& way : directions) {
       const int column = place.column + way.column, row = place.row + way.row;
       const bool inside = column >= 0 && column < ground_.columns && row >= 0 && row < ground_.rows;
       if (inside && !std::isnan(ground_.at(column, row))) {

@@ -9,7 +9,7 @@
 
 namespace thawslide::gis {
 
-struct Reprojection::Way {
+struct Reprojection::Transformation {
   std::unique_ptr<OGRCoordinateTransformation> transformation;
 };
 
@@ -29,9 +29,9 @@ Reprojection::Reprojection(const std::string& from_wkt, const std::string& to_wk
   if (from.IsSame(&to, options) != 0) {
     return;
   }
-  way_ = std::make_unique<Way>();
-  way_->transformation.reset(OGRCreateCoordinateTransformation(&from, &to));
-  if (way_->transformation == nullptr) {
+  transformation_ = std::make_unique<Transformation>();
+  transformation_->transformation.reset(OGRCreateCoordinateTransformation(&from, &to));
+  if (transformation_->transformation == nullptr) {
     require_projection_database();
     throw UserError(
         fmt::format("no way is known from the coordinate reference system {} to {}{}. Reproject the file "
@@ -45,12 +45,12 @@ Reprojection::Reprojection(Reprojection&&) noexcept = default;
 Reprojection& Reprojection::operator=(Reprojection&&) noexcept = default;
 
 bool Reprojection::apply(std::vector<double>& x, std::vector<double>& y) const {
-  if (way_ == nullptr) {
+  if (transformation_ == nullptr) {
     return true;
   }
   const GdalMessages messages;
   std::vector<int> success(x.size(), 0);
-  way_->transformation->Transform(static_cast<int>(x.size()), x.data(), y.data(), nullptr, success.data());
+  transformation_->transformation->Transform(static_cast<int>(x.size()), x.data(), y.data(), nullptr, success.data());
   for (const int one : success) {
     if (one == 0) {
       return false;

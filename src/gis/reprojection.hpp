@@ -18,13 +18,13 @@ class Reprojection {
   Reprojection(Reprojection&&) noexcept;
   Reprojection& operator=(Reprojection&&) noexcept;
 
-  [[nodiscard]] bool changes_nothing() const { return way_ == nullptr; }
+  [[nodiscard]] bool changes_nothing() const { return transformation_ == nullptr; }
   // x, y in place. Returns false where a point has no coordinates in the other system.
   [[nodiscard]] bool apply(std::vector<double>& x, std::vector<double>& y) const;
 
  private:
-  struct Way;
-  std::unique_ptr<Way> way_;
+  struct Transformation;
+  std::unique_ptr<Transformation> transformation_;
 };
 
 // The system of a file beside the terrain model: what it tells, or the ground's where it tells nothing and where its

@@ -8,20 +8,20 @@
 namespace thawslide::mpm {
 
 // A particle on the way that the front is measured on.
-struct OnWay {
+struct PathSample {
   double along = 0.0, mass = 0.0;  // [m, kg]
   Place2 place{};                  // [m]; in 2D x alone
 };
 
 // Along a line, or, where that has no segments, along the x axis.
 template <int Dim>
-struct Way {
+struct Transformation {
   LineView line;
   Place2 origin{};  // of positions [m]
 
   template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD OnWay of(const Particles& particles, std::uint32_t p) const {
-    OnWay found;
+  [[nodiscard]] THAWSLIDE_HD PathSample of(const Particles& particles, std::uint32_t p) const {
+    PathSample found;
     found.mass = static_cast<double>(particles.mass(p));
     for (int a = 0; a < Dim - 1; ++a) {
       const auto axis = static_cast<std::size_t>(a);

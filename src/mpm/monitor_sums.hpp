@@ -27,7 +27,7 @@ struct MonitorSums {
 template <int Dim, class Real>
 struct MonitorKernel {
   Vector<Real, Dim> gravity, origin;     // [m/s2]; of positions [m]
-  Real fast_way;                         // of a particle that is fast, in a step [m]
+  Real fast_distance;                    // of a particle that is fast, in a step [m]
   Real smallest_volume, largest_volume;  // of that at t = 0
 
   template <class Particles>
@@ -41,7 +41,7 @@ struct MonitorKernel {
       seen.potential -= mass * gravity[a] * (particles.position(p, a) + origin[a]);
     }
     seen.mass = mass;
-    seen.fast_mass = way2 > fast_way * fast_way ? mass : Real(0);
+    seen.fast_mass = way2 > fast_distance * fast_distance ? mass : Real(0);
     seen.kinetic = Real(0.5) * mass * speed2;
     const Real ratio = particles.volume(p) / particles.initial_volume(p);
     if (ratio < smallest_volume || ratio > largest_volume) {

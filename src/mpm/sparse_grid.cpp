@@ -49,7 +49,7 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
   THAWSLIDE_ASSERT(particles.size() >= keys_.size(), "{} particles are left of {}, and which is not known",
                    particles.size(), keys_.size());
   if (particles.size() > keys_.size()) {
-    note_appended(particles);
+    add_appended(particles);
   }
   blocks_changed_ = false;
   stale_.assign(tiles_.size(), 0);
@@ -57,33 +57,33 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
     merge_moved(particles);
   }
   if (first_call) {  // never again do all particles move
-    task_movers_ = std::vector<std::vector<Mover>>();
-    movers_ = std::vector<Mover>();
+    task_movers_ = std::vector<std::vector<CellChange>>();
+    movers_ = std::vector<CellChange>();
   }
-  const bool sorts = first_call || (interval > 0 && (++calls_ >= interval || scattered_ >= most_scattered));
+  const bool sorts = first_call || (interval > 0 && (++calls_ >= interval || disorder_ >= most_scattered));
   if (sorts) {
     reorder(particles);
   }
   batches_.resize(tiles_.size());
   made_.resize(tiles_.size());
   make_stale_batches(particles);
-  note_order(sorts);
+  update_sort_heuristic(sorts);
 }
 
 // How much the order in memory costs: batches that are not contiguous, beyond those that never are, over the steps
 // since the last sorting.
 template <int Dim, class Real>
-void SparseGrid<Dim, Real>::note_order(bool sorted) {
+void SparseGrid<Dim, Real>::update_sort_heuristic(bool sorted) {
   const std::size_t broken =
       std::accumulate(made_.begin(), made_.end(), std::size_t{0},
                       [](std::size_t sum, const MadeBatches& of_tile) { return sum + of_tile.broken; });
   if (sorted) {
     calls_ = 0;
-    scattered_ = 0;
+    disorder_ = 0;
     fewest_broken_ = broken;
   } else if (broken > fewest_broken_) {
     const std::size_t contiguous = order_.size() / Batch<Real>::most + 1;
-    scattered_ += static_cast<double>(broken - fewest_broken_) / static_cast<double>(contiguous);
+    disorder_ += static_cast<double>(broken - fewest_broken_) / static_cast<double>(contiguous);
   }
 }
 
@@ -121,12 +121,12 @@ bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) 
       std::fill_n(&moved_[first], most, std::uint8_t{0});
       if (std::memcmp(nearest, &nearest_[first * Dim], sizeof nearest) != 0) {
         std::copy_n(nearest, Dim * most, &nearest_[first * Dim]);
-        note_movers(particles, first, batch.count, task_movers_[task]);
+        add_cell_changes(particles, first, batch.count, task_movers_[task]);
       }
     }
   });
   movers_.clear();
-  for (const std::vector<Mover>& movers : task_movers_) {
+  for (const std::vector<CellChange>& movers : task_movers_) {
     movers_.insert(movers_.end(), movers.begin(), movers.end());
   }
   return !movers_.empty();
@@ -148,8 +148,8 @@ std::uint64_t SparseGrid<Dim, Real>::key_of(const Particles<Dim, Real>& particle
 
 // The keys of `count` particles from `first` on, from their nearest nodes.
 template <int Dim, class Real>
-void SparseGrid<Dim, Real>::note_movers(const Particles<Dim, Real>& particles, std::size_t first, std::size_t count,
-                                        std::vector<Mover>& movers) {
+void SparseGrid<Dim, Real>::add_cell_changes(const Particles<Dim, Real>& particles, std::size_t first,
+                                             std::size_t count, std::vector<CellChange>& movers) {
   for (std::size_t p = first; p < first + count; ++p) {
     const std::uint64_t key = key_of(particles, p);
     if (key != keys_[p]) {
@@ -167,7 +167,7 @@ void SparseGrid<Dim, Real>::merge_moved(const Particles<Dim, Real>& particles) {
     return keys_[a] != keys_[b] ? keys_[a] < keys_[b] : particles.id(a) < particles.id(b);
   };
   std::sort(movers_.begin(), movers_.end(),
-            [&](const Mover& a, const Mover& b) { return before(a.particle, b.particle); });
+            [&](const CellChange& a, const CellChange& b) { return before(a.particle, b.particle); });
   count_leaving();
   list_tiles();
   former_order_.swap(order_);
@@ -206,7 +206,7 @@ void SparseGrid<Dim, Real>::merge_tile(std::size_t t, const Before& before) {
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::count_leaving() {
   leaving_.assign(tiles_.size(), 0);
-  for (const Mover& mover : movers_) {
+  for (const CellChange& mover : movers_) {
     if (mover.former_tile != no_key) {
       const auto tile = std::lower_bound(tiles_.begin(), tiles_.end(), mover.former_tile,
                                          [](const OccupiedTile& a, std::uint64_t key) { return a.key < key; });
@@ -224,7 +224,7 @@ void SparseGrid<Dim, Real>::list_tiles() {
   bool same = true;
   std::uint32_t placed = 0;
   std::size_t former = 0, mover = 0;
-  const auto tile_of = [&](const Mover& one) { return keys_[one.particle] >> T::node_bits; };
+  const auto tile_of = [&](const CellChange& one) { return keys_[one.particle] >> T::node_bits; };
   while (former < former_tiles_.size() || mover < movers_.size()) {
     const std::uint64_t key = std::min(former < former_tiles_.size() ? former_tiles_[former].key : no_key,
                                        mover < movers_.size() ? tile_of(movers_[mover]) : no_key);

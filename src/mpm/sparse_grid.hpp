@@ -83,7 +83,7 @@ class SparseGrid {
   static constexpr std::uint64_t no_key = ~std::uint64_t{0};
 
   // A particle that has another nearest node than at the last call, and the tile that it was in then.
-  struct Mover {
+  struct CellChange {
     std::uint32_t particle;
     std::uint64_t former_tile;
   };
@@ -99,19 +99,19 @@ class SparseGrid {
     std::uint32_t broken;  // batches that are not contiguous
   };
 
-  void note_appended(const Particles<Dim, Real>& particles);
+  void add_appended(const Particles<Dim, Real>& particles);
   void drop_from_tiles(const std::vector<std::uint32_t>& now_at);
   bool compute_keys(const Particles<Dim, Real>& particles);
   [[nodiscard]] std::uint64_t key_of(const Particles<Dim, Real>& particles, std::size_t particle) const;
-  void note_movers(const Particles<Dim, Real>& particles, std::size_t first, std::size_t count,
-                   std::vector<Mover>& movers);
+  void add_cell_changes(const Particles<Dim, Real>& particles, std::size_t first, std::size_t count,
+                        std::vector<CellChange>& movers);
   void merge_moved(const Particles<Dim, Real>& particles);
   template <class Before>
   void merge_tile(std::size_t t, const Before& before);
   void count_leaving();
   void list_tiles();
   void reorder(Particles<Dim, Real>& particles);
-  void note_order(bool sorted);
+  void update_sort_heuristic(bool sorted);
   void list_blocks();
   void connect_blocks();
   void make_stale_batches(const Particles<Dim, Real>& particles);
@@ -129,8 +129,8 @@ class SparseGrid {
   bool one_material_ = true;
   std::vector<std::uint8_t> moved_;
   ReorderBuffer reorder_buffer_;
-  std::vector<std::vector<Mover>> task_movers_;
-  std::vector<Mover> movers_;
+  std::vector<std::vector<CellChange>> task_movers_;
+  std::vector<CellChange> movers_;
   std::vector<std::uint32_t> order_, former_order_;
   std::vector<OccupiedTile> tiles_, former_tiles_;
   std::vector<std::uint32_t> leaving_;                      // movers by former tile
@@ -144,7 +144,7 @@ class SparseGrid {
   int calls_ = 0;                  // since particles were sorted in memory
   std::vector<MadeBatches> made_;  // by tile
   std::size_t fewest_broken_ = 0;  // right after the last sorting
-  double scattered_ = 0;           // cost of the order since then: see note_order
+  double disorder_ = 0;            // cost of the order since then: see update_sort_heuristic
 };
 
 }  // namespace thawslide::mpm

@@ -6,7 +6,7 @@ namespace thawslide::mpm {
 
 // Particles beyond those known have no nearest node yet.
 template <int Dim, class Real>
-void SparseGrid<Dim, Real>::note_appended(const Particles<Dim, Real>& particles) {
+void SparseGrid<Dim, Real>::add_appended(const Particles<Dim, Real>& particles) {
   const std::size_t before = keys_.size(), count = particles.size();
   keys_.resize(count, no_key);
   moved_.resize(count + Batch<Real>::most, 0);
@@ -74,8 +74,8 @@ void SparseGrid<Dim, Real>::drop_from_tiles(const std::vector<std::uint32_t>& no
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                           \
-  template void SparseGrid<Dim, Real>::note_appended(const Particles<Dim, Real>&); \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                          \
+  template void SparseGrid<Dim, Real>::add_appended(const Particles<Dim, Real>&); \
   template void SparseGrid<Dim, Real>::remove(const Particles<Dim, Real>&, const std::vector<std::uint32_t>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

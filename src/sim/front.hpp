@@ -11,18 +11,18 @@
 namespace thawslide::sim {
 
 // A particle on the way that the front is measured on.
-struct MassOnWay {
+struct MassOnPath {
   double along, mass;  // [m, kg]
   std::size_t rank;    // in canonical order; of particles equally far the one of the higher rank counts as further
 
-  [[nodiscard]] bool operator<(const MassOnWay& other) const {
+  [[nodiscard]] bool operator<(const MassOnPath& other) const {
     return along < other.along || (along == other.along && rank < other.rank);
   }
 };
 
 // The particle up to which 99.5 % of the mass [kg] has come, which is that of all together. Changes the order of
 // `masses`, which are not empty.
-[[nodiscard]] inline MassOnWay front_of(std::vector<MassOnWay>& masses, double mass) {
+[[nodiscard]] inline MassOnPath front_of(std::vector<MassOnPath>& masses, double mass) {
   THAWSLIDE_ASSERT(!masses.empty(), "the front of {} particles", masses.size());
   mpm::FrontSearch search(mass);
   std::make_heap(masses.begin(), masses.end());

@@ -89,8 +89,8 @@ template <int Dim, class Real>
 mpm::MonitorSums<Real> Simulation<Dim, Real>::monitor_sums() const {
   // A way of more than this in a step is fast. The velocity of a particle has parts beside that the grid does not see,
   // and which move nothing (FLIP).
-  const Real fast_way = static_cast<Real>(rest_speed(parameters_.time)) * dt_;
-  const mpm::MonitorKernel<Dim, Real> look{model_.motion.gravity, model_.origin.template cast<Real>(), fast_way,
+  const Real fast_distance = static_cast<Real>(rest_speed(parameters_.time)) * dt_;
+  const mpm::MonitorKernel<Dim, Real> look{model_.motion.gravity, model_.origin.template cast<Real>(), fast_distance,
                                            static_cast<Real>(parameters_.guards.smallest_volume),
                                            static_cast<Real>(parameters_.guards.largest_volume)};
   mpm::MonitorSums<Real> seen;

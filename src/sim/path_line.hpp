@@ -44,9 +44,9 @@ class PathLine {
 // The way of a centre of mass: a corner wherever it is a spacing [m] away from the last one, so that its direction does
 // not come from a few millimetres of wavering. Until the first of them the way ends where the centre is, and is empty
 // while that is less than a hundredth of the spacing from where it was.
-class CentreWay {
+class CentrePath {
  public:
-  explicit CentreWay(double spacing) : spacing_(spacing) { line_.reserve(usual_corners); }
+  explicit CentrePath(double spacing) : spacing_(spacing) { line_.reserve(usual_corners); }
 
   void note(const Place2& centre);
   [[nodiscard]] const PathLine& line() const { return line_; }

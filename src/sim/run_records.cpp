@@ -103,7 +103,7 @@ config::Polyline2 corners_at_start(const config::Case& parameters,
 
 template <int Dim>
 RunRecords<Dim>::RunRecords(const Simulation& simulation, const config::Site& site)
-    : way_(simulation.parameters().grid.cell) {
+    : transformation_(simulation.parameters().grid.cell) {
   if constexpr (Dim == 3) {
     given_ = PathLine(site.path);
     path_given_ = !site.path.empty();
@@ -125,7 +125,7 @@ template <int Dim>
 void RunRecords<Dim>::start(const Simulation& simulation) {
   if constexpr (Dim == 3) {
     maps_->start(simulation.grid(), simulation.particles());
-    note_way(simulation, mass_moments(simulation));
+    add_to_path(simulation, mass_moments(simulation));
     release_top_ = highest_point(simulation);
   }
 }
@@ -141,12 +141,12 @@ void RunRecords<Dim>::after_step(const Simulation& simulation) {
       THAWSLIDE_ASSERT(std::abs(mass - look->moments.mass) <= round_off<double> * look->moments.mass,
                        "{} kg of {} kg lie over map cells that particles may reach", mass, look->moments.mass);
       maps_->gather(look->keys, look->sums, simulation.time(), below);
-      note_way(simulation, look->moments);
+      add_to_path(simulation, look->moments);
       return;
     }
     maps_->gather(simulation.grid(), simulation.particles(), simulation.time(), below);
     if (!path_given_) {
-      note_way(simulation, mass_moments(simulation));
+      add_to_path(simulation, mass_moments(simulation));
     }
   }
 }
@@ -160,10 +160,10 @@ void RunRecords<Dim>::slide_left() {
 
 // The centre of mass over the horizontal plane.
 template <int Dim>
-void RunRecords<Dim>::note_way(const Simulation& simulation, const mpm::MassMoments& sums) {
+void RunRecords<Dim>::add_to_path(const Simulation& simulation, const mpm::MassMoments& sums) {
   if (!path_given_) {
     const auto& origin = simulation.model().origin;
-    way_.note({sums.mass_x / sums.mass + origin[0], sums.mass_y / sums.mass + origin[1]});
+    transformation_.note({sums.mass_x / sums.mass + origin[0], sums.mass_y / sums.mass + origin[1]});
   }
 }
 
@@ -172,14 +172,14 @@ NamedNumbers RunRecords<Dim>::state() const {
   if (!maps_) {
     return {};
   }
-  return {{"maps", maps_->state()}, {"centre_way", way_.state()}, {"release_top", {release_top_}}};
+  return {{"maps", maps_->state()}, {"centre_way", transformation_.state()}, {"release_top", {release_top_}}};
 }
 
 template <int Dim>
 void RunRecords<Dim>::restore(const NamedNumbers& blocks) {
   if (maps_) {
     maps_->restore(block_of(blocks, "maps"));
-    way_.restore(block_of(blocks, "centre_way"));
+    transformation_.restore(block_of(blocks, "centre_way"));
     release_top_ = StateNumbers(block_of(blocks, "release_top"), "release's top").next();
   }
 }
@@ -189,7 +189,7 @@ std::optional<Front> RunRecords<Dim>::front(const Simulation& simulation) const 
   if (path().empty() || simulation.particle_count() == 0 || simulation.device_has_failed()) {
     return {};
   }
-  const mpm::OnWay foremost = simulation.front(path().view());
+  const mpm::PathSample foremost = simulation.front(path().view());
   return Front{foremost.along, foremost.place};
 }
 

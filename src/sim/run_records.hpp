@@ -44,8 +44,8 @@ class RunRecords {
   // Null in 2D.
   [[nodiscard]] const FlowMaps* maps() const { return maps_ ? &*maps_ : nullptr; }
   // The given one, or the way of the centre of mass so far, a corner each cell of the grid; empty in 2D, and while the
-  // centre has hardly moved (CentreWay).
-  [[nodiscard]] const PathLine& path() const { return path_given_ ? given_ : way_.line(); }
+  // centre has hardly moved (CentrePath).
+  [[nodiscard]] const PathLine& path() const { return path_given_ ? given_ : transformation_.line(); }
   [[nodiscard]] bool path_given() const { return path_given_; }
   // The front along the path; none where that is empty, no particle is left, or a device failed with them.
   [[nodiscard]] std::optional<Front> front(const Simulation& simulation) const;
@@ -61,14 +61,14 @@ class RunRecords {
                                                   const std::function<double(double x, double y)>& ground_height) const;
 
  private:
-  void note_way(const Simulation& simulation, const mpm::MassMoments& sums);
+  void add_to_path(const Simulation& simulation, const mpm::MassMoments& sums);
   // Arc length of the path at which the release begins: the least of the corners between which it lies [m].
   [[nodiscard]] double rear_of_release() const;
 
   std::optional<FlowMaps> maps_;
   PathLine given_;
   bool path_given_ = false;
-  CentreWay way_;
+  CentrePath transformation_;
   Probes probes_;
   config::Polyline2 corners_at_start_;  // of bodies
   double release_top_ = 0.0;            // elevation of the highest point of the slide at t = 0 [m]

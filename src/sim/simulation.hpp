@@ -123,7 +123,7 @@ class Simulation {
   [[nodiscard]] BodySums<Dim, Real> sum_over_body() const;
   [[nodiscard]] BodySums<Dim, Real> sum_over_marked(const std::vector<std::uint8_t>& marked) const;
   // The particle at the front along a line, or along the x axis where the line has no segments. There must be one.
-  [[nodiscard]] mpm::OnWay front(const LineView& line = {}) const;
+  [[nodiscard]] mpm::PathSample front(const LineView& line = {}) const;
   // What maps take of a step that a device took; null after one of the processor.
   [[nodiscard]] const device::MapSample* sample_map(const mpm::MapCells& cells) const;
   // Of a step of the processor.

@@ -38,7 +38,7 @@ class PassesOn : public device::Solver<Dim, double> {
   band::BodySums<Dim, double> sum_over_body(const band::SumsOfParticle<Dim, double>& of_particle) override {
     return steps_->sum_over_body(of_particle);
   }
-  mpm::OnWay front(const mpm::Way<Dim>& way, double mass) override { return steps_->front(way, mass); }
+  mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) override { return steps_->front(way, mass); }
   std::vector<Vector<double, Dim>> escaped_positions() override { return steps_->escaped_positions(); }
   void sort_in_memory() override { steps_->sort_in_memory(); }
   void copy_to(const mpm::ParticleView<Dim, double>& particles) override { steps_->copy_to(particles); }

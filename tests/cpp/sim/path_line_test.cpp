@@ -70,8 +70,8 @@ TEST(PathLine, ProjectsOntoManySegments) {
   }
 }
 
-TEST(CentreWay, HasCornersASpacingApart) {
-  CentreWay way(2.0);
+TEST(CentrePath, HasCornersASpacingApart) {
+  CentrePath way(2.0);
   for (int k = 0; k <= 100; ++k) {
     const double wavering = 0.01 * (k % 2);
     way.note({0.1 * k, wavering});
@@ -84,8 +84,8 @@ TEST(CentreWay, HasCornersASpacingApart) {
   EXPECT_NEAR(way.line().length(), 10.0, 1e-3);
 }
 
-TEST(CentreWay, HasNoDirectionBeforeTheCentreMoves) {
-  CentreWay way(2.0);
+TEST(CentrePath, HasNoDirectionBeforeTheCentreMoves) {
+  CentrePath way(2.0);
   way.note({5.0, 5.0});
   way.note({5.0, 5.019});
   EXPECT_TRUE(way.line().empty());
@@ -96,13 +96,13 @@ TEST(CentreWay, HasNoDirectionBeforeTheCentreMoves) {
   EXPECT_TRUE(way.line().empty());
 }
 
-TEST(CentreWay, GoesOnFromItsNumbers) {
+TEST(CentrePath, GoesOnFromItsNumbers) {
   for (const int stop : {0, 1, 7, 19, 20, 21, 60}) {
-    CentreWay whole(2.0), first(2.0);
+    CentrePath whole(2.0), first(2.0);
     for (int k = 0; k <= stop; ++k) {
       first.note({0.1 * k, 0.02 * k});
     }
-    CentreWay second(2.0);
+    CentrePath second(2.0);
     second.restore(first.state());
     for (int k = 0; k <= 80; ++k) {
       whole.note({0.1 * k, 0.02 * k});
@@ -116,7 +116,7 @@ TEST(CentreWay, GoesOnFromItsNumbers) {
 
 TEST(Front, LeavesHalfAPercentOfTheMassAhead) {
   std::mt19937 random(3);
-  std::vector<MassOnWay> masses;
+  std::vector<MassOnPath> masses;
   for (std::size_t k = 0; k < 1000; ++k) {
     masses.push_back({static_cast<double>(k), 2.0, k});
   }

@@ -44,8 +44,9 @@ class Record {
 
  private:
   // Keeps the errors and the orders between neighbours; returns the last order.
-  double note_order(const std::string& resolution, const std::vector<double>& resolutions, const std::string& error,
-                    const std::vector<double>& errors, double expected, double allowed);
+  double update_sort_heuristic(const std::string& resolution, const std::vector<double>& resolutions,
+                               const std::string& error, const std::vector<double>& errors, double expected,
+                               double allowed);
 
   std::unique_ptr<nlohmann::json> facts_;
 };

@@ -111,7 +111,7 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& 
   mpm::MonitorKernel<Dim, Real> look;
   look.gravity = model_of_slide<Dim>().gravity;
   look.origin.setZero();
-  look.fast_way = 6.0 * time_step;
+  look.fast_distance = 6.0 * time_step;
   look.smallest_volume = 0.1;
   look.largest_volume = 10.0;
   const mpm::MonitorSums<Real> seen = steps.watch(look);
@@ -132,7 +132,7 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& 
                                  body.momentum[0], body.displacement, body.band_temperature});
   const sim::PathLine line = bent_line();
   for (const LineView& way : {LineView{}, line.view()}) {
-    const mpm::OnWay front = steps.front({way, {5.0, 7.0}}, body.mass);
+    const mpm::PathSample front = steps.front({way, {5.0, 7.0}}, body.mass);
     numbers.insert(numbers.end(), {front.along, front.mass, front.place[0], front.place[1]});
   }
   std::vector<std::array<Real, 2>> escapes;  // they come in the order of the device's memory
