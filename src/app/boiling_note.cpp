@@ -60,9 +60,9 @@ std::string of_no_boiling(double time, const char* reason) {
 
 template <int Dim>
 std::string BoilingWatch::note(const sim::Simulation<Dim, double>& simulation) {
-  const auto once = [](bool& is_told, bool holds) {
-    const bool is_new = holds && !is_told;
-    is_told = is_told || holds;
+  const auto once = [](bool& is_specified, bool holds) {
+    const bool is_new = holds && !is_specified;
+    is_specified = is_specified || holds;
     return is_new;
   };
   const double time = simulation.time();

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 #include "gis/point_window.hpp"
@@ -85,7 +85,7 @@ config::Case trial_case(const std::string& folder, const MapOptions& maps) {
 namespace {
 
 // A message that names keys of a case, for a user who has not got one yet.
-std::string in_words_of_options(std::string message) {
+std::string as_option_names(std::string message) {
   const std::vector<std::pair<std::string, std::string>> words{
       {"which body.slide.thickness asks for", "which is needed without --thickness"},
       {"terrain.crs = ", "--crs "},
@@ -116,21 +116,21 @@ gis::SiteAndNotes read_files(const config::Case& trial) {
     }
     return read;
   } catch (const UserError& error) {
-    throw UserError(in_words_of_options(error.what()));
+    throw UserError(as_option_names(error.what()));
   }
 }
 
 }  // namespace
 
-config::Site look_at_files(const config::Case& trial) {
+config::Site open_site(const config::Case& trial) {
   gis::SiteAndNotes read = read_files(trial);
   for (const std::string& note : read.notes) {
-    fmt::print("note: {}\n", in_words_of_options(note));
+    fmt::print("note: {}\n", as_option_names(note));
   }
   return std::move(read.site);
 }
 
-config::Site look_again(const config::Case& trial) { return read_files(trial).site; }
+config::Site reopen_site(const config::Case& trial) { return read_files(trial).site; }
 
 config::EdgeTaper taper_edges(config::Case& trial, const config::Site& site) {
   const config::EdgeTaper taper = config::propose_taper(*site.ground, site.releases.at(body_name).thickness);
@@ -167,7 +167,7 @@ void make_new_folder(const fs::path& folder) {
 }
 
 void print_next_commands(const std::string& program, const fs::path& folder) {
-  const std::string called = shell_word(program), made = shell_word(folder.string());
+  const std::string called = shell_quote(program), made = shell_quote(folder.string());
   fmt::print("look at it:  {} check {} --picture\nrun it:      {} run {}\n", called, made, called, made);
 }
 

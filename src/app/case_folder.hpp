@@ -22,14 +22,14 @@ config::Case trial_case(const std::string& folder, const MapOptions& maps);
 
 // What the map files of such a case hold; prints what the user should know of them. A UserError names options, not
 // keys. For builds with GDAL.
-config::Site look_at_files(const config::Case& trial);
+config::Site open_site(const config::Case& trial);
 
 // Gives the release of such a case, which is to be cut out of the DEM, the taper that lets the slide get out, and says
 // where there is no room for it. `site`: of the case so far, with nothing cut out. For builds with GDAL.
 config::EdgeTaper taper_edges(config::Case& trial, const config::Site& site);
 
-// As look_at_files, for files that were looked at before: prints nothing.
-config::Site look_again(const config::Case& trial);
+// As open_site, for files that were looked at before: prints nothing.
+config::Site reopen_site(const config::Case& trial);
 
 // The last part of a folder's path.
 std::string title_of(const std::filesystem::path& folder);

@@ -116,16 +116,16 @@ int check_case(const CheckOptions& options) {
       require_no_input_at(facts.picture, "--picture", parameters);
       draw_setup(setup_json<Dim>(simulation), facts.picture);
     }
-    const auto tell = [&] { fmt::print("{}", options.json ? json_of(facts) : text_of(facts)); };
+    const auto report_line = [&] { fmt::print("{}", options.json ? json_of(facts) : text_of(facts)); };
     try {
       facts.seconds = measured_step_seconds<Dim>(simulation) * facts.steps;
       facts.gpu = gpu_facts<Dim>(simulation, records, facts.steps);
     } catch (const RunError& error) {  // what was known before holds all the same
       facts.error = error.what();
-      tell();
+      report_line();
       throw;
     }
-    tell();
+    report_line();
     return static_cast<int>(ExitCode::done);
   });
 }

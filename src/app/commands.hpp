@@ -35,7 +35,7 @@ struct StatusOptions {
   std::string folder;
   bool json = false;
 };
-int tell_status(const StatusOptions& options);
+int print_status(const StatusOptions& options);
 
 struct CheckOptions {
   CaseOptions of_case;

@@ -113,7 +113,7 @@ double free_on_disk(const fs::path& folder) {
   return unknown ? HUGE_VAL : static_cast<double>(space.available);
 }
 
-std::string doubt_of_disk(const config::Case& parameters, const DiskNeed& need, double free, const fs::path& folder) {
+std::string warning_of_disk(const config::Case& parameters, const DiskNeed& need, double free, const fs::path& folder) {
   if (!(need.total() > most_of_free * free)) {
     return "";
   }

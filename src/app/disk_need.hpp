@@ -34,7 +34,7 @@ template <int Dim>
 [[nodiscard]] double free_on_disk(const std::filesystem::path& folder);
 
 // What to say where a run would fill the disk; empty where there is room.
-[[nodiscard]] std::string doubt_of_disk(const config::Case& parameters, const DiskNeed& need, double free,
-                                        const std::filesystem::path& folder);
+[[nodiscard]] std::string warning_of_disk(const config::Case& parameters, const DiskNeed& need, double free,
+                                          const std::filesystem::path& folder);
 
 }  // namespace thawslide::app

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "app/commands.hpp"
-#include "app/say.hpp"
+#include "app/print.hpp"
 #include "app/signals.hpp"
 #include "app/standard_streams.hpp"
 #include "base/error.hpp"
@@ -89,7 +89,7 @@ void require_known_command(const CLI::App& program, int count, char** arguments)
   const std::string hint = thawslide::config::did_you_mean(arguments[1], commands);
   throw thawslide::UserError(
       fmt::format("there is no command '{}'{} Commands: {}. Run with --help for more information.", arguments[1],
-                  hint.empty() ? "." : hint, thawslide::config::list_words(commands)));
+                  hint.empty() ? "." : hint, thawslide::config::comma_list(commands)));
 }
 
 // A reader that closes its pipe has read enough; what cannot be written otherwise is lost, and that is told. Returns
@@ -98,7 +98,7 @@ int end_without_output(std::error_code reason, int code) {
   if (reason == std::errc::broken_pipe) {
     return code;
   }
-  say_error("error: the output cannot be written: {}. Send it to where there is room for it.\n", reason.message());
+  print_error("error: the output cannot be written: {}. Send it to where there is room for it.\n", reason.message());
   return static_cast<int>(ExitCode::not_written);
 }
 
@@ -143,7 +143,7 @@ int run_program(int count, char** arguments) {
   CLI::App* status = program.add_subcommand("status", "Say whether a run is alive, how far it is, and how to go on");
   status->add_option("run", status_options.folder, "Folder of the run")->required();
   status->add_flag("--json", status_options.json, "As JSON");
-  status->callback([&] { exit_code = tell_status(status_options); });
+  status->callback([&] { exit_code = print_status(status_options); });
 
   CheckOptions check_options;
   CLI::App* check = program.add_subcommand("check", "Validate a case and say what its run will take");
@@ -248,20 +248,20 @@ int main(int count, char** arguments) {
   try {
     return run_program(count, arguments);
   } catch (const thawslide::WriteError& error) {
-    say_error("error: {}\n", printable(error.what()));
+    print_error("error: {}\n", printable(error.what()));
     return static_cast<int>(ExitCode::not_written);
   } catch (const thawslide::UserError& error) {
-    say_error("error: {}\n", printable(error.what()));
+    print_error("error: {}\n", printable(error.what()));
     return static_cast<int>(ExitCode::user_mistake);
   } catch (const thawslide::RunError& error) {
-    say_error("error: {}\n", printable(error.what()));
+    print_error("error: {}\n", printable(error.what()));
     return static_cast<int>(ExitCode::run_failed);
   } catch (const std::filesystem::filesystem_error& error) {
     const std::string paths = error.path1().string() + (error.path2().empty() ? "" : " and " + error.path2().string());
-    say_error("error: {}: {}\n", printable(paths), error.code().message());
+    print_error("error: {}: {}\n", printable(paths), error.code().message());
     return static_cast<int>(ExitCode::user_mistake);
   } catch (const std::bad_alloc&) {
-    say_error(
+    print_error(
         "error: the memory of this machine, or what a limit allows of it (ulimit -v), is not enough. Make "
         "grid.cell larger: twice the cell takes an eighth of the memory in 3D and a quarter in 2D.\n");
     return static_cast<int>(ExitCode::user_mistake);
@@ -271,7 +271,7 @@ int main(int count, char** arguments) {
     if (of_system != nullptr && std::ferror(stdout) != 0) {
       return end_without_output(of_system->code(), static_cast<int>(ExitCode::done));
     }
-    say_error("internal error, please report it: {}\n", error.what());
+    print_error("internal error, please report it: {}\n", error.what());
     return 1;
   }
 }

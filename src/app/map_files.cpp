@@ -23,7 +23,7 @@ config::Site read_map_files(const config::Case& parameters, [[maybe_unused]] Not
   notes.add(gis::holes_note(parameters, read.site));
   notes.add(gis::probes_in_holes(read.site));
   notes.add(sim::orient_lines(parameters, read.site));
-  notes.add(sim::doubt_of_path(parameters, read.site));
+  notes.add(sim::warning_of_path(parameters, read.site));
   notes.add(gis::roughness_note(parameters, read.site));
   return std::move(read.site);
 #else

@@ -241,12 +241,12 @@ int make_new_case(const NewOptions& options) {
   require_utf8("--release", release_name);
   require_nothing_unfinished(options.folder);
   config::Case trial = trial_case(options.folder, options.maps);
-  config::Site site = look_at_files(trial);
+  config::Site site = open_site(trial);
   require_ground_about(options.maps.release, *site.ground, site.releases.at(body_name).thickness);
   config::ProposalInput input;
   if (options.maps.cut) {
     input.taper = taper_edges(trial, site);
-    site = look_again(trial);
+    site = reopen_site(trial);
   }
   const std::string resolution = options.cell > 0.0 ? "" : options.resolution.empty() ? "quick" : options.resolution;
   const config::Proposal proposal =

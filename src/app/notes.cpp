@@ -1,6 +1,6 @@
 #include "app/notes.hpp"
 
-#include "app/say.hpp"
+#include "app/print.hpp"
 
 namespace thawslide::app {
 
@@ -9,7 +9,7 @@ void Notes::add(const std::string& text) {
     return;
   }
   if (form_ == Form::printed) {
-    say("note: {}\n", text);
+    print_text("note: {}\n", text);
   }
   all_.push_back(text);
 }

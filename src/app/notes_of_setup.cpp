@@ -7,7 +7,7 @@
 #include "config/notices.hpp"
 #include "config/reported_values.hpp"
 #include "sim/bodies_apart.hpp"
-#include "sim/doubts_of_bodies.hpp"
+#include "sim/body_warnings.hpp"
 #include "sim/map_grid.hpp"
 #include "sim/thin_walls.hpp"
 
@@ -20,10 +20,10 @@ void add_notes_of_setup(const sim::Simulation<Dim, double>& simulation, const st
   notes.add(sim::note_on_map_cell(parameters, simulation.site()));
   notes.add(config::notices(parameters));
   notes.add(config::note_on_late_values(parameters));
-  notes.add(sim::doubts_of_bodies(parameters, bodies));
-  notes.add(sim::doubt_of_bodies_apart(simulation));
-  notes.add(sim::doubt_of_thin_walls(parameters, simulation.site()));
-  notes.add(doubt_of_disk(parameters, disk, free_on_disk(folder), folder));
+  notes.add(sim::body_warnings(parameters, bodies));
+  notes.add(sim::warning_of_bodies_apart(simulation));
+  notes.add(sim::warning_of_thin_walls(parameters, simulation.site()));
+  notes.add(warning_of_disk(parameters, disk, free_on_disk(folder), folder));
 }
 
 template <int Dim>

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <ctime>
 
-#include "app/say.hpp"
+#include "app/print.hpp"
 
 namespace thawslide::app {
 
@@ -69,10 +69,10 @@ void Progress::show(const ProgressState& state) {
   }
   if (terminal_) {
     const auto filled = static_cast<std::size_t>(share * bar_width);
-    say("\r\033[K[{:<{}}] {:3.0f} % | {}", std::string(filled, '='), bar_width, 100.0 * share, text);
+    print_text("\r\033[K[{:<{}}] {:3.0f} % | {}", std::string(filled, '='), bar_width, 100.0 * share, text);
     drawn_ = true;
   } else {
-    say("{:3.0f} % | {}\n", 100.0 * share, text);
+    print_text("{:3.0f} % | {}\n", 100.0 * share, text);
   }
   last_ = Clock::now();
   work_ = thread_seconds() - begun_;
@@ -80,13 +80,13 @@ void Progress::show(const ProgressState& state) {
 }
 
 void Progress::note(const std::string& text) {
-  say("{}{}\n", drawn_ ? "\r\033[K" : "", text);
+  print_text("{}{}\n", drawn_ ? "\r\033[K" : "", text);
   drawn_ = false;
 }
 
 void Progress::finish() {
   if (drawn_) {
-    say("\n");
+    print_text("\n");
     drawn_ = false;
   }
 }

@@ -4,9 +4,9 @@
 #include <optional>
 #include <set>
 
-#include "app/say.hpp"
+#include "app/print.hpp"
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "config/case_changes.hpp"
 #include "config/input_limits.hpp"
 #include "config/read_case.hpp"
@@ -36,9 +36,9 @@ std::optional<std::vector<std::string>> changes_cut_off(const io::Provenance& fa
 }
 
 // They must be told again: run.json tells of them already. Another value of their keys will do.
-void require_told_again(const fs::path& folder, const std::vector<std::string>& changes,
-                        const std::vector<std::string>& sets) {
-  const std::set<std::string> told = config::keys_of(sets);
+void require_same_changes(const fs::path& folder, const std::vector<std::string>& changes,
+                          const std::vector<std::string>& sets) {
+  const std::set<std::string> specified = config::keys_of(sets);
   std::vector<std::string> missing;
   for (const std::string& change : changes) {
     const std::string key = *config::keys_of({change}).begin();
@@ -46,18 +46,18 @@ void require_told_again(const fs::path& folder, const std::vector<std::string>& 
     missing.erase(std::remove_if(missing.begin(), missing.end(),
                                  [&](const std::string& other) { return *config::keys_of({other}).begin() == key; }),
                   missing.end());
-    if (told.count(key) == 0) {
+    if (specified.count(key) == 0) {
       missing.push_back(change);
     }
   }
   if (!missing.empty()) {
     missing.insert(missing.end(), sets.begin(), sets.end());
     std::vector<std::string> words(missing.size());
-    std::transform(missing.begin(), missing.end(), words.begin(), shell_word);
+    std::transform(missing.begin(), missing.end(), words.begin(), shell_quote);
     throw UserError(
         fmt::format("the last resume was cut off before its change took hold. Give it again: thawslide resume {} --set "
                     "{}",
-                    shell_word(folder.string()), fmt::join(words, " --set ")));
+                    shell_quote(folder.string()), fmt::join(words, " --set ")));
   }
 }
 
@@ -85,7 +85,7 @@ std::string advice_on(const fs::path& folder, const io::Provenance& facts, const
   const bool is_end = changes.size() == 1 && changes[0].rfind("time.end is ", 0) == 0;
   if (is_end && config::read_case(folder).time.end > facts.simulated_time) {
     return fmt::format("A new end is told on the command line: thawslide resume {} --end {}.",
-                       shell_word(folder.string()), config::read_case(folder).time.end);
+                       shell_quote(folder.string()), config::read_case(folder).time.end);
   }
   return otherwise;
 }
@@ -150,7 +150,7 @@ std::vector<std::string> gaps_in_results(const fs::path& folder, const io::Prove
   return gaps;
 }
 
-void tell_of_changed_copy(const fs::path& folder, const std::vector<io::InputFile>& inputs, const std::string& error) {
+void report_changed_copy(const fs::path& folder, const std::vector<io::InputFile>& inputs, const std::string& error) {
   for (const io::InputFile& input : inputs) {
     if (error.find(input.copy) != std::string::npos) {
       require_same_inputs(folder, {input}, {});
@@ -163,7 +163,7 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
   const fs::path file = folder / "case.toml";
   if (!fs::exists(file)) {
     io::write_file_atomically(file, before);
-    say("note: {} was missing; it is written anew from the checkpoint\n", file.string());
+    print_text("note: {} was missing; it is written anew from the checkpoint\n", file.string());
   }
   const std::string now = io::read_file(file);
   require_checkpoint_of_run(folder, facts, now, before);
@@ -174,13 +174,13 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
       const std::string usual = fmt::format(
           "Put that back, or remove the file, which then is written anew; what should change is told on the command "
           "line: thawslide resume {} --set KEY=VALUE, or --end T.",
-          shell_word(folder.string()));
+          shell_quote(folder.string()));
       throw UserError(fmt::format("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
                                   fmt::join(changes, "; "), advice_on(folder, facts, changes, usual)));
     }
     cut_off = changes_cut_off(facts, sha256_of_text(before));  // what it says is that of the checkpoint
   }
-  require_told_again(folder, *cut_off, sets);
+  require_same_changes(folder, *cut_off, sets);
 }
 
 void require_case_of_start(const fs::path& folder, const io::Provenance& facts, const std::vector<std::string>& sets) {
@@ -192,7 +192,7 @@ void require_case_of_start(const fs::path& folder, const io::Provenance& facts, 
         "{} {}, and there is no checkpoint to tell what it was. Put back what was there, or run the case anew.",
         file.string(), is_present ? "has changed since the run began (run.json has its SHA-256)" : "is missing"));
   }
-  require_told_again(folder, *cut_off, sets);
+  require_same_changes(folder, *cut_off, sets);
 }
 
 void require_no_more_than_a_start(const fs::path& folder, const io::Provenance& facts) {
@@ -203,7 +203,7 @@ void require_no_more_than_a_start(const fs::path& folder, const io::Provenance& 
         "{0} had come to {1:g} s, and neither checkpoint.bin nor checkpoint.previous.bin is there to go on from: begun "
         "anew it would write over what it has. Put one of them back, or run the case anew in another folder: thawslide "
         "run {2} --output OTHER.",
-        folder.string(), had_come_to, shell_word(folder.string())));
+        folder.string(), had_come_to, shell_quote(folder.string())));
   }
 }
 

@@ -30,8 +30,8 @@ void require_same_inputs(const std::filesystem::path& folder, const std::vector<
                                                        const io::Provenance& facts);
 
 // Called for an error of reading the case: where it is of a copy that has changed, it is told as that change.
-void tell_of_changed_copy(const std::filesystem::path& folder, const std::vector<io::InputFile>& inputs,
-                          const std::string& error);
+void report_changed_copy(const std::filesystem::path& folder, const std::vector<io::InputFile>& inputs,
+                         const std::string& error);
 
 // case.toml must be what the run's checkpoint was written with (`before`), or what resumes since have made of it; what
 // `sets` replaces may be anything. Changes by resumes that were cut off must be among `sets`.

@@ -6,13 +6,13 @@
 #include "app/commands.hpp"
 #include "app/device_choice.hpp"
 #include "app/map_files.hpp"
+#include "app/print.hpp"
 #include "app/resume_checks.hpp"
 #include "app/run_loop.hpp"
-#include "app/say.hpp"
 #include "app/signals.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "base/state_numbers.hpp"
 #include "config/case_changes.hpp"
 #include "config/describe.hpp"
@@ -58,13 +58,13 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
                                            : "There is no checkpoint to go on from: run the case anew."));
     }
   }
-  say("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
-      facts.message.empty() ? "" : ": " + facts.message);
+  print_text("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
+             facts.message.empty() ? "" : ": " + facts.message);
   for (const std::string& gap : gaps_in_results(folder, facts)) {
-    say("note: {}\n", gap);
+    print_text("note: {}\n", gap);
   }
   if (!is_known) {
-    say("note: {} holds no checkpoint: it cannot be given a later end\n", folder.string());
+    print_text("note: {} holds no checkpoint: it cannot be given a later end\n", folder.string());
   }
   return static_cast<int>(ExitCode::done);
 }
@@ -84,7 +84,7 @@ Continuation continuation_of(const fs::path& folder, const std::vector<std::stri
   try {
     next.parameters = config::read_case(folder, sets);
   } catch (const UserError& error) {
-    tell_of_changed_copy(folder, next.earlier.inputs, error.what());
+    report_changed_copy(folder, next.earlier.inputs, error.what());
     throw;
   }
   next.earlier_end = next.parameters.time.end;
@@ -106,10 +106,10 @@ Continuation continuation_of(const fs::path& folder, const std::vector<std::stri
 }
 
 // run.json must tell of a change before: a kill between leaves no change untold.
-void take_changes(const fs::path& folder, const Continuation& next) {
+void apply_changes(const fs::path& folder, const Continuation& next) {
   if (const std::vector<std::string>& changes = next.earlier.parts.back().changes; !changes.empty()) {
     io::write_file_atomically(folder / "case.toml", next.case_text);
-    say("changed: {}\n", fmt::join(changes, ", "));
+    print_text("changed: {}\n", fmt::join(changes, ", "));
   }
 }
 
@@ -137,21 +137,21 @@ std::unique_ptr<sim::Simulation<Dim, double>> simulation_of(const fs::path& fold
     throw UserError(
         fmt::format("{} What should change of a run is told on the command line: thawslide resume {} --set "
                     "KEY=VALUE.",
-                    error.what(), shell_word(folder.string())));
+                    error.what(), shell_quote(folder.string())));
   }
 }
 
 template <int Dim>
-int start_anew(const fs::path& folder, const Continuation& next) {
+int restart_from_begin(const fs::path& folder, const Continuation& next) {
   Notes notes;
   sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
   use_device<Dim>(next.device, simulation);
-  say("{} was cut off before its first checkpoint; it starts again\n", folder.string());
+  print_text("{} was cut off before its first checkpoint; it starts again\n", folder.string());
   for (const std::string& note : next.earlier.parts.back().notes) {
-    say("note: {}\n", note);
+    print_text("note: {}\n", note);
   }
   RunOutput<Dim> output(folder, simulation, next.earlier, next.case_text);
-  take_changes(folder, next);
+  apply_changes(folder, next);
   notes.add(config::notices(next.parameters));
   return start_and_run<Dim>(simulation, output, folder);
 }
@@ -169,13 +169,13 @@ bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, 
           "{} has reached its end at {:g} s: no step is left that could take {}. Give a later end too: --end T.",
           folder.string(), simulation.time(), fmt::join(changes, ", ")));
     }
-    say("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
+    print_text("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
     return false;
   }
   if (simulation.ends_at_rest()) {
     if (changes.empty() || is_end_alone) {
-      say("{} has come to rest at {:g} s; nothing to do. It goes on with --set time.stop_at_rest=0\n", folder.string(),
-          simulation.time());
+      print_text("{} has come to rest at {:g} s; nothing to do. It goes on with --set time.stop_at_rest=0\n",
+                 folder.string(), simulation.time());
       return false;
     }
     simulation.restart_rest_time();
@@ -231,7 +231,8 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
         fmt::format("the end of {:g} s has passed: the run had come to {:g} s. Give a later one.", end, has_come_to));
   }
   if (failed && next.earlier.parts.back().changes.empty()) {
-    say("note: the run failed, and nothing is changed: it fails again unless what failed was not of the case. A key "
+    print_text(
+        "note: the run failed, and nothing is changed: it fails again unless what failed was not of the case. A key "
         "is changed by --set KEY=VALUE, an end before that by --end T\n");
   }
   if (next.earlier.status == "done" &&
@@ -243,12 +244,12 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
                                                           checkpoint.note, keep_damaged(checkpoint.damaged)));
   }
   RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
-  say("going on from t = {:g} s{}\n", simulation.time(),
-      had_come_to > simulation.time()
-          ? fmt::format("; it had come to {:g} s: rows and snapshots after {:g} s are written anew", had_come_to,
-                        simulation.time())
-          : "");
-  take_changes(folder, next);
+  print_text("going on from t = {:g} s{}\n", simulation.time(),
+             had_come_to > simulation.time()
+                 ? fmt::format("; it had come to {:g} s: rows and snapshots after {:g} s are written anew", had_come_to,
+                               simulation.time())
+                 : "");
+  apply_changes(folder, next);
   notes.add(config::notices(next.parameters));
   return run_to_end<Dim>(simulation, output, folder);
 }
@@ -294,10 +295,10 @@ int resume_run(const ResumeOptions& options) {
   }
   require_same_inputs(folder, facts.inputs, next.parameters.report);
   next.earlier.parts.back().notes = changed_originals(facts.inputs);
-  return with_dimension(next.parameters.general.dimension,
-                        [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
-                          return has_checkpoint ? go_on<Dim>(folder, checkpoint, next) : start_anew<Dim>(folder, next);
-                        });
+  return with_dimension(
+      next.parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
+        return has_checkpoint ? go_on<Dim>(folder, checkpoint, next) : restart_from_begin<Dim>(folder, next);
+      });
 }
 
 }  // namespace thawslide::app

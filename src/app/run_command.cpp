@@ -4,8 +4,8 @@
 #include "app/input_guard.hpp"
 #include "app/map_files.hpp"
 #include "app/notes_of_setup.hpp"
+#include "app/print.hpp"
 #include "app/run_loop.hpp"
-#include "app/say.hpp"
 #include "app/signals.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
@@ -38,10 +38,10 @@ int run_case(const RunOptions& options) {
     const std::string device = use_device<Dim>(options.device, simulation);
     const io::RunLock lock = io::make_run_folder(folder, options.overwrite);
     RunOutput<Dim> output(folder, simulation);
-    say("{}: {} particles, {:g} s to simulate, on {} thread{}{}\n",
-        config::shown(parameters.general.title.empty() ? parameters.name : parameters.general.title),
-        simulation.particles().size(), parameters.time.end, thread_count(), thread_count() == 1 ? "" : "s",
-        device.empty() ? "" : " and " + device);
+    print_text("{}: {} particles, {:g} s to simulate, on {} thread{}{}\n",
+               config::shown(parameters.general.title.empty() ? parameters.name : parameters.general.title),
+               simulation.particles().size(), parameters.time.end, thread_count(), thread_count() == 1 ? "" : "s",
+               device.empty() ? "" : " and " + device);
     return start_and_run<Dim>(simulation, output, folder);
   });
 }

@@ -5,13 +5,13 @@
 #include <new>
 
 #include "app/boiling_note.hpp"
+#include "app/print.hpp"
 #include "app/progress.hpp"
 #include "app/run_summary.hpp"
-#include "app/say.hpp"
 #include "app/signals.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "base/thread_choice.hpp"
 #include "io/checkpoint.hpp"
 #include "sim/direction.hpp"
@@ -67,7 +67,7 @@ bool settle(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output) {
   if (!simulation.needs_settling()) {
     return true;
   }
-  say("settling under gravity for {:g} s\n", simulation.parameters().mechanics.settle_time);
+  print_text("settling under gravity for {:g} s\n", simulation.parameters().mechanics.settle_time);
   try {
     return simulation.settle([] { return caught_signal() == 0; });
   } catch (const RunError& error) {
@@ -85,16 +85,16 @@ int end_at_once(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& 
   try {
     output.require_own_folder();
   } catch (const WriteError& lost) {
-    say_error("error: {}\nstopped at t = {:g} s\n", lost.what(), simulation.time());
+    print_error("error: {}\nstopped at t = {:g} s\n", lost.what(), simulation.time());
     return static_cast<int>(code);
   }
   try {
     output.write_provenance(simulation, "stopped", error.what(), output.wall_seconds());
   } catch (const WriteError&) {  // NOLINT(bugprone-empty-catch): it is told below what could not be written first
   }
-  say_error("error: {}\nstopped at t = {:g} s; what stands is whole, and `thawslide resume {}` {}\n", error.what(),
-            simulation.time(), shell_word(folder.string()),
-            io::has_checkpoint(folder) ? "goes on from the last checkpoint" : "starts it again");
+  print_error("error: {}\nstopped at t = {:g} s; what stands is whole, and `thawslide resume {}` {}\n", error.what(),
+              simulation.time(), shell_quote(folder.string()),
+              io::has_checkpoint(folder) ? "goes on from the last checkpoint" : "starts it again");
   return static_cast<int>(code);
 }
 
@@ -141,7 +141,7 @@ class Loop {
       output_.slide_left();
       write_last_state();
       close("done", end.what());
-      say("{}\n", end.what());
+      print_text("{}\n", end.what());
       return static_cast<int>(ExitCode::done);
     } catch (const RunError& error) {
       write_last_state();
@@ -172,8 +172,8 @@ class Loop {
     simulation_.step(simulation_.next_step(std::min(snapshots_.next(), times_.end)));
     seconds_in_steps_ += output_.wall_seconds() - before;
     set_thread_count(threads_.after_step(seconds_in_steps_));
-    tell(removal_.note(simulation_));
-    tell_of_energy();
+    report_line(removal_.note(simulation_));
+    warn_of_energy();
     output_.after_step(simulation_);
   }
 
@@ -186,7 +186,7 @@ class Loop {
     }
     if (rests || snapshots_.reached(time, dt)) {
       output_.write_snapshot(simulation_);
-      tell(boiling_.note<Dim>(simulation_));
+      report_line(boiling_.note<Dim>(simulation_));
     }
     const double wall_interval = simulation_.parameters().checkpoint.wall_interval;
     const bool is_old = wall_interval > 0.0 && output_.wall_seconds() - wall_of_checkpoint_ > wall_interval;
@@ -198,15 +198,15 @@ class Loop {
   }
 
   // Once.
-  void tell_of_energy() {
-    if (!told_of_energy_) {
+  void warn_of_energy() {
+    if (!has_warned_of_energy_) {
       const std::string note = simulation_.energy_note();
-      told_of_energy_ = !note.empty();
-      tell(note);
+      has_warned_of_energy_ = !note.empty();
+      report_line(note);
     }
   }
 
-  void tell(const std::string& note) {
+  void report_line(const std::string& note) {
     if (!note.empty()) {
       progress_.note(note);
     }
@@ -232,8 +232,8 @@ class Loop {
     // The checkpoint holds this moment. A row or a snapshot of it would not be there had the run gone on.
     output_.write_checkpoint(simulation_);
     close("stopped", fmt::format("signal {}", caught_signal()));
-    say_error("stopped by signal {} at t = {:g} s; `thawslide resume {}` goes on from here\n", caught_signal(),
-              simulation_.time(), shell_word(folder_.string()));
+    print_error("stopped by signal {} at t = {:g} s; `thawslide resume {}` goes on from here\n", caught_signal(),
+                simulation_.time(), shell_quote(folder_.string()));
     return static_cast<int>(ExitCode::stopped_by_signal);
   }
 
@@ -242,7 +242,7 @@ class Loop {
     output_.write_checkpoint(simulation_);
     close("done", rest);
     if (!rest.empty()) {
-      say("{}\n", rest);
+      print_text("{}\n", rest);
     }
     return static_cast<int>(ExitCode::done);
   }
@@ -260,7 +260,7 @@ class Loop {
   int most_threads_;
   ThreadChoice threads_;
   double seconds_in_steps_ = 0.0, wall_of_checkpoint_ = 0.0;
-  bool told_of_energy_ = false;
+  bool has_warned_of_energy_ = false;
 };
 
 }  // namespace
@@ -279,8 +279,8 @@ int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& outp
   try {
     if (!settle<Dim>(simulation, output)) {
       output.write_provenance(simulation, "stopped", fmt::format("signal {}", caught_signal()), 0.0);
-      say_error("stopped by signal {} while it settled; `thawslide resume {}` begins anew\n", caught_signal(),
-                shell_word(folder.string()));
+      print_error("stopped by signal {} while it settled; `thawslide resume {}` begins anew\n", caught_signal(),
+                  shell_quote(folder.string()));
       return static_cast<int>(ExitCode::stopped_by_signal);
     }
     output.begin(simulation);

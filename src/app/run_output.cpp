@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "app/print.hpp"
 #include "app/resolved_case.hpp"
-#include "app/say.hpp"
 #include "base/parallel.hpp"
 #include "base/state_numbers.hpp"
 #include "config/describe.hpp"
@@ -220,7 +220,7 @@ RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& 
     output.probes_.emplace(go_on_with("probes.csv", output.records_.probe_row(simulation), then.probes));
   }
   for (const std::string& note : notes) {
-    say("note: {}\n", note);
+    print_text("note: {}\n", note);
   }
   write_what_is_missing(folder, simulation);
   output.provenance_ = std::move(earlier);

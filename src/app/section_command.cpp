@@ -66,10 +66,10 @@ double cell_of(const config::ProfileTable& profile, double otherwise) {
 config::Site smoothed_site(config::Case trial, double cell) {
   trial.grid.cell = cell;
   trial.terrain.smooth.is_auto = true;
-  return look_again(trial);
+  return reopen_site(trial);
 }
 
-std::string words_of_filter(const SectionOptions& options, const config::Roughness& ground) {
+std::string format_filter(const SectionOptions& options, const config::Roughness& ground) {
   return fmt::format(
       "{} was smoothed with a standard deviation of {:g} m, as for a 3D run on {:g} m cells whose domain is the whole "
       "DEM; it has noise of {:.2g} m rms and bumps with an rms slope of {:.2g}. Set terrain.smooth = {:g} in a 3D case "
@@ -101,7 +101,7 @@ std::vector<std::string> comments_on(const SectionOptions& options, const config
         taper));
   }
   if (site.roughness->width > 0.0) {
-    comments.push_back(words_of_filter(options, *site.roughness) + ".");
+    comments.push_back(format_filter(options, *site.roughness) + ".");
   }
   return comments;
 }
@@ -128,18 +128,18 @@ int make_section(const SectionOptions& options) {
   config::Case trial = trial_case(options.folder, options.maps);
   trial.maps.path = options.line;
   trial.places["maps.path"] = line_option;
-  config::Site site = look_at_files(trial);
+  config::Site site = open_site(trial);
   double taper = 0.0;
   if (options.maps.cut && !options.maps.release.empty()) {
     taper = taper_edges(trial, site).width;
     trial.bodies.at(body_name).placement = config::Placement::cut;
-    site = look_again(trial);
+    site = reopen_site(trial);
   }
   Cut cut = cut_along_line(site, options.line);
   site = smoothed_site(trial, cell_of(cut.profile, site.roughness->spacing));
   cut = cut_along_line(site, options.line);
   if (site.roughness->width > 0.0) {
-    fmt::print("note: {}\n", words_of_filter(options, *site.roughness));
+    fmt::print("note: {}\n", format_filter(options, *site.roughness));
   }
   const fs::path folder = options.folder;
   const std::vector<std::string> comments = comments_on(options, site, cut, taper);

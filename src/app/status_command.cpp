@@ -8,7 +8,7 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "config/read_case.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
@@ -59,10 +59,10 @@ void add_end(const fs::path& folder, RunStatus& status) {
 }
 
 // The same of its history; run.json tells a time too, of when it was written.
-void add_time(const fs::path& folder, double told, RunStatus& status) {
-  status.time = told;
+void add_time(const fs::path& folder, double specified, RunStatus& status) {
+  status.time = specified;
   try {
-    status.time = std::max(told, io::last_time_in_history(folder / "history.csv").value_or(0.0));
+    status.time = std::max(specified, io::last_time_in_history(folder / "history.csv").value_or(0.0));
   } catch (const UserError& error) {
     status.history_error = error.what();
   }
@@ -156,7 +156,7 @@ std::string age_text(double age) {
   return age < 0.0 ? "later than it is now by this machine's clock" : duration_text(age) + " ago";
 }
 
-std::string words_for(const RunStatus& status) {
+std::string status_text(const RunStatus& status) {
   if (status.state == "running") {
     return "running, by " + status.process;
   }
@@ -176,28 +176,28 @@ std::string words_for(const RunStatus& status) {
   return status.message.empty() ? status.state : status.state + ": " + status.message;
 }
 
-std::string words_on_going_on(const fs::path& folder, const RunStatus& status) {
+std::string continue_text(const fs::path& folder, const RunStatus& status) {
   if (status.state == "killed" || status.state == "stopped") {
-    return fmt::format("  to go on: thawslide resume {}\n", shell_word(folder.string()));
+    return fmt::format("  to go on: thawslide resume {}\n", shell_quote(folder.string()));
   }
   if (status.state == "unknown") {
     return status.process.empty()
-               ? fmt::format("  if nothing writes there any more: thawslide resume {}\n", shell_word(folder.string()))
+               ? fmt::format("  if nothing writes there any more: thawslide resume {}\n", shell_quote(folder.string()))
                : fmt::format("  if that has surely ended: remove {}, then thawslide resume {}\n",
-                             (folder / io::lock_name).string(), shell_word(folder.string()));
+                             (folder / io::lock_name).string(), shell_quote(folder.string()));
   }
   if (status.state == "failed") {
     return fmt::format(
         "  the message above says what to change: run the case anew with it or, where the key may change amid a run, "
         "go "
         "on: thawslide resume {} --set KEY=VALUE\n",
-        shell_word(folder.string()));
+        shell_quote(folder.string()));
   }
   return "";
 }
 
 std::string text_of(const fs::path& folder, const RunStatus& status) {
-  std::string text = fmt::format("{}: {}\n", folder.string(), words_for(status));
+  std::string text = fmt::format("{}: {}\n", folder.string(), status_text(status));
   if (status.end) {
     const double share = std::floor(100.0 * std::min(1.0, status.time / *status.end));
     text += fmt::format("  {:g} of {:g} s simulated{}{}\n", status.time, *status.end,
@@ -214,12 +214,12 @@ std::string text_of(const fs::path& folder, const RunStatus& status) {
   }
   text += status.checkpoint_age ? fmt::format("  last checkpoint {}\n", age_text(*status.checkpoint_age))
                                 : "  no checkpoint yet\n";
-  return text + words_on_going_on(folder, status);
+  return text + continue_text(folder, status);
 }
 
 }  // namespace
 
-int tell_status(const StatusOptions& options) {
+int print_status(const StatusOptions& options) {
   const RunStatus status = status_of(options.folder);
   fmt::print("{}", options.json ? json_text(status) + "\n" : text_of(options.folder, status));
   return static_cast<int>(ExitCode::done);

@@ -111,14 +111,14 @@ AvailableMemory available_memory() {
   const double free_now = available_in(text_of("/proc/meminfo"));
   const double whole = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   AvailableMemory least{std::isnan(free_now) ? whole : free_now, "are free"};
-  const auto take_smaller = [&least](double bytes, const char* bound) {
+  const auto keep_smaller = [&least](double bytes, const char* bound) {
     if (bytes < least.bytes) {
       least = {bytes, bound};
     }
   };
-  take_smaller(left_by_control_groups(text_of("/proc/self/cgroup"), "/sys/fs/cgroup"),
+  keep_smaller(left_by_control_groups(text_of("/proc/self/cgroup"), "/sys/fs/cgroup"),
                "are left by the bound of a control group (of a container or a batch system)");
-  take_smaller(left_of_address_space(), "are left by the bound of ulimit -v");
+  keep_smaller(left_of_address_space(), "are left by the bound of ulimit -v");
   return least;
 }
 

@@ -337,7 +337,7 @@ void check_material(const Case& checked, const std::string& table, const std::st
     reading.report(table + ".material",
                    fmt::format("{}.material is '{}', and there is no [material.{}]{} Allowed: {}.", table, name, name,
                                hint.empty() ? "." : hint,
-                               known.empty() ? "none, as the case has no [material.NAME]" : list_words(known)));
+                               known.empty() ? "none, as the case has no [material.NAME]" : comma_list(known)));
   }
 }
 

@@ -40,7 +40,7 @@ bool check_names(const Case& checked, Reading& reading) {
         }
         const std::string hint = did_you_mean(body, known);
         reading.report(key, fmt::format("{} names '{}', and there is no [body.{}]{} Allowed: {}.", key, body, body,
-                                        hint.empty() ? "." : hint, list_words(known)));
+                                        hint.empty() ? "." : hint, comma_list(known)));
         are_right = false;
       }
     }

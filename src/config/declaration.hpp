@@ -20,7 +20,7 @@ struct Entry {
   std::string default_text;  // TOML; empty: none
   std::string required;      // "always", or when; empty: never
   std::string otherwise;     // what holds where the key is absent and there is no fixed default
-  std::vector<Word> words;
+  std::vector<Keyword> words;
   nlohmann::json schema;
   std::string only;  // when the key has a meaning; empty: always
 };
@@ -82,13 +82,13 @@ class Parameter {
   }
   // No default: the key must be given when the condition holds; `when` says it in words.
   Parameter required_if(std::string when, std::function<bool(const Case&, const Section&)> condition) && {
-    required_words = std::move(when);
+    required_text = std::move(when);
     is_required = std::move(condition);
     return std::move(*this);
   }
   // What holds where the key is absent, in words, and how to fill it in (nothing: the member's initialiser says it).
-  Parameter otherwise(std::string words_for_it, std::function<void(const Case&, Section&)> filler = nullptr) && {
-    otherwise_words = std::move(words_for_it);
+  Parameter otherwise(std::string default_description, std::function<void(const Case&, Section&)> filler = nullptr) && {
+    otherwise_text = std::move(default_description);
     fill = std::move(filler);
     return std::move(*this);
   }
@@ -111,16 +111,16 @@ class Parameter {
 
   // The default as TOML, from the member's initialiser; empty where there is none.
   [[nodiscard]] std::string default_text() const {
-    const bool has_default = required_words.empty() && otherwise_words.empty();
+    const bool has_default = required_text.empty() && otherwise_text.empty();
     return has_default ? write(Section{}, rule, WriteContext{}) : "";
   }
 
   Rule rule;
   std::string type;
-  std::vector<Word> words;
+  std::vector<Keyword> words;
   nlohmann::json schema;
-  std::string required_words;
-  std::string otherwise_words;
+  std::string required_text;
+  std::string otherwise_text;
   Meaning meaning;
   std::function<bool(const toml::node&, const ValueReader&, Section&)> read;
   std::function<std::string(const Section&, const Rule&, const WriteContext&)> write;

@@ -24,8 +24,8 @@ std::string absence_in_meaning(const Entry& entry) {
 // What holds where the key is absent, and when it has a meaning.
 std::string absence(const Entry& entry) {
   const std::string text = absence_in_meaning(entry);
-  const bool is_told = entry.only.empty() || entry.only == entry.required;
-  return is_told ? text : fmt::format("{}{}only {}", text, text.empty() ? "" : "; ", entry.only);
+  const bool is_specified = entry.only.empty() || entry.only == entry.required;
+  return is_specified ? text : fmt::format("{}{}only {}", text, text.empty() ? "" : "; ", entry.only);
 }
 
 std::string range_text(const Entry& entry) {
@@ -36,12 +36,12 @@ std::string range_text(const Entry& entry) {
 
 // "usually 0.01 to 2 (not checked)"; empty where nothing is told.
 std::string usual_text(const Entry& entry) {
-  return entry.rule->usual.is_told() ? "usually " + entry.rule->usual.text() : "";
+  return entry.rule->usual.is_specified() ? "usually " + entry.rule->usual.text() : "";
 }
 
-std::string words_text(const Entry& entry, const std::string& separator) {
+std::string keywords_text(const Entry& entry, const std::string& separator) {
   std::string text;
-  for (const Word& word : entry.words) {
+  for (const Keyword& word : entry.words) {
     text += fmt::format("{}\"{}\": {}", text.empty() ? "" : separator, word.word, word.text);
   }
   return text;
@@ -65,7 +65,7 @@ Json described(const Entry& entry) {
   json["text"] = entry.rule->text;
   json["source"] = entry.rule->source;
   json["words"] = Json::array();
-  for (const Word& word : entry.words) {
+  for (const Keyword& word : entry.words) {
     json["words"].push_back({{"word", word.word}, {"text", word.text}});
   }
   return json;
@@ -107,7 +107,7 @@ std::string describe_text() {
         line.replace(line.find("default: "), 9, "");
       }
       out += fmt::format("  {:<26}{}\n", "", line);
-      for (const Word& word : entry.words) {
+      for (const Keyword& word : entry.words) {
         out += fmt::format("  {:<26}  \"{}\": {}\n", "", word.word, word.text);
       }
     }
@@ -138,7 +138,7 @@ std::string describe_markdown() {
     for (const Entry& entry : table->entries()) {
       const std::string usual = usual_text(entry);
       const std::string allowed =
-          entry.words.empty() ? entry.type + (usual.empty() ? "" : "; " + usual) : words_text(entry, "<br>");
+          entry.words.empty() ? entry.type + (usual.empty() ? "" : "; " + usual) : keywords_text(entry, "<br>");
       out +=
           fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", entry.rule->key, entry.rule->unit, in_table_cell(allowed),
                       in_table_cell(absence(entry)), in_table_cell(entry.rule->text), entry.rule->source);

@@ -33,7 +33,7 @@ void check_columns(const TableCsv& table, const std::string& file) {
     if (!is_among(name, allowed)) {
       const std::string near = nearest(shown(name), allowed);
       throw UserError(fmt::format("{}:{}: no column is called '{}'{} allowed are {}", file, table.line, shown(name),
-                                  near.empty() ? "." : "; did you mean " + near + "?", list_words(allowed)));
+                                  near.empty() ? "." : "; did you mean " + near + "?", comma_list(allowed)));
     }
   }
   for (const TableCsv::Row& row : table.rows) {
@@ -47,7 +47,7 @@ void check_columns(const TableCsv& table, const std::string& file) {
   if (!absent.empty() && absent.size() < of_range.size()) {
     throw UserError(
         fmt::format("{}:{}: the range is not complete (found no {}; allowed: all of {}, or none). Add what is missing.",
-                    file, table.line, list_words(absent), list_words(of_range)));
+                    file, table.line, comma_list(absent), comma_list(of_range)));
   }
 }
 

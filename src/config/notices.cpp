@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "config/changed_defaults.hpp"
 #include "config/declaration.hpp"
-#include "config/moved_defaults.hpp"
 #include "config/plausibility.hpp"
 #include "config/strips.hpp"
 

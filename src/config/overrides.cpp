@@ -78,7 +78,7 @@ bool names_existing_table(const Override& override, const std::vector<std::strin
       reading.problems.add(place_of(override),
                            fmt::format("there is no {} '{}'{} In the case file: {}.", parts[0], parts[1],
                                        nearest(parts[1], names).empty() ? "." : did_you_mean(parts[1], names),
-                                       names.empty() ? "none" : list_words(names)));
+                                       names.empty() ? "none" : comma_list(names)));
       return false;
     }
   }

@@ -21,8 +21,8 @@ std::string quoted_list(const std::vector<std::string>& words, const std::string
 }
 
 template <class Laws>
-std::vector<Word> law_words() {
-  std::vector<Word> words;
+std::vector<Keyword> law_keywords() {
+  std::vector<Keyword> words;
   physics::basal::for_each_law<Laws>([&]<class Law>(physics::basal::OfType<Law>) {
     words.push_back({Law::word, Law::text});
   });
@@ -102,7 +102,7 @@ std::vector<Parameter<Section>> friction_parameters(const std::string& prefix) {
       Parameter<Section>::bind(&GroundStrength::friction, {.key = "friction",
                                                            .text = "law of the friction coefficient mu_e",
                                                            .source = "Eqs. 17, 25",
-                                                           .words = law_words<FrictionLaws>()})};
+                                                           .words = law_keywords<FrictionLaws>()})};
   for (const LawNumber& of : law_numbers<FrictionLaws>()) {
     auto parameter = law_parameter<Section>(of, &GroundStrength::friction, "friction");
     if (of.number->is_needed) {
@@ -136,7 +136,7 @@ std::vector<Parameter<Section>> cohesion_parameters(const std::string& prefix) {
   result.push_back(
       Parameter<Section>::bind(&GroundStrength::cohesion_law, {.key = "cohesion_law",
                                                                .text = "how the cohesion c_S along the ground is lost",
-                                                               .words = law_words<CohesionLaws>()}));
+                                                               .words = law_keywords<CohesionLaws>()}));
   for (auto& parameter : of_some) {
     result.push_back(std::move(parameter));
   }

@@ -45,6 +45,6 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
 
 // "a, b, c"
-std::string list_words(const std::vector<std::string>& words);
+std::string comma_list(const std::vector<std::string>& words);
 
 }  // namespace thawslide::config

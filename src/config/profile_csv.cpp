@@ -57,7 +57,7 @@ class ProfileReader {
         continue;
       }
       const Fields fields = split_at_commas(text);
-      columns_ == 0 ? take_header(fields) : take_row(fields);
+      columns_ == 0 ? read_header(fields) : read_row(fields);
     }
     if (!stream.eof()) {
       throw UserError(
@@ -77,7 +77,7 @@ class ProfileReader {
     throw UserError(fmt::format("{}:{}: {}.", file_, std::max(line_, 1), message));
   }
 
-  void take_header(const Fields& fields) {
+  void read_header(const Fields& fields) {
     const bool is_binary = std::any_of(fields.begin(), fields.end(), [](const std::string& field) {
       return std::any_of(field.begin(), field.end(), [](unsigned char sign) { return std::iscntrl(sign) != 0; });
     });
@@ -97,7 +97,7 @@ class ProfileReader {
     columns_ = fields.size();
   }
 
-  void take_row(const Fields& fields) {
+  void read_row(const Fields& fields) {
     if (fields.size() != columns_) {
       fail(fmt::format("the row has {} fields; the header has {}", fields.size(), columns_));
     }

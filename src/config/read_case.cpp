@@ -58,7 +58,7 @@ fs::path find_case_file(const fs::path& given) {
     const std::vector<std::string> others = names_in(given, ".toml");
     throw UserError(fmt::format("{}: the folder has no case.toml. {}", given.string(),
                                 others.empty() ? "Give a case file, or a folder with a case.toml."
-                                               : fmt::format("Give one of its case files: {}.", list_words(others))));
+                                               : fmt::format("Give one of its case files: {}.", comma_list(others))));
   }
   return file;
 }
@@ -89,7 +89,7 @@ void report_unknown_tables(const toml::table& root, Reading& reading) {
     reading.problems.add(reading.place_of(word, key.source()),
                          fmt::format("{} is not known{} Allowed: {}.",
                                      node.is_table() ? "table [" + word + "]" : "key '" + word + "' outside of a table",
-                                     hint.empty() ? "." : hint, list_words(titles)));
+                                     hint.empty() ? "." : hint, comma_list(titles)));
   }
 }
 

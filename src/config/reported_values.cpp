@@ -25,7 +25,9 @@ const std::vector<std::string> kinds{"observation", "model", "assumption"};
 
 std::string quoted(const std::string& text) { return "'" + shown(text) + "'"; }
 
-std::string unit_words(const std::string& unit) { return unit.empty() || unit == "-" || unit == "1" ? "" : " " + unit; }
+std::string format_unit(const std::string& unit) {
+  return unit.empty() || unit == "-" || unit == "1" ? "" : " " + unit;
+}
 
 std::string hint(const std::string& word, const std::vector<std::string>& known) {
   const std::string near = nearest(shown(word), known);
@@ -41,7 +43,7 @@ class TargetsReader {
       const TableCsv table = read_table_csv(file_, needed, largest_targets_file);
       set_columns(table);
       for (const TableCsv::Row& row : table.rows) {
-        take_row(row);
+        read_row(row);
       }
     } catch (const UserError& error) {
       found_.mistakes.emplace_back(error.what());
@@ -62,7 +64,7 @@ class TargetsReader {
       const std::string& name = table.columns[k];
       if (std::find(allowed.begin(), allowed.end(), name) == allowed.end()) {
         throw UserError(fmt::format("{}:{}: no column is called {}{} allowed are {}", file_, table.line, quoted(name),
-                                    hint(name, allowed), list_words(allowed)));
+                                    hint(name, allowed), comma_list(allowed)));
       }
       if (seconds_of.count(name) > 0) {
         times.push_back(name);
@@ -76,7 +78,7 @@ class TargetsReader {
     time_ = times.front();
   }
 
-  void take_row(const TableCsv::Row& row) {
+  void read_row(const TableCsv::Row& row) {
     if (row.cells.size() != column_.size()) {
       add(row.line, fmt::format("{} values for {} columns", row.cells.size(), column_.size()));
       return;
@@ -119,7 +121,7 @@ class TargetsReader {
       }
       return fmt::format(
           "no quantity is called {}{} There are: {}; and {}_35_150_s for a force between periods of 35 and 150 s",
-          quoted(name), hint(name, known), list_words(known), reported_force);
+          quoted(name), hint(name, known), comma_list(known), reported_force);
     }
     const std::string& unit_name = row.cells[column_.at("unit")];
     const auto& units = *quantity->units;
@@ -133,13 +135,13 @@ class TargetsReader {
         }
       }
       return fmt::format("{} for {}; allowed: {}", unit_name.empty() ? "no unit" : "the unit " + quoted(unit_name),
-                         name, list_words(known));
+                         name, comma_list(known));
     }
     if (const auto column = column_.find("kind"); column != column_.end()) {
       const std::string& kind = row.cells[column->second];
       if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
         return fmt::format("{} for {}; allowed: {}", kind.empty() ? "no kind" : "the kind " + quoted(kind), name,
-                           list_words(kinds));
+                           comma_list(kinds));
       }
     }
     double given = 0.0;
@@ -154,13 +156,13 @@ class TargetsReader {
       return name + ": a number that large cannot be converted";
     }
     if (value < quantity->low || value > quantity->high) {
-      return fmt::format("{} is {:g}{}; allowed: {}", name, given, unit_words(unit_name), range_of(*quantity));
+      return fmt::format("{} is {:g}{}; allowed: {}", name, given, format_unit(unit_name), range_of(*quantity));
     }
     return "";
   }
 
   static std::string range_of(const ReportedQuantity& quantity) {
-    const std::string unit = unit_words(quantity.units->front().name);
+    const std::string unit = format_unit(quantity.units->front().name);
     std::vector<std::string> ends;
     if (std::isfinite(quantity.low)) {
       ends.push_back(fmt::format("at least {:g}{}", quantity.low, unit));
@@ -168,7 +170,7 @@ class TargetsReader {
     if (std::isfinite(quantity.high)) {
       ends.push_back(fmt::format("at most {:g}{}", quantity.high, unit));
     }
-    return list_words(ends);
+    return comma_list(ends);
   }
 
   // On a clock of their own only the run can tell when they are.

@@ -34,14 +34,14 @@ struct Usual {
   double high = std::numeric_limits<double>::infinity();
   const char* where = "";  // "on a glacier"
 
-  [[nodiscard]] bool is_told() const;
+  [[nodiscard]] bool is_specified() const;
   [[nodiscard]] bool holds(double value) const { return value >= low && value <= high; }
   // "0.01 to 2 (not checked)", "0.05 to 0.15 on a glacier (not checked)"; empty where none is told
   [[nodiscard]] std::string text(const std::string& unit = "") const;
 };
 
 // One of the words a key may hold.
-struct Word {
+struct Keyword {
   std::string word;
   std::string text;
 };
@@ -50,12 +50,12 @@ struct Rule {
   std::string key = {};
   std::string unit = {};
   Range range = {};
-  std::string text = {};         // what it is, in a line
-  std::string source = {};       // equation, section or table of the paper, or another source
-  std::vector<Word> words = {};  // the words allowed, for a text that is one of a few
-  int dimension = 0;             // 2 or 3: has a meaning only there
-  bool is_path = false;          // a file, told relative to the case file
-  bool horizontal = false;       // of a point: x and y only, in three dimensions too
+  std::string text = {};            // what it is, in a line
+  std::string source = {};          // equation, section or table of the paper, or another source
+  std::vector<Keyword> words = {};  // the words allowed, for a text that is one of a few
+  int dimension = 0;                // 2 or 3: has a meaning only there
+  bool is_path = false;             // a file, told relative to the case file
+  bool horizontal = false;          // of a point: x and y only, in three dimensions too
   Usual usual = {};
   std::string formerly = {};  // what the key was called before; a file that still says so is told the new name
 };

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_columns_told = 12;
+constexpr std::size_t most_columns_listed = 12;
 
 std::string quoted(const std::string& text) { return "'" + shown(text) + "'"; }
 
@@ -132,7 +132,7 @@ void require_columns(const TableCsv& table, const std::string& where, const std:
       std::vector<std::string> found;
       std::transform(
           table.columns.begin(),
-          table.columns.begin() + static_cast<std::ptrdiff_t>(std::min(table.columns.size(), most_columns_told)),
+          table.columns.begin() + static_cast<std::ptrdiff_t>(std::min(table.columns.size(), most_columns_listed)),
           std::back_inserter(found), quoted);
       const bool by_semicolons = table.columns.size() == 1 && table.columns[0].find(';') != std::string::npos;
       throw UserError(fmt::format("{}: no column {}; found {}{}{}", where, name, fmt::join(found, ", "),

@@ -94,7 +94,7 @@ void report_unknown_keys(const toml::table& table, const std::string& dotted, co
                                                   : fmt::format("; it belongs in {}", fmt::join(elsewhere, " or "));
     reading.problems.add(reading.place_of(whole, key.source()),
                          fmt::format("key '{}' is not known in [{}]{} Allowed here: {}.", whole, dotted,
-                                     hint.empty() ? "." : hint + (hint.back() == '?' ? "" : "."), list_words(allowed)));
+                                     hint.empty() ? "." : hint + (hint.back() == '?' ? "" : "."), comma_list(allowed)));
     reading.unsound.insert(whole);
   }
 }

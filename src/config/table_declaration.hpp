@@ -46,7 +46,7 @@ class SectionParameters {
     std::vector<Entry> entries;
     for (const auto& p : parameters_) {
       entries.push_back(
-          {&p.rule, p.type, p.default_text(), p.required_words, p.otherwise_words, p.words, p.schema, p.meaning.when});
+          {&p.rule, p.type, p.default_text(), p.required_text, p.otherwise_text, p.words, p.schema, p.meaning.when});
     }
     return entries;
   }
@@ -86,14 +86,14 @@ class SectionParameters {
         }
         const bool is_empty = p.rule.is_path && p.write(section, p.rule, WriteContext{}) == quoted("");
         if (is_empty && is_decided && reading.sound({key}) && p.is_required && p.is_required(whole, section)) {
-          report_empty(dotted, p.rule, p.type, p.required_words, reading);
+          report_empty(dotted, p.rule, p.type, p.required_text, reading);
         }
         continue;
       }
-      if (!is_decided && p.is_required && p.required_words != "always") {
+      if (!is_decided && p.is_required && p.required_text != "always") {
         reading.unsound.insert(key);
       } else if (p.is_required && p.is_required(whole, section)) {
-        report_missing(dotted, p.rule, p.type, p.required_words, reading);
+        report_missing(dotted, p.rule, p.type, p.required_text, reading);
       } else if (p.fill) {
         p.fill(whole, section);
       }
@@ -108,7 +108,7 @@ class SectionParameters {
         continue;
       }
       const std::string value = p.write(section, p.rule, context);
-      const bool may_be_absent = !p.required_words.empty() || (!p.otherwise_words.empty() && !p.fill);
+      const bool may_be_absent = !p.required_text.empty() || (!p.otherwise_text.empty() && !p.fill);
       const bool is_absent = may_be_absent && !(p.is_required && p.is_required(whole, section)) &&
                              value == p.write(defaults, p.rule, context);
       const bool elsewhere = p.rule.dimension != 0 && p.rule.dimension != context.dimension;

@@ -13,11 +13,11 @@ using nlohmann::json;
 const Rule rule_of_numbers{};
 
 // The keys that say where the value of a map comes from.
-struct MapWord {
+struct MapKeyword {
   MapValue::From from;
   const char* key;
 };
-constexpr MapWord map_words[] = {
+constexpr MapKeyword map_keywords[] = {
     {MapValue::From::attribute, "attribute"}, {MapValue::From::raster, "raster"}, {MapValue::From::surface, "surface"}};
 
 std::string write_array(const std::vector<double>& numbers) {
@@ -89,7 +89,7 @@ bool has_exactly(const toml::table& table, const std::string& abscissa) {
 bool fail_keys(const toml::node& node, const ValueReader& at) {
   return at.fail(node,
                  fmt::format("is a table with {}; allowed: {}",
-                             node.as_table()->empty() ? "no key" : "the keys " + list_words(keys_of(*node.as_table())),
+                             node.as_table()->empty() ? "no key" : "the keys " + comma_list(keys_of(*node.as_table())),
                              at.allowed));
 }
 
@@ -254,13 +254,13 @@ bool Value<MapValue>::read(const toml::node& node, const ValueReader& at, MapVal
   if (key.empty()) {
     return fail_keys(node, at);
   }
-  for (const MapWord& word : map_words) {
+  for (const MapKeyword& word : map_keywords) {
     value.from = key == word.key ? word.from : value.from;  // known, whatever is wrong with the source
   }
   return read_source(*table, key, at, value.source);
 }
 std::string Value<MapValue>::write(const MapValue& value, const Rule&, const WriteContext& context) {
-  for (const MapWord& word : map_words) {
+  for (const MapKeyword& word : map_keywords) {
     if (value.from == word.from) {
       return write_source(word.key, value.source, context);
     }
@@ -269,7 +269,7 @@ std::string Value<MapValue>::write(const MapValue& value, const Rule&, const Wri
 }
 json Value<MapValue>::schema(const Rule& rule) {
   json any_of = json::array({Value<double>::schema(rule)});
-  for (const MapWord& word : map_words) {
+  for (const MapKeyword& word : map_keywords) {
     any_of.push_back(source_schema(word.key));
   }
   return {{"anyOf", any_of}};

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "config/case.hpp"
+#include "config/keywords.hpp"
 #include "config/reading.hpp"
-#include "config/words.hpp"
 
 namespace thawslide::config {
 
@@ -28,13 +28,13 @@ template <class T>
 struct Value;
 
 // What most types share: no words.
-struct ValueWithoutWords {
-  static std::vector<Word> words() { return {}; }
+struct ValueWithoutKeywords {
+  static std::vector<Keyword> words() { return {}; }
 };
 
 #define THAWSLIDE_DECLARE_VALUE(Type)                                              \
   template <>                                                                      \
-  struct Value<Type> : ValueWithoutWords {                                         \
+  struct Value<Type> : ValueWithoutKeywords {                                      \
     static std::string type(const Rule& rule);                                     \
     static bool read(const toml::node& node, const ValueReader& at, Type& value);  \
     static std::string write(const Type& value, const Rule&, const WriteContext&); \
@@ -64,9 +64,9 @@ THAWSLIDE_DECLARE_VALUE(HeatBoundary)  // "insulated" | { temperature = T } | { 
 #undef THAWSLIDE_DECLARE_VALUE
 
 // A word out of a list, with the nearest one where it is misspelt.
-bool read_word(const toml::node& node, const ValueReader& at, const std::vector<Word>& words, std::string& found);
-std::string list_of_words(const std::vector<Word>& words);
-nlohmann::json word_schema(const std::vector<Word>& words);
+bool read_keyword(const toml::node& node, const ValueReader& at, const std::vector<Keyword>& words, std::string& found);
+std::string keyword_list(const std::vector<Keyword>& words);
+nlohmann::json keyword_schema(const std::vector<Keyword>& words);
 std::string quoted(const std::string& text);
 // A path as the written case names it.
 std::string path_text(const std::string& path, const WriteContext& context);
@@ -74,17 +74,17 @@ std::string path_text(const std::string& path, const WriteContext& context);
 template <class Enum>
 requires std::is_enum_v<Enum>
 struct Value<Enum> {
-  static std::vector<Word> words() {
-    std::vector<Word> words;
+  static std::vector<Keyword> words() {
+    std::vector<Keyword> words;
     for (const Choice<Enum>& choice : choices(Enum{})) {
       words.push_back({choice.word, choice.text});
     }
     return words;
   }
-  static std::string type(const Rule&) { return "one of " + list_of_words(words()); }
+  static std::string type(const Rule&) { return "one of " + keyword_list(words()); }
   static bool read(const toml::node& node, const ValueReader& at, Enum& value) {
     std::string found;
-    if (!read_word(node, at, words(), found)) {
+    if (!read_keyword(node, at, words(), found)) {
       return false;
     }
     for (const Choice<Enum>& choice : choices(Enum{})) {
@@ -100,7 +100,7 @@ struct Value<Enum> {
     }
     return quoted("");
   }
-  static nlohmann::json schema(const Rule&) { return word_schema(words()); }
+  static nlohmann::json schema(const Rule&) { return keyword_schema(words()); }
 };
 
 }  // namespace thawslide::config

@@ -130,14 +130,14 @@ bool names_a_table(const std::string& dotted) {
 }
 
 // Moves what `over` holds into `under`, both of this dotted name; tables are joined, all else is replaced.
-void lay_over(toml::table& under, toml::table&& over, const std::string& dotted) {
+void merge_over(toml::table& under, toml::table&& over, const std::string& dotted) {
   for (auto&& entry : over) {
     const toml::key& key = entry.first;
     toml::node& node = entry.second;
     toml::table* inner = under.get_as<toml::table>(key.str());
     const std::string name = (dotted.empty() ? "" : dotted + ".") + std::string(key.str());
     if (inner != nullptr && node.is_table() && names_a_table(name)) {
-      lay_over(*inner, std::move(*node.as_table()), name);
+      merge_over(*inner, std::move(*node.as_table()), name);
     } else {
       node.visit([&](auto& value) { under.insert_or_assign(key, std::move(value)); });
     }
@@ -169,7 +169,7 @@ toml::table read_chain(const fs::path& file, LayeredCase& found) {
     return root;
   }
   toml::table under = read_chain(*base, found);
-  lay_over(under, std::move(root), "");
+  merge_over(under, std::move(root), "");
   return under;
 }
 

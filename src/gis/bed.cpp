@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "gis/error_location.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/sampling.hpp"
-#include "gis/told_at.hpp"
 
 namespace thawslide::gis {
 
@@ -18,7 +18,7 @@ Raster load_bed_depth(const config::Case& parameters, const Dem& ground, std::ve
   const Rectangle about = domain.widened(ground.raster.cell_x, ground.raster.cell_y);
   const Raster map =
       read_map(parameters, {key, depth.source, Quantity::length, ground.raster.crs, about, "the domain"}, notes);
-  return told_at(parameters, key, [&] {
+  return with_error_location(parameters, key, [&] {
     Raster made = sampled(map, ground.raster, Missing::unknown);
     for (int row = 0; row < made.rows; ++row) {
       for (int column = 0; column < made.columns; ++column) {

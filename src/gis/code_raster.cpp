@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "gis/error_location.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/point_window.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/reprojection.hpp"
-#include "gis/told_at.hpp"
 
 namespace thawslide::gis {
 
@@ -66,10 +66,10 @@ void count(CodesFound::Points& points, double x, double y) {
   points.extent.take_in(x, y);
 }
 
-std::string share_words(const CodesFound::Points& points, const CodesFound& found) {
+std::string format_fraction(const CodesFound::Points& points, const CodesFound& found) {
   return fmt::format("{:.2g} % of the domain, {}",
                      100.0 * static_cast<double>(points.count) / static_cast<double>(found.count),
-                     range_words(points.extent));
+                     format_range(points.extent));
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ Raster read_codes(const config::Case& parameters, const std::string& key, const 
                   std::vector<std::string>& notes) {
   const Raster codes =
       read_map(parameters, {key, file, Quantity::code, ground.crs, domain_of(parameters), "the domain"}, notes);
-  return told_at(parameters, key, [&] {
+  return with_error_location(parameters, key, [&] {
     check_whole(file, codes);
     if (Reprojection(codes.crs, ground.crs).changes_nothing()) {
       return codes;
@@ -103,7 +103,7 @@ CodesFound codes_in(const Rectangle& area, const Raster& codes) {
   return found;
 }
 
-std::string words_of_codes(const CodesFound& found) {
+std::string format_codes(const CodesFound& found) {
   std::string words;
   std::size_t k = 0;
   for (const auto& [code, points] : found.by_code) {
@@ -121,15 +121,15 @@ std::vector<std::string> notes_on_codes(const Rectangle& domain, const std::stri
   for (const auto& [code, points] : found.by_code) {
     if (named.count(code) == 0) {
       notes.push_back(fmt::format("the code {:g} of {} ({}) belongs to no substrate: [basal] holds there", code, name,
-                                  share_words(points, found)));
+                                  format_fraction(points, found)));
     }
   }
   if (found.without.count > 0) {
     notes.push_back(fmt::format("{} has no data at {} of its points in the domain ({}): [basal] holds there", name,
-                                found.without.count, share_words(found.without, found)));
+                                found.without.count, format_fraction(found.without, found)));
   }
   const Rectangle covered = span_of_points(codes).widened(0.5 * codes.cell_x, 0.5 * codes.cell_y);
-  if (const std::string beyond = words_beyond(domain, covered); !beyond.empty()) {
+  if (const std::string beyond = describe_overhang(domain, covered); !beyond.empty()) {
     notes.push_back(
         fmt::format("{} does not cover the domain, which reaches beyond it by {}: [basal] holds there", name, beyond));
   }

@@ -31,7 +31,7 @@ struct CodesFound {
 [[nodiscard]] CodesFound codes_in(const Rectangle& area, const Raster& codes);
 
 // "1, 2 and 7"
-[[nodiscard]] std::string words_of_codes(const CodesFound& found);
+[[nodiscard]] std::string format_codes(const CodesFound& found);
 
 // What the user should know of a domain and the codes in it: those not named, and what is without.
 [[nodiscard]] std::vector<std::string> notes_on_codes(const Rectangle& domain, const std::string& file,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "config/input_limits.hpp"
+#include "gis/error_location.hpp"
 #include "gis/pits.hpp"
 #include "gis/polygons.hpp"
 #include "gis/raster_file.hpp"
@@ -14,7 +15,6 @@
 #include "gis/resampling.hpp"
 #include "gis/roughness.hpp"
 #include "gis/smoothing.hpp"
-#include "gis/told_at.hpp"
 #include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
@@ -24,7 +24,7 @@ namespace {
 std::string system_of(const config::Case& parameters, const RasterFile& file, std::vector<std::string>& notes) {
   const std::string& given = parameters.terrain.crs;
   const Raster& layout = file.layout();
-  const std::string system = told_at(parameters, given.empty() ? "terrain.file" : "terrain.crs", [&] {
+  const std::string system = with_error_location(parameters, given.empty() ? "terrain.file" : "terrain.crs", [&] {
     return metric_system({file.file(), file.extent(), layout.cell_x, layout.cell_y}, layout.crs, given);
   });
   if (const std::string note = place_note({file.file(), file.extent(), layout.cell_x, layout.cell_y}, system);
@@ -73,7 +73,7 @@ std::string domain_within(const config::Case& parameters, const Rectangle& span)
 
 void check_domain(const config::Case& parameters, const std::string& file, const Rectangle& span) {
   const Rectangle domain = domain_of(parameters);
-  const std::string beyond = words_beyond(domain, span);
+  const std::string beyond = describe_overhang(domain, span);
   if (beyond.empty()) {
     return;
   }
@@ -84,7 +84,7 @@ void check_domain(const config::Case& parameters, const std::string& file, const
           fmt::format("the domain {} {}{}, by {}; allowed: {}. Set {}, or take a larger terrain model.",
                       domain.touches(span) ? "reaches beyond the outermost points of" : "lies outside", file,
                       resample > 0.0 ? fmt::format(", taken to points {:g} m apart", resample) : "", beyond,
-                      range_words(span), within.empty() ? "grid.min and grid.max so" : within));
+                      format_range(span), within.empty() ? "grid.min and grid.max so" : within));
 }
 
 // Room about the domain: nodes of the grid's cells about it see the ground, and gradients there need neighbours.
@@ -110,7 +110,8 @@ Raster read_and_resample(const config::Case& parameters, const RasterFile& file,
                          const Rectangle& area, std::vector<std::string>& notes) {
   const bool as_it_is = &layout == &file.layout();
   const Raster target = layout_of(layout, points_in(layout, area));
-  Raster raster = told_at(parameters, "terrain.file", [&] { return file.read(as_it_is ? area : needed_for(target)); });
+  Raster raster =
+      with_error_location(parameters, "terrain.file", [&] { return file.read(as_it_is ? area : needed_for(target)); });
   check_elevations(parameters, file, raster);
   if (const std::string note = pits_note(file.file(), raster); !note.empty()) {
     notes.push_back(note);
@@ -118,7 +119,8 @@ Raster read_and_resample(const config::Case& parameters, const RasterFile& file,
   if (as_it_is) {
     return raster;
   }
-  told_at(parameters, "terrain.resample", [&] { require_readable(file.file(), target.columns, target.rows); });
+  with_error_location(parameters, "terrain.resample",
+                      [&] { require_readable(file.file(), target.columns, target.rows); });
   return resampled(raster, target);
 }
 
@@ -154,8 +156,8 @@ config::Roughness roughness_of_file(const config::Case& parameters, const Raster
 
 Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
   const config::Terrain& terrain = parameters.terrain;
-  const auto opened =
-      told_at(parameters, "terrain.file", [&] { return std::make_unique<RasterFile>(terrain.file, Quantity::length); });
+  const auto opened = with_error_location(parameters, "terrain.file",
+                                          [&] { return std::make_unique<RasterFile>(terrain.file, Quantity::length); });
   const RasterFile& file = *opened;
   const std::string system = system_of(parameters, file, notes);
   add_note(file.conversion().note, notes);

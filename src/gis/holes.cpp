@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/raster_sampling.hpp"
-#include "gis/told_at.hpp"
+#include "gis/error_location.hpp"
 
 namespace thawslide::gis {
 

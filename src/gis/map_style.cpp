@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "gis/whole_file.hpp"
+#include "gis/atomic_file.hpp"
 
 namespace thawslide::gis {
 

@@ -10,7 +10,7 @@
 
 #include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "config/input_limits.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/spatial_reference.hpp"
@@ -87,7 +87,7 @@ Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up
     throw UserError(
         fmt::format("{}: the raster is rotated or mirrored (geotransform {:g}); allowed: columns from west to east, "
                     "rows from north to south or back. Straighten it: gdalwarp -r bilinear {} straight.tif",
-                    file, fmt::join(transform, ", "), shell_word(file)));
+                    file, fmt::join(transform, ", "), shell_quote(file)));
   }
   Raster layout;
   layout.columns = dataset.GetRasterXSize();
@@ -197,7 +197,7 @@ RasterFile::RasterFile(const std::string& file, Quantity quantity) : handle_(std
     throw UserError(fmt::format(
         "{}: the values are stored with a scale of {:g} and an offset of {:g}; allowed: finite numbers, and "
         "a scale other than 0. Correct them: gdal_edit.py -scale 1 -offset 0 {}",
-        file, handle_->scale, handle_->offset, shell_word(file)));
+        file, handle_->scale, handle_->offset, shell_quote(file)));
   }
   const HeightUnit heights = height_unit_of(dataset.GetSpatialRef());
   conversion_ = conversion_from({file, band.GetUnitType(), heights.name, heights.metres}, quantity);

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "gis/atomic_file.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/spatial_reference.hpp"
-#include "gis/whole_file.hpp"
 
 namespace thawslide::gis {
 
@@ -43,7 +43,7 @@ void write_geotiff(const std::string& file, const Raster& raster, const BandText
   THAWSLIDE_ASSERT(raster.columns > 0 && raster.rows > 0 &&
                        raster.values.size() == raster.index(raster.columns - 1, raster.rows - 1) + 1,
                    "{} x {} points, {} values", raster.columns, raster.rows, raster.values.size());
-  WholeFile whole(file);
+  AtomicFile whole(file);
   const GdalMessages messages;
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   THAWSLIDE_ASSERT(driver != nullptr, "GDAL has no driver for GeoTIFF");
@@ -72,7 +72,7 @@ void write_geotiff(const std::string& file, const Raster& raster, const BandText
   if (!written || messages.any_error()) {
     whole.fail_with(messages);
   }
-  whole.put_in_place();
+  whole.publish();
 }
 
 }  // namespace thawslide::gis

@@ -9,12 +9,12 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "config/input_limits.hpp"
+#include "gis/error_location.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/reprojection.hpp"
 #include "gis/spatial_reference.hpp"
-#include "gis/told_at.hpp"
 
 namespace thawslide::gis {
 
@@ -86,7 +86,7 @@ std::string warp_command(const Located& raster, const std::string& source_option
   const std::filesystem::path target = file.parent_path() / fmt::format("{}-EPSG{}.tif", file.stem().string(), number);
   const double cell = two_digits(raster.cell_y * metres_per_unit);
   return fmt::format("gdalwarp {}-t_srs EPSG:{} -tr {:g} {:g} -r bilinear {} {}", source_option, number, cell, cell,
-                     shell_word(file.string()), shell_word(target.string()));
+                     shell_quote(file.string()), shell_quote(target.string()));
 }
 
 std::string warp_of_degrees(const Located& raster, const std::string& source_option) {
@@ -98,7 +98,7 @@ std::string warp_of_degrees(const Located& raster, const std::string& source_opt
 
 [[noreturn]] void fail_without_system(const Located& raster) {
   const std::string found =
-      fmt::format("{}: the file names no coordinate reference system ({})", raster.file, range_words(raster.extent));
+      fmt::format("{}: the file names no coordinate reference system ({})", raster.file, format_range(raster.extent));
   if (can_be_degrees(raster.extent)) {
     throw UserError(
         fmt::format("{}. If these are degrees, reproject to metres: {}. If they are metres, set terrain.crs to the "
@@ -114,11 +114,11 @@ std::string warp_of_degrees(const Located& raster, const std::string& source_opt
     throw UserError(
         fmt::format("{}: the tag says degrees ({}), the numbers are metric ({}). Set terrain.crs = \"EPSG:...\" to the "
                     "system the numbers are in; its maker states it.",
-                    raster.file, name_of(wkt), range_words(raster.extent)));
+                    raster.file, name_of(wkt), format_range(raster.extent)));
   }
   throw UserError(
       fmt::format("{}: the coordinates are degrees ({}; {}); allowed: a map projection in metres. Reproject: {}",
-                  raster.file, name_of(wkt), range_words(raster.extent), warp_of_degrees(raster, "")));
+                  raster.file, name_of(wkt), format_range(raster.extent), warp_of_degrees(raster, "")));
 }
 
 // Longitude and latitude of the raster's middle; NaN where it has none.

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "base/raster_sampling.hpp"
+#include "gis/error_location.hpp"
 #include "gis/geopackage.hpp"
 #include "gis/point_window.hpp"
 #include "gis/release_area.hpp"
 #include "gis/release_fields.hpp"
 #include "gis/release_thickness.hpp"
 #include "gis/taper.hpp"
-#include "gis/told_at.hpp"
 
 namespace thawslide::gis {
 

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "gis/averaging.hpp"
 #include "gis/coverage.hpp"
+#include "gis/error_location.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/reprojection.hpp"
 #include "gis/sampling.hpp"
 #include "gis/taper.hpp"
-#include "gis/told_at.hpp"
 
 namespace thawslide::gis {
 
@@ -38,12 +38,12 @@ Raster points_about(const Rectangle& extent, double taper, const Raster& ground)
 // `extent`: of all that has a thickness before it is tapered.
 void check_place(const config::Case& parameters, const std::string& body, const Rectangle& extent, const Dem& ground) {
   const auto check = [&](const char* what, const Rectangle& outer, const std::string& remedy) {
-    const std::string beyond = words_beyond(extent, outer);
+    const std::string beyond = describe_overhang(extent, outer);
     if (!beyond.empty()) {
       fail_at(parameters, key_of_place(parameters, body),
               fmt::format("{}: the release lies {}outside {}, by {}; found: {}; allowed: {}. {}",
                           file_of_place(parameters, body), extent.touches(outer) ? "partly " : "", what, beyond,
-                          range_words(extent), range_words(outer), remedy));
+                          format_range(extent), format_range(outer), remedy));
     }
   };
   check("the terrain model", ground.span,
@@ -66,7 +66,7 @@ void check_taper(const config::Case& parameters, const std::string& body, const 
   const Rectangle reached = extent.widened(taper_reach(taper, points.cell_x) * points.cell_x,
                                            taper_reach(taper, points.cell_y) * points.cell_y);
   const auto check = [&](const char* what, const Rectangle& outer, const char* remedy) {
-    const std::string beyond = words_beyond(reached, outer);
+    const std::string beyond = describe_overhang(reached, outer);
     if (!beyond.empty()) {
       fail_at(parameters, key_of(body, "taper"),
               fmt::format("a taper of {:g} m spreads the release {:g} m beyond its outline, and outside {} by {}; "
@@ -84,12 +84,12 @@ void check_size(const config::Case& parameters, const std::string& body, double 
   const double cell = ground.cell_x * ground.cell_y;
   if (size < cell * (1.0 - 1e-9)) {
     const double finer = 0.25 * std::sqrt(size);
-    fail_at(
-        parameters, key_of(body, "release"),
-        fmt::format("{}: the release has {:.4g} m2, less than one cell of the terrain model, {:.4g} m2: it would be "
-                    "spread over the cell and become as much thinner. Draw it larger, or resample the terrain model "
-                    "(gdalwarp -tr {:.1g} {:.1g} -r bilinear {} finer.tif).",
-                    parameters.bodies.at(body).release, size, cell, finer, finer, shell_word(parameters.terrain.file)));
+    fail_at(parameters, key_of(body, "release"),
+            fmt::format(
+                "{}: the release has {:.4g} m2, less than one cell of the terrain model, {:.4g} m2: it would be "
+                "spread over the cell and become as much thinner. Draw it larger, or resample the terrain model "
+                "(gdalwarp -tr {:.1g} {:.1g} -r bilinear {} finer.tif).",
+                parameters.bodies.at(body).release, size, cell, finer, finer, shell_quote(parameters.terrain.file)));
   }
 }
 
@@ -187,11 +187,11 @@ ReleaseArea area_of_raster(const config::Case& parameters, const std::string& na
   ReleaseArea area;
   area.source = thickness_without_polygons(parameters, name, ground, notes);
   const Rectangle extent =
-      told_at(parameters, key, [&] { return extent_of_positive(body, area.source, ground.raster.crs); });
+      with_error_location(parameters, key, [&] { return extent_of_positive(body, area.source, ground.raster.crs); });
   check_place(parameters, name, extent, ground);
   check_taper(parameters, name, extent, ground);
   const Rectangle reached = extent.widened(area.source.cell_x, area.source.cell_y);
-  area.share = told_at(parameters, key, [&] {
+  area.share = with_error_location(parameters, key, [&] {
     return sampled(area.source, points_about(reached, body.taper, ground.raster), Missing::zero);
   });
   for (double& share : area.share.values) {
@@ -204,11 +204,12 @@ ReleaseArea area_of_polygons(const config::Case& parameters, const std::string& 
                              std::vector<std::string>& notes) {
   const config::Body& body = parameters.bodies.at(name);
   ReleaseArea area;
-  area.layer =
-      told_at(parameters, key_of(name, "release"), [&] { return read_polygons(body.release, ground.raster.crs); });
+  area.layer = with_error_location(parameters, key_of(name, "release"),
+                                   [&] { return read_polygons(body.release, ground.raster.crs); });
   notes.insert(notes.end(), area.layer.notes.begin(), area.layer.notes.end());
-  area.layer.features = told_at(parameters, key_of(name, "polygons"),
-                                [&] { return features_named(area.layer, body.polygons, body.name_attribute); });
+  area.layer.features = with_error_location(parameters, key_of(name, "polygons"), [&] {
+    return features_named(area.layer, body.polygons, body.name_attribute);
+  });
   Polygons all;
   for (const Feature& feature : area.layer.features) {
     all.insert(all.end(), feature.polygons.begin(), feature.polygons.end());

@@ -6,11 +6,11 @@
 #include "base/nearest_known.hpp"
 #include "gis/averaging.hpp"
 #include "gis/coverage.hpp"
+#include "gis/error_location.hpp"
 #include "gis/geopackage.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/point_window.hpp"
 #include "gis/sampling.hpp"
-#include "gis/told_at.hpp"
 #include "gis/valued_areas.hpp"
 
 namespace thawslide::gis {
@@ -100,7 +100,7 @@ std::map<std::string, Raster> fields_of(const config::Case& parameters, const st
         is_raster ? read_map(parameters, {key, field.source, what.quantity, area.share.crs, span_of_points(area.share)},
                              notes)
                   : Raster{};
-    fields[what.key] = told_at(parameters, key, [&] {
+    fields[what.key] = with_error_location(parameters, key, [&] {
       Raster made = is_raster ? from_raster(area, map, what, field.source) : from_attribute(area, field.source, key);
       check_values(made, area.share, what, is_raster ? field.source : area.layer.file);
       for (std::size_t k = 0; k < made.values.size(); ++k) {

@@ -2,15 +2,15 @@
 
 #include <cmath>
 
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "gis/averaging.hpp"
 #include "gis/coverage.hpp"
+#include "gis/error_location.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/point_window.hpp"
 #include "gis/sampling.hpp"
 #include "gis/slope.hpp"
 #include "gis/taper.hpp"
-#include "gis/told_at.hpp"
 #include "gis/valued_areas.hpp"
 
 namespace thawslide::gis {
@@ -90,13 +90,13 @@ class ThicknessMaker {
       fail("taper",
            fmt::format("a taper of {:g} m spreads the release of {} over nodata of the terrain model at {} points, "
                        "such as {}. Set a narrower one, or fill the holes (gdal_fillnodata.py {} filled.tif).",
-                       body_.taper, file_of_place(case_, name_), without, first, shell_word(case_.terrain.file)));
+                       body_.taper, file_of_place(case_, name_), without, first, shell_quote(case_.terrain.file)));
     }
     if (without > 0) {
       fail(body_.release.empty() ? "thickness" : "release",
            fmt::format("{}: the release lies over nodata of the terrain model at {} of its points, such as {}. "
                        "Fill the holes (gdal_fillnodata.py {} filled.tif), or move the release.",
-                       file_of_place(case_, name_), without, first, shell_word(case_.terrain.file)));
+                       file_of_place(case_, name_), without, first, shell_quote(case_.terrain.file)));
     }
   }
 
@@ -112,12 +112,12 @@ class ThicknessMaker {
   Raster of_release_raster() {
     const Raster thickness = sampled(area_.source, area_.share, Missing::zero);
     require_not_negative(area_.source, nullptr, "thickness", body_.thickness.source);
-    const double told = volume_of(area_.source), made = volume_of(thickness);
-    if (area_.source.crs == ground_.crs && std::abs(made - told) > 1e-3 * told) {
+    const double specified = volume_of(area_.source), made = volume_of(thickness);
+    if (area_.source.crs == ground_.crs && std::abs(made - specified) > 1e-3 * specified) {
       notes_.push_back(
           fmt::format("the thickness of the body {} holds {:.6g} m3 at its own points and {:.6g} m3 at "
                       "those of the ground",
-                      name_, told, made));
+                      name_, specified, made));
     }
     return thickness;
   }
@@ -151,7 +151,7 @@ class ThicknessMaker {
     const std::string key = key_of(name_, "thickness");
     Raster thickness = area_.share.filled(0.0);
     for (const ValuedArea& part :
-         told_at(case_, key, [&] { return areas_by_value(area_.layer, body_.thickness.source, key); })) {
+         with_error_location(case_, key, [&] { return areas_by_value(area_.layer, body_.thickness.source, key); })) {
       if (part.value < 0.0) {
         fail("thickness", fmt::format("{}: the attribute '{}' is {:g} m somewhere; allowed: 0 and more.", body_.release,
                                       body_.thickness.source, part.value));
@@ -173,7 +173,7 @@ class ThicknessMaker {
 
   template <class Work>
   auto at_thickness(const Work& work) const {
-    return told_at(case_, key_of(name_, "thickness"), work);
+    return with_error_location(case_, key_of(name_, "thickness"), work);
   }
 
   Raster of_raster() const {
@@ -228,7 +228,7 @@ class ThicknessMaker {
     for_each_positive(thickness, [&](int column, int row, double& value) {
       int i = 0, j = 0;
       const double difference = above.at(column, row);
-      const auto told = [&](const std::string& what) {
+      const auto specified = [&](const std::string& what) {
         fail("thickness", fmt::format("{}: at {:.10g}, {:.10g}, within the release, {}", body_.thickness.source,
                                       above.x_of(column), above.y_of(row), what));
       };
@@ -236,10 +236,10 @@ class ThicknessMaker {
         return;
       }
       if (std::isnan(difference)) {
-        told("the surface has no data. Fill it, or draw the release smaller.");
+        specified("the surface has no data. Fill it, or draw the release smaller.");
       }
       if (difference < -body_.surface_tolerance) {
-        told(fmt::format(
+        specified(fmt::format(
             "the surface before the slide lies {:.4g} m below the terrain model; allowed: above it, or below "
             "by up to {:g} m. Are the two files swapped? Else draw the release smaller, or set "
             "body.{}.surface_tolerance to the noise of the two.",

@@ -59,26 +59,26 @@ bool Reprojection::apply(std::vector<double>& x, std::vector<double>& y) const {
   return true;
 }
 
-LikelySystem likely_system(const std::string& file, const std::string& told, const Rectangle& extent,
+LikelySystem likely_system(const std::string& file, const std::string& specified, const Rectangle& extent,
                            const std::string& ground) {
   const std::string name = std::filesystem::path(file).filename().string();
   if (ground.empty()) {
-    return {told, ""};
+    return {specified, ""};
   }
-  if (told.empty()) {
+  if (specified.empty()) {
     return {ground, fmt::format("{} names no coordinate reference system: taken to be in the ground's, {}", name,
                                 name_of(ground))};
   }
-  if (is_geographic(told) && !can_be_degrees(extent)) {
+  if (is_geographic(specified) && !can_be_degrees(extent)) {
     return {ground,
             fmt::format("{} says that its coordinates are degrees ({}), which {:.10g}, {:.10g} cannot be: taken "
                         "to be in the ground's system, {}",
-                        name, name_of(told), extent.min_x, extent.min_y, name_of(ground))};
+                        name, name_of(specified), extent.min_x, extent.min_y, name_of(ground))};
   }
-  if (Reprojection(told, ground).changes_nothing()) {
+  if (Reprojection(specified, ground).changes_nothing()) {
     return {ground, ""};
   }
-  return {told, fmt::format("{} was taken from {} to {}", name, name_of(told), name_of(ground))};
+  return {specified, fmt::format("{} was taken from {} to {}", name, name_of(specified), name_of(ground))};
 }
 
 }  // namespace thawslide::gis

@@ -33,7 +33,7 @@ struct LikelySystem {
   std::string wkt;
   std::string note;
 };
-[[nodiscard]] LikelySystem likely_system(const std::string& file, const std::string& told, const Rectangle& extent,
+[[nodiscard]] LikelySystem likely_system(const std::string& file, const std::string& specified, const Rectangle& extent,
                                          const std::string& ground);
 
 }  // namespace thawslide::gis

@@ -5,12 +5,12 @@
 
 #include "gis/bed.hpp"
 #include "gis/dem.hpp"
+#include "gis/error_location.hpp"
 #include "gis/point_window.hpp"
 #include "gis/polygons.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/release.hpp"
 #include "gis/substrates.hpp"
-#include "gis/told_at.hpp"
 #include "gis/touching.hpp"
 #include "gis/vector_file.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 // The one line of a file, some of which lies in the domain.
 config::Polyline2 load_line(const config::Case& parameters, const std::string& key, const std::string& file,
                             const std::string& crs, std::vector<std::string>& notes) {
-  return told_at(parameters, key, [&] {
+  return with_error_location(parameters, key, [&] {
     const VectorLayer layer = read_lines(file, crs);
     notes.insert(notes.end(), layer.notes.begin(), layer.notes.end());
     if (layer.features.size() != 1 || layer.features.front().lines.size() != 1) {
@@ -42,7 +42,7 @@ config::Polyline2 load_line(const config::Case& parameters, const std::string& k
       throw UserError(
           fmt::format("{}: the line ({}) lies outside the domain ({}). Check that both have the same place "
                       "and reference system.",
-                      file, range_words(extent), range_words(domain)));
+                      file, format_range(extent), format_range(domain)));
     }
     return line;
   });

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "gis/code_raster.hpp"
+#include "gis/error_location.hpp"
 #include "gis/geopackage.hpp"
 #include "gis/polygons.hpp"
-#include "gis/told_at.hpp"
 #include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
@@ -39,10 +39,10 @@ config::SubstrateArea area_of_outline(const config::Case& parameters, const std:
   const config::Substrate& substrate = parameters.substrates.at(name);
   const std::string key = key_of(name, "outline");
   const VectorLayer layer =
-      told_at(parameters, key, [&] { return read_polygons(substrate.outline, ground.raster.crs); });
+      with_error_location(parameters, key, [&] { return read_polygons(substrate.outline, ground.raster.crs); });
   notes.insert(notes.end(), layer.notes.begin(), layer.notes.end());
   Polygons all;
-  for (const Feature& feature : told_at(parameters, key_of(name, "polygons"), [&] {
+  for (const Feature& feature : with_error_location(parameters, key_of(name, "polygons"), [&] {
          return features_named(layer, substrate.polygons, substrate.name_attribute);
        })) {
     all.insert(all.end(), feature.polygons.begin(), feature.polygons.end());
@@ -56,7 +56,7 @@ config::SubstrateArea area_of_outline(const config::Case& parameters, const std:
     fail_at(parameters, key,
             fmt::format("{}: the polygons ({}) lie outside the domain ({}). Check that both have the same place and "
                         "reference system.",
-                        substrate.outline, range_words(extent_of(polygons)), range_words(domain)));
+                        substrate.outline, format_range(extent_of(polygons)), format_range(domain)));
   }
   for (const Polygon& polygon : polygons) {
     area.rings.push_back(polygon.outline);
@@ -76,7 +76,7 @@ config::SubstrateArea area_of_code(const config::Case& parameters, const std::st
   if (own == found.by_code.end()) {
     fail_at(parameters, key_of(name, "code"),
             fmt::format("{}: the code {} stands nowhere in the domain; found there: {}.", substrate.raster,
-                        substrate.code, words_of_codes(found)));
+                        substrate.code, format_codes(found)));
   }
   area.area = static_cast<double>(own->second.count) * codes->cell_x * codes->cell_y;
   return area;

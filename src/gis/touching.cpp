@@ -6,11 +6,11 @@
 #include <set>
 
 #include "base/nearest_known.hpp"
+#include "gis/error_location.hpp"
 #include "gis/point_window.hpp"
 #include "gis/release_area.hpp"
 #include "gis/release_thickness.hpp"
 #include "gis/sampling.hpp"
-#include "gis/told_at.hpp"
 
 namespace thawslide::gis {
 

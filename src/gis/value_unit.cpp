@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "config/input_limits.hpp"
 
 namespace thawslide::gis {
@@ -153,7 +153,7 @@ std::optional<Spelling> known_unit(const std::string& unit, const UnitsOfQuantit
   throw UserError(fmt::format(
       "{}: the unit of the values is '{}'; allowed: a unit of {} ({}). Check that it is the right file, or "
       "state the unit that the values have: gdal_edit.py -units {} {}",
-      stated.file, config::shown(stated.band), units.of, units.allowed, units.short_own, shell_word(stated.file)));
+      stated.file, config::shown(stated.band), units.of, units.allowed, units.short_own, shell_quote(stated.file)));
 }
 
 void check_that_both_agree(const StatedUnits& stated, double band_metres) {
@@ -162,7 +162,7 @@ void check_that_both_agree(const StatedUnits& stated, double band_metres) {
     throw UserError(fmt::format(
         "{}: two units are stated for the values: '{}' by the band, '{}' by the heights of the coordinate reference "
         "system; allowed: one. State the right one in both: gdal_edit.py -units m -a_srs EPSG:... {}",
-        stated.file, config::shown(stated.band), config::shown(stated.vertical), shell_word(stated.file)));
+        stated.file, config::shown(stated.band), config::shown(stated.vertical), shell_quote(stated.file)));
   }
 }
 

@@ -25,7 +25,7 @@ namespace {
 
 enum class Kind { polygons, lines, points };
 
-const char* word_of(Kind kind) {
+const char* name_of_kind(Kind kind) {
   return kind == Kind::polygons ? "polygons" : kind == Kind::lines ? "lines" : "points";
 }
 
@@ -70,7 +70,7 @@ GDALDatasetUniquePtr open_vector(const std::string& file, Kind kind) {
     }
     if (is_raster_file(file)) {
       throw UserError(fmt::format(
-          "{}: the file is a raster; needed: {}, in a Shapefile, GeoPackage or GeoJSON.{}", file, word_of(kind),
+          "{}: the file is a raster; needed: {}, in a Shapefile, GeoPackage or GeoJSON.{}", file, name_of_kind(kind),
           kind == Kind::polygons ? " A raster of a body's thickness goes to thickness = { raster "
                                    "= \"FILE\" }, which needs no polygons."
                                  : ""));
@@ -122,14 +122,14 @@ OGRLayer& layer_with(const std::string& file, GDALDataset& dataset, Kind kind) {
     throw UserError(
         fmt::format("{}: the file has {} layers of {}: {}; allowed: one. Export the one meant to a file of "
                     "its own.",
-                    file, fitting.size(), word_of(kind), config::list_words(fitting)));
+                    file, fitting.size(), name_of_kind(kind), config::comma_list(fitting)));
   }
   if (features == 0 || chosen != nullptr) {
     throw UserError(fmt::format("{}: the layer is empty; needed: {}. Draw them, or name the file that has them.", file,
-                                word_of(kind)));
+                                name_of_kind(kind)));
   }
-  throw UserError(fmt::format("{}: the file has no {}, but {}. Name the file that has them.", file, word_of(kind),
-                              config::list_words(all)));
+  throw UserError(fmt::format("{}: the file has no {}, but {}. Name the file that has them.", file, name_of_kind(kind),
+                              config::comma_list(all)));
 }
 
 class LayerReader {
@@ -157,7 +157,7 @@ class LayerReader {
     };
     for (const auto& feature : *layer_) {
       require_whole();
-      require_few(result_.features.size() + 1, config::most_features, word_of(kind_));
+      require_few(result_.features.size() + 1, config::most_features, name_of_kind(kind_));
       take(*feature);
     }
     require_whole();
@@ -194,11 +194,11 @@ class LayerReader {
     feature.title = title_of(source);
     if (source.GetGeometryRef() == nullptr || source.GetGeometryRef()->IsEmpty()) {
       throw UserError(fmt::format("{}: {} has no geometry; needed: {}. Delete it or draw it.", result_.file,
-                                  feature.title, word_of(kind_)));
+                                  feature.title, name_of_kind(kind_)));
     }
     const std::unique_ptr<OGRGeometry> geometry(source.GetGeometryRef()->getLinearGeometry());
     geometry->flattenTo2D();
-    take_geometry(*geometry, feature);
+    read_geometry(*geometry, feature);
     for (int index = 0; index < source.GetFieldCount(); ++index) {
       if (!source.IsFieldSetAndNotNull(index)) {
         continue;
@@ -228,7 +228,7 @@ class LayerReader {
                        name.empty() ? "" : " (" + config::shown(name) + ")");
   }
 
-  void take_geometry(const OGRGeometry& geometry, Feature& feature) {
+  void read_geometry(const OGRGeometry& geometry, Feature& feature) {
     switch (wkbFlatten(geometry.getGeometryType())) {
       case wkbPolygon:
         if (kind_ == Kind::polygons) {
@@ -261,14 +261,14 @@ class LayerReader {
       case wkbMultiPoint:
       case wkbGeometryCollection:
         for (const OGRGeometry* part : *geometry.toGeometryCollection()) {
-          take_geometry(*part, feature);
+          read_geometry(*part, feature);
         }
         return;
       default:
         break;
     }
     throw UserError(fmt::format("{}: {} is of the kind {}; allowed: {}.", result_.file, feature.title,
-                                geometry.getGeometryName(), word_of(kind_)));
+                                geometry.getGeometryName(), name_of_kind(kind_)));
   }
 
   void reproject(Polyline2& line, const std::string& title) {
@@ -330,7 +330,7 @@ std::string attribute_named(const VectorLayer& layer, const std::string& name, c
     throw UserError(
         fmt::format("{}: several attributes are called like '{}', which {} asks for: {}; allowed: one, or "
                     "one of exactly this name. Write the name as the file does, or rename the others.",
-                    layer.file, name, key, config::list_words(all_shown(alike))));
+                    layer.file, name, key, config::comma_list(all_shown(alike))));
   }
   if (alike.size() == 1) {
     return alike.front();
@@ -338,7 +338,7 @@ std::string attribute_named(const VectorLayer& layer, const std::string& name, c
   const std::vector<std::string> there = all_shown(layer.attributes);
   const std::string hint = config::did_you_mean(name, there);
   throw UserError(fmt::format("{}: there is no attribute '{}', which {} asks for; the file has: {}{}", layer.file, name,
-                              key, there.empty() ? "none" : config::list_words(there),
+                              key, there.empty() ? "none" : config::comma_list(there),
                               hint.empty() ? ". Correct the name, or add the attribute." : hint));
 }
 
@@ -368,7 +368,7 @@ std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<
   for (const std::string& name : names) {
     if (found.count(name) == 0) {
       throw UserError(fmt::format("{}: no polygon has the {} '{}'; the file has: {}{}", layer.file,
-                                  config::shown(attribute), name, there.empty() ? "none" : config::list_words(there),
+                                  config::shown(attribute), name, there.empty() ? "none" : config::comma_list(there),
                                   config::did_you_mean(name, there)));
     }
   }

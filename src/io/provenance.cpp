@@ -10,7 +10,7 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
 #include "version.hpp"
@@ -107,7 +107,7 @@ std::string without_control_letters(std::string text) {
   throw UserError(
       fmt::format("{} is damaged: {}. Without it a run cannot go on: put back a copy of it, or run the case anew into "
                   "another folder: thawslide run {} --output OTHER.",
-                  file.string(), what, shell_word(file.parent_path().string())));
+                  file.string(), what, shell_quote(file.parent_path().string())));
 }
 
 }  // namespace
@@ -220,8 +220,9 @@ Provenance read_provenance(const fs::path& folder) {
   } catch (const Json::parse_error& error) {
     fail_as_damaged(file, text.empty() ? "it is empty" : fmt::format("it is no JSON from byte {} on", error.byte));
   } catch (const Json::exception& error) {
-    const std::string told = error.what();
-    fail_as_damaged(file, told.substr(std::min(told.size(), told.find("] ") + 2)));  // without the library's number
+    const std::string specified = error.what();
+    fail_as_damaged(
+        file, specified.substr(std::min(specified.size(), specified.find("] ") + 2)));  // without the library's number
   }
   if (provenance.parts.empty()) {
     fail_as_damaged(file, "it lists no parts of the run");

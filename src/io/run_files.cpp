@@ -93,7 +93,7 @@ bool is_figure(const fs::path& file) {
 }
 
 // What run.json tells; discarded: it is no JSON.
-Json told_of(const fs::path& folder) {
+Json run_json(const fs::path& folder) {
   const fs::path file = folder / "run.json";
   return fs::exists(file) ? Json::parse(read_file(file), nullptr, false) : Json(Json::value_t::discarded);
 }
@@ -136,7 +136,7 @@ void remove_own_of(const fs::path& folder, const IsOwn& is_own) {
 }  // namespace
 
 bool holds_a_run(const fs::path& folder) {
-  const Json facts = told_of(folder);
+  const Json facts = run_json(folder);
   return facts.is_object() && facts.contains("program") && facts["program"] == "thawslide";
 }
 
@@ -157,7 +157,7 @@ bool holds_no_more_than_a_start(const fs::path& folder) {
 }
 
 void remove_files_of_run(const fs::path& folder) {
-  const std::set<std::string> inputs = inputs_of(told_of(folder));
+  const std::set<std::string> inputs = inputs_of(run_json(folder));
   const auto is_input = [&inputs](const fs::path& file) { return inputs.count(file.filename().string()) > 0; };
   const std::pair<const char*, IsOwn> places[] = {
       {"snapshots", is_snapshot}, {"inputs", is_input}, {"figures", is_figure}, {"maps", is_map}};

@@ -95,7 +95,7 @@ std::string host_name() {
   return host;
 }
 
-std::string words_of_process(pid_t number) { return fmt::format("process {} on {}", number, host_name()); }
+std::string format_process(pid_t number) { return fmt::format("process {} on {}", number, host_name()); }
 
 // The number in "process 123 on HOST" where HOST is this machine; 0: it is another, or this is no such line.
 pid_t process_of_this_machine(const std::string& line) {
@@ -104,7 +104,7 @@ pid_t process_of_this_machine(const std::string& line) {
   if (line.rfind(begin, 0) == 0) {
     std::from_chars(line.data() + begin.size(), line.data() + line.size(), number);
   }
-  return number > 0 && line == config::shown(words_of_process(number)) ? number : 0;
+  return number > 0 && line == config::shown(format_process(number)) ? number : 0;
 }
 
 // Who is at work by what the file says, where there are no locks. A process with our own number has left it behind.
@@ -142,7 +142,7 @@ std::string refusal(const fs::path& file, const AtWork& at_work, Lock lock) {
 }
 
 // Returns a descriptor that holds the lock, or -1 where the file that was opened has lost its name since.
-int take_lock(const fs::path& file) {
+int acquire_lock(const fs::path& file) {
   const int descriptor = open_lock(file, O_RDWR | O_CREAT);
   if (descriptor < 0) {
     throw WriteError(fmt::format("cannot write {}: {}", file.string(), std::strerror(errno)));
@@ -164,9 +164,9 @@ int take_lock(const fs::path& file) {
 
 RunLock::RunLock(const fs::path& folder) : file_(folder / lock_name), descriptor_(-1) {
   while (descriptor_ < 0) {
-    descriptor_ = take_lock(file_);
+    descriptor_ = acquire_lock(file_);
   }
-  const std::string text = words_of_process(getpid()) + "\n";
+  const std::string text = format_process(getpid()) + "\n";
   if (ftruncate(descriptor_, 0) != 0 || write(descriptor_, text.data(), text.size()) < 0) {
     const int reason = errno;
     close(descriptor_);
@@ -206,7 +206,7 @@ bool OwnFolder::is_own() const {
     return true;
   }
   const int descriptor = open(lock_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  const bool is_own = descriptor >= 0 && line_in(descriptor) == config::shown(words_of_process(getpid()));
+  const bool is_own = descriptor >= 0 && line_in(descriptor) == config::shown(format_process(getpid()));
   if (descriptor >= 0) {
     close(descriptor);
   }

@@ -15,7 +15,7 @@ std::size_t written_components(mpm::FieldShape shape) {
   return shape == mpm::FieldShape::scalar ? 1 : shape == mpm::FieldShape::vector ? 3 : 6;
 }
 
-SnapshotField take_field(const mpm::FieldBase& field, const std::vector<std::size_t>& order) {
+SnapshotField copy_field(const mpm::FieldBase& field, const std::vector<std::size_t>& order) {
   SnapshotField taken{
       field.info().name, field.info().unit, written_components(field.info().shape), field.is_integer(), {}, {}};
   std::vector<double> values;
@@ -66,7 +66,7 @@ Snapshot take_snapshot(const mpm::Particles<Dim, Real>& particles, const Vector<
   }
   for (const mpm::FieldBase* field : particles.fields.all()) {
     if (field->info().in_snapshot) {
-      snapshot.fields.push_back(take_field(*field, order));
+      snapshot.fields.push_back(copy_field(*field, order));
     }
   }
   return snapshot;

@@ -11,7 +11,7 @@
 
 #include "config/input_limits.hpp"
 #include "io/atomic_file.hpp"
-#include "io/tried_in_child.hpp"
+#include "io/probe_in_subprocess.hpp"
 #include "io/vtkhdf.hpp"
 
 namespace thawslide::io {
@@ -152,8 +152,8 @@ SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, std::size_
     }
   }
   // HDF5 crashes on some damaged files.
-  const std::vector<bool> can_be_read =
-      tried_in_child(earlier.size(), [&](std::size_t k) { return series.take(earlier[k].first, earlier[k].second); });
+  const std::vector<bool> can_be_read = probe_in_subprocess(
+      earlier.size(), [&](std::size_t k) { return series.take(earlier[k].first, earlier[k].second); });
   for (std::size_t k = 0; k < earlier.size(); ++k) {
     if (can_be_read[k] && series.take(earlier[k].first, earlier[k].second)) {
       note_lost_before(earlier[k].first);

@@ -90,7 +90,7 @@ std::vector<std::size_t> groups_of_touching(const Simulation<Dim, double>& simul
 }  // namespace
 
 template <int Dim>
-std::string doubt_of_bodies_apart(const Simulation<Dim, double>& simulation) {
+std::string warning_of_bodies_apart(const Simulation<Dim, double>& simulation) {
   const config::Case& parameters = simulation.parameters();
   if (!parameters.mechanics.enabled || parameters.bodies.size() < 2 ||
       config::was_given(parameters, "contact.between_bodies")) {
@@ -115,7 +115,7 @@ std::string doubt_of_bodies_apart(const Simulation<Dim, double>& simulation) {
   return "";
 }
 
-template std::string doubt_of_bodies_apart<2>(const Simulation<2, double>&);
-template std::string doubt_of_bodies_apart<3>(const Simulation<3, double>&);
+template std::string warning_of_bodies_apart<2>(const Simulation<2, double>&);
+template std::string warning_of_bodies_apart<3>(const Simulation<3, double>&);
 
 }  // namespace thawslide::sim

@@ -10,6 +10,6 @@ namespace thawslide::sim {
 // For a simulation that has not taken a step. Empty: nothing is to be said, as where the case names
 // contact.between_bodies.
 template <int Dim>
-[[nodiscard]] std::string doubt_of_bodies_apart(const Simulation<Dim, double>& simulation);
+[[nodiscard]] std::string warning_of_bodies_apart(const Simulation<Dim, double>& simulation);
 
 }  // namespace thawslide::sim

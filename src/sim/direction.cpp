@@ -170,7 +170,7 @@ std::string orient_lines(const config::Case& parameters, config::Site& site) {
                      : "";
 }
 
-std::string doubt_of_path(const config::Case& parameters, const config::Site& site) {
+std::string warning_of_path(const config::Case& parameters, const config::Site& site) {
   const PathLine line(site.path);
   if (line.empty() || !site.ground) {
     return "";

@@ -36,6 +36,6 @@ template <int Dim, class Real>
 [[nodiscard]] std::string orient_lines(const config::Case& parameters, config::Site& site);
 
 // Of a path that passes all bodies by; empty: it does not.
-[[nodiscard]] std::string doubt_of_path(const config::Case& parameters, const config::Site& site);
+[[nodiscard]] std::string warning_of_path(const config::Case& parameters, const config::Site& site);
 
 }  // namespace thawslide::sim

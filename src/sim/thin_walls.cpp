@@ -53,7 +53,7 @@ Wall highest_on_raster(const Raster& ground, const config::Grid& grid) {
 
 }  // namespace
 
-std::string doubt_of_thin_walls(const config::Case& parameters, const config::Site& site) {
+std::string warning_of_thin_walls(const config::Case& parameters, const config::Site& site) {
   const double cell = parameters.grid.cell;
   Wall wall;
   if (parameters.terrain.kind == config::TerrainKind::profile) {

@@ -10,6 +10,6 @@ namespace thawslide::sim {
 
 // Of a profile or a DEM within the domain. A wall is higher than a cell above the ground half a cell away on both
 // sides. Empty: there is none.
-[[nodiscard]] std::string doubt_of_thin_walls(const config::Case& parameters, const config::Site& site);
+[[nodiscard]] std::string warning_of_thin_walls(const config::Case& parameters, const config::Site& site);
 
 }  // namespace thawslide::sim

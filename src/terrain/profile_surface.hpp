@@ -32,7 +32,7 @@ class ProfileSurface final : public Surface<Dim> {
   [[nodiscard]] GroundAtNode<Dim, double> at_node(const Vector<double, Dim>& position, double cell) const;
 
  private:
-  void learn_from_points(double x, double height, double cell, GroundAtNode<Dim, double>& node) const;
+  void fit_to_points(double x, double height, double cell, GroundAtNode<Dim, double>& node) const;
 
   Polyline line_;
   mpm::SectionWidth<double> width_;

@@ -337,8 +337,9 @@ TEST_F(Maps, FilesOfLinesNeedADem) {
     EXPECT_EQ(error_of_text(text), "no error");
     text.replace(text.find("\"dem\"\nfile = \"dem.tif\""), 22, "\"flat\"\nelevation = 0.0");
     const std::string key = lines.find("maps") == 1 ? "maps.path" : "probe.gauge.line";
-    const std::string told = key + " is given, and terrain.type is not \"dem\"; a file of a line needs the coordinate";
-    EXPECT_NE(error_of_text(text).find(told), std::string::npos) << error_of_text(text);
+    const std::string specified =
+        key + " is given, and terrain.type is not \"dem\"; a file of a line needs the coordinate";
+    EXPECT_NE(error_of_text(text).find(specified), std::string::npos) << error_of_text(text);
   }
 }
 

@@ -4,9 +4,9 @@
 #include <array>
 
 #include "case_messages.hpp"
+#include "config/changed_defaults.hpp"
 #include "config/declaration.hpp"
 #include "config/describe.hpp"
-#include "config/moved_defaults.hpp"
 #include "config/strips.hpp"
 
 namespace thawslide::config {
@@ -123,7 +123,7 @@ TEST(Notices, DoubtTheNumbersOfVoellmyFriction) {
 
 TEST(Notices, DoubtWhatIsMostLikelyNotMeant) {
   // Key, what is given, and what the notice says after "KEY is ".
-  const std::vector<std::array<std::string, 3>> doubtful{
+  const std::vector<std::array<std::string, 3>> questionable{
       {"material.rock.youngs_modulus", "0.5",
        "0.5 Pa: so soft that a slide is squeezed flat by its own weight, or bursts. Broken rock and ice have 1e7 Pa "
        "and more."},
@@ -156,7 +156,7 @@ TEST(Notices, DoubtWhatIsMostLikelyNotMeant) {
       {"time.history_interval", "2",
        "2 s: longer than the run of 1 s: history.csv gets a row of its start and one of its end."}};
   const std::string known = "pressure.frozen=none", text = changed(with_columns);
-  for (const auto& [key, value, said] : doubtful) {
+  for (const auto& [key, value, said] : questionable) {
     const std::string set = key + "=" + value;
     EXPECT_EQ(notices(testing_support::case_from_text(text, {known, "time.end=1", set})),
               std::vector<std::string>{"--set " + set + ": " + key + " is " + said});
@@ -310,7 +310,7 @@ TEST(Notices, OneTellsAFileOfEarlierVersionsWhatChanged) {
 
 TEST(Notices, SayNothingOfDefaultsWhereOneIsGivenOrNoneIsFelt) {
   const std::vector<std::string> none;
-  for (const MovedDefault& moved : moved_defaults()) {
+  for (const ChangedDefault& moved : changed_defaults()) {
     const std::string table = moved.table == "material.NAME" ? "material.rock" : moved.table;
     const Case found = testing_support::case_from_text(changed(with_band), {table + "." + moved.key + "=" + moved.now});
     EXPECT_EQ(notices(found), none) << moved.key;
@@ -320,7 +320,7 @@ TEST(Notices, SayNothingOfDefaultsWhereOneIsGivenOrNoneIsFelt) {
 
 // What the notice says of the present is what the declarations say.
 TEST(Notices, NameThePresentDefaults) {
-  for (const MovedDefault& moved : moved_defaults()) {
+  for (const ChangedDefault& moved : changed_defaults()) {
     bool is_found = false;
     for (const auto& table : tables()) {
       for (const Entry& entry : table->entries()) {

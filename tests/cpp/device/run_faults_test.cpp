@@ -42,7 +42,7 @@ class BreaksDown final : public PassesOn<2> {
 };
 
 // Steps of a device that breaks down after so many; returns what is told, and the particles that are left.
-std::string told_of_failure(int sound, int steps) {
+std::string reported_failure(int sound, int steps) {
   Simulation<2, double> simulation(sliding_bodies<2>());
   const auto at_start = fields_by_id(simulation.particles());
   const auto make = [sound](const auto& model, const auto& particles, std::size_t count, auto ask) {
@@ -50,22 +50,22 @@ std::string told_of_failure(int sound, int steps) {
                                         sound);
   };
   simulation.use_device("a card", make);
-  std::string told;
+  std::string specified;
   try {
     for (int k = 0; k < steps; ++k) {
       simulation.step(0.002);
     }
     static_cast<void>(std::as_const(simulation).particles());
   } catch (const DeviceError& error) {
-    told = error.what();
+    specified = error.what();
   }
   EXPECT_EQ(fields_by_id(std::as_const(simulation).particles()).at("position"), at_start.at("position"));
-  return told;
+  return specified;
 }
 
 TEST(DeviceRun, TellsOfADeviceThatFails) {
-  EXPECT_EQ(told_of_failure(3, 5), "a card failed at step 3: asking the card for memory: out of memory");
-  EXPECT_EQ(told_of_failure(9, 5), "a card failed at step 5: copying from the card: unspecified launch failure");
+  EXPECT_EQ(reported_failure(3, 5), "a card failed at step 3: asking the card for memory: out of memory");
+  EXPECT_EQ(reported_failure(9, 5), "a card failed at step 5: copying from the card: unspecified launch failure");
 }
 
 // The same while a body settles.
@@ -119,18 +119,18 @@ TEST(DeviceRun, RefusesWhatNoDeviceDoesYet) {
       {{"heat.update=\"apparent_capacity\""}, "heat.update = \"apparent_capacity\""},
       {{"heat.masses=\"current\""}, "heat.masses = \"current\""}};
   std::vector<std::pair<config::Case, std::string>> cases;
-  for (const auto& [sets, told] : options) {
-    cases.emplace_back(sliding_bodies<2>(sets), told);
+  for (const auto& [sets, specified] : options) {
+    cases.emplace_back(sliding_bodies<2>(sets), specified);
   }
   cases.emplace_back(sliding_bodies<2>(), "a [frame]");
   cases.back().first.frames["driver"] = {{-3.0, 2.4}, {7.5, 20.0}, "x", 25.0};
-  for (const auto& [parameters, told] : cases) {
+  for (const auto& [parameters, specified] : cases) {
     Simulation<2, double> simulation(parameters);
     try {
       simulation.use_device("a card", emulated_gpu<2>(ThreadOrder::forward));
-      ADD_FAILURE() << told;
+      ADD_FAILURE() << specified;
     } catch (const UserError& error) {
-      EXPECT_NE(std::string(error.what()).find("no step on a card does " + told + " yet"), std::string::npos)
+      EXPECT_NE(std::string(error.what()).find("no step on a card does " + specified + " yet"), std::string::npos)
           << error.what();
     }
   }

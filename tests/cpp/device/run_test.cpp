@@ -185,16 +185,16 @@ TEST(DeviceRun, StaysOnGroundThatIsKnown) {
                          "band.thickness={time=[0.0,0.01],value=[0.1,0.2]}"},
                         "type = \"dem\"\nfile = \"dem.tif\"\n");
   EXPECT_EQ(expect_the_same_run<3>(by_layer, 12, bumpy_site(40.0)), 0);
-  std::vector<std::string> told;
+  std::vector<std::string> specified;
   for (const bool on_device : {false, true}) {
     Simulation<3, double> simulation(parameters, bumpy_site(8.0));
     if (on_device) {
       simulation.use_device("a card", emulated_gpu<3>(ThreadOrder::forward));
     }
-    told.push_back(error_of(simulation));
+    specified.push_back(error_of(simulation));
   }
-  EXPECT_NE(told[0].find("known"), std::string::npos) << told[0];
-  EXPECT_EQ(told[1], told[0]);
+  EXPECT_NE(specified[0].find("known"), std::string::npos) << specified[0];
+  EXPECT_EQ(specified[1], specified[0]);
 }
 
 // Above a block whose ground is not known everywhere, and well away from where it is not.

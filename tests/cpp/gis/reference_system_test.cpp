@@ -118,7 +118,7 @@ TEST(ReferenceSystemTest, SystemsThatAreNoProjection) {
 TEST(ReferenceSystemTest, MissingDatabaseIsNamed) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
   const std::string folder = std::filesystem::path(text_file("proj.db", "no database")).parent_path().string();
-  const auto tell = [&] {
+  const auto report_line = [&] {
     const char* const paths[] = {folder.c_str(), nullptr};
     OSRSetPROJSearchPaths(paths);
     const std::string message = error_of([] { static_cast<void>(reference_system_named("EPSG:31254")); });
@@ -126,7 +126,7 @@ TEST(ReferenceSystemTest, MissingDatabaseIsNamed) {
     std::exit(0);
   };
   EXPECT_EXIT(
-      tell(), testing::ExitedWithCode(0),
+      report_line(), testing::ExitedWithCode(0),
       "PROJ's database of coordinate reference systems, proj.db, cannot be used; GDAL says: .*Install it .Debian: "
       "apt-get install proj-data., or let PROJ_LIB name the folder that holds it");
 }

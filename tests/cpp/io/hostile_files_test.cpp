@@ -221,9 +221,9 @@ TEST_F(HostileFiles, ProvenanceSteersNoTerminal) {
   provenance.status = "do\x1b[2Jne";
   provenance.message = "it\nis\x07 so";
   write_provenance(folder_ / "run.json", provenance);
-  const Provenance told = read_provenance(folder_);
-  EXPECT_EQ(told.status, "do?[2Jne");
-  EXPECT_EQ(told.message, "it?is? so");
+  const Provenance specified = read_provenance(folder_);
+  EXPECT_EQ(specified.status, "do?[2Jne");
+  EXPECT_EQ(specified.message, "it?is? so");
 }
 
 }  // namespace

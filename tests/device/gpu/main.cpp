@@ -76,7 +76,7 @@ device::StepSums<Dim, Real> take_steps(Steps<Dim>& steps, int from, int to) {
   return sums;
 }
 
-bool tell(const char* what, const Comparison& found, bool bits_are_asked_for) {
+bool report_line(const char* what, const Comparison& found, bool bits_are_asked_for) {
   const bool is_well = bits_are_asked_for ? found.fields_of_same_bits == found.fields : found.largest <= tolerance;
   std::printf("%-60s %zu of %zu fields have the same bits, largest difference %.3g: %s\n", what,
               found.fields_of_same_bits, found.fields, found.largest, is_well ? "well" : "beyond what is allowed");
@@ -194,8 +194,8 @@ bool compare_slides(const device::SolverFactory<Dim, Real>& make, const device::
     well = (steps > 1 || tell_looks(when, looks(*processor, sums), looks(*gpu, of_this_gpu))) && well;
     // Round-off grows from step to step: it is held to the tolerance after the first one.
     const Comparison found = compare(of_cpu, of_gpu);
-    well = tell((when + "card against processor").c_str(), found, false) || steps > 1 ? well : false;
-    well = tell((when + "card against card").c_str(), compare(of_gpu, of_second), true) && well;
+    well = report_line((when + "card against processor").c_str(), found, false) || steps > 1 ? well : false;
+    well = report_line((when + "card against card").c_str(), compare(of_gpu, of_second), true) && well;
   }
   return well;
 }
@@ -205,8 +205,8 @@ template <int Dim>
 bool compare_variant(const device::SolverFactory<Dim, Real>& make, const Size& size, const NamedVariant& of) {
   ParticleMemory<Dim> start(size.particles(Dim)), of_cpu(start.size()), of_gpu(start.size());
   seed(size, start);
-  const auto told = std::make_shared<Told>(), reported_by_gpu = std::make_shared<Told>();
-  const auto processor = steps_of(device::emulated<Dim>(), start, of.variant, told);
+  const auto specified = std::make_shared<Told>(), reported_by_gpu = std::make_shared<Told>();
+  const auto processor = steps_of(device::emulated<Dim>(), start, of.variant, specified);
   const auto gpu = steps_of(make, start, of.variant, reported_by_gpu);
   bool well = true;
   int done = 0;
@@ -217,10 +217,12 @@ bool compare_variant(const device::SolverFactory<Dim, Real>& make, const Size& s
     gpu->copy_to(of_gpu.view());
     const std::string when =
         (Dim == 2 ? "2D, " : "3D, ") + std::string(of.name) + ", " + std::to_string(steps) + " steps, ";
-    well = (tell((when + "card against processor").c_str(), compare(of_cpu, of_gpu), false) || steps > 1) && well;
+    well =
+        (report_line((when + "card against processor").c_str(), compare(of_cpu, of_gpu), false) || steps > 1) && well;
     if (steps == 1) {
       well = tell_looks(when, looks(*processor, sums), looks(*gpu, of_this_gpu)) && well;
-      well = (told->empty() || tell_numbers(when + "what the processor is told", *told, *reported_by_gpu)) && well;
+      well = (specified->empty() || tell_numbers(when + "what the processor is told", *specified, *reported_by_gpu)) &&
+             well;
     }
   }
   return well;

@@ -15,8 +15,8 @@ using Steps = device::Solver<Dim, Real>;
 template <int Dim>
 std::unique_ptr<Steps<Dim>> steps_of(const device::SolverFactory<Dim, Real>& make, const ParticleMemory<Dim>& particles,
                                      Variant variant = Variant::plain,
-                                     const std::shared_ptr<Told>& told = std::make_shared<Told>()) {
-  return make(model_of<Dim>(variant), particles.view(), particles.size(), processor_of<Dim>(variant, told));
+                                     const std::shared_ptr<Told>& specified = std::make_shared<Told>()) {
+  return make(model_of<Dim>(variant), particles.view(), particles.size(), processor_of<Dim>(variant, specified));
 }
 
 }  // namespace thawslide::gpu_test

@@ -89,60 +89,63 @@ using Told = std::vector<Real>;
 
 // Columns that are the same everywhere. Nodes that may touch the ground are those of one layer of each lowest block.
 template <int Dim>
-device::HostColumns<Real> columns_below(const std::shared_ptr<Told>& told) {
+device::HostColumns<Real> columns_below(const std::shared_ptr<Told>& specified) {
   const auto states = std::make_shared<std::vector<Real>>();
-  return {[states](const std::vector<std::uint64_t>& blocks) {
-            std::array<terrain::GroundAtNode<Dim, Real>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> nodes;
-            std::array<Real, static_cast<std::size_t>(mpm::BaseState::size<Dim>)> state{};
-            state[mpm::BaseState::area] = 1.0;
-            state[mpm::BaseState::pressure_ratio] = 0.3;
-            state[mpm::BaseState::saturation] = 0.8;
-            state[mpm::BaseState::solid_fraction] = 0.7;
-            states->clear();
-            std::vector<std::uint32_t> asked;
-            for (std::size_t b = 0; b < blocks.size(); ++b) {
-              query_ground<Dim>(blocks[b], nodes.data());
-              for (const auto& node : nodes) {
-                if (node.candidate) {
-                  states->insert(states->end(), state.begin(), state.end());
-                }
-              }
-              asked.push_back(static_cast<std::uint32_t>(b));
+  return {
+      [states](const std::vector<std::uint64_t>& blocks) {
+        std::array<terrain::GroundAtNode<Dim, Real>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> nodes;
+        std::array<Real, static_cast<std::size_t>(mpm::BaseState::size<Dim>)> state{};
+        state[mpm::BaseState::area] = 1.0;
+        state[mpm::BaseState::pressure_ratio] = 0.3;
+        state[mpm::BaseState::saturation] = 0.8;
+        state[mpm::BaseState::solid_fraction] = 0.7;
+        states->clear();
+        std::vector<std::uint32_t> asked;
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+          query_ground<Dim>(blocks[b], nodes.data());
+          for (const auto& node : nodes) {
+            if (node.candidate) {
+              states->insert(states->end(), state.begin(), state.end());
             }
-            return asked;
-          },
-          [states]() -> const std::vector<Real>& { return *states; },
-          [told](const std::vector<Real>& nodes) { told->insert(told->end(), nodes.begin(), nodes.end()); }};
+          }
+          asked.push_back(static_cast<std::uint32_t>(b));
+        }
+        return asked;
+      },
+      [states]() -> const std::vector<Real>& { return *states; },
+      [specified](const std::vector<Real>& nodes) { specified->insert(specified->end(), nodes.begin(), nodes.end()); }};
 }
 
 // A bed without end, of which a node may take more where much of its column is covered.
 template <int Dim>
-device::HostBed<Dim, Real> bed_below(const std::shared_ptr<Told>& told) {
+device::HostBed<Dim, Real> bed_below(const std::shared_ptr<Told>& specified) {
   using Bed = device::HostBed<Dim, Real>;
   Bed bed;
   bed.material = {terrain::BedLaw::strength, 0.0, 0.01, 0.5, 1000.0};
   const auto available = std::make_shared<std::vector<Real>>();
   bed.set_columns = [](const typename Bed::Columns& /*of_blocks*/, const typename Bed::Columns& /*of_candidates*/) {};
-  bed.parallel_chunks = [told, available](const std::vector<std::uint32_t>& parts,
-                                          const std::vector<Real>& loads) -> const std::vector<Real>& {
+  bed.parallel_chunks = [specified, available](const std::vector<std::uint32_t>& parts,
+                                               const std::vector<Real>& loads) -> const std::vector<Real>& {
     Real covered = 0;
     for (const std::uint32_t of_column : parts) {
-      told->push_back(of_column);
+      specified->push_back(of_column);
       covered += of_column != 0 ? 1.0 : 0.0;
     }
     available->clear();
     for (const Real load : loads) {
-      told->push_back(load);
+      specified->push_back(load);
       available->push_back(load > 0.0 ? covered : 0.0);
     }
     return *available;
   };
-  bed.collect = [told](const std::vector<Real>& nodes) { told->insert(told->end(), nodes.begin(), nodes.end()); };
+  bed.collect = [specified](const std::vector<Real>& nodes) {
+    specified->insert(specified->end(), nodes.begin(), nodes.end());
+  };
   return bed;
 }
 
 template <int Dim>
-device::HostCallbacks<Dim, Real> processor_of(Variant variant, const std::shared_ptr<Told>& told) {
+device::HostCallbacks<Dim, Real> processor_of(Variant variant, const std::shared_ptr<Told>& specified) {
   device::HostCallbacks<Dim, Real> ask = terrain_of_slide<Dim>();
   if (variant == Variant::unknown_ground) {
     ask.ground = [](std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
@@ -154,10 +157,10 @@ device::HostCallbacks<Dim, Real> processor_of(Variant variant, const std::shared
     ask.layer_at_middle = [](const std::array<int, Dim - 1>& column) { return 1.3 + 0.2 * std::sin(1.0 * column[0]); };
   }
   if (variant == Variant::columns) {
-    ask.columns = columns_below<Dim>(told);
+    ask.columns = columns_below<Dim>(specified);
   }
   if (variant == Variant::bed) {
-    ask.bed = bed_below<Dim>(told);
+    ask.bed = bed_below<Dim>(specified);
   }
   return ask;
 }

@@ -1,4 +1,4 @@
-#include "sim/doubts_of_bodies.hpp"
+#include "sim/body_warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ constexpr int digits_of_places = 6;
 constexpr double strain_of_unbroken = 1.0;  // material that softens over a strain as long stays unbroken as it slides
 
 // Particles stand on a lattice, which the shape need not.
-std::string doubt_of_volume(const config::Case& parameters, const BodyFigures& body) {
+std::string volume_warning(const config::Case& parameters, const BodyFigures& body) {
   const double more = body.volume / body.shape_volume - 1.0;
   if (std::abs(more) <= most_volume_off) {
     return "";
@@ -41,7 +41,7 @@ std::string doubt_of_volume(const config::Case& parameters, const BodyFigures& b
 }
 
 // A body over nothing, or far above what is below it.
-std::string doubt_of_standing(const config::Case& parameters, const BodyFigures& body) {
+std::string standing_warning(const config::Case& parameters, const BodyFigures& body) {
   const std::string key = "body." + body.name;
   if (!parameters.mechanics.enabled || parameters.general.gravity == 0.0 || !parameters.frames.empty()) {
     return "";
@@ -68,7 +68,7 @@ std::string doubt_of_standing(const config::Case& parameters, const BodyFigures&
   return "";
 }
 
-std::string doubt_of_stiffness(const config::Case& parameters, const BodyFigures& body) {
+std::string stiffness_warning(const config::Case& parameters, const BodyFigures& body) {
   const std::string& material = parameters.bodies.at(body.name).material;
   const double modulus = parameters.materials.at(material).youngs_modulus;
   const double load = body.mass / body.volume * parameters.general.gravity * body.largest_thickness;
@@ -84,7 +84,7 @@ std::string doubt_of_stiffness(const config::Case& parameters, const BodyFigures
       rounded_up(load / most_strain, 1));
 }
 
-std::string doubt_of_band(const config::Case& parameters, const BodyFigures& body) {
+std::string band_warning(const config::Case& parameters, const BodyFigures& body) {
   const Table& thickness = parameters.band.thickness;
   const double thickest =
       thickness.value.empty() ? 0.0 : *std::max_element(thickness.value.begin(), thickness.value.end());
@@ -114,7 +114,7 @@ double usual_load(const config::Case& parameters, const BodyFigures& body) {
 // A base that bears more than the broken body above it: the slide then shears in the cells above its base, which
 // stays frozen, and how much depends on the cell. The same bound holds in soil mechanics: the friction angle of an
 // interface is at most that of the soil. Along planes parallel to the base the body bears N tan(phi) + c.
-std::string doubt_of_strength(const config::Case& parameters, const BodyFigures& body) {
+std::string strength_warning(const config::Case& parameters, const BodyFigures& body) {
   const std::string& name = parameters.bodies.at(body.name).material;
   const config::Material& material = parameters.materials.at(name);
   const double load = usual_load(parameters, body);
@@ -144,7 +144,7 @@ std::string doubt_of_strength(const config::Case& parameters, const BodyFigures&
 }
 
 // Material that softens over a slip and releases more elastic energy in a cell than its rupture takes.
-std::string doubt_of_softening(const config::Case& parameters, const BodyFigures& body) {
+std::string softening_warning(const config::Case& parameters, const BodyFigures& body) {
   const std::string& name = parameters.bodies.at(body.name).material;
   const config::Material& material = parameters.materials.at(name);
   if (!is_plastic(parameters, material) || !(material.softening_slip > 0.0)) {
@@ -169,7 +169,7 @@ std::string doubt_of_softening(const config::Case& parameters, const BodyFigures
 }
 
 // The temperatures that the case gives as numbers are looked at when it is read.
-std::string doubt_of_warmth(const config::Case& parameters, const BodyFigures& body) {
+std::string temperature_warning(const config::Case& parameters, const BodyFigures& body) {
   const InitialField& temperature = parameters.bodies.at(body.name).temperature;
   const bool is_map = temperature.is_map() && !parameters.bodies.at(body.name).saturation.is_given();
   if (!is_map || !(body.warmest > parameters.freezing.reference_temperature)) {
@@ -183,7 +183,7 @@ std::string doubt_of_warmth(const config::Case& parameters, const BodyFigures& b
 }
 
 // Too few particles across its median thickness, or too few cells for maps.
-std::string doubt_of_resolution(const config::Case& parameters, const BodyFigures& body) {
+std::string resolution_warning(const config::Case& parameters, const BodyFigures& body) {
   if (!parameters.mechanics.enabled) {
     return "";
   }
@@ -199,22 +199,22 @@ std::string doubt_of_resolution(const config::Case& parameters, const BodyFigure
 
 }  // namespace
 
-std::vector<std::string> doubts_of_bodies(const config::Case& parameters, const std::vector<BodyFigures>& bodies) {
+std::vector<std::string> body_warnings(const config::Case& parameters, const std::vector<BodyFigures>& bodies) {
   std::vector<std::string> found;
-  const auto add = [&found](std::string doubt) {
-    if (!doubt.empty()) {
-      found.push_back(std::move(doubt));
+  const auto add = [&found](std::string warning) {
+    if (!warning.empty()) {
+      found.push_back(std::move(warning));
     }
   };
   for (const BodyFigures& body : bodies) {
-    add(doubt_of_volume(parameters, body));
-    add(doubt_of_standing(parameters, body));
-    add(doubt_of_stiffness(parameters, body));
-    add(doubt_of_band(parameters, body));
-    add(doubt_of_strength(parameters, body));
-    add(doubt_of_softening(parameters, body));
-    add(doubt_of_warmth(parameters, body));
-    add(doubt_of_resolution(parameters, body));
+    add(volume_warning(parameters, body));
+    add(standing_warning(parameters, body));
+    add(stiffness_warning(parameters, body));
+    add(band_warning(parameters, body));
+    add(strength_warning(parameters, body));
+    add(softening_warning(parameters, body));
+    add(temperature_warning(parameters, body));
+    add(resolution_warning(parameters, body));
   }
   return found;
 }

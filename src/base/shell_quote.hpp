@@ -7,6 +7,6 @@ namespace thawslide {
 
 // The text as one word of a POSIX shell: itself where nothing in it means anything to a shell, else in quotes. One that
 // begins with a dash gets "./" before it, so that no program takes the path for an option.
-[[nodiscard]] std::string shell_word(const std::string& text);
+[[nodiscard]] std::string shell_quote(const std::string& text);
 
 }  // namespace thawslide

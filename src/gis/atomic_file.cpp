@@ -1,4 +1,4 @@
-#include "gis/whole_file.hpp"
+#include "gis/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -15,7 +15,7 @@ namespace thawslide::gis {
 
 namespace fs = std::filesystem;
 
-WholeFile::WholeFile(const std::string& file) : file_(file) {
+AtomicFile::AtomicFile(const std::string& file) : file_(file) {
   const fs::path path(file);
   temporary_ = (path.parent_path() / fmt::format(".{}.{}.thawslide-part{}", path.stem().string().substr(0, 200),
                                                  getpid(), path.extension().string()))
@@ -24,22 +24,22 @@ WholeFile::WholeFile(const std::string& file) : file_(file) {
   fs::remove(temporary_, ignored);
 }
 
-WholeFile::~WholeFile() {
+AtomicFile::~AtomicFile() {
   std::error_code ignored;
   fs::remove(temporary_, ignored);
 }
 
-void WholeFile::fail(const std::string& reason) const {
+void AtomicFile::fail(const std::string& reason) const {
   throw WriteError(
       fmt::format("cannot write {}: {}. Check that the folder exists, may be written to, and that the disk has room.",
                   file_, reason));
 }
 
-void WholeFile::fail_with(const GdalMessages& messages) const {
+void AtomicFile::fail_with(const GdalMessages& messages) const {
   fail(messages.remark().empty() ? "for a reason that GDAL does not tell" : messages.remark().substr(2));
 }
 
-void WholeFile::put_in_place() {
+void AtomicFile::publish() {
   const int descriptor = open(temporary_.c_str(), O_RDONLY);
   if (descriptor < 0) {
     fail(std::strerror(errno));
@@ -56,7 +56,7 @@ void WholeFile::put_in_place() {
 }
 
 void write_text(const std::string& file, std::string_view text) {
-  WholeFile whole(file);
+  AtomicFile whole(file);
   errno = 0;
   std::ofstream stream(whole.temporary(), std::ios::binary);
   stream << text;
@@ -64,7 +64,7 @@ void write_text(const std::string& file, std::string_view text) {
   if (!stream) {
     whole.fail(std::strerror(errno));
   }
-  whole.put_in_place();
+  whole.publish();
 }
 
 }  // namespace thawslide::gis

@@ -1,4 +1,4 @@
-#include "config/moved_defaults.hpp"
+#include "config/changed_defaults.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ bool has_bends(const Case& parameters) {
   return parameters.terrain.kind == TerrainKind::profile || parameters.terrain.kind == TerrainKind::dem;
 }
 
-bool is_given(const Case& parameters, const MovedDefault& moved) {
+bool is_given(const Case& parameters, const ChangedDefault& moved) {
   if (moved.table != "material.NAME") {
     return parameters.places.count(moved.table + "." + moved.key) > 0;
   }
@@ -29,8 +29,8 @@ bool is_given(const Case& parameters, const MovedDefault& moved) {
 
 }  // namespace
 
-const std::vector<MovedDefault>& moved_defaults() {
-  static const std::vector<MovedDefault> all{
+const std::vector<ChangedDefault>& changed_defaults() {
+  static const std::vector<ChangedDefault> all{
       {"band", "model", "\"scaled\"", "\"columns\"", has_band_columns},
       {"band", "thickness_change", "\"as_printed\"", "\"conserving\"", has_band_columns},
       {"heat", "advection_form", "\"as_printed\"", "\"conservative\"", water_seeps},
@@ -47,7 +47,7 @@ const std::vector<MovedDefault>& moved_defaults() {
 
 std::string notice_of_moved_defaults(const Case& parameters) {
   std::string changed;
-  for (const MovedDefault& moved : moved_defaults()) {
+  for (const ChangedDefault& moved : changed_defaults()) {
     if (is_given(parameters, moved)) {
       return "";
     }

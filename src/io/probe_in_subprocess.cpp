@@ -1,4 +1,4 @@
-#include "io/tried_in_child.hpp"
+#include "io/probe_in_subprocess.hpp"
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -18,12 +18,12 @@ using Work = std::function<bool(std::size_t)>;
   setrlimit(RLIMIT_CORE, &none);
   for (std::size_t k = first; k < count; ++k) {
     alarm(longest);
-    char told = 0;
+    char specified = 0;
     try {
-      told = work(k) ? 1 : 0;
+      specified = work(k) ? 1 : 0;
     } catch (...) {  // NOLINT(bugprone-empty-catch): it is told as what cannot be done
     }
-    if (write(to, &told, 1) != 1) {
+    if (write(to, &specified, 1) != 1) {
       _exit(1);
     }
   }
@@ -31,12 +31,12 @@ using Work = std::function<bool(std::size_t)>;
 }
 
 // Appends what a process tells, which began with the work that is next.
-void listen(int from, pid_t child, std::vector<bool>& told) {
+void listen(int from, pid_t child, std::vector<bool>& specified) {
   char one = 0;
   for (ssize_t got = 1; got > 0 || (got < 0 && errno == EINTR);) {
     got = read(from, &one, 1);
     if (got == 1) {
-      told.push_back(one == 1);
+      specified.push_back(one == 1);
     }
   }
   close(from);
@@ -46,9 +46,9 @@ void listen(int from, pid_t child, std::vector<bool>& told) {
 
 }  // namespace
 
-std::vector<bool> tried_in_child(std::size_t count, const Work& work) {
-  std::vector<bool> told;
-  while (told.size() < count) {
+std::vector<bool> probe_in_subprocess(std::size_t count, const Work& work) {
+  std::vector<bool> specified;
+  while (specified.size() < count) {
     int ends[2];
     if (pipe(ends) != 0) {
       break;
@@ -56,20 +56,20 @@ std::vector<bool> tried_in_child(std::size_t count, const Work& work) {
     const pid_t child = fork();
     if (child == 0) {
       close(ends[0]);
-      work_through(told.size(), count, work, ends[1]);
+      work_through(specified.size(), count, work, ends[1]);
     }
     close(ends[1]);
     if (child < 0) {
       close(ends[0]);
       break;
     }
-    listen(ends[0], child, told);
-    if (told.size() < count) {
-      told.push_back(false);  // it ended there
+    listen(ends[0], child, specified);
+    if (specified.size() < count) {
+      specified.push_back(false);  // it ended there
     }
   }
-  told.resize(count, true);
-  return told;
+  specified.resize(count, true);
+  return specified;
 }
 
 }  // namespace thawslide::io

@@ -9,7 +9,7 @@
 
 namespace thawslide::config {
 
-struct MovedDefault {
+struct ChangedDefault {
   std::string table;  // "band"; "material.NAME": of each material
   std::string key;
   std::string before;  // as TOML, and so is `now`
@@ -17,7 +17,7 @@ struct MovedDefault {
   bool (*matters)(const Case&);  // whether a case feels it
 };
 
-const std::vector<MovedDefault>& moved_defaults();
+const std::vector<ChangedDefault>& changed_defaults();
 
 // One notice that says what changed for this case; empty where its file gives any of the keys, or feels none.
 std::string notice_of_moved_defaults(const Case& parameters);

@@ -17,12 +17,12 @@ inline void put(std::FILE* stream, const std::string& text) {
 }
 
 template <class... Values>
-void say(fmt::format_string<Values...> format, Values&&... values) {
+void print_text(fmt::format_string<Values...> format, Values&&... values) {
   put(stdout, fmt::format(format, std::forward<Values>(values)...));
 }
 
 template <class... Values>
-void say_error(fmt::format_string<Values...> format, Values&&... values) {
+void print_error(fmt::format_string<Values...> format, Values&&... values) {
   put(stderr, fmt::format(format, std::forward<Values>(values)...));
 }
 

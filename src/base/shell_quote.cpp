@@ -1,4 +1,4 @@
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 
 #include <fmt/format.h>
 
@@ -41,7 +41,7 @@ std::string with_escapes(const std::string& word) {
 
 }  // namespace
 
-std::string shell_word(const std::string& text) {
+std::string shell_quote(const std::string& text) {
   const std::string word = text.rfind('-', 0) == 0 ? "./" + text : text;
   if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) {
     return word;

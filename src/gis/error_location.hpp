@@ -14,7 +14,7 @@ namespace thawslide::gis {
 
 // What the work says of a file is told at the key that named it.
 template <class Work>
-auto told_at(const config::Case& parameters, const std::string& key, const Work& work) {
+auto with_error_location(const config::Case& parameters, const std::string& key, const Work& work) {
   try {
     return work();
   } catch (const UserError& error) {
@@ -26,10 +26,10 @@ auto told_at(const config::Case& parameters, const std::string& key, const Work&
 void add_note(const std::string& note, std::vector<std::string>& notes);
 
 // How far a rectangle reaches beyond another: "120 m in the west and 30 m in the north"; empty: it does not.
-[[nodiscard]] std::string words_beyond(const Rectangle& inner, const Rectangle& outer);
+[[nodiscard]] std::string describe_overhang(const Rectangle& inner, const Rectangle& outer);
 
 // "x from 0 to 10, y from 2 to 5"
-[[nodiscard]] std::string range_words(const Rectangle& rectangle);
+[[nodiscard]] std::string format_range(const Rectangle& rectangle);
 
 // The domain's sides.
 [[nodiscard]] Rectangle domain_of(const config::Case& parameters);

@@ -8,17 +8,17 @@ namespace thawslide::gis {
 
 class GdalMessages;
 
-class WholeFile {
+class AtomicFile {
  public:
-  explicit WholeFile(const std::string& file);
-  ~WholeFile();  // removes what was not put in place
-  WholeFile(const WholeFile&) = delete;
-  WholeFile& operator=(const WholeFile&) = delete;
+  explicit AtomicFile(const std::string& file);
+  ~AtomicFile();  // removes what was not put in place
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
 
   // Where to write; it has the file's own extension, which drivers look at.
   [[nodiscard]] const std::string& temporary() const { return temporary_; }
   // Makes sure that it is on the disk, and renames it. Throws WriteError with the system's reason.
-  void put_in_place();
+  void publish();
   // Throws WriteError: cannot write FILE, and why.
   [[noreturn]] void fail(const std::string& reason) const;
   [[noreturn]] void fail_with(const GdalMessages& messages) const;

@@ -1,4 +1,4 @@
-#include "gis/told_at.hpp"
+#include "gis/error_location.hpp"
 
 namespace thawslide::gis {
 
@@ -15,7 +15,7 @@ void add_note(const std::string& note, std::vector<std::string>& notes) {
   }
 }
 
-std::string words_beyond(const Rectangle& inner, const Rectangle& outer) {
+std::string describe_overhang(const Rectangle& inner, const Rectangle& outer) {
   std::vector<std::string> sides;
   const auto add = [&](double distance, const char* side) {
     constexpr double rounding = 1e-6;  // m, of places computed in files
@@ -34,7 +34,7 @@ std::string words_beyond(const Rectangle& inner, const Rectangle& outer) {
   return words;
 }
 
-std::string range_words(const Rectangle& rectangle) {
+std::string format_range(const Rectangle& rectangle) {
   return fmt::format("x from {:.10g} to {:.10g}, y from {:.10g} to {:.10g}", rectangle.min_x, rectangle.max_x,
                      rectangle.min_y, rectangle.max_y);
 }

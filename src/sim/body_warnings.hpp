@@ -9,7 +9,7 @@
 namespace thawslide::sim {
 
 // Each with the place of what it is about, what was found and what to do.
-[[nodiscard]] std::vector<std::string> doubts_of_bodies(const config::Case& parameters,
-                                                        const std::vector<BodyFigures>& bodies);
+[[nodiscard]] std::vector<std::string> body_warnings(const config::Case& parameters,
+                                                     const std::vector<BodyFigures>& bodies);
 
 }  // namespace thawslide::sim
