@@ -15,9 +15,9 @@ struct AddAverages {
   using Adds = mpm::RecordList<mpm::Averages>;
   using Account = mpm::NoAccount;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     const auto volume = particles.volume.load(at);
     auto& averages = added.template of<mpm::Averages>();
     averages.value[mpm::Averages::volume] = volume;
@@ -45,9 +45,9 @@ struct AddSeepingWater {
   const BandPhysics<Real>& model;
   HydraulicConductivity<Real> hydraulic;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const Value volume = particles.volume.load(at), zero = Real(0);
     const auto seeping = seeps(model, hydraulic, particles, at);

@@ -52,7 +52,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Overlaps<Dim, typename At::Value> overlaps(
     along[a] = overlap(particles.position.load(at, static_cast<int>(a)), size, first_cell[a], cell, inverse_cell);
     const auto inside = (along[a].lower >= Real(0)) & (along[a].lower <= Real(mpm::Tile<Dim>::edge));
     THAWSLIDE_ASSERT(!any(!inside), "of particles {} ... one lies outside its tile: cells {} ...",
-                     particles.id(at.particle[0]), in_lane(along[a].lower, 0));
+                     particles.id(at.particle[0]), extract(along[a].lower, 0));
   }
   return along;
 }
@@ -80,8 +80,8 @@ template <int Dim, class Value, class Side>
 THAWSLIDE_HD auto extent_in_column(const Overlaps<Dim, Value>& along, const Side& side, std::size_t lane) {
   Extent<Dim, typename NumberOf<Value>::Type> own;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    own.from[a] = in_lane(along[a].from[side[a]], lane);
-    own.to[a] = in_lane(along[a].to[side[a]], lane);
+    own.from[a] = extract(along[a].from[side[a]], lane);
+    own.to[a] = extract(along[a].to[side[a]], lane);
   }
   return own;
 }

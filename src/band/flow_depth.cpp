@@ -49,13 +49,13 @@ void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, cons
   part.column_mass.fill({});
   const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
   for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-    const Lanes<Real> top = particles.position.load(batch, Dim - 1) + sizes_.of(particles, batch).half;
-    const Lanes<Real> volume = particles.volume.load(batch);
+    const Simd<Real> top = particles.position.load(batch, Dim - 1) + sizes_.of(particles, batch).half;
+    const Simd<Real> volume = particles.volume.load(batch);
     const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
-    std::array<std::array<std::int32_t, mpm::Batch<Real>::most>, corners> columns;
-    std::array<Lanes<Real>, corners> volumes;
+    std::array<std::array<std::int32_t, mpm::SimdBatch<Real>::most>, corners> columns;
+    std::array<Simd<Real>, corners> volumes;
     std::size_t seen = 0;
-    for_columns<Dim>(along, [&](const auto& /*side*/, Lanes<Real> place, Lanes<Real> share) THAWSLIDE_INLINE_LAMBDA {
+    for_columns<Dim>(along, [&](const auto& /*side*/, Simd<Real> place, Simd<Real> share) THAWSLIDE_INLINE_LAMBDA {
       if (any(share > Real(0))) {
         place.store_whole(columns[seen].data());
         volumes[seen++] = share * volume;
@@ -79,7 +79,7 @@ void FlowDepth<Dim, Real>::add_extents(const mpm::SparseGrid<Dim, Real>& grid,
   const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
   for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
     const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
-    for_columns<Dim>(along, [&](const auto& side, Lanes<Real> place, Lanes<Real> share) {
+    for_columns<Dim>(along, [&](const auto& side, Simd<Real> place, Simd<Real> share) {
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         if (share[lane] > Real(0)) {
           part.extent[static_cast<std::size_t>(place[lane])] += extent_in_column<Dim>(along, side, lane);
@@ -189,9 +189,9 @@ void FlowDepth<Dim, Real>::sum_masses(const mpm::SparseGrid<Dim, Real>& grid,
     const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
-      std::array<Lanes<Real>, corners> columns, shares;
+      std::array<Simd<Real>, corners> columns, shares;
       std::size_t corner = 0;
-      for_columns<Dim>(along, [&](const auto& /*side*/, Lanes<Real> place, Lanes<Real> share) {
+      for_columns<Dim>(along, [&](const auto& /*side*/, Simd<Real> place, Simd<Real> share) {
         columns[corner] = place;
         shares[corner++] = share;
       });
@@ -231,7 +231,7 @@ void FlowDepth<Dim, Real>::load_to_particles(const mpm::SparseGrid<Dim, Real>& g
       columns.cosine.numbers[place] = load_per_depth_[static_cast<std::size_t>(tiles_[t].number[place])];
     }
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-      const Lanes<Real> load = columns.flow_depth(particles, batch);
+      const Simd<Real> load = columns.flow_depth(particles, batch);
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         const std::uint32_t p = batch.particle[lane];
         if (p >= first) {

@@ -136,8 +136,8 @@ HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandMo
                             bool first_step, mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
   return with_particle_heat(model, [&](const auto& law) {
     using Law = std::decay_t<decltype(law)>;
-    const auto pass = [&](const auto& takes_tile, const auto& kernel) {
-      return std::get<0>(mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, takes_tile, kernel));
+    const auto pass = [&](const auto& tile_filter, const auto& kernel) {
+      return std::get<0>(mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, tile_filter, kernel));
     };
     const Real from_porosity = model.current_masses ? pass(every_tile, UpdateHeatMass<Dim, Real, Law>{law}) : Real(0);
     const bool subgrid = model.secant_capacity && !first_step;

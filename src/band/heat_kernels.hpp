@@ -27,9 +27,9 @@ struct HeatFlows {
   Real dt, inverse_cell;
   bool subgrid;  // false where prescribed temperatures jump, since nodes then are ahead of particles, and as printed
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const auto state = seen.template read<mpm::NodalState, 1>(mpm::NodalState::temperature);
     const auto gradient = gradient_of(state, 0);
@@ -118,9 +118,9 @@ struct SecantCapacity {
   const Law& law;
   Real dt;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const Value change = change_of_temperature(particles, at, seen, dt);
     Value secant = particles.secant_capacity.load(at);  // still the tangent
@@ -146,9 +146,9 @@ struct RedistributeUnreachedHeat {
 
   Real dt;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& /*added*/, Account& /*account*/) const {
+                                                       Scatter& /*added*/, Account& /*account*/) const {
     const auto specific = seen.template read<mpm::UnreachedHeat, 1>().value[0];
     const auto gain = dt * specific * particles.mass.load(at) * particles.thermal_scaling.load(at) /
                       particles.initial_volume.load(at);  // [J/m3]
@@ -181,9 +181,9 @@ struct UpdateHeat {
   const Law& law;
   Real dt;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& /*added*/, Account& /*account*/) const {
+                                                       Scatter& /*added*/, Account& /*account*/) const {
     using Value = typename At::Value;
     const Value secant = particles.secant_capacity.load(at);
     const Value gain = secant * change_of_temperature(particles, at, seen, dt);
@@ -212,9 +212,9 @@ struct UpdateHeatApparentCapacity {
   const Law& law;
   Real dt;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& /*added*/, Account& made) const {
+                                                       Scatter& /*added*/, Account& made) const {
     using Value = typename At::Value;
     const Value tangent = particles.secant_capacity.load(at);
     const Value gain = tangent * change_of_temperature(particles, at, seen, dt);
@@ -241,9 +241,9 @@ struct UpdateHeatMass {
 
   const Law& law;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& /*added*/, Account& made) const {
+                                                       Scatter& /*added*/, Account& made) const {
     const auto before = particles.heat_content.load(at), anew = law.heat(particles, at);
     particles.heat_content.store(at, anew);
     at.add_to(made, particles.initial_volume.load(at) / particles.thermal_scaling.load(at) * (anew - before));

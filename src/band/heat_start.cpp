@@ -60,7 +60,7 @@ template <int Dim, class Real>
 void add_heat(const BandModel<Dim, Real>& model, Real heat, std::size_t particle,
               mpm::Particles<Dim, Real>& particles) {
   const auto p = static_cast<std::uint32_t>(particle);
-  const mpm::One<Real> one{{p}};
+  const mpm::ScalarIndex<Real> one{{p}};
   const Real before = particles.temperature(p);
   particles.heat_content(p) += heat * particles.thermal_scaling(p) / particles.initial_volume(p);
   with_particle_heat(model, [&](const auto& law) {

@@ -80,9 +80,9 @@ struct SeepageFlows {
   HydraulicConductivity<Real> hydraulic_conductivity;
   Real dt, inverse_cell;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const Value zero = Real(0);
     const Value hydraulic = hydraulic_conductivity(particles, at);
@@ -141,9 +141,9 @@ struct PorePressure {
   Real drained_depth;  // below the top, where the pressure of a permeable body is 0 [m]
   Columns columns;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& /*added*/, Account& drained) const {
+                                                       Scatter& /*added*/, Account& drained) const {
     using Value = typename At::Value;
     if (model.thickness_each_step) {
       particles.flow_depth.store(at, columns.flow_depth(particles, at));

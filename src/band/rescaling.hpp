@@ -15,7 +15,7 @@ THAWSLIDE_HD void mix_water(const BandPhysics<Real>& model, Real kept, Real befo
   const Real tref = model.reference_temperature, porosity = particles.porosity(p);
   const Real to = max(particles.temperature(p), tref);
   const bool was_melted = before >= tref, is_melted = particles.temperature(p) >= tref;
-  const Real start = thawing_pressure(model, particles, mpm::One<Real>{{p}});
+  const Real start = thawing_pressure(model, particles, mpm::ScalarIndex<Real>{{p}});
   const Real pressure = was_melted ? particles.liquid_pressure(p) : start;
   Real mixed = start;
   if (model.balances_water()) {
@@ -46,7 +46,7 @@ THAWSLIDE_HD void mix_water(const BandPhysics<Real>& model, Real kept, Real befo
 template <class Real, class Law, class Particles>
 THAWSLIDE_HD void mix_in(const BandPhysics<Real>& model, const Law& law, bool has_water, Real kept, std::uint32_t p,
                          Particles& particles) {
-  const mpm::One<Real> one{{p}};
+  const mpm::ScalarIndex<Real> one{{p}};
   const Real before = particles.temperature(p);
   const Real joining = law.temperature(particles, one, particles.initial_heat_content(p), before);
   particles.heat_content(p) = physics::mixed(particles.heat_content(p), particles.initial_heat_content(p), kept);

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "band/physics.hpp"
-#include "mpm/one.hpp"
+#include "mpm/scalar_index.hpp"
 #include "physics/free_gap.hpp"
 #include "physics/pressurization.hpp"
 
@@ -83,8 +83,8 @@ THAWSLIDE_HD StepExtremes extremes_of_particle(const BandPhysics<Real>& model,
   found.diffusivity.raise({static_cast<double>(physics::conductivity(model.phases, porosity, saturation) /
                                                physics::heat_capacity(model.phases, porosity, saturation)),
                            id});
-  found.seepage.raise({static_cast<double>(physics::hydraulic_diffusivity(model.phases, storing, Real(1),
-                                                                          hydraulic(particles, mpm::One<Real>{{p}}))),
+  found.seepage.raise({static_cast<double>(physics::hydraulic_diffusivity(
+                           model.phases, storing, Real(1), hydraulic(particles, mpm::ScalarIndex<Real>{{p}}))),
                        id});
   found.pore_stiffness = static_cast<double>(physics::pore_stiffness(model.phases, storing, Real(1)));
   return found;

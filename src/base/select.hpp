@@ -1,4 +1,4 @@
-// The words of formulas that serve one number, on processor and device, and the lanes of base/lanes.hpp alike; here for
+// The words of formulas that serve one number, on processor and device, and the lanes of base/simd.hpp alike; here for
 // one number. `select` stands in for a branch.
 #pragma once
 
@@ -34,7 +34,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real max(Real a, Real b) {
 
 // function(number), lane by lane.
 template <class Real, class Function, class = std::enable_if_t<std::is_floating_point_v<Real>>>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real each_lane(Real number, const Function& function) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real map_lanes(Real number, const Function& function) {
   return function(number);
 }
 
@@ -48,7 +48,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_each_lane(bool condition, const Bo
 
 // The number in one lane.
 template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real in_lane(Real number, std::size_t /*lane*/) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real extract(Real number, std::size_t /*lane*/) {
   return number;
 }
 template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
@@ -64,8 +64,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real look_up(const Real* table, const Real&
 
 // function(number), number by number and out of line: where that is the rare way.
 template <class Value, class Function>
-THAWSLIDE_HD [[gnu::noinline, gnu::cold]] Value rarely(Value x, const Function& function) {
-  return each_lane(x, function);
+THAWSLIDE_HD [[gnu::noinline, gnu::cold]] Value cold_call(Value x, const Function& function) {
+  return map_lanes(x, function);
 }
 
 // body(k) for k = 0 .. Count-1, k being a constant. An array of registers that is indexed by a variable leaves them.

@@ -46,14 +46,15 @@ constexpr std::size_t partial_sum_count(std::size_t parts) { return parts + runs
 // sums: the parts, and room after them. Returns where in it their sum stands.
 template <class Backend, class Sum>
 Sum* add_up(Backend& backend, Sum* sums, std::size_t parts) {
-  using Adding = AddUp<Sum>;
+  using PartialSums = AddUp<Sum>;
   Sum* of_runs = sums + parts;
   const std::size_t runs = runs_of(parts);
-  backend.for_groups(runs, Adding::at_a_time, Adding::bytes, Adding{sums, parts, parts_of_a_run, of_runs});
+  backend.for_groups(runs, PartialSums::at_a_time, PartialSums::bytes,
+                     PartialSums{sums, parts, parts_of_a_run, of_runs});
   if (runs == 1) {
     return of_runs;
   }
-  backend.for_groups(1, Adding::at_a_time, Adding::bytes, Adding{of_runs, runs, runs, of_runs + runs});
+  backend.for_groups(1, PartialSums::at_a_time, PartialSums::bytes, PartialSums{of_runs, runs, runs, of_runs + runs});
   return of_runs + runs;
 }
 

@@ -46,7 +46,7 @@ class BandStages {
 
   void average() {
     passes_.run(passes_.linear(), band::AddAverages<Dim, Real>{});
-    passes_.template sum<mpm::Averages, void>(EveryTile{});
+    passes_.template sum<mpm::Averages, void>(AllTiles{});
     passes_.backend.for_each(
         passes_.cells.tables().blocks * Passes::block_nodes,
         SetState<Dim, Real>{passes_.views(), passes_.cells.tables().block_keys, passes_.model.heat_faces,
@@ -108,14 +108,14 @@ class BandStages {
   void conduct_heat_by(const Content& content, Real dt) {
     passes_.run(passes_.linear(), HeatFlows<Dim, Real, Content>{content, passes_.model.band, hydraulic(), dt,
                                                                 Real(1) / passes_.model.cell, !passes_.model.starts});
-    passes_.template sum<mpm::HeatRates, void>(EveryTile{});
+    passes_.template sum<mpm::HeatRates, void>(AllTiles{});
     solve_rates(nullptr, dt);
     passes_.marks.mark_tiles(passes_.cells.tables(),
                              MayChange<Dim, Real, Content>{passes_.views(), passes_.particles.view(), content, dt});
     passes_.marks.mark_blocks(passes_.cells.tables());
     passes_.run(passes_.linear(passes_.marks.tiles()), SecantCapacity<Dim, Real, Content>{content, dt});
     passes_.backend.for_each(secant_rates_.size(),
-                             SumPatches<mpm::HeatRates, void, EveryTile, Dim, Real>{
+                             SumPatches<mpm::HeatRates, void, AllTiles, Dim, Real>{
                                  passes_.cells.tables(), {}, passes_.memory.patches(0), secant_rates_.data()});
     passes_.keep(&solve_rates(passes_.marks.blocks(), dt)->gain, &sums_->heat);
     passes_.marks.mark_tiles(passes_.cells.tables(),

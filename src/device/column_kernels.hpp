@@ -96,7 +96,7 @@ struct SumInTile {
 
  private:
   [[nodiscard]] THAWSLIDE_HD Box box_of(std::size_t tile, std::uint32_t particle) const {
-    const mpm::One<Real> at{{particle}};
+    const mpm::ScalarIndex<Real> at{{particle}};
     return {particles.volume(particle), particles.mass(particle),
             particles.position(particle, Dim - 1) + sizes.of(particles, at).half,
             band::overlaps<Dim>(band::first_cell_of<Dim>(tables.tile_keys[tile]), cell, Real(1) / cell, sizes,

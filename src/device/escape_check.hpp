@@ -44,8 +44,8 @@ struct CountEscaped {
     return has_escaped;
   }
 
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
                                Account& count) const {
     count = escapes(particles, at.particle[0]) ? 1 : 0;
   }
@@ -63,8 +63,8 @@ struct MarkEscaped {
 
   [[nodiscard]] THAWSLIDE_HD MarkEscaped in_tile(std::size_t tile) const { return {count.in_tile(tile), marks}; }
 
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
                                Account& /*account*/) const {
     marks[at.particle[0]] = count.escapes(particles, at.particle[0]) ? 1 : 0;
   }

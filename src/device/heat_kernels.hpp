@@ -58,8 +58,8 @@ struct RescaleBand {
     return {content, physics, has_water, scales_all, in_band.in_tile(tile)};
   }
 
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
                                Real& added_heat) const {
     const std::uint32_t p = at.particle[0];
     const Law law{content};
@@ -82,8 +82,8 @@ struct HeatFlows {
   Real dt, inverse_cell;
   bool subgrid;
 
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
                                Account& account) const {
     const Law law{content};
     const Kernel kernel{physics, hydraulic, law, dt, inverse_cell, subgrid};
@@ -102,8 +102,8 @@ struct SecantCapacity {
   Content content;
   Real dt;
 
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
                                Account& account) const {
     const Law law{content};
     const Kernel kernel{law, dt};
@@ -123,8 +123,8 @@ struct UpdateHeat {
   band::BandPhysics<Real> physics;
   Real dt;
 
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
                                Account& account) const {
     const Law law{content};
     const Kernel kernel{physics, law, dt};

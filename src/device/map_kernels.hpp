@@ -4,8 +4,8 @@
 #include "device/tile_tables.hpp"
 #include "mpm/body_sizes.hpp"
 #include "mpm/map_sums.hpp"
-#include "mpm/one.hpp"
 #include "mpm/particle_view.hpp"
+#include "mpm/scalar_index.hpp"
 
 namespace thawslide::device {
 
@@ -89,7 +89,7 @@ struct SumMapInTile {
 
  private:
   [[nodiscard]] THAWSLIDE_HD Box box_of(std::uint32_t p) const {
-    const auto size = sizes.of(particles, mpm::One<Real>{{p}});
+    const auto size = sizes.of(particles, mpm::ScalarIndex<Real>{{p}});
     const double half = size.half, inverse = size.inverse;
     const mpm::MapCells& cells = places.cells;
     const auto spans = [half, inverse](double position, double corner, double cell, double inverse_cell, int count) {
@@ -128,8 +128,8 @@ struct SumMoments {
   using Adds = mpm::RecordList<>;
   using Account = mpm::MassMoments;
 
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
                                Account& sums) const {
     sums = mpm::mass_moments_of(particles, at.particle[0]);
   }

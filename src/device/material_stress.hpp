@@ -40,8 +40,8 @@ struct DeformMaterial {
             model.materials.size() == 1};
   }
 
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
                                Account& account) const {
     if (is_only_one || particles.material(at.particle[0]) == material) {
       const Kernel deform{law, elastic, phases, gaps_close_first, viscosity_time, effective_stress, dt};

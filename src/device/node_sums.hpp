@@ -34,12 +34,12 @@ struct RecordsRead<mpm::RecordList<Names...>, Real> {
 
 // A thread a number of a node: the sum of what the tiles about it hold, its own tile first; for components that are
 // lowered the smallest. Lowered: a name with such components, or void.
-template <class Name, class Lowered, class Takes, int Dim, class Real>
+template <class Name, class MinReduced, class TileFilter, int Dim, class Real>
 struct SumPatches {
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
 
   TileTables<Dim> tables;
-  Takes takes;
+  TileFilter accepts;
   const Real* patches;
   Real* records;
 
@@ -48,13 +48,13 @@ struct SumPatches {
     constexpr auto nodes = static_cast<std::size_t>(T::nodes);
     constexpr std::size_t own = static_cast<std::size_t>(T::stencil) / 2;
     const std::size_t component = k % size, node = k / size % nodes, block = k / size / nodes;
-    const bool lowered = is_lowered(component);
-    Real sum = lowered ? std::numeric_limits<Real>::max() : Real(0);
-    if (!lowered) {
+    const bool min_reduced = is_min_reduced(component);
+    Real sum = min_reduced ? std::numeric_limits<Real>::max() : Real(0);
+    if (!min_reduced) {
       take(block, node, own, component, [&](Real part) { sum = part; });
     }
     for_directions_that_see(node, [&](std::size_t d) {
-      if (lowered) {
+      if (min_reduced) {
         take(block, node, d, component, [&](Real part) { sum = min(sum, part); });
       } else if (d != own) {
         take(block, node, d, component, [&](Real part) { sum += part; });
@@ -64,12 +64,12 @@ struct SumPatches {
   }
 
  private:
-  THAWSLIDE_HD static constexpr bool is_lowered([[maybe_unused]] std::size_t component) {
-    if constexpr (std::is_void_v<Lowered>) {
+  THAWSLIDE_HD static constexpr bool is_min_reduced([[maybe_unused]] std::size_t component) {
+    if constexpr (std::is_void_v<MinReduced>) {
       return false;
     } else {
-      return component >= mpm::part_of<Lowered, Dim>.from &&
-             component < mpm::part_of<Lowered, Dim>.from + mpm::part_of<Lowered, Dim>.count;
+      return component >= mpm::part_of<MinReduced, Dim>.from &&
+             component < mpm::part_of<MinReduced, Dim>.from + mpm::part_of<MinReduced, Dim>.count;
     }
   }
   // Calls visit(direction) for those, in order, in which a tile's patch reaches a node of a block: along each axis the
@@ -97,7 +97,7 @@ struct SumPatches {
                          const With& with) const {
     using T = mpm::Tile<Dim>;
     const std::int32_t tile = tables.tiles_about_block[block * static_cast<std::size_t>(T::stencil) + direction];
-    if (tile == absent || !takes(static_cast<std::size_t>(tile))) {
+    if (tile == absent || !accepts(static_cast<std::size_t>(tile))) {
       return;
     }
     const std::size_t place = place_in_patch<Dim>(node, direction);

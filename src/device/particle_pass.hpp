@@ -13,18 +13,18 @@
 namespace thawslide::device {
 
 // Of a pass that takes all tiles and all their particles.
-struct EveryTile {
+struct AllTiles {
   THAWSLIDE_HD bool operator()(std::size_t /*tile*/) const { return true; }
   THAWSLIDE_HD bool operator()(std::size_t /*tile*/, std::size_t /*cell*/) const { return true; }
 };
 
 // What a pass is given, but for its kernels. Takes: of a tile, and of a tile and a cell of it.
-template <class Weights, class Takes, int Dim, class Real>
+template <class Weights, class TileFilter, int Dim, class Real>
 struct PassOver {
   TileTables<Dim> tables;
   mpm::ParticleView<Dim, Real> particles;
   Weights weights;
-  Takes takes;
+  TileFilter accepts;
   Real cell;
 };
 
@@ -60,7 +60,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   THAWSLIDE_HD void operator()(Group& group, std::size_t tile) const {
     const MemoryLayout room(group.shared());
     const std::size_t end = first_of_cell(tile, nodes);
-    if (!over.takes(tile)) {
+    if (!over.accepts(tile)) {
       group.each(1, [this, tile](std::size_t /*k*/) { sums[tile] = {}; });
       return;
     }
@@ -134,16 +134,16 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
 
   template <class Name>
   static constexpr std::size_t first_component =
-      mpm::IsLowered<Name> ? mpm::part_of<Name, Dim>.from : mpm::first_in_register<Name, Dim>;
+      mpm::IsMinReduced<Name> ? mpm::part_of<Name, Dim>.from : mpm::first_in_register<Name, Dim>;
   // Of a sum, or of what is lowered.
   template <class Name>
-  static constexpr Real start = mpm::IsLowered<Name> ? std::numeric_limits<Real>::max() : Real(0);
+  static constexpr Real start = mpm::IsMinReduced<Name> ? std::numeric_limits<Real>::max() : Real(0);
 
   // What is to be lowered begins beyond all bounds.
   template <class Name>
   THAWSLIDE_HD static void raise(std::size_t component, Real& number) {
-    if (mpm::IsLowered<Name> && component >= first_component<Name> &&
-        component < first_component<Name> + mpm::carried_numbers<Name, Dim>) {
+    if (mpm::IsMinReduced<Name> && component >= first_component<Name> &&
+        component < first_component<Name> + mpm::scatter_size<Name, Dim>) {
       number = start<Name>;
     }
   }
@@ -155,10 +155,10 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     const TileTables<Dim>& tables = over.tables;
     const std::size_t place = chunk.first + k;
     const std::size_t node = tables.keys[place] & (nodes - 1), lowest = lowest_about<Dim>(node);
-    if (!over.takes(chunk.tile, node)) {
+    if (!over.accepts(chunk.tile, node)) {
       return;
     }
-    const mpm::One<Real> at{{tables.order[place]}};
+    const mpm::ScalarIndex<Real> at{{tables.order[place]}};
     const Real inverse_cell = Real(1) / over.cell;
     const typename T::Index nearest = T::node(T::index(tables.tile_keys[chunk.tile]), static_cast<int>(node));
     mpm::OnePlace<Dim, Real> from_node{{}, lowest, {}};
@@ -171,7 +171,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     mpm::OneWeights<Dim, Real> weights;
     over.weights.set(weights, from_node, over.particles, at, over.cell, inverse_cell);
     const auto patches_read = room.patches_read();
-    const mpm::SeenByOne<mpm::OneWeights<Dim, Real>, typename MemoryLayout::PatchesRead> seen{weights, patches_read};
+    const mpm::ScalarGather<mpm::OneWeights<Dim, Real>, typename MemoryLayout::PatchesRead> seen{weights, patches_read};
     typename MemoryLayout::Carried carried{};
     Sums of_particle{};
     mpm::ParticleView<Dim, Real> particles = over.particles;
@@ -183,8 +183,9 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     slot.keep(weights);
   }
   template <class Kernel, class Seen, class Sum>
-  THAWSLIDE_HD static void run(const Kernel& kernel, mpm::ParticleView<Dim, Real>& particles, const mpm::One<Real>& at,
-                               const Seen& seen, typename MemoryLayout::Carried& carried, Sum& sum) {
+  THAWSLIDE_HD static void run(const Kernel& kernel, mpm::ParticleView<Dim, Real>& particles,
+                               const mpm::ScalarIndex<Real>& at, const Seen& seen,
+                               typename MemoryLayout::Carried& carried, Sum& sum) {
     kernel(particles, at, seen, carried, sum);
   }
 
@@ -207,7 +208,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     const std::size_t from = first_of_cell(chunk.tile, cell), to = first_of_cell(chunk.tile, cell + 1);
     CellPart part{from < chunk.first ? chunk.first : from, to < chunk.last ? to : chunk.last, from >= chunk.first,
                   to <= chunk.last};
-    if (!part.is_present() || !over.takes(chunk.tile, cell)) {
+    if (!part.is_present() || !over.accepts(chunk.tile, cell)) {
       part.last = part.first;
     }
     return part;
@@ -216,7 +217,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   // A thread a node of a cell, then a thread a number of the patch.
   template <class Name, class Group>
   THAWSLIDE_HD void add(Group& group, const MemoryLayout& room, const Chunk& chunk) const {
-    constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
+    constexpr std::size_t carried = mpm::scatter_size<Name, Dim>;
     if (!MemoryLayout::template is_first<Name>()) {
       group.barrier();
     }
@@ -230,7 +231,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
 
   template <class Name>
   THAWSLIDE_HD void sum_in_cell(const MemoryLayout& room, const Chunk& chunk, std::size_t k) const {
-    constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
+    constexpr std::size_t carried = mpm::scatter_size<Name, Dim>;
     const CellPart part = part_of_cell(chunk, k / cell_nodes);
     if (!part.is_present()) {
       return;
@@ -259,7 +260,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   template <class Name>
   THAWSLIDE_HD void add_cells(const MemoryLayout& room, const Chunk& chunk, const Layers& layers, std::size_t node,
                               std::size_t component) const {
-    constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
+    constexpr std::size_t carried = mpm::scatter_size<Name, Dim>;
     Real& number = room.patch()[node * size + first_component<Name> + component];
     for_cells_that_see(layers, node, [&](std::size_t cell, std::size_t node_of_cell) {
       const std::size_t k = cell - chunk.cell;
@@ -269,7 +270,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
       const CellPart part = part_of_cell(chunk, k);
       if (part.is_present() && part.ends) {
         const Real brought = room.cell_sums()[(k * cell_nodes + node_of_cell) * carried + component];
-        number = mpm::IsLowered<Name> ? min(number, brought) : number + brought;
+        number = mpm::IsMinReduced<Name> ? min(number, brought) : number + brought;
       }
     });
   }

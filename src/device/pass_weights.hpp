@@ -17,7 +17,7 @@ struct LinearWeights {
   }
   template <int Dim, class Real, class Particles>
   THAWSLIDE_HD void set(mpm::OneWeights<Dim, Real>& weights, const mpm::OnePlace<Dim, Real>& place,
-                        const Particles& /*particles*/, const mpm::One<Real>& /*at*/, Real /*cell*/,
+                        const Particles& /*particles*/, const mpm::ScalarIndex<Real>& /*at*/, Real /*cell*/,
                         Real inverse_cell) const {
     weights.set_linear(place, inverse_cell);
   }
@@ -35,7 +35,8 @@ struct MomentumWeights {
   }
   template <class Particles>
   THAWSLIDE_HD void set(mpm::OneWeights<Dim, Real>& weights, const mpm::OnePlace<Dim, Real>& place,
-                        const Particles& particles, const mpm::One<Real>& at, Real /*cell*/, Real inverse_cell) const {
+                        const Particles& particles, const mpm::ScalarIndex<Real>& at, Real /*cell*/,
+                        Real inverse_cell) const {
     weights.set_linear(place, inverse_cell);
     weights.template set_momentum<Shape>(place, sizes.of(particles, at), inverse_cell);
   }
@@ -46,7 +47,8 @@ template <class Shape, int Dim, class Real>
 struct AffineWeights : MomentumWeights<Shape, Dim, Real> {
   template <class Particles>
   THAWSLIDE_HD void set(mpm::OneWeights<Dim, Real>& weights, const mpm::OnePlace<Dim, Real>& place,
-                        const Particles& particles, const mpm::One<Real>& at, Real cell, Real inverse_cell) const {
+                        const Particles& particles, const mpm::ScalarIndex<Real>& at, Real cell,
+                        Real inverse_cell) const {
     MomentumWeights<Shape, Dim, Real>::set(weights, place, particles, at, cell, inverse_cell);
     weights.template set_affine<Shape>(place, cell, inverse_cell);
   }

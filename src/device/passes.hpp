@@ -41,13 +41,13 @@ struct NodeArrays : mpm::ByName<mpm::Named<Names, Array<Real, Backend>>...> {
 // As mpm::particle_pass, with kernels that hold what they need by value. What they add stands in the patches of
 // `memory` then; returns where in the device's memory their sums over particles, if any, stand until the next pass.
 // records: of what is read, by name.
-template <class Backend, class Weights, class Takes, int Dim, class Real, class Records, class... Kernels>
+template <class Backend, class Weights, class TileFilter, int Dim, class Real, class Records, class... Kernels>
 SumsOf<Kernels...>* particle_pass(Backend& backend, PassMemory<Backend, Real>& memory,
-                                  const PassOver<Weights, Takes, Dim, Real>& over, const Records& records,
+                                  const PassOver<Weights, TileFilter, Dim, Real>& over, const Records& records,
                                   const Kernels&... kernels) {
   using Reads = mpm::AllOf<typename Kernels::Reads...>;
   using Adds = mpm::AllOf<typename Kernels::Adds...>;
-  using Pass = ParticlePass<PassOver<Weights, Takes, Dim, Real>, Reads, Adds, Dim, Real, Kernels...>;
+  using Pass = ParticlePass<PassOver<Weights, TileFilter, Dim, Real>, Reads, Adds, Dim, Real, Kernels...>;
   const std::size_t tiles = over.tables.tiles;
   auto* sums = memory.template sums<SumsOf<Kernels...>>(partial_sum_count(tiles));
   const Pass pass{over,
@@ -77,7 +77,7 @@ struct VisitInMemory {
     const mpm::ByName<> seen{};
     mpm::ByName<> added{};
     mpm::NoAccount account;
-    kernel(view, mpm::One<Real>{{static_cast<std::uint32_t>(k)}}, seen, added, account);
+    kernel(view, mpm::ScalarIndex<Real>{{static_cast<std::uint32_t>(k)}}, seen, added, account);
   }
 };
 

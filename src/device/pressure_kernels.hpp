@@ -20,13 +20,13 @@ struct SeepingNow {
 
   [[nodiscard]] THAWSLIDE_HD bool of_node(std::size_t /*node*/) const { return false; }
   [[nodiscard]] THAWSLIDE_HD bool of_particle(std::uint32_t particle) const {
-    return band::seeps(physics, hydraulic, particles, mpm::One<Real>{{particle}});
+    return band::seeps(physics, hydraulic, particles, mpm::ScalarIndex<Real>{{particle}});
   }
 };
 template <int Dim, class Real>
 struct SeepingBefore : SeepingNow<Dim, Real> {
   [[nodiscard]] THAWSLIDE_HD bool of_particle(std::uint32_t particle) const {
-    return band::any_seeped(this->physics, this->hydraulic, this->particles, mpm::One<Real>{{particle}});
+    return band::any_seeped(this->physics, this->hydraulic, this->particles, mpm::ScalarIndex<Real>{{particle}});
   }
 };
 
@@ -114,8 +114,8 @@ struct AddPressureLoad {
   struct InTile {
     typename ColumnsByTile<Dim, Real>::OfTile columns;
 
-    template <class Particles, class At, class Seen, class Added>
-    THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
+    template <class Particles, class At, class Seen, class Scatter>
+    THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
                                  Account& /*account*/) const {
       band::update_load(particles, at.particle[0], columns.flow_depth(particles, at));
     }

@@ -17,8 +17,8 @@ struct RunMonitor {
 
   mpm::MonitorKernel<Dim, Real> look;
 
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
                                Account& sums) const {
     sums = look(particles, at.particle[0]);
   }
@@ -35,8 +35,8 @@ struct FindExtremes {
   band::HydraulicConductivity<Real> hydraulic;
   band::FreeGaps<Real> free_gaps;
 
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
                                Account& found) const {
     found = band::extremes_of_particle<Dim>(physics, hydraulic, free_gaps, particles, at.particle[0]);
   }
@@ -51,8 +51,8 @@ struct SumOverBody {
 
   band::SumsOfParticle<Dim, Real> of_particle;
 
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Added& /*added*/,
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
                                Account& sums) const {
     sums = of_particle(particles, at.particle[0]);
   }

@@ -124,7 +124,7 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
   // Sums of the cell that goes on from one chunk to the next: what chunk `number` begins with.
   template <class Name>
   [[nodiscard]] THAWSLIDE_HD Real* open(std::size_t number) const {
-    return at<Real>(open_at) + (2 * before<Name, Adds...>() + number % 2 * mpm::carried_numbers<Name, Dim>)*cell_nodes;
+    return at<Real>(open_at) + (2 * before<Name, Adds...>() + number % 2 * mpm::scatter_size<Name, Dim>)*cell_nodes;
   }
   template <class Name>
   [[nodiscard]] THAWSLIDE_HD Real* read() const {
@@ -141,7 +141,7 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
   static constexpr std::size_t up(std::size_t bytes) { return (bytes + 15) / 16 * 16; }
   static constexpr std::size_t largest() {
     std::size_t most = 0;
-    ((most = most < mpm::carried_numbers<Adds, Dim> ? mpm::carried_numbers<Adds, Dim> : most), ...);
+    ((most = most < mpm::scatter_size<Adds, Dim> ? mpm::scatter_size<Adds, Dim> : most), ...);
     return most;
   }
   // Numbers that the records before a name in a list carry, or have in their patches.
@@ -150,7 +150,7 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
     if constexpr (std::is_same_v<Name, First>) {
       return 0;
     } else {
-      return mpm::carried_numbers<First, Dim> + before<Name, Rest...>();
+      return mpm::scatter_size<First, Dim> + before<Name, Rest...>();
     }
   }
   template <class Name, class First, class... Rest>
@@ -169,7 +169,7 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
       patch_at + up(static_cast<std::size_t>(mpm::Tile<Dim>::patch_nodes) * size * sizeof(Real));
   static constexpr std::size_t open_at = cell_sums_at + up(most_cells * cell_nodes * largest() * sizeof(Real));
   static constexpr std::size_t reads_at =
-      open_at + up(2 * cell_nodes * (std::size_t{0} + ... + mpm::carried_numbers<Adds, Dim>)*sizeof(Real));
+      open_at + up(2 * cell_nodes * (std::size_t{0} + ... + mpm::scatter_size<Adds, Dim>)*sizeof(Real));
 
   template <class What>
   [[nodiscard]] THAWSLIDE_HD What* at(std::size_t place) const {

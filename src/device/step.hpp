@@ -147,9 +147,9 @@ class Step {
     passes_.run(passes_.momentum(), mpm::AddMomentum<Dim, Real>{passes_.model.gravity, passes_.model.effective_stress,
                                                                 passes_.model.is_viscous()});
     passes_.if_affine([&](const auto& weights) {
-      passes_.run(passes_.over(weights, EveryTile{}), mpm::AddAffineMomentum<Dim, Real>{});
+      passes_.run(passes_.over(weights, AllTiles{}), mpm::AddAffineMomentum<Dim, Real>{});
     });
-    passes_.template sum<mpm::Momentum, void>(EveryTile{});
+    passes_.template sum<mpm::Momentum, void>(AllTiles{});
   }
 
   void resolve_contact(Real time, Real dt) {
@@ -198,14 +198,14 @@ class Step {
                  &sums_.data()->particle_kinetic);
     passes_.if_affine([&](const auto& weights) {
       using Affine = mpm::MoveAffine<Dim, Real>;
-      const auto* more = passes_.run(passes_.over(weights, EveryTile{}), Affine{dt});
+      const auto* more = passes_.run(passes_.over(weights, AllTiles{}), Affine{dt});
       passes_.backend.for_each(1, Add<Real>{&more->template of<Affine>(), &sums_.data()->particle_kinetic});
     });
     passes_.backend.for_each(1, Fill<Real>{&sums_.data()->filtered, Real(0)});
     if (passes_.model.filter_order > 0 && passes_.model.filters_in_step(time, dt)) {
       filter_velocities(passes_, &sums_.data()->filtered);
     }
-    passes_.template sum<mpm::Velocity, void>(EveryTile{});
+    passes_.template sum<mpm::Velocity, void>(AllTiles{});
     const std::size_t blocks = passes_.cells.tables().blocks;
     passes_.keep(block_pass<Dim>(passes_.backend, blocks, MapBack<Dim, Real>{passes_.nodes_in_step(time, dt)},
                                  passes_.memory.template sums<Real>(partial_sum_count(blocks))),

@@ -51,27 +51,27 @@ class StepPasses {
     }
   }
   // What a pass goes over: by linear shape functions, or by those of momentum.
-  template <class Takes = EveryTile>
-  [[nodiscard]] auto linear(const Takes& takes = {}) const {
-    return over(LinearWeights{}, takes);
+  template <class TileFilter = AllTiles>
+  [[nodiscard]] auto linear(const TileFilter& accepts = {}) const {
+    return over(LinearWeights{}, accepts);
   }
-  template <class Takes = EveryTile>
-  [[nodiscard]] auto momentum(const Takes& takes = {}) const {
-    return over(weights(), takes);
+  template <class TileFilter = AllTiles>
+  [[nodiscard]] auto momentum(const TileFilter& accepts = {}) const {
+    return over(weights(), accepts);
   }
-  template <class Weights, class Takes>
-  [[nodiscard]] PassOver<Weights, Takes, Dim, Real> over(const Weights& weights, const Takes& takes) const {
-    return {cells.tables(), particles.view(), weights, takes, model.cell};
+  template <class Weights, class TileFilter>
+  [[nodiscard]] PassOver<Weights, TileFilter, Dim, Real> over(const Weights& weights, const TileFilter& accepts) const {
+    return {cells.tables(), particles.view(), weights, accepts, model.cell};
   }
   template <class Over, class... Kernels>
   SumsOf<Kernels...>* run(const Over& over, const Kernels&... kernels) {
     return particle_pass(backend, memory, over, *this, kernels...);
   }
-  template <class Name, class Lowered, class Takes>
-  void sum(const Takes& takes) {
+  template <class Name, class MinReduced, class TileFilter>
+  void sum(const TileFilter& accepts) {
     const std::size_t numbers = of<Name>().size();
-    backend.for_each(numbers, SumPatches<Name, Lowered, Takes, Dim, Real>{cells.tables(), takes, memory.patches(0),
-                                                                          of<Name>().data()});
+    backend.for_each(numbers, SumPatches<Name, MinReduced, TileFilter, Dim, Real>{
+                                  cells.tables(), accepts, memory.patches(0), of<Name>().data()});
   }
   template <class Kernel, class Sum>
   Sum sum_over_particles(const Kernel& kernel, Array<Sum, Backend>& sum) {

@@ -39,7 +39,7 @@ void filter_velocities(StepPasses<Backend, Shape, Dim, Real>& passes, Real* gain
   passes.nodes.template resize_for<mpm::FilterMoments, mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>(
       nodes);
   const auto make_increments = [&](bool first) {
-    passes.template sum<mpm::FilterMomentum, void>(EveryTile{});
+    passes.template sum<mpm::FilterMomentum, void>(AllTiles{});
     passes.backend.for_each(
         nodes, MakeIncrement<Dim, Real>{
                    first, mpm::least_square_of(passes.model.cell), passes.template of<mpm::Momentum>().data(),
@@ -47,7 +47,7 @@ void filter_velocities(StepPasses<Backend, Shape, Dim, Real>& passes, Real* gain
                    passes.template of<mpm::FilterIncrement>().data(), passes.template of<mpm::FilterTotal>().data()});
   };
   passes.run(passes.momentum(), mpm::AddFilterMoments<Dim, Real>{});
-  passes.template sum<mpm::FilterMoments, void>(EveryTile{});
+  passes.template sum<mpm::FilterMoments, void>(AllTiles{});
   passes.run(passes.momentum(), mpm::AddFilterMomentum<Dim, Real>{});
   make_increments(true);
   for (int order = 2; order <= passes.model.filter_order; ++order) {

@@ -7,7 +7,7 @@
 
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
-#include "mpm/one.hpp"
+#include "mpm/scalar_index.hpp"
 #include "physics/body_contact.hpp"
 
 namespace thawslide::mpm {
@@ -103,7 +103,7 @@ std::vector<ParticleAbout<Dim, Real>> particles_about(const SparseGrid<Dim, Real
     for (std::uint32_t k = tile.first; k < tile.last; ++k) {
       const std::uint32_t p = grid.order()[k];
       ParticleAbout<Dim, Real> one;
-      one.place = particles.position.template load_vector<Dim>(One<Real>{p});
+      one.place = particles.position.template load_vector<Dim>(ScalarIndex<Real>{p});
       one.half = sizes.half(static_cast<std::size_t>(particles.body(p))) * grid.cell();
       bool reaches = true;
       for (std::size_t a = 0; a < Dim; ++a) {

@@ -27,10 +27,10 @@ struct CellNodes {
 // register, from there, to which the flux adds.
 template <int FluxGroup, std::size_t First, std::size_t Carried, int Dim, class Real, int Components>
 class CellSums {
-  using Added = Contribution<Dim, Real, Carried>;
-  using Register = typename Added::Register;
-  static constexpr std::size_t lanes = lane_count<Real>, size = record_size(Components);
-  static constexpr std::size_t groups = Added::groups, width = Added::width, nodes_per_axis = 3;
+  using Scatter = Contribution<Dim, Real, Carried>;
+  using Register = typename Scatter::Register;
+  static constexpr std::size_t lanes = simd_width<Real>, size = record_size(Components);
+  static constexpr std::size_t groups = Scatter::groups, width = Scatter::width, nodes_per_axis = 3;
   static constexpr std::size_t layers = Dim == 3 ? nodes_per_axis : 1, layer_nodes = nodes_per_axis * nodes_per_axis;
   static_assert(size % width == 0 && First % width == 0 && First + groups * width <= size);
 
@@ -43,11 +43,11 @@ class CellSums {
   void skip() { is_open_ = false; }
 
   // The next `count` particles in canonical order.
-  THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim, Real>& stencil, std::size_t count, const Added& carried) {
+  THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim, Real>& stencil, std::size_t count, const Scatter& carried) {
     Register value[groups][lanes], flux[Dim][lanes];
-    unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA { by_particle(&carried.value[g * width], value[g]); });
-    unrolled<static_cast<std::size_t>(Dim)>([&](auto a)
-                                                THAWSLIDE_INLINE_LAMBDA { by_particle(carried.flux[a], flux[a]); });
+    unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA { transpose_to_rows(&carried.value[g * width], value[g]); });
+    unrolled<static_cast<std::size_t>(Dim)>(
+        [&](auto a) THAWSLIDE_INLINE_LAMBDA { transpose_to_rows(carried.flux[a], flux[a]); });
     const auto& nodes = stencil.nodes.first;
     for (std::size_t first = 0, last = 0; first < count; first = last) {
       while (last < count && nodes[last] == nodes[first]) {
@@ -125,11 +125,11 @@ class CellSums {
 // same ones for all particles of a nearest node.
 template <bool HasFlux, std::size_t First, std::size_t Carried, int Dim, class Real, int Components>
 class LinearCellSums {
-  using Added = Contribution<Dim, Real, Carried>;
-  using Register = typename Added::Register;
-  static constexpr std::size_t lanes = lane_count<Real>, size = record_size(Components), width = Added::width;
+  using Scatter = Contribution<Dim, Real, Carried>;
+  using Register = typename Scatter::Register;
+  static constexpr std::size_t lanes = simd_width<Real>, size = record_size(Components), width = Scatter::width;
   static constexpr std::size_t nodes = CellNodes<Dim>::count;
-  static_assert(Added::groups == 1 && First % width == 0 && First + width <= size);
+  static_assert(Scatter::groups == 1 && First % width == 0 && First + width <= size);
 
  public:
   explicit LinearCellSums(Patch<Dim, Real, Components>& patch, std::uint64_t /*rows*/ = 0) : patch_(patch) {}
@@ -140,12 +140,12 @@ class LinearCellSums {
   void skip() { is_open_ = false; }
 
   // The next `count` particles in canonical order.
-  THAWSLIDE_ALWAYS_INLINE void add(const LinearStencil<Dim, Real>& linear, std::size_t count, const Added& carried) {
+  THAWSLIDE_ALWAYS_INLINE void add(const LinearStencil<Dim, Real>& linear, std::size_t count, const Scatter& carried) {
     Register value[lanes], flux[Dim][lanes];
-    by_particle(carried.value, value);
+    transpose_to_rows(carried.value, value);
     if constexpr (HasFlux) {
-      unrolled<static_cast<std::size_t>(Dim)>([&](auto a)
-                                                  THAWSLIDE_INLINE_LAMBDA { by_particle(carried.flux[a], flux[a]); });
+      unrolled<static_cast<std::size_t>(Dim)>(
+          [&](auto a) THAWSLIDE_INLINE_LAMBDA { transpose_to_rows(carried.flux[a], flux[a]); });
     }
     const auto corners = linear.corners();
     const auto& cells = linear.nodes.first;
@@ -215,7 +215,7 @@ class LinearCellSums {
 
 // What a batch brings to components that it lowers.
 template <int Dim, class Real>
-using GapsOfBatch = GapsToPlanes<Lanes<Real>, Dim, const Patch<Dim, Real, components_of<Planes, Dim>>*>;
+using GapsOfBatch = GapsToPlanes<Simd<Real>, Dim, const Patch<Dim, Real, components_of<Planes, Dim>>*>;
 
 // What particles lower component `Component` of the records of a patch to: the smallest gap to its node's plane of the
 // particles that the node sees, in whatever order.
@@ -240,24 +240,24 @@ class PatchMinima {
   THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim, Real>& stencil, std::size_t count,
                                    const GapsOfBatch<Dim, Real>& gaps) {
     const BatchNodes<Real>& nodes = stencil.nodes;
-    const auto in_first = lanes_before<Real>(nodes.runs == 1 ? lane_count<Real> : nodes.second_run);
+    const auto in_first = lanes_before<Real>(nodes.runs == 1 ? simd_width<Real> : nodes.second_run_begin);
     with_fetch(nodes, *gaps.planes, [&](const auto& fetch) {
       for_each_node<Dim>(
-          stencil.axis, 0, [&](std::size_t offset, Lanes<Real> weight, const Vector<Lanes<Real>, Dim>& /*slope*/) {
-            const Lanes<Real> gap = gap_to_plane<Dim>(gaps.place, gaps.reach,
-                                                      [&](std::size_t component)
-                                                          THAWSLIDE_INLINE_LAMBDA { return fetch(offset, component); });
+          stencil.axis, 0, [&](std::size_t offset, Simd<Real> weight, const Vector<Simd<Real>, Dim>& /*slope*/) {
+            const Simd<Real> gap = gap_to_plane<Dim>(gaps.place, gaps.reach,
+                                                     [&](std::size_t component)
+                                                         THAWSLIDE_INLINE_LAMBDA { return fetch(offset, component); });
             // A box that ends at the edge of a node's support overlaps it by round-off, or not.
-            const Lanes<Real> seen = select(weight > round_off<Real>, gap, Lanes<Real>(largest));
-            if (nodes.runs == BatchNodes<Real>::many_runs) {
+            const Simd<Real> seen = select(weight > round_off<Real>, gap, Simd<Real>(largest));
+            if (nodes.runs == BatchNodes<Real>::irregular) {
               for (std::size_t lane = 0; lane < count; ++lane) {
                 lower(nodes.first[lane], offset, seen[lane]);
               }
               return;
             }
-            lower(nodes.first[0], offset, smallest(select(in_first, seen, Lanes<Real>(largest))));
+            lower(nodes.first[0], offset, smallest(select(in_first, seen, Simd<Real>(largest))));
             if (nodes.runs == 2) {
-              lower(nodes.first[lane_count<Real> - 1], offset, smallest(select(in_first, Lanes<Real>(largest), seen)));
+              lower(nodes.first[simd_width<Real> - 1], offset, smallest(select(in_first, Simd<Real>(largest), seen)));
             }
           });
     });

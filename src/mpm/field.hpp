@@ -16,8 +16,8 @@
 #include "base/linear.hpp"
 #include "base/portability.hpp"
 #include "base/reorder.hpp"
-#include "mpm/batch.hpp"
 #include "mpm/field_view.hpp"
+#include "mpm/simd_batch.hpp"
 
 namespace thawslide::mpm {
 
@@ -77,7 +77,7 @@ class Field final : public FieldBase {
   // Reading a batch asks the memory for the block this many further on, which a loop will read some batches later.
   static constexpr std::size_t prefetched_blocks = 4;
   static constexpr std::size_t most_numbers = std::numeric_limits<std::int32_t>::max();  // as far as places() count
-  static_assert(lanes % lane_count<double> == 0 && lanes % lane_count<float> == 0);
+  static_assert(lanes % simd_width<double> == 0 && lanes % simd_width<float> == 0);
 
   Field(FieldList& list, const FieldInfo& info) : FieldBase(info) { list.add(this); }
 
@@ -107,15 +107,15 @@ class Field final : public FieldBase {
   }
 
   // The values of a batch, lane by lane.
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<T> load(const Batch<T>& batch, int component = 0) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Simd<T> load(const SimdBatch<T>& batch, int component = 0) const {
     if (batch.contiguous) {
       const T* numbers = &(*this)(batch.particle[0], component);
       prefetch(numbers, prefetched_blocks * lanes * Components * sizeof(T));
-      return Lanes<T>::load(numbers);
+      return Simd<T>::load(numbers);
     }
-    return Lanes<T>::gather(&data_[position(0, component)], places(batch));
+    return Simd<T>::gather(&data_[position(0, component)], places(batch));
   }
-  THAWSLIDE_ALWAYS_INLINE void store(const Batch<T>& batch, const Lanes<T>& values, int component = 0) {
+  THAWSLIDE_ALWAYS_INLINE void store(const SimdBatch<T>& batch, const Simd<T>& values, int component = 0) {
     if (batch.contiguous) {
       values.store(&(*this)(batch.particle[0], component));
       return;
@@ -123,30 +123,30 @@ class Field final : public FieldBase {
     values.scatter(&data_[position(0, component)], places(batch), batch.count);
   }
   // The value of one particle.
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE T load(const One<T>& one, int component = 0) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE T load(const ScalarIndex<T>& one, int component = 0) const {
     return (*this)(one.particle[0], component);
   }
-  THAWSLIDE_ALWAYS_INLINE void store(const One<T>& one, T value, int component = 0) {
+  THAWSLIDE_ALWAYS_INLINE void store(const ScalarIndex<T>& one, T value, int component = 0) {
     (*this)(one.particle[0], component) = value;
   }
   // Whole numbers, from and to a real type.
   template <class Real>
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Real load_whole(const One<Real>& one) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Real load_whole(const ScalarIndex<Real>& one) const {
     return static_cast<Real>((*this)(one.particle[0]));
   }
   template <class Real>
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<Real> load_whole(const Batch<Real>& batch) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Simd<Real> load_whole(const SimdBatch<Real>& batch) const {
     if (batch.contiguous) {
-      return Lanes<Real>::load_whole(&(*this)(batch.particle[0]));
+      return Simd<Real>::load_whole(&(*this)(batch.particle[0]));
     }
-    return Lanes<Real>::of([&](std::size_t lane) { return (*this)(batch.particle[lane]); });
+    return Simd<Real>::of([&](std::size_t lane) { return (*this)(batch.particle[lane]); });
   }
   template <class Real>
-  THAWSLIDE_ALWAYS_INLINE void store_whole(const One<Real>& one, Real value) {
+  THAWSLIDE_ALWAYS_INLINE void store_whole(const ScalarIndex<Real>& one, Real value) {
     (*this)(one.particle[0]) = static_cast<T>(value);
   }
   template <class Real>
-  THAWSLIDE_ALWAYS_INLINE void store_whole(const Batch<Real>& batch, const Lanes<Real>& values) {
+  THAWSLIDE_ALWAYS_INLINE void store_whole(const SimdBatch<Real>& batch, const Simd<Real>& values) {
     if (batch.contiguous) {
       values.store_whole(&(*this)(batch.particle[0]));
       return;
@@ -253,7 +253,7 @@ class Field final : public FieldBase {
     return place_in_field<Components>(particle, component);
   }
   // position(particle, 0), by lane.
-  THAWSLIDE_ALWAYS_INLINE static typename Lanes<T>::Whole places(const Batch<T>& batch) {
+  THAWSLIDE_ALWAYS_INLINE static typename Simd<T>::Whole places(const SimdBatch<T>& batch) {
     constexpr auto within = static_cast<std::int32_t>(lanes) - 1;
     const auto particle = whole_lanes<T>(batch.particle.data());
     return particle + (particle & ~within) * (Components - 1);

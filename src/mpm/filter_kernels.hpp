@@ -17,9 +17,9 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void carry(const Numbers& numbers, Carried&
 }
 
 // m v and m x x v of a velocity v at the place of a particle, to FilterMomentum.
-template <int Dim, class Value, class Added>
+template <int Dim, class Value, class Scatter>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void carry_momentum(Value mass, const Vector<Value, Dim>& place,
-                                                         const Vector<Value, Dim>& velocity, Added& added) {
+                                                         const Vector<Value, Dim>& velocity, Scatter& added) {
   auto& carried = added.template of<FilterMomentum>();
   const Vector<Value, Dim> momentum = mass * velocity;
   carry<0>(momentum, carried);
@@ -47,9 +47,9 @@ struct AddFilterMoments {
   using Adds = RecordList<FilterMoments>;
   using Account = NoAccount;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const Value mass = particles.mass.load(at);
     const Vector<Value, Dim> place = particles.position.template load_vector<Dim>(at);
@@ -67,9 +67,9 @@ struct AddFilterMomentum {
   using Adds = RecordList<FilterMomentum>;
   using Account = NoAccount;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     using Value = typename At::Value;
     carry_momentum<Dim>(particles.mass.load(at), Vector<Value, Dim>(particles.position.template load_vector<Dim>(at)),
                         Vector<Value, Dim>(particles.velocity.template load_vector<Dim>(at)), added);
@@ -83,9 +83,9 @@ struct SweepFilter {
   using Adds = RecordList<FilterMomentum>;
   using Account = NoAccount;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const Vector<Value, Dim> place = particles.position.template load_vector<Dim>(at);
     carry_momentum<Dim>(particles.mass.load(at), place, rigid_velocity<FilterIncrement, Dim>(seen, place), added);
@@ -100,9 +100,9 @@ struct ApplyFiltered {
   using Adds = RecordList<Velocity>;
   using Account = Real;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& gained) const {
+                                                       Scatter& added, Account& gained) const {
     using Value = typename At::Value;
     const Vector<Value, Dim> place = particles.position.template load_vector<Dim>(at);
     const Vector<Value, Dim> old = particles.velocity.template load_vector<Dim>(at);

@@ -3,7 +3,7 @@
 //   Reads, Adds   lists of the node records that it reads and that it adds to, or lowers (mpm/nodes.hpp)
 //   Account       what it sums over all particles
 //   operator()(particles, at, seen, added, account)
-// `at` names one particle, or a batch of them (mpm/batch.hpp): particles.FIELD.load(at) gives its numbers. What it
+// `at` names one particle, or a batch of them (mpm/simd_batch.hpp): particles.FIELD.load(at) gives its numbers. What it
 // reads of the nodes about it is seen.read<Record, Count>(), what it adds to them goes to added.of<Record>(). A kernel
 // has no loops, batches or patches in it; mpm/particle_pass.hpp runs it over all particles, or over some tiles'.
 #pragma once
@@ -66,8 +66,8 @@ inline constexpr RecordPart part_of<Name, Dim> = Name::template part<Dim>;
 
 // Whether particles lower the components of a name, each to the smallest number that one brings, instead of adding.
 template <class Name>
-concept IsLowered = requires {
-  requires Name::lowered;
+concept IsMinReduced = requires {
+  requires Name::min_reduced;
 };
 
 // Whether two names add to components of their own, and whether all of a list do. The order in which two would add to

@@ -45,8 +45,8 @@ struct CellSpans {
   Value first, last, first_share, inner_share, last_share;
 
   [[nodiscard]] THAWSLIDE_HD CellRange of_lane(std::size_t lane) const {
-    return {static_cast<int>(in_lane(first, lane)), static_cast<int>(in_lane(last, lane)), in_lane(first_share, lane),
-            in_lane(inner_share, lane), in_lane(last_share, lane)};
+    return {static_cast<int>(extract(first, lane)), static_cast<int>(extract(last, lane)), extract(first_share, lane),
+            extract(inner_share, lane), extract(last_share, lane)};
   }
 };
 

@@ -23,9 +23,9 @@ struct AddMomentum {
   bool viscous;               // some material is
   Width width{};
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& added, [[maybe_unused]] Account& of_walls) const {
+                                                       Scatter& added, [[maybe_unused]] Account& of_walls) const {
     using Layout = MomentumLayout<Dim>;
     using Value = typename At::Value;
     constexpr int row[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // of a symmetric tensor
@@ -80,9 +80,9 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Matrix<typename At::Value, Dim> affine_velo
 }
 
 // S m C (x_i - x_p), the momentum of the velocity about the particles, to the momentum of To: of Momentum, or Velocity.
-template <class To, int Dim, class Particles, class At, class Seen, class Added>
+template <class To, int Dim, class Particles, class At, class Seen, class Scatter>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add_affine_momentum(const Particles& particles, const At& at,
-                                                              const Seen& seen, Added& added) {
+                                                              const Seen& seen, Scatter& added) {
   using Value = typename At::Value;
   const Value mass = particles.mass.load(at);
   const Matrix<Value, Dim> moment =
@@ -100,9 +100,9 @@ struct AddAffineMomentum {
   using Adds = RecordList<AffineMomentum>;
   using Account = NoAccount;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     add_affine_momentum<AffineMomentum, Dim>(particles, at, seen, added);
   }
 };
@@ -117,9 +117,9 @@ struct Move {
 
   Real pic_share, dt;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& kinetic) const {
+                                                       Scatter& added, Account& kinetic) const {
     using Layout = MotionLayout<Dim>;
     using Value = typename At::Value;
     using VectorOfValues = Vector<Value, Dim>;
@@ -155,9 +155,9 @@ struct MoveAffine {
 
   Real dt;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& kinetic) const {
+                                                       Scatter& added, Account& kinetic) const {
     using Layout = MotionLayout<Dim>;
     using Value = typename At::Value;
     using Square = Matrix<Value, Dim>;

@@ -7,23 +7,24 @@ namespace thawslide::mpm {
 
 // Sums the contributions of particles to a block's records, from the tiles for which takes(t) is true. Returns the rows
 // of the block in which particles have nodes, one bit per row. Records of other rows have no meaning.
-template <class Name, int Dim, class Real, class Takes>
+template <class Name, int Dim, class Real, class TileFilter>
 std::uint32_t sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes,
-                        const Takes& takes) {
+                        const TileFilter& accepts) {
   auto& records = nodes.template of<Name>();
-  return sum_patches_in_block(grid, block, records.patches(grid.tiles().size()), records.of_block(block), takes);
+  return sum_patches_in_block(grid, block, records.patches(grid.tiles().size()), records.of_block(block), accepts);
 }
 template <class Name, int Dim, class Real>
 std::uint32_t sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes) {
   return sum_block<Name>(grid, block, nodes, every_tile);
 }
 // For a name reduced by minimum: the smallest numbers. Call it after summing the record of the name.
-template <IsLowered Name, int Dim, class Real, class Takes>
-void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes, const Takes& takes) {
+template <IsMinReduced Name, int Dim, class Real, class TileFilter>
+void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes,
+               const TileFilter& accepts) {
   auto& records = nodes.template of<Name>();
   unrolled<part_of<Name, Dim>.count>([&](auto c) {
     take_smallest_in_block<part_of<Name, Dim>.from + c>(grid, block, records.patches(grid.tiles().size()),
-                                                        records.of_block(block), takes);
+                                                        records.of_block(block), accepts);
   });
 }
 

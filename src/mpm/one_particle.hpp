@@ -9,9 +9,9 @@
 
 #include "base/linear.hpp"
 #include "base/select.hpp"
-#include "mpm/one.hpp"
 #include "mpm/reading.hpp"
 #include "mpm/records.hpp"
+#include "mpm/scalar_index.hpp"
 
 namespace thawslide::mpm {
 
@@ -35,8 +35,8 @@ using OneGaps = GapsToPlanes<Real, Dim, const Real*>;
 
 // What one particle carries to a record of some name.
 template <class Name, int Dim, class Real>
-using CarriedByOne = std::conditional_t<IsLowered<Name>, OneGaps<Real, Dim>,
-                                        OneContribution<Real, Dim, carried_numbers<Name, Dim>, Name::flux != no_flux>>;
+using CarriedByOne = std::conditional_t<IsMinReduced<Name>, OneGaps<Real, Dim>,
+                                        OneContribution<Real, Dim, scatter_size<Name, Dim>, Name::flux != no_flux>>;
 
 // Where a particle stands: from its nearest node, in cells; the lowest node that it sees, by its place in the tile's
 // patch; whether the nearest node lies, along each axis, on a side of the domain that prescribes velocity.
@@ -109,7 +109,7 @@ struct OneWeights {
 
 // What one particle sees of the records about it.
 template <class Weights, class Patches>
-struct SeenByOne {
+struct ScalarGather {
   const Weights& weights;
   const Patches& patches;
 

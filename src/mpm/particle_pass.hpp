@@ -91,7 +91,7 @@ struct BatchWeights<AffineWeights<Shape, Dim, Real>, Dim, Real>
 
 // What a batch sees of the records about it.
 template <class Weights, class Patches>
-struct SeenByBatch {
+struct BatchGather {
   const Weights& weights;
   const Patches& patches;
 
@@ -114,10 +114,10 @@ struct SeenByBatch {
 
 // What batches add to a record, and a tile's sums of it.
 template <class Name, int Dim, class Real>
-struct Adding {
+struct PartialSums {
   static constexpr int size = components_of<Name, Dim>;
   static constexpr std::size_t first = first_in_register<Name, Dim>;
-  static constexpr std::size_t carried = carried_numbers<Name, Dim>;
+  static constexpr std::size_t carried = scatter_size<Name, Dim>;
   static constexpr bool has_flux = Name::flux != no_flux;
   static_assert(first == 0 || carried <= record_step);
   using Carried = Contribution<Dim, Real, carried>;
@@ -125,39 +125,39 @@ struct Adding {
                                   LinearCellSums<has_flux, first, carried, Dim, Real, size>,
                                   CellSums<Name::flux, first, carried, Dim, Real, size>>;
 };
-template <IsLowered Name, int Dim, class Real>
-struct Adding<Name, Dim, Real> {
+template <IsMinReduced Name, int Dim, class Real>
+struct PartialSums<Name, Dim, Real> {
   static_assert(part_of<Name, Dim>.count == 1);
   using Carried = GapsOfBatch<Dim, Real>;
   using Sums = PatchMinima<part_of<Name, Dim>.from, Dim, Real, components_of<Name, Dim>>;
 };
 template <class Name, int Dim, class Real>
-using SumsOf = typename Adding<Name, Dim, Real>::Sums;
+using SumsOf = typename PartialSums<Name, Dim, Real>::Sums;
 
 // A tile at work: what its particles read and add to.
 template <class Reads, class Adds, int Dim, class Real>
-class TileWork;
+class TileScatter;
 template <class... Reads, class... Adds, int Dim, class Real>
-class TileWork<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
+class TileScatter<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
   using Patches = ByName<Named<Reads, PatchOf<Reads, Dim, Real>>...>;
 
  public:
   template <class Records>
-  TileWork([[maybe_unused]] const SparseGrid<Dim, Real>& grid, [[maybe_unused]] std::size_t tile,
-           [[maybe_unused]] Records& records)
+  TileScatter([[maybe_unused]] const SparseGrid<Dim, Real>& grid, [[maybe_unused]] std::size_t tile,
+              [[maybe_unused]] Records& records)
       : sums_{{SumsOf<Adds, Dim, Real>(cleared<Adds>(records, grid, tile), grid.rows_seen(tile))}...} {
     (load_patch(grid, tile, records.template of<Reads>(), patches_.template of<Reads>()), ...);
   }
 
   template <class Weights>
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE SeenByBatch<Weights, Patches> seen(const Weights& weights) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE BatchGather<Weights, Patches> seen(const Weights& weights) const {
     return {weights, patches_};
   }
 
-  using Added = ByName<Named<Adds, typename Adding<Adds, Dim, Real>::Carried>...>;
+  using Scatter = ByName<Named<Adds, typename PartialSums<Adds, Dim, Real>::Carried>...>;
   template <class Weights>
   THAWSLIDE_ALWAYS_INLINE void add([[maybe_unused]] const Weights& weights, [[maybe_unused]] std::size_t count,
-                                   [[maybe_unused]] const Added& added) {
+                                   [[maybe_unused]] const Scatter& added) {
     (sums_.template of<Adds>().add(weights.template of<typename Adds::Functions>(), count, added.template of<Adds>()),
      ...);
   }
@@ -200,10 +200,10 @@ THAWSLIDE_ALWAYS_INLINE decltype(auto) in_tile(const Kernel& kernel, std::size_t
 
 // Whether a pass takes what sees these nodes of a tile that it takes: a batch, or a particle with the lowest node's
 // place in the patch. All where takes(tile, nodes) says nothing of them.
-template <class Takes, class Nodes>
-THAWSLIDE_ALWAYS_INLINE bool takes_nodes(const Takes& takes, std::size_t tile, const Nodes& nodes) {
-  if constexpr (std::is_invocable_v<const Takes&, std::size_t, const Nodes&>) {
-    return takes(tile, nodes);
+template <class TileFilter, class Nodes>
+THAWSLIDE_ALWAYS_INLINE bool accepts_nodes(const TileFilter& accepts, std::size_t tile, const Nodes& nodes) {
+  if constexpr (std::is_invocable_v<const TileFilter&, std::size_t, const Nodes&>) {
+    return accepts(tile, nodes);
   } else {
     return true;
   }
@@ -227,27 +227,27 @@ constexpr void check_records() {
 // Runs kernels over the particles of the tiles that takes(t) names, those of takes(t, nodes) where it tells them apart,
 // one kernel after the other for each batch; what they add is in the patches then, to be summed by a node_pass.
 // Records: of Nodes.
-template <class Weights, int Dim, class Real, class Records, class Takes, class... Kernels>
+template <class Weights, int Dim, class Real, class Records, class TileFilter, class... Kernels>
 Accounts<Kernels...> particle_pass(const SparseGrid<Dim, Real>& grid, const Weights& weights,
-                                   Particles<Dim, Real>& particles, Records& records, const Takes& takes,
+                                   Particles<Dim, Real>& particles, Records& records, const TileFilter& accepts,
                                    const Kernels&... kernels) {
   using Reads = AllOf<typename Kernels::Reads...>;
   using Adds = AllOf<typename Kernels::Adds...>;
   check_records<Reads, Adds, Dim>();
   take_patches(Adds{}, grid.tiles().size(), records);
   return parallel_sum<Accounts<Kernels...>>(grid.tiles().size(), [&](std::size_t t, Accounts<Kernels...>& accounts) {
-    if (!takes(t)) {
+    if (!accepts(t)) {
       return;
     }
-    TileWork<Reads, Adds, Dim, Real> work(grid, t, records);
+    TileScatter<Reads, Adds, Dim, Real> work(grid, t, records);
     const auto run = [&]<std::size_t... K>(std::index_sequence<K...> /*kernels*/, const auto&... of_tile) {
       for (const TileBatch<Dim, Real>& batch : grid.batches(t)) {
-        if (!takes_nodes(takes, t, batch.nodes)) {
+        if (!accepts_nodes(accepts, t, batch.nodes)) {
           work.skip();
           continue;
         }
         const BatchWeights<Weights, Dim, Real> of_batch(weights, grid, particles, batch);
-        typename TileWork<Reads, Adds, Dim, Real>::Added added;
+        typename TileScatter<Reads, Adds, Dim, Real>::Scatter added;
         (of_tile(particles, batch, work.seen(of_batch), added, std::get<K>(accounts)), ...);
         work.add(of_batch, batch.count, added);
       }
@@ -269,7 +269,7 @@ typename Kernel::Account for_particles_in_memory(Particles<Dim, Real>& particles
     const ByName<> seen{};
     ByName<> added{};
     const std::size_t last = std::min(particles.size(), (task + 1) * chunk);
-    for (std::size_t p = task * chunk; p < last; p += Batch<Real>::most) {
+    for (std::size_t p = task * chunk; p < last; p += SimdBatch<Real>::most) {
       kernel(particles, batch_in_memory<Real>(p, last), seen, added, account);
     }
   });

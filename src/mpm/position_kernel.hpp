@@ -21,9 +21,9 @@ struct UpdatePosition {
 
   Vector<Real, Dim> lower, upper;  // [m]
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& /*added*/, Account& invalid) const {
+                                                       Scatter& /*added*/, Account& invalid) const {
     using std::abs, std::sqrt, thawslide::select;
     using Value = typename At::Value;
     using VectorOfValues = Vector<Value, Dim>;

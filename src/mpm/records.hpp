@@ -77,7 +77,7 @@ struct NearGroundByLinear : NearGround {
 // The smallest gap between a node's plane and the particles that it sees with the momentum shape functions.
 struct Clearance : NearGround {
   using Owner = NearGround;
-  static constexpr bool lowered = true;
+  static constexpr bool min_reduced = true;
   template <int Dim>
   static constexpr RecordPart part{clearance, 1};
 };
@@ -291,8 +291,8 @@ concept OfAnOwner = requires {
 // Numbers that a particle carries to a record, from the register on that holds the first one; or brings to one that it
 // lowers.
 template <class Name, int Dim>
-inline constexpr std::size_t carried_numbers =
-    IsLowered<Name> ? part_of<Name, Dim>.count : place_in_register<Name, Dim> + part_of<Name, Dim>.count;
+inline constexpr std::size_t scatter_size =
+    IsMinReduced<Name> ? part_of<Name, Dim>.count : place_in_register<Name, Dim> + part_of<Name, Dim>.count;
 
 // What a batch, or one particle, brings to a component that it lowers: its gap to the plane of each node that it sees.
 // PlanesRead: how it reads the nodes' records of Planes.

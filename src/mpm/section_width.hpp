@@ -61,11 +61,11 @@ struct UnevenWidth {
 
   template <class Value>
   [[nodiscard]] Value at(const Value& x) const {
-    return each_lane(x, [&](Real one) { return width.at(one); });
+    return map_lanes(x, [&](Real one) { return width.at(one); });
   }
   template <class Value>
   [[nodiscard]] Value widening(const Value& x) const {
-    return each_lane(x, [&](Real one) { return width.widening(one); });
+    return map_lanes(x, [&](Real one) { return width.widening(one); });
   }
 };
 

@@ -20,10 +20,10 @@ constexpr std::size_t none = ~std::size_t{0};
 
 // Places of nodes in the patch of a tile, from their numbers along the axes.
 template <int Dim, class Real>
-BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Lanes<Real>, Dim>& lowest) {
+BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Simd<Real>, Dim>& lowest) {
   using T = Tile<Dim>;
   const typename T::Index tile = T::index(tile_key);
-  Lanes<Real> place = Real(0);
+  Simd<Real> place = Real(0);
   for (int a = Dim - 1; a >= 0; --a) {
     const auto before = static_cast<Real>(tile[static_cast<std::size_t>(a)] * T::edge - 1);
     place = place * Real(T::patch_edge) + (lowest[a] - before);
@@ -31,11 +31,11 @@ BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Lanes<Real>, Di
   BatchNodes<Real> nodes;
   place.store_whole(nodes.first.data());
   nodes.runs = 1;
-  nodes.second_run = 0;
-  for (std::uint8_t lane = 1; lane < lane_count<Real>; ++lane) {
+  nodes.second_run_begin = 0;
+  for (std::uint8_t lane = 1; lane < simd_width<Real>; ++lane) {
     if (nodes.first[lane] != nodes.first[lane - 1u]) {
-      nodes.second_run = nodes.runs == 1 ? lane : nodes.second_run;
-      nodes.runs = nodes.runs == 1 ? 2 : BatchNodes<Real>::many_runs;
+      nodes.second_run_begin = nodes.runs == 1 ? lane : nodes.second_run_begin;
+      nodes.runs = nodes.runs == 1 ? 2 : BatchNodes<Real>::irregular;
     }
   }
   return nodes;
@@ -82,7 +82,7 @@ void SparseGrid<Dim, Real>::update_sort_heuristic(bool sorted) {
     disorder_ = 0;
     fewest_broken_ = broken;
   } else if (broken > fewest_broken_) {
-    const std::size_t contiguous = order_.size() / Batch<Real>::most + 1;
+    const std::size_t contiguous = order_.size() / SimdBatch<Real>::most + 1;
     disorder_ += static_cast<double>(broken - fewest_broken_) / static_cast<double>(contiguous);
   }
 }
@@ -108,7 +108,7 @@ bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) 
   const std::size_t tasks = (count + keys_per_task - 1) / keys_per_task;
   task_movers_.resize(tasks);
   parallel_for(tasks, [&](std::size_t task) {
-    constexpr std::size_t most = Batch<Real>::most;
+    constexpr std::size_t most = SimdBatch<Real>::most;
     const std::size_t last = std::min(count, (task + 1) * keys_per_task);
     task_movers_[task].clear();
     for (std::size_t first = task * keys_per_task; first < last; first += most) {
@@ -281,7 +281,7 @@ void SparseGrid<Dim, Real>::make_stale_batches(const Particles<Dim, Real>& parti
 // Particles, as many as lanes, that stand side by side in memory go together, the others fill up batches.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, std::size_t t) {
-  constexpr std::size_t most = Batch<Real>::most;
+  constexpr std::size_t most = SimdBatch<Real>::most;
   const OccupiedTile& tile = tiles_[t];
   const auto material = [&](std::uint32_t k) { return one_material_ ? 0 : particles.material(order_[k]); };
   const auto side_by_side = [&](std::uint32_t k) {
@@ -308,7 +308,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
     for (std::size_t lane = batch.count; lane < most; ++lane) {
       batch.particle[lane] = batch.particle[batch.count - 1];
     }
-    Vector<Lanes<Real>, Dim> before_nearest;
+    Vector<Simd<Real>, Dim> before_nearest;
     for (int a = 0; a < Dim; ++a) {
       auto& nearest = batch.nearest[static_cast<std::size_t>(a)];
       if (batch.contiguous) {
@@ -317,7 +317,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
       for (std::size_t lane = 0; !batch.contiguous && lane < most; ++lane) {
         nearest[lane] = nearest_[in_nearest(batch.particle[lane], static_cast<std::size_t>(a))];
       }
-      before_nearest[a] = Lanes<Real>::load_whole(nearest.data()) - Real(1);
+      before_nearest[a] = Simd<Real>::load_whole(nearest.data()) - Real(1);
     }
     batch.nodes = nodes_from<Dim, Real>(tile.key, before_nearest);
     batch.nodes.goes_on = false;

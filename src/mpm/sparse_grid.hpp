@@ -118,7 +118,7 @@ class SparseGrid {
   void make_batches(const Particles<Dim, Real>& particles, std::size_t t);
   // Place in nearest_ of a particle's number along an axis: as many particles as lanes side by side, axis after axis.
   static std::size_t in_nearest(std::size_t particle, std::size_t axis) {
-    constexpr std::size_t most = Batch<Real>::most;
+    constexpr std::size_t most = SimdBatch<Real>::most;
     return (particle / most * Dim + axis) * most + particle % most;
   }
 

@@ -9,8 +9,8 @@ template <int Dim, class Real>
 void SparseGrid<Dim, Real>::add_appended(const Particles<Dim, Real>& particles) {
   const std::size_t before = keys_.size(), count = particles.size();
   keys_.resize(count, no_key);
-  moved_.resize(count + Batch<Real>::most, 0);
-  nearest_.resize((count + Batch<Real>::most) * Dim, never);
+  moved_.resize(count + SimdBatch<Real>::most, 0);
+  nearest_.resize((count + SimdBatch<Real>::most) * Dim, never);
   for (std::size_t p = before; p < count; ++p) {
     for (std::size_t a = 0; a < Dim; ++a) {
       nearest_[in_nearest(p, a)] = never;
@@ -31,8 +31,8 @@ void SparseGrid<Dim, Real>::remove(const Particles<Dim, Real>& particles, const 
     }
   }
   keys_.resize(count);
-  moved_.resize(count + Batch<Real>::most);
-  nearest_.resize((count + Batch<Real>::most) * Dim);
+  moved_.resize(count + SimdBatch<Real>::most);
+  nearest_.resize((count + SimdBatch<Real>::most) * Dim);
   drop_from_tiles(now_at);
   order_.resize(count);
   make_stale_batches(particles);

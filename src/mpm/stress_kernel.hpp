@@ -52,9 +52,9 @@ struct Deform {
   Real dt;
   Width width{};
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& /*added*/, Account& account) const {
+                                                       Scatter& /*added*/, Account& account) const {
     using Value = typename At::Value;
     using Tensor = SymmetricTensor<Value>;
     const auto velocity = seen.template read<Velocity, Dim>();
@@ -158,8 +158,8 @@ struct UpdateStress {
   Real dt;
   Width width{};
 
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
                                           Account& account) const {
     const MaterialModel<Real>& material = materials[static_cast<std::size_t>(particles.material(at.particle[0]))];
     const auto deform = [&]<class Law>(const Law& law) {

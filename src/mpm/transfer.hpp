@@ -15,8 +15,8 @@
 
 #include "base/aligned.hpp"
 #include "base/error.hpp"
-#include "base/lanes.hpp"
 #include "base/parallel.hpp"
+#include "base/simd.hpp"
 #include "mpm/reading.hpp"
 #include "mpm/records.hpp"
 #include "mpm/shared_rows.hpp"
@@ -26,7 +26,7 @@ namespace thawslide::mpm {
 
 // The widest register that records fill.
 template <class Real, int Components>
-using RecordRegister = Lanes<Real, record_size(Components) % lane_count<Real> == 0 ? lane_count<Real> : record_step>;
+using RecordRegister = Simd<Real, record_size(Components) % simd_width<Real> == 0 ? simd_width<Real> : record_step>;
 
 // The records about one tile, with a margin of one node.
 template <int Dim, class Real, int Components>
@@ -166,10 +166,10 @@ std::uint32_t rows_seen_in_block(const SparseGrid<Dim, Real>& grid, std::size_t 
 // Sums patches at the nodes of one block, from the tiles for which takes(t) is true, always in the same order: the
 // block's own tile, then those around it. Only rows in which a patch's own particles have nodes are added. Returns the
 // rows of the block in which particles of any tile have nodes, one bit per row; other records are not computed.
-template <int Dim, class Real, int Components, class Takes>
+template <int Dim, class Real, int Components, class TileFilter>
 std::uint32_t sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
                                    std::span<Patch<Dim, Real, Components>> patches,
-                                   typename Patch<Dim, Real, Components>::Record* records, const Takes& takes) {
+                                   typename Patch<Dim, Real, Components>::Record* records, const TileFilter& accepts) {
   using Record = typename Patch<Dim, Real, Components>::Record;
   using Register = RecordRegister<Real, Components>;
   constexpr std::size_t size = std::tuple_size_v<Record>, edge = static_cast<std::size_t>(Tile<Dim>::edge);
@@ -185,7 +185,7 @@ std::uint32_t sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_
     if ((rows & shared_rows<Dim, opposite<Dim>(d)>()) == 0) {
       return;
     }
-    if (!takes(tile)) {
+    if (!accepts(tile)) {
       seen |= rows_in_block<Dim, d>(rows);
       return;
     }
@@ -251,16 +251,16 @@ void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Compo
 
 // Of one component at the nodes of one block: the smallest number that the patches hold of the tiles that
 // takes(t) names, or the largest there is.
-template <std::size_t Component, int Dim, class Real, int Components, class Takes>
+template <std::size_t Component, int Dim, class Real, int Components, class TileFilter>
 void take_smallest_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
                             std::span<Patch<Dim, Real, Components>> patches,
-                            typename Patch<Dim, Real, Components>::Record* records, const Takes& takes) {
+                            typename Patch<Dim, Real, Components>::Record* records, const TileFilter& accepts) {
   for (std::size_t k = 0; k < NodeRecords<Dim, Real, Components>::nodes; ++k) {
     records[k][Component] = std::numeric_limits<Real>::max();
   }
   const std::int32_t* tiles = grid.tiles_about_block(block);
   for_each_direction<Dim>([&](auto d) {
-    if (tiles[d] != KeyIndex::absent && takes(static_cast<std::size_t>(tiles[d]))) {
+    if (tiles[d] != KeyIndex::absent && accepts(static_cast<std::size_t>(tiles[d]))) {
       const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
       for_shared_nodes<Dim, opposite<Dim>(d)>(
           [&](std::size_t in_block, std::size_t in_patch) {

@@ -30,7 +30,7 @@ THAWSLIDE_HD int whole_exponent(Real exponent) {
 template <class Value, class Real>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent, int whole) {
   if (whole < 0) {
-    return rarely(base, [&](Real number) { return std::pow(number, exponent); });
+    return cold_call(base, [&](Real number) { return std::pow(number, exponent); });
   }
   constexpr int usual = 5;  // Eq. 24
   if (whole == usual) {
@@ -64,7 +64,7 @@ struct PowerLawCurve {
     const Value base = Real(1) - min(above, Value(0));
     const Value inverse = Real(1) / base;
     const Value s = power(inverse, exponent, whole);
-    const Value frozen_integral = exponent == Real(1) ? -each_lane(base, [](Real number) { return std::log(number); })
+    const Value frozen_integral = exponent == Real(1) ? -map_lanes(base, [](Real number) { return std::log(number); })
                                                       : (base * s - Real(1)) / (exponent - Real(1));
     return {s, select(above > Real(0), Value(0), exponent * s * inverse),
             select(above > Real(0), above, frozen_integral)};

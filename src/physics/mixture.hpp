@@ -96,7 +96,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value exponential_minus_one(Value x) {
   if (!any(!is_small)) {
     return series;
   }
-  return select(is_small, series, rarely(x, [](auto number) { return std::expm1(number); }));
+  return select(is_small, series, cold_call(x, [](auto number) { return std::expm1(number); }));
 }
 
 // log(a/b); for ratios near 1, as those of absolute temperatures are, by its series 2 artanh((a - b)/(a + b)), which is
@@ -117,7 +117,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value log_of_ratio(Value a, Value b) {
   if (!any(!is_small)) {
     return series;
   }
-  return select(is_small, series, rarely(a / b, [](auto number) { return std::log(number); }));
+  return select(is_small, series, cold_call(a / b, [](auto number) { return std::log(number); }));
 }
 
 // Eq. 6 integrated over a step: the grains keep their mass, so 1 - n falls with the volume and grows with their thermal

@@ -158,7 +158,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   // w: the share of the strength that softens which is left.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value share_left(Value plastic_strain) const {
-    return each_lane(softening_rate_ * plastic_strain, [](Real strains) { return std::exp(-strains); });
+    return map_lanes(softening_rate_ * plastic_strain, [](Real strains) { return std::exp(-strains); });
   }
 
   // Of a share of the friction's sine and of a cohesion [Pa].

@@ -115,7 +115,7 @@ BlockBase BlockColumn::base(double /*normal_pressure*/) const {
     base.temperature += weight * rows_.temperature(p);
     base.saturation += weight * rows_.liquid_saturation(p);
     base.solid_fraction +=
-        weight * terrain::basal_solid_fraction(model_.phases, model_.lubrication, rows_, mpm::One<double>{{p}});
+        weight * terrain::basal_solid_fraction(model_.phases, model_.lubrication, rows_, mpm::ScalarIndex<double>{{p}});
   }
   return {base.pore_pressure / weights, base.saturation / weights, base.solid_fraction / weights,
           base.temperature / weights};

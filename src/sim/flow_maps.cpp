@@ -194,14 +194,14 @@ void FlowMaps::add_stack(const Grid& grid, const Particles& particles, const Sta
 
 // Its heat and pressure count to the cells that the slide may reach, by the share of its width over each.
 void FlowMaps::add_segment(const SegmentBelow& segment) {
-  using One = Lanes<double>;
-  const mpm::CellRange x = mpm::cell_spans(One((segment.x - cells_.corner_x) * cells_.inverse_cell_x),
-                                           One(segment.half_x * cells_.inverse_cell_x),
-                                           One(0.5 * map_grid_.cell_x / segment.half_x), map_grid_.columns)
+  using ScalarIndex = Simd<double>;
+  const mpm::CellRange x = mpm::cell_spans(ScalarIndex((segment.x - cells_.corner_x) * cells_.inverse_cell_x),
+                                           ScalarIndex(segment.half_x * cells_.inverse_cell_x),
+                                           ScalarIndex(0.5 * map_grid_.cell_x / segment.half_x), map_grid_.columns)
                                .of_lane(0);
-  const mpm::CellRange y = mpm::cell_spans(One((segment.y - cells_.corner_y) * cells_.inverse_cell_y),
-                                           One(segment.half_y * cells_.inverse_cell_y),
-                                           One(0.5 * map_grid_.cell_y / segment.half_y), map_grid_.rows)
+  const mpm::CellRange y = mpm::cell_spans(ScalarIndex((segment.y - cells_.corner_y) * cells_.inverse_cell_y),
+                                           ScalarIndex(segment.half_y * cells_.inverse_cell_y),
+                                           ScalarIndex(0.5 * map_grid_.cell_y / segment.half_y), map_grid_.rows)
                                .of_lane(0);
   const mpm::BandSums band{segment.area, segment.area * segment.temperature, segment.area * segment.pressure};
   for (int row = y.first; row <= y.last; ++row) {

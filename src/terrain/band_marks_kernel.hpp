@@ -14,9 +14,9 @@ struct LeaveBand {
   using Adds = mpm::RecordList<>;
   using Account = mpm::NoAccount;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& /*added*/, Account& /*account*/) const {
+                                                       Scatter& /*added*/, Account& /*account*/) const {
     particles.in_band.store_whole(at, typename At::Value(Real(0)));
   }
 };
@@ -30,9 +30,9 @@ struct MarkBand {
 
   Real dt;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& /*added*/, Account& /*account*/) const {
+                                                       Scatter& /*added*/, Account& /*account*/) const {
     using mpm::Contact;
     using Value = typename At::Value;
     const auto contact = seen.template read<Contact, 3>().value;

@@ -25,9 +25,9 @@ struct LowerClearance {
   using Adds = mpm::RecordList<mpm::Clearance>;
   using Account = mpm::NoAccount;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     auto& gaps = added.template of<mpm::Clearance>();
     unrolled<static_cast<std::size_t>(Dim)>(
         [&](auto a) THAWSLIDE_INLINE_LAMBDA { gaps.place[a] = particles.position.load(at, static_cast<int>(a())); });
@@ -47,9 +47,9 @@ struct AddNearGround {
   physics::Phases<Real> phases;
   bool lubrication;  // off: the solid fraction is that of the initial porosity and saturation
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& account) const {
+                                                       Scatter& added, Account& account) const {
     using mpm::NearGround, mpm::NearGroundByLinear;
     using Value = typename At::Value;
     const Value mass = particles.mass.load(at), volume = particles.volume.load(at);

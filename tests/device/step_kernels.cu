@@ -80,7 +80,7 @@ __device__ void visit(const TileOnDevice<Dim>& tile, typename CarriedOf<Dim, typ
     return;
   }
   mpm::ParticleView<Dim, Real> particles = tile.particles;
-  const mpm::One<Real> at{{tile.particle[k]}};
+  const mpm::ScalarIndex<Real> at{{tile.particle[k]}};
   mpm::OnePlace<Dim, Real> place{{}, tile.first_node[k], {}};
   for (std::size_t a = 0; a < Dim; ++a) {
     const std::int32_t nearest = tile.nearest[a][k];
@@ -92,7 +92,7 @@ __device__ void visit(const TileOnDevice<Dim>& tile, typename CarriedOf<Dim, typ
   weights.set_linear(place, tile.inverse_cell);
   weights.template set_momentum<Shape>(place, tile.sizes.of(particles, at), tile.inverse_cell);
   weights.template set_affine<Shape>(place, tile.cell, tile.inverse_cell);
-  const mpm::SeenByOne<mpm::OneWeights<Dim, Real>, decltype(patches)> seen{weights, patches};
+  const mpm::ScalarGather<mpm::OneWeights<Dim, Real>, decltype(patches)> seen{weights, patches};
   typename CarriedOf<Dim, typename Kernel::Adds>::Type added{};
   typename Kernel::Account account{};
   kernel(particles, at, seen, added, account);
@@ -262,7 +262,7 @@ __global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim,
 // The columns of the slide: what a box overlaps, a column at the body's edge, and the load of a particle below one.
 template <int Dim>
 __global__ void box_in_columns(std::uint64_t tile_key, TileOnDevice<Dim> tile, band::Overlaps<Dim, Real>* overlaps) {
-  const mpm::One<Real> at{{tile.particle[threadIdx.x]}};
+  const mpm::ScalarIndex<Real> at{{tile.particle[threadIdx.x]}};
   overlaps[threadIdx.x] = band::overlaps<Dim>(band::first_cell_of<Dim>(tile_key), tile.cell, tile.inverse_cell,
                                               tile.sizes, tile.particles, at);
 }
@@ -278,7 +278,7 @@ __global__ void column(std::uint64_t tile_key, Real cell, const bool* filled, co
 }
 template <int Dim>
 __global__ void load(TileOnDevice<Dim> tile, band::ColumnsOfTile<Dim, Real, band::NumbersOfColumns<Real>> columns) {
-  const mpm::One<Real> at{{tile.particle[threadIdx.x]}};
+  const mpm::ScalarIndex<Real> at{{tile.particle[threadIdx.x]}};
   band::update_load(tile.particles, at.particle[0], columns.flow_depth(tile.particles, at));
 }
 

@@ -78,7 +78,7 @@ std::vector<double> on_device(Scene<Dim>& scene, Host host) {
   for (std::size_t t = 0, k = 0; t < tables.tiles; ++t) {
     const auto loading = columns.loading(tables).of_tile(t);
     for (; k < tables.first_of_cell[(t + 1) * nodes]; ++k) {
-      numbers.push_back(loading.flow_depth(on_host.view(), mpm::One<double>{{tables.order[k]}}));
+      numbers.push_back(loading.flow_depth(on_host.view(), mpm::ScalarIndex<double>{{tables.order[k]}}));
     }
   }
   return numbers;

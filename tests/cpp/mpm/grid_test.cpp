@@ -128,8 +128,8 @@ void expect_runs(const BatchNodes<double>& nodes) {
       begins.push_back(lane);
     }
   }
-  EXPECT_EQ(nodes.runs, std::min<std::size_t>(begins.size(), BatchNodes<double>::many_runs));
-  EXPECT_TRUE(begins.size() != 2 || nodes.second_run == begins[1]);
+  EXPECT_EQ(nodes.runs, std::min<std::size_t>(begins.size(), BatchNodes<double>::irregular));
+  EXPECT_TRUE(begins.size() != 2 || nodes.second_run_begin == begins[1]);
 }
 
 template <int Dim>

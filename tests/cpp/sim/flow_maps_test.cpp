@@ -49,7 +49,7 @@ const MapKind& kind(const std::string& name) {
 
 // Of a box on an axis of ten cells.
 mpm::CellRange cells_below(double middle, double half) {
-  return mpm::cell_spans(Lanes<double>(middle), Lanes<double>(half), Lanes<double>(0.5 / half), 10).of_lane(0);
+  return mpm::cell_spans(Simd<double>(middle), Simd<double>(half), Simd<double>(0.5 / half), 10).of_lane(0);
 }
 
 TEST(CellRange, SharesAreThoseOfTheBoxAndSumToOne) {

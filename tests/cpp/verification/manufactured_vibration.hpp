@@ -114,7 +114,7 @@ class ManufacturedVibration {
               mpm::make_stencil<decltype(shape)>(grid_, batch, place, model_.sizes.of(particles_, batch), model_.sides);
           mpm::Contribution<2, double, 2> force;
           for (std::size_t a = 0; a < 2; ++a) {
-            force.value[a] = Lanes<double>::of([&](std::size_t lane) {
+            force.value[a] = Simd<double>::of([&](std::size_t lane) {
               const std::uint32_t p = batch.particle[lane];
               return particles_.mass(p) * body_force(start(p))[static_cast<int>(a)];
             });

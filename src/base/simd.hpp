@@ -38,10 +38,10 @@ inline constexpr std::size_t register_bytes = 64;
 inline constexpr std::size_t register_bytes = 32;
 #endif
 template <class Real>
-inline constexpr std::size_t lane_count = std::min<std::size_t>(register_bytes / sizeof(Real), 8);
+inline constexpr std::size_t simd_width = std::min<std::size_t>(register_bytes / sizeof(Real), 8);
 
 // Whole numbers side by side in memory.
-template <class Real, std::size_t Count = lane_count<Real>, class Number>
+template <class Real, std::size_t Count = simd_width<Real>, class Number>
 THAWSLIDE_ALWAYS_INLINE typename LaneRegister<Real, Count>::Whole whole_lanes(const Number* numbers) {
   static_assert(sizeof(Number) == sizeof(std::int32_t));
   typename LaneRegister<Real, Count>::Whole whole;
@@ -50,21 +50,21 @@ THAWSLIDE_ALWAYS_INLINE typename LaneRegister<Real, Count>::Whole whole_lanes(co
 }
 
 // One yes or no a lane.
-template <class Real, std::size_t Count = lane_count<Real>>
-class LaneMask {
+template <class Real, std::size_t Count = simd_width<Real>>
+class SimdMask {
  public:
   using Native = typename LaneRegister<Real, Count>::Flags;
 
-  LaneMask() = default;
-  THAWSLIDE_ALWAYS_INLINE explicit LaneMask(Native native) : native_(native) {}
+  SimdMask() = default;
+  THAWSLIDE_ALWAYS_INLINE explicit SimdMask(Native native) : native_(native) {}
 
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE bool operator[](std::size_t lane) const { return native_[lane] != 0; }
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Native native() const { return native_; }
 
-  THAWSLIDE_ALWAYS_INLINE friend LaneMask operator&(LaneMask a, LaneMask b) { return LaneMask(a.native_ & b.native_); }
-  THAWSLIDE_ALWAYS_INLINE friend LaneMask operator|(LaneMask a, LaneMask b) { return LaneMask(a.native_ | b.native_); }
-  THAWSLIDE_ALWAYS_INLINE friend LaneMask operator!(LaneMask a) { return LaneMask(~a.native_); }
-  THAWSLIDE_ALWAYS_INLINE friend bool any(LaneMask a) {
+  THAWSLIDE_ALWAYS_INLINE friend SimdMask operator&(SimdMask a, SimdMask b) { return SimdMask(a.native_ & b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend SimdMask operator|(SimdMask a, SimdMask b) { return SimdMask(a.native_ | b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend SimdMask operator!(SimdMask a) { return SimdMask(~a.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend bool any(SimdMask a) {
 #ifdef __AVX512F__
     if constexpr (sizeof(Native) == 64) {
       return _mm512_test_epi64_mask(__m512i(a.native_), __m512i(a.native_)) != 0;
@@ -87,30 +87,30 @@ class LaneMask {
   Native native_;
 };
 
-template <class Real, std::size_t Count = lane_count<Real>>
-class Lanes {
+template <class Real, std::size_t Count = simd_width<Real>>
+class Simd {
  public:
   static constexpr std::size_t count = Count;
   using Native = typename LaneRegister<Real, Count>::Numbers;
-  using Mask = LaneMask<Real, Count>;
+  using Mask = SimdMask<Real, Count>;
   using Whole = typename LaneRegister<Real, Count>::Whole;
 
-  Lanes() = default;
+  Simd() = default;
   // The same number in all lanes.
-  THAWSLIDE_ALWAYS_INLINE Lanes(Real number) : native_(number - Native{}) {}
-  THAWSLIDE_ALWAYS_INLINE explicit Lanes(Native native) : native_(native) {}
+  THAWSLIDE_ALWAYS_INLINE Simd(Real number) : native_(number - Native{}) {}
+  THAWSLIDE_ALWAYS_INLINE explicit Simd(Native native) : native_(native) {}
 
   // From and to `count` numbers side by side, on a boundary of their size.
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Lanes load(const Real* numbers) {
-    return Lanes(Native(*reinterpret_cast<const typename LaneRegister<Real, Count>::Stored*>(numbers)));
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd load(const Real* numbers) {
+    return Simd(Native(*reinterpret_cast<const typename LaneRegister<Real, Count>::Stored*>(numbers)));
   }
   THAWSLIDE_ALWAYS_INLINE void store(Real* numbers) const {
     *reinterpret_cast<typename LaneRegister<Real, Count>::Stored*>(numbers) = native_;
   }
 
   // Whole numbers, from and to `count` places side by side.
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Lanes load_whole(const std::int32_t* numbers) {
-    return Lanes(__builtin_convertvector(whole_lanes<Real, Count>(numbers), Native));
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd load_whole(const std::int32_t* numbers) {
+    return Simd(__builtin_convertvector(whole_lanes<Real, Count>(numbers), Native));
   }
   THAWSLIDE_ALWAYS_INLINE void store_whole(std::int32_t* numbers) const {
     const Whole numbers_of_lanes = whole();
@@ -120,19 +120,19 @@ class Lanes {
 
   // Lane k is number(k).
   template <class Number>
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Lanes of(const Number& number) {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd of(const Number& number) {
     return [&]<std::size_t... K>(std::index_sequence<K...>) THAWSLIDE_INLINE_LAMBDA {
-      return Lanes(Native{static_cast<Real>(number(K))...});
+      return Simd(Native{static_cast<Real>(number(K))...});
     }
     (std::make_index_sequence<Count>());
   }
 
   // Lane k is numbers[places[k]].
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Lanes gather(const Real* numbers, Whole places) {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd gather(const Real* numbers, Whole places) {
 #ifdef __AVX512F__
     if constexpr (sizeof(Native) == 64) {
-      return Lanes(Native(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, reinterpret_cast<__m256i>(places),
-                                                   numbers, sizeof(Real))));
+      return Simd(Native(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, reinterpret_cast<__m256i>(places), numbers,
+                                                  sizeof(Real))));
     }
 #endif
     return of([&](std::size_t lane) { return numbers[places[lane]]; });
@@ -154,44 +154,44 @@ class Lanes {
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Real operator[](std::size_t lane) const { return native_[lane]; }
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Native native() const { return native_; }
 
-  THAWSLIDE_ALWAYS_INLINE friend Lanes operator+(Lanes a, Lanes b) { return Lanes(a.native_ + b.native_); }
-  THAWSLIDE_ALWAYS_INLINE friend Lanes operator-(Lanes a, Lanes b) { return Lanes(a.native_ - b.native_); }
-  THAWSLIDE_ALWAYS_INLINE friend Lanes operator*(Lanes a, Lanes b) { return Lanes(a.native_ * b.native_); }
-  THAWSLIDE_ALWAYS_INLINE friend Lanes operator/(Lanes a, Lanes b) { return Lanes(a.native_ / b.native_); }
-  THAWSLIDE_ALWAYS_INLINE friend Lanes operator-(Lanes a) { return Lanes(-a.native_); }
-  THAWSLIDE_ALWAYS_INLINE Lanes& operator+=(Lanes a) { return *this = *this + a; }
-  THAWSLIDE_ALWAYS_INLINE Lanes& operator-=(Lanes a) { return *this = *this - a; }
-  THAWSLIDE_ALWAYS_INLINE Lanes& operator*=(Lanes a) { return *this = *this * a; }
-  THAWSLIDE_ALWAYS_INLINE Lanes& operator/=(Lanes a) { return *this = *this / a; }
+  THAWSLIDE_ALWAYS_INLINE friend Simd operator+(Simd a, Simd b) { return Simd(a.native_ + b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Simd operator-(Simd a, Simd b) { return Simd(a.native_ - b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Simd operator*(Simd a, Simd b) { return Simd(a.native_ * b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Simd operator/(Simd a, Simd b) { return Simd(a.native_ / b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Simd operator-(Simd a) { return Simd(-a.native_); }
+  THAWSLIDE_ALWAYS_INLINE Simd& operator+=(Simd a) { return *this = *this + a; }
+  THAWSLIDE_ALWAYS_INLINE Simd& operator-=(Simd a) { return *this = *this - a; }
+  THAWSLIDE_ALWAYS_INLINE Simd& operator*=(Simd a) { return *this = *this * a; }
+  THAWSLIDE_ALWAYS_INLINE Simd& operator/=(Simd a) { return *this = *this / a; }
 
-  THAWSLIDE_ALWAYS_INLINE friend Mask operator<(Lanes a, Lanes b) { return Mask(a.native_ < b.native_); }
-  THAWSLIDE_ALWAYS_INLINE friend Mask operator<=(Lanes a, Lanes b) { return Mask(a.native_ <= b.native_); }
-  THAWSLIDE_ALWAYS_INLINE friend Mask operator>(Lanes a, Lanes b) { return Mask(a.native_ > b.native_); }
-  THAWSLIDE_ALWAYS_INLINE friend Mask operator>=(Lanes a, Lanes b) { return Mask(a.native_ >= b.native_); }
-  THAWSLIDE_ALWAYS_INLINE friend Mask operator==(Lanes a, Lanes b) { return Mask(a.native_ == b.native_); }
-  THAWSLIDE_ALWAYS_INLINE friend Mask operator!=(Lanes a, Lanes b) { return Mask(a.native_ != b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator<(Simd a, Simd b) { return Mask(a.native_ < b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator<=(Simd a, Simd b) { return Mask(a.native_ <= b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator>(Simd a, Simd b) { return Mask(a.native_ > b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator>=(Simd a, Simd b) { return Mask(a.native_ >= b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator==(Simd a, Simd b) { return Mask(a.native_ == b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator!=(Simd a, Simd b) { return Mask(a.native_ != b.native_); }
 
   // a where the mask says yes, b elsewhere.
-  THAWSLIDE_ALWAYS_INLINE friend Lanes select(Mask mask, Lanes a, Lanes b) {
-    return Lanes(mask.native() ? a.native_ : b.native_);
+  THAWSLIDE_ALWAYS_INLINE friend Simd select(Mask mask, Simd a, Simd b) {
+    return Simd(mask.native() ? a.native_ : b.native_);
   }
   // function(number), lane by lane.
   template <class Function>
-  THAWSLIDE_ALWAYS_INLINE friend Lanes each_lane(Lanes a, const Function& function) {
+  THAWSLIDE_ALWAYS_INLINE friend Simd map_lanes(Simd a, const Function& function) {
     return of([&](std::size_t lane) { return function(a.native_[lane]); });
   }
-  THAWSLIDE_ALWAYS_INLINE friend Lanes sqrt(Lanes a) {
-    return each_lane(a, [](Real number) { return std::sqrt(number); });
+  THAWSLIDE_ALWAYS_INLINE friend Simd sqrt(Simd a) {
+    return map_lanes(a, [](Real number) { return std::sqrt(number); });
   }
-  THAWSLIDE_ALWAYS_INLINE friend Lanes floor(Lanes a) {
-    return each_lane(a, [](Real number) { return std::floor(number); });
+  THAWSLIDE_ALWAYS_INLINE friend Simd floor(Simd a) {
+    return map_lanes(a, [](Real number) { return std::floor(number); });
   }
-  THAWSLIDE_ALWAYS_INLINE friend Lanes log(Lanes a) {
-    return each_lane(a, [](Real number) { return std::log(number); });
+  THAWSLIDE_ALWAYS_INLINE friend Simd log(Simd a) {
+    return map_lanes(a, [](Real number) { return std::log(number); });
   }
-  THAWSLIDE_ALWAYS_INLINE friend Lanes abs(Lanes a) { return select(a < Lanes(Real(0)), -a, a); }
-  THAWSLIDE_ALWAYS_INLINE friend Lanes min(Lanes a, Lanes b) { return select(b < a, b, a); }
-  THAWSLIDE_ALWAYS_INLINE friend Lanes max(Lanes a, Lanes b) { return select(a < b, b, a); }
+  THAWSLIDE_ALWAYS_INLINE friend Simd abs(Simd a) { return select(a < Simd(Real(0)), -a, a); }
+  THAWSLIDE_ALWAYS_INLINE friend Simd min(Simd a, Simd b) { return select(b < a, b, a); }
+  THAWSLIDE_ALWAYS_INLINE friend Simd max(Simd a, Simd b) { return select(a < b, b, a); }
 
  private:
   Native native_;
@@ -199,19 +199,19 @@ class Lanes {
 
 // Yes in the lanes 0 .. count-1.
 template <class Real>
-THAWSLIDE_ALWAYS_INLINE LaneMask<Real> lanes_before(std::size_t count) {
-  return Lanes<Real>::of([](std::size_t lane) { return lane; }) < Lanes<Real>(static_cast<Real>(count));
+THAWSLIDE_ALWAYS_INLINE SimdMask<Real> lanes_before(std::size_t count) {
+  return Simd<Real>::of([](std::size_t lane) { return lane; }) < Simd<Real>(static_cast<Real>(count));
 }
 
 template <class Real>
-struct NumberOf<Lanes<Real>> {
+struct NumberOf<Simd<Real>> {
   using Type = Real;
 };
 
 // Calls body(k) for the lanes k of a mask.
 template <class Real, class Body>
-THAWSLIDE_ALWAYS_INLINE void for_each_lane(const LaneMask<Real>& mask, const Body& body) {
-  for (std::size_t k = 0; any(mask) && k < lane_count<Real>; ++k) {
+THAWSLIDE_ALWAYS_INLINE void for_each_lane(const SimdMask<Real>& mask, const Body& body) {
+  for (std::size_t k = 0; any(mask) && k < simd_width<Real>; ++k) {
     if (mask[k]) {
       body(k);
     }
@@ -220,27 +220,26 @@ THAWSLIDE_ALWAYS_INLINE void for_each_lane(const LaneMask<Real>& mask, const Bod
 
 // The number in one lane.
 template <class Real>
-THAWSLIDE_ALWAYS_INLINE Real in_lane(const Lanes<Real>& lanes, std::size_t lane) {
+THAWSLIDE_ALWAYS_INLINE Real extract(const Simd<Real>& lanes, std::size_t lane) {
   return lanes[lane];
 }
 template <class Real>
-THAWSLIDE_ALWAYS_INLINE void set_lane(Lanes<Real>& lanes, std::size_t lane, Real number) {
-  lanes = Lanes<Real>::of([&](std::size_t k) { return k == lane ? number : lanes[k]; });
+THAWSLIDE_ALWAYS_INLINE void set_lane(Simd<Real>& lanes, std::size_t lane, Real number) {
+  lanes = Simd<Real>::of([&](std::size_t k) { return k == lane ? number : lanes[k]; });
 }
 
 // Lanes of `a` where bit Half of the lane is 0 and of `b` moved up by Half elsewhere; the rest of both likewise.
 template <std::size_t Half, class Real, std::size_t Count, std::size_t... K>
-THAWSLIDE_ALWAYS_INLINE void exchange(Lanes<Real, Count>& a, Lanes<Real, Count>& b,
-                                      std::index_sequence<K...> /*lanes*/) {
+THAWSLIDE_ALWAYS_INLINE void exchange(Simd<Real, Count>& a, Simd<Real, Count>& b, std::index_sequence<K...> /*lanes*/) {
   const auto kept = __builtin_shufflevector(a.native(), b.native(), ((K & Half) == 0 ? K : Count + (K ^ Half))...);
   const auto moved = __builtin_shufflevector(a.native(), b.native(), ((K & Half) == 0 ? (K | Half) : Count + K)...);
-  a = Lanes<Real, Count>(kept);
-  b = Lanes<Real, Count>(moved);
+  a = Simd<Real, Count>(kept);
+  b = Simd<Real, Count>(moved);
 }
 
 // Rows become columns: lane j of rows[k] is lane k of the former rows[j]. As many rows as lanes.
 template <std::size_t Half, class Real, std::size_t Count>
-THAWSLIDE_ALWAYS_INLINE void transpose_blocks(Lanes<Real, Count>* rows) {
+THAWSLIDE_ALWAYS_INLINE void transpose_blocks(Simd<Real, Count>* rows) {
   unrolled<Count>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
     if constexpr ((k & Half) == 0) {
       exchange<Half>(rows[k], rows[k | Half], std::make_index_sequence<Count>());
@@ -251,30 +250,30 @@ THAWSLIDE_ALWAYS_INLINE void transpose_blocks(Lanes<Real, Count>* rows) {
   }
 }
 template <class Real, std::size_t Count>
-THAWSLIDE_ALWAYS_INLINE void transpose(Lanes<Real, Count>* rows) {
+THAWSLIDE_ALWAYS_INLINE void transpose(Simd<Real, Count>* rows) {
   transpose_blocks<Count / 2>(rows);
 }
 
 // Lanes First, First + 1, ... of a register, and two registers side by side.
 template <std::size_t First, class Real, std::size_t Count, std::size_t... K>
-THAWSLIDE_ALWAYS_INLINE Lanes<Real, sizeof...(K)> part_of(const Lanes<Real, Count>& whole,
-                                                          std::index_sequence<K...> /*lanes*/) {
-  return Lanes<Real, sizeof...(K)>(__builtin_shufflevector(whole.native(), whole.native(), (First + K)...));
+THAWSLIDE_ALWAYS_INLINE Simd<Real, sizeof...(K)> part_of(const Simd<Real, Count>& whole,
+                                                         std::index_sequence<K...> /*lanes*/) {
+  return Simd<Real, sizeof...(K)>(__builtin_shufflevector(whole.native(), whole.native(), (First + K)...));
 }
 template <class Real, std::size_t Count, std::size_t... K>
-THAWSLIDE_ALWAYS_INLINE Lanes<Real, sizeof...(K)> joined(const Lanes<Real, Count>& a, const Lanes<Real, Count>& b,
-                                                         std::index_sequence<K...> /*lanes*/) {
-  return Lanes<Real, sizeof...(K)>(__builtin_shufflevector(a.native(), b.native(), K...));
+THAWSLIDE_ALWAYS_INLINE Simd<Real, sizeof...(K)> joined(const Simd<Real, Count>& a, const Simd<Real, Count>& b,
+                                                        std::index_sequence<K...> /*lanes*/) {
+  return Simd<Real, sizeof...(K)>(__builtin_shufflevector(a.native(), b.native(), K...));
 }
 
 template <class Real>
-THAWSLIDE_ALWAYS_INLINE Lanes<Real> look_up(const Real* table, const Lanes<Real>& place) {
-  return Lanes<Real>::gather(table, place.whole());
+THAWSLIDE_ALWAYS_INLINE Simd<Real> look_up(const Real* table, const Simd<Real>& place) {
+  return Simd<Real>::gather(table, place.whole());
 }
 
 // The smallest of all lanes.
 template <class Real, std::size_t Count>
-THAWSLIDE_ALWAYS_INLINE Real smallest(const Lanes<Real, Count>& lanes) {
+THAWSLIDE_ALWAYS_INLINE Real smallest(const Simd<Real, Count>& lanes) {
   if constexpr (Count == 2) {
     return std::min(lanes[0], lanes[1]);
   } else {
@@ -285,9 +284,9 @@ THAWSLIDE_ALWAYS_INLINE Real smallest(const Lanes<Real, Count>& lanes) {
 
 // From `Width` quantities, a lane a particle, to a row of `Width` numbers a particle.
 template <class Real, std::size_t Width>
-THAWSLIDE_ALWAYS_INLINE void by_particle(const Lanes<Real>* quantities, Lanes<Real, Width>* rows) {
-  constexpr std::size_t parts = lane_count<Real> / Width;
-  static_assert(parts * Width == lane_count<Real>);
+THAWSLIDE_ALWAYS_INLINE void transpose_to_rows(const Simd<Real>* quantities, Simd<Real, Width>* rows) {
+  constexpr std::size_t parts = simd_width<Real> / Width;
+  static_assert(parts * Width == simd_width<Real>);
   unrolled<parts>([&](auto part) THAWSLIDE_INLINE_LAMBDA {
     constexpr std::size_t first = part() * Width;
     unrolled<Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
@@ -299,9 +298,9 @@ THAWSLIDE_ALWAYS_INLINE void by_particle(const Lanes<Real>* quantities, Lanes<Re
 
 // The way back; `rows` are spent.
 template <class Real, std::size_t Width>
-THAWSLIDE_ALWAYS_INLINE void by_quantity(Lanes<Real, Width>* rows, Lanes<Real>* quantities) {
-  constexpr std::size_t parts = lane_count<Real> / Width;
-  static_assert(parts * Width == lane_count<Real> && parts <= 2);
+THAWSLIDE_ALWAYS_INLINE void transpose_to_columns(Simd<Real, Width>* rows, Simd<Real>* quantities) {
+  constexpr std::size_t parts = simd_width<Real> / Width;
+  static_assert(parts * Width == simd_width<Real> && parts <= 2);
   unrolled<parts>([&](auto part) THAWSLIDE_INLINE_LAMBDA { transpose(rows + part * Width); });
   unrolled<Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
     if constexpr (parts == 1) {
@@ -316,8 +315,8 @@ THAWSLIDE_ALWAYS_INLINE void by_quantity(Lanes<Real, Width>* rows, Lanes<Real>* 
 
 // Vectors and matrices of lanes.
 template <class Number>
-struct Eigen::NumTraits<thawslide::Lanes<Number>> : Eigen::GenericNumTraits<thawslide::Lanes<Number>> {
-  using Real = thawslide::Lanes<Number>;
+struct Eigen::NumTraits<thawslide::Simd<Number>> : Eigen::GenericNumTraits<thawslide::Simd<Number>> {
+  using Real = thawslide::Simd<Number>;
   using NonInteger = Real;
   using Nested = Real;
   using Literal = Real;

@@ -9,7 +9,7 @@
 namespace thawslide::mpm {
 
 template <class Real>
-struct One {
+struct ScalarIndex {
   using Value = Real;
 
   std::array<std::uint32_t, 1> particle;
