@@ -138,7 +138,7 @@ config::EdgeTaper taper_edges(config::Case& trial, const config::Site& site) {
     const auto degrees = [](double rise) { return std::atan(rise) * 180.0 / std::numbers::pi; };
     fmt::print(
         "note: --cut: the edges of the cut should be ramps {:g} m wide, and there is room for {:g} m, as the release "
-        "is narrow or near the end of what the terrain model knows; they rise by up to {:.0f} degrees against the "
+        "is narrow or near the end of what the DEM knows; they rise by up to {:.0f} degrees against the "
         "terrain, which falls by {:.0f}, and may hold the slide back. --on-top has no such edges\n",
         taper.wanted, taper.width, degrees(taper.steepest), degrees(taper.slope));
   }

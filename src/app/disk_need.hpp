@@ -17,7 +17,7 @@ struct DiskNeed {
   double checkpoint_at_start = 0.0;            // before it has
   double history_rows = 0.0, history = 0.0;    // how many rows, and all of them
   double maps = 0.0, map = 0.0;                // as the slide leaves them
-  double ground_maps = 0.0, ground_map = 0.0;  // on the points of the terrain model
+  double ground_maps = 0.0, ground_map = 0.0;  // on the points of the DEM
   double inputs = 0.0;                         // copies
 
   [[nodiscard]] double total() const {

@@ -38,7 +38,7 @@ void add_threads_option(CLI::App& command, int& threads) {
 }
 
 void add_device_option(CLI::App& command, std::string& device) {
-  command.add_option("--device", device, "Where steps are taken: cpu (default), gpu (an NVIDIA card), or auto")
+  command.add_option("--device", device, "Device for the time steps: cpu (default), gpu (an NVIDIA GPU), or auto")
       ->check(CLI::IsMember({"cpu", "gpu", "auto"}));
 }
 
@@ -55,7 +55,7 @@ CLI::Validator above_zero() {
 
 // Returns the option of the release.
 CLI::Option* add_map_options(CLI::App& command, MapOptions& maps) {
-  command.add_option("--dem", maps.dem, "Terrain model, GeoTIFF or ESRI ASCII, in projected metres")->required();
+  command.add_option("--dem", maps.dem, "DEM, GeoTIFF or ESRI ASCII, in projected metres")->required();
   CLI::Option* release = command.add_option("--release", maps.release,
                                             "Polygons (Shapefile, GeoPackage, GeoJSON), or a raster of the thickness");
   command
@@ -70,7 +70,7 @@ CLI::Option* add_map_options(CLI::App& command, MapOptions& maps) {
       ->description("Put the release on top of the DEM (default)")
       ->needs(release)
       ->excludes(placement->get_option("--cut"));
-  command.add_option("--crs", maps.crs, "Coordinate reference system of a DEM that does not tell it: EPSG:31287");
+  command.add_option("--crs", maps.crs, "Coordinate reference system of a DEM whose file has none: EPSG:31287");
   return release;
 }
 
@@ -98,7 +98,7 @@ int end_without_output(std::error_code reason, int code) {
   if (reason == std::errc::broken_pipe) {
     return code;
   }
-  print_error("error: the output cannot be written: {}. Send it to where there is room for it.\n", reason.message());
+  print_error("error: the output cannot be written: {}. Redirect it to a disk with free space.\n", reason.message());
   return static_cast<int>(ExitCode::not_written);
 }
 
@@ -126,7 +126,7 @@ int run_program(int count, char** arguments) {
   run->callback([&] { exit_code = run_case(run_options); });
 
   ResumeOptions resume_options;
-  CLI::App* resume = program.add_subcommand("resume", "Go on with a run from its checkpoint");
+  CLI::App* resume = program.add_subcommand("resume", "Continue a run from its checkpoint");
   resume->add_option("run", resume_options.folder, "Folder of the run")->required();
   add_threads_option(*resume, resume_options.threads);
   add_device_option(*resume, resume_options.device);
@@ -140,7 +140,8 @@ int run_program(int count, char** arguments) {
   resume->callback([&] { exit_code = resume_run(resume_options); });
 
   StatusOptions status_options;
-  CLI::App* status = program.add_subcommand("status", "Say whether a run is alive, how far it is, and how to go on");
+  CLI::App* status =
+      program.add_subcommand("status", "Report whether a run is active, its progress, and how to continue it");
   status->add_option("run", status_options.folder, "Folder of the run")->required();
   status->add_flag("--json", status_options.json, "As JSON");
   status->callback([&] { exit_code = print_status(status_options); });
@@ -151,7 +152,7 @@ int run_program(int count, char** arguments) {
   add_threads_option(*check, check_options.threads);
   CLI::Option* picture = check->add_option(
       "--picture", check_options.picture,
-      "Draw terrain, grid, bodies and boundaries to a PNG file (default: setup.png beside the case file)");
+      "Plot terrain, grid, bodies and boundaries to a PNG file (default: setup.png next to the case file)");
   picture->expected(0, 1);
   check->add_flag("--json", check_options.json, "As JSON, for programs");
   check->callback([&] {
@@ -166,7 +167,7 @@ int run_program(int count, char** arguments) {
   block->callback([&] { exit_code = run_block_model(block_options); });
 
   NewOptions new_options;
-  CLI::App* make_new = program.add_subcommand("new", "Make a case folder from a terrain model and a release area");
+  CLI::App* make_new = program.add_subcommand("new", "Make a case folder from a DEM and a release area");
   make_new->add_option("folder", new_options.folder, "Folder to make")->required();
   add_map_options(*make_new, new_options.maps)->required();
   make_new
@@ -193,7 +194,7 @@ int run_program(int count, char** arguments) {
   make_new->callback([&] { exit_code = make_new_case(new_options); });
 
   SectionOptions section_options;
-  CLI::App* section = program.add_subcommand("section", "Cut a 2D case out of a terrain model, along a line");
+  CLI::App* section = program.add_subcommand("section", "Cut a 2D case out of a DEM, along a line");
   section->add_option("folder", section_options.folder, "Folder to make")->required();
   section->add_option("--line", section_options.line, "File with the line, downhill: Shapefile, GeoPackage or GeoJSON")
       ->required();

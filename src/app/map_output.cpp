@@ -74,7 +74,7 @@ void write_layers(const fs::path& folder, const sim::RunRecords<3>& records, con
                     {{"area_m2", std::vector{gis::area_of(area)}}, {"state", std::vector<std::string>{when}}},
                     style(gis::LayerKind::polygons, dark_red, 0.5, "")});
   if (!records.path().empty()) {
-    const std::string kind = records.path_given() ? "given" : "way of the centre of mass";
+    const std::string kind = records.path_given() ? "given" : "path of the centre of mass";
     layers.push_back({"path",
                       std::vector<config::Polyline2>{records.path().corners()},
                       {{"length_m", std::vector{records.path().length()}}, {"kind", std::vector<std::string>{kind}}},

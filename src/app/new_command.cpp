@@ -1,4 +1,4 @@
-// thawslide new: a case folder from a terrain model and a release area.
+// thawslide new: a case folder from a DEM and a release area.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,10 +66,10 @@ void require_ground_about(const std::string& file, const Raster& ground, const R
   }
   for (std::size_t k = 0; k < sides.size(); ++k) {
     if (reached[k]) {
-      throw UserError(fmt::format(
-          "--release: {}: the release reaches the outermost points of the terrain model in the {}; needed: {:g} m of "
-          "it, one of its cells, beyond the release, and beyond where the slide may go. Take a larger terrain model.",
-          file, sides[k], k < 2 ? ground.cell_x : ground.cell_y));
+      throw UserError(
+          fmt::format("--release: {}: the release reaches the outermost points of the DEM in the {}; needed: {:g} m of "
+                      "it, one of its cells, beyond the release, and beyond where the slide may go. Take a larger DEM.",
+                      file, sides[k], k < 2 ? ground.cell_x : ground.cell_y));
     }
   }
 }

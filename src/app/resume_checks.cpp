@@ -70,8 +70,8 @@ void require_checkpoint_of_run(const fs::path& folder, const io::Provenance& fac
   if (!is_known) {
     const std::vector<std::string> differences = config::differences(of_checkpoint, now);
     throw UserError(fmt::format(
-        "the checkpoint of {} was not written by this run: run.json tells of no part with its case{}{}. Put back the "
-        "run's own checkpoint.bin or checkpoint.previous.bin, or run the case anew.",
+        "the checkpoint of {} was not written by this run: run.json lists no part with its case{}{}. Put back the "
+        "run's own checkpoint.bin or checkpoint.previous.bin, or run the case again.",
         folder.string(), differences.empty() ? "" : ", in which ", fmt::join(differences, "; ")));
   }
 }
@@ -84,7 +84,7 @@ std::string advice_on(const fs::path& folder, const io::Provenance& facts, const
                       const std::string& otherwise) {
   const bool is_end = changes.size() == 1 && changes[0].rfind("time.end is ", 0) == 0;
   if (is_end && config::read_case(folder).time.end > facts.simulated_time) {
-    return fmt::format("A new end is told on the command line: thawslide resume {} --end {}.",
+    return fmt::format("Specify a new end on the command line: thawslide resume {} --end {}.",
                        shell_quote(folder.string()), config::read_case(folder).time.end);
   }
   return otherwise;
@@ -110,10 +110,10 @@ void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile
     }
   }
   if (!changed.empty()) {
-    throw UserError(fmt::format(
-        "{}. A run goes on with the inputs it began with (run.json has their SHA-256): put them back, or run "
-        "the case anew.",
-        fmt::join(changed, "; ")));
+    throw UserError(
+        fmt::format("{}. A run continues with the inputs of its start (run.json has their SHA-256): put them back, or "
+                    "run the case again.",
+                    fmt::join(changed, "; ")));
   }
 }
 
@@ -123,7 +123,7 @@ std::vector<std::string> changed_originals(const std::vector<io::InputFile>& inp
     std::error_code unreadable;
     const bool same_size = fs::file_size(input.path, unreadable) == input.bytes;
     if (!unreadable && (!same_size || io::sha256_of_file(input.path) != input.sha256)) {
-      notes.push_back(fmt::format("{} has changed since the run began, which goes on with its copy, {}",
+      notes.push_back(fmt::format("{} has changed since the run began. The run continues with its copy, {}",
                                   config::shown(input.path), config::shown(input.copy)));
     }
   }
@@ -163,7 +163,7 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
   const fs::path file = folder / "case.toml";
   if (!fs::exists(file)) {
     io::write_file_atomically(file, before);
-    print_text("note: {} was missing; it is written anew from the checkpoint\n", file.string());
+    print_text("note: {} was missing. It was written again from the checkpoint\n", file.string());
   }
   const std::string now = io::read_file(file);
   require_checkpoint_of_run(folder, facts, now, before);
@@ -172,8 +172,8 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
     const std::vector<std::string> changes = config::differences(now, before, config::keys_of(sets));
     if (!changes.empty()) {
       const std::string usual = fmt::format(
-          "Put that back, or remove the file, which then is written anew; what should change is told on the command "
-          "line: thawslide resume {} --set KEY=VALUE, or --end T.",
+          "Put that back, or remove the file, which is then written again. Specify changes on the command line: "
+          "thawslide resume {} --set KEY=VALUE, or --end T.",
           shell_quote(folder.string()));
       throw UserError(fmt::format("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
                                   fmt::join(changes, "; "), advice_on(folder, facts, changes, usual)));
@@ -189,8 +189,8 @@ void require_case_of_start(const fs::path& folder, const io::Provenance& facts, 
   const auto cut_off = changes_cut_off(facts, is_present ? io::sha256_of_file(file) : "");
   if (!cut_off) {
     throw UserError(fmt::format(
-        "{} {}, and there is no checkpoint to tell what it was. Put back what was there, or run the case anew.",
-        file.string(), is_present ? "has changed since the run began (run.json has its SHA-256)" : "is missing"));
+        "{} {}, and no checkpoint holds its content. Put back what was there, or run the case again.", file.string(),
+        is_present ? "has changed since the run began (run.json has its SHA-256)" : "is missing"));
   }
   require_same_changes(folder, *cut_off, sets);
 }
@@ -200,8 +200,8 @@ void require_no_more_than_a_start(const fs::path& folder, const io::Provenance& 
       std::max(facts.simulated_time, io::last_time_in_history(folder / "history.csv").value_or(0.0));
   if (facts.steps > 0 || had_come_to > 0.0) {
     throw UserError(fmt::format(
-        "{0} had come to {1:g} s, and neither checkpoint.bin nor checkpoint.previous.bin is there to go on from: begun "
-        "anew it would write over what it has. Put one of them back, or run the case anew in another folder: thawslide "
+        "{0} had reached {1:g} s, but checkpoint.bin and checkpoint.previous.bin are missing. A new start would "
+        "overwrite its results. Put one of them back, or run the case again in another folder: thawslide "
         "run {2} --output OTHER.",
         folder.string(), had_come_to, shell_quote(folder.string())));
   }

@@ -54,8 +54,8 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
     if (!changes.empty()) {
       throw UserError(fmt::format("{} has reached its end at {:g} s, and {} has changed since: {}. {}", folder.string(),
                                   facts.simulated_time, file.string(), fmt::join(changes, "; "),
-                                  is_known ? advice_on(folder, facts, changes, "Put that back, or run the case anew.")
-                                           : "There is no checkpoint to go on from: run the case anew."));
+                                  is_known ? advice_on(folder, facts, changes, "Put that back, or run the case again.")
+                                           : "There is no checkpoint to continue from: run the case again."));
     }
   }
   print_text("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
@@ -93,7 +93,7 @@ Continuation continuation_of(const fs::path& folder, const std::vector<std::stri
     if (config::guards_remove(before) != config::guards_remove(next.parameters)) {
       throw UserError(
           "history.csv has a column removed_mass_kg where [guards] may remove particles, and none where they may not: "
-          "a run that goes on cannot change that. Run the case anew.");
+          "a continued run cannot change this. Run the case again.");
     }
     next.earlier_end = before.time.end;
     next.case_text = config::resolved_toml(next.parameters, "inputs");
@@ -135,7 +135,7 @@ std::unique_ptr<sim::Simulation<Dim, double>> simulation_of(const fs::path& fold
       throw;
     }
     throw UserError(
-        fmt::format("{} What should change of a run is told on the command line: thawslide resume {} --set "
+        fmt::format("{} Specify changes of a run on the command line: thawslide resume {} --set "
                     "KEY=VALUE.",
                     error.what(), shell_quote(folder.string())));
   }
@@ -174,7 +174,7 @@ bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, 
   }
   if (simulation.ends_at_rest()) {
     if (changes.empty() || is_end_alone) {
-      print_text("{} has come to rest at {:g} s; nothing to do. It goes on with --set time.stop_at_rest=0\n",
+      print_text("{} has come to rest at {:g} s; nothing to do. To continue it, add --set time.stop_at_rest=0\n",
                  folder.string(), simulation.time());
       return false;
     }
@@ -183,7 +183,7 @@ bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, 
              simulation.time() < next.earlier_end - 0.5 * simulation.last_step() && !falls_back &&
              !next.earlier.message.empty()) {
     throw UserError(
-        fmt::format("{} has ended, and nothing is left of the slide to go on with: {}. Run the case anew, "
+        fmt::format("{} has ended, and no particles are left to continue with: {}. Run the case again, "
                     "in a larger domain.",
                     folder.string(), next.earlier.message));
   }
@@ -240,14 +240,14 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
     return static_cast<int>(ExitCode::done);
   }
   if (!checkpoint.note.empty()) {
-    next.earlier.parts.back().notes.push_back(fmt::format("{}; {}the run goes on from the checkpoint before",
+    next.earlier.parts.back().notes.push_back(fmt::format("{}; {}the run continues from the previous checkpoint",
                                                           checkpoint.note, keep_damaged(checkpoint.damaged)));
   }
   RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
   print_text("going on from t = {:g} s{}\n", simulation.time(),
              had_come_to > simulation.time()
-                 ? fmt::format("; it had come to {:g} s: rows and snapshots after {:g} s are written anew", had_come_to,
-                               simulation.time())
+                 ? fmt::format("; it had reached {:g} s: rows and snapshots after {:g} s are written again",
+                               had_come_to, simulation.time())
                  : "");
   apply_changes(folder, next);
   notes.add(config::notices(next.parameters));
@@ -262,7 +262,7 @@ int resume_run(const ResumeOptions& options) {
   const fs::path folder = options.folder;
   if (!fs::exists(folder / "run.json")) {
     throw UserError(
-        fmt::format("{} holds no run to go on from: there is no run.json, which a run writes when it begins. "
+        fmt::format("{} holds no run to continue: run.json is missing, which a run writes at its start. "
                     "Run the case again.",
                     folder.string()));
   }

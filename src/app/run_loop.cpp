@@ -94,12 +94,12 @@ int end_at_once(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& 
   }
   print_error("error: {}\nstopped at t = {:g} s; what stands is whole, and `thawslide resume {}` {}\n", error.what(),
               simulation.time(), shell_quote(folder.string()),
-              io::has_checkpoint(folder) ? "goes on from the last checkpoint" : "starts it again");
+              io::has_checkpoint(folder) ? "continues from the last checkpoint" : "starts it again");
   return static_cast<int>(code);
 }
 
 UserError out_of_memory() {
-  return UserError("the memory of this machine, or what a limit allows of it (ulimit -v), has run out amid the run");
+  return UserError("the memory of this machine, or its limit (ulimit -v), was exhausted during the run");
 }
 
 // The steps of one process, and what is written between them.
@@ -232,7 +232,7 @@ class Loop {
     // The checkpoint holds this moment. A row or a snapshot of it would not be there had the run gone on.
     output_.write_checkpoint(simulation_);
     close("stopped", fmt::format("signal {}", caught_signal()));
-    print_error("stopped by signal {} at t = {:g} s; `thawslide resume {}` goes on from here\n", caught_signal(),
+    print_error("interrupted by signal {} at t = {:g} s. To continue: thawslide resume {}\n", caught_signal(),
                 simulation_.time(), shell_quote(folder_.string()));
     return static_cast<int>(ExitCode::stopped_by_signal);
   }
@@ -279,8 +279,8 @@ int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& outp
   try {
     if (!settle<Dim>(simulation, output)) {
       output.write_provenance(simulation, "stopped", fmt::format("signal {}", caught_signal()), 0.0);
-      print_error("stopped by signal {} while it settled; `thawslide resume {}` begins anew\n", caught_signal(),
-                  shell_quote(folder.string()));
+      print_error("interrupted by signal {} while the body settled. To start again: thawslide resume {}\n",
+                  caught_signal(), shell_quote(folder.string()));
       return static_cast<int>(ExitCode::stopped_by_signal);
     }
     output.begin(simulation);

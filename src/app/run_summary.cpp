@@ -13,9 +13,9 @@ namespace {
 
 // Where the slide's front is at the end, in words.
 std::string front_text(double front, double runout) {
-  return std::isfinite(front) ? fmt::format("front at {:.0f} m, runout {:.0f} m", front, runout)
-                              : "no front: maps.path is not given, and the slide has hardly moved, so there is no path "
-                                "to measure along";
+  return std::isfinite(front)
+             ? fmt::format("front at {:.0f} m, runout {:.0f} m", front, runout)
+             : "no front: maps.path is not given, and the slide has barely moved: there is no flow path";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// thawslide section: a 2D case, or a profile alone, cut out of a terrain model along a line.
+// thawslide section: a 2D case, or a profile alone, cut out of a DEM along a line.
 #include <algorithm>
 #include <filesystem>
 
@@ -62,7 +62,7 @@ double cell_of(const config::ProfileTable& profile, double otherwise) {
   return body.area > 0.0 ? config::propose_section(profile, body).cell : otherwise;
 }
 
-// The ground as a run in space would have it, with the filter for such cells and the noise of the whole terrain model.
+// The ground as a run in space would have it, with the filter for such cells and the noise of the whole DEM.
 config::Site smoothed_site(config::Case trial, double cell) {
   trial.grid.cell = cell;
   trial.terrain.smooth.is_auto = true;
@@ -86,13 +86,12 @@ std::vector<std::string> comments_on(const SectionOptions& options, const config
       fmt::format("From x = {:.10g}, y = {:.10g} to x = {:.10g}, y = {:.10g}{}{}.", cut.begin[0], cut.begin[1],
                   cut.end[0], cut.end[1], site.crs_name.empty() ? "" : " in ", config::shown(site.crs_name))};
   if (!options.maps.release.empty()) {
-    comments.push_back(options.maps.cut
-                           ? fmt::format("The surface is that of the terrain model; the terrain is lower by the "
-                                         "vertical thickness of {}.",
-                                         name_of(options.maps.release))
-                           : fmt::format("The terrain is that of the terrain model; the surface is higher by the "
-                                         "vertical thickness of {}.",
-                                         name_of(options.maps.release)));
+    comments.push_back(options.maps.cut ? fmt::format("The surface is that of the DEM; the terrain is lower by the "
+                                                      "vertical thickness of {}.",
+                                                      name_of(options.maps.release))
+                                        : fmt::format("The terrain is that of the DEM; the surface is higher by the "
+                                                      "vertical thickness of {}.",
+                                                      name_of(options.maps.release)));
   }
   if (taper > 0.0) {
     comments.push_back(fmt::format(

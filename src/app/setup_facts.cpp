@@ -147,9 +147,9 @@ Json json_of(const DiskNeed& need, double free, const std::string& folder) {
 
 std::string text_of(const GpuFacts& gpu) {
   if (!gpu.why_not.empty()) {
-    return fmt::format("  card        none takes the steps: {}\n", gpu.why_not);
+    return fmt::format("  GPU         not used: {}\n", gpu.why_not);
   }
-  return fmt::format("  card        about {} (measured on the first steps) and {} of {} free, on {}\n",
+  return fmt::format("  GPU         about {} (measured on the first steps) and {} of {} free, on {}\n",
                      duration_text(gpu.seconds), size_text(gpu.used), size_text(gpu.free), gpu.name);
 }
 
@@ -181,7 +181,7 @@ Json list_of(const std::vector<Facts>& all) {
 
 std::string text_of(const SetupFacts& facts) {
   std::string text = fmt::format("{}: {}\n", facts.file,
-                                 facts.error.empty() ? "the case is sound" : "the run fails in its first steps");
+                                 facts.error.empty() ? "the case is valid" : "the run fails in its first steps");
   for (const sim::BodyFigures& body : facts.bodies) {
     text += text_of(body, facts);
   }

@@ -32,7 +32,7 @@ struct SetupFacts {
   std::vector<std::string> notes;
   std::vector<sim::BodyFigures> bodies;
   std::vector<SubstrateFacts> substrates;
-  std::optional<config::Roughness> roughness;  // of a terrain model
+  std::optional<config::Roughness> roughness;  // of a DEM
   std::size_t particles = 0;
   double cells = 0.0;                          // in the domain
   std::size_t blocks = 0, nodes_of_block = 0;  // held at the start

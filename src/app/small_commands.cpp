@@ -90,8 +90,8 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, No
     fmt::print("note: that way ends in a pit after {:.6g} m, at x = {:.10g}, y = {:.10g}{}\n", section.pit->along,
                section.pit->place[0], section.pit->place[1],
                beyond == rows.end() ? ", which the front does not reach"
-                                    : fmt::format(". The front comes there at {:.4g} s, and the block stops here. Give "
-                                                  "maps.path, a line that goes on, to follow it further",
+                                    : fmt::format(". The front reaches it at {:.4g} s, and the block stops there. Set "
+                                                  "maps.path to a longer line to follow the slide further",
                                                   value_of(*beyond, "time_s")));
     rows.erase(beyond == rows.end() ? beyond : beyond + 1, rows.end());
     note_valley(rows);

@@ -111,7 +111,7 @@ RunStatus status_of(const fs::path& folder) {
       return status_at_start(folder, at_work);
     }
     throw UserError(
-        fmt::format("{} holds no run: there is no run.json, which a run writes when it begins.", folder.string()));
+        fmt::format("{} holds no run: run.json is missing, which a run writes at its start.", folder.string()));
   }
   const bool is_at_work = at_work.is_known && !at_work.process.empty();
   const io::Provenance facts = io::read_provenance(folder);
@@ -166,7 +166,7 @@ std::string status_text(const RunStatus& status) {
   }
   if (status.state == "unknown") {
     return fmt::format(
-        "whether it runs cannot be told, as its file system has no locks{}; its last file was written {}",
+        "it cannot be determined whether it runs, because its file system has no locks{}; its last file was written {}",
         status.process.empty() ? "" : fmt::format(" and {} has begun to write it", status.process),
         age_text(status.last_write_age.value_or(0.0)));
   }
@@ -178,7 +178,7 @@ std::string status_text(const RunStatus& status) {
 
 std::string continue_text(const fs::path& folder, const RunStatus& status) {
   if (status.state == "killed" || status.state == "stopped") {
-    return fmt::format("  to go on: thawslide resume {}\n", shell_quote(folder.string()));
+    return fmt::format("  to continue: thawslide resume {}\n", shell_quote(folder.string()));
   }
   if (status.state == "unknown") {
     return status.process.empty()
@@ -188,9 +188,8 @@ std::string continue_text(const fs::path& folder, const RunStatus& status) {
   }
   if (status.state == "failed") {
     return fmt::format(
-        "  the message above says what to change: run the case anew with it or, where the key may change amid a run, "
-        "go "
-        "on: thawslide resume {} --set KEY=VALUE\n",
+        "  the message above states what to change. Run the case again with it. If the key may change during a run, "
+        "continue: thawslide resume {} --set KEY=VALUE\n",
         shell_quote(folder.string()));
   }
   return "";

@@ -1,4 +1,4 @@
-// Numbers on a regular grid of points over the horizontal plane: a terrain model, a thickness, a map.
+// Numbers on a regular grid of points over the horizontal plane: a DEM, a thickness, a map.
 #pragma once
 
 #include <cmath>

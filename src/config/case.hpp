@@ -82,7 +82,7 @@ struct Grid {
   std::array<BoundaryKind, 6> boundary{};
 };
 
-// What ends a run that goes wrong, or is taken out of it.
+// Limits that abort a failing run, or is taken out of it.
 struct Guards {
   Policy not_finite = Policy::stop, volume = Policy::stop;
   double smallest_volume = 0.25;                                    // of that at t = 0

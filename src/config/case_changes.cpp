@@ -133,10 +133,10 @@ void require_changeable(const std::vector<std::string>& sets) {
     }
   }
   if (!fixed.empty()) {
-    throw UserError(fmt::format(
-        "a run that goes on cannot change {}: what it has computed so far was for the case it has. Allowed: "
-        "{}. For anything else run the case anew.",
-        fixed, changeable_keys()));
+    throw UserError(
+        fmt::format("{} cannot be changed on resume, because earlier results depend on it. Allowed: {}. For other "
+                    "changes, run the case again.",
+                    fixed, changeable_keys()));
   }
 }
 

@@ -172,7 +172,7 @@ std::string edge_warning(const Proposal& proposal) {
   }
   return fmt::format(
       "--dem: the release is close to the edge of the known terrain (found {:.3g} m; needed its own length, {:.3g} m, "
-      "or more). Particles that pass the edge are removed, and the results lack them. Use a larger terrain model",
+      "or more). Particles that pass the edge are removed, and the results lack them. Use a larger DEM",
       proposal.edge_distance, proposal.length);
 }
 
@@ -256,7 +256,8 @@ std::string taper_text(const EdgeTaper& taper) {
       "{:.1f}\n"
       "# degrees here{}.\ntaper = {}  # m\n",
       degrees_of(taper.steepest), degrees_of(taper.slope),
-      taper.is_cramped() ? fmt::format("; {} m would be right, but there is no room", number_text(taper.wanted)) : "",
+      taper.is_cramped() ? fmt::format("; {} m is needed, but the release is too narrow", number_text(taper.wanted))
+                         : "",
       number_text(taper.width));
 }
 
@@ -269,7 +270,7 @@ std::string point_text(const Point& point) {
 std::string case_text(const ProposalInput& input, const Proposal& proposal) {
   const bool is_cut = input.placement == Placement::cut;
   std::string text = fmt::format(
-      R"(# Made by `thawslide new`. Every number may be changed; `thawslide describe` tells what keys there are.
+      R"(# Made by `thawslide new`. Every number may be changed; `thawslide describe` lists all keys.
 
 [case]
 title = {title}

@@ -1,4 +1,4 @@
-// A first case for a terrain model and a release: cell, domain and times that fit them. What a first 2D case
+// A first case for a DEM and a release: cell, domain and times that fit them. What a first 2D case
 // (section_proposal.hpp) has in common with it.
 #pragma once
 

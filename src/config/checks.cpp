@@ -186,8 +186,8 @@ void check_switches(const Case& checked, Reading& reading) {
             {"band.cut_cells"},
             fmt::format(
                 "band.cut_cells is \"equal_thickness\", body.{}.particles_per_axis is {} and "
-                "body.{}.particles_per_axis is {}; allowed with it: one number for all bodies, since the band's "
-                "cells are told by it. Give the bodies the same, or set band.cut_cells = \"as_they_are\".",
+                "body.{}.particles_per_axis is {}; allowed with it: one number for all bodies, because it defines the "
+                "cells of the band. Give the bodies the same, or set band.cut_cells = \"as_they_are\".",
                 first_name, first.particles_per_axis, name, body.particles_per_axis));
         break;
       }
@@ -256,8 +256,8 @@ void check_band_switches(const Case& checked, Reading& reading) {
       (checked.heat.update != HeatUpdate::enthalpy || checked.heat.masses != HeatMasses::initial)) {
     reading.report_misfit(
         {"heat.advection_form", "heat.update", "heat.masses"},
-        "heat.advection_form is \"conservative\", and heat.update or heat.masses is as printed, which makes heat all "
-        "the same; allowed with it: heat.update = \"enthalpy\" and heat.masses = \"initial\". Set both so, or "
+        "heat.advection_form is \"conservative\", and heat.update or heat.masses is as published, which still creates "
+        "heat; allowed with it: heat.update = \"enthalpy\" and heat.masses = \"initial\". Set both so, or "
         "heat.advection_form = \"as_printed\".");
   }
   if (reading.sound({"pressure.residual_stress", "pressure.frozen"}) &&

@@ -54,13 +54,13 @@ inline std::vector<Choice<BodyContact>> choices(BodyContact) {
        "separate freely"}};
 }
 inline std::vector<Choice<BedLaw>> choices(BedLaw) {
-  return {{BedLaw::none, "none", "there is no bed that the slide could take up"},
+  return {{BedLaw::none, "none", "there is no bed to entrain"},
           {BedLaw::strength, "strength",
-           "where the shear of the base reaches the bed's strength, depth_per_slip is taken up; the impulse of that is "
-           "a drag beside friction"},
+           "depth_per_slip is entrained if the basal shear stress reaches the strength of the bed; its impulse adds a "
+           "drag to friction"},
           {BedLaw::momentum, "momentum",
-           "what the shear of the base has beyond the bed's strength sets bed matter in motion, as much as it has "
-           "impulse for"}};
+           "the basal shear stress in excess of the strength of the bed sets bed material in motion, as much as its "
+           "impulse allows"}};
 }
 inline std::vector<Choice<BodyShape>> choices(BodyShape) {
   return {{BodyShape::box, "box", "between min and max"},
@@ -101,7 +101,7 @@ inline std::vector<Choice<FrictionClamp>> choices(FrictionClamp) {
           {FrictionClamp::joint, "joint", "max(0, mu_e (N - P) + c_S): excess pressure cancels cohesion"}};
 }
 inline std::vector<Choice<BandRegion>> choices(BandRegion) {
-  return {{BandRegion::all, "all", "all particles, as printed"},
+  return {{BandRegion::all, "all", "all particles, as published"},
           {BandRegion::first_layer, "first_layer", "the first cell layer above the terrain"}};
 }
 inline std::vector<Choice<CutCells>> choices(CutCells) {
@@ -126,8 +126,8 @@ inline std::vector<Choice<ThicknessChange>> choices(ThicknessChange) {
   return {{ThicknessChange::as_published, "as_printed",
            "temperatures stay: the heat that a thicker band then holds, or a thinner one lacks, is band_rescale_J"},
           {ThicknessChange::conserving, "conserving",
-           "a band that thickens takes in matter as it was at t = 0 and mixes with it; one that thins leaves its own "
-           "behind: what comes and goes is band_rescale_J"}};
+           "a thickening band gains material with the properties of t = 0 and mixes with it; a thinning band loses its "
+           "own; the heat exchanged is band_rescale_J"}};
 }
 inline std::vector<Choice<AdvectionForm>> choices(AdvectionForm) {
   return {{AdvectionForm::as_published, "as_printed",
@@ -141,7 +141,7 @@ inline std::vector<Choice<WaterExpansionLaw>> choices(WaterExpansionLaw) {
            "-0.7e-4 at 0 C, 2.1e-4 at 20, 4.6e-4 at 50, 7.5e-4 1/K at 100, linear between and beyond"}};
 }
 inline std::vector<Choice<FrozenRows>> choices(FrozenRows) {
-  return {{FrozenRows::draining, "draining", "its pores take up water at the pressure of their ice: a sink"},
+  return {{FrozenRows::draining, "draining", "its pores absorb water at the pressure of their ice: a sink"},
           {FrozenRows::sealed, "sealed", "no water passes, as through ice"},
           {FrozenRows::vented, "vented", "its pores lead to the air: P = 0 there"}};
 }
@@ -152,14 +152,15 @@ inline std::vector<Choice<FrozenPressure>> choices(FrozenPressure) {
            "P = 0: ice carries load as a solid does; on thawing P starts at N - residual_stress, never below 0"}};
 }
 inline std::vector<Choice<HeatUpdate>> choices(HeatUpdate) {
-  return {{HeatUpdate::enthalpy, "enthalpy", "heat content with its secant capacity: closes to round-off"},
-          {HeatUpdate::apparent_capacity, "apparent_capacity",
-           "the old apparent capacity, as printed: what it makes or loses is capacity_heat_J"}};
+  return {
+      {HeatUpdate::enthalpy, "enthalpy", "heat content with its secant capacity: closes to round-off"},
+      {HeatUpdate::apparent_capacity, "apparent_capacity",
+       "the apparent capacity of the previous step, as published: the heat it creates or loses is capacity_heat_J"}};
 }
 inline std::vector<Choice<HeatMasses>> choices(HeatMasses) {
   return {{HeatMasses::initial, "initial", "those of t = 0: no heat and no mass is made"},
           {HeatMasses::current, "current",
-           "from the current porosity and volume, as printed: what they make is porosity_heat_J"}};
+           "from the current porosity and volume, as published: the heat they create is porosity_heat_J"}};
 }
 inline std::vector<Choice<ClapeyronSign>> choices(ClapeyronSign) {
   return {{ClapeyronSign::usual, "usual",

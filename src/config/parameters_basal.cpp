@@ -158,11 +158,10 @@ std::vector<Parameter<Basal>> strength_parameters() {
                  .text = "energy conversion coefficient: share of the friction work that heats the slide",
                  .source = "Eq. 20, Secs. 3.3, 4"})
           .usually({0.8, 1}, [](const Case& whole, const Basal&) { return has_band_columns(whole); }),
-      parameter(&Basal::distance_check,
-                {.key = "distance_check",
-                 .text = "contact waits until the particles' own edges reach the ground; off: it acts as soon as nodes "
-                         "feel the slide approach, up to a cell early",
-                 .source = "Nairn 2013"}),
+      parameter(&Basal::distance_check, {.key = "distance_check",
+                                         .text = "contact waits until the particles' own edges reach the ground; off: "
+                                                 "it acts as soon as the slide approaches nodes, up to a cell early",
+                                         .source = "Nairn 2013"}),
   };
 }
 

@@ -171,7 +171,7 @@ void declare_bodies(Tables& tables) {
                                                       &Case::bodies, body_parameters()));
   tables.push_back(std::make_unique<NamedTable<Frame>>("frame", "A rigid box that prescribes one velocity component",
                                                        &Case::frames, frame_parameters()));
-  tables.push_back(std::make_unique<SingleTable<Initial>>("initial", "Where particles stand at t = 0", &Case::initial,
+  tables.push_back(std::make_unique<SingleTable<Initial>>("initial", "Positions of particles at t = 0", &Case::initial,
                                                           initial_parameters()));
 }
 

@@ -128,7 +128,7 @@ void warn_about_band(const Case& parameters, Warnings& warnings) {
                        (parameters.mechanisms.lubrication || parameters.mechanisms.pressurization);
   if (rubs && is_felt && parameters.band.thickness.value.empty()) {
     warnings.add_absent("band.thickness",
-                        fmt::format("friction then heats the lowest cells as a whole, {:g} m thick, which hardly warm "
+                        fmt::format("friction then heats the lowest cells as a whole, {:g} m thick, which barely warm "
                                     "or melt. Give the thickness of what shears at the base: usual is 0.01 to 2 m. If "
                                     "nothing is to melt, set heat.enabled = false.",
                                     parameters.grid.cell));
@@ -196,11 +196,10 @@ void warn_about_step(const Case& parameters, Warnings& warnings) {
   const Time& time = parameters.time;
   const double steps = time.end / time.step;
   if (time.stepping == Stepping::fixed && steps > most_steps) {
-    warnings.add(
-        "time.step", time.step, " s",
-        fmt::format("that is {:.4g} steps, from days to years of computing. `thawslide check` tells how long, and "
-                    "the limit, which a step may come close to.",
-                    steps));
+    warnings.add("time.step", time.step, " s",
+                 fmt::format("that is {:.4g} steps, from days to years of computing. `thawslide check` estimates the "
+                             "time and prints the limit of the step.",
+                             steps));
   }
 }
 
@@ -227,12 +226,12 @@ void warn_about_output(const Case& parameters, Warnings& warnings) {
   if (snapshots > most_snapshots) {
     warnings.add(
         "time.output_interval", time.output_interval, " s",
-        fmt::format("that is {:.6g} snapshots, each a file, more than a folder or a film is good for.", snapshots));
+        fmt::format("that is {:.6g} snapshots, each a file, too many for a folder or an animation.", snapshots));
   }
   if (const double interval = parameters.checkpoint.interval; is_fixed && interval > 0.0 && interval <= time.step) {
     warnings.add("checkpoint.interval", interval, " s",
                  fmt::format("no longer than the step of {} s: a checkpoint every step takes longer than the step. "
-                             "checkpoint.wall_interval writes them by the clock.",
+                             "Set checkpoint.wall_interval to write them by wall-clock time.",
                              time.step));
   }
   if (const double interval = parameters.checkpoint.interval; interval > time.end) {

@@ -44,7 +44,7 @@ class ProfileReader {
   explicit ProfileReader(std::string file) : file_(std::move(file)) {}
 
   ProfileTable read() {
-    require_size(file_, largest_table_file, "A terrain model is read with terrain.type = \"dem\".");
+    require_size(file_, largest_table_file, "A DEM is read with terrain.type = \"dem\".");
     std::ifstream stream(file_, std::ios::binary);
     std::string line;
     while (std::getline(stream, line)) {
@@ -84,7 +84,7 @@ class ProfileReader {
     if (is_binary) {
       fail(
           "this is no text file; allowed: columns separated by commas under the header "
-          "distance_m,terrain_elevation_m[,surface_elevation_m]. A terrain model is read with terrain.type = \"dem\"");
+          "distance_m,terrain_elevation_m[,surface_elevation_m]. A DEM is read with terrain.type = \"dem\"");
     }
     const bool is_known =
         (fields.size() == 2 || fields.size() == 3) && std::equal(fields.begin(), fields.end(), all_columns.begin());

@@ -204,8 +204,8 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path, const 
     return fail(node,
                 fmt::format("is \"{}\": no such file ({}){} {}: {}", shown(path), shown(whole.parent_path().string()),
                             hint.empty() ? ";" : hint, hint.empty() ? "allowed" : "Allowed",
-                            from_command_line ? "a file, told from where you are"
-                                              : "a file, told from the folder of the case file"));
+                            from_command_line ? "a file, relative to the current folder"
+                                              : "a file, relative to the folder of the case file"));
   }
   path = whole.string();
   return true;

@@ -1,4 +1,4 @@
-// A first 2D case for a section that was cut out of a terrain model.
+// A first 2D case for a section that was cut out of a DEM.
 #pragma once
 
 #include <string>

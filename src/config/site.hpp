@@ -43,7 +43,7 @@ struct SubstrateStretch {
   double from, to;
 };
 
-// Noise and short bumps of a terrain model, and the filter against them.
+// Noise and short bumps of a DEM, and the filter against them.
 struct Roughness {
   double noise = 0.0;              // rms of white noise on points `spacing` apart that is as rough [m]
   double spacing = 0.0;            // [m]
@@ -62,9 +62,9 @@ using NamedFigures = std::vector<std::pair<std::string, double>>;
 
 struct Site {
   std::shared_ptr<const Raster> ground;  // what bodies slide on, less what is cut out of it; null: no raster
-  // Outermost points of the terrain model that the ground was cropped from [m]; empty: it was not cropped.
+  // Outermost points of the DEM that the ground was cropped from [m]; empty: it was not cropped.
   std::optional<std::array<std::array<double, 2>, 2>> terrain_model;  // south-west, north-east
-  std::optional<Roughness> roughness;                                 // of the terrain model
+  std::optional<Roughness> roughness;                                 // of the DEM
   std::map<std::string, Release> releases;                            // by name of the body
   ProfileTable profile;  // of a 2D case cut out of maps, instead of terrain.file; empty: there is the file
   std::map<std::string, SubstrateArea> substrates;  // by name, those that maps give

@@ -1,4 +1,4 @@
-// How wide the edges of a release that is cut out of a terrain model must be for the slide to get out.
+// How wide the edges of a release that is cut out of a DEM must be for the slide to get out.
 //
 // A cut with upright edges is a pit: its lower wall is as high as the release is thick and holds it back. The taper of
 // width w about the outline makes a ramp of it, which at its steepest rises 2 t / w against the terrain, for a release

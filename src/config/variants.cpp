@@ -80,9 +80,9 @@ toml::table parse(const std::string& text, const std::string& file) {
     return root;
   } catch (const toml::parse_error& error) {
     const auto& begin = error.source().begin;
-    throw UserError(fmt::format("{}:{}:{}: this is not TOML: {}. {}Correct the line; https://toml.io tells the rules.",
-                                file, begin.line, begin.column, shown(std::string(error.description())),
-                                likely_slip(error.description())));
+    throw UserError(fmt::format(
+        "{}:{}:{}: this is not TOML: {}. {}Correct the line; see https://toml.io for the syntax.", file, begin.line,
+        begin.column, shown(std::string(error.description())), likely_slip(error.description())));
   }
 }
 

@@ -89,9 +89,9 @@ class Cuda {
  public:
   // The card that the process uses; throws where there is none that this program is for.
   explicit Cuda(Launching launching = Launching::in_graphs) : launching_(launching) {
-    expect_done(cudaGetDevice(&gpu_), "looking for a card");
+    expect_done(cudaGetDevice(&gpu_), "looking for a GPU");
     cudaFuncAttributes attributes;
-    expect_done(cudaFuncGetAttributes(&attributes, run_each<NoWork>), "asking the card to run this program");
+    expect_done(cudaFuncGetAttributes(&attributes, run_each<NoWork>), "loading this program on the GPU");
   }
   Cuda(const Cuda&) = delete;
   Cuda& operator=(const Cuda&) = delete;
@@ -100,7 +100,7 @@ class Cuda {
   template <class T>
   [[nodiscard]] T* allocate(std::size_t count) {
     void* memory = nullptr;
-    expect_done(cudaMalloc(&memory, count * sizeof(T)), "asking the card for memory");
+    expect_done(cudaMalloc(&memory, count * sizeof(T)), "allocating memory on the GPU");
     return static_cast<T*>(memory);
   }
   // What has failed before is told by whoever waits for it.
@@ -112,17 +112,17 @@ class Cuda {
   template <class T>
   void copy_in(T* to, const T* from, std::size_t count) {
     launch_waiting();
-    expect_done(cudaMemcpy(to, from, count * sizeof(T), cudaMemcpyHostToDevice), "copying to the card");
+    expect_done(cudaMemcpy(to, from, count * sizeof(T), cudaMemcpyHostToDevice), "copying to the GPU");
   }
   template <class T>
   void copy(T* to, const T* from, std::size_t count) {
     launch_waiting();
-    expect_done(cudaMemcpyAsync(to, from, count * sizeof(T), cudaMemcpyDeviceToDevice), "copying on the card");
+    expect_done(cudaMemcpyAsync(to, from, count * sizeof(T), cudaMemcpyDeviceToDevice), "copying on the GPU");
   }
   template <class T>
   void copy_out(T* to, const T* from, std::size_t count) {
     launch_waiting();
-    expect_done(cudaMemcpy(to, from, count * sizeof(T), cudaMemcpyDeviceToHost), "copying from the card");
+    expect_done(cudaMemcpy(to, from, count * sizeof(T), cudaMemcpyDeviceToHost), "copying from the GPU");
   }
 
   template <class Work>
@@ -139,7 +139,7 @@ class Cuda {
     if (shared_bytes > has) {
       expect_done(cudaFuncSetAttribute(run_groups<Work>, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                        static_cast<int>(shared_bytes)),
-                  "asking the card for shared memory");
+                  "allocating shared memory on the GPU");
       has = shared_bytes;
     }
     if (groups > 0) {
@@ -169,7 +169,7 @@ class Cuda {
   // Waits until the card has done all that it was given.
   void wait() {
     launch_waiting();
-    expect_done(cudaDeviceSynchronize(), "waiting for the card");
+    expect_done(cudaDeviceSynchronize(), "waiting for the GPU");
   }
 
   // From now on the end of each stage is waited for, which makes a step slower; seconds by stage, so far.
@@ -200,7 +200,7 @@ class Cuda {
   }
   void launch_waiting() {
     note(graphs_.launch());
-    expect_done(std::exchange(failed_, cudaSuccess), "starting threads on the card");
+    expect_done(std::exchange(failed_, cudaSuccess), "starting threads on the GPU");
   }
   void note(cudaError_t code) { failed_ = failed_ == cudaSuccess ? code : failed_; }
 

@@ -80,7 +80,7 @@ template <class... Reads, class... Adds, int Dim, class Real, class... Kernels>
 class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...> {
   using Names = mpm::RecordList<Adds...>;
   static_assert(mpm::all_apart<Names, Dim>, "particles add to these components of a record in different ways");
-  static_assert(mpm::one_record<Names>, "a pass has room for one patch that is added to");
+  static_assert(mpm::one_record<Names>, "a pass can add to one record only");
   static_assert(mpm::are_disjoint<mpm::RecordList<Reads...>, Names>,
                 "no record is read in the pass that adds to it: it has no sums yet");
 

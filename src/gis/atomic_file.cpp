@@ -30,13 +30,13 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::fail(const std::string& reason) const {
-  throw WriteError(
-      fmt::format("cannot write {}: {}. Check that the folder exists, may be written to, and that the disk has room.",
-                  file_, reason));
+  throw WriteError(fmt::format(
+      "cannot write {}: {}. Check that the folder exists and is writable, and that the disk has free space.", file_,
+      reason));
 }
 
 void AtomicFile::fail_with(const GdalMessages& messages) const {
-  fail(messages.remark().empty() ? "for a reason that GDAL does not tell" : messages.remark().substr(2));
+  fail(messages.remark().empty() ? "for a reason that GDAL does not report" : messages.remark().substr(2));
 }
 
 void AtomicFile::publish() {

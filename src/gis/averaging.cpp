@@ -161,7 +161,7 @@ Polygons in_system(const Polygons& polygons, const Reprojection& reprojection, c
     if (!reprojection.apply(x, y)) {
       throw UserError(
           fmt::format("the release has no place in the coordinate reference system {} of the raster. "
-                      "Reproject the raster to the system of the terrain model.",
+                      "Reproject the raster to the system of the DEM.",
                       name));
     }
     for (std::size_t k = 0; k < ring.size(); ++k) {

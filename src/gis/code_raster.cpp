@@ -83,7 +83,7 @@ Raster read_codes(const config::Case& parameters, const std::string& key, const 
     if (Reprojection(codes.crs, ground.crs).changes_nothing()) {
       return codes;
     }
-    notes.push_back(fmt::format("the codes of {}, which is in {}, were taken to the points of the terrain model",
+    notes.push_back(fmt::format("the codes of {}, which is in {}, were taken to the points of the DEM",
                                 name_of_file(file), name_of(codes.crs)));
     return nearest_codes(file, codes, ground);
   });

@@ -32,7 +32,7 @@ std::string system_of(const config::Case& parameters, const RasterFile& file, st
     notes.push_back(note);
   }
   if (!given.empty() && name_of(system) != name_of(layout.crs)) {
-    notes.push_back(fmt::format("{} is taken to be in {}, as terrain.crs says; the file says {}",
+    notes.push_back(fmt::format("{} is read as {}, as set by terrain.crs; the file specifies {}",
                                 std::filesystem::path(file.file()).filename().string(), name_of(system),
                                 layout.crs.empty() ? "nothing" : name_of(layout.crs)));
   }
@@ -81,7 +81,7 @@ void check_domain(const config::Case& parameters, const std::string& file, const
   const std::string within = domain_within(parameters, span);
   const double resample = parameters.terrain.resample;
   fail_at(parameters, low ? "grid.min" : "grid.max",
-          fmt::format("the domain {} {}{}, by {}; allowed: {}. Set {}, or take a larger terrain model.",
+          fmt::format("the domain {} {}{}, by {}; allowed: {}. Set {}, or take a larger DEM.",
                       domain.touches(span) ? "reaches beyond the outermost points of" : "lies outside", file,
                       resample > 0.0 ? fmt::format(", taken to points {:g} m apart", resample) : "", beyond,
                       format_range(span), within.empty() ? "grid.min and grid.max so" : within));
@@ -93,7 +93,7 @@ Rectangle area_to_read(const config::Case& parameters, const Raster& layout) {
   return domain_of(parameters).widened(grid_cells + 2.0 * layout.cell_x, grid_cells + 2.0 * layout.cell_y);
 }
 
-// Points of the whole terrain model are numbered before those of the domain are read.
+// Points of the whole DEM are numbered before those of the domain are read.
 void check_distance(const config::Case& parameters, const RasterFile& file) {
   const Raster& layout = file.layout();
   const double length = std::max((layout.columns - 1) * layout.cell_x, (layout.rows - 1) * layout.cell_y);
@@ -166,7 +166,7 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
   const Raster& layout = terrain.resample > 0.0 ? made : file.layout();
   if (layout.columns < 2 || layout.rows < 2) {
     fail_at(parameters, terrain.resample > 0.0 ? "terrain.resample" : "terrain.file",
-            fmt::format("{} has {} x {} points {:.6g} m apart; needed: at least 2 x 2. Take a larger terrain model, or "
+            fmt::format("{} has {} x {} points {:.6g} m apart; needed: at least 2 x 2. Take a larger DEM, or "
                         "a smaller distance.",
                         file.file(), layout.columns, layout.rows, layout.cell_x));
   }

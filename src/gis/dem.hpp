@@ -1,4 +1,4 @@
-// The ground of a case from its terrain model.
+// The ground of a case from its DEM.
 #pragma once
 
 #include <string>

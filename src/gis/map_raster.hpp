@@ -1,4 +1,4 @@
-// Rasters beside the terrain model: a thickness, the surface before the slide, a temperature.
+// Rasters beside the DEM: a thickness, the surface before the slide, a temperature.
 #pragma once
 
 #include <optional>

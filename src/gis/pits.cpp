@@ -135,7 +135,7 @@ std::string pits_note(const std::string& file, const Raster& ground) {
   }
   const std::string path = std::filesystem::path(file).filename().string();
   return fmt::format(
-      "{} point{} of {} {} exactly {:.9g} m amid ground of {:.0f} to {:.0f} m, such as ({:.0f}, {:.0f}): a hole "
+      "{} point{} of {} {} exactly {:.9g} m among heights of {:.0f} to {:.0f} m, such as ({:.0f}, {:.0f}): a hole "
       "without data? Then say so in the file, gdal_edit.py -a_nodata {:.9g} {}, or fill it",
       most.points, most.points == 1 ? "" : "s", path, most.points == 1 ? "is" : "are", value, most.lowest, most.highest,
       most.x, most.y, value, file);

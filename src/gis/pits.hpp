@@ -1,4 +1,4 @@
-// Points of a terrain model that stand for no data although the file does not say so.
+// Points of a DEM that stand for no data although the file does not say so.
 #pragma once
 
 #include <string>

@@ -34,7 +34,7 @@ namespace {
   }
   throw UserError(
       fmt::format("{}: the raster cannot be opened{}. Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is "
-                  "whole and may be read.",
+                  "complete and readable.",
                   file, messages.remark()));
 }
 
@@ -78,8 +78,8 @@ Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up
   double transform[6];
   if (dataset.GetGeoTransform(transform) != CE_None) {
     throw UserError(
-        fmt::format("{}: the raster is not georeferenced: nothing tells where its corner lies and how large its cells "
-                    "are. Export it again with its place (GeoTIFF tags, or a world file beside it).",
+        fmt::format("{}: the raster is not georeferenced: its corner and the size of its cells are unknown. Export it "
+                    "again with georeferencing (GeoTIFF tags, or a world file next to it).",
                     file));
   }
   const double along = std::abs(transform[1]) + std::abs(transform[5]);

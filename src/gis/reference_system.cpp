@@ -111,10 +111,10 @@ std::string warp_of_degrees(const Located& raster, const std::string& source_opt
 
 [[noreturn]] void fail_with_degrees(const Located& raster, const std::string& wkt) {
   if (!can_be_degrees(raster.extent)) {
-    throw UserError(
-        fmt::format("{}: the tag says degrees ({}), the numbers are metric ({}). Set terrain.crs = \"EPSG:...\" to the "
-                    "system the numbers are in; its maker states it.",
-                    raster.file, name_of(wkt), format_range(raster.extent)));
+    throw UserError(fmt::format(
+        "{}: the tag specifies degrees ({}), but the numbers are metric ({}). Set terrain.crs = \"EPSG:...\" to the "
+        "system the numbers are in; its maker states it.",
+        raster.file, name_of(wkt), format_range(raster.extent)));
   }
   throw UserError(
       fmt::format("{}: the coordinates are degrees ({}; {}); allowed: a map projection in metres. Reproject: {}",

@@ -19,7 +19,7 @@ struct LoadedRelease {
   Raster spread;      // the same, handed to the points about it by the taper as the thickness is
 };
 
-// `ground` as the terrain model has it, before anything is cut out of it. Adds to the notes.
+// `ground` as the DEM has it, before anything is cut out of it. Adds to the notes.
 [[nodiscard]] LoadedRelease load_release(const config::Case& parameters, const std::string& body, const Dem& ground,
                                          std::vector<std::string>& notes);
 

@@ -46,9 +46,9 @@ void check_place(const config::Case& parameters, const std::string& body, const 
                           format_range(extent), format_range(outer), remedy));
     }
   };
-  check("the terrain model", ground.span,
+  check("the DEM", ground.span,
         fmt::format("Check that both have the same place and reference system (the ground's is {}), or take a larger "
-                    "terrain model.",
+                    "DEM.",
                     name_of(ground.raster.crs)));
   check("the domain", domain_of(parameters), "Widen grid.min and grid.max.");
 }
@@ -74,33 +74,33 @@ void check_taper(const config::Case& parameters, const std::string& body, const 
                           taper, 0.5 * taper, what, beyond, widest_taper(extent, outer, points), remedy));
     }
   };
-  check("the terrain model", ground.span, "take a larger terrain model");
+  check("the DEM", ground.span, "take a larger DEM");
   check("the domain", domain_of(parameters), "widen grid.min and grid.max");
 }
 
-// The terrain model's points get their share of a release each: one that is smaller than a cell would become much
+// The DEM's points get their share of a release each: one that is smaller than a cell would become much
 // thinner.
 void check_size(const config::Case& parameters, const std::string& body, double size, const Raster& ground) {
   const double cell = ground.cell_x * ground.cell_y;
   if (size < cell * (1.0 - 1e-9)) {
     const double finer = 0.25 * std::sqrt(size);
     fail_at(parameters, key_of(body, "release"),
-            fmt::format(
-                "{}: the release has {:.4g} m2, less than one cell of the terrain model, {:.4g} m2: it would be "
-                "spread over the cell and become as much thinner. Draw it larger, or resample the terrain model "
-                "(gdalwarp -tr {:.1g} {:.1g} -r bilinear {} finer.tif).",
-                parameters.bodies.at(body).release, size, cell, finer, finer, shell_quote(parameters.terrain.file)));
+            fmt::format("{}: the release has {:.4g} m2, less than one cell of the DEM, {:.4g} m2: it would be "
+                        "spread over the cell and become as much thinner. Draw it larger, or resample the DEM "
+                        "(gdalwarp -tr {:.1g} {:.1g} -r bilinear {} finer.tif).",
+                        parameters.bodies.at(body).release, size, cell, finer, finer,
+                        shell_quote(parameters.terrain.file)));
   }
 }
 
 void note_narrow(const std::string& body, const Raster& share, std::vector<std::string>& notes) {
   const double most = *std::max_element(share.values.begin(), share.values.end());
   if (most < 0.995) {
-    notes.push_back(fmt::format(
-        "the release of the body {} covers no cell of the terrain model, {:g} m x {:g} m, as a whole: it is "
-        "spread over cells that it covers in part, and gets up to {:.0f} % of the thickness given; the "
-        "volume stays. Draw it larger, or resample the terrain model",
-        body, share.cell_x, share.cell_y, 100.0 * most));
+    notes.push_back(
+        fmt::format("the release of the body {} covers no cell of the DEM, {:g} m x {:g} m, as a whole: it is "
+                    "spread over cells that it covers in part, and gets up to {:.0f} % of the thickness given; the "
+                    "volume stays. Draw it larger, or resample the DEM",
+                    body, share.cell_x, share.cell_y, 100.0 * most));
   }
 }
 
@@ -120,7 +120,7 @@ Rectangle extent_of_positive(const config::Body& body, const Raster& source, con
       throw UserError(fmt::format("{}: the thickness is nowhere above 0: there is no release.", file));
     }
     throw UserError(
-        fmt::format("{}: the surface before the slide lies nowhere more than {:g} m above the terrain model: there is "
+        fmt::format("{}: the surface before the slide lies nowhere more than {:g} m above the DEM: there is "
                     "no release. Are the two files swapped?",
                     file, body.surface_tolerance));
   }

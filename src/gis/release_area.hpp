@@ -26,7 +26,7 @@ struct ReleaseArea {
 [[nodiscard]] std::string key_of_place(const config::Case& parameters, const std::string& body);
 [[nodiscard]] const std::string& file_of_place(const config::Case& parameters, const std::string& body);
 
-// Reads the release and checks that it lies within the domain and the terrain model. Adds to the notes.
+// Reads the release and checks that it lies within the domain and the DEM. Adds to the notes.
 [[nodiscard]] ReleaseArea load_release_area(const config::Case& parameters, const std::string& body, const Dem& ground,
                                             std::vector<std::string>& notes);
 

@@ -88,13 +88,13 @@ class ThicknessMaker {
     });
     if (without > 0 && spread == Spread::by_taper) {
       fail("taper",
-           fmt::format("a taper of {:g} m spreads the release of {} over nodata of the terrain model at {} points, "
+           fmt::format("a taper of {:g} m spreads the release of {} over nodata of the DEM at {} points, "
                        "such as {}. Set a narrower one, or fill the holes (gdal_fillnodata.py {} filled.tif).",
                        body_.taper, file_of_place(case_, name_), without, first, shell_quote(case_.terrain.file)));
     }
     if (without > 0) {
       fail(body_.release.empty() ? "thickness" : "release",
-           fmt::format("{}: the release lies over nodata of the terrain model at {} of its points, such as {}. "
+           fmt::format("{}: the release lies over nodata of the DEM at {} of its points, such as {}. "
                        "Fill the holes (gdal_fillnodata.py {} filled.tif), or move the release.",
                        file_of_place(case_, name_), without, first, shell_quote(case_.terrain.file)));
     }
@@ -217,7 +217,7 @@ class ThicknessMaker {
   Raster of_surface() const {
     if (body_.placement == config::Placement::cut) {
       fail("placement",
-           "a thickness between a surface before the slide and the terrain model takes the terrain model "
+           "a thickness between a surface before the slide and the DEM takes the DEM "
            "for what the slide lay on, so that nothing is to be cut out of it. Set \"on_top\".");
     }
     if (body_.thickness_along == config::ThicknessAlong::normal) {
@@ -239,11 +239,11 @@ class ThicknessMaker {
         specified("the surface has no data. Fill it, or draw the release smaller.");
       }
       if (difference < -body_.surface_tolerance) {
-        specified(fmt::format(
-            "the surface before the slide lies {:.4g} m below the terrain model; allowed: above it, or below "
-            "by up to {:g} m. Are the two files swapped? Else draw the release smaller, or set "
-            "body.{}.surface_tolerance to the noise of the two.",
-            -difference, body_.surface_tolerance, name_));
+        specified(
+            fmt::format("the surface before the slide lies {:.4g} m below the DEM; allowed: above it, or below "
+                        "by up to {:g} m. Are the two files swapped? Else draw the release smaller, or set "
+                        "body.{}.surface_tolerance to the noise of the two.",
+                        -difference, body_.surface_tolerance, name_));
       }
       value *= difference > body_.surface_tolerance ? difference : 0.0;
     });

@@ -27,7 +27,7 @@ class Reprojection {
   std::unique_ptr<Transformation> transformation_;
 };
 
-// The system of a file beside the terrain model: what it tells, or the ground's where it tells nothing and where its
+// The system of a file beside the DEM: what it tells, or the ground's where it tells nothing and where its
 // numbers cannot be in what it tells. `note`: what the user should know of that; empty: nothing.
 struct LikelySystem {
   std::string wkt;

@@ -326,9 +326,9 @@ std::string roughness_note(const config::Case& parameters, const config::Site& s
   if (is_auto ? found.slope_left <= largest_slope : found.apparent_friction <= much_friction) {
     return "";
   }
-  const std::string remedy =
-      is_auto ? "That is the widest filter. Use larger cells (grid.cell), or a terrain model with less noise."
-              : "Set terrain.smooth = \"auto\".";
+  const std::string remedy = is_auto
+                                 ? "That is the widest filter. Use larger cells (grid.cell), or a DEM with less noise."
+                                 : "Set terrain.smooth = \"auto\".";
   return fmt::format(
       "terrain.smooth: noise and bumps shorter than {:.2g} m add about {:.2g} % to the friction, with a filter of "
       "{:g} m (rms slope {:.2g}; at most {:g} is intended). {}",

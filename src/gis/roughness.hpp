@@ -1,4 +1,4 @@
-// Noise and short bumps of a terrain model, which act on a slide as friction, and the width of a filter against them.
+// Noise and short bumps of a DEM, which act on a slide as friction, and the width of a filter against them.
 //
 // The formulas and numbers of friction are measurements of Thawslide itself: blocks on planes and in V channels with
 // white noise on the points (docs/theory/contact.md, "Roughness").
@@ -14,7 +14,7 @@
 
 namespace thawslide::gis {
 
-// Points of a terrain model in a line that the estimate of noise fits a parabola to.
+// Points of a DEM in a line that the estimate of noise fits a parabola to.
 inline constexpr int points_of_fit = 9;
 
 // Rms of the white noise on the points of a raster within a rectangle [m]; 0 where there are too few points.
@@ -39,7 +39,7 @@ inline constexpr double largest_slope = 0.06;  // that the choice of a width lea
 // Length of the waves of which short_waves keeps half.
 [[nodiscard]] double bump_length(double spacing, double cell);
 
-// What a terrain model has in and about a rectangle of waves shorter than bump_length [m]: half of those of this
+// What a DEM has in and about a rectangle of waves shorter than bump_length [m]: half of those of this
 // length, 0.98 of those half as long, and 0.03 of those twice as long. Planes, and waves that many points resolve,
 // leave nothing.
 [[nodiscard]] Raster short_waves(const Raster& raster, const Rectangle& rectangle, double cell);

@@ -99,7 +99,7 @@ SiteAndNotes load_site(const config::Case& parameters) {
     }
     if (dem.raster.empty()) {
       fail_at(parameters, fmt::format("body.{}.shape", name),
-              "a release lies on a terrain model. Set terrain.type = \"dem\" and terrain.file.");
+              "a release lies on a DEM. Set terrain.type = \"dem\" and terrain.file.");
     }
     releases[name] = load_release(parameters, name, dem, loaded.notes);
   }

@@ -75,10 +75,10 @@ GDALDatasetUniquePtr open_vector(const std::string& file, Kind kind) {
                                    "= \"FILE\" }, which needs no polygons."
                                  : ""));
     }
-    throw UserError(fmt::format(
-        "{}: the file cannot be opened{}. Allowed: Shapefile (with its .shx and .dbf beside it), GeoPackage "
-        "or GeoJSON; check that the file is whole and may be read.",
-        file, messages.remark()));
+    throw UserError(
+        fmt::format("{}: the file cannot be opened{}. Allowed: Shapefile (with its .shx and .dbf), GeoPackage "
+                    "or GeoJSON; check that the file is complete and readable.",
+                    file, messages.remark()));
   }
   return dataset;
 }

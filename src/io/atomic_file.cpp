@@ -23,10 +23,9 @@ namespace fs = std::filesystem;
 [[noreturn]] void fail(const fs::path& file, const fs::path& temporary, int reason) {
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  throw WriteError(
-      fmt::format("cannot write {}: {}. Check that the folder exists, may be written to, and that the disk has "
-                  "room.",
-                  file.string(), std::strerror(reason)));
+  throw WriteError(fmt::format(
+      "cannot write {}: {}. Check that the folder exists and is writable, and that the disk has free space.",
+      file.string(), std::strerror(reason)));
 }
 
 constexpr std::string_view unfinished = ".thawslide-part";

@@ -47,7 +47,7 @@ class Reader {
   std::size_t count(std::size_t item_bytes, const char* what) {
     const std::uint64_t found = number();
     if (found > left_.size() / item_bytes) {
-      fail(fmt::format("it tells of {} {}, of {} bytes each, where {} bytes are left", found, what, item_bytes,
+      fail(fmt::format("it specifies {} {} of {} bytes each, but {} bytes are left", found, what, item_bytes,
                        left_.size()));
     }
     return found;
@@ -178,8 +178,8 @@ std::string case_of(const WholeCheckpoint& checkpoint) { return reader_of(checkp
 WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder) {
   if (!has_checkpoint(folder)) {
     throw UserError(
-        fmt::format("{} holds no {} to go on from. A run writes it before its first step, so this is not a run's "
-                    "folder, or the run was stopped while it set up. Run the case again.",
+        fmt::format("{} holds no {} to continue from. A run writes it before its first step: this is not the folder of "
+                    "a run, or the run was stopped during its setup. Run the case again.",
                     folder.string(), checkpoint_name));
   }
   WholeCheckpoint found;

@@ -77,7 +77,7 @@ class KeptRows {
   [[nodiscard]] std::string note(const std::filesystem::path& file, bool is_present, const HistoryExtent& then) const {
     const std::string name = file.filename().string();
     if (!is_present) {
-      return fmt::format("{} was missing: it begins anew, without the {} rows up to t = {:g} s", name, then.rows,
+      return fmt::format("{} was missing: it starts again, without the {} rows up to t = {:g} s", name, then.rows,
                          then.last_time);
     }
     if (lacks_any(then)) {

@@ -104,10 +104,10 @@ std::string without_control_letters(std::string text) {
 }
 
 [[noreturn]] void fail_as_damaged(const fs::path& file, const std::string& what) {
-  throw UserError(
-      fmt::format("{} is damaged: {}. Without it a run cannot go on: put back a copy of it, or run the case anew into "
-                  "another folder: thawslide run {} --output OTHER.",
-                  file.string(), what, shell_quote(file.parent_path().string())));
+  throw UserError(fmt::format(
+      "{} is damaged: {}. Without it, the run cannot continue. Put back a copy of it, or run the case again into "
+      "another folder: thawslide run {} --output OTHER.",
+      file.string(), what, shell_quote(file.parent_path().string())));
 }
 
 }  // namespace

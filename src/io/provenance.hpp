@@ -46,7 +46,7 @@ struct Provenance {
   std::optional<bool> at_rest;                            // of the slide; nothing: not known
   std::vector<std::string> warnings;                      // about the results
   std::vector<std::pair<std::string, double>> figures;    // results in numbers; NaN: not known
-  std::vector<std::pair<std::string, double>> roughness;  // of a terrain model, and the filter; empty: there is none
+  std::vector<std::pair<std::string, double>> roughness;  // of a DEM, and the filter; empty: there is none
   std::string crs;                                        // name of the reference system; empty: none is known
   double writer_seconds = 0.0;  // processor time that writing snapshots took while steps went on, in the last part
 };

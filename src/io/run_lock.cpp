@@ -63,7 +63,7 @@ int open_lock(const fs::path& file, int flags) {
   }
   if (const std::string found = what_is_no_lock(file); !found.empty()) {
     throw UserError(
-        fmt::format("{} is {}, where a run keeps its lock, a regular file. Remove it once no run is at work in {}.",
+        fmt::format("{} is {}, but must be a regular file: the lock of a run. Remove it once no run is at work in {}.",
                     file.string(), found, file.parent_path().string()));
   }
   errno = reason;
@@ -129,8 +129,8 @@ std::string refusal(const fs::path& file, const AtWork& at_work, Lock lock) {
   const std::string folder = file.parent_path().string();
   if (!at_work.is_known) {
     return fmt::format(
-        "{} may be being written by {}: its file system has no locks, and from this machine it cannot be told whether "
-        "that lives. If it has surely ended, remove {}.",
+        "{} may be being written by {}: its file system has no locks, and this machine cannot determine whether that "
+        "process exists. If it has surely ended, remove {}.",
         folder, at_work.process, file.string());
   }
   const std::string without_locks =
@@ -217,8 +217,8 @@ void OwnFolder::require() const {
   if (!is_own()) {
     throw WriteError(fmt::format(
         "{} is not the folder any more that this run began in: that was moved or removed, its {} was, or another run "
-        "has taken its place. Nothing more is written there. From where the folder is now, `thawslide resume` goes on "
-        "from the last checkpoint.",
+        "has taken its place. Nothing more is written there. From where the folder is now, `thawslide resume` "
+        "continues from the last checkpoint.",
         lock_.parent_path().string(), lock_name));
   }
 }
@@ -228,7 +228,7 @@ AtWork process_at_work(const fs::path& folder) {
   const int descriptor = open_lock(file, O_RDONLY);
   if (descriptor < 0) {
     if (errno != ENOENT && errno != ENOTDIR) {
-      throw UserError(fmt::format("cannot read {}: {}. It tells whether a run is at work there.", file.string(),
+      throw UserError(fmt::format("cannot read {}: {}. It shows whether a run is active there.", file.string(),
                                   std::strerror(errno)));
     }
     return {};

@@ -220,7 +220,7 @@ void take_patches(RecordList<Names...> /*names*/, [[maybe_unused]] std::size_t t
 template <class Reads, class Adds, int Dim>
 constexpr void check_records() {
   static_assert(all_apart<Adds, Dim>, "particles add to these components of a record in different ways");
-  static_assert(one_record<Adds>, "the patches of two records would lie in the same room");
+  static_assert(one_record<Adds>, "the patches of two records would share memory");
   static_assert(are_disjoint<Reads, Adds>, "no record is read in the pass that adds to it: it has no sums yet");
 }
 

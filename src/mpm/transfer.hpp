@@ -101,7 +101,7 @@ class NodeRecords {
   // Patches for the tiles, to be cleared and filled by whoever works on a tile, and to be summed before other records
   // of the same room ask for theirs.
   [[nodiscard]] std::span<Patch<Dim, Real, Components>> patches(std::size_t tiles) {
-    THAWSLIDE_ASSERT(room_ != nullptr, "{} components without room for patches", Components);
+    THAWSLIDE_ASSERT(room_ != nullptr, "{} components without memory for patches", Components);
     return room_->take<Patch<Dim, Real, Components>>(tiles);
   }
 

@@ -291,7 +291,7 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
                     parameters.file));
   }
   if (parameters.bed.law != config::BedLaw::none) {
-    throw UserError(fmt::format("{}: the block model takes up no bed. Remove [bed], or use `thawslide run`.",
+    throw UserError(fmt::format("{}: the block model does not entrain a bed. Remove [bed], or use `thawslide run`.",
                                 config::place_of(parameters, "bed.law")));
   }
   if (parameters.general.width.varies()) {

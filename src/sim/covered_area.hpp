@@ -9,7 +9,7 @@
 // thicker than at the start by more than a tenth and, where it is covered, by `least`.
 //
 // Elsewhere a cell is covered as at the start, where that is drawn by the outlines of the releases and the sides of
-// boxes. The terrain model's points make ramps of the outlines, a cell wide, which are not counted. The ring by which a
+// boxes. The DEM's points make ramps of the outlines, a cell wide, which are not counted. The ring by which a
 // taper spreads a release beyond its outline is, where it is thicker than the least.
 #pragma once
 

@@ -14,7 +14,7 @@
 namespace thawslide::sim {
 
 // The change of volume by dilation from which on it is reported as a warning, as a share. Release volumes from
-// differences of terrain models are known to about as much, so a smaller change is within the uncertainty of the input;
+// differences of DEMs are known to about as much, so a smaller change is within the uncertainty of the input;
 // a larger one makes thicknesses, areas and volumes of the result wrong by more than that.
 inline constexpr double noticed_dilation = 0.05;
 

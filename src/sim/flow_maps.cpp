@@ -364,7 +364,7 @@ void FlowMaps::restore(const std::vector<double>& numbers) {
   StateNumbers state(numbers, "maps");
   const double columns = state.next(), rows = state.next();
   if (columns != map_grid_.columns || rows != map_grid_.rows) {
-    state.fail(fmt::format("it has {} x {} cells where the case has {} x {}", columns, rows, map_grid_.columns,
+    state.fail(fmt::format("it has {} x {} cells, but the case has {} x {}", columns, rows, map_grid_.columns,
                            map_grid_.rows));
   }
   tile_index_.clear();

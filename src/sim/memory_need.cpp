@@ -78,7 +78,7 @@ std::string parts_of(const MemoryNeed& need) {
                                 config::place_of(parameters, "maps.cell"), amounts));
   }
   throw UserError(
-      fmt::format("{}: terrain.file: {}. Make the domain smaller (grid.min, grid.max), or take the terrain model to "
+      fmt::format("{}: terrain.file: {}. Make the domain smaller (grid.min, grid.max), or take the DEM to "
                   "points farther apart with terrain.resample.",
                   config::place_of(parameters, "terrain.file"), amounts));
 }

@@ -39,7 +39,7 @@ struct MemoryNeed {
   double columns = 0.0;    // below the base
   double bed = 0.0;        // that is erodible
   double maps = 0.0;       // what the slide passes of them, and one that is written
-  double ground = 0.0;     // of a terrain model
+  double ground = 0.0;     // of a DEM
 
   [[nodiscard]] double total() const { return bytes_of_program + particles + output + columns + bed + maps + ground; }
 };

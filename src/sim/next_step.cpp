@@ -20,14 +20,15 @@ std::string advice_on(LimitKind kind) {
              "with guards.volume = \"remove\" and a guards.largest_volume.";
     case LimitKind::viscosity:
       return "Try a smaller viscosity_time in the material: its limit falls with the square of the wave speed, which "
-             "grows as matter is torn apart; or take such particles out with guards.volume = \"remove\" and a "
+             "grows in separated material; or remove such particles with guards.volume = \"remove\" and a "
              "guards.largest_volume.";
     case LimitKind::particle_speed:
       return "The particle came loose, or the run has become unstable: try half of time.safety, or viscosity_time in "
              "the material.";
     case LimitKind::conduction:
     case LimitKind::seepage:
-      return "The band has become thin, or its matter conducts well: try a larger band.thickness, or band.model = "
+      return "The band has become thin, or its hydraulic conductivity is large: try a larger band.thickness, or "
+             "band.model = "
              "\"columns\", whose steps have no such limit.";
     case LimitKind::none:
       break;

@@ -100,7 +100,7 @@ std::vector<double> CentrePath::state() const {
 void CentrePath::restore(const std::vector<double>& numbers) {
   line_ = PathLine();
   line_.reserve(usual_corners);
-  StateNumbers state(numbers, "way of the centre of mass");
+  StateNumbers state(numbers, "path of the centre of mass");
   while (state.left() > 0) {
     const double x = state.next_finite(), y = state.next_finite();
     line_.add({x, y});

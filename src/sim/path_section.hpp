@@ -2,7 +2,7 @@
 // the way of steepest descent from the centre of its release.
 //
 // The terrain is the ground below the path from the release on, which goes on straight where the release reaches beyond
-// its ends; it ends with the path, or where this leaves the terrain model below the release. The release stands on it
+// its ends; it ends with the path, or where this leaves the DEM below the release. The release stands on it
 // as thick as it is on average across the path: its points are counted at the nearest place of the path, over lengths
 // of a cell of the grid, or two of the DEM where these are longer; volume over area is the thickness. Initial fields
 // from maps become their mean over the release's volume, those over x their value at its centre; the velocity becomes

@@ -20,10 +20,10 @@ constexpr double runaway = 5.0;
 // Below this [C] it is squeezing that has closed pores, not the rock's expansion.
 constexpr double hot = 1000.0;
 
-// Of a terrain model that ends too soon.
+// Of a DEM that ends too soon.
 constexpr const char* anew =
-    "`thawslide new` crops the DEM to the domain: make the case anew with a smaller --reach-angle, which takes more of "
-    "the DEM, or from a larger DEM.";
+    "`thawslide new` crops the DEM to the domain: create the case again with a smaller --reach-angle, which uses more "
+    "of the DEM, or from a larger DEM.";
 
 // Where a particle is heading over the horizontal plane, in words; x is east and y north.
 std::string heading(double x, double y) {
@@ -52,7 +52,7 @@ int axis_of_exit(const Vector<Real, Dim>& place, const Vector<Real, Dim>& veloci
   return first;
 }
 
-// How far the terrain model reaches from a place on, the way it moves over the plane [m].
+// How far the DEM reaches from a place on, the way it moves over the plane [m].
 double distance_to_domain_edge(const config::Site& site, const Place2& place, const Place2& velocity) {
   const double speed = std::hypot(velocity[0], velocity[1]);
   const Raster& ground = *site.ground;
@@ -168,7 +168,7 @@ std::string Simulation<Dim, Real>::fault_text(std::size_t p) const {
 }
 
 // How much further a particle would go the way it moves, until friction has taken its energy, v2/(2 g tan(angle)), and
-// how far the terrain model reaches there.
+// how far the DEM reaches there.
 template <int Dim, class Real>
 std::string Simulation<Dim, Real>::terrain_ahead(std::size_t p) const {
   const Vector<double, Dim> velocity = particles_.velocity.template get<Vector<Real, Dim>>(p).template cast<double>();
@@ -177,7 +177,7 @@ std::string Simulation<Dim, Real>::terrain_ahead(std::size_t p) const {
   const double energy_height = velocity.squaredNorm() / (2.0 * gravity);
   const double further = std::ceil(energy_height / std::tan(angle * degree) / rounded_to) * rounded_to;
   const std::string level = fmt::format(
-      "With {:g} degrees of friction, the angle of reach that `thawslide new` starts from, it would go about {:.0f} m "
+      "With {:g} degrees of friction, the reach angle that `thawslide new` assumes, it would go about {:.0f} m "
       "further on level ground, and more where the ground falls. ",
       angle, further);
   if (Dim == 2 || site_.ground == nullptr || invalid_.fault == mpm::Fault::left_map) {

@@ -19,13 +19,13 @@ bool reaches(const Raster& raster, const Place2& place) {
       fmt::format("{:.6g} m from its beginning, at x = {:.10g}, y = {:.10g}", along, place[0], place[1]);
   if (!reaches(ground, place)) {
     throw UserError(
-        fmt::format("{}: the line is outside the terrain model {}; its points reach from x = {:.10g} to {:.10g} and "
-                    "from y = {:.10g} to {:.10g}. Draw the line within them, or take a larger terrain model.",
+        fmt::format("{}: the line is outside the DEM {}; its points reach from x = {:.10g} to {:.10g} and "
+                    "from y = {:.10g} to {:.10g}. Draw the line within them, or take a larger DEM.",
                     source, where, ground.x, ground.x_end(), ground.y, ground.y_end()));
   }
   throw UserError(
-      fmt::format("{}: the line crosses a place without data {}; needed: an elevation all along it. Fill the terrain "
-                  "model there (gdal_fillnodata.py), or draw the line around it.",
+      fmt::format("{}: the line crosses a place without data {}; needed: an elevation all along it. Fill the DEM there "
+                  "(gdal_fillnodata.py), or draw the line around it.",
                   source, where));
 }
 

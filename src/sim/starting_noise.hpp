@@ -1,4 +1,4 @@
-// Where particles stand at t = 0 when they are displaced from their regular places at random.
+// Positions of particles at t = 0 when they are displaced from their regular places at random.
 #pragma once
 
 #include "base/counter_random.hpp"

@@ -1,4 +1,4 @@
-// The way straight down a terrain model from a place.
+// The way straight down a DEM from a place.
 //   dx/ds = -grad z/|grad z|
 // with the gradient averaged over a square about the place, so that furrows of a point's width do not lead it; in steps
 // of a tenth of the square's side (Euler's method).

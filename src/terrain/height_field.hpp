@@ -1,4 +1,4 @@
-// The ground as heights on a regular grid of points (a terrain model), triangulated: each cell of four points is four
+// The ground as heights on a regular grid of points (a DEM), triangulated: each cell of four points is four
 // triangles about its centre, whose height is the mean of the four, so that mirror images and quarter turns of the
 // points give mirrored and turned ground. Beyond the outermost points the ground goes on with the height of the edge.
 // Points without data take the height of the nearest point that has one, and the ground is not known there.
@@ -54,7 +54,7 @@ class HeightField final : public Surface<3> {
   struct Span {
     int first, last;
   };
-  // A cell of the terrain model: its points from the south-west counter-clockwise, and its centre.
+  // A cell of the DEM: its points from the south-west counter-clockwise, and its centre.
   struct Cell {
     std::array<Vector<double, 3>, 4> point;
     Vector<double, 3> centre;
@@ -83,7 +83,7 @@ class HeightField final : public Surface<3> {
   [[nodiscard]] Summary summary(const Place& from, const Place& to) const;
   void summarise_blocks();
 
-  // Of the box that holds a cell of the terrain model: no point of its ground is nearer to the position [m2].
+  // Of the box that holds a cell of the DEM: no point of its ground is nearer to the position [m2].
   [[nodiscard]] double squared_distance_of_cell(const Vector<double, 3>& position, int column, int row) const;
   void set_distances(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const;
 

@@ -113,7 +113,7 @@ def test_a_probe_without_terrain_is_reported(thawslide: Program, slope: Path) ->
     case = (slope / "case.toml").read_text()
     x, y = place(500.0, 100.0)
     (slope / "case.toml").write_text(f"{case}[probe.gate]\npoint = [{x}, {y}]\n")
-    note = "probe.gate: the terrain model has no data there, and the probe reports zeros"
+    note = "probe.gate: the DEM has no data there, and the probe reports zeros"
     assert note not in thawslide("check", slope).stdout
     hole = np.array([500.0, 100.0])
     write_dem(

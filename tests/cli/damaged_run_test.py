@@ -179,8 +179,8 @@ def test_a_damaged_run_json_is_told_with_what_to_do(thawslide: Program, killed: 
         outcome = thawslide(command, killed)
         assert outcome.returncode == 2
         assert outcome.stderr == (
-            f"error: {killed / 'run.json'} is damaged: {found}. Without it a run cannot go on: put back a copy of it, "
-            f"or run the case anew into another folder: thawslide run {killed} --output OTHER.\n"
+            f"error: {killed / 'run.json'} is damaged: {found}. Without it, the run cannot continue. Put back a copy of it, "
+            f"or run the case again into another folder: thawslide run {killed} --output OTHER.\n"
         )
 
 

@@ -93,7 +93,7 @@ def test_masked_ground_is_none(thawslide: Program, tmp_path: Path) -> None:
     words = ("--dem", MASKS / "dem-masked.tif", "--release", release, "--thickness", 10)
     outcome = thawslide("new", tmp_path / "slide", *words)
     assert outcome.returncode == 2
-    assert "the release lies over nodata of the terrain model at 100 of its points" in outcome.stderr
+    assert "the release lies over nodata of the DEM at 100 of its points" in outcome.stderr
 
 
 def test_masked_temperature_is_missing(maker: Maker) -> None:

@@ -156,8 +156,7 @@ def test_a_checkpoint_that_cannot_be_read_gives_way_to_the_one_before(thawslide:
     outcome = thawslide("resume", killed)
     assert outcome.returncode == 0, outcome.stderr
     note = (
-        f"{last} is a folder, no file; it is kept as checkpoint.damaged.bin, and the run goes on from the checkpoint "
-        "before"
+        f"{last} is a folder, no file; it is kept as checkpoint.damaged.bin, and the run continues from the previous checkpoint"
     )
     assert outcome.stdout.startswith(f"note: {note}\n") and run_facts(killed)["parts"][-1]["notes"] == [note]
     assert (killed / "checkpoint.damaged.bin").is_dir() and last.is_file()
@@ -170,7 +169,7 @@ def test_a_checkpoint_that_is_missing_is_told(thawslide: Program, killed: Path) 
     assert "  last checkpoint " in said and "no checkpoint yet" not in said
     outcome = thawslide("resume", killed)
     assert outcome.returncode == 0, outcome.stderr
-    note = f"{last} is missing; the run goes on from the checkpoint before"
+    note = f"{last} is missing; the run continues from the previous checkpoint"
     assert outcome.stdout.startswith(f"note: {note}\n") and run_facts(killed)["parts"][-1]["notes"] == [note]
     assert last.is_file() and not list(killed.glob("*.damaged*"))
 
@@ -228,7 +227,7 @@ def test_status_tells_what_it_can_where_rows_cannot_be_read(thawslide: Program, 
     )
     assert second == "  0.2 of 0.2 s simulated (100 %)\n"
     assert third == f"  it may have come further: {rows} is a folder, {NO_FILE}"
-    assert fourth.startswith("  last checkpoint ") and fifth == f"  to go on: thawslide resume {killed}\n"
+    assert fourth.startswith("  last checkpoint ") and fifth == f"  to continue: thawslide resume {killed}\n"
     assert json.loads(thawslide("status", killed, "--json").stdout)["state"] == "killed"
 
 

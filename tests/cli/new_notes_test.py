@@ -1,4 +1,4 @@
-"""What `thawslide new` and `thawslide check` say of releases and terrain models that run, but hardly as meant."""
+"""What `thawslide new` and `thawslide check` say of releases and DEMs that run, but hardly as meant."""
 
 from __future__ import annotations
 
@@ -108,8 +108,8 @@ def test_release_smaller_than_a_cell_of_the_dem(thawslide: Program, tmp_path: Pa
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(), tiny, "--thickness", 20),
         tmp_path,
-        "--release: tiny.geojson: the release has 9 m2, less than one cell of the terrain model, 100 m2: it would be "
-        "spread over the cell and become as much thinner. Draw it larger, or resample the terrain model (gdalwarp -tr "
+        "--release: tiny.geojson: the release has 9 m2, less than one cell of the DEM, 100 m2: it would be "
+        "spread over the cell and become as much thinner. Draw it larger, or resample the DEM (gdalwarp -tr "
         "0.8 0.8 -r bilinear dem.tif finer.tif).",
     )
 
@@ -201,7 +201,7 @@ def test_a_release_near_the_edge_of_the_known_terrain(thawslide: Program, tmp_pa
     assert warning("amid", 205.0) == ""
     advice = (
         "needed its own length, 130 m, or more). Particles that pass the edge are removed, and the results lack them. "
-        "Use a larger terrain model"
+        "Use a larger DEM"
     )
     start = "warning: --dem: the release is close to the edge of the known terrain (found "
     assert warning("west", 75.0) == f"{start}70 m; {advice}"
@@ -236,4 +236,4 @@ def test_a_release_at_rest_has_the_area_that_was_drawn(
         assert file.descriptions == ("at 0.01 s, not at rest: vertical thickness of the slide",)
     assert thickness.sum() * CELL**2 == pytest.approx(8000.0 * THICKNESS, rel=0.01)
     whole_cells = (thickness > 0.1).sum() * CELL**2
-    assert whole_cells > 1.25 * 8000.0, "the terrain model makes ramps of the outline"
+    assert whole_cells > 1.25 * 8000.0, "the DEM makes ramps of the outline"

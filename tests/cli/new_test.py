@@ -1,4 +1,4 @@
-"""From a terrain model and a polygon to maps in two commands."""
+"""From a DEM and a polygon to maps in two commands."""
 
 from __future__ import annotations
 

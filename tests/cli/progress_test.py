@@ -168,7 +168,7 @@ def test_a_run_whose_whole_slide_has_left_is_done(
     assert len(left) == 1 and left[0].removeprefix("warning: ") == facts["warnings"][0]
     assert re.fullmatch(
         rf"{facts['removed_particles']['left']} particles have left the domain or the known terrain and were removed: "
-        r"\S+ kg, \d+\.?\d* % of the mass\. The results lack them\. Use a larger domain or terrain model\.",
+        r"\S+ kg, \d+\.?\d* % of the mass\. The results lack them\. Use a larger domain or DEM\.",
         facts["warnings"][0],
     )
     with (

@@ -152,7 +152,7 @@ def test_resume_where_there_is_no_run(thawslide: Program, tmp_path: Path) -> Non
     outcome = thawslide("resume", tmp_path)
     assert outcome.returncode == 2
     assert outcome.stderr == (
-        f"error: {tmp_path} holds no run to go on from: there is no run.json, which a run writes when it begins. Run "
+        f"error: {tmp_path} holds no run to continue: run.json is missing, which a run writes at its start. Run "
         "the case again.\n"
     )
     assert list(tmp_path.iterdir()) == []
@@ -182,7 +182,7 @@ def test_a_damaged_checkpoint_gives_way_to_the_one_before(
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stdout.startswith(
         f"note: {file} is damaged: its checksum does not fit its {size} bytes; it is kept as checkpoint.damaged.bin, "
-        "and the run goes on from the checkpoint before\n"
+        "and the run continues from the previous checkpoint\n"
         "going on from t = 0.15 s; it had come to 0.2 s: rows and snapshots after 0.15 s are written anew\n"
     )
     # The good one is still there, and the damaged one beside.
@@ -296,14 +296,13 @@ def test_a_changed_case_is_refused(thawslide: Program, small_case: Path, tmp_pat
     assert outcome.returncode == 2
     assert outcome.stderr == (
         f"error: {file} has changed since the run wrote its checkpoint: material.rock.cohesion is 200000.0, was "
-        "100000.0; time.end is 0.3, was 0.2. Put that back, or remove the file, which then is written anew; what "
-        f"should change is told on the command line: thawslide resume {run} --set KEY=VALUE, or --end T.\n"
+        "100000.0; time.end is 0.3, was 0.2. Put that back, or remove the file, which is then written again. Specify changes on the command line: thawslide resume {run} --set KEY=VALUE, or --end T.\n"
     )
     assert content_of(run) == before
     file.unlink()
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
-    assert f"note: {file} was missing; it is written anew from the checkpoint\n" in outcome.stdout
+    assert f"note: {file} was missing. It was written again from the checkpoint\n" in outcome.stdout
     assert file.read_text() == text
 
 

@@ -1,4 +1,4 @@
-"""Noise on a terrain model: what check says of it, and that every command slides on the same ground."""
+"""Noise on a DEM: what check says of it, and that every command slides on the same ground."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""thawslide section cuts a 2D case out of a terrain model; thawslide block slides a 3D case along its path."""
+"""thawslide section cuts a 2D case out of a DEM; thawslide block slides a 3D case along its path."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def test_section_of_a_plane_runs_as_it_is(thawslide: Program, maps: Maps, tmp_pa
     assert comments == [
         "# Cut by `thawslide section` out of dem.tif along line.geojson: its triangles below the line.",
         "# From x = 300015, y = 400200 to x = 300775, y = 400200 in EPSG:31287.",
-        "# The terrain is that of the terrain model; the surface is higher by the vertical thickness of "
+        "# The terrain is that of the DEM; the surface is higher by the vertical thickness of "
         "release.geojson.",
     ]
     distance, terrain = columns["distance_m"], columns["terrain_elevation_m"]
@@ -117,7 +117,7 @@ def test_cut_takes_the_body_out_of_the_ground(thawslide: Program, maps: Maps, tm
     assert thickness[inside] == pytest.approx(upright[inside], abs=1e-9)
     assert thickness.max() == pytest.approx(12.0)
     assert comments[2] == (
-        "# The surface is that of the terrain model; the terrain is lower by the vertical thickness of release.geojson."
+        "# The surface is that of the DEM; the terrain is lower by the vertical thickness of release.geojson."
     )
     assert thawslide("check", folders[1]).returncode == 0
 
@@ -160,9 +160,9 @@ def test_mistakes_are_told(thawslide: Program, maps: Maps, tmp_path: Path) -> No
     write_line(maps.line, [(15.0, 200.0), (815.0, 200.0)])
     x, y = place(800.0, 200.0)
     assert error(*maps.words(folder)) == (
-        f"error: --line: {maps.line}: the line is outside the terrain model 785 m from its beginning, at x = {x:g}, "
+        f"error: --line: {maps.line}: the line is outside the DEM 785 m from its beginning, at x = {x:g}, "
         f"y = {y:g}; its points reach from x = 300005 to 300795 and from y = 400005 to 400395. Draw the line within "
-        "them, or take a larger terrain model."
+        "them, or take a larger DEM."
     )
     write_line(maps.line, [(2000.0, 200.0), (2500.0, 200.0)])
     assert "the line (x from 302000 to 302500, y from 400200 to 400200) lies outside" in error(*maps.words(folder))
@@ -189,7 +189,7 @@ def test_mistakes_are_told(thawslide: Program, maps: Maps, tmp_path: Path) -> No
     message = error(*maps.words(folder))
     assert message.startswith(f"error: --line: {maps.line}: the line crosses a place without data ")
     assert message.endswith(
-        "; needed: an elevation all along it. Fill the terrain model there (gdal_fillnodata.py), or draw the line "
+        "; needed: an elevation all along it. Fill the DEM there (gdal_fillnodata.py), or draw the line "
         "around it."
     )
 

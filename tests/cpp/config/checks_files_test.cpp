@@ -73,8 +73,8 @@ TEST(ReportedValues, AreReadWithTheCaseAndEachMistakeIsTold) {
                 "9: max_seismic_force_150_35_s: give the shorter period first, both from 0.001 to 100000 s\n" +  //
                 place + "10: 4 values for 5 columns\n" +                                                         //
                 place +
-                "13: mean_displacement at this time from this source is in line 12 already; keep one of the "
-                "two, or tell their sources apart\n" +
+                "13: mean_displacement at this time from this source is in line 12 already; keep one of the two, or "
+                "give them different sources\n" +
                 place +
                 "6: mean_velocity is of -100 s, before the run; allowed: 0 s and later, or a row "
                 "start_velocity that sets their clock");

@@ -311,7 +311,7 @@ TEST(Values, GiveOneAnotherAMeaning) {
   EXPECT_EQ(error_of_changed({{"[basal]", "[heat]\nadvection_form = \"conservative\"\nmasses = \"current\"\n[basal]"}},
                              {"material.rock.hydraulic_conductivity=1e-7"}),
             "FOLDER/case.toml:21:18: heat.advection_form is \"conservative\", and heat.update or heat.masses is as "
-            "printed, which makes heat all the same; allowed with it: heat.update = \"enthalpy\" and heat.masses = "
+            "published, which still creates heat; allowed with it: heat.update = \"enthalpy\" and heat.masses = "
             "\"initial\". Set both so, or heat.advection_form = \"as_printed\".");
   EXPECT_EQ(error_of_changed({{"[basal]", "[pressure]\nresidual_stress = 2e5\nfrozen = \"ice_pressure\"\n[basal]"}}),
             "FOLDER/case.toml:21:19: pressure.residual_stress is 200000 Pa, and pressure.frozen is not \"none\"; where "

@@ -143,10 +143,9 @@ TEST_F(Maps, OfThicknessHaveMistakes) {
       with_thickness("{ raster = \"\" }"),
       "FOLDER/case.toml:21:24: body.slide.thickness has the text \"\" as its raster; allowed: the path of a file, "
       "in quotes.");
-  EXPECT_EQ(
-      with_thickness("{ raster = \"no.tif\" }"),
-      "FOLDER/case.toml:21:24: body.slide.thickness is \"no.tif\": no such file (FOLDER); allowed: a file, told from "
-      "the folder of the case file.");
+  EXPECT_EQ(with_thickness("{ raster = \"no.tif\" }"),
+            "FOLDER/case.toml:21:24: body.slide.thickness is \"no.tif\": no such file (FOLDER); allowed: a file, "
+            "relative to the folder of the case file.");
   EXPECT_EQ(with_thickness("{ raster = \"../no.tif\" }"),
             "FOLDER/case.toml:21:24: body.slide.thickness is \"../no.tif\", which lies outside the folder of the case "
             "file; allowed: a file in that folder. Copy it there, or give its path with --set "

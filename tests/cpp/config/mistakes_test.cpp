@@ -50,7 +50,7 @@ TEST(Mistakes, EmptyFile) {
 }
 
 TEST(Mistakes, NotToml) {
-  const std::string remedy = ". Correct the line; https://toml.io tells the rules.";
+  const std::string remedy = ". Correct the line; see https://toml.io for the syntax.";
   EXPECT_EQ(
       error_of_changed({{"cell = 5.0", "cell = = 5.0"}}),
       "FOLDER/case.toml:5:8: this is not TOML: Error while parsing value: could not determine value type" + remedy);

@@ -143,14 +143,13 @@ TEST(Notices, DoubtWhatIsMostLikelyNotMeant) {
       {"phases.water_density", "100", "100 kg/m3: water has 950 to 1300 kg/m3."},
       {"case.gravity", "98.1", "98.1 m/s2: on Earth it is 9.81 m/s2."},
       {"time.step", "1e-12",
-       "1e-12 s: that is 1e+12 steps, from days to years of computing. `thawslide check` tells how long, and the "
-       "limit, "
-       "which a step may come close to."},
+       "1e-12 s: that is 1e+12 steps, from days to years of computing. `thawslide check` estimates the time and prints "
+       "the limit of the step."},
       {"checkpoint.interval", "50",
        "50 s: longer than the run of 1 s, which leaves the checkpoints of checkpoint.wall_interval."},
       {"checkpoint.interval", "1e-8",
        "1e-08 s: no longer than the step of 0.001 s: a checkpoint every step takes longer than the step. "
-       "checkpoint.wall_interval writes them by the clock."},
+       "Set checkpoint.wall_interval to write them by wall-clock time."},
       {"checkpoint.wall_interval", "1e-9",
        "1e-09 s: so often most of the time goes into checkpoints; usual is a minute to an hour."},
       {"time.history_interval", "2",
@@ -220,7 +219,7 @@ TEST(Notices, CountSnapshotsByTheStepsThereAre) {
   finer.emplace_back("time.step=5e-5");
   EXPECT_EQ(notices(testing_support::case_from_text(text, finer)),
             std::vector<std::string>{"--set time.output_interval=1e-6: time.output_interval is 1e-06 s: that is 20000 "
-                                     "snapshots, each a file, more than a folder or a film is good for."});
+                                     "snapshots, each a file, too many for a folder or an animation."});
 }
 
 TEST(Notices, DoubtWaterInTheGroundOfACaseWithoutHeatToo) {
@@ -256,7 +255,7 @@ TEST(Notices, DoubtABaseWithoutABand) {
   EXPECT_EQ(without_folder(notices(testing_support::case_from_text(text, {known}))),
             std::vector<std::string>{
                 "FOLDER/case.toml: band.thickness is not given: friction then heats the lowest cells as a whole, 5 m "
-                "thick, which hardly warm or melt. Give the thickness of what shears at the base: usual is 0.01 to 2 "
+                "thick, which barely warm or melt. Give the thickness of what shears at the base: usual is 0.01 to 2 "
                 "m. If nothing is to melt, set heat.enabled = false."});
   const std::vector<std::string> none;
   EXPECT_EQ(notices(testing_support::case_from_text(text, {"heat.enabled=false"})), none);

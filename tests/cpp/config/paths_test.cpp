@@ -32,13 +32,12 @@ TEST(Paths, DoNotLeaveTheFolderOfTheCase) {
   EXPECT_EQ(with_file("inside/../profile.csv"), "no error");
   EXPECT_EQ(with_file("no_profile.csv"),
             "FOLDER/case.toml:10:8: terrain.file is \"no_profile.csv\": no such file (FOLDER); did you mean "
-            "'profile.csv'? Allowed: a file, told from the folder of the case file.");
+            "'profile.csv'? Allowed: a file, relative to the folder of the case file.");
   EXPECT_EQ(with_file("profile.csv\\u0000"),
             "FOLDER/case.toml:10:8: terrain.file is \"profile.csv?\", a name with a zero byte; allowed: a file.");
-  EXPECT_EQ(
-      with_file("new\\nline"),
-      "FOLDER/case.toml:10:8: terrain.file is \"new?line\": no such file (FOLDER); allowed: a file, told from the "
-      "folder of the case file.");
+  EXPECT_EQ(with_file("new\\nline"),
+            "FOLDER/case.toml:10:8: terrain.file is \"new?line\": no such file (FOLDER); allowed: a file, relative to "
+            "the folder of the case file.");
   EXPECT_EQ(error_of_changed({profile}, {"terrain.file=" + outside.string()}), "no error") << "the command line may";
   fs::remove(outside);
 }

@@ -49,7 +49,7 @@ TEST(Profile, MistakesNameTheLine) {
   EXPECT_EQ(error_of_profile(std::string("II*\0\10\0,\0\n", 9)),
             file +
                 "1: this is no text file; allowed: columns separated by commas under the header "
-                "distance_m,terrain_elevation_m[,surface_elevation_m]. A terrain model is read with terrain.type = "
+                "distance_m,terrain_elevation_m[,surface_elevation_m]. A DEM is read with terrain.type = "
                 "\"dem\".");
   EXPECT_EQ(error_of_profile(header + "0,0,0\n"), file + "2: the profile has 1 rows; a profile needs at least 2.");
   EXPECT_EQ(error_of_profile(header + "0,0\n"), file + "2: the row has 2 fields; the header has 3.");

@@ -134,7 +134,7 @@ TEST(Set, TellsPathsFromTheWorkingDirectory) {
   EXPECT_TRUE(fs::path(found.terrain.file).is_absolute());
   EXPECT_EQ(error_of_text(sound, {"terrain.type=profile", "terrain.file=no_profile.csv"}),
             "--set terrain.file=no_profile.csv: terrain.file is \"no_profile.csv\": no such file (" + here.string() +
-                "); allowed: a file, told from where you are.");
+                "); allowed: a file, relative to the current folder.");
 }
 
 }  // namespace

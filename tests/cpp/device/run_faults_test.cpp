@@ -29,12 +29,12 @@ class BreaksDown final : public PassesOn<2> {
 
   device::StepSums<2, double> step(double time, double dt) override {
     if (left_-- == 0) {
-      throw device::Failure("asking the card for memory: out of memory");
+      throw device::Failure("allocating memory on the GPU: out of memory");
     }
     return PassesOn::step(time, dt);
   }
   void copy_to(const mpm::ParticleView<2, double>& /*particles*/) override {
-    throw device::Failure("copying from the card: unspecified launch failure");
+    throw device::Failure("copying from the GPU: unspecified launch failure");
   }
 
  private:
@@ -64,8 +64,8 @@ std::string reported_failure(int sound, int steps) {
 }
 
 TEST(DeviceRun, TellsOfADeviceThatFails) {
-  EXPECT_EQ(reported_failure(3, 5), "a card failed at step 3: asking the card for memory: out of memory");
-  EXPECT_EQ(reported_failure(9, 5), "a card failed at step 5: copying from the card: unspecified launch failure");
+  EXPECT_EQ(reported_failure(3, 5), "a card failed at step 3: allocating memory on the GPU: out of memory");
+  EXPECT_EQ(reported_failure(9, 5), "a card failed at step 5: copying from the GPU: unspecified launch failure");
 }
 
 // The same while a body settles.

@@ -1,4 +1,4 @@
-// Points of a terrain model whose value stands for no data although the file does not say so.
+// Points of a DEM whose value stands for no data although the file does not say so.
 #include "gis/pits.hpp"
 
 #include "site_case.hpp"
@@ -30,7 +30,7 @@ TEST(PitsTest, HolesFilledWithAConstant) {
             "without data? Then say so in the file, gdal_edit.py -a_nodata 0 folder/dem.tif, or fill it");
   EXPECT_EQ(note_of(slope_with(-99.5, 2, 1)).substr(0, 39), "2 points of dem.tif are exactly -99.5 m");
   EXPECT_EQ(note_of(slope_with(8000.0, 2, 2)).substr(0, 38), "4 points of dem.tif are exactly 8000 m");
-  // As warping leaves it: beyond an edge of the terrain model's.
+  // As warping leaves it: beyond an edge of the DEM's.
   Raster edge = slope_with(0.0, 0, 0);
   for (int row = 0; row < edge.rows; ++row) {
     edge.values[edge.index(0, row)] = edge.values[edge.index(1, row)] = 0.0;

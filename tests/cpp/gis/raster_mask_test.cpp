@@ -166,7 +166,7 @@ TEST(RasterMaskTest, MaskedTemperatureBedAndGroundAreMissing) {
   parameters.terrain.file =
       masked("dem.tif", MaskKind::internal, dem, [](int column, int line) { return column == 60 && line == 100; });
   EXPECT_NE(error_of_site(parameters)
-                .find("the release lies over nodata of the terrain model at 1 of its points, such as 400300, 300300"),
+                .find("the release lies over nodata of the DEM at 1 of its points, such as 400300, 300300"),
             std::string::npos);
 }
 

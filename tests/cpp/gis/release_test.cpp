@@ -148,9 +148,9 @@ TEST(ReleaseTest, NoteOnANarrowRelease) {
   const SiteAndNotes loaded = load_site(strip);
   EXPECT_NEAR(volume_of(loaded.site.releases.at("rock").thickness), 600.0, 1e-6);
   EXPECT_EQ(loaded.notes, std::vector<std::string>{
-                              "the release of the body rock covers no cell of the terrain model, 5 m x 5 m, as a "
+                              "the release of the body rock covers no cell of the DEM, 5 m x 5 m, as a "
                               "whole: it is spread over cells that it covers in part, and gets up to 50 % of the "
-                              "thickness given; the volume stays. Draw it larger, or resample the terrain model"});
+                              "thickness given; the volume stays. Draw it larger, or resample the DEM"});
 }
 
 TEST(ReleaseTest, NoteOnATower) {

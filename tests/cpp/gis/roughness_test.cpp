@@ -1,4 +1,4 @@
-// Noise of terrain models: found on ground of any shape, none on clean ground; the filter that follows from it.
+// Noise of DEMs: found on ground of any shape, none on clean ground; the filter that follows from it.
 #include "gis/roughness.hpp"
 
 #include <algorithm>
@@ -329,7 +329,7 @@ TEST(RoughnessTest, ThicknessBelowASurfaceIsThatOfTheFiles) {
   for (double& height : before.values) {
     height += 8.0;
   }
-  // The same with a file of the terrain model that tells another system than the case.
+  // The same with a file of the DEM that tells another system than the case.
   Raster of_other_system = rough;
   of_other_system.crs = ground("EPSG:32633").crs;
   for (const Raster& dem : {rough, of_other_system}) {

@@ -1,4 +1,4 @@
-// Terrain models of real mountains, which lie beside the project where they are at hand.
+// DEMs of real mountains, which lie beside the project where they are at hand.
 #include "gis/polygons.hpp"
 #include "gis/site.hpp"
 #include "gis/vector_file.hpp"

@@ -11,7 +11,7 @@ using namespace site_case;
 TEST(SiteTest, GroundIsCroppedToTheDomainAndSomeCells) {
   const SiteAndNotes loaded = load_site(plain_case(ground()));
   const Raster& raster = *loaded.site.ground;
-  // 3 cells of the grid and 2 of the terrain model: 40 m, and a point more.
+  // 3 cells of the grid and 2 of the DEM: 40 m, and a point more.
   EXPECT_NEAR(raster.x, west + 60.0, 5.0 + 1e-6);
   EXPECT_NEAR(raster.x_end(), west + 940.0, 5.0 + 1e-6);
   EXPECT_NEAR(raster.y, south + 60.0, 5.0 + 1e-6);
@@ -84,14 +84,13 @@ TEST(SiteTest, DomainBeyondTheTerrainModel) {
       error_of_site(parameters),
       "case.toml:3:1: grid.min: the domain reaches beyond the outermost points of FOLDER/dem.tif, by 12.5 m in the "
       "west and 40 m in the north; allowed: x from 400000 to 401000, y from 300000 to 300800. Set grid.min = "
-      "[400007.5, 300100, 0] and grid.max = [400900, 300800, 3000], or take a larger terrain model.");
+      "[400007.5, 300100, 0] and grid.max = [400900, 300800, 3000], or take a larger DEM.");
   parameters.terrain.resample = 20.0;
   EXPECT_EQ(
       error_of_site(parameters),
       "case.toml:3:1: grid.min: the domain reaches beyond the outermost points of FOLDER/dem.tif, taken to points 20 m "
       "apart, by 22.5 m in the west and 50 m in the north; allowed: x from 400010 to 400990, y from 300010 to "
-      "300790. Set grid.min = [400017.5, 300100, 0] and grid.max = [400900, 300790, 3000], or take a larger terrain "
-      "model.");
+      "300790. Set grid.min = [400017.5, 300100, 0] and grid.max = [400900, 300790, 3000], or take a larger DEM.");
   parameters.places["terrain.resample"] = "case.toml:4:1";
   parameters.terrain.resample = 1e-7;
   EXPECT_EQ(error_of_site(parameters),
@@ -159,7 +158,7 @@ TEST(SiteTest, WithoutATerrainModelThereIsNoGround) {
   EXPECT_EQ(site.crs_name, "");
   parameters.bodies["rock"] = release_body("release.shp", 10.0);
   EXPECT_EQ(error_of_site(parameters),
-            "case.toml: body.rock.shape: a release lies on a terrain model. Set terrain.type = "
+            "case.toml: body.rock.shape: a release lies on a DEM. Set terrain.type = "
             "\"dem\" and terrain.file.");
 }
 

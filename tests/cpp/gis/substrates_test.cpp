@@ -187,7 +187,7 @@ TEST(SubstratesOfMaps, CodesInAnotherSystemAreTakenToTheGroundsPoints) {
   EXPECT_EQ(substrates->at(450.0, 300.0), 1);
   EXPECT_NE(std::find_if(loaded.notes.begin(), loaded.notes.end(),
                          [](const std::string& note) {
-                           return note.find("were taken to the points of the terrain model") != std::string::npos;
+                           return note.find("were taken to the points of the DEM") != std::string::npos;
                          }),
             loaded.notes.end());
 }

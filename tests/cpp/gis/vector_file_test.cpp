@@ -159,10 +159,9 @@ TEST(VectorFileTest, WrongFiles) {
   EXPECT_EQ(error_of_polygons(in_folder("none.shp")), "FOLDER/none.shp: there is no such file. Correct the path.");
   const std::string nonsense = error_of_polygons(text_file("bad.gpkg", "this is no GeoPackage"));
   EXPECT_NE(nonsense.find("FOLDER/bad.gpkg: the file cannot be opened; GDAL says: "), std::string::npos) << nonsense;
-  EXPECT_NE(
-      nonsense.find("Allowed: Shapefile (with its .shx and .dbf beside it), GeoPackage or GeoJSON; check that the "
-                    "file is whole and may be read."),
-      std::string::npos);
+  EXPECT_NE(nonsense.find("Allowed: Shapefile (with its .shx and .dbf), GeoPackage or GeoJSON; check that the file is "
+                          "complete and readable."),
+            std::string::npos);
   EXPECT_EQ(error_of_polygons(geojson("empty.geojson", {})),
             "FOLDER/empty.geojson: the layer is empty; needed: polygons. Draw them, or name the file that has them.");
   EXPECT_EQ(error_of_polygons(geojson("way.geojson", {{"", line_json({{0, 0}, {5, 5}})}})),

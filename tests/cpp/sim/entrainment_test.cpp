@@ -176,8 +176,9 @@ TEST(Entrainment, TheBlockModelRefusesABed) {
     run_block(slide_over_bed<2>({"bed.law=strength"}));
     FAIL();
   } catch (const UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("the block model takes up no bed. Remove [bed], or use `thawslide run`."),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(error.what()).find("the block model does not entrain a bed. Remove [bed], or use `thawslide run`."),
+        std::string::npos)
         << error.what();
   }
 }

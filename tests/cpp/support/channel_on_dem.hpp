@@ -1,4 +1,4 @@
-// A straight channel on a slope, as a terrain model, and a fill that slides down it.
+// A straight channel on a slope, as a DEM, and a fill that slides down it.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ struct Channel {
   double half_width = 120.0;  // of the fill at most [m]
   double azimuth = 0.0;       // of the thalweg, from +x towards +y [degrees]
   double aside = 0.0;         // of the thalweg from the domain's middle, which is on grid lines [m]
-  double spacing = 1.25;      // of the terrain model's points [m]
+  double spacing = 1.25;      // of the DEM's points [m]
 };
 
 // No channel at all: a plane, with a fill of a width and a thickness [m] across it.

@@ -1,5 +1,5 @@
 // A point mass that slides with Coulomb friction on a surface z = f(x, y) under gravity g, for comparison with small
-// blocks on terrain models. With W = sqrt(1 + f_x^2 + f_y^2), the unit normal n = (-f_x, -f_y, 1)/W and the velocity
+// blocks on DEMs. With W = sqrt(1 + f_x^2 + f_y^2), the unit normal n = (-f_x, -f_y, 1)/W and the velocity
 // v = (u, w, f_x u + f_y w), the constraint z = f(x, y) differentiated twice gives the normal acceleration, which is
 // the second fundamental form of the velocity,
 //   a.n = II(v, v) = (f_xx u^2 + 2 f_xy u w + f_yy w^2)/W

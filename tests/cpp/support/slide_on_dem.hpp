@@ -1,4 +1,4 @@
-// A slide on a terrain model, both made in memory.
+// A slide on a DEM, both made in memory.
 #pragma once
 
 #include <fstream>
@@ -63,7 +63,7 @@ slope_shear = true
                      viscosity_time);
 }
 
-// A case with `text`, in which the terrain model is terrain.file = "dem.tif" and the release is `release_table`. The
+// A case with `text`, in which the DEM is terrain.file = "dem.tif" and the release is `release_table`. The
 // files are there, and empty: what they stand for is in the site.
 inline config::Case case_on_dem(const std::string& text, const std::vector<std::string>& sets = {}) {
   const std::filesystem::path folder = folder_of_this_test();

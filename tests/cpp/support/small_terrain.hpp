@@ -1,4 +1,4 @@
-// Ground from small terrain models, and what the nodes of a block know of it.
+// Ground from small DEMs, and what the nodes of a block know of it.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ inline Node node_at(const terrain::HeightField& ground, const Position& position
   return block_at(ground, position - cell * Position(i, j, k), cell)[node_number(i, j, k)];
 }
 
-// The triangles of a terrain model, put together here once more.
+// The triangles of a DEM, put together here once more.
 inline std::vector<std::array<Position, 3>> triangles(const Raster& points) {
   std::vector<std::array<Position, 3>> all;
   for (int row = 0; row + 1 < points.rows; ++row) {

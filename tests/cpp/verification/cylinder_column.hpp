@@ -1,4 +1,4 @@
-// Collapse of cylindrical granular columns on a flat terrain model.
+// Collapse of cylindrical granular columns on a flat DEM.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A slide with every mechanism on a terrain model, part of which leaves it: accounts, threads, messages; and that none
+// A slide with every mechanism on a DEM, part of which leaves it: accounts, threads, messages; and that none
 // gets below the ground.
 #include <gtest/gtest.h>
 

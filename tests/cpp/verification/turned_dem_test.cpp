@@ -1,4 +1,4 @@
-// Slides on terrain models that are turned and shifted against the grid, or are their own mirror image.
+// Slides on DEMs that are turned and shifted against the grid, or are their own mirror image.
 #include <gtest/gtest.h>
 
 #include <algorithm>
