@@ -108,11 +108,11 @@ std::string as_option_names(std::string message) {
 
 namespace {
 
-gis::SiteAndNotes read_files(const config::Case& trial) {
+gis::SiteAndWarnings read_files(const config::Case& trial) {
   try {
-    gis::SiteAndNotes read = gis::load_site(trial);
-    if (const std::string note = sim::orient_lines(trial, read.site); !note.empty()) {
-      read.notes.push_back(note);
+    gis::SiteAndWarnings read = gis::load_site(trial);
+    if (const std::string warning = sim::orient_lines(trial, read.site); !warning.empty()) {
+      read.warnings.push_back(warning);
     }
     return read;
   } catch (const UserError& error) {
@@ -123,9 +123,9 @@ gis::SiteAndNotes read_files(const config::Case& trial) {
 }  // namespace
 
 config::Site open_site(const config::Case& trial) {
-  gis::SiteAndNotes read = read_files(trial);
-  for (const std::string& note : read.notes) {
-    fmt::print("note: {}\n", as_option_names(note));
+  gis::SiteAndWarnings read = read_files(trial);
+  for (const std::string& warning : read.warnings) {
+    fmt::print("warning: {}\n", as_option_names(warning));
   }
   return std::move(read.site);
 }
@@ -137,7 +137,8 @@ config::EdgeTaper taper_edges(config::Case& trial, const config::Site& site) {
   if (taper.is_cramped()) {
     const auto degrees = [](double rise) { return std::atan(rise) * 180.0 / std::numbers::pi; };
     fmt::print(
-        "note: --cut: the edges of the cut should be ramps {:g} m wide, and there is room for {:g} m, as the release "
+        "warning: --cut: the edges of the cut should be ramps {:g} m wide, and there is room for {:g} m, as the "
+        "release "
         "is narrow or near the end of what the DEM knows; they rise by up to {:.0f} degrees against the "
         "terrain, which falls by {:.0f}, and may hold the slide back. --on-top has no such edges\n",
         taper.wanted, taper.width, degrees(taper.steepest), degrees(taper.slope));

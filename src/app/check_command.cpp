@@ -6,11 +6,11 @@
 #include "app/device_choice.hpp"
 #include "app/input_guard.hpp"
 #include "app/map_files.hpp"
-#include "app/notes_of_setup.hpp"
 #include "app/run_loop.hpp"
 #include "app/setup_facts.hpp"
 #include "app/setup_json.hpp"
 #include "app/setup_picture.hpp"
+#include "app/setup_warnings.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "config/read_case.hpp"
@@ -104,13 +104,13 @@ int check_case(const CheckOptions& options) {
   use_threads(options.threads);
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
-    Notes notes(options.json ? Notes::Form::kept : Notes::Form::printed);
-    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, notes));
+    Warnings warnings(options.json ? Warnings::Form::kept : Warnings::Form::printed);
+    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, warnings));
     sim::RunRecords<Dim> records(simulation, simulation.site());  // maps, path and probes can be gathered
     records.start(simulation);
     SetupFacts facts = facts_of<Dim>(simulation, records);
-    add_notes_of_setup(simulation, facts.bodies, facts.disk, facts.disk_folder, notes);
-    facts.notes = notes.all();
+    add_setup_warnings(simulation, facts.bodies, facts.disk, facts.disk_folder, warnings);
+    facts.warnings = warnings.all();
     if (options.draws) {
       facts.picture = options.picture.empty() ? picture_path(parameters.file) : options.picture;
       require_no_input_at(facts.picture, "--picture", parameters);

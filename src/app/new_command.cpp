@@ -10,9 +10,9 @@
 #include "app/case_folder.hpp"
 #include "app/commands.hpp"
 #include "app/names_in_case.hpp"
-#include "app/notes_of_setup.hpp"
 #include "app/progress.hpp"
 #include "app/run_loop.hpp"
+#include "app/setup_warnings.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
@@ -284,14 +284,14 @@ int make_new_case(const NewOptions& options) {
   }
   config::BodyOnCells body = config::release_on_cells(proposal);
   body.has_maps = resolution.empty() || !cost;  // otherwise the text above states the cells for maps
-  if (const std::string note = config::resolution_note(body, "--cell"); !note.empty()) {
-    fmt::print("note: {}\n", note);
+  if (const std::string warning = config::resolution_warning(body, "--cell"); !warning.empty()) {
+    fmt::print("warning: {}\n", warning);
   }
   if (const std::string warning = config::edge_warning(proposal); !warning.empty()) {
     fmt::print("warning: {}\n", warning);
   }
   if (proposal.particles > many_particles) {
-    fmt::print("note: that will take long; a larger grid.cell in the case file is quicker and coarser\n");
+    fmt::print("warning: that will take long; a larger grid.cell in the case file is quicker and coarser\n");
   }
   print_next_commands(options.program, folder);
   return static_cast<int>(ExitCode::done);

@@ -79,7 +79,7 @@ void Progress::show(const ProgressState& state) {
   last_share_ = share;
 }
 
-void Progress::note(const std::string& text) {
+void Progress::warning(const std::string& text) {
   print_text("{}{}\n", drawn_ ? "\r\033[K" : "", text);
   drawn_ = false;
 }

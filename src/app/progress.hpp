@@ -24,7 +24,7 @@ class Progress {
   [[nodiscard]] bool due(double time, double end);
   void show(const ProgressState& state);
   // A line of its own above the bar.
-  void note(const std::string& text);
+  void warning(const std::string& text);
   // Ends the bar.
   void finish();
 

@@ -118,16 +118,16 @@ void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile
 }
 
 std::vector<std::string> changed_originals(const std::vector<io::InputFile>& inputs) {
-  std::vector<std::string> notes;
+  std::vector<std::string> warnings;
   for (const io::InputFile& input : inputs) {
     std::error_code unreadable;
     const bool same_size = fs::file_size(input.path, unreadable) == input.bytes;
     if (!unreadable && (!same_size || io::sha256_of_file(input.path) != input.sha256)) {
-      notes.push_back(fmt::format("{} has changed since the run began. The run continues with its copy, {}",
-                                  config::shown(input.path), config::shown(input.copy)));
+      warnings.push_back(fmt::format("{} has changed since the run began. The run continues with its copy, {}",
+                                     config::shown(input.path), config::shown(input.copy)));
     }
   }
-  return notes;
+  return warnings;
 }
 
 std::vector<std::string> gaps_in_results(const fs::path& folder, const io::Provenance& facts) {

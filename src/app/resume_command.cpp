@@ -61,7 +61,7 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
   print_text("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
              facts.message.empty() ? "" : ": " + facts.message);
   for (const std::string& gap : gaps_in_results(folder, facts)) {
-    print_text("note: {}\n", gap);
+    print_text("warning: {}\n", gap);
   }
   if (!is_known) {
     print_text("note: {} holds no checkpoint: it cannot be given a later end\n", folder.string());
@@ -127,9 +127,9 @@ void restore(sim::Simulation<Dim, double>& simulation, const std::vector<double>
 // What a change makes of a key that stays is told where that stands: in the run's case.toml, which is not for editing.
 template <int Dim>
 std::unique_ptr<sim::Simulation<Dim, double>> simulation_of(const fs::path& folder, const Continuation& next,
-                                                            Notes& notes) {
+                                                            Warnings& warnings) {
   try {
-    return std::make_unique<sim::Simulation<Dim, double>>(next.parameters, read_map_files(next.parameters, notes));
+    return std::make_unique<sim::Simulation<Dim, double>>(next.parameters, read_map_files(next.parameters, warnings));
   } catch (const UserError& error) {
     if (std::string(error.what()).rfind((folder / "case.toml").string(), 0) != 0) {
       throw;
@@ -143,16 +143,16 @@ std::unique_ptr<sim::Simulation<Dim, double>> simulation_of(const fs::path& fold
 
 template <int Dim>
 int restart_from_begin(const fs::path& folder, const Continuation& next) {
-  Notes notes;
-  sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
+  Warnings warnings;
+  sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, warnings));
   use_device<Dim>(next.device, simulation);
   print_text("{} was cut off before its first checkpoint; it starts again\n", folder.string());
-  for (const std::string& note : next.earlier.parts.back().notes) {
-    print_text("note: {}\n", note);
+  for (const std::string& warning : next.earlier.parts.back().warnings) {
+    print_text("warning: {}\n", warning);
   }
   RunOutput<Dim> output(folder, simulation, next.earlier, next.case_text);
   apply_changes(folder, next);
-  notes.add(config::notices(next.parameters));
+  warnings.add(config::notices(next.parameters));
   return start_and_run<Dim>(simulation, output, folder);
 }
 
@@ -209,8 +209,8 @@ std::string keep_damaged(const fs::path& damaged) {
 
 template <int Dim>
 int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continuation next) {
-  Notes notes;
-  const auto made = simulation_of<Dim>(folder, next, notes);
+  Warnings warnings;
+  const auto made = simulation_of<Dim>(folder, next, warnings);
   sim::Simulation<Dim, double>& simulation = *made;
   std::vector<double> scalars;
   const NamedNumbers blocks = io::read_checkpoint<Dim, double>(checkpoint, simulation.particles(), scalars);
@@ -236,12 +236,12 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
         "is changed by --set KEY=VALUE, an end before that by --end T\n");
   }
   if (next.earlier.status == "done" &&
-      !takes_changes_at_its_end<Dim>(folder, next, !checkpoint.note.empty(), simulation)) {
+      !takes_changes_at_its_end<Dim>(folder, next, !checkpoint.warning.empty(), simulation)) {
     return static_cast<int>(ExitCode::done);
   }
-  if (!checkpoint.note.empty()) {
-    next.earlier.parts.back().notes.push_back(fmt::format("{}; {}the run continues from the previous checkpoint",
-                                                          checkpoint.note, keep_damaged(checkpoint.damaged)));
+  if (!checkpoint.warning.empty()) {
+    next.earlier.parts.back().warnings.push_back(fmt::format("{}; {}the run continues from the previous checkpoint",
+                                                             checkpoint.warning, keep_damaged(checkpoint.damaged)));
   }
   RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
   print_text("going on from t = {:g} s{}\n", simulation.time(),
@@ -250,7 +250,7 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
                                had_come_to, simulation.time())
                  : "");
   apply_changes(folder, next);
-  notes.add(config::notices(next.parameters));
+  warnings.add(config::notices(next.parameters));
   return run_to_end<Dim>(simulation, output, folder);
 }
 
@@ -294,7 +294,7 @@ int resume_run(const ResumeOptions& options) {
     io::require_own_folders(folder, {"maps"});
   }
   require_same_inputs(folder, facts.inputs, next.parameters.report);
-  next.earlier.parts.back().notes = changed_originals(facts.inputs);
+  next.earlier.parts.back().warnings = changed_originals(facts.inputs);
   return with_dimension(
       next.parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
         return has_checkpoint ? go_on<Dim>(folder, checkpoint, next) : restart_from_begin<Dim>(folder, next);

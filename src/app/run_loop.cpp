@@ -4,7 +4,7 @@
 #include <cmath>
 #include <new>
 
-#include "app/boiling_note.hpp"
+#include "app/boiling_warning.hpp"
 #include "app/print.hpp"
 #include "app/progress.hpp"
 #include "app/run_summary.hpp"
@@ -46,13 +46,13 @@ class RemovalWatch {
 
   // Empty while there is nothing new to tell.
   template <int Dim>
-  std::string note(const sim::Simulation<Dim, double>& simulation) {
+  std::string warning(const sim::Simulation<Dim, double>& simulation) {
     if (told_ || simulation.removed().by_guards() == 0) {
       return "";
     }
     told_ = true;
     return fmt::format(
-        "note: at t = {:.6g} s guards have removed {}; history.csv has their mass, run.json their number",
+        "warning: at t = {:.6g} s guards have removed {}; history.csv has their mass, run.json their number",
         simulation.time(), sim::text_of(simulation.removed()));
   }
 
@@ -172,7 +172,7 @@ class Loop {
     simulation_.step(simulation_.next_step(std::min(snapshots_.next(), times_.end)));
     seconds_in_steps_ += output_.wall_seconds() - before;
     set_thread_count(threads_.after_step(seconds_in_steps_));
-    report_line(removal_.note(simulation_));
+    report_line(removal_.warning(simulation_));
     warn_of_energy();
     output_.after_step(simulation_);
   }
@@ -186,7 +186,7 @@ class Loop {
     }
     if (rests || snapshots_.reached(time, dt)) {
       output_.write_snapshot(simulation_);
-      report_line(boiling_.note<Dim>(simulation_));
+      report_line(boiling_.warning<Dim>(simulation_));
     }
     const double wall_interval = simulation_.parameters().checkpoint.wall_interval;
     const bool is_old = wall_interval > 0.0 && output_.wall_seconds() - wall_of_checkpoint_ > wall_interval;
@@ -200,15 +200,15 @@ class Loop {
   // Once.
   void warn_of_energy() {
     if (!has_warned_of_energy_) {
-      const std::string note = simulation_.energy_note();
-      has_warned_of_energy_ = !note.empty();
-      report_line(note);
+      const std::string warning = simulation_.energy_warning();
+      has_warned_of_energy_ = !warning.empty();
+      report_line(warning);
     }
   }
 
-  void report_line(const std::string& note) {
-    if (!note.empty()) {
-      progress_.note(note);
+  void report_line(const std::string& warning) {
+    if (!warning.empty()) {
+      progress_.warning(warning);
     }
   }
 

@@ -209,18 +209,18 @@ RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& 
   sim::RunRecords<Dim> records(simulation, simulation.site());
   records.restore(blocks);
   const FilesThen then = files_of(block_of(blocks, files_block));
-  std::vector<std::string>& notes = earlier.parts.back().notes;
+  std::vector<std::string>& warnings = earlier.parts.back().warnings;
   const auto go_on_with = [&](const char* name, const io::HistoryWriter::Row& row, const io::HistoryExtent& extent) {
-    return io::HistoryWriter::continue_after(folder / name, io::header_of(row), extent, notes);
+    return io::HistoryWriter::continue_after(folder / name, io::header_of(row), extent, warnings);
   };
   io::HistoryWriter history = go_on_with("history.csv", records.history_row(simulation), then.history);
-  io::SnapshotSeries snapshots = io::SnapshotSeries::continue_after(folder, then.snapshots, notes);
+  io::SnapshotSeries snapshots = io::SnapshotSeries::continue_after(folder, then.snapshots, warnings);
   RunOutput output(folder, std::move(records), std::move(history), std::move(snapshots));
   if (output.records_.has_probes()) {
     output.probes_.emplace(go_on_with("probes.csv", output.records_.probe_row(simulation), then.probes));
   }
-  for (const std::string& note : notes) {
-    print_text("note: {}\n", note);
+  for (const std::string& warning : warnings) {
+    print_text("warning: {}\n", warning);
   }
   write_what_is_missing(folder, simulation);
   output.provenance_ = std::move(earlier);

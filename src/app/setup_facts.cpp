@@ -221,7 +221,7 @@ std::string json_of(const SetupFacts& facts) {
   Json json;
   json["file"] = facts.file;
   json["dimension"] = facts.dimension;
-  json["notes"] = facts.notes;
+  json["warnings"] = facts.warnings;
   json["bodies"] = list_of(facts.bodies);
   json["substrates"] = list_of(facts.substrates);
   json["roughness"] = Json();
@@ -242,7 +242,7 @@ std::string json_of(const SetupFacts& facts) {
   json["disk"] = json_of(facts.disk, facts.free_disk, facts.disk_folder);
   json["wall_s"] = std::isfinite(facts.seconds) ? Json(facts.seconds) : Json();
   json["threads"] = facts.threads;
-  json["card"] = facts.error.empty() ? json_of(facts.gpu) : Json();
+  json["gpu"] = facts.error.empty() ? json_of(facts.gpu) : Json();
   json["picture"] = facts.picture.empty() ? Json() : Json(facts.picture);
   json["error"] = facts.error.empty() ? Json() : Json(facts.error);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -29,7 +29,7 @@ struct SetupFacts {
   std::string file;
   int dimension = 2;
   std::optional<double> width_varies_from;  // x of the first width, which figures of a section are per metre of [m]
-  std::vector<std::string> notes;
+  std::vector<std::string> warnings;
   std::vector<sim::BodyFigures> bodies;
   std::vector<SubstrateFacts> substrates;
   std::optional<config::Roughness> roughness;  // of a DEM

@@ -24,7 +24,7 @@ std::vector<std::string> notices(const Case& parameters) {
                                   found.key, found.value, rule.unit.empty() ? "" : " ", rule.unit,
                                   rule.usual.text(rule.unit)));
   }
-  for (const auto& more : {implausible(parameters), notes_on_gaps(parameters)}) {
+  for (const auto& more : {implausible(parameters), warnings_of_gaps(parameters)}) {
     notices.insert(notices.end(), more.begin(), more.end());
   }
   return notices;

@@ -193,7 +193,7 @@ class TargetsReader {
 
 }  // namespace
 
-std::string note_on_late_values(const Case& parameters) {
+std::string warning_of_late_values(const Case& parameters) {
   if (parameters.report.targets.empty()) {
     return "";
   }

@@ -29,6 +29,6 @@ struct ReportedValues {
 ReportedValues read_reported_values(const std::filesystem::path& file);
 
 // What the user should know of values that are later than the run; empty where none is.
-[[nodiscard]] std::string note_on_late_values(const Case& parameters);
+[[nodiscard]] std::string warning_of_late_values(const Case& parameters);
 
 }  // namespace thawslide::config

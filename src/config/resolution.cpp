@@ -32,7 +32,7 @@ bool asks_for_maps(const Case& parameters) {
 
 double run_time_factor(double cell, double finer, int dimension) { return std::pow(cell / finer, dimension + 1); }
 
-std::string resolution_note(const BodyOnCells& body, const std::string& key, const std::vector<double>& lengths) {
+std::string resolution_warning(const BodyOnCells& body, const std::string& key, const std::vector<double>& lengths) {
   const double cells = body.thickness / body.cell, particles = cells * body.particles_per_axis;
   const bool lacks_particles = !are_enough(particles, fewest_particles);
   const bool lacks_cells = body.has_maps && !are_enough(cells, cells_for_maps);

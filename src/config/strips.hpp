@@ -17,6 +17,6 @@ struct Strip {
 [[nodiscard]] std::vector<Strip> strips_of(const Case& parameters);
 
 // Of the domain, between strips that do not meet: a sentence each, without a full stop.
-[[nodiscard]] std::vector<std::string> notes_on_gaps(const Case& parameters);
+[[nodiscard]] std::vector<std::string> warnings_of_gaps(const Case& parameters);
 
 }  // namespace thawslide::config

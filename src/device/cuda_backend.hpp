@@ -105,7 +105,7 @@ class Cuda {
   }
   // What has failed before is told by whoever waits for it.
   void release(void* memory) {
-    note(graphs_.launch());  // what uses this memory yet
+    record_failure(graphs_.launch());  // what uses this memory yet
     static_cast<void>(cudaFree(memory));
   }
 
@@ -199,10 +199,10 @@ class Cuda {
     }
   }
   void launch_waiting() {
-    note(graphs_.launch());
+    record_failure(graphs_.launch());
     expect_done(std::exchange(failed_, cudaSuccess), "starting threads on the GPU");
   }
-  void note(cudaError_t code) { failed_ = failed_ == cudaSuccess ? code : failed_; }
+  void record_failure(cudaError_t code) { failed_ = failed_ == cudaSuccess ? code : failed_; }
 
   // Calls work(memory, bytes): without memory it tells how much it needs.
   template <class Work>

@@ -75,16 +75,16 @@ std::string format_fraction(const CodesFound::Points& points, const CodesFound& 
 }  // namespace
 
 Raster read_codes(const config::Case& parameters, const std::string& key, const std::string& file, const Raster& ground,
-                  std::vector<std::string>& notes) {
+                  std::vector<std::string>& warnings) {
   const Raster codes =
-      read_map(parameters, {key, file, Quantity::code, ground.crs, domain_of(parameters), "the domain"}, notes);
+      read_map(parameters, {key, file, Quantity::code, ground.crs, domain_of(parameters), "the domain"}, warnings);
   return with_error_location(parameters, key, [&] {
     check_whole(file, codes);
     if (Reprojection(codes.crs, ground.crs).changes_nothing()) {
       return codes;
     }
-    notes.push_back(fmt::format("the codes of {}, which is in {}, were taken to the points of the DEM",
-                                name_of_file(file), name_of(codes.crs)));
+    warnings.push_back(fmt::format("the codes of {}, which is in {}, were taken to the points of the DEM",
+                                   name_of_file(file), name_of(codes.crs)));
     return nearest_codes(file, codes, ground);
   });
 }
@@ -113,27 +113,27 @@ std::string format_codes(const CodesFound& found) {
   return words.empty() ? "none" : words;
 }
 
-std::vector<std::string> notes_on_codes(const Rectangle& domain, const std::string& file, const Raster& codes,
-                                        const std::set<double>& named) {
+std::vector<std::string> warnings_of_codes(const Rectangle& domain, const std::string& file, const Raster& codes,
+                                           const std::set<double>& named) {
   const CodesFound found = codes_in(domain, codes);
   const std::string name = name_of_file(file);
-  std::vector<std::string> notes;
+  std::vector<std::string> warnings;
   for (const auto& [code, points] : found.by_code) {
     if (named.count(code) == 0) {
-      notes.push_back(fmt::format("the code {:g} of {} ({}) belongs to no substrate: [basal] holds there", code, name,
-                                  format_fraction(points, found)));
+      warnings.push_back(fmt::format("the code {:g} of {} ({}) belongs to no substrate: [basal] holds there", code,
+                                     name, format_fraction(points, found)));
     }
   }
   if (found.without.count > 0) {
-    notes.push_back(fmt::format("{} has no data at {} of its points in the domain ({}): [basal] holds there", name,
-                                found.without.count, format_fraction(found.without, found)));
+    warnings.push_back(fmt::format("{} has no data at {} of its points in the domain ({}): [basal] holds there", name,
+                                   found.without.count, format_fraction(found.without, found)));
   }
   const Rectangle covered = span_of_points(codes).widened(0.5 * codes.cell_x, 0.5 * codes.cell_y);
   if (const std::string beyond = describe_overhang(domain, covered); !beyond.empty()) {
-    notes.push_back(
+    warnings.push_back(
         fmt::format("{} does not cover the domain, which reaches beyond it by {}: [basal] holds there", name, beyond));
   }
-  return notes;
+  return warnings;
 }
 
 }  // namespace thawslide::gis

@@ -16,7 +16,7 @@ namespace thawslide::gis {
 // ground's they are taken to the ground's points, each from the nearest of the file. `key` named the file. Throws
 // UserError for numbers that are not whole. Adds to the notes.
 [[nodiscard]] Raster read_codes(const config::Case& parameters, const std::string& key, const std::string& file,
-                                const Raster& ground, std::vector<std::string>& notes);
+                                const Raster& ground, std::vector<std::string>& warnings);
 
 // How many points of a raster in a rectangle hold each code, and where these lie.
 struct CodesFound {
@@ -34,7 +34,7 @@ struct CodesFound {
 [[nodiscard]] std::string format_codes(const CodesFound& found);
 
 // What the user should know of a domain and the codes in it: those not named, and what is without.
-[[nodiscard]] std::vector<std::string> notes_on_codes(const Rectangle& domain, const std::string& file,
-                                                      const Raster& codes, const std::set<double>& named);
+[[nodiscard]] std::vector<std::string> warnings_of_codes(const Rectangle& domain, const std::string& file,
+                                                         const Raster& codes, const std::set<double>& named);
 
 }  // namespace thawslide::gis

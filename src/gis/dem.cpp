@@ -21,20 +21,20 @@ namespace thawslide::gis {
 
 namespace {
 
-std::string system_of(const config::Case& parameters, const RasterFile& file, std::vector<std::string>& notes) {
+std::string system_of(const config::Case& parameters, const RasterFile& file, std::vector<std::string>& warnings) {
   const std::string& given = parameters.terrain.crs;
   const Raster& layout = file.layout();
   const std::string system = with_error_location(parameters, given.empty() ? "terrain.file" : "terrain.crs", [&] {
     return metric_system({file.file(), file.extent(), layout.cell_x, layout.cell_y}, layout.crs, given);
   });
-  if (const std::string note = place_note({file.file(), file.extent(), layout.cell_x, layout.cell_y}, system);
-      !note.empty()) {
-    notes.push_back(note);
+  if (const std::string warning = place_warning({file.file(), file.extent(), layout.cell_x, layout.cell_y}, system);
+      !warning.empty()) {
+    warnings.push_back(warning);
   }
   if (!given.empty() && name_of(system) != name_of(layout.crs)) {
-    notes.push_back(fmt::format("{} is read as {}, as set by terrain.crs; the file specifies {}",
-                                std::filesystem::path(file.file()).filename().string(), name_of(system),
-                                layout.crs.empty() ? "nothing" : name_of(layout.crs)));
+    warnings.push_back(fmt::format("{} is read as {}, as set by terrain.crs; the file specifies {}",
+                                   std::filesystem::path(file.file()).filename().string(), name_of(system),
+                                   layout.crs.empty() ? "nothing" : name_of(layout.crs)));
   }
   return system;
 }
@@ -107,14 +107,14 @@ void check_distance(const config::Case& parameters, const RasterFile& file) {
 }
 
 Raster read_and_resample(const config::Case& parameters, const RasterFile& file, const Raster& layout,
-                         const Rectangle& area, std::vector<std::string>& notes) {
+                         const Rectangle& area, std::vector<std::string>& warnings) {
   const bool as_it_is = &layout == &file.layout();
   const Raster target = layout_of(layout, points_in(layout, area));
   Raster raster =
       with_error_location(parameters, "terrain.file", [&] { return file.read(as_it_is ? area : needed_for(target)); });
   check_elevations(parameters, file, raster);
-  if (const std::string note = pits_note(file.file(), raster); !note.empty()) {
-    notes.push_back(note);
+  if (const std::string warning = pits_warning(file.file(), raster); !warning.empty()) {
+    warnings.push_back(warning);
   }
   if (as_it_is) {
     return raster;
@@ -154,13 +154,13 @@ config::Roughness roughness_of_file(const config::Case& parameters, const Raster
 
 }  // namespace
 
-Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
+Dem load_dem(const config::Case& parameters, std::vector<std::string>& warnings) {
   const config::Terrain& terrain = parameters.terrain;
   const auto opened = with_error_location(parameters, "terrain.file",
                                           [&] { return std::make_unique<RasterFile>(terrain.file, Quantity::length); });
   const RasterFile& file = *opened;
-  const std::string system = system_of(parameters, file, notes);
-  add_note(file.conversion().note, notes);
+  const std::string system = system_of(parameters, file, warnings);
+  add_warning(file.conversion().warning, warnings);
   check_distance(parameters, file);
   const Raster made = terrain.resample > 0.0 ? resampled_layout(file.layout(), terrain.resample) : Raster{};
   const Raster& layout = terrain.resample > 0.0 ? made : file.layout();
@@ -188,14 +188,14 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
     THAWSLIDE_ASSERT(dem.raster.values.size() == dem.before_smoothing.values.size(), "{} smoothed points of {}",
                      dem.raster.values.size(), dem.before_smoothing.values.size());
   }
-  notes.insert(notes.end(), of_reading.begin(), of_reading.end());
+  warnings.insert(warnings.end(), of_reading.begin(), of_reading.end());
   const std::string name = std::filesystem::path(file.file()).filename().string();
   if (terrain.resample > 0.0) {
-    notes.push_back(fmt::format("{} was taken from points {:g} m x {:g} m apart to points {:g} m apart", name,
-                                file.layout().cell_x, file.layout().cell_y, terrain.resample));
+    warnings.push_back(fmt::format("{} was taken from points {:g} m x {:g} m apart to points {:g} m apart", name,
+                                   file.layout().cell_x, file.layout().cell_y, terrain.resample));
   }
   if (width > 0.0) {
-    notes.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "{} was smoothed with a standard deviation of {:g} m{}", name, width,
         terrain.smooth.is_auto
             ? fmt::format(", as it has noise of {:.2g} m rms and bumps with an rms slope of {:.2g} (terrain.smooth = "

@@ -21,6 +21,6 @@ struct Dem {
 };
 
 // Cropped to the domain and some cells about it, resampled and smoothed as the case asks for it. Adds to the notes.
-[[nodiscard]] Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes);
+[[nodiscard]] Dem load_dem(const config::Case& parameters, std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

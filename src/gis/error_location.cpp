@@ -9,9 +9,9 @@ void fail_at(const config::Case& parameters, const std::string& key, const std::
   throw UserError(is_option ? fmt::format("{}: {}", place, message) : fmt::format("{}: {}: {}", place, key, message));
 }
 
-void add_note(const std::string& note, std::vector<std::string>& notes) {
-  if (!note.empty()) {
-    notes.push_back(note);
+void add_warning(const std::string& warning, std::vector<std::string>& warnings) {
+  if (!warning.empty()) {
+    warnings.push_back(warning);
   }
 }
 

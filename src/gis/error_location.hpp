@@ -23,7 +23,7 @@ auto with_error_location(const config::Case& parameters, const std::string& key,
 }
 
 // Adds a note that has a text.
-void add_note(const std::string& note, std::vector<std::string>& notes);
+void add_warning(const std::string& warning, std::vector<std::string>& warnings);
 
 // How far a rectangle reaches beyond another: "120 m in the west and 30 m in the north"; empty: it does not.
 [[nodiscard]] std::string describe_overhang(const Rectangle& inner, const Rectangle& outer);

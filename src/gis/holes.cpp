@@ -28,22 +28,22 @@ double distance_to_releases(const config::Site& site, double x, double y) {
 
 std::vector<std::string> probes_in_holes(const config::Site& site) {
   const Raster& ground = *site.ground;
-  std::vector<std::string> notes;
+  std::vector<std::string> warnings;
   for (const auto& [name, corners] : site.probes) {
     const bool is_known = std::any_of(corners.begin(), corners.end(), [&](const auto& corner) {
       return !std::isnan(bilinear(ground, corner[0], corner[1], Missing::unknown));
     });
     if (!is_known) {
-      notes.push_back(fmt::format(
+      warnings.push_back(fmt::format(
           "probe.{}: the DEM has no data there, and the probe reports zeros. Move it to where the terrain is "
           "known.",
           name));
     }
   }
-  return notes;
+  return warnings;
 }
 
-std::string holes_note(const config::Case& parameters, const config::Site& site) {
+std::string holes_warning(const config::Case& parameters, const config::Site& site) {
   const Raster& ground = *site.ground;
   const Rectangle domain = domain_of(parameters);
   std::size_t points = 0, unknown = 0;

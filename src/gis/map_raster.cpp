@@ -6,12 +6,12 @@
 
 namespace thawslide::gis {
 
-Raster read_map(const config::Case& parameters, const MapRequest& request, std::vector<std::string>& notes) {
+Raster read_map(const config::Case& parameters, const MapRequest& request, std::vector<std::string>& warnings) {
   return with_error_location(parameters, request.key, [&] {
     const RasterFile file(request.file, request.quantity);
     const LikelySystem system = likely_system(request.file, file.layout().crs, file.extent(), request.crs);
-    add_note(system.note, notes);
-    add_note(file.conversion().note, notes);
+    add_warning(system.warning, warnings);
+    add_warning(file.conversion().warning, warnings);
     const bool same_place = Reprojection(system.wkt, request.crs).changes_nothing();
     if (same_place && request.area && !request.area->touches(span_of_points(file.layout()))) {
       throw UserError(fmt::format(

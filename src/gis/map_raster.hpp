@@ -24,6 +24,6 @@ struct MapRequest {
 // Its reference system is the one that the file tells, or the ground's where the file tells none, or one that its
 // numbers cannot be in: that is noted. Throws UserError where it does not reach the area at all.
 [[nodiscard]] Raster read_map(const config::Case& parameters, const MapRequest& request,
-                              std::vector<std::string>& notes);
+                              std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

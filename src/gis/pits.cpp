@@ -121,7 +121,7 @@ class Patches {
 
 }  // namespace
 
-std::string pits_note(const std::string& file, const Raster& ground) {
+std::string pits_warning(const std::string& file, const Raster& ground) {
   double value = 0.0;
   Apart most;
   for (const auto& [height, apart] : Patches(ground).apart()) {

@@ -296,7 +296,7 @@ std::string metric_system(const Located& raster, const std::string& wkt_of_file,
   return wkt_from_reference(&reference);
 }
 
-std::string place_note(const Located& raster, const std::string& wkt) {
+std::string place_warning(const Located& raster, const std::string& wkt) {
   constexpr double far = 1000.0, kilometres_per_degree = 111.2;  // [km]; along a meridian
   const GdalMessages messages;
   const OGRSpatialReference given = reference_from_wkt(wkt);

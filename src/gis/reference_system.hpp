@@ -36,6 +36,6 @@ void require_projection_database();
                                         const std::string& terrain_crs);
 
 // What the user should know of a raster that lies far outside the area its system is made for; empty where it does not.
-[[nodiscard]] std::string place_note(const Located& raster, const std::string& wkt);
+[[nodiscard]] std::string place_warning(const Located& raster, const std::string& wkt);
 
 }  // namespace thawslide::gis

@@ -21,6 +21,6 @@ struct LoadedRelease {
 
 // `ground` as the DEM has it, before anything is cut out of it. Adds to the notes.
 [[nodiscard]] LoadedRelease load_release(const config::Case& parameters, const std::string& body, const Dem& ground,
-                                         std::vector<std::string>& notes);
+                                         std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

@@ -93,10 +93,10 @@ void check_size(const config::Case& parameters, const std::string& body, double 
   }
 }
 
-void note_narrow(const std::string& body, const Raster& share, std::vector<std::string>& notes) {
+void warn_of_narrow(const std::string& body, const Raster& share, std::vector<std::string>& warnings) {
   const double most = *std::max_element(share.values.begin(), share.values.end());
   if (most < 0.995) {
-    notes.push_back(
+    warnings.push_back(
         fmt::format("the release of the body {} covers no cell of the DEM, {:g} m x {:g} m, as a whole: it is "
                     "spread over cells that it covers in part, and gets up to {:.0f} % of the thickness given; the "
                     "volume stays. Draw it larger, or resample the DEM",
@@ -166,11 +166,11 @@ Raster coarser_above(const Raster& surface, const Raster& ground, double toleran
 
 // The thickness that a raster tells, or what a surface has above the ground at the ground's points.
 Raster thickness_without_polygons(const config::Case& parameters, const std::string& name, const Dem& ground,
-                                  std::vector<std::string>& notes) {
+                                  std::vector<std::string>& warnings) {
   const config::MapValue& thickness = parameters.bodies.at(name).thickness;
   Raster map = read_map(
       parameters, {key_of_place(parameters, name), thickness.source, Quantity::length, ground.raster.crs, std::nullopt},
-      notes);
+      warnings);
   if (thickness.from == config::MapValue::From::raster) {
     return map;
   }
@@ -181,11 +181,11 @@ Raster thickness_without_polygons(const config::Case& parameters, const std::str
 }
 
 ReleaseArea area_of_raster(const config::Case& parameters, const std::string& name, const Dem& ground,
-                           std::vector<std::string>& notes) {
+                           std::vector<std::string>& warnings) {
   const config::Body& body = parameters.bodies.at(name);
   const std::string key = key_of_place(parameters, name);
   ReleaseArea area;
-  area.source = thickness_without_polygons(parameters, name, ground, notes);
+  area.source = thickness_without_polygons(parameters, name, ground, warnings);
   const Rectangle extent =
       with_error_location(parameters, key, [&] { return extent_of_positive(body, area.source, ground.raster.crs); });
   check_place(parameters, name, extent, ground);
@@ -201,12 +201,12 @@ ReleaseArea area_of_raster(const config::Case& parameters, const std::string& na
 }
 
 ReleaseArea area_of_polygons(const config::Case& parameters, const std::string& name, const Dem& ground,
-                             std::vector<std::string>& notes) {
+                             std::vector<std::string>& warnings) {
   const config::Body& body = parameters.bodies.at(name);
   ReleaseArea area;
   area.layer = with_error_location(parameters, key_of(name, "release"),
                                    [&] { return read_polygons(body.release, ground.raster.crs); });
-  notes.insert(notes.end(), area.layer.notes.begin(), area.layer.notes.end());
+  warnings.insert(warnings.end(), area.layer.warnings.begin(), area.layer.warnings.end());
   area.layer.features = with_error_location(parameters, key_of(name, "polygons"), [&] {
     return features_named(area.layer, body.polygons, body.name_attribute);
   });
@@ -220,7 +220,7 @@ ReleaseArea area_of_polygons(const config::Case& parameters, const std::string& 
   check_taper(parameters, name, extent, ground);
   check_size(parameters, name, area_of(area.polygons), ground.raster);
   area.share = coverage_of(area.polygons, points_about(extent, body.taper, ground.raster));
-  note_narrow(name, area.share, notes);
+  warn_of_narrow(name, area.share, warnings);
   return area;
 }
 
@@ -238,9 +238,9 @@ const std::string& file_of_place(const config::Case& parameters, const std::stri
 }
 
 ReleaseArea load_release_area(const config::Case& parameters, const std::string& body, const Dem& ground,
-                              std::vector<std::string>& notes) {
-  return parameters.bodies.at(body).release.empty() ? area_of_raster(parameters, body, ground, notes)
-                                                    : area_of_polygons(parameters, body, ground, notes);
+                              std::vector<std::string>& warnings) {
+  return parameters.bodies.at(body).release.empty() ? area_of_raster(parameters, body, ground, warnings)
+                                                    : area_of_polygons(parameters, body, ground, warnings);
 }
 
 }  // namespace thawslide::gis

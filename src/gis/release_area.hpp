@@ -28,6 +28,6 @@ struct ReleaseArea {
 
 // Reads the release and checks that it lies within the domain and the DEM. Adds to the notes.
 [[nodiscard]] ReleaseArea load_release_area(const config::Case& parameters, const std::string& body, const Dem& ground,
-                                            std::vector<std::string>& notes);
+                                            std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

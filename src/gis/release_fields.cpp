@@ -87,7 +87,7 @@ Raster from_raster(const ReleaseArea& area, const Raster& map, const MappedField
 
 std::map<std::string, Raster> fields_of(const config::Case& parameters, const std::string& body,
                                         const ReleaseArea& area, const Raster& thickness,
-                                        std::vector<std::string>& notes) {
+                                        std::vector<std::string>& warnings) {
   std::map<std::string, Raster> fields;
   for (const MappedField& what : mapped_fields) {
     const InitialField& field = parameters.bodies.at(body).*what.member;
@@ -98,7 +98,7 @@ std::map<std::string, Raster> fields_of(const config::Case& parameters, const st
     const bool is_raster = field.over == InitialField::Over::raster;
     const Raster map =
         is_raster ? read_map(parameters, {key, field.source, what.quantity, area.share.crs, span_of_points(area.share)},
-                             notes)
+                             warnings)
                   : Raster{};
     fields[what.key] = with_error_location(parameters, key, [&] {
       Raster made = is_raster ? from_raster(area, map, what, field.source) : from_attribute(area, field.source, key);

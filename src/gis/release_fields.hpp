@@ -14,6 +14,6 @@ namespace thawslide::gis {
 // or is out of range. Adds to the notes.
 [[nodiscard]] std::map<std::string, Raster> fields_of(const config::Case& parameters, const std::string& body,
                                                       const ReleaseArea& area, const Raster& thickness,
-                                                      std::vector<std::string>& notes);
+                                                      std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

@@ -22,14 +22,14 @@ using config::MapValue;
 class ThicknessMaker {
  public:
   ThicknessMaker(const config::Case& parameters, const std::string& body, const ReleaseArea& area, const Dem& ground,
-                 std::vector<std::string>& notes)
+                 std::vector<std::string>& warnings)
       : case_(parameters),
         name_(body),
         body_(parameters.bodies.at(body)),
         area_(area),
         ground_(ground.raster),
         measured_(ground.as_measured()),
-        notes_(notes) {}
+        warnings_(warnings) {}
 
   Raster make() {
     Raster thickness = area_.is_raster() ? of_release_raster() : of_polygons();
@@ -40,7 +40,7 @@ class ThicknessMaker {
     thickness = tapered(thickness, body_.taper);
     check_ground(thickness, Spread::by_taper);
     if (body_.taper > 0.0 && taper_reach(body_.taper, ground_.cell_x) + taper_reach(body_.taper, ground_.cell_y) == 0) {
-      notes_.push_back(
+      warnings_.push_back(
           fmt::format("the taper of the body {}, {:g} m, is no wider than two cells of the ground, {:g} m x "
                       "{:g} m: it changes nothing",
                       name_, body_.taper, ground_.cell_x, ground_.cell_y));
@@ -114,7 +114,7 @@ class ThicknessMaker {
     require_not_negative(area_.source, nullptr, "thickness", body_.thickness.source);
     const double specified = volume_of(area_.source), made = volume_of(thickness);
     if (area_.source.crs == ground_.crs && std::abs(made - specified) > 1e-3 * specified) {
-      notes_.push_back(
+      warnings_.push_back(
           fmt::format("the thickness of the body {} holds {:.6g} m3 at its own points and {:.6g} m3 at "
                       "those of the ground",
                       name_, specified, made));
@@ -168,7 +168,7 @@ class ThicknessMaker {
     return read_map(case_,
                     {key_of(name_, "thickness"), body_.thickness.source, Quantity::length, ground_.crs,
                      span_of_points(area_.share)},
-                    notes_);
+                    warnings_);
   }
 
   template <class Work>
@@ -277,14 +277,14 @@ class ThicknessMaker {
   const ReleaseArea& area_;
   const Raster& ground_;
   const Raster& measured_;  // not smoothed, as a surface before the slide is not either
-  std::vector<std::string>& notes_;
+  std::vector<std::string>& warnings_;
 };
 
 }  // namespace
 
 Raster vertical_thickness_of(const config::Case& parameters, const std::string& body, const ReleaseArea& area,
-                             const Dem& ground, std::vector<std::string>& notes) {
-  return ThicknessMaker(parameters, body, area, ground, notes).make();
+                             const Dem& ground, std::vector<std::string>& warnings) {
+  return ThicknessMaker(parameters, body, area, ground, warnings).make();
 }
 
 }  // namespace thawslide::gis

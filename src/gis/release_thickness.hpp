@@ -11,6 +11,7 @@ namespace thawslide::gis {
 // [m], at the points of the area's share, with its taper. Throws UserError where it is missing or negative. Adds to the
 // notes.
 [[nodiscard]] Raster vertical_thickness_of(const config::Case& parameters, const std::string& body,
-                                           const ReleaseArea& area, const Dem& ground, std::vector<std::string>& notes);
+                                           const ReleaseArea& area, const Dem& ground,
+                                           std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

@@ -31,7 +31,7 @@ class Reprojection {
 // numbers cannot be in what it tells. `note`: what the user should know of that; empty: nothing.
 struct LikelySystem {
   std::string wkt;
-  std::string note;
+  std::string warning;
 };
 [[nodiscard]] LikelySystem likely_system(const std::string& file, const std::string& specified, const Rectangle& extent,
                                          const std::string& ground);

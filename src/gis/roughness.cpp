@@ -312,7 +312,7 @@ config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle,
   return found;
 }
 
-std::string roughness_note(const config::Case& parameters, const config::Site& site) {
+std::string roughness_warning(const config::Case& parameters, const config::Site& site) {
   constexpr double much_friction = 0.05;
   const config::Roughness& found = *site.roughness;
   const bool is_auto = parameters.terrain.smooth.is_auto;

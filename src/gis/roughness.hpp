@@ -65,7 +65,7 @@ inline constexpr double largest_slope = 0.06;  // that the choice of a width lea
                                              const std::vector<Rectangle>& bodies = {});
 
 // What the user should know of noise that stays; empty where it adds little to the friction.
-[[nodiscard]] std::string roughness_note(const config::Case& parameters, const config::Site& site);
+[[nodiscard]] std::string roughness_warning(const config::Case& parameters, const config::Site& site);
 
 // Width between its walls, along the level, of the V valley with walls of 45 degrees that loses 3 % of its wedge effect
 // by the filter.

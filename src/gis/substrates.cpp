@@ -35,12 +35,12 @@ std::string key_of_place(const std::string& name, const config::Substrate& subst
 
 // Also fills `inside` with what lies in the domain.
 config::SubstrateArea area_of_outline(const config::Case& parameters, const std::string& name, const Dem& ground,
-                                      Polygons& inside, std::vector<std::string>& notes) {
+                                      Polygons& inside, std::vector<std::string>& warnings) {
   const config::Substrate& substrate = parameters.substrates.at(name);
   const std::string key = key_of(name, "outline");
   const VectorLayer layer =
       with_error_location(parameters, key, [&] { return read_polygons(substrate.outline, ground.raster.crs); });
-  notes.insert(notes.end(), layer.notes.begin(), layer.notes.end());
+  warnings.insert(warnings.end(), layer.warnings.begin(), layer.warnings.end());
   Polygons all;
   for (const Feature& feature : with_error_location(parameters, key_of(name, "polygons"), [&] {
          return features_named(layer, substrate.polygons, substrate.name_attribute);
@@ -135,18 +135,18 @@ void check_overlaps(const config::Case& parameters, const Areas& areas, Polygons
 
 }  // namespace
 
-Areas load_substrates(const config::Case& parameters, const Dem& ground, std::vector<std::string>& notes) {
+Areas load_substrates(const config::Case& parameters, const Dem& ground, std::vector<std::string>& warnings) {
   Areas areas;
   PolygonsOf polygons;
   std::map<std::string, std::shared_ptr<const Raster>> rasters;  // by file
   for (const auto& [name, substrate] : parameters.substrates) {
     if (!substrate.outline.empty()) {
-      areas[name] = area_of_outline(parameters, name, ground, polygons[name], notes);
+      areas[name] = area_of_outline(parameters, name, ground, polygons[name], warnings);
     } else if (!substrate.raster.empty()) {
       auto& codes = rasters[substrate.raster];
       if (codes == nullptr) {
         codes = std::make_shared<const Raster>(
-            read_codes(parameters, key_of(name, "raster"), substrate.raster, ground.raster, notes));
+            read_codes(parameters, key_of(name, "raster"), substrate.raster, ground.raster, warnings));
       }
       areas[name] = area_of_code(parameters, name, codes);
     }
@@ -159,8 +159,8 @@ Areas load_substrates(const config::Case& parameters, const Dem& ground, std::ve
         named.insert(substrate.code);
       }
     }
-    const std::vector<std::string> more = notes_on_codes(domain_of(parameters), file, *codes, named);
-    notes.insert(notes.end(), more.begin(), more.end());
+    const std::vector<std::string> more = warnings_of_codes(domain_of(parameters), file, *codes, named);
+    warnings.insert(warnings.end(), more.begin(), more.end());
   }
   return areas;
 }

@@ -16,6 +16,6 @@ namespace thawslide::gis {
 // tell codes that belong to no substrate, and what a raster leaves out of the domain.
 [[nodiscard]] std::map<std::string, config::SubstrateArea> load_substrates(const config::Case& parameters,
                                                                            const Dem& ground,
-                                                                           std::vector<std::string>& notes);
+                                                                           std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

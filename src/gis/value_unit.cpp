@@ -166,11 +166,12 @@ void check_that_both_agree(const StatedUnits& stated, double band_metres) {
   }
 }
 
-UnitConversion with_note(const StatedUnits& stated, const std::string& unit, const Spelling& found, const char* own) {
+UnitConversion with_warning(const StatedUnits& stated, const std::string& unit, const Spelling& found,
+                            const char* own) {
   UnitConversion conversion{found.factor, found.offset, ""};
   if (found.factor != 1.0 || found.offset != 0.0) {
-    conversion.note = fmt::format("{} states the unit '{}': its values were converted to {}",
-                                  std::filesystem::path(stated.file).filename().string(), config::shown(unit), own);
+    conversion.warning = fmt::format("{} states the unit '{}': its values were converted to {}",
+                                     std::filesystem::path(stated.file).filename().string(), config::shown(unit), own);
   }
   return conversion;
 }
@@ -187,7 +188,7 @@ UnitConversion conversion_from(const StatedUnits& stated, Quantity quantity) {
   if (is_vertical) {
     return states_nothing(stated.vertical)
                ? UnitConversion{}
-               : with_note(stated, stated.vertical, {"", stated.vertical_metres}, units.own);
+               : with_warning(stated, stated.vertical, {"", stated.vertical_metres}, units.own);
   }
   const std::optional<Spelling> found = known_unit(stated.band, units);
   if (!found) {
@@ -196,7 +197,7 @@ UnitConversion conversion_from(const StatedUnits& stated, Quantity quantity) {
   if (quantity == Quantity::length) {
     check_that_both_agree(stated, found->factor);
   }
-  return with_note(stated, stated.band, *found, units.own);
+  return with_warning(stated, stated.band, *found, units.own);
 }
 
 }  // namespace thawslide::gis

@@ -20,7 +20,7 @@ struct StatedUnits {
 // computed = factor * stated + offset
 struct UnitConversion {
   double factor = 1.0, offset = 0.0;
-  std::string note;  // for the user; empty: nothing is converted
+  std::string warning;  // for the user; empty: nothing is converted
 };
 
 // A band without a unit of its own is in that of the heights of its reference system if it holds lengths. Without

@@ -183,8 +183,8 @@ class LayerReader {
     const Rectangle extent =
         has_extent ? Rectangle{envelope.MinX, envelope.MinY, envelope.MaxX, envelope.MaxY} : Rectangle{};
     const LikelySystem system = likely_system(result_.file, wkt_from_reference(layer_->GetSpatialRef()), extent, crs);
-    if (!system.note.empty()) {
-      result_.notes.push_back(system.note);
+    if (!system.warning.empty()) {
+      result_.warnings.push_back(system.warning);
     }
     reprojection_ = Reprojection(system.wkt, crs);
   }

@@ -25,7 +25,7 @@ struct VectorLayer {
   std::string file;
   std::vector<std::string> attributes;  // their names
   std::vector<Feature> features;        // at least one
-  std::vector<std::string> notes;       // what the user should know of the reading
+  std::vector<std::string> warnings;    // what the user should know of the reading
 };
 
 // Each reads the one layer of the file that holds what it says, and checks all of it: polygons have an area and do not

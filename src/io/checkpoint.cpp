@@ -190,10 +190,10 @@ WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder) {
     if (fault.empty()) {
       return found;
     }
-    found.note += (found.note.empty() ? "" : "; ") + fault;
+    found.warning += (found.warning.empty() ? "" : "; ") + fault;
     found.damaged = has_name ? found.file : std::filesystem::path();
   }
-  throw UserError(found.note + ". Use another copy, or run the case from its start.");
+  throw UserError(found.warning + ". Use another copy, or run the case from its start.");
 }
 
 template <int Dim, class Real>

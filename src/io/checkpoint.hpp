@@ -31,7 +31,7 @@ template <int Dim>
 struct WholeCheckpoint {
   std::filesystem::path file;
   std::string bytes;
-  std::string note;  // of one that was passed over because it is damaged, cannot be read or is absent; empty: none
+  std::string warning;  // of one that was passed over because it is damaged, cannot be read or is absent; empty: none
   std::filesystem::path damaged = {};  // the one that was passed over, if it is there; empty: there is nothing to keep
 };
 

@@ -74,7 +74,8 @@ class KeptRows {
   }
   [[nodiscard]] bool lacks_any(const HistoryExtent& then) const { return times_.size() < then.rows; }
   // What is to be told of the file where it is not what the run wrote; empty: it is.
-  [[nodiscard]] std::string note(const std::filesystem::path& file, bool is_present, const HistoryExtent& then) const {
+  [[nodiscard]] std::string warning(const std::filesystem::path& file, bool is_present,
+                                    const HistoryExtent& then) const {
     const std::string name = file.filename().string();
     if (!is_present) {
       return fmt::format("{} was missing: it starts again, without the {} rows up to t = {:g} s", name, then.rows,
@@ -168,17 +169,17 @@ HistoryWriter HistoryWriter::start_in_run(const std::filesystem::path& file) {
 }
 
 HistoryWriter HistoryWriter::continue_after(const std::filesystem::path& file, const std::string& header,
-                                            const HistoryExtent& then, std::vector<std::string>& notes) {
+                                            const HistoryExtent& then, std::vector<std::string>& warnings) {
   const bool is_present = std::filesystem::exists(file);
   const std::string text = is_present ? read_file(file) : "";
   const KeptRows kept(text, header, then.last_time);
-  if (std::string note = kept.note(file, is_present, then); !note.empty()) {
+  if (std::string warning = kept.warning(file, is_present, then); !warning.empty()) {
     if (is_present && kept.lacks_any(then)) {
       const std::filesystem::path aside = name_for_damaged(file);
       write_file_atomically(aside, text);
-      note += fmt::format("; what there was is kept as {}", aside.filename().string());
+      warning += fmt::format("; what there was is kept as {}", aside.filename().string());
     }
-    notes.push_back(std::move(note));
+    warnings.push_back(std::move(warning));
   }
   write_file_atomically(file, kept.text());
   HistoryWriter writer(file, open_or_throw(file, O_NOFOLLOW), header);

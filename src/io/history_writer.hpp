@@ -29,7 +29,7 @@ class HistoryWriter {
   // Goes on with a file that once held `then`, with these columns: keeps whole rows up to there and appends. Where some
   // of them are not there any more the file is kept beside, and a note says which.
   static HistoryWriter continue_after(const std::filesystem::path& file, const std::string& header,
-                                      const HistoryExtent& then, std::vector<std::string>& notes);
+                                      const HistoryExtent& then, std::vector<std::string>& warnings);
 
   HistoryWriter(HistoryWriter&& other) noexcept;
   HistoryWriter& operator=(HistoryWriter&&) = delete;

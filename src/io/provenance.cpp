@@ -70,7 +70,7 @@ Json json_of(const RunPart& part) {
   json["started"] = part.started;
   json["from_s"] = part.from_time;
   json["changes"] = part.changes;
-  json["notes"] = part.notes;
+  json["warnings"] = part.warnings;
   json["case_sha256"] = part.case_sha256;
   json["wall_s"] = part.wall_seconds;
   json["particle_steps"] = part.particle_steps;
@@ -89,7 +89,7 @@ RunPart part_of(const Json& json) {
   part.started = json.at("started");
   part.from_time = json.at("from_s");
   part.changes = json.at("changes").get<std::vector<std::string>>();
-  part.notes = json.value("notes", std::vector<std::string>{});
+  part.warnings = json.value("warnings", std::vector<std::string>{});
   part.case_sha256 = json.at("case_sha256");
   part.wall_seconds = json.at("wall_s");
   part.particle_steps = json.at("particle_steps");
@@ -156,7 +156,7 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   json["particle_steps_per_second"] = wall > 0.0 ? particle_steps / wall : 0.0;
   json["parts"] = std::move(parts);
   json["seconds_per_stage"] = p.seconds_per_stage;
-  json["seconds_beside"] = p.writer_seconds;
+  json["writer_seconds"] = p.writer_seconds;
   json["origin_m"] = p.origin;
   json["gravity_m_s2"] = p.gravity;
   json["crs"] = p.crs.empty() ? Json() : Json(p.crs);

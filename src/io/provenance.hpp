@@ -24,11 +24,11 @@ struct InputFile {
 struct RunPart {
   std::string version, commit, command, host, processor, started;  // started: UTC, ISO 8601
   int threads = 1;
-  std::string device;                // that took the steps; empty: the processor
-  double from_time = 0.0;            // simulated time it began at [s]
-  std::vector<std::string> changes;  // of the case, as --set texts
-  std::vector<std::string> notes;    // of what it found damaged when it began, and did about it
-  std::string case_sha256;           // of the resolved case that it ran
+  std::string device;                 // that took the steps; empty: the processor
+  double from_time = 0.0;             // simulated time it began at [s]
+  std::vector<std::string> changes;   // of the case, as --set texts
+  std::vector<std::string> warnings;  // of what it found damaged when it began, and did about it
+  std::string case_sha256;            // of the resolved case that it ran
   double wall_seconds = 0.0;
   double particle_steps = 0.0;  // particles that were there, summed over its steps
 };

@@ -132,7 +132,7 @@ SnapshotSeries::SnapshotSeries(const fs::path& folder) : folder_(folder), indexe
 }
 
 SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, std::size_t count,
-                                              std::vector<std::string>& notes) {
+                                              std::vector<std::string>& warnings) {
   SnapshotSeries series(folder);
   series.next_ = count;
   std::string lost;
@@ -162,7 +162,7 @@ SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, std::size_
   }
   note_lost_before(count);
   if (!lost.empty()) {
-    notes.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "of the {} snapshots up to here these are missing or cannot be read: {}; particles.vtkhdf leaves them out",
         count, lost));
   }

@@ -21,7 +21,7 @@ class SnapshotSeries {
   // Goes on with the series after its first `count` snapshots: later ones are removed. A note says which of the earlier
   // ones are missing or cannot be read; the index leaves these out.
   static SnapshotSeries continue_after(const std::filesystem::path& folder, std::size_t count,
-                                       std::vector<std::string>& notes);
+                                       std::vector<std::string>& warnings);
 
   // Writes folder/snapshots/NNNNNN.vtkhdf while the caller goes on, and before that, when it was not written for some
   // seconds, the index of the snapshots so far. Throws WriteError if this snapshot or the one before it could not be

@@ -42,14 +42,14 @@ struct InvalidParticle {
   std::int64_t id = -1;
   Fault fault = Fault::none;
 
-  THAWSLIDE_HD void note(std::int64_t other, Fault found) {
+  THAWSLIDE_HD void record(std::int64_t other, Fault found) {
     if (other >= 0 && (id < 0 || other < id)) {
       id = other;
       fault = found;
     }
   }
   THAWSLIDE_HD InvalidParticle& operator+=(const InvalidParticle& part) {
-    note(part.id, part.fault);
+    record(part.id, part.fault);
     return *this;
   }
 };

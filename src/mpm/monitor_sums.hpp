@@ -45,7 +45,8 @@ struct MonitorKernel {
     seen.kinetic = Real(0.5) * mass * speed2;
     const Real ratio = particles.volume(p) / particles.initial_volume(p);
     if (ratio < smallest_volume || ratio > largest_volume) {
-      seen.volumes.note(particles.id(p), ratio < smallest_volume ? Fault::volume_too_small : Fault::volume_too_large);
+      seen.volumes.record(particles.id(p),
+                           ratio < smallest_volume ? Fault::volume_too_small : Fault::volume_too_large);
     }
     return seen;
   }

@@ -56,7 +56,7 @@ struct UpdatePosition {
     for (int a = 0; a < Dim; ++a) {
       finite = finite && std::isfinite(particles.position(p, a) + particles.step_displacement(p, a));
     }
-    invalid.note(particles.id(p), finite ? Fault::left_domain : Fault::state_not_finite);
+    invalid.record(particles.id(p), finite ? Fault::left_domain : Fault::state_not_finite);
   }
 };
 

@@ -137,8 +137,8 @@ struct Deform {
     }
     at.for_each([&](std::uint32_t p) {
       if (!(particles.volume(p) > Real(0))) {
-        invalid.note(particles.id(p),
-                     std::isnan(particles.volume(p)) ? Fault::volume_not_finite : Fault::volume_not_positive);
+        invalid.record(particles.id(p),
+                        std::isnan(particles.volume(p)) ? Fault::volume_not_finite : Fault::volume_not_positive);
       }
     });
   }

@@ -18,25 +18,25 @@ ColumnMaterial material_of_base(const config::Case& parameters, const Model<Dim,
                                 const mpm::Particles<Dim, Real>& particles) {
   ColumnMaterial material{};
   double volume = 0.0;
-  std::int32_t material = -1;
+  std::int32_t index = -1;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     if (particles.in_band(p) == 0) {
       continue;
     }
-    if (material >= 0 && particles.material(p) != material) {
+    if (index >= 0 && particles.material(p) != index) {
       throw UserError(
           fmt::format("{}: bodies of different materials stand on the ground, and band columns are of one. Give all "
                       "bodies the same material, or set band.model = \"scaled\".",
                       config::place_of(parameters, "band.model")));
     }
-    material = particles.material(p);
+    index = particles.material(p);
     const auto of_particle = static_cast<double>(particles.initial_volume(p));
     volume += of_particle;
     material.depth += of_particle * static_cast<double>(particles.flow_depth(p));
     material.temperature += of_particle * static_cast<double>(particles.temperature(p));
     material.porosity += of_particle * static_cast<double>(particles.initial_porosity(p));
   }
-  if (material < 0) {
+  if (index < 0) {
     throw UserError(
         fmt::format("{}: no particle stands on the ground, where band columns begin. Let the body begin on "
                     "the ground, or set band.model = \"scaled\".",
@@ -46,7 +46,7 @@ ColumnMaterial material_of_base(const config::Case& parameters, const Model<Dim,
   material.temperature /= volume;
   material.porosity /= volume;
   material.hydraulic_conductivity =
-      static_cast<double>(model.motion.materials[static_cast<std::size_t>(material)].hydraulic_conductivity);
+      static_cast<double>(model.motion.materials[static_cast<std::size_t>(index)].hydraulic_conductivity);
   return material;
 }
 

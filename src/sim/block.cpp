@@ -191,8 +191,9 @@ class Block {
     const double saturation =
         model_.band.with_heat_content([&](const auto& content) { return content.curve.saturation(temperature); });
     const double conductivity = model_.band.hydraulic_conductivity[static_cast<std::size_t>(material)];
-    const ColumnMaterial material{temperature, rows.porosity(rows.thickness, saturation), conductivity, rows.thickness};
-    return AnyColumn(std::in_place_type<BlockBandColumn>, make_columns_model(parameters_, model_, material),
+    const ColumnMaterial of_column{temperature, rows.porosity(rows.thickness, saturation), conductivity,
+                                   rows.thickness};
+    return AnyColumn(std::in_place_type<BlockBandColumn>, make_columns_model(parameters_, model_, of_column),
                      band_thickness(), rows.normal_pressure, parameters_.band.column_step);
   }
 

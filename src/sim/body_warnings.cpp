@@ -193,8 +193,8 @@ std::string resolution_warning(const config::Case& parameters, const BodyFigures
                                      .particles_per_axis = parameters.bodies.at(body.name).particles_per_axis,
                                      .dimension = parameters.general.dimension,
                                      .has_maps = config::asks_for_maps(parameters)};
-  const std::string note = config::resolution_note(on_cells, "grid.cell", config::lengths_of_domain(parameters));
-  return note.empty() ? "" : config::place_of(parameters, "grid.cell") + ": " + note;
+  const std::string warning = config::resolution_warning(on_cells, "grid.cell", config::lengths_of_domain(parameters));
+  return warning.empty() ? "" : config::place_of(parameters, "grid.cell") + ": " + warning;
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ std::string reason_for_map_cell(const config::Case& parameters, const config::Si
                            least > parameters.grid.cell ? "three particle distances" : "grid.cell");
 }
 
-std::string note_on_map_cell(const config::Case& parameters, const config::Site& site) {
+std::string warning_of_map_cell(const config::Case& parameters, const config::Site& site) {
   const double asked = parameters.maps.cell;
   if (asked <= 0.0 || asked >= parameters.grid.cell) {
     return "";

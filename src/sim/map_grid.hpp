@@ -45,6 +45,6 @@ constexpr double most_map_cells = 2.5e8;
 [[nodiscard]] std::string reason_for_map_cell(const config::Case& parameters, const config::Site& site);
 
 // What to know of a maps.cell that is given and narrower than the background grid's; empty where there is nothing.
-[[nodiscard]] std::string note_on_map_cell(const config::Case& parameters, const config::Site& site);
+[[nodiscard]] std::string warning_of_map_cell(const config::Case& parameters, const config::Site& site);
 
 }  // namespace thawslide::sim

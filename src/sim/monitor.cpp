@@ -195,7 +195,7 @@ void Simulation<Dim, Real>::restart_rest_time() {
 }
 
 template <int Dim, class Real>
-std::string Simulation<Dim, Real>::energy_note() const {
+std::string Simulation<Dim, Real>::energy_warning() const {
   if (monitor_.made_share <= parameters_.guards.energy_growth) {
     return "";
   }
@@ -222,7 +222,7 @@ std::string Simulation<Dim, Real>::rest_text() const {
   template bool Simulation<Dim, Real>::is_at_rest() const;                                  \
   template bool Simulation<Dim, Real>::ends_at_rest() const;                                \
   template std::string Simulation<Dim, Real>::rest_rule() const;                            \
-  template std::string Simulation<Dim, Real>::energy_note() const;                          \
+  template std::string Simulation<Dim, Real>::energy_warning() const;                       \
   template void Simulation<Dim, Real>::restart_rest_time();                                 \
   template std::string Simulation<Dim, Real>::rest_text() const;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)

@@ -163,7 +163,7 @@ template <int Dim>
 void RunRecords<Dim>::add_to_path(const Simulation& simulation, const mpm::MassMoments& sums) {
   if (!path_given_) {
     const auto& origin = simulation.model().origin;
-    transformation_.note({sums.mass_x / sums.mass + origin[0], sums.mass_y / sums.mass + origin[1]});
+    transformation_.warning({sums.mass_x / sums.mass + origin[0], sums.mass_y / sums.mass + origin[1]});
   }
 }
 

@@ -91,7 +91,7 @@ class Simulation {
   void restart_rest_time();
   // What is to be said of energy that came slowly and without a cause, by more than guards.energy_growth; empty:
   // nothing.
-  [[nodiscard]] std::string energy_note() const;
+  [[nodiscard]] std::string energy_warning() const;
   [[nodiscard]] const Removed& removed() const { return removed_; }
 
   // Particles then are not those of now, and no step goes on from them.

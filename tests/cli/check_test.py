@@ -128,13 +128,13 @@ def test_facts_are_told_of_a_case_that_goes_bad_in_its_first_steps(thawslide: Pr
     told = thawslide("check", small_case, "--json", *words)
     assert told.returncode == 3
     facts = json.loads(told.stdout)
-    assert facts["particles"] == 64 and facts["wall_s"] is None and len(facts["notes"]) > 1 and facts["card"] is None
+    assert facts["particles"] == 64 and facts["wall_s"] is None and len(facts["warnings"]) > 1 and facts["gpu"] is None
     assert told.stderr == f"error: {facts['error']}\n" and "the run failed at t = " in facts["error"]
     said = thawslide("check", small_case, *words)
     assert said.returncode == 3
     assert "case.toml: the run fails in its first steps\n" in said.stdout and "  particles   64\n" in said.stdout
     sound = json.loads(thawslide("check", small_case, "--json").stdout)
-    assert sound["error"] is None and (sound["card"]["why_not"] is None) == (sound["card"]["wall_s"] is not None)
+    assert sound["error"] is None and (sound["gpu"]["why_not"] is None) == (sound["gpu"]["wall_s"] is not None)
 
 
 def test_drainage_is_doubted_in_the_folder_of_a_run_too(thawslide: Program, small_case: Path, tmp_path: Path) -> None:

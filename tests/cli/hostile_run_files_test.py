@@ -158,7 +158,7 @@ def test_a_checkpoint_that_cannot_be_read_gives_way_to_the_one_before(thawslide:
     note = (
         f"{last} is a folder, no file; it is kept as checkpoint.damaged.bin, and the run continues from the previous checkpoint"
     )
-    assert outcome.stdout.startswith(f"note: {note}\n") and run_facts(killed)["parts"][-1]["notes"] == [note]
+    assert outcome.stdout.startswith(f"note: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
     assert (killed / "checkpoint.damaged.bin").is_dir() and last.is_file()
 
 
@@ -170,7 +170,7 @@ def test_a_checkpoint_that_is_missing_is_told(thawslide: Program, killed: Path) 
     outcome = thawslide("resume", killed)
     assert outcome.returncode == 0, outcome.stderr
     note = f"{last} is missing; the run continues from the previous checkpoint"
-    assert outcome.stdout.startswith(f"note: {note}\n") and run_facts(killed)["parts"][-1]["notes"] == [note]
+    assert outcome.stdout.startswith(f"note: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
     assert last.is_file() and not list(killed.glob("*.damaged*"))
 
 

@@ -129,7 +129,7 @@ def test_the_copy_of_a_large_input_is_a_copy(thawslide: Program, small_case: Pat
     assert outcome.returncode == 0, outcome.stderr
     note = f"{profile} has changed since the run began. The run continues with its copy, inputs/profile.csv"
     assert f"note: {note}\n" in outcome.stdout and outcome.stdout.count("has changed") == 1
-    assert run_facts(run)["parts"][1]["notes"] == [note]
+    assert run_facts(run)["parts"][1]["warnings"] == [note]
 
 
 def test_links_to_case_files(thawslide: Program, small_case: Path) -> None:

@@ -88,7 +88,7 @@ def test_cells_for_maps(thawslide: Program, tmp_path: Path, slope: Slope, releas
     ) in text
     place = f"{folder / 'case.toml'}:{text.splitlines().index('[grid]') + 2}:8"
     checked = thawslide("check", folder, "--json")
-    (note,) = json.loads(checked.stdout)["notes"]
+    (note,) = json.loads(checked.stdout)["warnings"]
     assert note.startswith(f"{place}: grid.cell: {problem}. Set grid.cell to ") and note.endswith(fewer.strip())
     run = thawslide("run", folder, "--output", tmp_path / "run", *sets(time__end=0.01))
     assert f"note: {note}\n" in run.stdout, run.stderr
@@ -97,10 +97,10 @@ def test_cells_for_maps(thawslide: Program, tmp_path: Path, slope: Slope, releas
     fine = made(thawslide, tmp_path / "fine", slope(), release, "--thickness", THICKNESS, "--cell", 3)
     assert fine.returncode == 0 and "note: " not in fine.stdout, fine.stderr
     assert "need 2 to 4 cells" not in (tmp_path / "fine" / "case.toml").read_text()
-    assert json.loads(thawslide("check", tmp_path / "fine", "--json").stdout)["notes"] == []
+    assert json.loads(thawslide("check", tmp_path / "fine", "--json").stdout)["warnings"] == []
 
     (folder / "case.toml").write_text(text.partition("# Maps are gathered")[0])
-    assert json.loads(thawslide("check", folder, "--json").stdout)["notes"] == [], "no key of maps is given"
+    assert json.loads(thawslide("check", folder, "--json").stdout)["warnings"] == [], "no key of maps is given"
 
 
 def test_release_smaller_than_a_cell_of_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:

@@ -31,7 +31,7 @@ def notes_of(thawslide: Program, case: Path, *words: str) -> list[str]:
     told = thawslide("check", case, "--json", *words)
     assert said.returncode == told.returncode == 0, said.stderr + told.stderr
     notes = re.findall(r"^note: (.*)$", said.stdout, re.MULTILINE)
-    assert notes == json.loads(told.stdout)["notes"]
+    assert notes == json.loads(told.stdout)["warnings"]
     return notes
 
 

@@ -187,7 +187,7 @@ def test_a_damaged_checkpoint_gives_way_to_the_one_before(
     )
     # The good one is still there, and the damaged one beside.
     assert (run / "checkpoint.previous.bin").read_bytes() == before.read_bytes()
-    assert run_facts(run)["parts"][1]["notes"] == [outcome.stdout.splitlines()[0].removeprefix("note: ")]
+    assert run_facts(run)["parts"][1]["warnings"] == [outcome.stdout.splitlines()[0].removeprefix("note: ")]
     assert_same_bits(whole, run)
     assert file.read_bytes() == (whole / "checkpoint.bin").read_bytes()
 

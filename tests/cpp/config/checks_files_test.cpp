@@ -101,13 +101,15 @@ TEST(ReportedValues, OnAClockOfTheirOwnMayBeEarlier) {
 TEST(ReportedValues, AfterTheEndAreNoted) {
   const std::string rows = "mean_velocity,1,8,m/s,x\nmean_velocity,75,8,m/s,x\ndeposit_volume,900,1,m3,x\n";
   write_next_to_the_case("targets.csv", columns + rows + "mean_displacement,80,8,m,x\n");
-  const std::string note = note_on_late_values(testing_support::case_from_text(changed({targets})));
-  EXPECT_NE(note.find("/case.toml:21:11: report.targets is targets.csv: 2 of its values are later than the run, which "
-                      "ends at 2 s, as mean_velocity of 75 s in line 3; nothing of the run is compared with them."),
-            std::string::npos)
-      << note;
+  const std::string warning = warning_of_late_values(testing_support::case_from_text(changed({targets})));
+  EXPECT_NE(
+      warning.find("/case.toml:21:11: report.targets is targets.csv: 2 of its values are later than the run, which "
+                   "ends at 2 s, as mean_velocity of 75 s in line 3; nothing of the run is compared with them."),
+      std::string::npos)
+      << warning;
   write_next_to_the_case("targets.csv", columns + "start_velocity,40,8,m/s,x\n" + rows);
-  EXPECT_EQ(note_on_late_values(testing_support::case_from_text(changed({targets}))), "") << "on a clock of their own";
+  EXPECT_EQ(warning_of_late_values(testing_support::case_from_text(changed({targets}))), "")
+      << "on a clock of their own";
 }
 
 TEST(ReportedValues, AreTextInUtf8) {

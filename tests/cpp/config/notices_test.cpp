@@ -280,7 +280,7 @@ TEST(Notices, TellOfGapsBetweenSubstrates) {
                 "[substrate.ice]\nx_max = 50.0\nfriction_angle = 5.0\n[substrate.snow]\nx_min = 60.0\nfriction_angle = "
                 "5.0\n[basal]"}}),
       {"block.bends=true", "heat.enabled=false"});
-  EXPECT_EQ(notices(found), notes_on_gaps(found));
+  EXPECT_EQ(notices(found), warnings_of_gaps(found));
   EXPECT_EQ(notices(found).size(), 1U);
 }
 

@@ -32,7 +32,7 @@ TEST(MapWritingTest, GeopackageOpensAgain) {
   write_geopackage(file, layers(), ground);
   write_geopackage(file, layers(), ground);  // an older one is replaced
   const VectorLayer area = read_polygons(file, ground);
-  EXPECT_EQ(area.notes, std::vector<std::string>{});
+  EXPECT_EQ(area.warnings, std::vector<std::string>{});
   ASSERT_EQ(area.features.size(), 1U);
   EXPECT_NEAR(area_of(area.features[0].polygons), 81.0 - 4.0 + 40.5, 1e-12);
   EXPECT_EQ(area.features[0].numbers.at("area_m2"), 117.5);

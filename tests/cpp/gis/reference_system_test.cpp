@@ -43,19 +43,19 @@ TEST(ReferenceSystemTest, NumberWithoutItsRegistry) {
 }
 
 TEST(ReferenceSystemTest, FarOutsideTheAreaOfTheSystem) {
-  const auto note = [](const Rectangle& extent, const char* system) {
-    return place_note({"folder/dem.tif", extent, 10.0, 10.0}, reference_system_named(system));
+  const auto warning = [](const Rectangle& extent, const char* system) {
+    return place_warning({"folder/dem.tif", extent, 10.0, 10.0}, reference_system_named(system));
   };
-  EXPECT_EQ(note({500000.0, 5200000.0, 502000.0, 5201200.0}, "EPSG:32632"), "");
-  EXPECT_EQ(note({400000.0, 300000.0, 401000.0, 301000.0}, "EPSG:31287"), "");
+  EXPECT_EQ(warning({500000.0, 5200000.0, 502000.0, 5201200.0}, "EPSG:32632"), "");
+  EXPECT_EQ(warning({400000.0, 300000.0, 401000.0, 301000.0}, "EPSG:31287"), "");
   // Numbers of zone 32 of the UTM, taken to be Austrian Lambert's.
-  EXPECT_EQ(note({500000.0, 5200000.0, 502000.0, 5201200.0}, "EPSG:31287"),
+  EXPECT_EQ(warning({500000.0, 5200000.0, 502000.0, 5201200.0}, "EPSG:31287"),
             "the middle of dem.tif would be at longitude 20.74, latitude 85.64 in EPSG:31287, which is for longitudes "
             "9.53 to 17.17 and latitudes 46.4 to 49.02: is it the right system? If not, set terrain.crs to the one the "
             "numbers are in");
   // The far north of Norway in zone 33, as its maps are.
-  EXPECT_EQ(note({1100000.0, 7800000.0, 1101000.0, 7801000.0}, "EPSG:25833"), "");
-  EXPECT_EQ(note({2600000.0, 1200000.0, 2601000.0, 1201000.0}, "EPSG:32632").substr(0, 78),
+  EXPECT_EQ(warning({1100000.0, 7800000.0, 1101000.0, 7801000.0}, "EPSG:25833"), "");
+  EXPECT_EQ(warning({2600000.0, 1200000.0, 2601000.0, 1201000.0}, "EPSG:32632").substr(0, 78),
             "the middle of dem.tif would be at longitude 27.85, latitude 10.29 in EPSG:3263")
       << "Swiss numbers";
 }

@@ -47,11 +47,11 @@ TEST_F(SharedDataTest, TagOfFluchthornIsNamed) {
   parameters.bodies["summit"].release =
       (shared_data() / "fluchthorn" / "POLYGONS" / "scarpFluchthorn_perimeter.shp").string();
   parameters.bodies["summit"].thickness.number = 10.0;
-  const SiteAndNotes loaded = load_site(parameters);
+  const SiteAndWarnings loaded = load_site(parameters);
   EXPECT_EQ(loaded.site.crs_name, "EPSG:31254");
-  ASSERT_EQ(loaded.notes.size(), 3U);
-  EXPECT_EQ(loaded.notes[1].rfind("fluchthorn.tif was smoothed with a standard deviation of ", 0), 0U);
-  EXPECT_EQ(loaded.notes[2],
+  ASSERT_EQ(loaded.warnings.size(), 3U);
+  EXPECT_EQ(loaded.warnings[1].rfind("fluchthorn.tif was smoothed with a standard deviation of ", 0), 0U);
+  EXPECT_EQ(loaded.warnings[2],
             "scarpFluchthorn_perimeter.shp names no coordinate reference system: taken to be in the "
             "ground's, EPSG:31254");
   const config::Release& release = loaded.site.releases.at("summit");
@@ -78,7 +78,7 @@ TEST_F(SharedDataTest, ReleaseOfAlrIsComputed) {
   body.shape = config::BodyShape::release;
   body.release = layer.file;
   body.thickness = {config::MapValue::From::attribute, 0.0, "thickness"};
-  const SiteAndNotes loaded = load_site(parameters);
+  const SiteAndWarnings loaded = load_site(parameters);
   const config::Release& release = loaded.site.releases.at("snow");
   double volume = 0.0;
   for (const double thickness : release.thickness.values) {

@@ -9,7 +9,7 @@ namespace {
 using namespace site_case;
 
 TEST(SiteTest, GroundIsCroppedToTheDomainAndSomeCells) {
-  const SiteAndNotes loaded = load_site(plain_case(ground()));
+  const SiteAndWarnings loaded = load_site(plain_case(ground()));
   const Raster& raster = *loaded.site.ground;
   // 3 cells of the grid and 2 of the DEM: 40 m, and a point more.
   EXPECT_NEAR(raster.x, west + 60.0, 5.0 + 1e-6);
@@ -24,7 +24,7 @@ TEST(SiteTest, GroundIsCroppedToTheDomainAndSomeCells) {
   EXPECT_EQ(loaded.site.crs_name, "EPSG:31287");
   EXPECT_EQ(name_of(loaded.site.crs), "EPSG:31287");
   EXPECT_EQ(raster.crs, loaded.site.crs);
-  EXPECT_EQ(loaded.notes, std::vector<std::string>{});
+  EXPECT_EQ(loaded.warnings, std::vector<std::string>{});
   EXPECT_TRUE(loaded.site.releases.empty());
 }
 
@@ -37,7 +37,7 @@ TEST(SiteTest, CroppingChangesNoValueOfResampledAndSmoothedGround) {
     config::Case large = small;
     large.grid.min = {west + 50.0, south + 50.0, 0.0};
     large.grid.max = {west + 950.0, south + 750.0, 3000.0};
-    const SiteAndNotes loaded = load_site(small), more = load_site(large);
+    const SiteAndWarnings loaded = load_site(small), more = load_site(large);
     const Raster &part = *loaded.site.ground, &whole = *more.site.ground;
     EXPECT_EQ(part.cell_x, distance > 0.0 ? distance : 5.0);
     const auto column = static_cast<int>(std::lround((part.x - whole.x) / part.cell_x));
@@ -46,21 +46,21 @@ TEST(SiteTest, CroppingChangesNoValueOfResampledAndSmoothedGround) {
     for (int k = 0; k < std::min(part.columns, part.rows); ++k) {
       EXPECT_NEAR(part.at(k, k), whole.at(column + k, row + k), 1e-9) << distance;
     }
-    std::vector<std::string> notes;
+    std::vector<std::string> warnings;
     if (distance > 0.0) {
-      notes.push_back(fmt::format("dem.tif was taken from points 5 m x 5 m apart to points {:g} m apart", distance));
+      warnings.push_back(fmt::format("dem.tif was taken from points 5 m x 5 m apart to points {:g} m apart", distance));
     }
-    notes.emplace_back("dem.tif was smoothed with a standard deviation of 8 m");
-    EXPECT_EQ(loaded.notes, notes);
+    warnings.emplace_back("dem.tif was smoothed with a standard deviation of 8 m");
+    EXPECT_EQ(loaded.warnings, warnings);
   }
 }
 
 TEST(SiteTest, KeyOverrulesTheFile) {
   config::Case parameters = plain_case(ground("EPSG:4326"));
   parameters.terrain.crs = "EPSG:31254";
-  const SiteAndNotes loaded = load_site(parameters);
+  const SiteAndWarnings loaded = load_site(parameters);
   EXPECT_EQ(loaded.site.crs_name, "EPSG:31254");
-  EXPECT_EQ(loaded.notes,
+  EXPECT_EQ(loaded.warnings,
             std::vector<std::string>{"dem.tif is taken to be in EPSG:31254, as terrain.crs says; the file "
                                      "says EPSG:4326"});
 }

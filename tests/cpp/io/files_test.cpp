@@ -81,9 +81,9 @@ TEST_F(Files, HistoryGoesOnAfterATime) {
   }
   std::ofstream(file, std::ios::app) << "2.5,3";  // a row cut short
   {
-    std::vector<std::string> notes;
-    HistoryWriter writer = HistoryWriter::continue_after(file, "time_s,speed", then, notes);
-    EXPECT_TRUE(notes.empty());
+    std::vector<std::string> warnings;
+    HistoryWriter writer = HistoryWriter::continue_after(file, "time_s,speed", then, warnings);
+    EXPECT_TRUE(warnings.empty());
     EXPECT_EQ(writer.extent().bytes, then.bytes);
     writer.add({{"time_s", 1.5}, {"speed", 7.0}});
   }
@@ -167,10 +167,10 @@ TEST_F(Files, ADamagedCheckpointGivesWayToTheOneBefore) {
   EXPECT_FALSE(std::filesystem::exists(before));
   write_checkpoint<2, double>(folder_, particles, particles.size(), {2.0});
   EXPECT_EQ(newest_checkpoint(folder_).file, last);
-  EXPECT_EQ(newest_checkpoint(folder_).note, "");
+  EXPECT_EQ(newest_checkpoint(folder_).warning, "");
   write_file_atomically(last, "torn");
   const WholeCheckpoint found = newest_checkpoint(folder_);
-  EXPECT_EQ(found.note, last.string() + " is damaged: its checksum does not fit its 4 bytes");
+  EXPECT_EQ(found.warning, last.string() + " is damaged: its checksum does not fit its 4 bytes");
   std::vector<double> scalars;
   read_checkpoint<2, double>(found, loaded, scalars);
   EXPECT_EQ(scalars, std::vector<double>{1.0});

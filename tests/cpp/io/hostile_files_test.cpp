@@ -102,9 +102,9 @@ TEST_F(HostileFiles, AHistoryReplacesWhatStandsInItsPlace) {
   // One that goes on takes the rows from where the link leads.
   fs::rename(file, victim);
   fs::create_symlink(victim, file);
-  std::vector<std::string> notes;
-  HistoryWriter::continue_after(file, "time_s", {1, 9, 1.0}, notes).add({{"time_s", 2.0}});
-  EXPECT_TRUE(notes.empty());
+  std::vector<std::string> warnings;
+  HistoryWriter::continue_after(file, "time_s", {1, 9, 1.0}, warnings).add({{"time_s", 2.0}});
+  EXPECT_TRUE(warnings.empty());
   EXPECT_EQ(content(victim), "time_s\n1\n");
   EXPECT_EQ(content(file), "time_s\n1\n2\n");
 }
@@ -156,7 +156,7 @@ TEST_F(HostileCheckpoints, WhatCannotBeReadGivesWayToTheOneBefore) {
   const auto expect_passed_over = [&](const std::string& fault) {
     const WholeCheckpoint found = newest_checkpoint(folder_);
     EXPECT_EQ(found.file, before());
-    EXPECT_EQ(found.note, fault);
+    EXPECT_EQ(found.warning, fault);
     EXPECT_EQ(found.damaged, last());
     EXPECT_EQ(read_file(before()), found.bytes);
     fs::remove(last());
@@ -177,7 +177,7 @@ TEST_F(HostileCheckpoints, AMissingOneIsToldAndNothingIsToBeKept) {
   fs::remove(last());
   const WholeCheckpoint found = newest_checkpoint(folder_);
   EXPECT_EQ(found.file, before());
-  EXPECT_EQ(found.note, last().string() + " is missing");
+  EXPECT_EQ(found.warning, last().string() + " is missing");
   EXPECT_EQ(found.damaged, "");
   put(before(), "torn");
   EXPECT_EQ(

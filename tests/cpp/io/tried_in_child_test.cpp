@@ -63,11 +63,11 @@ TEST_F(DamagedSnapshot, WithAnyByteFlippedEndsNoResume) {
     std::string damaged = sound;
     damaged[place] = static_cast<char>(damaged[place] ^ (1 << place % 8));
     std::ofstream(file, std::ios::binary) << damaged;
-    std::vector<std::string> notes;
-    SnapshotSeries series = SnapshotSeries::continue_after(folder_, 1, notes);
+    std::vector<std::string> warnings;
+    SnapshotSeries series = SnapshotSeries::continue_after(folder_, 1, warnings);
     series.write_index();
-    specified += notes.size();
-    EXPECT_EQ(notes.empty(), std::filesystem::exists(folder_ / "particles.vtkhdf")) << place;
+    specified += warnings.size();
+    EXPECT_EQ(warnings.empty(), std::filesystem::exists(folder_ / "particles.vtkhdf")) << place;
     std::filesystem::remove(folder_ / "particles.vtkhdf");
   }
   EXPECT_GT(specified, sound.size() / stride / 100);

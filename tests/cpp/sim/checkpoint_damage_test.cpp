@@ -87,7 +87,7 @@ TEST_F(CheckpointDamage, OfAnyOneByteIsFoundAndTheOneBeforeIsTaken) {
     const io::WholeCheckpoint found = io::newest_checkpoint(folder_);
     ASSERT_EQ(found.file, previous_) << "byte " << place;
     ASSERT_EQ(found.bytes, bytes_of_previous_) << "byte " << place;
-    ASSERT_EQ(found.note, damage_words(last_, bytes_of_last_.size())) << "byte " << place;
+    ASSERT_EQ(found.warning, damage_words(last_, bytes_of_last_.size())) << "byte " << place;
     put(last_, place, bytes_of_last_[place]);
   }
   EXPECT_EQ(io::newest_checkpoint(folder_).bytes, bytes_of_last_);

@@ -74,7 +74,7 @@ TEST(CentrePath, HasCornersASpacingApart) {
   CentrePath way(2.0);
   for (int k = 0; k <= 100; ++k) {
     const double wavering = 0.01 * (k % 2);
-    way.note({0.1 * k, wavering});
+    way.warning({0.1 * k, wavering});
     EXPECT_EQ(way.line().empty(), k == 0);
     EXPECT_EQ(way.line().corners().size(), k == 0 ? 1u : k < 40 ? 2u : static_cast<std::size_t>(k / 20 + 1)) << k;
     if (k > 0 && k < 20) {
@@ -86,13 +86,13 @@ TEST(CentrePath, HasCornersASpacingApart) {
 
 TEST(CentrePath, HasNoDirectionBeforeTheCentreMoves) {
   CentrePath way(2.0);
-  way.note({5.0, 5.0});
-  way.note({5.0, 5.019});
+  way.warning({5.0, 5.0});
+  way.warning({5.0, 5.019});
   EXPECT_TRUE(way.line().empty());
-  way.note({5.021, 5.0});
+  way.warning({5.021, 5.0});
   EXPECT_FALSE(way.line().empty());
   EXPECT_NEAR(way.line().project({8.0, 4.0}).along, 3.0, 1e-12);
-  way.note({5.0, 5.0});
+  way.warning({5.0, 5.0});
   EXPECT_TRUE(way.line().empty());
 }
 
@@ -100,14 +100,14 @@ TEST(CentrePath, GoesOnFromItsNumbers) {
   for (const int stop : {0, 1, 7, 19, 20, 21, 60}) {
     CentrePath whole(2.0), first(2.0);
     for (int k = 0; k <= stop; ++k) {
-      first.note({0.1 * k, 0.02 * k});
+      first.warning({0.1 * k, 0.02 * k});
     }
     CentrePath second(2.0);
     second.restore(first.state());
     for (int k = 0; k <= 80; ++k) {
-      whole.note({0.1 * k, 0.02 * k});
+      whole.warning({0.1 * k, 0.02 * k});
       if (k > stop) {
-        second.note({0.1 * k, 0.02 * k});
+        second.warning({0.1 * k, 0.02 * k});
       }
     }
     EXPECT_EQ(second.state(), whole.state()) << stop;

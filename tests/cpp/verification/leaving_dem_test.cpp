@@ -84,19 +84,19 @@ Seen leave(int threads) {
   auto simulation = run_onto(42.0, {"grid.leaving=remove"});
   const double mass = value_of(history_row(simulation), "mass_kg");
   Seen seen;
-  const auto note = [](double& largest, double share) { largest = std::max(largest, std::abs(share)); };
+  const auto warning = [](double& largest, double share) { largest = std::max(largest, std::abs(share)); };
   for (double time = 0.5; time < 4.1; time += 0.5) {
     run_until(simulation, time);
     seen.row = history_row(simulation);
     const auto value = [&](const std::string& column) { return value_of(seen.row, column); };
-    note(seen.mass, value("mass_residual_kg") / mass);
-    note(seen.mass, (value("mass_kg") + value("left_mass_kg")) / mass - 1.0);
-    note(seen.mass, (value("rock_kg") + value("ice_kg") + value("water_kg")) / value("mass_kg") - 1.0);
+    warning(seen.mass, value("mass_residual_kg") / mass);
+    warning(seen.mass, (value("mass_kg") + value("left_mass_kg")) / mass - 1.0);
+    warning(seen.mass, (value("rock_kg") + value("ice_kg") + value("water_kg")) / value("mass_kg") - 1.0);
     for (const std::string axis : {"x", "y", "z"}) {
-      note(seen.momentum, value("momentum_residual_" + axis + "_N_s") / (mass * 9.81 * time));
+      warning(seen.momentum, value("momentum_residual_" + axis + "_N_s") / (mass * 9.81 * time));
     }
-    note(seen.heat, value("thermal_residual_J") / value("friction_heat_J"));
-    note(seen.energy, value("mechanical_residual_J") / value("kinetic_J"));
+    warning(seen.heat, value("thermal_residual_J") / value("friction_heat_J"));
+    warning(seen.energy, value("mechanical_residual_J") / value("kinetic_J"));
   }
   set_thread_count(threads_before);
   seen.fields = fields_by_id(simulation.particles());

@@ -1,4 +1,4 @@
-#include "app/notes_of_setup.hpp"
+#include "app/setup_warnings.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -14,16 +14,16 @@
 namespace thawslide::app {
 
 template <int Dim>
-void add_notes_of_setup(const sim::Simulation<Dim, double>& simulation, const std::vector<sim::BodyFigures>& bodies,
-                        const DiskNeed& disk, const std::filesystem::path& folder, Notes& notes) {
+void add_setup_warnings(const sim::Simulation<Dim, double>& simulation, const std::vector<sim::BodyFigures>& bodies,
+                        const DiskNeed& disk, const std::filesystem::path& folder, Warnings& warnings) {
   const config::Case& parameters = simulation.parameters();
-  notes.add(sim::note_on_map_cell(parameters, simulation.site()));
-  notes.add(config::notices(parameters));
-  notes.add(config::note_on_late_values(parameters));
-  notes.add(sim::body_warnings(parameters, bodies));
-  notes.add(sim::warning_of_bodies_apart(simulation));
-  notes.add(sim::warning_of_thin_walls(parameters, simulation.site()));
-  notes.add(warning_of_disk(parameters, disk, free_on_disk(folder), folder));
+  warnings.add(sim::warning_of_map_cell(parameters, simulation.site()));
+  warnings.add(config::notices(parameters));
+  warnings.add(config::warning_of_late_values(parameters));
+  warnings.add(sim::body_warnings(parameters, bodies));
+  warnings.add(sim::warning_of_bodies_apart(simulation));
+  warnings.add(sim::warning_of_thin_walls(parameters, simulation.site()));
+  warnings.add(warning_of_disk(parameters, disk, free_on_disk(folder), folder));
 }
 
 template <int Dim>
@@ -49,10 +49,10 @@ double measured_step_seconds(sim::Simulation<Dim, double>& simulation) {
   return elapsed / steps;
 }
 
-template void add_notes_of_setup<2>(const sim::Simulation<2, double>&, const std::vector<sim::BodyFigures>&,
-                                    const DiskNeed&, const std::filesystem::path&, Notes&);
-template void add_notes_of_setup<3>(const sim::Simulation<3, double>&, const std::vector<sim::BodyFigures>&,
-                                    const DiskNeed&, const std::filesystem::path&, Notes&);
+template void add_setup_warnings<2>(const sim::Simulation<2, double>&, const std::vector<sim::BodyFigures>&,
+                                    const DiskNeed&, const std::filesystem::path&, Warnings&);
+template void add_setup_warnings<3>(const sim::Simulation<3, double>&, const std::vector<sim::BodyFigures>&,
+                                    const DiskNeed&, const std::filesystem::path&, Warnings&);
 template double steps_to_end<2>(const sim::Simulation<2, double>&);
 template double steps_to_end<3>(const sim::Simulation<3, double>&);
 template double measured_step_seconds<2>(sim::Simulation<2, double>&);

@@ -6,10 +6,10 @@
 
 namespace thawslide::app {
 
-class Notes {
+class Warnings {
  public:
   enum class Form { printed, kept };
-  explicit Notes(Form form = Form::printed) : form_(form) {}
+  explicit Warnings(Form form = Form::printed) : form_(form) {}
 
   // Nothing happens for an empty text.
   void add(const std::string& text);

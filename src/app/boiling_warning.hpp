@@ -12,7 +12,7 @@ class BoilingWatch {
  public:
   // What is to be told now; empty where nothing is.
   template <int Dim>
-  std::string note(const sim::Simulation<Dim, double>& simulation);
+  std::string warning(const sim::Simulation<Dim, double>& simulation);
 
  private:
   bool is_hot_ = false, is_dry_ = false;  // has been told

@@ -4,15 +4,15 @@
 #include <filesystem>
 
 #include "app/disk_need.hpp"
-#include "app/notes.hpp"
+#include "app/warnings.hpp"
 #include "sim/body_figures.hpp"
 
 namespace thawslide::app {
 
 // folder: of the run to come. For a simulation that has not taken a step.
 template <int Dim>
-void add_notes_of_setup(const sim::Simulation<Dim, double>& simulation, const std::vector<sim::BodyFigures>& bodies,
-                        const DiskNeed& disk, const std::filesystem::path& folder, Notes& notes);
+void add_setup_warnings(const sim::Simulation<Dim, double>& simulation, const std::vector<sim::BodyFigures>& bodies,
+                        const DiskNeed& disk, const std::filesystem::path& folder, Warnings& warnings);
 
 // As many steps as a run takes, if all are as long as the first one.
 template <int Dim>

@@ -1,4 +1,4 @@
-#include "app/boiling_note.hpp"
+#include "app/boiling_warning.hpp"
 
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@ bool has_boiled_dry(const physics::BandColumn<double>& column) {
 
 std::string of_dry(double time, std::ptrdiff_t dry, double hottest) {
   return fmt::format(
-      "note: at {:g} s {} of the base {} boiled dry, and the hottest is at {:.0f} C: where no water is left nothing "
+      "warning: at {:g} s {} of the base {} boiled dry, and the hottest is at {:.0f} C: where no water is left nothing "
       "limits temperature and friction. A thicker band (band.thickness) or one that mixes (band.mixing_slip) keeps it "
       "cooler; docs/choosing-the-base.md.",
       time, dry == 1 ? "a column" : fmt::format("{} columns", dry), dry == 1 ? "has" : "have", hottest);
@@ -44,7 +44,7 @@ std::string of_dry(double time, std::ptrdiff_t dry, double hottest) {
 std::string of_hot(double time) {
   const double load = physics::saturation_pressure(beyond_belief) - physics::Steam<double>::atmosphere;
   return fmt::format(
-      "note: at {:g} s the hottest column of the base passes {:g} C, where water boils under {:.1f} MPa: there the "
+      "warning: at {:g} s the hottest column of the base passes {:g} C, where water boils under {:.1f} MPa: there the "
       "load "
       "is more than that, or the water is gone; docs/choosing-the-base.md.",
       time, beyond_belief, load / 1e6);
@@ -52,14 +52,15 @@ std::string of_hot(double time) {
 
 std::string of_no_boiling(double time, const char* reason) {
   return fmt::format(
-      "note: at {:g} s the base passes {:g} C. {}: beyond this temperatures are a bookkeeping of heat, not a forecast.",
+      "warning: at {:g} s the base passes {:g} C. {}: beyond this temperatures are a bookkeeping of heat, not a "
+      "forecast.",
       time, boiling, reason);
 }
 
 }  // namespace
 
 template <int Dim>
-std::string BoilingWatch::note(const sim::Simulation<Dim, double>& simulation) {
+std::string BoilingWatch::warning(const sim::Simulation<Dim, double>& simulation) {
   const auto once = [](bool& is_specified, bool holds) {
     const bool is_new = holds && !is_specified;
     is_specified = is_specified || holds;
@@ -83,7 +84,7 @@ std::string BoilingWatch::note(const sim::Simulation<Dim, double>& simulation) {
   return !is_dry_ && once(is_hot_, hottest > beyond_belief) ? of_hot(time) : "";
 }
 
-template std::string BoilingWatch::note<2>(const sim::Simulation<2, double>&);
-template std::string BoilingWatch::note<3>(const sim::Simulation<3, double>&);
+template std::string BoilingWatch::warning<2>(const sim::Simulation<2, double>&);
+template std::string BoilingWatch::warning<3>(const sim::Simulation<3, double>&);
 
 }  // namespace thawslide::app
