@@ -158,7 +158,7 @@ def test_a_cell_that_is_proposed_fits_the_domain(thawslide: Program, small_case:
     words = sets(body__block__max="[14.0,0.9]", time__step=0.0001)
     said = thawslide("check", small_case, *words).stdout
     line = (small_case / "case.toml").read_text().splitlines().index("cell = 1.0") + 1
-    place = f"note: {small_case / 'case.toml'}:{line}:8: grid.cell: across the median thickness of body block, "
+    place = f"warning: {small_case / 'case.toml'}:{line}:8: grid.cell: across the median thickness of body block, "
     (note,) = (each for each in said.splitlines() if each.startswith(place))
     assert note.endswith(" Set grid.cell to 0.25 m, at about 64 times the run time.")
     finer = thawslide("check", small_case, *words, *sets(grid__cell=0.25))

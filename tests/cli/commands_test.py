@@ -211,7 +211,7 @@ def test_check_notes_what_is_unusual_of_broken_matter(thawslide: Program) -> Non
     found = thawslide("check", LAMPLUGH, *sets(material__rock_ice__softening_strain=0.5))
     assert found.returncode == 0, found.stderr
     assert (
-        "note: --set material.rock_ice.softening_strain=0.5: material.rock_ice.softening_strain is 0.5, outside the "
+        "warning: --set material.rock_ice.softening_strain=0.5: material.rock_ice.softening_strain is 0.5, outside the "
         "usual 0.005 to 0.05 of broken rock and ice (not checked)\n" in found.stdout
     )
     assert "softening_strain" not in thawslide("check", LAMPLUGH).stdout, "the paper's own softening"

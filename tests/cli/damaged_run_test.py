@@ -39,7 +39,7 @@ def resumed(thawslide: Program, run: Path) -> list[str]:
     assert outcome.stderr == ""
     lines = outcome.stdout.splitlines()
     begins = next(k for k, line in enumerate(lines) if line.startswith("going on from t = 0.15 s"))
-    notes = [line.removeprefix("note: ") for line in lines[:begins]]  # those of the case come behind
+    notes = [line.removeprefix("warning: ") for line in lines[:begins]]  # those of the case come behind
     assert run_facts(run)["status"] == "done" and run_facts(run)["parts"][-1]["warnings"] == notes
     return notes
 

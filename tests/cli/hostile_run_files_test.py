@@ -158,7 +158,7 @@ def test_a_checkpoint_that_cannot_be_read_gives_way_to_the_one_before(thawslide:
     note = (
         f"{last} is a folder, no file; it is kept as checkpoint.damaged.bin, and the run continues from the previous checkpoint"
     )
-    assert outcome.stdout.startswith(f"note: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
+    assert outcome.stdout.startswith(f"warning: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
     assert (killed / "checkpoint.damaged.bin").is_dir() and last.is_file()
 
 
@@ -170,7 +170,7 @@ def test_a_checkpoint_that_is_missing_is_told(thawslide: Program, killed: Path) 
     outcome = thawslide("resume", killed)
     assert outcome.returncode == 0, outcome.stderr
     note = f"{last} is missing; the run continues from the previous checkpoint"
-    assert outcome.stdout.startswith(f"note: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
+    assert outcome.stdout.startswith(f"warning: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
     assert last.is_file() and not list(killed.glob("*.damaged*"))
 
 
@@ -190,7 +190,7 @@ def test_snapshots_that_no_run_wrote_are_left_out(thawslide: Program, killed: Pa
     outcome = thawslide("resume", killed, limit=SOON)
     assert outcome.returncode == 0, outcome.stderr
     assert (
-        "note: of the 5 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf leaves them "
+        "warning: of the 5 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf leaves them "
         "out\n"
     ) in outcome.stdout
 
@@ -206,7 +206,7 @@ def test_pipes_and_devices_keep_nobody_waiting(
     status, resume = thawslide("status", killed, limit=SOON), thawslide("resume", killed, limit=SOON)
     if file == "checkpoint.bin":
         assert (status.returncode, resume.returncode) == (0, 0), resume.stderr
-        assert f"note: {killed / file} is {kind}, no file; it is kept as " in resume.stdout
+        assert f"warning: {killed / file} is {kind}, no file; it is kept as " in resume.stdout
         return
     assert resume.returncode == 2
     assert f"{killed / file} is {kind}" in resume.stderr

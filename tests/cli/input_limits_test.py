@@ -128,7 +128,7 @@ def test_the_copy_of_a_large_input_is_a_copy(thawslide: Program, small_case: Pat
     outcome = thawslide("resume", run, "--end", 0.02)
     assert outcome.returncode == 0, outcome.stderr
     note = f"{profile} has changed since the run began. The run continues with its copy, inputs/profile.csv"
-    assert f"note: {note}\n" in outcome.stdout and outcome.stdout.count("has changed") == 1
+    assert f"warning: {note}\n" in outcome.stdout and outcome.stdout.count("has changed") == 1
     assert run_facts(run)["parts"][1]["warnings"] == [note]
 
 

@@ -26,7 +26,7 @@ def test_a_release_that_is_cut_out_gets_out(thawslide: Program, tmp_path: Path, 
     assert outcome.returncode == 0, outcome.stderr
     # The cell follows where most of the volume is; most of the area is below ramps.
     assert [line for line in outcome.stdout.splitlines() if line.startswith("note:")] == [
-        "note: --cell: across the median thickness of body slide, 10 m, there are too few particles to resolve shear "
+        "warning: --cell: across the median thickness of body slide, 10 m, there are too few particles to resolve shear "
         "and thinning (found 3.3; needed 4). Set --cell to 3 m, at about 16 times the run time."
     ]
     assert (
@@ -55,7 +55,7 @@ def test_a_cut_without_room_for_its_ramps(thawslide: Program, tmp_path: Path, sl
     outcome = made(thawslide, folder, slope(), release, "--thickness", THICK, "--cut")
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stdout.startswith(
-        "note: --cut: the edges of the cut should be ramps 70 m wide, and there is room for 40 m, as the release is "
+        "warning: --cut: the edges of the cut should be ramps 70 m wide, and there is room for 40 m, as the release is "
         "narrow or near the end of what the DEM knows; they rise by up to 45 degrees against the terrain, "
         "which falls by 30, and may hold the slide back. --on-top has no such edges\n"
     ), outcome.stdout

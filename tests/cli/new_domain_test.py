@@ -102,7 +102,7 @@ def test_holes_in_the_way(thawslide: Program, tmp_path: Path, slope: Slope, rele
     """`check` and `run` say before the first step where the ground ends, and what becomes of a slide there."""
     made(thawslide, tmp_path / "slide", slope(hole=slice(40, 45)), release, "--thickness", 24)
     note = (
-        r"note: 50 of \d+ points of the DEM within the domain have no data, the nearest at "
+        r"warning: 50 of \d+ points of the DEM within the domain have no data, the nearest at "
         r"\(412400, 5160(2[5-9]|3[0-4])0\), about 70 m from the release: a slide that gets there "
     )
     checked = thawslide("check", tmp_path / "slide", "--set", 'grid.leaving="stop"')

@@ -80,7 +80,7 @@ def test_dem_with_a_wrong_tag(thawslide: Program, tmp_path: Path, slope: Slope, 
     given = made(thawslide, folder, wrong, release, "--thickness", THICKNESS, "--crs", "EPSG:32632")
     assert given.returncode == 0, given.stderr
     assert given.stdout.startswith(
-        "note: wrong.tif is taken to be in EPSG:32632, as --crs says; the file says EPSG:4326\n"
+        "warning: wrong.tif is taken to be in EPSG:32632, as --crs says; the file says EPSG:4326\n"
     )
 
 

@@ -55,7 +55,7 @@ def test_particles_across_the_thickness(thawslide: Program, tmp_path: Path, slop
         "needed 8)"
     )
     assert (
-        f"note: --cell: {problem}. Set --cell to 8 m, at about 200 times the run time, or for maps to 3 m, at about "
+        f"warning: --cell: {problem}. Set --cell to 8 m, at about 200 times the run time, or for maps to 3 m, at about "
         "10,000 times the run time.\n"
     ) in coarse.stdout, coarse.stderr
     checked = thawslide("check", tmp_path / "coarse").stdout
@@ -79,7 +79,7 @@ def test_cells_for_maps(thawslide: Program, tmp_path: Path, slope: Slope, releas
     outcome = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
     problem = f"{ACROSS}{MAPS} (found 3; needed 8)"
     fewer = "Travel distance and speed need 2 to 4 cells.\n"
-    assert "note: " not in outcome.stdout and "  --resolution standard: cells of 3 m, about " in outcome.stdout
+    assert "warning: " not in outcome.stdout and "  --resolution standard: cells of 3 m, about " in outcome.stdout
     text = (folder / "case.toml").read_text()
     assert (
         "cell = 8.0  # m; two particles a cell and axis make 6.0 across a thickness of 24 m\n"
@@ -91,11 +91,11 @@ def test_cells_for_maps(thawslide: Program, tmp_path: Path, slope: Slope, releas
     (note,) = json.loads(checked.stdout)["warnings"]
     assert note.startswith(f"{place}: grid.cell: {problem}. Set grid.cell to ") and note.endswith(fewer.strip())
     run = thawslide("run", folder, "--output", tmp_path / "run", *sets(time__end=0.01))
-    assert f"note: {note}\n" in run.stdout, run.stderr
+    assert f"warning: {note}\n" in run.stdout, run.stderr
     assert f"{problem}. Set grid.cell to " in thawslide("check", tmp_path / "run").stdout
 
     fine = made(thawslide, tmp_path / "fine", slope(), release, "--thickness", THICKNESS, "--cell", 3)
-    assert fine.returncode == 0 and "note: " not in fine.stdout, fine.stderr
+    assert fine.returncode == 0 and "warning: " not in fine.stdout, fine.stderr
     assert "need 2 to 4 cells" not in (tmp_path / "fine" / "case.toml").read_text()
     assert json.loads(thawslide("check", tmp_path / "fine", "--json").stdout)["warnings"] == []
 
@@ -117,7 +117,7 @@ def test_release_smaller_than_a_cell_of_the_dem(thawslide: Program, tmp_path: Pa
 def test_thickness_of_the_order_of_the_width(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 300)
     assert outcome.stdout.startswith(
-        "note: the release of the body slide is up to 300 m thick and, by its area, 109.5 m wide: is the thickness in "
+        "warning: the release of the body slide is up to 300 m thick and, by its area, 109.5 m wide: is the thickness in "
         "metres?\n"
     ), outcome.stdout + outcome.stderr
 
@@ -131,7 +131,7 @@ def test_hole_filled_with_zeros(thawslide: Program, tmp_path: Path, slope: Slope
         file.write(heights, 1)
     outcome = made(thawslide, tmp_path / "slide", dem, release, "--thickness", THICKNESS)
     note = (
-        "note: 15 points of dem.tif are exactly 0 m amid ground of 1000 to 1035 m, such as (412400, 5160300): a hole "
+        "warning: 15 points of dem.tif are exactly 0 m amid ground of 1000 to 1035 m, such as (412400, 5160300): a hole "
         "without data? Then say so in the file, gdal_edit.py -a_nodata 0 {}dem.tif, or fill it\n"
     )
     assert said(outcome.stdout, tmp_path).startswith(note.format("")), outcome.stdout + outcome.stderr

@@ -88,7 +88,7 @@ def test_what_a_finished_run_has_lost_is_told(thawslide: Program, done: Path) ->
     assert outcome.returncode == 0
     assert outcome.stdout == (
         f"{done} has reached its end at 0.2 s; nothing to do\n"
-        f"note: {done / 'history.csv'} is missing\n"
+        f"warning: {done / 'history.csv'} is missing\n"
         f"note: {done} holds no checkpoint: it cannot be given a later end\n"
     )
     edit(done, "\nend = 0.2 ", "\nend = 0.4 ")

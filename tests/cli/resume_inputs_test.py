@@ -27,7 +27,7 @@ def test_a_changed_input_is_refused_and_a_changed_original_told(
     original.write_text(original.read_text() + "# a remark\n")
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
-    told = f"note: {original} has changed since the run began. The run continues with its copy, inputs/case.toml\n"
+    told = f"warning: {original} has changed since the run began. The run continues with its copy, inputs/case.toml\n"
     assert told in outcome.stdout
     as_killed(run)
     copy.write_text("other")

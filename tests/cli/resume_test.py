@@ -181,13 +181,13 @@ def test_a_damaged_checkpoint_gives_way_to_the_one_before(
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stdout.startswith(
-        f"note: {file} is damaged: its checksum does not fit its {size} bytes; it is kept as checkpoint.damaged.bin, "
+        f"warning: {file} is damaged: its checksum does not fit its {size} bytes; it is kept as checkpoint.damaged.bin, "
         "and the run continues from the previous checkpoint\n"
         "going on from t = 0.15 s; it had come to 0.2 s: rows and snapshots after 0.15 s are written anew\n"
     )
     # The good one is still there, and the damaged one beside.
     assert (run / "checkpoint.previous.bin").read_bytes() == before.read_bytes()
-    assert run_facts(run)["parts"][1]["warnings"] == [outcome.stdout.splitlines()[0].removeprefix("note: ")]
+    assert run_facts(run)["parts"][1]["warnings"] == [outcome.stdout.splitlines()[0].removeprefix("warning: ")]
     assert_same_bits(whole, run)
     assert file.read_bytes() == (whole / "checkpoint.bin").read_bytes()
 

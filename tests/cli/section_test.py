@@ -136,7 +136,7 @@ def test_corners_are_kept_and_a_line_uphill_is_turned_round(thawslide: Program, 
     made = thawslide(*maps.words_with_release(tmp_path / "case"))
     assert made.returncode == 0, made.stderr
     assert (
-        "note: --line: line.geojson was drawn against the direction of the slide; distances count from its last corner"
+        "warning: --line: line.geojson was drawn against the direction of the slide; distances count from its last corner"
         in made.stdout
     )
     comments, columns = profile(tmp_path / "case")
@@ -238,7 +238,7 @@ def test_block_slides_a_case_in_space_along_its_path(thawslide: Program, maps: M
     far = thawslide("block", folder, "--output", file, *coulomb, *sets(time__end=40))
     assert far.returncode == 0, far.stderr
     told = re.search(
-        r"note: the path's ground is known for 760 m; the front leaves it at (\S+) s, and the rows end before\. Give a "
+        r"warning: the path's ground is known for 760 m; the front leaves it at (\S+) s, and the rows end before\. Give a "
         r"longer maps\.path, or a larger DEM, to follow it further\n",
         far.stdout,
     )

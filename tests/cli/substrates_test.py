@@ -44,7 +44,7 @@ def test_gaps_are_told_by_every_command_that_uses_the_base(
     for words in (["check", case], ["run", case, "--output", tmp_path / "run"], ["block", case]):
         outcome = thawslide(*words)
         assert outcome.returncode == 0, outcome.stderr
-        note = "note: between the substrates moraine and glacier, from x = 5 to 12 m, none lies: [basal] holds there\n"
+        note = "warning: between the substrates moraine and glacier, from x = 5 to 12 m, none lies: [basal] holds there\n"
         assert outcome.stdout.count(note) == 1, words
 
 

@@ -196,7 +196,7 @@ def test_command_tells_of_a_row_cut_off(make_run: MakeRun, capsys: pytest.Captur
     folder = make_run()
     (folder / "history.csv").write_text((folder / "history.csv").read_text()[:-5])
     assert main([str(folder), "--only", "motion", "--dpi", "50"]) == 0
-    assert "note: " in (message := capsys.readouterr().err)
+    assert "warning: " in (message := capsys.readouterr().err)
     assert "the last row was cut off and is left out" in message
 
 
