@@ -48,7 +48,7 @@ class CentrePath {
  public:
   explicit CentrePath(double spacing) : spacing_(spacing) { line_.reserve(usual_corners); }
 
-  void warning(const Place2& centre);
+  void add_position(const Place2& centre);
   [[nodiscard]] const PathLine& line() const { return line_; }
 
   // Its corners, as numbers; and its way back.

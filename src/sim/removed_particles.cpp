@@ -93,7 +93,7 @@ void Simulation<Dim, Real>::mark_invalid_particles() {
     const mpm::Fault fault = fault_of(particles_, p, guards);
     marks_[p] = mark_of(fault, guards);
     if (fault != mpm::Fault::none && marks_[p] == stays) {
-      invalid_.warning(particles_.id(p), fault);
+      invalid_.record(particles_.id(p), fault);
     }
   }
 }
@@ -122,7 +122,7 @@ void Simulation<Dim, Real>::mark_left_particles() {
       if (removes) {
         marks_[p] = has_left;
       } else {
-        invalid.warning(particles_.id(p), mpm::Fault::left_map);
+        invalid.record(particles_.id(p), mpm::Fault::left_map);
       }
     }
   });
@@ -166,7 +166,7 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::stop_for_removed_mass(double share) {
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     if (marks_[p] == is_not_finite || marks_[p] == has_inverted) {
-      invalid_.warning(particles_.id(p), fault_of(particles_, p, parameters_.guards));
+      invalid_.record(particles_.id(p), fault_of(particles_, p, parameters_.guards));
     }
   }
   const std::size_t last = place_in_memory(invalid_.id);

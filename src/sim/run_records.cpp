@@ -103,7 +103,7 @@ config::Polyline2 corners_at_start(const config::Case& parameters,
 
 template <int Dim>
 RunRecords<Dim>::RunRecords(const Simulation& simulation, const config::Site& site)
-    : transformation_(simulation.parameters().grid.cell) {
+    : centre_path_(simulation.parameters().grid.cell) {
   if constexpr (Dim == 3) {
     given_ = PathLine(site.path);
     path_given_ = !site.path.empty();
@@ -163,7 +163,7 @@ template <int Dim>
 void RunRecords<Dim>::add_to_path(const Simulation& simulation, const mpm::MassMoments& sums) {
   if (!path_given_) {
     const auto& origin = simulation.model().origin;
-    transformation_.warning({sums.mass_x / sums.mass + origin[0], sums.mass_y / sums.mass + origin[1]});
+    centre_path_.add_position({sums.mass_x / sums.mass + origin[0], sums.mass_y / sums.mass + origin[1]});
   }
 }
 
@@ -172,14 +172,14 @@ NamedNumbers RunRecords<Dim>::state() const {
   if (!maps_) {
     return {};
   }
-  return {{"maps", maps_->state()}, {"centre_way", transformation_.state()}, {"release_top", {release_top_}}};
+  return {{"maps", maps_->state()}, {"centre_way", centre_path_.state()}, {"release_top", {release_top_}}};
 }
 
 template <int Dim>
 void RunRecords<Dim>::restore(const NamedNumbers& blocks) {
   if (maps_) {
     maps_->restore(block_of(blocks, "maps"));
-    transformation_.restore(block_of(blocks, "centre_way"));
+    centre_path_.restore(block_of(blocks, "centre_way"));
     release_top_ = StateNumbers(block_of(blocks, "release_top"), "release's top").next();
   }
 }

@@ -45,7 +45,7 @@ class RunRecords {
   [[nodiscard]] const FlowMaps* maps() const { return maps_ ? &*maps_ : nullptr; }
   // The given one, or the way of the centre of mass so far, a corner each cell of the grid; empty in 2D, and while the
   // centre has hardly moved (CentrePath).
-  [[nodiscard]] const PathLine& path() const { return path_given_ ? given_ : transformation_.line(); }
+  [[nodiscard]] const PathLine& path() const { return path_given_ ? given_ : centre_path_.line(); }
   [[nodiscard]] bool path_given() const { return path_given_; }
   // The front along the path; none where that is empty, no particle is left, or a device failed with them.
   [[nodiscard]] std::optional<Front> front(const Simulation& simulation) const;
@@ -68,7 +68,7 @@ class RunRecords {
   std::optional<FlowMaps> maps_;
   PathLine given_;
   bool path_given_ = false;
-  CentrePath transformation_;
+  CentrePath centre_path_;
   Probes probes_;
   config::Polyline2 corners_at_start_;  // of bodies
   double release_top_ = 0.0;            // elevation of the highest point of the slide at t = 0 [m]

@@ -251,7 +251,7 @@ void Simulation<Dim, Real>::update_positions() {
   }
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     if (!std::isfinite(particles_.temperature(p)) || !std::isfinite(particles_.pore_pressure(p))) {
-      invalid_.warning(particles_.id(p), mpm::Fault::state_not_finite);
+      invalid_.record(particles_.id(p), mpm::Fault::state_not_finite);
     }
   }
 }

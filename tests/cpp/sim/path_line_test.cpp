@@ -74,7 +74,7 @@ TEST(CentrePath, HasCornersASpacingApart) {
   CentrePath way(2.0);
   for (int k = 0; k <= 100; ++k) {
     const double wavering = 0.01 * (k % 2);
-    way.warning({0.1 * k, wavering});
+    way.add_position({0.1 * k, wavering});
     EXPECT_EQ(way.line().empty(), k == 0);
     EXPECT_EQ(way.line().corners().size(), k == 0 ? 1u : k < 40 ? 2u : static_cast<std::size_t>(k / 20 + 1)) << k;
     if (k > 0 && k < 20) {
@@ -86,13 +86,13 @@ TEST(CentrePath, HasCornersASpacingApart) {
 
 TEST(CentrePath, HasNoDirectionBeforeTheCentreMoves) {
   CentrePath way(2.0);
-  way.warning({5.0, 5.0});
-  way.warning({5.0, 5.019});
+  way.add_position({5.0, 5.0});
+  way.add_position({5.0, 5.019});
   EXPECT_TRUE(way.line().empty());
-  way.warning({5.021, 5.0});
+  way.add_position({5.021, 5.0});
   EXPECT_FALSE(way.line().empty());
   EXPECT_NEAR(way.line().project({8.0, 4.0}).along, 3.0, 1e-12);
-  way.warning({5.0, 5.0});
+  way.add_position({5.0, 5.0});
   EXPECT_TRUE(way.line().empty());
 }
 
