@@ -12,7 +12,7 @@
 // pressure P_steam at which the water boils, less that of the air, and none below 100 C; steam that carries the load
 // escapes. Frozen matter has P = 0 and lets no water through; on thawing P is P_thaw = max(0, N - s0) less what the
 // void takes (Morgenstern and Nixon 1971). As the piece stretches or the band grows, the cells take in what lies above
-// them, and the body gives the rest; shear mixes the band. In place of Eqs. 19 and 23; docs/theory, chapter 16.
+// them, and the body gives the rest; shear mixes the band. In place of Eqs. 19 and 23; docs/theory/band-columns.md.
 #pragma once
 
 #include "physics/boiling.hpp"

@@ -1,4 +1,4 @@
-// Heat of a column (band_column.hpp): conduction, friction heat, boiling (docs/theory, chapter 16).
+// Heat of a column (band_column.hpp): conduction, friction heat, boiling (docs/theory/band-columns.md).
 #pragma once
 
 #include <cmath>

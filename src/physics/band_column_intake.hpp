@@ -1,5 +1,5 @@
 // Intake of a column (band_column.hpp): material that changes cells, or comes from the body and goes back to it, as the
-// faces of cells move (docs/theory, chapter 16).
+// faces of cells move (docs/theory/band-columns.md).
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// One step of a column (band_column.hpp), and how it begins (docs/theory, chapter 16).
+// One step of a column (band_column.hpp), and how it begins (docs/theory/band-columns.md).
 #pragma once
 
 #include "physics/band_column_intake.hpp"

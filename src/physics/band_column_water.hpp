@@ -1,4 +1,4 @@
-// Water of a column (band_column.hpp): how full its pores are, and what seeps (docs/theory, chapter 16).
+// Water of a column (band_column.hpp): how full its pores are, and what seeps (docs/theory/band-columns.md).
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Boiling of pore water at its absolute pressure P + P_atm (docs/theory, chapter 16).
+// Boiling of pore water at its absolute pressure P + P_atm (docs/theory/band-columns.md).
 //   L_v(T) = 2.5e6 - 2360 T                                             [J/kg], T in C
 //   dP_abs/dT = L_v P_abs/(R_v T^2)                                     Clausius and Clapeyron, steam as an ideal gas
 //   ln(P_abs/P_atm) = [A (1/T_b - 1/T) - 2360 ln(T/T_b)]/R_v            its integral, T in K; A = 2.5e6 + 2360 * 273.15

@@ -1,4 +1,4 @@
-// Free open gaps (physics/tension_gap.hpp): elastic stress does not change with strain (theory, chapter 9).
+// Free open gaps (physics/tension_gap.hpp): elastic stress does not change with strain (docs/theory/stability.md).
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Softening with a length: a slip across a surface of rupture instead of a plastic strain (docs/theory, chapter 4).
+// Softening with a length: a slip across a surface of rupture instead of a plastic strain (docs/theory/stress.md).
 #pragma once
 
 #include <cmath>

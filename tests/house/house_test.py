@@ -158,7 +158,9 @@ def test_sources_without_a_header_say_what_they_are() -> None:
 def test_physics_files_name_their_source() -> None:
     for path in (path for path in code_files("src/physics") if path.suffix == ".hpp"):
         opening = path.read_text().split("#pragma once")[0]
-        assert re.search(r"Eqs?\. ?\d|\d{4}|chapter", opening), f"{place(path)} cites no equation and no paper"
+        assert re.search(r"Eqs?\. ?\d|\d{4}|chapter|docs/theory/", opening), (
+            f"{place(path)} cites no equation and no paper"
+        )
 
 
 @pytest.mark.parametrize(
@@ -220,6 +222,11 @@ def test_code_cites_sections_that_the_theory_has() -> None:
             cited += 1
         for number in re.findall(r"docs/theory\.md,? (?:section )?(\d+(?:\.\d+)*)", text):
             assert number in numbers, f"{place(path)} cites section {number} of docs/theory.md"
+            cited += 1
+        for page, name in re.findall(r'(docs/theory/[\w-]+\.md)(?:, "([^"]+)")?', text):
+            assert (ROOT / page).is_file(), f"{place(path)} cites {page}"
+            headings = re.findall(r"^#+ (.+)$", (ROOT / page).read_text(), re.MULTILINE)
+            assert not name or name in headings, f"{place(path)} cites the section '{name}' of {page}"
             cited += 1
     assert cited > 0
 

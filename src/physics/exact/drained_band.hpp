@@ -1,6 +1,6 @@
-// The steady drained band, derived in chapter 16, for the arrest or runaway of Goren and Aharonov (2009): friction
-// heats a band over its thickness e, water leaves it through its top, where P = 0; its base is sealed, heat stays. With
-// strength mu (N - P), P the mean over the band,
+// The steady drained band, for the arrest or runaway of Goren and Aharonov (2009): friction heats a band over its
+// thickness e, water leaves it through its top, where P = 0; its base is sealed, heat stays. With strength mu (N - P),
+// P the mean over the band,
 //   tau = mu N/(1 + A v/k),   A = mu beta_m gamma_w eta e/(3 C)
 // A block that slides down an angle a speeds up where tau < N tan(a) and slows down where tau > N tan(a). Strength
 // falls as the speed v rises, so that the speed at which both are equal,
