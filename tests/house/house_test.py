@@ -38,7 +38,7 @@ def code_files(*folders: str) -> list[Path]:
 
 def own_files() -> list[Path]:
     """Return text files of the project, without what is generated or built."""
-    folders = ["src", "tests", "benchmarks", "python/thawslide", "cases", "docs", "scripts", ".ci"]
+    folders = ["src", "tests", "benchmarks", "python/thawslide", "reproduction", "cases", "docs", "scripts", ".ci"]
     inside = [path for folder in folders for path in (ROOT / folder).rglob("*") if path.is_file()]
     kinds = {".cpp", ".hpp", ".cu", ".in", ".py", ".toml", ".md", ".txt", ".csv", ".ini", ""}
     found = [path for path in [*inside, *ROOT.iterdir()] if path.is_file() and path.suffix in kinds]
@@ -164,7 +164,9 @@ def test_physics_files_name_their_source() -> None:
 
 
 @pytest.mark.parametrize(
-    "path", code_files("src", "tests", "benchmarks") + sorted(ROOT.glob("python/**/*.py")), ids=place
+    "path",
+    code_files("src", "tests", "benchmarks") + sorted([*ROOT.glob("python/**/*.py"), *ROOT.glob("reproduction/*.py")]),
+    ids=place,
 )
 def test_file_is_not_too_long(path: Path) -> None:
     assert len(path.read_text().splitlines()) < LONGEST_FILE

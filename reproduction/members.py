@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
+from reproduction.lamplugh import INVERSION
+from reproduction.one_at_a_time import Row, refusal, why_not_whole
 from thawslide.clock import time_of_speed
 from thawslide.errors import ReportError
 from thawslide.figures.force import force_in_band
 from thawslide.figures.force_record import compared
 from thawslide.key_numbers import stop_time
-from thawslide.paper.lamplugh import INVERSION
-from thawslide.paper.one_at_a_time import Row, refusal, why_not_whole
 from thawslide.run import Run
 
 NOISE = 0.1  # of the distance of particles

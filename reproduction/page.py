@@ -9,12 +9,12 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from reproduction import block, freezing, incline, lamplugh, lamplugh_figures, old_capacity, stages
+from reproduction.sentences import MEANINGS, VERDICTS, filled, sentences, table
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.figures.motion import motion
 from thawslide.figures.snapshots import pore_pressure, temperature
 from thawslide.figures.style import without_title
-from thawslide.paper import block, freezing, incline, lamplugh, lamplugh_figures, old_capacity, stages
-from thawslide.paper.sentences import MEANINGS, VERDICTS, filled, sentences, table
 from thawslide.report import page_frame
 from thawslide.run import Run
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from thawslide.paper.mixture import TABLE_1, HeatTable, Mixture, power_saturation
+from reproduction.mixture import TABLE_1, HeatTable, Mixture, power_saturation
 from thawslide.run import Numbers
 
 Flags = NDArray[np.bool_]

@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from reproduction.members import MODEL, QUANTITIES, SET_TIME
 from thawslide.figures.motion import draw_targets
 from thawslide.figures.style import BLUE, COLUMN_WIDTH, GREEN, NOTE, letters, styled
-from thawslide.paper.members import MODEL, QUANTITIES, SET_TIME
 from thawslide.run import Numbers, Run
 
 STEP = 0.1  # s, of the median's curve

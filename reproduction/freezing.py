@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from reproduction.mixture import FREEZING_BAR, HeatTable, Mixture, linear_saturation
+from reproduction.runs import BARS, PRINTED
 from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, ORANGE, RED, letters, styled
-from thawslide.paper.mixture import FREEZING_BAR, HeatTable, Mixture, linear_saturation
-from thawslide.paper.runs import BARS, PRINTED
 from thawslide.run import Numbers, Run
 
 COLD_END = -3.0  # C

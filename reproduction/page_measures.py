@@ -8,6 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
+from reproduction import freezing
+from reproduction.lamplugh import deposit, read_block
+from reproduction.members import Observed, observed
 from thawslide.arrays import Numbers
 from thawslide.clock import time_of_speed
 from thawslide.figures.force import force_in_band, seismic_force
@@ -15,9 +18,6 @@ from thawslide.figures.force_record import Comparison, compared, filtered
 from thawslide.force_record import PARTS
 from thawslide.history import History
 from thawslide.key_numbers import stop_time
-from thawslide.paper import freezing
-from thawslide.paper.lamplugh import deposit, read_block
-from thawslide.paper.members import Observed, observed
 from thawslide.run import Run
 from thawslide.targets import Band
 

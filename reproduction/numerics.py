@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from thawslide.paper.members import QUANTITIES, Observed
-from thawslide.paper.one_at_a_time import Row
+from reproduction.members import QUANTITIES, Observed
+from reproduction.one_at_a_time import Row
 
 THICKNESSES = (0.21, 0.30, 0.40)  # m, of the band at the start
 CELLS = (20.0, 10.0, 5.0)  # m, the coarsest first

@@ -8,6 +8,9 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
+from reproduction.block import at
+from reproduction.runs import LAMPLUGH_BLOCKS
+from reproduction.stages import balance
 from thawslide.clock import time_of_speed
 from thawslide.errors import NotInRunError
 from thawslide.figures.force import force_in_band, seismic_force
@@ -27,9 +30,6 @@ from thawslide.figures.style import (
 )
 from thawslide.history import History, read_history
 from thawslide.key_numbers import STOPPED_SHARE, stop_time
-from thawslide.paper.block import at
-from thawslide.paper.runs import LAMPLUGH_BLOCKS
-from thawslide.paper.stages import balance
 from thawslide.run import Numbers, Run
 from thawslide.targets import Band
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from thawslide.paper.block import at
-from thawslide.paper.mixture import TABLE_1, HeatTable, power_saturation
+from reproduction.block import at
+from reproduction.mixture import TABLE_1, HeatTable, power_saturation
 from thawslide.run import Numbers, Run, Snapshot
 
 START, PEAK, END = 40.0, 75.0, 200.0  # s: the stages of the text

@@ -13,7 +13,7 @@ import math
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 # What the paper's words mean in numbers, the same for every sentence and whatever the runs give.
@@ -86,7 +86,7 @@ CLAIMS = tuple(
 
 def table(name: str) -> list[dict[str, Any]]:
     """Return the rows of one of the data files beside this module."""
-    text = files("thawslide.paper").joinpath(f"{name}.toml").read_text(encoding="utf-8")
+    text = (Path(__file__).parent / f"{name}.toml").read_text(encoding="utf-8")
     (rows,) = tomllib.loads(text).values()
     return list(rows)
 

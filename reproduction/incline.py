@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
+from reproduction.block import at, first_time, mark
+from reproduction.mixture import TABLE_1
+from reproduction.runs import INCLINES
 from thawslide.figures.style import BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, RED, letters, styled, time_line
-from thawslide.paper.block import at, first_time, mark
-from thawslide.paper.mixture import TABLE_1
-from thawslide.paper.runs import INCLINES
 from thawslide.run import Numbers, Run
 
 GRAVITY, SLOPE, HEIGHT = 9.81, np.radians(40.0), 50.0

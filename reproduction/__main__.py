@@ -8,9 +8,9 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+from reproduction.page import make_page
+from reproduction.runs import all_runs, read_runs, run_all
 from thawslide.errors import ReportError
-from thawslide.paper.page import make_page
-from thawslide.paper.runs import all_runs, read_runs, run_all
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -8,11 +8,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from reproduction.lamplugh import INVERSION, PHASE, zones
 from thawslide.figures.force import force_in_band, seismic_force
 from thawslide.figures.load import load_on_band
 from thawslide.figures.snapshots import Stretch, plastic_strain, velocity
 from thawslide.figures.style import BLUE, COLUMN_WIDTH, NOTE, RED, letters, styled, time_axis, time_line, warn
-from thawslide.paper.lamplugh import INVERSION, PHASE, zones
 from thawslide.run import Numbers, Run
 from thawslide.unphysical import too_hot, too_much_for_weight
 

@@ -13,8 +13,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from thawslide.paper.freezing import COLD_END, COMPARED, LENGTH, reference
-from thawslide.paper.mixture import FREEZING_BAR, HeatTable, linear_saturation
+from reproduction.freezing import COLD_END, COMPARED, LENGTH, reference
+from reproduction.mixture import FREEZING_BAR, HeatTable, linear_saturation
 from thawslide.run import Numbers
 
 CELL, DAY, STEP = 0.01, 86400.0, 21.6  # m, s, s

@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from reproduction.band_model import BandHistory, Drive, solve
+from reproduction.mixture import TABLE_1
+from reproduction.runs import BLOCKS, NO_LATENT
 from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, PURPLE, RED, letters, styled
-from thawslide.paper.band_model import BandHistory, Drive, solve
-from thawslide.paper.mixture import TABLE_1
-from thawslide.paper.runs import BLOCKS, NO_LATENT
 from thawslide.run import Numbers, Run
 
 COLUMNS = (
