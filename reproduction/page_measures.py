@@ -144,6 +144,11 @@ class Measured(Curve):
         """The largest and the root mean square error [K] of the freezing bar."""
         return freezing.errors(self.run)
 
+    def depth_of(self, temperature: float) -> float:
+        """Return the distance [m] from the cold end of the freezing bar at which it has a temperature [C] at last."""
+        x, found = freezing.profile(self.run)
+        return float(np.interp(temperature, found, x))
+
     @property
     def taken_share(self) -> float:
         """The mass taken off the bed over that of the slide at the start."""

@@ -26,7 +26,7 @@ _NUMBER = r"[-+−]?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e[-+−]?\d+)?"
 _MARKED = re.compile(r"\{(" + _NUMBER + r")\}")
 _RULE = re.compile(r"(?s)^(.*?)\s+(?:(to)\s+(\S+)|(at most|at least))$")
 # Units of results. Many lengths in metres and times in seconds in a page are not results.
-_UNITS = r"(?:m/s2?|km2?|m2|m3|TN|GN|[TGP]J|[MGk]?Pa|kg|t|C|K|%|s|m|min|degrees)(?![\w/])"
+_UNITS = r"(?:m/s2?|km2?|m2|m3|TN|GN|[TGP]J|[MGk]?Pa|kg|t|°?C|K|%|s|m|min|degrees)(?![\w/])"
 _WITH_UNIT = re.compile(r"(?<![\w.,/-])" + _NUMBER + r"(?: to " + _NUMBER + r")? " + _UNITS)
 _CODE = re.compile(r"(?s)```.*?```|`[^`]*`|\]\([^)]*\)")
 ROUND_OFF = 1e-9
