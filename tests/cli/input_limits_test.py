@@ -1,4 +1,4 @@
-"""Inputs that are too large, too deep, or links: refused with a clear word, or handled as the user guide says."""
+"""Inputs that are too large, too deep, or links: refused with a clear word, or handled as docs/reference/limits.md states."""
 
 from __future__ import annotations
 

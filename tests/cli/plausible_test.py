@@ -120,9 +120,9 @@ def test_what_is_hardly_meant_is_told(thawslide: Program, plain_case: Path, word
     assert f"warning: {told}\n".replace("0.2 s, which", "0.001 s, which") in run.stdout
 
 
-def test_nothing_is_doubted_of_the_example_of_the_guide(thawslide: Program, tmp_path: Path) -> None:
-    guide = (ROOT / "docs" / "user-guide.md").read_text()
-    example = re.search(r"```toml\n(\[case\]\ntitle = \"A block on a slope\".*?)```", guide, re.DOTALL)
+def test_nothing_is_doubted_of_the_example_of_the_how_to_page(thawslide: Program, tmp_path: Path) -> None:
+    page = (ROOT / "docs" / "how-to" / "write-a-2d-case.md").read_text()
+    example = re.search(r"```toml\n( *\[case\]\n *title = \"A block on a slope\".*?)```", page, re.DOTALL)
     assert example
     (tmp_path / "case.toml").write_text(example[1])
     assert notes_of(thawslide, tmp_path) == []

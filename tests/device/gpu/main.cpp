@@ -2,7 +2,7 @@
 //   thawslide_device_test            small slides compared, then 100,000 and 10 million particles for their speed
 //   thawslide_device_test --compare  small slides alone: for compute-sanitizer
 //   thawslide_device_test --speed N  so many particles alone, with the time of each stage
-//   thawslide_device_test --table    how fast, by size, up to what the card holds: the table of docs/gpu.md
+//   thawslide_device_test --table    how fast, by size, up to what the card holds: the table of gpu-backend.md
 //   thawslide_device_test --rehearse  as --compare, without a card: its threads run on the processor, in no order
 // Exit codes: 0 the bits are the same, or differ by at most 1e-12 of each quantity's largest value (it says which);
 // 1 they differ by more, or two runs on the card differ at all; 2 wrong options; 5 there is no card to run on.

@@ -109,7 +109,7 @@ inline void print_row(const Measured& found) {
   std::fflush(stdout);
 }
 
-// The table of docs/gpu.md, as Markdown: each size elastic and yielding, up to what does not fit any more.
+// The first table of gpu-backend.md, as Markdown: each size elastic and yielding, up to what does not fit any more.
 inline void print_table(const device::SolverFactory<3, Real>& make, const std::vector<std::size_t>& sizes,
                         double seconds_at_least, const std::function<double()>& free_memory) {
   std::printf(
