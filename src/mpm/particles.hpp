@@ -38,7 +38,7 @@ class Particles {
   Scalar plastic_strain{fields, {"plastic_strain", "1", FieldShape::scalar, true}};
   Scalar gap{fields, {"gap", "1", FieldShape::scalar, true}};  // volumetric strain of opened gaps, to be closed again
   Scalar temperature{fields, {"temperature", "C", FieldShape::scalar, true}};
-  Scalar heat_content{fields, {"heat_content", "J/m3"}};  // per initial volume, 0 for frozen material at Tref
+  Scalar heat_content{fields, {"heat_content", "J/m3"}};     // per initial volume, 0 for frozen material at Tref
   Scalar initial_heat_content{fields, {"initial_heat_content", "J/m3"}};
   Scalar liquid_saturation{fields, {"liquid_saturation", "1", FieldShape::scalar, true}};
   Scalar porosity{fields, {"porosity", "1", FieldShape::scalar, true}};
@@ -47,13 +47,12 @@ class Particles {
   Scalar ice_pressure{fields, {"ice_pressure", "Pa", FieldShape::scalar, true}};
   Scalar liquid_pressure{fields, {"liquid_pressure", "Pa", FieldShape::scalar, true}};
   Scalar pore_pressure{fields, {"pore_pressure", "Pa", FieldShape::scalar, true}};
-  // void left by the water after complete melting, fraction of the volume
-  Scalar pore_void{fields, {"pore_void", "1"}};
-  Scalar normal_load{fields, {"normal_load", "Pa"}};  // N of the column above
-  Scalar seeped_water{fields, {"seeped_water", "kg"}};  // net water gained by seepage
-  Scalar flow_depth{fields, {"flow_depth", "m"}};  // H of P_I = rho_I g H
+  Scalar pore_void{fields, {"pore_void", "1"}};              // left by the water after melting, fraction of volume
+  Scalar normal_load{fields, {"normal_load", "Pa"}};         // N of the column above
+  Scalar seeped_water{fields, {"seeped_water", "kg"}};       // net water gained by seepage
+  Scalar flow_depth{fields, {"flow_depth", "m"}};            // H of P_I = rho_I g H
   Scalar thermal_scaling{fields, {"thermal_scaling", "1"}};  // current xi
-  Scalar contact_offset{fields, {"contact_offset", "m"}};  // distance from the ground at which it touches
+  Scalar contact_offset{fields, {"contact_offset", "m"}};    // distance from the ground at which it touches
   Scalar slip{fields, {"slip", "m", FieldShape::scalar, true}};
   Field<std::int32_t, 1> in_band{fields, {"in_band", "1", FieldShape::scalar, true}};
   // Within a step only: displacement and its volumetric strain, temperature before the step, secant capacity, changes

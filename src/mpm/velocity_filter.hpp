@@ -1,6 +1,6 @@
-// Velocity filter that removes the particle velocities that the grid does not resolve and FLIP preserves: the projection
-// of XPIC(m) (Hammerquist and Nairn 2017) and FMPM(m), V <- [1 - (1 - B)^m] V, in the form of Nairn's note of 2026
-// (Sec. 1.4.3; see docs/theory/momentum.md):
+// Velocity filter that removes the particle velocities that the grid does not resolve and FLIP preserves: the
+// projection of XPIC(m) (Hammerquist and Nairn 2017) and FMPM(m), V <- [1 - (1 - B)^m] V, in the form of Nairn's note
+// of 2026 (Sec. 1.4.3; see docs/theory/momentum.md):
 //   dg_1 = T+ V,  dg_l+1 = dg_l - T+ T dg_l,  V <- T (dg_1 + ... + dg_m),  B = T T+
 // In these methods, T+ is the velocity of nodes with lumped masses and T the shape functions, which loses angular
 // momentum at the edges of a rotating body. Here, T+ fits to each node a rigid motion (physics/rigid_motion.hpp) of the
