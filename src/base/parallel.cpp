@@ -36,7 +36,7 @@ void set_thread_count(int threads) {
 int available_cores() { return omp_get_num_procs(); }
 
 std::size_t calls_at_a_time(std::size_t count) {
-  constexpr std::size_t most = 16, parts = 8;  // parts: chunks per thread at least
+  constexpr std::size_t most = 16, parts = 8;  // most: calls per chunk; parts: fewest chunks per thread
   return std::clamp<std::size_t>(count / (parts * static_cast<std::size_t>(thread_count())), 1, most);
 }
 

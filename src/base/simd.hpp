@@ -26,7 +26,7 @@ template <class Real, std::size_t Count>
 struct LaneRegister {
   using Flag = std::conditional_t<sizeof(Real) == sizeof(std::int64_t), std::int64_t, std::int32_t>;
   using Numbers [[gnu::vector_size(Count * sizeof(Real))]] = Real;
-  // unaligned with single numbers in memory
+  // may alias single numbers in memory
   using Stored [[gnu::vector_size(Count * sizeof(Real)), gnu::may_alias]] = Real;
   using Flags [[gnu::vector_size(Count * sizeof(Real))]] = Flag;  // results of comparisons
   using Whole [[gnu::vector_size(Count * sizeof(std::int32_t))]] = std::int32_t;
