@@ -97,7 +97,7 @@ THAWSLIDE_HD Real water_of_full_pores(const ColumnModel<Real, Curve>& model, Rea
 }
 
 // Ratio r at which the top of the column is at the depth of the sliding mass above its base [m]:
-// e + (e/8) sum of r^j, j = 1 to 12 = depth,   within 1 <= r <= full.
+//   e + (e/8) sum of r^j, j = 1 to 12 = depth,   within 1 <= r <= full.
 // For depths at least that of the column of ratio `full`, r is exactly `full`. For depths below 2.5 e, r is 1: all
 // cells have the same height, and the column is higher than the sliding mass. The sum is convex in r; Newton's
 // iteration therefore descends from `full` to the root without passing it.
