@@ -1,6 +1,5 @@
 // Linear elasticity with Mohr-Coulomb plasticity and an optional tension cut-off. Tension positive, s1 >= s2 >= s3.
-//   F = (s1 - s3)/2 + (s1 + s3)/2 sin(phi) - c cos(phi) = 0           (Eq. 11, published without c and with one sign
-//                                                                      missing), used in the form
+//   F = (s1 - s3)/2 + (s1 + s3)/2 sin(phi) - c cos(phi) = 0     (Eq. 11, published without c and one sign), used as
 //   k s1 - s3 = 2 c sqrt(k),  k = (1 + sin phi)/(1 - sin phi);  cut-off  s1 = sigma_t
 //   flow: m s1 - s3 with m from the dilation angle (not given in the paper; default 0); cut-off: associated
 //   softening, with w = exp(-eps/eps_c), eps the sum of sqrt(2/3 de_p:de_p); c and phi are constant within a step
