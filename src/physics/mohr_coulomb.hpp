@@ -7,9 +7,9 @@
 //     sin phi = sin phi_f + (sin phi_0 - sin phi_f) w              (not in the paper)
 //     eps_c of a slip: physics/softening.hpp
 // Return to faces, edges and apex in principal space: the set of at most three active planes with non-negative
-// multipliers and an admissible stress (Koiter's flow rule; Clausen, Damkilde and Andersen 2006 and de Souza Neto,
-// Peric and Owen 2008, ch. 8, name the same regions). If there is none, the stress is set to the apex, as in Clausen et
-// al.: without dilation, the flow cannot reach it.
+// multipliers and an admissible stress (Koiter's flow rule; regions as in Clausen, Damkilde and Andersen 2006 and de
+// Souza Neto, Peric and Owen 2008, ch. 8). If none exists, the apex (as in Clausen et al.), which the flow cannot reach
+// without dilation.
 #pragma once
 
 #include <cmath>
@@ -305,8 +305,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return furthest <= tolerance;
   }
 
-  // Subtracts the elastic stress of an active set's plastic strain from the trial stress. True for lanes without a
-  // negative multiplier.
+  // Subtracts the elastic stress of an active set's plastic flow. True for lanes without a negative multiplier.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD auto relax(int number, const Surface<Value>& surface, Vector<Value, 3>& values) const {
     const ActiveSet& set = active_set(number);
