@@ -1,4 +1,5 @@
-// A piece of the slide's base, which carries a band column (physics/band_column.hpp) and moves with the slide.
+// Basal segment: a part of the base that carries a band column (physics/band_column.hpp) and moves with the sliding
+// mass.
 #pragma once
 
 #include <algorithm>
@@ -18,23 +19,23 @@ struct BasalSegment {
   using Sides = Eigen::Matrix<Real, Dim, Dim - 1>;
 
   std::int64_t id = 0;
-  Vector<Real, Dim> position;  // of its middle, on the ground [m]
+  Vector<Real, Dim> position;  // of its centre, on the ground [m]
   Vector<Real, Dim> normal;    // unit vector into the ground
-  // Of the slide about it along the ground, as it was at the column's last step [m/s].
+  // Velocity of the sliding mass around the segment, along the ground, at the column's last step [m/s].
   Vector<Real, Dim> velocity = Vector<Real, Dim>::Zero();
-  Sides sides;              // its edges, along the ground [m]; of a 2D case one
-  Real area = 0;            // [m2], per metre of width in 2D
-  Real area_of_column = 0;  // the area that the column's numbers are per [m2]
+  Sides sides;              // its edges along the ground [m]; one in 2D
+  Real area = 0;            // [m2]; [m2 per metre of width] in 2D
+  Real area_of_column = 0;  // reference area of the column's quantities per area [m2]
   Real slip = 0;            // [m]
   Real speed = 0;           // of slip [m/s]
   Real load = 0;            // normal pressure N, averaged over time [Pa]
-  Real depth = 0;           // of the slide above, along the normal, from what the piece bears, averaged [m]
-  Real loaded_for = 0;      // how long the depth has been averaged [s]
-  Real heat = 0;            // friction heat of its whole area since the column's last step [J]
-  bool touched = false;     // has ever carried load
+  Real depth = 0;           // flow depth above, along the normal, from the load on the segment, averaged [m]
+  Real loaded_for = 0;      // averaging time of the depth so far [s]
+  Real heat = 0;            // friction heat on the whole area since the column's last step [J]
+  bool touched = false;     // has carried load before
   physics::BandColumn<Real> column;
   physics::BandMeans<Real> means{};  // of the column at its last step, under the load at that time
-  Real liquid = 0;                   // liquid water in the column then, per area [m]
+  Real liquid = 0;                   // liquid water in the column at its last step, per area [m]
 };
 
 template <int Dim, class Real>
@@ -46,7 +47,7 @@ Real area_of(const Eigen::Matrix<Real, Dim, Dim - 1>& sides) {
   }
 }
 
-// The edges of a piece that seen from above is as long along each axis as `size`.
+// Edges of a segment whose horizontal projection has length `size` along each axis.
 template <int Dim, class Real>
 Eigen::Matrix<Real, Dim, Dim - 1> sides_on(const Vector<Real, Dim>& normal, const Vector<Real, Dim - 1>& size) {
   Eigen::Matrix<Real, Dim, Dim - 1> sides = Eigen::Matrix<Real, Dim, Dim - 1>::Zero();
@@ -57,7 +58,7 @@ Eigen::Matrix<Real, Dim, Dim - 1> sides_on(const Vector<Real, Dim>& normal, cons
   return sides;
 }
 
-// v as it is after the turn that takes the unit vector `from` to `to` by the shortest way.
+// Rotates v by the smallest rotation that takes the unit vector `from` to `to`.
 template <int Dim, class Real>
 Vector<Real, Dim> turned(const Vector<Real, Dim>& v, const Vector<Real, Dim>& from, const Vector<Real, Dim>& to) {
   const Vector<Real, Dim> both = from + to;
@@ -65,8 +66,8 @@ Vector<Real, Dim> turned(const Vector<Real, Dim>& v, const Vector<Real, Dim>& fr
   return along > round_off<Real> ? Vector<Real, Dim>(v - both * (both.dot(v) / along) + Real(2) * from.dot(v) * to) : v;
 }
 
-// The nodes that a piece of base sees, with the weights of cubic B-splines: they reach two cells along each axis. Nodes
-// that feel the slide lie within 1.25 cells of the ground, and their feet within half a cell of where a piece is laid.
+// Nodes within reach of a basal segment, with the weights of cubic B-splines, which reach two cells along each axis.
+// Nodes with contact lie within 1.25 cells of the ground, and their footpoints within half a cell of a new segment.
 // Valid until the blocks of the grid change.
 template <int Dim, class Real>
 class BaseStencil {
@@ -74,7 +75,7 @@ class BaseStencil {
   using T = mpm::Tile<Dim>;
   static constexpr int width = 4;
 
-  BaseStencil() = default;  // has no nodes
+  BaseStencil() = default;  // without nodes
   BaseStencil(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& position) : cell_(grid.cell()) {
     typename T::Index below, tile;
     for (std::size_t a = 0; a < Dim; ++a) {
@@ -86,7 +87,7 @@ class BaseStencil {
     T::split(below, tile, local_);
     const auto found = std::lower_bound(grid.blocks().begin(), grid.blocks().end(), T::key(tile));
     if (found == grid.blocks().end() || *found != T::key(tile)) {
-      return;  // no slide is near
+      return;  // no part of the sliding mass is near
     }
     about_ = grid.blocks_about_block(static_cast<std::size_t>(found - grid.blocks().begin()));
     for (int a = 0; a < Dim; ++a) {
@@ -99,8 +100,8 @@ class BaseStencil {
     }
   }
 
-  // Calls visit(block, node, weight, from_segment) for each of its nodes, x fastest. from_segment: vector from the
-  // piece to the node [m].
+  // Calls visit(block, node, weight, from_segment) for each node, x fastest. from_segment: vector from the segment to
+  // the node [m].
   template <class Visit>
   THAWSLIDE_ALWAYS_INLINE void for_each_with_place(const Visit& visit) const {
     Vector<Real, Dim> from_segment;
@@ -129,8 +130,8 @@ class BaseStencil {
     for_each_with_place([&](std::size_t block, std::size_t node, Real weight,
                             const Vector<Real, Dim>& /*from_segment*/) { visit(block, node, weight); });
   }
-  // Its nodes lie in one or two blocks along each axis. Calls visit(block, corner) for each active one of these; bit a
-  // of a corner is set for the second block along axis a.
+  // The nodes lie in one or two blocks along each axis. Calls visit(block, corner) for each active one of these blocks;
+  // bit a of a corner is set for the second block along axis a.
   template <class Visit>
   void for_each_block(const Visit& visit) const {
     for (int corner = 0; about_ != nullptr && corner < mpm::power(2, Dim); ++corner) {
@@ -146,7 +147,7 @@ class BaseStencil {
       }
     }
   }
-  // Calls visit(node, weight) for each of its nodes in the block of a corner.
+  // Calls visit(node, weight) for each node in the block of a corner.
   template <class Visit>
   THAWSLIDE_ALWAYS_INLINE void for_each_in(int corner, const Visit& visit) const {
     int first[3] = {0, 0, 0}, end[3] = {1, 1, 1};
@@ -173,17 +174,17 @@ class BaseStencil {
   }
 
  private:
-  // Of the two nodes on either side of a place at the share t between the inner ones.
+  // Weights of the four nodes around a position at fraction t between the inner two.
   static std::array<Real, width> cubic_weights(Real t) {
     const Real s = Real(1) - t, sixth = Real(1) / Real(6);
     return {sixth * s * s * s, sixth * (Real(4) - Real(3) * t * t * (Real(2) - t)),
             sixth * (Real(4) - Real(3) * s * s * (Real(2) - s)), sixth * t * t * t};
   }
 
-  const std::int32_t* about_ = nullptr;  // blocks about that of the node below the piece
+  const std::int32_t* about_ = nullptr;  // blocks around that of the node below the segment
   int local_ = 0;                        // that node, in its tile
   Real cell_ = 0;                        // [m]
-  std::array<Real, Dim> first_;          // from the piece to the first node along each axis [m]
+  std::array<Real, Dim> first_;          // from the segment to the first node along each axis [m]
   std::array<std::array<Real, width>, Dim> weight_;
   int direction_[Dim][width], shift_[Dim][width];  // along each axis: to its block, and from the node below
   int of_first_[Dim] = {};                         // nodes along each axis in the first block

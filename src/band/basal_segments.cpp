@@ -13,13 +13,15 @@ using mpm::Contact;
 
 namespace {
 
-constexpr double longest = 1.5;         // side of a piece along some axis, in cells
-constexpr double largest_joined = 1.0;  // area of two that join, in those of a cell's face, as wide as the section
-constexpr double joining_reach = 0.5;   // distance of two that join along each axis, in sizes of a lattice part
+constexpr double longest = 1.5;  // longest side of a segment along an axis, in cells
+// largest area of two merged segments, in areas of a cell's face times the relative section width
+constexpr double largest_joined = 1.0;
+// largest distance of two merged segments along each axis, in sizes of a lattice part
+constexpr double joining_reach = 0.5;
 
 }  // namespace
 
-// Each block's pieces in order of their numbers.
+// Segments of each block, in ascending order.
 template <int Dim, class Real>
 void BasalSegments<Dim, Real>::list_segments_by_block(std::size_t blocks) {
   first_of_block_.assign(blocks + 1, 0);
@@ -29,7 +31,7 @@ void BasalSegments<Dim, Real>::list_segments_by_block(std::size_t blocks) {
   std::uint32_t end = 0;
   for (std::uint32_t& number : first_of_block_) {
     end += number;
-    number = end;  // where the block's pieces end, for now
+    number = end;  // end of the block's segments, for now
   }
   by_block_.resize(end);
   for (std::size_t p = stencils_.size(); p-- > 0;) {
@@ -42,7 +44,7 @@ void BasalSegments<Dim, Real>::list_segments_by_block(std::size_t blocks) {
 template <int Dim, class Real>
 void BasalSegments<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) {
   using Record = typename mpm::RecordsOf<BaseState, Dim, Real>::Record;
-  std::vector<Record> shared(segments_.size());  // per area of a piece
+  std::vector<Record> shared(segments_.size());  // per area of a segment
   stencils_.resize(segments_.size());
   parallel_for(segments_.size(), [&](std::size_t p) {
     const Segment& segment = segments_[p];
@@ -118,16 +120,17 @@ void BasalSegments<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, co
   checks_gaps_ = true;
 }
 
-// The velocity of the slide at a piece, and how it changes along the ground: a linear fit to the nodes about it, each
-// weighted by its mass. Velocities are turned from the ground below the node to that of the piece, so that a bend of
-// the ground stretches nothing.
+// Velocity of the sliding mass at a segment, and its gradient along the ground: a linear fit to the nodes around it,
+// weighted by mass. Velocities are rotated from the ground normal at the node to that of the segment; a bend of the
+// ground therefore causes no spurious stretching.
 template <int Dim, class Real>
 typename BasalSegments<Dim, Real>::Nearby BasalSegments<Dim, Real>::slide_near(const mpm::SparseGrid<Dim, Real>& grid,
                                                                                const Stencil& stencil,
                                                                                const NodeGroundOf& node_ground,
                                                                                const mpm::Nodes<Dim, Real>& nodes,
                                                                                const Segment& segment) const {
-  constexpr Real smallest_spread = static_cast<Real>(1e-3);  // of places, in cells squared
+  // added to the spread of positions, in cells squared, to keep the fit regular
+  constexpr Real smallest_spread = static_cast<Real>(1e-3);
   const auto along_ground = [&](const Vector<Real, Dim>& v) -> Vector<Real, Dim> {
     return v - v.dot(segment.normal) * segment.normal;
   };
@@ -166,7 +169,7 @@ typename BasalSegments<Dim, Real>::Nearby BasalSegments<Dim, Real>::slide_near(c
 template <int Dim, class Real>
 void BasalSegments<Dim, Real>::gather_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes,
                                                  Segment& segment) const {
-  Real force = 0, area = 0, heat = 0, slip = 0, borne = 0;  // borne: of the normal force, per area of the piece [Pa]
+  Real force = 0, area = 0, heat = 0, slip = 0, borne = 0;  // borne: normal force per area of the segment [Pa]
   stencil.for_each_block([&](std::size_t b, int corner) {
     if (!nodes.contact.holds(b)) {
       return;
@@ -194,9 +197,9 @@ void BasalSegments<Dim, Real>::gather_from_nodes(const Stencil& stencil, Real dt
   segment.heat += dt * heat * segment.area;
 }
 
-// The depth of the slide is what the piece bears [Pa]: its share of the normal force of nodes, all of which falls to
-// pieces. N is that where there is contact, and more than it bears where the slide has holes. Ground on which gravity
-// does not press shows no depth.
+// The flow depth follows from the load borne by the segment [Pa]: its part of the nodal normal forces, which are
+// distributed over segments completely. N equals this load under full contact and exceeds it if the sliding mass has
+// holes. If gravity does not press on the ground, the depth is undefined; the largest thickness is used.
 template <int Dim, class Real>
 void BasalSegments<Dim, Real>::update_load(Real normal_pressure, Real borne, Real dt, Segment& segment) const {
   const Real weight = model_.density * gravity_.dot(segment.normal);  // [N/m3]
@@ -224,7 +227,7 @@ void BasalSegments<Dim, Real>::stretch_with(const Nearby& slide, const Ground& g
   segment.area = ground.area_of(segment.position, segment.sides);
 }
 
-// A piece with a side that reaches further than `most` along some axis parts in two along this side.
+// Splits segments with a side longer than `most` along an axis into two, along this side.
 template <int Dim, class Real>
 void BasalSegments<Dim, Real>::split_long_segments(Real most, const Ground& ground) {
   const std::size_t count = segments_.size();
@@ -250,10 +253,10 @@ void BasalSegments<Dim, Real>::split_long_segments(Real most, const Ground& grou
   }
 }
 
-// Shear splits pieces repeatedly, and they accumulate where the flow converges. Two pieces in one part of the lattice
-// become one if they are nearer than half of its size along each axis and together no larger than a cell. The result is
-// a square at their common centre. Pieces that were created next to each other and move together keep more distance.
-// The pieces of one part are visited in order, and each joins the smallest one before it.
+// Shear splits segments repeatedly, and they accumulate where the flow converges. Two segments in one part of the
+// lattice merge if they are nearer than half of its size along each axis and together no larger than a cell. The result
+// is a square at their common centre. Segments that were created next to each other and move together keep a larger
+// distance. The segments of one part are visited in order, and each merges into the smallest one before it.
 template <int Dim, class Real>
 void BasalSegments<Dim, Real>::merge_small_segments(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground) {
   const Real largest = static_cast<Real>(largest_joined * std::pow(grid.cell(), Dim - 1));
@@ -295,7 +298,7 @@ void BasalSegments<Dim, Real>::merge_small_segments(const mpm::SparseGrid<Dim, R
   keep_only(joined);
 }
 
-// Removes the pieces marked in `left`; the others keep their order.
+// Removes the segments marked in `left`; the others keep their order.
 template <int Dim, class Real>
 void BasalSegments<Dim, Real>::keep_only(const std::vector<std::uint8_t>& left) {
   std::size_t kept = 0;

@@ -1,5 +1,5 @@
-// The base of a slide as pieces that each carry a band column: what contact nodes see of them, and what they take from
-// these. Pieces move with the slide, part where they have become long, and are laid where the slide reaches new ground.
+// Base of the sliding mass as segments that each carry a band column, and their exchange with contact nodes. Segments
+// move with the sliding mass, split when they become long, and are created where it reaches new ground.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace thawslide::band {
 
-// Sums over all pieces [J, kg, m2, m3]. Heat: with the friction heat that waits for the columns' next step.
+// Sums over all segments [J, kg, m2, m3]. Heat includes the friction heat that is pending until the columns' next step.
 template <class Real>
 struct ColumnSums {
   Real area = 0, heat = 0, waiting_heat = 0, water = 0, opening = 0, gas_void = 0;
@@ -27,7 +27,8 @@ struct ColumnSums {
   }
 };
 
-// What columns got and gave since the start [J], [kg]. Laid: with pieces that were laid; left: with those taken up.
+// Heat and water budget of all columns since the start [J], [kg]. created: with new segments; left: with removed
+// segments.
 template <class Real>
 struct ColumnLedger {
   Real created_heat = 0, friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0,
@@ -43,31 +44,31 @@ struct ColumnLedger {
   }
 };
 
-// Means over the base, by area, and extremes.
+// Means over the base, weighted by area, and extremes.
 template <class Real>
 struct BaseMeans {
   Real temperature = 0, saturation = 0, pore_pressure = 0, load = 0, thickness = 0;
-  Real hottest = 0, hottest_wet = 0;  // of any cell above the ground, and of those that hold water [C]
-  Real dry_share = 0;                 // of the base: where some cell of the band has no water left
-  Real largest_pressure_ratio = 0;    // of P over averaged N
+  Real hottest = 0, hottest_wet = 0;  // maximum of all cells above the ground, and of those with water [C]
+  Real dry_share = 0;                 // area fraction of the base in which a cell of the band has no water left
+  Real largest_pressure_ratio = 0;    // maximum P over averaged N
 };
 
 template <int Dim, class Real>
 class BasalSegments {
  public:
-  // Of the ground below a horizontal place [m].
+  // Ground below a horizontal position [m].
   struct Ground {
     std::function<Real(const Vector<Real, Dim - 1>&)> height;
     std::function<Vector<Real, Dim>(const Vector<Real, Dim - 1>&)> normal;  // into the ground
-    std::function<Real(const Vector<Real, Dim - 1>&)> width;                // of a 2D section, relative; 1 in space
+    std::function<Real(const Vector<Real, Dim - 1>&)> width;                // of a 2D section, relative; 1 in 3D
 
-    // Of the ground below edges about a place [m2].
+    // Area of ground spanned by edges around a position [m2].
     [[nodiscard]] Real area_of(const Vector<Real, Dim>& place,
                                const typename BasalSegment<Dim, Real>::Sides& sides) const {
       return width(place.template head<Dim - 1>()) * band::area_of<Dim, Real>(sides);
     }
   };
-  // Of a node: its unit normal into the ground and its distance above it [m]; null where the ground is not near.
+  // Ground at a node: unit normal into the ground and distance above it [m]; null if the ground is not near.
   struct NodeGround {
     const Vector<Real, Dim>* normal;
     Real distance;
@@ -78,20 +79,20 @@ class BasalSegments {
   BasalSegments(ColumnsModel<Real> model, const Vector<Real, Dim>& gravity)
       : model_(std::move(model)), gravity_(gravity) {}
 
-  // Fills nodes.base_state of the blocks with contact. Call it before each take, which uses the same stencils.
+  // Fills nodes.base_state of the blocks with contact. Call before each take, which uses the same stencils.
   void to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes);
 
-  // After contact, at the positions that to_nodes has seen: what contact does in dt to all pieces (load, heat, slip),
-  // new ones first where the slide touches ground that none covers. Then they move on by dt.
+  // Applies contact over dt to all segments (load, heat, slip) at the positions used by to_nodes, then moves them by
+  // dt. First creates segments where the sliding mass touches ground without one. Call after contact.
   void take(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
             Real thickness, Real dt, mpm::Nodes<Dim, Real>& nodes);
 
-  // Pieces take the velocity of the slide, and stretch with it as over the last `duration` [s]; those that have become
-  // long part, and small ones join.
+  // Updates segment velocities and stretches segments with the flow over the last `duration` [s]; then splits long
+  // segments and merges small ones.
   void follow(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
               Real duration, const mpm::Nodes<Dim, Real>& nodes);
 
-  // Then steps all columns over it, at the end of which the case wants a band so thick [m].
+  // Then steps all columns over `duration` [s]. thickness: prescribed band thickness at its end [m].
   void step(Real thickness, Real duration);
 
   [[nodiscard]] const std::vector<BasalSegment<Dim, Real>>& segments() const { return segments_; }
@@ -108,7 +109,7 @@ class BasalSegments {
   [[nodiscard]] ColumnSums<Real> sums() const;
   [[nodiscard]] BaseMeans<Real> means() const;
 
-  // Everything a checkpoint must hold, and its way back.
+  // Checkpoint state.
   [[nodiscard]] std::vector<double> state() const;
   void restore(const std::vector<double>& numbers);
 
@@ -116,20 +117,20 @@ class BasalSegments {
   using Segment = BasalSegment<Dim, Real>;
   using Stencil = BaseStencil<Dim, Real>;
 
-  using Lattice = std::array<int, Dim - 1>;  // a cell of the horizontal lattice on which pieces are laid
-  // A part of a lattice cell. On steep ground a cell is divided along each axis, because a piece reaches only the nodes
-  // of its stencil.
+  using Lattice = std::array<int, Dim - 1>;  // cell of the horizontal lattice on which segments are created
+  // Part of a lattice cell. On steep ground, a cell is divided along each axis, because a segment reaches only the
+  // nodes of its stencil.
   struct LatticePart {
     Lattice cell, part, parts;  // parts: number along each axis
     auto operator<=>(const LatticePart&) const = default;
   };
-  // Foot of a node in contact: its point on the ground, the lattice cell of this point, and the number of parts of a
-  // cell on ground of this slope.
+  // Footpoint of a node in contact: its point on the ground, the lattice cell of this point, and the number of parts of
+  // a cell on ground of this slope.
   struct Footpoint {
     Lattice cell, parts;
     Vector<Real, Dim> place;
   };
-  // Its number of parts along each axis, on ground with this normal.
+  // Number of parts of a lattice cell along each axis, on ground with this normal.
   [[nodiscard]] static Lattice parts_on(const Vector<Real, Dim>& normal);
   [[nodiscard]] Lattice lattice_part(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place,
                                      const Lattice& cell, const Lattice& parts) const;
@@ -155,7 +156,7 @@ class BasalSegments {
                                      const Segment& segment) const;
   [[nodiscard]] Segment new_segment(const Vector<Real, Dim - 1>& middle, const Vector<Real, Dim - 1>& size,
                                     const Ground& ground);
-  // How the slide about a piece moves.
+  // Motion of the sliding mass around a segment.
   struct Nearby {
     Matrix<Real, Dim> gradient = Matrix<Real, Dim>::Zero();  // of the velocity, along the ground [1/s]
     Vector<Real, Dim> velocity = Vector<Real, Dim>::Zero();  // along the ground [m/s]
@@ -178,12 +179,12 @@ class BasalSegments {
   ColumnsModel<Real> model_;
   Vector<Real, Dim> gravity_;
   std::vector<Segment> segments_;
-  // Stencils of this step, by piece, and the pieces whose stencils reach a block: those of b from first_of_block_[b]
-  // on.
+  // Stencils of this step, by segment, and the segments whose stencils reach a block: those of block b begin at
+  // first_of_block_[b].
   std::vector<Stencil> stencils_;
   struct Seen {
     std::uint32_t segment;
-    int corner;  // of the piece's stencil
+    int corner;  // of the segment's stencil
   };
   std::vector<std::uint32_t> first_of_block_;
   std::vector<Seen> by_block_;

@@ -8,7 +8,7 @@
 
 namespace thawslide::band {
 
-// Numbers every column that particles of the tiles might overlap; holds until there are other tiles.
+// Numbers every column that particles of the tiles may overlap. Valid until the tiles change.
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid, const mpm::SectionWidth<Real>& width,
                                           const SlopeCosine& slope_cosine) {
@@ -40,7 +40,7 @@ void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid
   }
 }
 
-// Particle after particle, whatever the batches, so that sums do not depend on them.
+// Sums in the order of particles, to be independent of the batches.
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
                                     std::size_t t) {
@@ -89,7 +89,7 @@ void FlowDepth<Dim, Real>::add_extents(const mpm::SparseGrid<Dim, Real>& grid,
   }
 }
 
-// The tiles' parts add up in the order of tiles, so that sums do not depend on threads.
+// Sums in the order of tiles, to be independent of threads.
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::sum_columns() {
   for (Column& column : columns_) {
@@ -102,7 +102,7 @@ void FlowDepth<Dim, Real>::sum_columns() {
   }
 }
 
-// The columns that lack a neighbour, and the tiles that see one of them.
+// Finds the columns that lack a neighbour, and the tiles in reach of one of them.
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::find_edge() {
   for (Column& column : columns_) {
@@ -177,7 +177,7 @@ void FlowDepth<Dim, Real>::depth_to_particles(const mpm::SparseGrid<Dim, Real>& 
   });
 }
 
-// Particle after particle and tile after tile, as volumes are summed.
+// Sums in the order of particles and tiles, like the volumes.
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::sum_masses(const mpm::SparseGrid<Dim, Real>& grid,
                                       const mpm::Particles<Dim, Real>& particles) {

@@ -32,9 +32,9 @@ NodalHeat<Real> solve_with_tangent(const mpm::SparseGrid<Dim, Real>& grid, const
       });
 }
 
-// In blocks in which temperatures change, patches contain the sums of particles with their secant capacity. Other
-// patches still contain the sums with the tangent; rates there are unchanged except for the conditions at faces.
-// Returns the heat through faces [J].
+// In blocks with temperature changes, patches contain the sums of particles with their secant capacity. Other patches
+// still contain the sums with the tangent capacity; rates there are unchanged except for face conditions. Returns the
+// heat through faces [J].
 template <int Dim, class Real>
 Real solve_with_secant(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
                        bool first_step, mpm::Nodes<Dim, Real>& nodes) {
@@ -58,7 +58,7 @@ Real solve_with_secant(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<D
   return solved.gain.boundary;
 }
 
-// Marks the tiles in which some particle's temperature may change by more than is negligible, and the blocks about
+// Marks the tiles in which the temperature of a particle may change by more than is negligible, and the blocks around
 // them.
 template <int Dim, class Real, class Law>
 void find_changes(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, Real dt,
@@ -97,7 +97,7 @@ void find_changes(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, Real d
   grid.mark_blocks_about(marks.changing_tiles, marks.changing_blocks);
 }
 
-// Selects tiles, and batches of these, in whose reach nodes without linear weight have friction heat.
+// Filter for tiles, and their batches, in reach of nodes that have friction heat but no linear weight.
 template <int Dim, class Real>
 struct SeesUnreachedHeat {
   const mpm::SparseGrid<Dim, Real>& grid;
@@ -116,11 +116,11 @@ struct SeesUnreachedHeat {
   }
 };
 
-// What nodes without linear weight hold of friction heat, to the particles that see them.
+// Distributes the friction heat of nodes without linear weight to the particles in their reach.
 template <int Dim, class Real>
 void redistribute_unreached_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
                                  mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
-  thread_local std::vector<std::uint64_t> rows;  // kept: a step allocates nothing
+  thread_local std::vector<std::uint64_t> rows;  // persistent, to avoid allocation in each step
   rows.resize(grid.tiles().size());
   const SeesUnreachedHeat<Dim, Real> sees_heat{grid, nodes.unreached_heat, rows};
   mpm::with_shape<Real>(model.shape, [&](auto shape) {

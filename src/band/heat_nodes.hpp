@@ -1,4 +1,4 @@
-// What nodes do in conduct_heat: their state from the averages, and their rate of temperature.
+// Nodal part of conduct_heat: state from the averages, and temperature rate.
 #pragma once
 
 #include "band/heat.hpp"
@@ -7,8 +7,7 @@
 
 namespace thawslide::band {
 
-// Temperature and pore pressure of a node (Eq. 21); a prescribed temperature takes its node before gradients are
-// formed.
+// Temperature and pore pressure of a node (Eq. 21). A prescribed temperature is set before gradients are computed.
 template <int Dim, class Real>
 struct SetNodalState {
   const mpm::SparseGrid<Dim, Real>& grid;
@@ -23,8 +22,8 @@ struct SetNodalState {
   }
 };
 
-// The rate of temperature of a node (Eq. 19) with a heat capacity [J/K] and the heat that particles took by subgrid
-// diffusion [J]; friction heat and face conditions come in here. first_step: prescribed temperatures jump now.
+// Temperature rate of a node (Eq. 19) from a heat capacity [J/K], the particles' gain by subgrid diffusion [J],
+// friction heat and face conditions. first_step: prescribed temperatures are applied as a jump.
 template <int Dim, class Real>
 struct SolveTemperatureRate {
   const mpm::SparseGrid<Dim, Real>& grid;

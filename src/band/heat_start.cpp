@@ -1,4 +1,4 @@
-// What heat starts from: the content at t = 0, and the scaling by the band that is in force.
+// Initial heat content, and the current scaling by the band.
 #include "band/heat.hpp"
 #include "band/heat_kernels.hpp"
 #include "band/rescaling.hpp"
@@ -48,7 +48,7 @@ Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
   if (!by_place) {
     return parallel_sum<Real>(grid.tiles().size(), rescale_tile);
   }
-  // A thickness that depends on the place remembers what it worked out, one call at a time.
+  // A thickness that depends on the position caches its results: serial calls only.
   Real added = 0;
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
     rescale_tile(t, added);

@@ -13,7 +13,7 @@ namespace thawslide::band {
 
 namespace {
 
-// The pressure that seepage brings to nodes in a step (Eq. 22); returns the mass of water lost to frozen pores [kg].
+// Nodal pressure change by seepage in a step (Eq. 22). Returns the mass of water lost to frozen pores [kg].
 template <int Dim, class Real>
 Real seep(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
           mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes) {

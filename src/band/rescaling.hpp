@@ -1,4 +1,4 @@
-// What another scaling of the band makes of a particle. For host and device.
+// Change of a particle's band scaling. For host and device.
 #pragma once
 
 #include "band/heat_kernels.hpp"
@@ -6,9 +6,9 @@
 
 namespace thawslide::band {
 
-// What mixing makes of the water of a particle's part of the band, of which `kept` is the share that was there before
-// matter as it was at t = 0 joined; its temperature [C] before and that of what joins. What is melted swells or
-// contracts on the way to the mixture's temperature.
+// Mixes the water of a particle's part of the band with that of joining material in its state at t = 0. kept: fraction
+// of the previous band. before, joining: temperatures [C]. Melted material swells or contracts on the way to the
+// temperature of the mixture.
 template <class Real, class Particles>
 THAWSLIDE_HD void mix_water(const BandPhysics<Real>& model, Real kept, Real before, Real joining, std::uint32_t p,
                             Particles& particles) {
@@ -40,9 +40,8 @@ THAWSLIDE_HD void mix_water(const BandPhysics<Real>& model, Real kept, Real befo
   }
 }
 
-// Matter as it was at t = 0 joins a particle's part of the band, at its own heat and with its own water; `kept`: share
-// of the band's matter in the mixture. The porosity follows the temperature as in a step. has_water: pore pressures
-// change.
+// Mixes material in its state at t = 0, with its own heat and water, into a particle's part of the band. kept: fraction
+// of the previous band in the mixture. Porosity follows temperature as in a step. has_water: pore pressures change.
 template <class Real, class Law, class Particles>
 THAWSLIDE_HD void mix_in(const BandPhysics<Real>& model, const Law& law, bool has_water, Real kept, std::uint32_t p,
                          Particles& particles) {
@@ -57,7 +56,7 @@ THAWSLIDE_HD void mix_in(const BandPhysics<Real>& model, const Law& law, bool ha
   }
 }
 
-// The particle gets a scaling; sums the heat [J] that this adds at constant temperature and pressure.
+// Sets the scaling of a particle; sums the heat [J] that this adds at constant temperature and pressure.
 template <class Real, class Law, class Particles>
 THAWSLIDE_HD void rescale_particle(const BandPhysics<Real>& model, const Law& law, bool has_water, Real scaling,
                                    std::uint32_t p, Particles& particles, Real& added) {

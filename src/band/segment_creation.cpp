@@ -1,4 +1,4 @@
-// Creation of basal pieces on ground that the slide reaches and no piece covers.
+// Creation of basal segments where the sliding mass reaches ground without segments.
 #include <algorithm>
 #include <atomic>
 
@@ -13,8 +13,8 @@ using mpm::Contact;
 
 namespace {
 
-constexpr double highest_part = 1.5;  // of a cell of the lattice on steep ground, in cells
-constexpr double most_parts = 64.0;   // of such a cell, on ground as steep as a wall
+constexpr double highest_part = 1.5;  // height of a part of a lattice cell on steep ground, in cells
+constexpr double most_parts = 64.0;   // parts of such a cell, on nearly vertical ground
 
 }  // namespace
 
@@ -63,8 +63,8 @@ bool BasalSegments<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real
   });
 }
 
-// Feet of nodes in contact, in order of blocks and nodes: of those that no piece reaches, and of those with so much
-// contact that a piece is needed there.
+// Footpoints of nodes in contact, in the order of blocks and nodes: nodes out of reach of all segments, and nodes with
+// a contact area large enough to need a segment there.
 template <int Dim, class Real>
 std::vector<typename BasalSegments<Dim, Real>::Footpoint> BasalSegments<Dim, Real>::contact_footpoints(
     const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
@@ -96,8 +96,8 @@ std::vector<typename BasalSegments<Dim, Real>::Footpoint> BasalSegments<Dim, Rea
   return footpoints;
 }
 
-// Parts of lattice cells that contain feet, sorted and each once. The first foot in a cell determines the number of its
-// parts.
+// Parts of lattice cells that contain footpoints, sorted and unique. The first footpoint in a cell determines the
+// number of its parts.
 template <int Dim, class Real>
 std::vector<typename BasalSegments<Dim, Real>::LatticePart> BasalSegments<Dim, Real>::parts_below(
     const mpm::SparseGrid<Dim, Real>& grid, std::vector<Footpoint> footpoints) const {
@@ -115,8 +115,8 @@ std::vector<typename BasalSegments<Dim, Real>::LatticePart> BasalSegments<Dim, R
   return result;
 }
 
-// Removes the parts that a piece covers. A piece covers a part if their centres differ by less than three quarters of
-// the part's size along each axis.
+// Removes the parts that a segment covers. A segment covers a part if their centres differ by less than three quarters
+// of the part's size along each axis.
 template <int Dim, class Real>
 void BasalSegments<Dim, Real>::leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid,
                                                  std::vector<LatticePart>& parts) const {
@@ -158,8 +158,8 @@ void BasalSegments<Dim, Real>::leave_out_covered(const mpm::SparseGrid<Dim, Real
   parts.resize(kept);
 }
 
-// Pieces are laid in the cells of a horizontal lattice, so that they do not depend on the order of nodes: where a node
-// in contact has its foot, unless some piece covers the place.
+// Creates segments at footpoints of nodes in contact that no segment covers. They are placed in the cells of a
+// horizontal lattice, to be independent of the order of nodes.
 template <int Dim, class Real>
 void BasalSegments<Dim, Real>::create_segments(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
                                                const NodeGroundOf& node_ground, Real thickness,
@@ -189,7 +189,7 @@ void BasalSegments<Dim, Real>::create_segments(const mpm::SparseGrid<Dim, Real>&
   }
 }
 
-// At the edge of the slide a piece is smaller than its part of the lattice.
+// At the edge of the sliding mass, a segment is smaller than its part of the lattice.
 template <int Dim, class Real>
 void BasalSegments<Dim, Real>::start_segment(const Stencil& stencil, const Ground& ground, const InContact& contact,
                                              Real thickness, mpm::Nodes<Dim, Real>& nodes, Segment& segment) {
@@ -205,7 +205,7 @@ void BasalSegments<Dim, Real>::start_segment(const Stencil& stencil, const Groun
   ledger_.created_water += segment.area * physics::water_of(segment.column);
 }
 
-// Adds a share of a piece's area to what nodes see.
+// Adds a multiple of a segment's area to the nodes in reach.
 template <int Dim, class Real>
 void BasalSegments<Dim, Real>::add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim, Real>& nodes,
                                         Real share) const {
@@ -216,7 +216,7 @@ void BasalSegments<Dim, Real>::add_area(const Stencil& stencil, const Segment& s
   });
 }
 
-// What of contact falls to a piece, as nodes share it out among those that they see.
+// Contact area and force attributed to a segment: nodes distribute theirs over the segments in reach.
 template <int Dim, class Real>
 typename BasalSegments<Dim, Real>::InContact BasalSegments<Dim, Real>::in_contact(const Stencil& stencil,
                                                                                   const mpm::Nodes<Dim, Real>& nodes,

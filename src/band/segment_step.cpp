@@ -21,7 +21,7 @@ void add(const physics::ColumnAccount<Real>& part, Real area, physics::ColumnAcc
   sum.steam += area * part.steam;
 }
 
-// The thickness [m] that the band of a piece comes to have; what grows is followed by a twentieth a step at most.
+// Next band thickness [m] of a segment; limited to a change of 5 % per step.
 template <int Dim, class Real>
 Real next_thickness(const ColumnsModel<Real>& model, Real thickness, const BasalSegment<Dim, Real>& segment) {
   constexpr Real least_effective = static_cast<Real>(0.02), fastest = static_cast<Real>(1.05);
@@ -74,7 +74,7 @@ void start_column_of(const ColumnsModel<Real>& model, Real thickness, BasalSegme
 template <int Dim, class Real>
 void follow_load(const ColumnsModel<Real>& model, Real normal_pressure, Real depth, Real dt,
                  BasalSegment<Dim, Real>& segment) {
-  constexpr Real depth_times = 10;  // time over which the depth is averaged, in those of the load
+  constexpr Real depth_times = 10;  // averaging time of the depth, as a multiple of that of the load
   const Real share = segment.touched ? -physics::exponential_minus_one(-dt / model.load_time) : Real(1);
   segment.load += share * (std::max(normal_pressure, Real(0)) - segment.load);
   segment.loaded_for = segment.touched ? std::min(segment.loaded_for + dt, depth_times * model.load_time) : dt;
@@ -87,7 +87,7 @@ template <int Dim, class Real>
 physics::ColumnAccount<Real> step_segment(const ColumnsModel<Real>& model, Real thickness, Real duration,
                                           BasalSegment<Dim, Real>& segment) {
   segment.depth *=
-      segment.area_of_column / segment.area;  // the slide thins as it stretches; the mean would follow late
+      segment.area_of_column / segment.area;  // the mass thins as it stretches; the time average would lag behind
   return std::visit(
       [&](const auto& column) {
         const Real next = next_thickness(model, thickness, segment);

@@ -1,4 +1,4 @@
-// What the columns of a slide's base hold together, and what a checkpoint keeps of them.
+// Sums over the band columns of the base, and their checkpoint state.
 #include <algorithm>
 #include <limits>
 
@@ -11,7 +11,7 @@ namespace thawslide::band {
 
 namespace {
 
-// Calls visit(number) with each number of a piece, in order.
+// Calls visit(number) for each number of a segment, in order.
 template <int Dim, class Real, class Visit>
 void for_each_number(BasalSegment<Dim, Real>& segment, const Visit& visit) {
   for (int a = 0; a < Dim; ++a) {
@@ -39,7 +39,7 @@ void for_each_number(BasalSegment<Dim, Real>& segment, const Visit& visit) {
   }
 }
 
-// Of melt [kg/m3].
+// Water in pores full of melt [kg/m3].
 template <class Real>
 Real water_of_full_pores(const ColumnsModel<Real>& model) {
   return std::visit([](const auto& column) { return column.porosity * column.phases.water_density; }, model.column);
@@ -50,7 +50,7 @@ physics::ColumnGrid<Real> grid_of(const ColumnsModel<Real>& model, const BasalSe
   return std::visit([&](const auto& column) { return physics::grid_of(column, segment.column); }, model.column);
 }
 
-// Whether some cell of the band has no water left, as ice or melt.
+// True if a cell of the band has no water left, as ice or melt.
 template <int Dim, class Real>
 bool is_dry(const BasalSegment<Dim, Real>& segment) {
   const Real* water = segment.column.water;
@@ -81,7 +81,7 @@ ColumnSums<Real> BasalSegments<Dim, Real>::sums() const {
 
 template <int Dim, class Real>
 BaseMeans<Real> BasalSegments<Dim, Real>::means() const {
-  constexpr Real wet_share = static_cast<Real>(1e-3);  // of full pores; less has just seeped in, and boils next
+  constexpr Real wet_share = static_cast<Real>(1e-3);  // of full pores; less water has just seeped in, and boils next
   constexpr Real nothing = std::numeric_limits<Real>::quiet_NaN();
   const Real full = water_of_full_pores(model_);
   struct Extremes {
@@ -147,7 +147,7 @@ std::vector<double> BasalSegments<Dim, Real>::state() const {
 template <int Dim, class Real>
 void BasalSegments<Dim, Real>::restore(const std::vector<double>& numbers) {
   StateNumbers state(numbers, "band columns");
-  std::size_t of_ledger = 0, of_segment = 2;  // how many numbers they take
+  std::size_t of_ledger = 0, of_segment = 2;  // number of state entries
   ledger_.for_each([&](Real&) { ++of_ledger; });
   Segment any;
   for_each_number(any, [&](Real&) { ++of_segment; });

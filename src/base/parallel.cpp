@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t most_shares = 64;
 
-// The calls next, next + 1, ..., last-1 are still to be taken.
+// Pending calls next .. last-1 of one thread.
 struct alignas(cache_line) Share {
   std::atomic<std::size_t> next;
   std::size_t last;
@@ -36,7 +36,7 @@ void set_thread_count(int threads) {
 int available_cores() { return omp_get_num_procs(); }
 
 std::size_t calls_at_a_time(std::size_t count) {
-  constexpr std::size_t most = 16, parts = 8;  // of a thread's share
+  constexpr std::size_t most = 16, parts = 8;  // most: calls per chunk; parts: fewest chunks per thread
   return std::clamp<std::size_t>(count / (parts * static_cast<std::size_t>(thread_count())), 1, most);
 }
 

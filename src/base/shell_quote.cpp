@@ -11,7 +11,7 @@ namespace {
 
 bool is_control(unsigned char letter) { return letter < 0x20 || letter == 0x7f; }
 
-// Letters beyond ASCII mean nothing to a shell.
+// Bytes beyond ASCII have no special meaning in a shell.
 bool is_plain(unsigned char letter) {
   constexpr std::string_view signs = "_-./:=@%+,";
   const bool is_letter = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || letter >= 0x80;
@@ -27,7 +27,7 @@ std::string in_quotes(const std::string& word) {
   return quoted + "'";
 }
 
-// $'two\012lines': what would steer a terminal is told by its number.
+// $'two\012lines': control characters are written as octal escapes, because they would affect a terminal.
 std::string with_escapes(const std::string& word) {
   std::string quoted = "$'";
   for (const char letter : word) {

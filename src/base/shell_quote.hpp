@@ -1,12 +1,12 @@
-// Words of a command line that is told to be pasted into a shell: paths may hold anything, and others name files.
+// Quoting of words in printed shell commands, because paths may contain any character.
 #pragma once
 
 #include <string>
 
 namespace thawslide {
 
-// The text as one word of a POSIX shell: itself where nothing in it means anything to a shell, else in quotes. One that
-// begins with a dash gets "./" before it, so that no program takes the path for an option.
+// Text as one word of a POSIX shell, quoted if it contains special characters. A leading dash gets the prefix "./", so
+// that no program interprets the path as an option.
 [[nodiscard]] std::string shell_quote(const std::string& text);
 
 }  // namespace thawslide

@@ -1,6 +1,6 @@
-// Several numbers worked on at once: lane k of every quantity belongs to the k-th particle of a batch. A formula that
-// takes its numbers as a template parameter and uses the words of base/select.hpp works for one number and for lanes
-// alike. For the processor alone: nvcc does not take the vector types of g++.
+// SIMD numbers: lane k of every quantity belongs to the k-th particle of a batch. A formula with a template parameter
+// for its numbers and the functions of base/select.hpp works for one number and for lanes. CPU only: nvcc does not
+// accept the vector types of g++.
 #pragma once
 
 #include <algorithm>
@@ -21,17 +21,18 @@
 
 namespace thawslide {
 
-// Numbers of a real type side by side in one vector register, and what belongs to them.
+// Vector register types of a real type.
 template <class Real, std::size_t Count>
 struct LaneRegister {
   using Flag = std::conditional_t<sizeof(Real) == sizeof(std::int64_t), std::int64_t, std::int32_t>;
   using Numbers [[gnu::vector_size(Count * sizeof(Real))]] = Real;
-  using Stored [[gnu::vector_size(Count * sizeof(Real)), gnu::may_alias]] = Real;  // among single numbers in memory
-  using Flags [[gnu::vector_size(Count * sizeof(Real))]] = Flag;                   // of comparisons
+  // may alias single numbers in memory
+  using Stored [[gnu::vector_size(Count * sizeof(Real)), gnu::may_alias]] = Real;
+  using Flags [[gnu::vector_size(Count * sizeof(Real))]] = Flag;  // results of comparisons
   using Whole [[gnu::vector_size(Count * sizeof(std::int32_t))]] = std::int32_t;
 };
 
-// As many as the widest register of the processor holds, but no more than eight: the blocks of fields.
+// Lanes of the widest register of the CPU, at most eight: the block size of fields.
 #ifdef __AVX512F__
 inline constexpr std::size_t register_bytes = 64;
 #else
@@ -40,7 +41,7 @@ inline constexpr std::size_t register_bytes = 32;
 template <class Real>
 inline constexpr std::size_t simd_width = std::min<std::size_t>(register_bytes / sizeof(Real), 8);
 
-// Whole numbers side by side in memory.
+// Consecutive integers in memory.
 template <class Real, std::size_t Count = simd_width<Real>, class Number>
 THAWSLIDE_ALWAYS_INLINE typename LaneRegister<Real, Count>::Whole whole_lanes(const Number* numbers) {
   static_assert(sizeof(Number) == sizeof(std::int32_t));
@@ -49,7 +50,7 @@ THAWSLIDE_ALWAYS_INLINE typename LaneRegister<Real, Count>::Whole whole_lanes(co
   return whole;
 }
 
-// One yes or no a lane.
+// One boolean per lane.
 template <class Real, std::size_t Count = simd_width<Real>>
 class SimdMask {
  public:
@@ -96,11 +97,11 @@ class Simd {
   using Whole = typename LaneRegister<Real, Count>::Whole;
 
   Simd() = default;
-  // The same number in all lanes.
+  // Broadcasts a number to all lanes.
   THAWSLIDE_ALWAYS_INLINE Simd(Real number) : native_(number - Native{}) {}
   THAWSLIDE_ALWAYS_INLINE explicit Simd(Native native) : native_(native) {}
 
-  // From and to `count` numbers side by side, on a boundary of their size.
+  // Loads and stores `count` consecutive numbers, aligned to their size.
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd load(const Real* numbers) {
     return Simd(Native(*reinterpret_cast<const typename LaneRegister<Real, Count>::Stored*>(numbers)));
   }
@@ -108,7 +109,7 @@ class Simd {
     *reinterpret_cast<typename LaneRegister<Real, Count>::Stored*>(numbers) = native_;
   }
 
-  // Whole numbers, from and to `count` places side by side.
+  // Loads and stores `count` consecutive integers, with conversion.
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd load_whole(const std::int32_t* numbers) {
     return Simd(__builtin_convertvector(whole_lanes<Real, Count>(numbers), Native));
   }
@@ -137,7 +138,7 @@ class Simd {
 #endif
     return of([&](std::size_t lane) { return numbers[places[lane]]; });
   }
-  // The way back for the lanes 0 .. lanes-1.
+  // Inverse of gather for the lanes 0 .. lanes-1.
   THAWSLIDE_ALWAYS_INLINE void scatter(Real* numbers, Whole places, std::size_t lanes) const {
 #ifdef __AVX512F__
     if constexpr (sizeof(Native) == 64) {
@@ -171,11 +172,11 @@ class Simd {
   THAWSLIDE_ALWAYS_INLINE friend Mask operator==(Simd a, Simd b) { return Mask(a.native_ == b.native_); }
   THAWSLIDE_ALWAYS_INLINE friend Mask operator!=(Simd a, Simd b) { return Mask(a.native_ != b.native_); }
 
-  // a where the mask says yes, b elsewhere.
+  // a where the mask is true, b elsewhere.
   THAWSLIDE_ALWAYS_INLINE friend Simd select(Mask mask, Simd a, Simd b) {
     return Simd(mask.native() ? a.native_ : b.native_);
   }
-  // function(number), lane by lane.
+  // function(number), by lane.
   template <class Function>
   THAWSLIDE_ALWAYS_INLINE friend Simd map_lanes(Simd a, const Function& function) {
     return of([&](std::size_t lane) { return function(a.native_[lane]); });
@@ -197,7 +198,7 @@ class Simd {
   Native native_;
 };
 
-// Yes in the lanes 0 .. count-1.
+// True in the lanes 0 .. count-1.
 template <class Real>
 THAWSLIDE_ALWAYS_INLINE SimdMask<Real> lanes_before(std::size_t count) {
   return Simd<Real>::of([](std::size_t lane) { return lane; }) < Simd<Real>(static_cast<Real>(count));
@@ -218,7 +219,7 @@ THAWSLIDE_ALWAYS_INLINE void for_each_lane(const SimdMask<Real>& mask, const Bod
   }
 }
 
-// The number in one lane.
+// Number in one lane.
 template <class Real>
 THAWSLIDE_ALWAYS_INLINE Real extract(const Simd<Real>& lanes, std::size_t lane) {
   return lanes[lane];
@@ -228,7 +229,7 @@ THAWSLIDE_ALWAYS_INLINE void set_lane(Simd<Real>& lanes, std::size_t lane, Real 
   lanes = Simd<Real>::of([&](std::size_t k) { return k == lane ? number : lanes[k]; });
 }
 
-// Lanes of `a` where bit Half of the lane is 0 and of `b` moved up by Half elsewhere; the rest of both likewise.
+// Exchanges blocks between a and b: lanes whose bit Half is 1 in `a` with those whose bit Half is 0 in `b`.
 template <std::size_t Half, class Real, std::size_t Count, std::size_t... K>
 THAWSLIDE_ALWAYS_INLINE void exchange(Simd<Real, Count>& a, Simd<Real, Count>& b, std::index_sequence<K...> /*lanes*/) {
   const auto kept = __builtin_shufflevector(a.native(), b.native(), ((K & Half) == 0 ? K : Count + (K ^ Half))...);
@@ -237,7 +238,7 @@ THAWSLIDE_ALWAYS_INLINE void exchange(Simd<Real, Count>& a, Simd<Real, Count>& b
   b = Simd<Real, Count>(moved);
 }
 
-// Rows become columns: lane j of rows[k] is lane k of the former rows[j]. As many rows as lanes.
+// Transposes rows and columns: lane j of rows[k] is lane k of the former rows[j]. As many rows as lanes.
 template <std::size_t Half, class Real, std::size_t Count>
 THAWSLIDE_ALWAYS_INLINE void transpose_blocks(Simd<Real, Count>* rows) {
   unrolled<Count>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
@@ -254,7 +255,7 @@ THAWSLIDE_ALWAYS_INLINE void transpose(Simd<Real, Count>* rows) {
   transpose_blocks<Count / 2>(rows);
 }
 
-// Lanes First, First + 1, ... of a register, and two registers side by side.
+// Lanes First, First + 1, ... of a register; concatenation of two registers.
 template <std::size_t First, class Real, std::size_t Count, std::size_t... K>
 THAWSLIDE_ALWAYS_INLINE Simd<Real, sizeof...(K)> part_of(const Simd<Real, Count>& whole,
                                                          std::index_sequence<K...> /*lanes*/) {
@@ -271,7 +272,7 @@ THAWSLIDE_ALWAYS_INLINE Simd<Real> look_up(const Real* table, const Simd<Real>& 
   return Simd<Real>::gather(table, place.whole());
 }
 
-// The smallest of all lanes.
+// Minimum over all lanes.
 template <class Real, std::size_t Count>
 THAWSLIDE_ALWAYS_INLINE Real smallest(const Simd<Real, Count>& lanes) {
   if constexpr (Count == 2) {
@@ -282,7 +283,7 @@ THAWSLIDE_ALWAYS_INLINE Real smallest(const Simd<Real, Count>& lanes) {
   }
 }
 
-// From `Width` quantities, a lane a particle, to a row of `Width` numbers a particle.
+// Converts `Width` quantities, with one particle per lane, to one row of `Width` numbers per particle.
 template <class Real, std::size_t Width>
 THAWSLIDE_ALWAYS_INLINE void transpose_to_rows(const Simd<Real>* quantities, Simd<Real, Width>* rows) {
   constexpr std::size_t parts = simd_width<Real> / Width;
@@ -296,7 +297,7 @@ THAWSLIDE_ALWAYS_INLINE void transpose_to_rows(const Simd<Real>* quantities, Sim
   });
 }
 
-// The way back; `rows` are spent.
+// Inverse conversion; overwrites `rows`.
 template <class Real, std::size_t Width>
 THAWSLIDE_ALWAYS_INLINE void transpose_to_columns(Simd<Real, Width>* rows, Simd<Real>* quantities) {
   constexpr std::size_t parts = simd_width<Real> / Width;

@@ -1,5 +1,5 @@
-// The band columns under the slide (band/basal_segments.hpp), which stay with the processor: what nodes in contact
-// learn of them, and they of the nodes.
+// Band columns below the sliding mass (band/basal_segments.hpp). They are computed on the CPU; each step exchanges data
+// with the nodes in contact.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace thawslide::device {
 
-// A thread a node of the blocks that the processor asks for.
+// Packs records of the nodes in the blocks that the CPU requested. One thread per node.
 template <int Dim, class Real>
 struct PackColumns {
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
@@ -42,7 +42,7 @@ class BandColumns {
 
   [[nodiscard]] bool exist() const { return static_cast<bool>(cpu_.states); }
 
-  // To be called after blocks changed.
+  // Call after blocks have changed.
   void update(const std::vector<std::uint64_t>& blocks) {
     if (exist()) {
       queried_.set(cpu_.update_blocks(blocks));
@@ -50,7 +50,7 @@ class BandColumns {
     }
   }
 
-  // Records of BaseState, by candidate node; null where there are no columns.
+  // Records of BaseState by candidate node; null without band columns.
   [[nodiscard]] const Real* states() {
     if (!exist()) {
       return nullptr;
@@ -59,7 +59,7 @@ class BandColumns {
     return states_.data();
   }
 
-  // Contact has been resolved.
+  // Call after contact has been resolved.
   void follow(const NodeViews<Dim, Real>& nodes) {
     if (exist()) {
       backend_.for_each(queried_.size() * PackColumns<Dim, Real>::block_nodes,

@@ -1,4 +1,4 @@
-// The stages of a step on a device in which heat and pore pressure change (band/heat.hpp, band/pore_pressure.hpp).
+// Device stages that change heat and pore pressure (band/heat.hpp, band/pore_pressure.hpp).
 #pragma once
 
 #include <variant>
@@ -16,7 +16,7 @@ class BandStages {
   using Passes = StepPasses<Backend, Shape, Dim, Real>;
 
  public:
-  // sums: of the step, in the device's memory.
+  // sums: sums of the step, in device memory.
   BandStages(Passes& passes, const HostCallbacks<Dim, Real>& ask, StepSums<Dim, Real>* sums)
       : passes_(passes),
         sums_(sums),
@@ -25,7 +25,7 @@ class BandStages {
     hydraulic_.set(passes.model.hydraulic_conductivity);
   }
 
-  // Blocks have changed; there are so many nodes.
+  // Call after blocks have changed. nodes: number of nodes in active blocks.
   void resize_for(std::size_t nodes) {
     if (passes_.model.heat) {
       passes_.nodes.template resize_for<mpm::HeatRates, mpm::UnreachedHeat>(nodes);
@@ -37,7 +37,7 @@ class BandStages {
     }
   }
 
-  // The same, and the ground is below these.
+  // Call after blocks have changed, if there is a ground. blocks: keys of the active blocks.
   void take_layers(const std::vector<std::uint64_t>& blocks) {
     if (layers_.exists()) {
       layers_.update(blocks);
@@ -58,7 +58,7 @@ class BandStages {
     passes_.backend.for_each(1, Fill<Real>{&sums_->band_rescale, Real(0)});
     if (layers_.exists() && thickness > Real(0)) {
       rescale_by(ScalingByLayer<Dim, Real>{layers_.layers(passes_.cells.tables(), cell), thickness});
-      scaling_in_force_ = Real(0);  // none that all have
+      scaling_in_force_ = Real(0);  // reset, because the scaling varies in space
       return;
     }
     const Real scaling = thickness > Real(0) ? cell / thickness : Real(1);
@@ -140,7 +140,7 @@ class BandStages {
                            passes_.memory.template sums<band::NodalHeat<Real>>(partial_sum_count(blocks)));
   }
 
-  // Marks the blocks that water seeps to, and the tiles about them; false if there are none.
+  // Marks the blocks that water can seep to, and the tiles around them. Returns false if there are none.
   template <class Asks>
   bool find_seepage(const Asks& asks) {
     if (!passes_.model.lets_water_seep()) {

@@ -1,4 +1,4 @@
-// What the base is like at the nodes that may touch it: laws of friction and cohesion, of which the processor chooses.
+// Basal friction and cohesion at candidate nodes. The CPU selects the laws.
 #pragma once
 
 #include <variant>
@@ -8,7 +8,7 @@
 
 namespace thawslide::device {
 
-// cell: mesh size [m]; columns: records of BaseState, or null; they and bases: by candidate node.
+// cell: mesh size [m]. columns: records of BaseState by candidate node, or null. bases: by candidate node.
 template <class Backend, int Dim, class Real>
 void evaluate_law_at_nodes(Backend& backend, const NodeStageArgs<Dim, Real>& step, const terrain::BasalLaw<Real>& base,
                            Real cell, const Ground<Backend, Dim, Real>& ground, const Real* columns,

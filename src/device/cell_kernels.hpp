@@ -1,4 +1,4 @@
-// What single threads do to find cells, tiles and blocks (device/cells.hpp).
+// Kernels that find cells, tiles and blocks (device/cells.hpp), one thread per item.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace thawslide::device {
 
-// The first place of an ascending list, from `first` on and before `last`, that holds no less than a key.
+// Lower bound: first place in [first, last) of an ascending list whose entry is not less than the key.
 THAWSLIDE_HD inline std::size_t first_not_below(const std::uint64_t* keys, std::size_t first, std::size_t last,
                                                 std::uint64_t key) {
   while (first < last) {
@@ -40,7 +40,7 @@ THAWSLIDE_HD std::uint64_t key_of_neighbour(std::uint64_t key, std::size_t direc
   return T::key(tile);
 }
 
-// The key of each particle, by id. Tells whether any has another than before.
+// Computes the key of each particle, by id. Sets any_changed if a key differs from the last one.
 template <int Dim, class Real>
 struct FindKey {
   mpm::ParticleView<Dim, Real> particles;
@@ -62,12 +62,12 @@ struct FindKey {
     const std::uint64_t key = (T::key(tile) << T::node_bits) | static_cast<std::uint64_t>(local);
     if (keys[k] != key) {
       keys[k] = key;
-      *any_changed = 1;  // all who write it write the same
+      *any_changed = 1;  // benign race: all threads write the same value
     }
   }
 };
 
-// Marks the places of an ascending list at which another number begins, bits below `shift` left out.
+// Marks the places of an ascending list at which a new value begins, ignoring bits below `shift`.
 struct MarkFirst {
   const std::uint64_t* keys;
   int shift;
@@ -78,13 +78,13 @@ struct MarkFirst {
   }
 };
 
-// Gathers what begins at these places. number: how many begin before.
+// Gathers the values at marked places. number: count of marked places before each place.
 struct KeepFirst {
   const std::uint64_t* keys;
   int shift;
   const std::uint32_t *is_first, *number;
   std::uint64_t* found;
-  std::uint32_t* place;  // null: not asked for
+  std::uint32_t* place;  // null: not required
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     if (is_first[k] != 0) {
@@ -129,7 +129,7 @@ struct FirstOfCell {
   }
 };
 
-// Keys of the blocks about tiles; a block stands there once for each of its tiles.
+// Keys of the blocks around tiles, with duplicates: one entry per tile and block.
 template <int Dim>
 struct ListNeighbours {
   const std::uint64_t* tile_keys;
@@ -141,7 +141,7 @@ struct ListNeighbours {
   }
 };
 
-// For the 3^Dim neighbours of each key of a list: their places in another.
+// Places, in the list `to`, of the 3^Dim neighbours of each key of the list `from`.
 template <int Dim>
 struct FindNeighbours {
   const std::uint64_t *from, *to;
@@ -162,7 +162,7 @@ struct Fill {
   THAWSLIDE_HD void operator()(std::size_t k) const { numbers[k] = number; }
 };
 
-// One of some sums, kept or added to another.
+// Keep copies one sum; Add adds it to another sum.
 template <class Sum>
 struct Keep {
   const Sum* from;

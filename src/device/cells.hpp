@@ -1,5 +1,5 @@
-// Which cells, tiles and blocks particles are in, and their canonical order, as mpm/sparse_grid.hpp finds them, in a
-// device's memory. The tables are made anew when some particle has another nearest node.
+// Cells, tiles and blocks of particles, and their canonical order, as in mpm/sparse_grid.hpp, in device memory. The
+// tables are rebuilt when the nearest node of any particle changes.
 #pragma once
 
 #include "device/array.hpp"
@@ -20,7 +20,7 @@ class Cells {
   // cell: mesh size [m].
   Cells(Backend& backend, Real cell) : backend_(backend), inverse_cell_(Real(1) / cell) {}
 
-  // Brings the tables up to date with the positions of so many particles. by_id: the particles by ascending id.
+  // Updates the tables to the particle positions. by_id: particles by ascending id. count: number of particles.
   void update(const mpm::ParticleView<Dim, Real>& particles, const std::uint32_t* by_id, std::size_t count) {
     blocks_changed_ = false;
     if (count != keys_by_id_.size()) {
@@ -47,7 +47,7 @@ class Cells {
                                        first_of_cell_.data()});
   }
 
-  // Particles stand in memory in canonical order now.
+  // Call after particles have been sorted in memory into canonical order.
   void store_memory_order() { backend_.for_each(order_.size(), Count{order_.data()}); }
 
   [[nodiscard]] TileTables<Dim> tables() const {
@@ -64,7 +64,7 @@ class Cells {
             blocks_about_block_.data()};
   }
   [[nodiscard]] std::vector<std::uint64_t> block_keys() const { return block_keys_.get(); }
-  // Whether the last update changed the blocks, and with them their numbers.
+  // True if the last update changed the blocks, and hence their numbers.
   [[nodiscard]] bool blocks_changed() const { return blocks_changed_; }
 
  private:

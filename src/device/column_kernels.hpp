@@ -1,4 +1,4 @@
-// What threads do to sum the columns of the slide (device/columns.hpp), by the functions of band/columns.hpp.
+// Kernels that sum the columns of the sliding mass (device/columns.hpp), using the functions of band/columns.hpp.
 #pragma once
 
 #include "band/columns_of_tile.hpp"
@@ -8,7 +8,7 @@
 
 namespace thawslide::device {
 
-// The columns that tiles see, by tile and place: a column stands there once for each tile that sees it.
+// Lists the columns that each tile overlaps, by tile and place. A column occurs once for each such tile.
 template <int Dim>
 struct ListColumns {
   const std::uint64_t* tile_keys;
@@ -22,7 +22,7 @@ struct ListColumns {
   }
 };
 
-// The number of each of these columns. seen: by key.
+// Number of the column of each entry of that list. seen: list entries sorted by key.
 struct NumberColumns {
   const std::uint32_t *seen, *is_first, *number;
   std::int32_t* column;
@@ -44,7 +44,7 @@ struct FindNeighbourColumns {
   }
 };
 
-// What some particles bring to a column.
+// Contribution of a set of particles to a column.
 template <int Dim, class Real>
 struct ColumnPart {
   band::ColumnMass<Real> column_mass;
@@ -59,15 +59,15 @@ struct ColumnPart {
   }
 };
 
-// What each tile's particles bring to the columns that it sees. A group of threads a tile: some particles at a time, a
-// thread a particle finds what its box overlaps, then a thread a column adds the boxes, one after the other.
+// Contributions of each tile's particles to the columns that it overlaps, one thread group per tile. For each chunk of
+// particles, one thread per particle finds the overlaps of its box; then one thread per column adds the boxes in order.
 template <int Dim, class Real>
 struct SumInTile {
   static constexpr std::size_t at_a_time = 128, places = band::columns_per_tile<Dim>;
 
   TileTables<Dim> tables;
   mpm::ParticleView<Dim, Real> particles;
-  mpm::SizesOfBodies<Real> sizes;  // of particles [m]
+  mpm::SizesOfBodies<Real> sizes;  // half sizes of particles [m]
   Real cell;
   ColumnPart<Dim, Real>* parts;  // by tile and place
 
@@ -123,7 +123,7 @@ struct SumInTile {
   }
 };
 
-// A thread a column: what the tiles that see it bring, in their order.
+// Adds the contributions of the tiles to each column, in the order of tiles. One thread per column.
 template <class Part>
 struct SumParts {
   const std::uint32_t *first_seen, *seen;  // of a column, in `seen`
@@ -141,12 +141,12 @@ struct SumParts {
   }
 };
 
-// A thread a column: what particles see of it.
+// Thickness, top and load of each column. One thread per column.
 template <int Dim, class Real>
 struct FinishColumns {
   const ColumnPart<Dim, Real>* sums;
   const std::int32_t* adjacent;
-  const Real* normal_gravity;  // null: the load is not asked for
+  const Real* normal_gravity;  // null: load is not required
   Real cell;
   Real *thickness, *top, *load_per_depth;
 
@@ -167,7 +167,7 @@ struct FinishColumns {
   }
 };
 
-// The columns as particles see them, tile by tile.
+// Columns as seen from the particles of each tile.
 template <int Dim, class Real>
 struct ColumnsByTile {
   using OfTile = band::ColumnsOfTile<Dim, Real, band::NumbersOfColumns<Real>>;

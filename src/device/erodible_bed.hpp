@@ -1,5 +1,5 @@
-// The erodible bed on the ground (terrain/bed.hpp), which stays with the processor: which parts of it the slide covers,
-// how nodes press on it, what of it they may take and what they took.
+// Erodible bed on the ground (terrain/bed.hpp). The bed is stored on the CPU; the device computes which bed parts the
+// sliding mass covers, the load of nodes, and the entrained mass.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@
 
 namespace thawslide::device {
 
-// Parts of a column of nodes.
+// Bed parts per column of nodes.
 template <int Dim>
 inline constexpr std::size_t parts_of_column = static_cast<std::size_t>(mpm::power(terrain::bed_parts, Dim - 1));
 
-// Marks the parts that particles of tiles near the ground cover. A group of threads a tile.
+// Marks the bed parts that particles of tiles near the ground cover. One thread group per tile.
 template <int Dim, class Real>
 struct CoverBed {
   using T = mpm::Tile<Dim>;
@@ -44,7 +44,7 @@ struct CoverBed {
  private:
   THAWSLIDE_HD void cover(std::size_t tile, std::uint32_t particle) const {
     const Real half = sizes.half[sizes.is_uniform ? 0 : static_cast<std::size_t>(particles.body(particle))];
-    std::array<terrain::PartsCovered, 2> along{};  // in the plane the second is one part wide
+    std::array<terrain::PartsCovered, 2> along{};  // in 2D, the second axis is one part wide
     for (std::size_t a = 0; a + 1 < Dim; ++a) {
       along[a] = terrain::parts_covered(particles.position(particle, static_cast<int>(a)), half, cell);
     }
@@ -66,11 +66,12 @@ struct CoverBed {
       bit = bit * parts + part[a] % parts;
     }
     const std::size_t place = place_of_column<Dim>(tables, stack_of_block, tile, column);
-    covered[place * parts_of_column<Dim> + static_cast<std::size_t>(bit)] = 1;  // all who write it write the same
+    // benign race: all threads write the same value
+    covered[place * parts_of_column<Dim> + static_cast<std::size_t>(bit)] = 1;
   }
 };
 
-// The parts of a column in one number, a bit for each. A thread a column.
+// Packs the parts of a column into one bit mask. One thread per column.
 template <int Dim>
 struct PackParts {
   const std::uint8_t* covered;
@@ -85,8 +86,8 @@ struct PackParts {
   }
 };
 
-// How candidate nodes press on the ground; with what they may take, the records that they begin with; and what of these
-// the processor is told. A thread a candidate.
+// Kernels with one thread per candidate node: PackLoad gathers loads for the CPU, OfferBed initializes records with the
+// available mass, and PackPressure adds the normal pressure of entraining nodes for the CPU.
 template <int Dim, class Real>
 struct PackLoad {
   NodeViews<Dim, Real> nodes;
@@ -123,7 +124,7 @@ struct PackPressure {
   }
 };
 
-// As ResolveContact asks (device/node_kernels.hpp).
+// Interface required by ResolveContact (device/node_kernels.hpp).
 template <int Dim, class Real>
 struct BedBelowNodes {
   terrain::BedMaterial<Real> material;
@@ -142,7 +143,7 @@ class ErodibleBed {
 
   [[nodiscard]] bool exists() const { return static_cast<bool>(cpu_.parallel_chunks); }
 
-  // To be called after blocks changed.
+  // Call after blocks have changed.
   void update(const std::vector<std::uint64_t>& blocks, const Ground<Backend, Dim, Real>& ground) {
     if (!exists()) {
       return;
@@ -162,7 +163,7 @@ class ErodibleBed {
     cpu_.set_columns(stacks.columns, of_candidates);
   }
 
-  // The base has been asked: what candidate nodes may take.
+  // Sets the bed mass available to each candidate node. Call after the basal law has been evaluated.
   void parallel_chunks(const TileTables<Dim>& tables, const mpm::ParticleView<Dim, Real>& particles,
                        const mpm::SizesOfBodies<Real>& sizes, const Ground<Backend, Dim, Real>& ground, Real cell,
                        const NodeViews<Dim, Real>& nodes) {
@@ -178,7 +179,7 @@ class ErodibleBed {
 
   [[nodiscard]] BedBelowNodes<Dim, Real> below_nodes() { return {cpu_.material, records_.data()}; }
 
-  // Contact has been resolved.
+  // Call after contact has been resolved.
   void collect(const NodeViews<Dim, Real>& nodes, const std::uint32_t* candidates) {
     backend_.for_each(loads_.size(), PackPressure<Dim, Real>{nodes, candidates, records_.data()});
     cpu_.collect(records_.get());

@@ -1,6 +1,5 @@
-// Particles that the processor has to look at: they are beyond the sides of the domain, or where the ground is not
-// known all about the block that their step began in. After a step they are counted; where there are some they are
-// listed.
+// Particles that need a check on the CPU: those outside the domain, and those that began the step in a block with
+// no-data ground in or around it. They are counted after each step, and listed if there are any.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +13,7 @@
 
 namespace thawslide::device {
 
-// A kernel (mpm/kernel.hpp).
+// Counts escaped particles: a kernel (mpm/kernel.hpp).
 template <int Dim, class Real>
 struct CountEscaped {
   using Reads = mpm::RecordList<>;
@@ -22,9 +21,9 @@ struct CountEscaped {
   using Account = std::uint64_t;
 
   const std::int32_t* blocks_about_tile;
-  const std::uint8_t* partly_unknown;  // by block; null: the ground is known everywhere, or there is none
+  const std::uint8_t* partly_unknown;  // by block; null: no ground, or ground known everywhere
   Vector<Real, Dim> extent;            // of the domain [m]
-  bool all_escaped = false;            // of the tile
+  bool all_escaped = false;            // all particles of the tile count as escaped
 
   [[nodiscard]] THAWSLIDE_HD CountEscaped in_tile(std::size_t tile) const {
     constexpr auto stencil = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
@@ -51,7 +50,7 @@ struct CountEscaped {
   }
 };
 
-// The same, of which each leaves a mark.
+// Marks each escaped particle.
 template <int Dim, class Real>
 struct MarkEscaped {
   using Reads = mpm::RecordList<>;
@@ -70,7 +69,7 @@ struct MarkEscaped {
   }
 };
 
-// Where the marked ones stand, one after the other.
+// Compacts the positions of marked particles.
 template <int Dim, class Real>
 struct ListEscaped {
   mpm::ParticleView<Dim, Real> particles;
@@ -92,7 +91,7 @@ class EscapeCheck {
  public:
   explicit EscapeCheck(Backend& backend) : marks_(backend), marked_before_(backend), places_(backend) {}
 
-  // Positions [m] of the strays, of which there are so many.
+  // Positions [m] of the escaped particles. escapes: their number.
   template <class Passes>
   std::vector<Vector<Real, Dim>> places(Passes& passes, const CountEscaped<Dim, Real>& count, std::size_t escapes) {
     const std::size_t particles = passes.particles.size();

@@ -1,4 +1,4 @@
-// The backend of a card, and what is known of the card.
+// CUDA solver factory and GPU detection.
 #include "device/cuda_backend.hpp"
 #include "device/gpu.hpp"
 #include "device/solver_impl.hpp"

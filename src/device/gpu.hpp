@@ -1,4 +1,4 @@
-// Whether there is a card, which, and steps on it. Built where nvcc is found; THAWSLIDE_WITH_GPU is defined then.
+// GPU detection and the solver on a GPU. Built if nvcc is found; THAWSLIDE_WITH_GPU is defined then.
 #pragma once
 
 #include <string>
@@ -11,12 +11,12 @@ namespace thawslide::device {
 struct Gpu {
   bool is_usable = false;
   std::string name, why_not;
-  double free = 0.0;  // memory [bytes]
+  double free = 0.0;  // free memory [bytes]
 };
 Gpu find_gpu();
 
-// Steps on the card that find_gpu found, in double precision. What goes wrong on the way
-// is thrown as a Failure that says what the card was doing.
+// Solver on the GPU that find_gpu detected, in double precision. Errors are thrown as a Failure that states the failed
+// operation.
 template <int Dim>
 SolverFactory<Dim, double> on_gpu(Launching launching = Launching::in_graphs);
 

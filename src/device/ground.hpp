@@ -1,5 +1,5 @@
-// The ground at the nodes of the active blocks, in a device's memory: what terrain/ground_on_grid.hpp has. The
-// processor learns of blocks that the slide comes to; the device finds which tiles and cells see candidate nodes.
+// Ground at the nodes of active blocks, in device memory, as in terrain/ground_on_grid.hpp. The CPU evaluates new
+// blocks; the device finds the tiles and cells whose particles reach candidate nodes.
 #pragma once
 
 #include <utility>
@@ -14,7 +14,7 @@
 
 namespace thawslide::device {
 
-// Marks the cells of a tile whose particles see a candidate node with any shape functions. A thread a cell.
+// Marks the cells of a tile whose particles reach a candidate node with any shape function. One thread per cell.
 template <int Dim, class Real>
 struct FindNear {
   TileTables<Dim> tables;
@@ -56,13 +56,13 @@ struct FindNearTile {
   }
 };
 
-// What a node knows, from the blocks before or from those that the processor was asked for; its record, and whether
-// it is a candidate. A thread a node.
+// Copies the ground data of each node, from the former blocks or from newly queried blocks; sets its record and
+// candidate flag. One thread per node.
 template <int Dim, class Real>
 struct CopyGround {
   using AtNode = terrain::GroundAtNode<Dim, Real>;
 
-  const std::int32_t* block_before;  // by block; from `before` on: of those that were asked for
+  const std::int32_t* block_before;  // by block; from `before` on: index among newly queried blocks
   std::size_t before;
   const AtNode *known_before, *queried;
   AtNode* known;
@@ -85,7 +85,7 @@ struct CopyGround {
     is_candidate[k] = node.candidate ? 1 : 0;
   }
 };
-// Lists the candidates; by node, which of them it is, or absent.
+// Lists the candidate nodes. number: index of each node among them, or absent.
 struct ListCandidates {
   const std::uint32_t *is_candidate, *before;
   std::uint32_t* candidates;
@@ -100,7 +100,7 @@ struct ListCandidates {
   }
 };
 
-// The tiles, and of these the particles by their cell, that see candidate nodes.
+// Filter for tiles that reach candidate nodes, and for the particles of their cells.
 template <int Dim>
 struct SeesCandidates {
   const std::uint8_t *near, *any_near;
@@ -123,7 +123,7 @@ class Ground {
 
   [[nodiscard]] bool exists() const { return static_cast<bool>(host_); }
 
-  // To be called after blocks or tiles changed.
+  // Call after blocks or tiles have changed.
   void update(const TileTables<Dim>& tables, const std::vector<std::uint64_t>& blocks) {
     update_blocks(blocks);
     list_candidates_of(blocks.size() * nodes);
@@ -135,17 +135,17 @@ class Ground {
 
   [[nodiscard]] const AtNode* known() const { return known_.data(); }
   [[nodiscard]] const Real* records() const { return records_.data(); }
-  // Nodes with a candidate; by node, which of them it is, or absent.
+  // Candidate nodes, and the index of each node among them (absent for others).
   [[nodiscard]] const std::uint32_t* candidates() const { return candidates_.data(); }
   [[nodiscard]] std::vector<std::uint32_t> list_candidates() const { return candidates_.get(); }
   [[nodiscard]] std::size_t candidate_count() const { return candidates_.size(); }
   [[nodiscard]] const std::int32_t* number() const { return number_.data(); }
-  // By block: whether the ground below it, and a cell about it, is not known everywhere.
+  // By block: 1 if the ground below it or within one cell around it has no-data parts.
   [[nodiscard]] const std::uint8_t* partly_unknown() const { return partly_unknown_.data(); }
   [[nodiscard]] SeesCandidates<Dim> sees_candidates() const { return {near_.data(), any_near_.data()}; }
 
  private:
-  // The processor is asked for the blocks that are new.
+  // Queries the CPU for new blocks only.
   void update_blocks(const std::vector<std::uint64_t>& blocks) {
     std::vector<std::int32_t> before = places_in(blocks_, blocks);
     std::vector<AtNode> queried;
@@ -184,7 +184,7 @@ class Ground {
 
   Backend& backend_;
   GroundQuery<Dim, Real> host_;
-  std::vector<std::uint64_t> blocks_;            // that are known
+  std::vector<std::uint64_t> blocks_;            // known blocks
   std::vector<std::uint8_t> is_partly_unknown_;  // by block
   Array<std::int32_t, Backend> block_before_{backend_};
   Array<AtNode, Backend> queried_{backend_}, known_before_{backend_}, known_{backend_};

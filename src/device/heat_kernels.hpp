@@ -1,5 +1,5 @@
-// What particles and nodes do to conduct heat on a device: the kernels of band/heat_kernels.hpp with what they
-// refer to by value, and the functions of band/nodal_heat.hpp.
+// Device kernels of heat conduction: those of band/heat_kernels.hpp with their parameters held by value, and the
+// functions of band/nodal_heat.hpp.
 #pragma once
 
 #include "band/heat_kernels.hpp"
@@ -10,7 +10,7 @@
 
 namespace thawslide::device {
 
-// The scaling xi of particles in the band: the same everywhere, or by the thickness of the cells at the ground.
+// Scaling xi of particles in the band: uniform, or from the thickness of the cells along the ground.
 template <class Real>
 struct OneScaling {
   Real scaling;
@@ -41,7 +41,7 @@ struct ScalingByLayer {
   }
 };
 
-// Scaling of a particle in the band, or of all; sums the heat that another scaling adds.
+// Sets the scaling of particles in the band, or of all particles; sums the heat that the change of scaling adds.
 template <int Dim, class Real, class Content, class Scaling>
 struct RescaleBand {
   using Law = band::ParticleHeat<Content, band::InitialMasses>;
@@ -132,7 +132,8 @@ struct UpdateHeat {
   }
 };
 
-// The nodes' rates of temperature, from the sums with the tangent, or with the secant where temperatures change.
+// Nodal temperature rates, from sums with the tangent capacity, or with the secant capacity in blocks with temperature
+// changes.
 template <int Dim, class Real>
 struct SolveRates {
   using Part = band::NodalHeat<Real>;
@@ -157,7 +158,8 @@ struct SolveRates {
     const Real* rates = (changes ? secant_rates : tangent_rates) + node * size;
     const Real* tangent = tangent_rates + node * size;
     for (std::size_t c = 1; c < unreached_size; ++c) {
-      unreached_heat[node * unreached_size + c] = Real(0);  // a pass that reads the record reads all of it
+      // cleared, because a pass that reads the record reads all its components
+      unreached_heat[node * unreached_size + c] = Real(0);
     }
     band::solve_temperature_rate<Dim>(
         tangent, rates[HeatRates::capacity], rates[HeatRates::subgrid],
@@ -176,7 +178,7 @@ struct SolveRates {
   }
 };
 
-// For marks of tiles (device/marks.hpp). Where a temperature may change by more than is negligible.
+// Tile condition (device/marks.hpp): a temperature may change by more than is negligible.
 template <int Dim, class Real, class Content>
 struct MayChange {
   NodeViews<Dim, Real> nodes;
@@ -192,7 +194,7 @@ struct MayChange {
   }
 };
 
-// Where nodes hold friction heat for particles.
+// Tile condition: nodes hold friction heat to be passed on to particles.
 template <int Dim, class Real>
 struct HasHeat {
   const Real* unreached_heat;

@@ -1,4 +1,4 @@
-// What threads do to sum what the slide brings to the cells of maps (device/maps.hpp), by mpm/map_sums.hpp.
+// Kernels that sum the sliding mass over map cells (device/maps.hpp), using mpm/map_sums.hpp.
 #pragma once
 
 #include "device/tile_tables.hpp"
@@ -9,7 +9,7 @@
 
 namespace thawslide::device {
 
-// The cells below each tile: as many places for all, of which those beyond a tile's window stand empty.
+// Map cells below each tile. All tiles have the same number of places; those outside a tile's window are empty.
 struct MapPlaces {
   static constexpr std::uint64_t no_cell = ~std::uint64_t{0};
 
@@ -19,7 +19,7 @@ struct MapPlaces {
 
   [[nodiscard]] THAWSLIDE_HD std::size_t of_tile() const { return across * deep; }
 
-  // The first cell of a tile's window, or one after its last one.
+  // First and last map cell of a tile's window.
   struct Window {
     mpm::MapWindow columns, rows;
   };
@@ -51,8 +51,8 @@ struct ListMapCells {
   }
 };
 
-// What each tile's particles bring to its cells. A group of threads a tile: some particles at a time, a thread a
-// particle finds the cells below its box, then a thread a cell adds the boxes, one after the other.
+// Contributions of each tile's particles to its map cells, one thread group per tile. For each chunk of particles, one
+// thread per particle finds the cells below its box; then one thread per cell adds the boxes in order.
 template <class Real>
 struct SumMapInTile {
   static constexpr std::size_t at_a_time = 128;
@@ -60,7 +60,7 @@ struct SumMapInTile {
   MapPlaces places;
   TileTables<3> tables;
   mpm::ParticleView<3, Real> particles;
-  mpm::SizesOfBodies<Real> sizes;  // [m]
+  mpm::SizesOfBodies<Real> sizes;  // half sizes of particles [m]
   mpm::MapSums* parts;             // by tile and place
 
   struct Box {
@@ -122,7 +122,7 @@ struct SumMapInTile {
   }
 };
 
-// The mass and its moments, of a particle: a kernel (mpm/kernel.hpp).
+// Mass of a particle and its moments: a kernel (mpm/kernel.hpp).
 struct SumMoments {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;

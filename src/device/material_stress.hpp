@@ -1,4 +1,4 @@
-// Strain and stress of the particles of one material, with all that the kernel refers to by value.
+// Strain and stress of the particles of one material, with all kernel parameters held by value.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct DeformMaterial {
   using Adds = typename Kernel::Adds;
   using Account = typename Kernel::Account;
 
-  // As in the kernel.
+  // Parameters of mpm::Deform.
   Law law;
   physics::Elastic<Real> elastic;
   physics::Phases<Real> phases;
@@ -23,9 +23,9 @@ struct DeformMaterial {
   bool effective_stress;
   Real dt;
   std::int32_t material;
-  bool is_only_one;  // all particles are of it
+  bool is_only_one;  // all particles have this material
 
-  // Of material m of a model of the step.
+  // Kernel for material m of a step model.
   template <class Model>
   static DeformMaterial of(const Law& law, const Model& model, std::size_t m, Real dt) {
     const auto& material = model.materials[m];

@@ -1,5 +1,5 @@
-// What nodes do in the step on a device: their state, contact with the ground and velocities mapped back, each by the
-// functions that the processor's stages call.
+// Device kernels of nodes: nodal state, contact with the ground and velocities mapped back, using the same functions as
+// the CPU stages.
 #pragma once
 
 #include <limits>
@@ -15,11 +15,11 @@
 
 namespace thawslide::device {
 
-// Where the numbers of nodes stand; node: by its number among those of all blocks.
+// Records of nodes, accessed by the node's number over all blocks.
 template <int Dim, class Real>
 struct NodeViews {
   Real *averages, *state, *momentum, *near_ground, *base, *contact, *motion, *velocity;
-  const terrain::GroundAtNode<Dim, Real>* known;  // null: there is no ground
+  const terrain::GroundAtNode<Dim, Real>* known;  // null: no ground
 
   template <class Name>
   [[nodiscard]] THAWSLIDE_HD static Real* record(Real* numbers, std::size_t node) {
@@ -39,7 +39,7 @@ struct NodeViews {
   static constexpr std::size_t base_size = mpm::BaseLayout::size;
 };
 
-// Position [m, relative to the domain's lower corner] of a node, by its number among those of all blocks.
+// Position [m, relative to the domain's lower corner] of a node, by its number over all blocks.
 template <int Dim, class Real>
 THAWSLIDE_HD Vector<Real, Dim> place_of_node(const std::uint64_t* block_keys, std::size_t node, Real cell) {
   using T = mpm::Tile<Dim>;
@@ -53,7 +53,7 @@ THAWSLIDE_HD Vector<Real, Dim> place_of_node(const std::uint64_t* block_keys, st
   return place;
 }
 
-// The faces of the domain, at one node.
+// Faces of the domain at one node.
 template <int Dim, class Real>
 struct FacesAtNode {
   const mpm::DomainFaces<Dim, Real>& faces;
@@ -74,7 +74,7 @@ struct FacesAtNode {
   }
 };
 
-// What all nodes need to know of the step.
+// Arguments common to all node kernels of a step.
 template <int Dim, class Real>
 struct NodeStageArgs {
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
@@ -95,7 +95,7 @@ struct NodeStageArgs {
   [[nodiscard]] THAWSLIDE_HD bool has_mass(std::size_t node) const {
     return nodes.momentum_at(node)[mpm::MomentumLayout<Dim>::mass] > Real(0);
   }
-  // Node `local` of the block in a direction from a node's own; false: there is no such block.
+  // Finds node `local` of the block in a direction from a node's own block. Returns false if there is no such block.
   THAWSLIDE_HD bool find(std::size_t node, std::size_t direction, std::size_t local, std::size_t& found) const {
     constexpr auto stencil = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
     const std::int32_t block = tables.blocks_about_block[node / block_nodes * stencil + direction];
@@ -104,7 +104,7 @@ struct NodeStageArgs {
   }
 };
 
-// A node's temperature and pore pressure, and the faces of the domain that tell it otherwise.
+// Sets the temperature and pore pressure of a node, with prescribed temperatures on faces of the domain.
 template <int Dim, class Real>
 struct SetState {
   NodeViews<Dim, Real> nodes;
@@ -121,7 +121,7 @@ struct SetState {
   }
 };
 
-// How a candidate node presses on the ground, and what the slide covers of it.
+// Load of a candidate node on the ground, and the ground area that the sliding mass covers.
 template <int Dim, class Real>
 struct PressOnGround {
   NodeStageArgs<Dim, Real> step;
@@ -159,12 +159,12 @@ struct PressOnGround {
   }
 };
 
-// What a law of the base asks of a candidate node, and what the laws answer.
+// Input of the basal laws at a candidate node, and their results.
 template <class Real>
 struct ContactInput {
   physics::basal::ContactNode<Real> node;
-  Real area;  // [m2]; 0: it is not in contact
-  // mu_e; the pore pressure that relieves it, drag, c_S [Pa]
+  Real area;  // [m2]; 0: not in contact
+  // mu_e, pore pressure that reduces friction [Pa], drag [Pa], c_S [Pa]
   Real friction, relief, drag, cohesion;
 };
 
@@ -173,7 +173,7 @@ struct GatherContactInput {
   NodeStageArgs<Dim, Real> step;
   const std::uint32_t* candidates;
   Real smallest_area, gravity;
-  const Real* columns;  // records of BaseState of the candidates; null where there are no band columns
+  const Real* columns;  // records of BaseState by candidate; null without band columns
   ContactInput<Real>* bases;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
@@ -193,7 +193,7 @@ struct GatherContactInput {
           std::size_t other = 0;
           return find_neighbour(node, n, other) ? nodes.base_at(other) : none;
         });
-    base.area = load / (pressure * step.dt);  // the base is shared among nodes by the load they carry
+    base.area = load / (pressure * step.dt);  // the basal area is divided among nodes in proportion to their loads
     base.node = terrain::contact_node_of<Dim>(
         static_cast<const Real*>(nodes.state_at(node)), nodes.averages_at(node)[mpm::Averages::volume],
         static_cast<const Real*>(nodes.near_ground_at(node)), pressure, step.pore_pressure, normal, step.trial(node));
@@ -218,7 +218,7 @@ struct GatherContactInput {
   }
 };
 
-// A friction law's answers, or a cohesion law's, at the nodes on one substrate.
+// Friction and cohesion by the laws of one substrate, at its nodes.
 template <class Law, int Dim, class Real>
 struct EvaluateFriction {
   Law law;
@@ -252,7 +252,7 @@ struct EvaluateCohesion {
   }
 };
 
-// Where there is no bed that nodes could take up.
+// Used when there is no erodible bed.
 struct NoBeds {
   template <class Real>
   [[nodiscard]] THAWSLIDE_HD terrain::NoBed below(std::size_t /*candidate*/, Real /*area*/, Real /*strength*/,
@@ -261,8 +261,8 @@ struct NoBeds {
   }
 };
 
-// From nodal momentum and force to nodal motion. Beds: below(candidate, area, strength, dt, mass) is what apply_contact
-// is to know of the bed.
+// From nodal momentum and force to nodal motion. Beds provides below(candidate, area, strength, dt, mass), the bed
+// argument of apply_contact.
 template <class Beds, int Dim, class Real>
 struct ResolveContact {
   struct Part {
@@ -272,7 +272,7 @@ struct ResolveContact {
   using Sum = terrain::ContactWork<Dim, Real>;
 
   NodeStageArgs<Dim, Real> step;
-  const std::int32_t* number;  // by node, among the candidates; null: there is no ground
+  const std::int32_t* number;  // by node, index among candidates; null: no ground
   const ContactInput<Real>* bases;
   physics::FrictionClamp clamp;
   bool cap_pressure;
@@ -299,7 +299,7 @@ struct ResolveContact {
     terrain::finish_node<Dim>(state, walls.any(), step.mass_damping, step.dt, part.motion, motion);
   }
 
-  // Nodes in contact come after the others.
+  // Adds nodes in contact after the others.
   THAWSLIDE_HD void add(const Part* parts, std::size_t count, Sum& sum) const {
     for (std::size_t k = 0; k < count; ++k) {
       if (!parts[k].touches) {

@@ -1,4 +1,4 @@
-// The records of all nodes of active blocks in a device's memory, by name.
+// Records of all nodes of active blocks in device memory, by name.
 #pragma once
 
 #include "device/array.hpp"
@@ -12,7 +12,7 @@ class NodeMemory {
  public:
   explicit NodeMemory(Backend& backend) : backend_(backend) {}
 
-  // For so many nodes; what was in it is lost.
+  // Resizes records to a number of nodes. Reallocation discards the contents.
   template <class... Names>
   void resize_for(std::size_t nodes) {
     (of<Names>().resize(nodes * mpm::record_size(mpm::components_of<Names, Dim>)), ...);
@@ -30,7 +30,7 @@ class NodeMemory {
   [[nodiscard]] const Array<Real, Backend>& of() const {
     return records_.template of<Name>();
   }
-  // known: of the ground, by node; null where there is none.
+  // known: ground data by node; null without ground.
   [[nodiscard]] NodeViews<Dim, Real> views(const terrain::GroundAtNode<Dim, Real>* known) {
     return {of<mpm::Averages>().data(),
             of<mpm::NodalState>().data(),

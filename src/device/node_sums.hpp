@@ -1,4 +1,4 @@
-// Sums at nodes of what the patches about them hold, in the order of mpm/transfer.hpp; and the records of nodes.
+// Nodal records, and their sums over the patches around each node in the order of mpm/transfer.hpp.
 #pragma once
 
 #include <limits>
@@ -10,17 +10,17 @@
 
 namespace thawslide::device {
 
-// The records of a name: those of the nodes of all blocks, one after another.
+// Records of one name, consecutive over the nodes of all blocks.
 template <class Name, int Dim, class Real>
 struct RecordsOf {
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
   Real* numbers;
 
-  // Of a node of all blocks.
+  // node: number over all blocks.
   [[nodiscard]] THAWSLIDE_HD Real* operator()(std::size_t node) const { return numbers + node * size; }
 };
 
-// Where a pass finds the records of names that it reads.
+// Pointers to the records that a pass reads.
 template <class Names, class Real>
 struct RecordsRead;
 template <class... Names, class Real>
@@ -32,8 +32,8 @@ struct RecordsRead<mpm::RecordList<Names...>, Real> {
   }
 };
 
-// A thread a number of a node: the sum of what the tiles about it hold, its own tile first; for components that are
-// lowered the smallest. Lowered: a name with such components, or void.
+// Sum, over the tiles around a node, of their patches, its own tile first; the minimum for min-reduced components. One
+// thread per component of a node. MinReduced: a name with such components, or void.
 template <class Name, class MinReduced, class TileFilter, int Dim, class Real>
 struct SumPatches {
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
@@ -72,8 +72,8 @@ struct SumPatches {
              component < mpm::part_of<MinReduced, Dim>.from + mpm::part_of<MinReduced, Dim>.count;
     }
   }
-  // Calls visit(direction) for those, in order, in which a tile's patch reaches a node of a block: along each axis the
-  // block's own, and that on the side on which the node is the last one.
+  // Calls visit(direction), in order, for the directions whose tile's patch contains a node of a block. Along each
+  // axis, these are the block's own, and the adjacent side if the node is the outermost one.
   template <class Visit>
   THAWSLIDE_HD static void for_directions_that_see(std::size_t node, const Visit& visit) {
     constexpr auto edge = static_cast<std::size_t>(mpm::Tile<Dim>::edge);
@@ -91,7 +91,7 @@ struct SumPatches {
       }
     }
   }
-  // Calls with(number) with what the tile in some direction holds.
+  // Calls with(number) with the component in the patch of the tile in a direction, if that tile exists.
   template <class With>
   THAWSLIDE_HD void take(std::size_t block, std::size_t node, std::size_t direction, std::size_t component,
                          const With& with) const {

@@ -1,8 +1,8 @@
-// A particle pass (mpm/particle_pass.hpp) on a device: a group of threads a tile. They fetch the records about it;
-// then, some particles at a time, a thread a particle runs the kernels, a thread a node of a cell adds what the cell's
-// particles carry, one after the other, and a thread a number adds what the cells bring, cell after cell, to the tile's
-// patch; what is lowered takes the smallest number instead. Barriers stand between. So no two threads write one number,
-// and the sums have the order, and the bits, of the processor's.
+// Particle pass (mpm/particle_pass.hpp) on a device, one thread group per tile. The threads load the records around the
+// tile. For each chunk of particles, one thread per particle runs the kernels; one thread per node of a cell adds the
+// contributions of the cell's particles in order; one thread per number adds those of the cells in order to the tile's
+// patch. Min-reduced components use the minimum instead. Barriers separate these phases. No two threads write the same
+// number, and sums have the order of the CPU: results are bitwise identical.
 #pragma once
 
 #include <limits>
@@ -12,13 +12,13 @@
 
 namespace thawslide::device {
 
-// Of a pass that takes all tiles and all their particles.
+// Tile filter that accepts all tiles and all their particles.
 struct AllTiles {
   THAWSLIDE_HD bool operator()(std::size_t /*tile*/) const { return true; }
   THAWSLIDE_HD bool operator()(std::size_t /*tile*/, std::size_t /*cell*/) const { return true; }
 };
 
-// What a pass is given, but for its kernels. Takes: of a tile, and of a tile and a cell of it.
+// Arguments of a pass except its kernels. TileFilter: called with a tile, or with a tile and one of its cells.
 template <class Weights, class TileFilter, int Dim, class Real>
 struct PassOver {
   TileTables<Dim> tables;
@@ -46,12 +46,12 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   Sums* sums;     // by tile
   mpm::ByName<mpm::Named<Kernels, Kernels>...> kernels;
 
-  // Particles in canonical order from `first` to before `last`, of cells from `cell` on.
+  // Particles [first, last) in canonical order, from `cells` cells beginning at `cell`.
   struct Chunk {
     std::size_t tile, first, last, cell, cells, number;
   };
 
-  // The layers of cells, along the last axis, that a chunk has cells of. Those of nodes that they see are two more.
+  // Layers of cells, along the last axis, that a chunk touches. The nodes that they reach span two more layers.
   struct Layers {
     std::size_t first, end;
   };
@@ -93,7 +93,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     return over.tables.first_of_cell[tile * nodes + cell];
   }
 
-  // A thread a number.
+  // Loads a record of the patch into shared memory. One thread per number.
   template <class Name, class Group>
   THAWSLIDE_HD void fetch(Group& group, const MemoryLayout& room, std::size_t tile) const {
     constexpr std::size_t of_record = mpm::record_size(mpm::components_of<Name, Dim>);
@@ -107,7 +107,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     });
   }
 
-  // The patch before anything is added. An owner's record has been added to already.
+  // Initializes the patch. A record that aliases another one continues the sums of an earlier pass.
   template <class Group>
   THAWSLIDE_HD void prepare(Group& group, const MemoryLayout& room, std::size_t tile) const {
     if constexpr (adds) {
@@ -135,11 +135,11 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   template <class Name>
   static constexpr std::size_t first_component =
       mpm::IsMinReduced<Name> ? mpm::part_of<Name, Dim>.from : mpm::first_in_register<Name, Dim>;
-  // Of a sum, or of what is lowered.
+  // Initial value of a sum or a minimum.
   template <class Name>
   static constexpr Real start = mpm::IsMinReduced<Name> ? std::numeric_limits<Real>::max() : Real(0);
 
-  // What is to be lowered begins beyond all bounds.
+  // Initializes min-reduced components to the largest number.
   template <class Name>
   THAWSLIDE_HD static void raise(std::size_t component, Real& number) {
     if (mpm::IsMinReduced<Name> && component >= first_component<Name> &&
@@ -148,7 +148,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     }
   }
 
-  // A thread a particle.
+  // Runs the kernels. One thread per particle.
   THAWSLIDE_HD void visit(const Chunk& chunk, const MemoryLayout& room, std::size_t k) const {
     auto& slot = room.slots()[k];
     slot.sums = {};
@@ -197,7 +197,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     *room.sums() = sum;
   }
 
-  // Of the particles of a cell those of a chunk.
+  // Particles of a cell that belong to a chunk.
   struct CellPart {
     std::size_t first, last;
     bool begins, ends;
@@ -214,7 +214,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     return part;
   }
 
-  // A thread a node of a cell, then a thread a number of the patch.
+  // Adds contributions with one thread per node of a cell, then one thread per number of the patch.
   template <class Name, class Group>
   THAWSLIDE_HD void add(Group& group, const MemoryLayout& room, const Chunk& chunk) const {
     constexpr std::size_t carried = mpm::scatter_size<Name, Dim>;
@@ -281,7 +281,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     return {chunk.cell / layer_cells, (chunk.cell + chunk.cells - 1) / layer_cells + 1};
   }
 
-  // Calls visit(cell, node of the cell) for the cells of some layers, in order, that see a node of the patch.
+  // Calls visit(cell, node of the cell), in order, for the cells of the given layers that reach a node of the patch.
   template <class Visit>
   THAWSLIDE_HD static void for_cells_that_see(const Layers& layers, std::size_t node, const Visit& visit) {
     constexpr auto edge = static_cast<std::size_t>(T::edge), patch_edge = static_cast<std::size_t>(T::patch_edge);

@@ -1,5 +1,5 @@
-// What ties the particles of a pass to nodes, as a thread with one particle makes it: the weights of
-// mpm/particle_pass.hpp in plain numbers.
+// Shape function weights between a particle and nodes, one particle per thread: scalar counterpart of the weights in
+// mpm/particle_pass.hpp.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace thawslide::device {
 
-// All records of the pass go by the linear shape functions.
+// Linear shape functions for all records of the pass.
 struct LinearWeights {
   template <int Dim>
   [[nodiscard]] THAWSLIDE_HD static bool at_side(std::size_t /*axis*/, int /*node*/) {
@@ -23,7 +23,7 @@ struct LinearWeights {
   }
 };
 
-// Shape: of momentum. sizes: of particles, in cells; on the device.
+// Shape: shape functions of momentum. sizes: of particles, in cells, in device memory.
 template <class Shape, int Dim, class Real>
 struct MomentumWeights {
   mpm::SizesOfBodies<Real> sizes;
@@ -42,7 +42,7 @@ struct MomentumWeights {
   }
 };
 
-// With the weights of APIC.
+// Adds the weights of APIC.
 template <class Shape, int Dim, class Real>
 struct AffineWeights : MomentumWeights<Shape, Dim, Real> {
   template <class Particles>

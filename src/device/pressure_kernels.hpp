@@ -1,5 +1,5 @@
-// What particles and nodes do to drain pore pressure on a device: the kernels of band/pressure_kernels.hpp and
-// band/averages_kernel.hpp with what they refer to by value, and the functions of band/nodal_seepage.hpp.
+// Device kernels of pore pressure: those of band/pressure_kernels.hpp and band/averages_kernel.hpp with their
+// parameters held by value, and the functions of band/nodal_seepage.hpp.
 #pragma once
 
 #include "band/averages_kernel.hpp"
@@ -10,8 +10,8 @@
 
 namespace thawslide::device {
 
-// For marks of tiles (device/marks.hpp). Where water seeps from and to particles: as they are now, and as they were
-// before heat changed them.
+// Tile conditions (device/marks.hpp): water seeps to or from particles in their current state, or did before heat
+// changed them.
 template <int Dim, class Real>
 struct SeepingNow {
   mpm::ParticleView<Dim, Real> particles;
@@ -30,7 +30,7 @@ struct SeepingBefore : SeepingNow<Dim, Real> {
   }
 };
 
-// The pore pressure of the nodes of marked blocks is that of the water that seeps.
+// Sets the pore pressure at nodes of marked blocks to that of the seeping water.
 template <int Dim, class Real>
 struct SetSeepingPressure {
   NodeViews<Dim, Real> nodes;
@@ -45,8 +45,8 @@ struct SetSeepingPressure {
   }
 };
 
-// The pressure that seepage brings to nodes; sums what frozen pores take. Where no particle that sees a node seeps, no
-// tile of the pass has brought anything but pore space, and nothing changes.
+// Nodal pressure change by seepage; sums the water taken up by frozen pores. If no particle in reach of a node seeps,
+// the sums contain only pore space, and the change is zero.
 template <int Dim, class Real>
 struct SolveSeepage {
   using Part = Real;
@@ -77,7 +77,7 @@ struct KeepVented {
   THAWSLIDE_HD void operator()(std::size_t /*k*/) const { *vented = band::mass_of_taken(phases, *taken); }
 };
 
-// Kernels that refer to what these hold.
+// Kernels created from parameters held by value.
 template <int Dim, class Real>
 struct AddSeepingWater {
   using Kernel = band::AddSeepingWater<Dim, Real>;
@@ -104,7 +104,7 @@ struct SeepageFlows {
   [[nodiscard]] THAWSLIDE_HD Kernel kernel() const { return {physics, hydraulic, dt, inverse_cell}; }
 };
 
-// The normal load of a particle, from columns in whose loads per depth stand for the cosine.
+// Normal load of a particle, from columns that hold the load per depth in place of the cosine.
 template <int Dim, class Real>
 struct AddPressureLoad {
   using Reads = mpm::RecordList<>;

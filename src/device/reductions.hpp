@@ -1,4 +1,4 @@
-// What the step tells of all particles, beside what it does to them: kernels (mpm/kernel.hpp).
+// Reductions over all particles: kernels (mpm/kernel.hpp).
 #pragma once
 
 #include "band/body_sums.hpp"
@@ -8,7 +8,7 @@
 
 namespace thawslide::device {
 
-// For guards and rest.
+// Sums for the run monitor (failure checks, rest).
 template <int Dim, class Real>
 struct RunMonitor {
   using Reads = mpm::RecordList<>;
@@ -24,7 +24,7 @@ struct RunMonitor {
   }
 };
 
-// For the next step.
+// Extremes that determine the next step.
 template <int Dim, class Real>
 struct FindExtremes {
   using Reads = mpm::RecordList<>;
@@ -42,7 +42,7 @@ struct FindExtremes {
   }
 };
 
-// For rows of the history.
+// Sums for history rows.
 template <int Dim, class Real>
 struct SumOverBody {
   using Reads = mpm::RecordList<>;

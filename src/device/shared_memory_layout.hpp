@@ -1,4 +1,4 @@
-// What the threads of a group share in a particle pass (device/particle_pass.hpp), and where it lies in their memory.
+// Layout of a thread group's shared memory in a particle pass (device/particle_pass.hpp).
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace thawslide::device {
 
-// What kernels sum over particles, kernel by kernel.
+// Sums over particles, by kernel.
 template <class... Kernels>
 struct SumsOf : mpm::ByName<mpm::Named<Kernels, typename Kernels::Account>...> {
   THAWSLIDE_HD SumsOf& operator+=([[maybe_unused]] const SumsOf& part) {
@@ -19,8 +19,8 @@ struct SumsOf : mpm::ByName<mpm::Named<Kernels, typename Kernels::Account>...> {
   }
 };
 
-// The kernel itself, where what a pass is given of it is its parts, by value, of which it refers to some; and the one
-// for a tile, where that differs from tile to tile.
+// Kernel of a tile. A kernel passed as its parameters is created by kernel(); a kernel that depends on the tile is
+// created by in_tile(tile).
 template <class Kernel>
 THAWSLIDE_HD decltype(auto) kernel_of(const Kernel& kernel, [[maybe_unused]] std::size_t tile) {
   if constexpr (requires { kernel.in_tile(tile); }) {
@@ -35,7 +35,7 @@ THAWSLIDE_HD decltype(auto) kernel_of(const Kernel& kernel, [[maybe_unused]] std
 template <class Functions, int Dim, class Real>
 using StencilBy = mpm::OneStencil<Real, Dim, std::is_same_v<Functions, mpm::LinearFunctions> ? 2 : 3>;
 
-// The weights by which a particle adds.
+// Weights with which a particle adds.
 template <class List, int Dim, class Real>
 struct Stencils;
 template <class... Functions, int Dim, class Real>
@@ -46,7 +46,7 @@ struct Stencils<mpm::RecordList<Functions...>, Dim, Real>
   }
 };
 
-// The record that a list adds to; none.
+// Size of the record that a list adds to; 0 for an empty list.
 template <class List>
 struct OwnerOfList {
   template <int>
@@ -58,7 +58,7 @@ struct OwnerOfList<mpm::RecordList<Name, Names...>> {
   static constexpr int size = mpm::components_of<Name, Dim>;
 };
 
-// With one more number after it, or without.
+// Contents with or without one number of padding.
 template <class Contents, class Real, bool is_padded>
 struct PaddedTo : Contents {};
 template <class Contents, class Real>
@@ -66,7 +66,7 @@ struct PaddedTo<Contents, Real, true> : Contents {
   Real after;
 };
 
-// A patch that is read.
+// Patch that is read.
 template <class Name, int Dim, class Real>
 struct PatchRead {
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
@@ -85,18 +85,18 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
                 "no record is read in the pass that adds to it: it has no sums yet");
 
  public:
-  // Particles and cells at a time; threads of a group.
+  // Particles per chunk, cells per chunk, and threads per group.
   static constexpr std::size_t capacity = Dim == 2 ? 64 : 128, most_cells = 16, threads = capacity;
   static constexpr std::size_t cell_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
   static constexpr std::size_t size = mpm::record_size(OwnerOfList<Names>::template size<Dim>);
-  // Whether kernels sum anything over particles, and whether the record has been added to in another pass.
+  // adds_up: kernels sum over particles. goes_on: the record already has sums from an earlier pass.
   static constexpr bool adds_up = (!std::is_same_v<typename Kernels::Account, mpm::NoAccount> || ...);
   static constexpr bool goes_on = (mpm::OfAnOwner<Adds> && ...);
 
   using Carried = mpm::ByName<mpm::Named<Adds, mpm::CarriedByOne<Adds, Dim, Real>>...>;
   using PatchesRead = mpm::ByName<mpm::Named<Reads, PatchRead<Reads, Dim, Real>>...>;
 
-  // Of a particle.
+  // Data of a particle.
   struct Contents {
     Carried carried;
     Stencils<mpm::AllOf<mpm::RecordList<typename Adds::Functions>...>, Dim, Real> stencils;
@@ -105,7 +105,7 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
   template <class T>
   static constexpr bool has_even_numbers = alignof(T) == alignof(Real) && sizeof(T) / sizeof(Real) > 0 &&
                                            sizeof(T) / sizeof(Real) % 2 == 0;
-  // An odd number of numbers, so that those of threads side by side lie in different banks of the memory.
+  // An odd size in numbers avoids bank conflicts between adjacent threads.
   struct Slot : PaddedTo<Contents, Real, has_even_numbers<Contents>> {
     THAWSLIDE_HD void keep(const mpm::OneWeights<Dim, Real>& weights) { this->stencils.keep(weights); }
     template <class Name>
@@ -121,7 +121,7 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
   [[nodiscard]] THAWSLIDE_HD SumsOf<Kernels...>* sums() const { return at<SumsOf<Kernels...>>(sums_at); }
   [[nodiscard]] THAWSLIDE_HD Real* patch() const { return at<Real>(patch_at); }
   [[nodiscard]] THAWSLIDE_HD Real* cell_sums() const { return at<Real>(cell_sums_at); }
-  // Sums of the cell that goes on from one chunk to the next: what chunk `number` begins with.
+  // Partial sums, at the start of chunk `number`, of the cell that continues from the chunk before.
   template <class Name>
   [[nodiscard]] THAWSLIDE_HD Real* open(std::size_t number) const {
     return at<Real>(open_at) + (2 * before<Name, Adds...>() + number % 2 * mpm::scatter_size<Name, Dim>)*cell_nodes;
@@ -144,7 +144,7 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
     ((most = most < mpm::scatter_size<Adds, Dim> ? mpm::scatter_size<Adds, Dim> : most), ...);
     return most;
   }
-  // Numbers that the records before a name in a list carry, or have in their patches.
+  // Offsets of a name in its list: numbers that the preceding records scatter, or read in their patches.
   template <class Name, class First, class... Rest>
   THAWSLIDE_HD static constexpr std::size_t before() {
     if constexpr (std::is_same_v<Name, First>) {

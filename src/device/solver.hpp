@@ -1,5 +1,4 @@
-// A step whose backend and shape functions were chosen when the program was built, for whoever takes steps on a device
-// without knowing which.
+// Abstract interface of a solver on a device, independent of backend and shape functions.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +17,7 @@
 
 namespace thawslide::device {
 
-// What goes wrong with the device is thrown as a Failure; what goes wrong with the processor's part as it is.
+// Device errors are thrown as a Failure; errors of the CPU callbacks propagate unchanged.
 template <int Dim, class Real>
 class Solver {
  public:
@@ -27,28 +26,28 @@ class Solver {
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
-  // One step of dt [s] from a time [s] on.
+  // Advances the solution by dt [s], from time [s].
   virtual StepSums<Dim, Real> step(Real time, Real dt) = 0;
-  // What a look at the particles after a step finds.
+  // Monitor sums over the particles after a step.
   virtual mpm::MonitorSums<Real> watch(const mpm::MonitorKernel<Dim, Real>& look) = 0;
-  // The same for maps, in space.
+  // Sums for maps (3D only).
   virtual void sample_map(const mpm::MapCells& cells, MapSample& look) = 0;
-  // What a row of the history sums.
+  // Sums for a history row.
   virtual band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) = 0;
-  // The particle at the front, of those whose mass together is so much [kg].
+  // Particle at the front. mass: total mass of the particles [kg].
   virtual mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) = 0;
-  // Where those stand that the last step told as strays, from the domain's lower corner [m].
+  // Positions [m, relative to the domain's lower corner] of the particles that the last step counted as escaped.
   virtual std::vector<Vector<Real, Dim>> escaped_positions() = 0;
-  // Particles move in memory to stand in canonical order. Results do not depend on it.
+  // Sorts particles in memory into canonical order. Does not affect results.
   virtual void sort_in_memory() = 0;
-  // To as many particles, in the order in which they came to the device.
+  // Copies to the same number of particles, in their original order.
   virtual void copy_to(const mpm::ParticleView<Dim, Real>& particles) = 0;
-  // From now on each stage is waited for and timed; seconds by stage, so far.
+  // Measures stages [s] from now on, with a synchronization after each.
   virtual void time_stages() = 0;
   [[nodiscard]] virtual std::map<std::string, double> seconds() const = 0;
 };
 
-// Copies so many particles to a device, where steps go on from them.
+// Copies `count` particles to a device and creates the solver there.
 template <int Dim, class Real>
 using SolverFactory = std::function<std::unique_ptr<Solver<Dim, Real>>(
     const StepModel<Dim, Real>&, const mpm::ParticleView<Dim, Real>&, std::size_t count, HostCallbacks<Dim, Real>)>;

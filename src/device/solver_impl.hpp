@@ -1,4 +1,4 @@
-// The step on one backend, as an Solver.
+// Solver on one backend.
 #pragma once
 
 #include <utility>
@@ -12,7 +12,7 @@ namespace thawslide::device {
 template <class Backend, class Shape, int Dim, class Real>
 class SolverImpl final : public Solver<Dim, Real> {
  public:
-  // backend: what Backend is made of.
+  // backend: constructor arguments of Backend.
   template <class... Words>
   SolverImpl(const StepModel<Dim, Real>& model, const mpm::ParticleView<Dim, Real>& particles, std::size_t count,
              HostCallbacks<Dim, Real> ask, Words&&... backend)
@@ -36,7 +36,7 @@ class SolverImpl final : public Solver<Dim, Real> {
   Step<Backend, Shape, Dim, Real> step_;
 };
 
-// With the shape functions that the model asks for.
+// Creates the solver with the shape functions of the model.
 template <class Backend, int Dim, class Real, class... Words>
 std::unique_ptr<Solver<Dim, Real>> steps_on(const StepModel<Dim, Real>& model,
                                             const mpm::ParticleView<Dim, Real>& particles, std::size_t count,

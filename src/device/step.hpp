@@ -1,5 +1,5 @@
-// A step on a device: momentum to the grid, contact, motion, stress, heat and pore pressure (simulation.cpp has the
-// same stages for the processor).
+// Time step on a device: momentum to the grid, contact, motion, stress, heat and pore pressure. The stages match those
+// of simulation.cpp on the CPU.
 #pragma once
 
 #include <variant>
@@ -21,14 +21,14 @@
 
 namespace thawslide::device {
 
-// Shape: of momentum's shape functions (mpm/shape.hpp).
+// Shape: shape functions of momentum (mpm/shape.hpp).
 template <class Backend, class Shape, int Dim, class Real>
 class Step {
   using Passes = StepPasses<Backend, Shape, Dim, Real>;
   using Sums = StepSums<Dim, Real>;
 
  public:
-  // So many particles of the processor's memory, copied.
+  // Copies `count` particles from CPU memory.
   Step(Backend& backend, const StepModel<Dim, Real>& model, const mpm::ParticleView<Dim, Real>& particles,
        std::size_t count, const HostCallbacks<Dim, Real>& ask)
       : passes_(backend, model, particles, count, ask.ground),
@@ -41,23 +41,23 @@ class Step {
     free_gaps_.set(model.free_gaps);
   }
 
-  // To as many particles, in the order in which they came.
+  // Copies to the same number of particles, in their original order.
   void copy_to(const mpm::ParticleView<Dim, Real>& particles) { passes_.particles.copy_to(particles); }
   [[nodiscard]] TileTables<Dim> tables() const { return passes_.cells.tables(); }
 
-  // Particles move in memory to stand in canonical order. Results do not depend on it.
+  // Sorts particles in memory into canonical order. Does not affect results.
   void sort_in_memory() {
     find_cells();
     passes_.particles.reorder(passes_.cells.tables().order);
     passes_.cells.store_memory_order();
   }
 
-  // One step of dt [s] from a time [s] on.
+  // Advances the solution by dt [s], from time [s].
   Sums step(Real time, Real dt) {
     find_cells();
     passes_.backend.end_stage("find_cells");
     if (passes_.model.rescales_band && passes_.model.band.rescaling_mixes) {
-      band_.rescale(time);  // which changes temperatures
+      band_.rescale(time);  // changes temperatures
     }
     if (passes_.ground.exists() || passes_.model.has_band()) {
       band_.average();
@@ -82,7 +82,7 @@ class Step {
     return sums_.get(0);
   }
 
-  // Of the particles as they are after a step.
+  // Reductions over the particles after a step.
   mpm::MonitorSums<Real> watch(const mpm::MonitorKernel<Dim, Real>& look) {
     return passes_.sum_over_particles(RunMonitor<Dim, Real>{look}, watched_);
   }
@@ -92,7 +92,7 @@ class Step {
   mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) {
     return front_.find(way, mass, passes_.cells.tables(), passes_.particles.view(), passes_.particles.size());
   }
-  // Where those stand that the last step told as strays, from the domain's lower corner [m].
+  // Positions [m, relative to the domain's lower corner] of the particles that the last step counted as escaped.
   std::vector<Vector<Real, Dim>> escaped_positions() {
     return escape_check_.places(passes_, escape_kernel(), sums_.get(0).escapes);
   }
@@ -104,7 +104,7 @@ class Step {
   }
 
  private:
-  // As in simulation.cpp, stage by stage.
+  // The stages below match those of simulation.cpp.
   void find_cells() {
     passes_.cells.update(passes_.particles.view(), passes_.particles.by_id(), passes_.particles.size());
     if (!passes_.cells.blocks_changed()) {
@@ -225,7 +225,7 @@ class Step {
     }
   }
 
-  // And what the processor asks of the particles at their new places.
+  // Updates positions and evaluates the reductions that the CPU requested.
   void update_positions() {
     const mpm::UpdatePosition<Dim, Real> take{passes_.model.lower, passes_.model.upper};
     const FindExtremes<Dim, Real> extremes{passes_.model.band, band_.hydraulic(), {free_gaps_.data()}};
@@ -249,7 +249,7 @@ class Step {
     const auto* all = passes_.run(passes_.linear(), kernels...);
     (passes_.keep(&all->template of<Kernels>(), place_of(&all->template of<Kernels>())), ...);
   }
-  // Where in the device's memory what the last pass sums is kept.
+  // Destination, in device memory, of each sum of the last pass.
   mpm::InvalidParticle* place_of(const mpm::InvalidParticle* /*sum*/) { return &sums_.data()->invalid; }
   band::StepExtremes* place_of(const band::StepExtremes* /*sum*/) { return &sums_.data()->extremes; }
   std::uint64_t* place_of(const std::uint64_t* /*sum*/) { return &sums_.data()->escapes; }

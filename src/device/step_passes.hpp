@@ -1,4 +1,4 @@
-// What all stages of a step on a device share: particles, cells, records of nodes, and how passes run over them.
+// Data common to all stages of a step on a device: particles, cells, nodal records, and the passes over them.
 #pragma once
 
 #include "device/block_pass.hpp"
@@ -12,13 +12,13 @@
 
 namespace thawslide::device {
 
-// Shape: of momentum's shape functions (mpm/shape.hpp).
+// Shape: shape functions of momentum (mpm/shape.hpp).
 template <class Backend, class Shape, int Dim, class Real>
 class StepPasses {
  public:
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
 
-  // So many particles of the processor's memory, copied.
+  // Copies `count` particles from CPU memory.
   StepPasses(Backend& used, const StepModel<Dim, Real>& known, const mpm::ParticleView<Dim, Real>& of_cpu,
              std::size_t count, const GroundQuery<Dim, Real>& query_ground)
       : backend(used),
@@ -41,7 +41,7 @@ class StepPasses {
 
   [[nodiscard]] mpm::SizesOfBodies<Real> body_sizes() const { return sizes_.view(); }  // in cells
   [[nodiscard]] MomentumWeights<Shape, Dim, Real> weights() const { return {sizes_.view(), model.sides}; }
-  // Calls work(weights) with those of APIC where the model asks for it.
+  // Calls work(weights) with the weights of APIC if the model uses it.
   template <class Work>
   void if_affine(const Work& work) const {
     if constexpr (!std::is_same_v<Shape, mpm::Linear<Real>>) {
@@ -50,7 +50,7 @@ class StepPasses {
       }
     }
   }
-  // What a pass goes over: by linear shape functions, or by those of momentum.
+  // Pass arguments with linear shape functions, or with those of momentum.
   template <class TileFilter = AllTiles>
   [[nodiscard]] auto linear(const TileFilter& accepts = {}) const {
     return over(LinearWeights{}, accepts);
@@ -78,7 +78,7 @@ class StepPasses {
     keep(&run(linear(), kernel)->template of<Kernel>(), sum.data());
     return sum.get(0);
   }
-  // What stands in memory that the next pass needs.
+  // Copies a sum from memory that the next pass reuses.
   template <class Sum>
   void keep(const Sum* from, Sum* to) {
     backend.for_each(1, Keep<Sum>{from, to});
@@ -94,7 +94,7 @@ class StepPasses {
             time,           dt,      model.distance_check, model.pore_pressure, model.base_holds};
   }
 
-  // The records that a pass reads (device/passes.hpp).
+  // Nodal records that a pass reads (device/passes.hpp).
   template <class Name>
   [[nodiscard]] const Real* numbers() const {
     if constexpr (std::is_same_v<Name, mpm::Planes>) {

@@ -1,4 +1,4 @@
-// Where other keys begin in an ascending list.
+// Unique keys of an ascending list.
 #pragma once
 
 #include "device/array.hpp"
@@ -11,7 +11,7 @@ class UniqueKeys {
  public:
   explicit UniqueKeys(Backend& backend) : backend_(backend) {}
 
-  // The different keys of a list, bits below `shift` left out, and the places at which they begin, if asked for.
+  // Finds the unique keys of a list, ignoring bits below `shift`, and optionally the places at which they begin.
   void find(const Array<std::uint64_t, Backend>& keys, int shift, Array<std::uint64_t, Backend>& found,
             Array<std::uint32_t, Backend>* places) {
     const std::size_t count = keys.size();
@@ -28,7 +28,7 @@ class UniqueKeys {
                                        places != nullptr ? places->data() : nullptr});
   }
 
-  // Of the last list, by place: whether a key begins there, and how many have begun before.
+  // For the last list, by place: whether a key begins there, and how many keys begin before.
   [[nodiscard]] const std::uint32_t* is_first() const { return is_first_.data(); }
   [[nodiscard]] const std::uint32_t* number() const { return number_.data(); }
 

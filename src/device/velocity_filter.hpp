@@ -1,4 +1,4 @@
-// The velocities of particles replaced by those that their nodes' rigid motions give (mpm/velocity_filter.hpp).
+// Replaces particle velocities by those of the rigid motions of their nodes (mpm/velocity_filter.hpp).
 #pragma once
 
 #include "device/step_passes.hpp"
@@ -7,7 +7,7 @@
 
 namespace thawslide::device {
 
-// A thread a node.
+// One thread per node.
 template <int Dim, class Real>
 struct MakeIncrement {
   bool first;
@@ -30,7 +30,7 @@ struct MakeIncrement {
   }
 };
 
-// Momentum is added to the patches of Velocity anew. gained: kinetic energy [J], in the device's memory.
+// Recomputes the momentum in the patches of Velocity. gained: kinetic energy [J], in device memory.
 template <class Backend, class Shape, int Dim, class Real>
 void filter_velocities(StepPasses<Backend, Shape, Dim, Real>& passes, Real* gained) {
   using Passes = StepPasses<Backend, Shape, Dim, Real>;

@@ -1,4 +1,4 @@
-// Transfers of a batch of particles: their nodes and weights lane by lane, what they read of the nodes, what they add.
+// Transfers of a particle batch: nodes and weights by SIMD lane, gather from nodes and contributions to nodes.
 #pragma once
 
 #include <cstring>
@@ -8,14 +8,14 @@
 
 namespace thawslide::mpm {
 
-// The nodes and their weights. Made in one piece: g++ copies an array of registers by a call.
+// Nodes and their weights. Constructed as an aggregate, because g++ copies an array of registers by a call.
 template <int Dim, class Real, std::size_t Width = 3>
 struct BatchStencil {
   BatchNodes<Real> nodes;
   std::array<AxisWeights<Simd<Real>, Width>, Dim> axis;
 };
 
-// An array of what make(axis) gives.
+// Array of the results of make(axis).
 template <int Dim, class Make>
 THAWSLIDE_ALWAYS_INLINE auto for_axes(const Make& make) {
   using Item = decltype(make(0));
@@ -26,7 +26,7 @@ THAWSLIDE_ALWAYS_INLINE auto for_axes(const Make& make) {
   }
 }
 
-// Where the particles of a batch stand: their nearest nodes and their offsets from them, in cells.
+// Positions of the particles of a batch: nearest nodes, and offsets from them in cells.
 template <int Dim, class Real>
 struct BatchPlace {
   Vector<Simd<Real>, Dim> node, offset;
@@ -51,7 +51,7 @@ THAWSLIDE_ALWAYS_INLINE SimdMask<Real> at_side(const HeldSides<Dim>& sides, int 
   return (node == static_cast<Real>(sides.lower[a])) | (node == static_cast<Real>(sides.upper[a]));
 }
 
-// For shape functions Shape (Ugimp, Linear, Quadratic); size: of the particles, in cells.
+// Stencil for shape functions Shape (Ugimp, Linear, Quadratic). size: of the particles, in cells.
 template <class Shape, int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> make_stencil(const SparseGrid<Dim, Real>& grid,
                                                              const TileBatch<Dim, Real>& batch,
@@ -63,15 +63,15 @@ THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> make_stencil(const SparseGrid<Di
           })};
 }
 
-// The corners of the cells of nodes that particles lie in: as places in the patch, and among the 3^Dim nodes about the
-// nearest one.
+// Corners of the grid cells that particles lie in, as places in the patch and among the 3^Dim nodes around the nearest
+// node.
 template <int Dim, class Real>
 struct CornerStencil : BatchStencil<Dim, Real, 2> {
-  std::array<std::int32_t, simd_width<Real>> first_in_cell;  // of the lowest one, by lane
+  std::array<std::int32_t, simd_width<Real>> first_in_cell;  // of the lowest corner, by lane
 };
 
-// The linear shape functions of a batch's cells: at their corners, to which particles add, and at all nodes about their
-// nearest ones, of which they read, since neighbours share these more often than corners.
+// Linear shape functions of a batch. Scatter uses the corners of the particles' cells. Gather uses all nodes around the
+// nearest ones, because neighbours share these more often than corners.
 template <int Dim, class Real>
 struct LinearStencil {
   Vector<Simd<Real>, Dim> offset;  // from the nearest node, in cells
@@ -111,8 +111,8 @@ THAWSLIDE_ALWAYS_INLINE LinearStencil<Dim, Real> linear_stencil(const SparseGrid
   return {place_of(grid, particles, batch).offset, batch.nodes, grid.inverse_cell()};
 }
 
-// The same nodes and weights for APIC: in place of the gradient G_i stands S_i (x_i - x_p)/D, with which node
-// velocities make the affine velocity C. moment: the second moments D [m2] along each axis.
+// Same nodes and weights for APIC: S_i (x_i - x_p)/D replaces the gradient G_i, so that node velocities give the affine
+// velocity C. moment: second moments D [m2] along each axis.
 template <int Dim, class Real>
 struct AffineBatch {
   BatchStencil<Dim, Real> nodes;
@@ -136,8 +136,8 @@ THAWSLIDE_ALWAYS_INLINE AffineBatch<Dim, Real> make_affine(const SparseGrid<Dim,
   return affine;
 }
 
-// Fetch(place, component) for read_nodes: one number for all lanes where they see the same nodes, two where there are
-// two runs of such lanes, else one by one.
+// Fetch(place, component) for read_nodes: one number for all lanes if they have the same nodes, two for two runs of
+// such lanes, otherwise a gather.
 template <int Dim, class Real, int Components>
 struct SharedNodes {
   const Patch<Dim, Real, Components>& patch;
@@ -161,7 +161,7 @@ struct NodesOfTwoRuns {
 template <int Dim, class Real, int Components>
 struct OwnNodes {
   const Patch<Dim, Real, Components>& patch;
-  typename Simd<Real>::Whole first;  // places of numbers
+  typename Simd<Real>::Whole first;  // index of the first number, by lane
 
   OwnNodes(const Patch<Dim, Real, Components>& from, const BatchNodes<Real>& nodes)
       : patch(from),
@@ -172,7 +172,7 @@ struct OwnNodes {
   }
 };
 
-// Calls read(fetch) with the fetch that fits the nodes of a batch.
+// Calls read(fetch) with the fetch that matches the nodes of a batch.
 template <int Dim, class Real, int Components, class Read>
 THAWSLIDE_ALWAYS_INLINE auto with_fetch(const BatchNodes<Real>& nodes, const Patch<Dim, Real, Components>& patch,
                                         const Read& read) {
@@ -188,7 +188,7 @@ THAWSLIDE_ALWAYS_INLINE auto with_fetch(const BatchNodes<Real>& nodes, const Pat
   return read(OwnNodes<Dim, Real, Components>(patch, nodes));
 }
 
-// What the particles read of `Count` numbers of the records about them.
+// Interpolates `Count` components of the surrounding records to the particles.
 template <std::size_t Count, int Dim, class Real, std::size_t Width, int Components>
 THAWSLIDE_ALWAYS_INLINE Reading<Dim, Simd<Real>, Count> read_nodes(const BatchStencil<Dim, Real, Width>& stencil,
                                                                    const Patch<Dim, Real, Components>& patch,
@@ -208,7 +208,7 @@ THAWSLIDE_ALWAYS_INLINE Reading<Dim, Simd<Real>, Count> read_nodes(const LinearS
   return read_nodes<Count>(linear.about(), patch, first_component);
 }
 
-// One particle's weights, each in all lanes of a record's register.
+// Weights of one particle, each broadcast to a record register.
 template <int Dim, class Register, std::size_t Width>
 struct SpreadWeights {
   Register weight[Dim][Width];
@@ -221,7 +221,7 @@ struct SpreadWeights {
   }
 };
 
-// What one particle reads of one register of every record about it.
+// Interpolates one register of the surrounding records to one particle.
 template <int Axis, int Dim, class Register, std::size_t Width, class Real>
 THAWSLIDE_ALWAYS_INLINE Register sum_along_axes(const SpreadWeights<Dim, Register, Width>& spread,
                                                 std::size_t record_size, const Real* records) {
@@ -238,8 +238,8 @@ THAWSLIDE_ALWAYS_INLINE Register sum_along_axes(const SpreadWeights<Dim, Registe
   return sum;
 }
 
-// The values, without gradients, of all components of the records about a batch. Where it sees many nodes, particle by
-// particle, a register of components at a time.
+// Interpolates all components of the surrounding records, without gradients, to a batch. For irregular nodes, the loop
+// runs over particles with a register of components at a time.
 template <int Dim, class Real, std::size_t Width, int Components>
 THAWSLIDE_ALWAYS_INLINE std::array<Simd<Real>, record_size(Components)> read_values(
     const BatchStencil<Dim, Real, Width>& stencil, const Patch<Dim, Real, Components>& patch) {
@@ -263,12 +263,12 @@ THAWSLIDE_ALWAYS_INLINE std::array<Simd<Real>, record_size(Components)> read_val
   return values;
 }
 
-// What a batch adds to the records about it: weight * value, and in the components of one register also
-// gradient . flux.
+// Contribution of a batch to the surrounding records: weight * value, plus gradient . flux in the components of one
+// register.
 template <int Dim, class Real, std::size_t Components>
 struct Contribution {
   using Register = RecordRegister<Real, static_cast<int>(Components)>;
-  static constexpr std::size_t width = Register::count;  // components of a register
+  static constexpr std::size_t width = Register::count;  // components per register
   static constexpr std::size_t groups = record_size(static_cast<int>(Components)) / width;
 
   Simd<Real> value[groups * width];

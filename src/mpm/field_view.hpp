@@ -1,5 +1,4 @@
-// The numbers of a particle field in memory, and what kernels need of one: where its numbers stand. For host and
-// device.
+// View of a particle field's memory for kernels. For host and device.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +10,7 @@
 
 namespace thawslide::mpm {
 
-// Fields stand in blocks of so many particles: the values of one component lie in one cache line, components follow one
-// another.
+// Particles per block. Within a block, the values of one component share a cache line, and components are consecutive.
 inline constexpr std::size_t particles_of_block = 8;
 
 template <int Components>
@@ -23,7 +21,7 @@ THAWSLIDE_HD constexpr std::size_t place_in_field(std::size_t particle, int comp
 
 template <class T, int Components>
 struct FieldView {
-  T* numbers;  // none where the field is not kept
+  T* numbers;  // null if the field is not stored
 
   [[nodiscard]] THAWSLIDE_HD bool is_kept() const { return numbers != nullptr; }
   [[nodiscard]] THAWSLIDE_HD T& operator()(std::size_t particle, int component = 0) const {
@@ -35,7 +33,7 @@ struct FieldView {
   THAWSLIDE_HD void store(const ScalarIndex<T>& one, T value, int component = 0) const {
     (*this)(one.particle[0], component) = value;
   }
-  // Whole numbers, from and to a real type.
+  // Integers, converted from and to a real type.
   template <class Real>
   [[nodiscard]] THAWSLIDE_HD Real load_whole(const ScalarIndex<Real>& one) const {
     return static_cast<Real>((*this)(one.particle[0]));
@@ -44,7 +42,7 @@ struct FieldView {
   THAWSLIDE_HD void store_whole(const ScalarIndex<Real>& one, Real value) const {
     (*this)(one.particle[0]) = static_cast<T>(value);
   }
-  // Whole vectors and tensors.
+  // All components of vectors and tensors.
   template <int Size>
   [[nodiscard]] THAWSLIDE_HD Vector<T, Size> load_vector(const ScalarIndex<T>& one) const {
     Vector<T, Size> v;

@@ -1,4 +1,4 @@
-// What a look at all particles finds: what a run is watched for (sim/monitor.hpp).
+// Sums over all particles for the run monitor (sim/monitor.hpp).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ template <class Real>
 struct MonitorSums {
   Real kinetic = 0, potential = 0;  // [J]
   Real mass = 0, fast_mass = 0;     // [kg]
-  InvalidParticle volumes;          // of smallest id whose volume is out of range
+  InvalidParticle volumes;          // volume out of range, smallest id
 
   THAWSLIDE_HD MonitorSums& operator+=(const MonitorSums& part) {
     kinetic += part.kinetic;
@@ -27,8 +27,8 @@ struct MonitorSums {
 template <int Dim, class Real>
 struct MonitorKernel {
   Vector<Real, Dim> gravity, origin;     // [m/s2]; of positions [m]
-  Real fast_distance;                    // of a particle that is fast, in a step [m]
-  Real smallest_volume, largest_volume;  // of that at t = 0
+  Real fast_distance;                    // displacement in a step above which a particle counts as fast [m]
+  Real smallest_volume, largest_volume;  // relative to the volume at t = 0
 
   template <class Particles>
   [[nodiscard]] THAWSLIDE_HD MonitorSums<Real> operator()(const Particles& particles, std::uint32_t p) const {
@@ -45,8 +45,7 @@ struct MonitorKernel {
     seen.kinetic = Real(0.5) * mass * speed2;
     const Real ratio = particles.volume(p) / particles.initial_volume(p);
     if (ratio < smallest_volume || ratio > largest_volume) {
-      seen.volumes.record(particles.id(p),
-                           ratio < smallest_volume ? Fault::volume_too_small : Fault::volume_too_large);
+      seen.volumes.record(particles.id(p), ratio < smallest_volume ? Fault::volume_too_small : Fault::volume_too_large);
     }
     return seen;
   }

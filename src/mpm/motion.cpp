@@ -10,8 +10,7 @@ namespace thawslide::mpm {
 
 namespace {
 
-// Calls work(weights) with what ties particles to nodes: the run's shape functions, with APIC's weights where it asks
-// for them.
+// Calls work(weights) with the shape functions of the run, and the weights of APIC if it uses them.
 template <int Dim, class Real, class Work>
 void with_weights(const MotionModel<Dim, Real>& model, const Work& work) {
   const auto with = [&](auto shape) {

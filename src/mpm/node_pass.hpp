@@ -1,12 +1,12 @@
-// One visit to all nodes: a block's sums of what particles added come first, then a function of each node's numbers.
+// Pass over all nodes: sums of particle contributions per block, then a function of each node.
 #pragma once
 
 #include "mpm/nodes.hpp"
 
 namespace thawslide::mpm {
 
-// Sums the contributions of particles to a block's records, from the tiles for which takes(t) is true. Returns the rows
-// of the block in which particles have nodes, one bit per row. Records of other rows have no meaning.
+// Sums particle contributions to a block's records, from the tiles for which accepts(t) is true. Returns the rows of
+// the block in which particles have nodes, one bit per row. Records of other rows are undefined.
 template <class Name, int Dim, class Real, class TileFilter>
 std::uint32_t sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes,
                         const TileFilter& accepts) {
@@ -17,7 +17,7 @@ template <class Name, int Dim, class Real>
 std::uint32_t sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes) {
   return sum_block<Name>(grid, block, nodes, every_tile);
 }
-// For a name reduced by minimum: the smallest numbers. Call it after summing the record of the name.
+// The same for min-reduced names. Call after summing the record of their owner.
 template <IsMinReduced Name, int Dim, class Real, class TileFilter>
 void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes,
                const TileFilter& accepts) {
@@ -28,8 +28,8 @@ void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, 
   });
 }
 
-// For each block, calls begin(block), which returns the rows of nodes to visit, one bit per row, and then
-// of_node(node, account) for their nodes. Returns the sum of the accounts.
+// For each block, calls begin(block), which returns the rows of nodes to visit, one bit per row, and then of_node(node,
+// account) for their nodes. Returns the sum of the accounts.
 template <class Account, int Dim, class Real, class Begin, class OfNode>
 Account node_pass(const SparseGrid<Dim, Real>& grid, const Begin& begin, const OfNode& of_node) {
   constexpr std::size_t edge = static_cast<std::size_t>(Tile<Dim>::edge);

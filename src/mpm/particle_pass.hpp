@@ -1,5 +1,5 @@
-// One visit to all particles: kernels that need nothing of one another's sums run particle by particle, on weights made
-// once, records fetched once and sums added once.
+// Pass over all particles: kernels that are independent of each other's sums share the weights, the loaded records and
+// the scatter of each batch.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,16 @@
 
 namespace thawslide::mpm {
 
-// What ties particles to the nodes in a pass: the shape functions of momentum, with what they depend on.
+// Shape functions of momentum with their parameters.
 template <class Shape, int Dim, class Real>
 struct MomentumWeights {
   const BodySizes<Real>& sizes;  // of particles, in cells
   const HeldSides<Dim>& sides;
 };
-// A pass all of whose records go by the linear shape functions.
+// Linear shape functions for all records of a pass.
 struct LinearWeights {};
 
-// The weights of a batch.
+// Weights of a batch.
 template <class Weights, int Dim, class Real>
 struct BatchWeights;
 template <int Dim, class Real>
@@ -64,7 +64,7 @@ struct BatchWeights<MomentumWeights<Shape, Dim, Real>, Dim, Real> {
         linear{place.offset, batch.nodes, grid.inverse_cell()} {}
 };
 
-// The same with the weights of APIC.
+// Weights of momentum with those of APIC.
 template <class Shape, int Dim, class Real>
 struct AffineWeights : MomentumWeights<Shape, Dim, Real> {};
 template <class Shape, int Dim, class Real>
@@ -89,30 +89,30 @@ struct BatchWeights<AffineWeights<Shape, Dim, Real>, Dim, Real>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE const auto& second_moment() const { return affine.moment; }
 };
 
-// What a batch sees of the records about it.
+// Gather of a batch from the surrounding records.
 template <class Weights, class Patches>
 struct BatchGather {
   const Weights& weights;
   const Patches& patches;
 
-  // `Count` numbers of a record from `first` on: their values at the particles' places and their gradients.
+  // `Count` components of a record from `first` on: interpolated values and gradients.
   template <class Name, std::size_t Count>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE auto read(std::size_t first = 0) const {
     return read_nodes<Count>(weights.template of<typename Name::Functions>(), patches.template of<Name>(), first);
   }
-  // The records of Planes, for what the particles bring to nodes that they lower.
+  // Records of Planes, for contributions to min-reduced components.
   template <class Name>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE auto planes() const {
     return &patches.template of<Name>();
   }
-  // The values of all numbers of a record, without their gradients.
+  // Values of all components of a record, without gradients.
   template <class Name>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE auto values() const {
     return read_values(weights.template of<typename Name::Functions>(), patches.template of<Name>());
   }
 };
 
-// What batches add to a record, and a tile's sums of it.
+// Contributions of batches to a record, and their sums in a tile.
 template <class Name, int Dim, class Real>
 struct PartialSums {
   static constexpr int size = components_of<Name, Dim>;
@@ -134,7 +134,7 @@ struct PartialSums<Name, Dim, Real> {
 template <class Name, int Dim, class Real>
 using SumsOf = typename PartialSums<Name, Dim, Real>::Sums;
 
-// A tile at work: what its particles read and add to.
+// Gather and scatter of a tile's particles.
 template <class Reads, class Adds, int Dim, class Real>
 class TileScatter;
 template <class... Reads, class... Adds, int Dim, class Real>
@@ -161,7 +161,7 @@ class TileScatter<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
     (sums_.template of<Adds>().add(weights.template of<typename Adds::Functions>(), count, added.template of<Adds>()),
      ...);
   }
-  // Instead, for a batch that is passed over.
+  // Skips a batch.
   THAWSLIDE_ALWAYS_INLINE void skip() { (sums_.template of<Adds>().skip(), ...); }
 
  private:
@@ -178,7 +178,7 @@ class TileScatter<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
   ByName<Named<Adds, SumsOf<Adds, Dim, Real>>...> sums_;
 };
 
-// What kernels sum over particles, kernel by kernel.
+// Sums over particles, by kernel.
 template <class... Kernels>
 struct Accounts : std::tuple<typename Kernels::Account...> {
   Accounts& operator+=(const Accounts& part) {
@@ -188,7 +188,7 @@ struct Accounts : std::tuple<typename Kernels::Account...> {
   }
 };
 
-// The kernel for one tile, where that differs from tile to tile.
+// Kernel of a tile; kernels that depend on the tile provide in_tile(tile).
 template <class Kernel>
 THAWSLIDE_ALWAYS_INLINE decltype(auto) in_tile(const Kernel& kernel, std::size_t tile) {
   if constexpr (requires { kernel.in_tile(tile); }) {
@@ -198,8 +198,8 @@ THAWSLIDE_ALWAYS_INLINE decltype(auto) in_tile(const Kernel& kernel, std::size_t
   }
 }
 
-// Whether a pass takes what sees these nodes of a tile that it takes: a batch, or a particle with the lowest node's
-// place in the patch. All where takes(tile, nodes) says nothing of them.
+// True if a pass accepts a batch or particle with these nodes in an accepted tile. nodes: of a batch, or the place of a
+// particle's lowest node. Filters without accepts(tile, nodes) accept all.
 template <class TileFilter, class Nodes>
 THAWSLIDE_ALWAYS_INLINE bool accepts_nodes(const TileFilter& accepts, std::size_t tile, const Nodes& nodes) {
   if constexpr (std::is_invocable_v<const TileFilter&, std::size_t, const Nodes&>) {
@@ -209,14 +209,14 @@ THAWSLIDE_ALWAYS_INLINE bool accepts_nodes(const TileFilter& accepts, std::size_
   }
 }
 
-// Room for the patches of records.
+// Allocates the patches of records.
 template <class... Names, class Records>
 void take_patches(RecordList<Names...> /*names*/, [[maybe_unused]] std::size_t tiles,
                   [[maybe_unused]] Records& records) {
   (static_cast<void>(records.template of<Names>().patches(tiles)), ...);
 }
 
-// What is wrong with the records of a pass does not compile.
+// Compile-time check of a pass's records.
 template <class Reads, class Adds, int Dim>
 constexpr void check_records() {
   static_assert(all_apart<Adds, Dim>, "particles add to these components of a record in different ways");
@@ -224,9 +224,9 @@ constexpr void check_records() {
   static_assert(are_disjoint<Reads, Adds>, "no record is read in the pass that adds to it: it has no sums yet");
 }
 
-// Runs kernels over the particles of the tiles that takes(t) names, those of takes(t, nodes) where it tells them apart,
-// one kernel after the other for each batch; what they add is in the patches then, to be summed by a node_pass.
-// Records: of Nodes.
+// Runs kernels over the particles of the tiles that accepts(t) selects, restricted by accepts(t, nodes) if defined.
+// Each batch is passed to all kernels in turn. Contributions are left in the patches, for a node_pass to sum. Records:
+// of Nodes.
 template <class Weights, int Dim, class Real, class Records, class TileFilter, class... Kernels>
 Accounts<Kernels...> particle_pass(const SparseGrid<Dim, Real>& grid, const Weights& weights,
                                    Particles<Dim, Real>& particles, Records& records, const TileFilter& accepts,
@@ -256,8 +256,8 @@ Accounts<Kernels...> particle_pass(const SparseGrid<Dim, Real>& grid, const Weig
   });
 }
 
-// Runs a kernel that neither reads nor adds to nodes over all particles as they stand in memory; returns its account.
-// A batch may be of several tiles and materials.
+// Runs a kernel that neither reads nor adds to nodes over all particles in memory order; returns its account. A batch
+// can contain particles of several tiles and materials.
 template <int Dim, class Real, class Kernel>
 typename Kernel::Account for_particles_in_memory(Particles<Dim, Real>& particles, const Kernel& kernel) {
   static_assert(std::is_same_v<typename Kernel::Reads, RecordList<>> &&

@@ -1,4 +1,4 @@
-// What a particle does in update_positions: a kernel (mpm/kernel.hpp).
+// Particle kernel (mpm/kernel.hpp) of update_positions.
 #pragma once
 
 #include <cmath>
@@ -11,8 +11,8 @@
 
 namespace thawslide::mpm {
 
-// The displacement of the step takes effect, but for a particle that is not finite or would leave [lower, upper]. Sums
-// those.
+// Applies the displacement of the step, except to particles that are not finite or would leave [lower, upper]; records
+// these.
 template <int Dim, class Real>
 struct UpdatePosition {
   using Reads = RecordList<>;
@@ -29,7 +29,7 @@ struct UpdatePosition {
     using VectorOfValues = Vector<Value, Dim>;
     VectorOfValues step = particles.step_displacement.template load_vector<Dim>(at);
     const VectorOfValues old = particles.position.template load_vector<Dim>(at);
-    // Not a number is in no range.
+    // NaN fails all comparisons.
     const Value state = particles.temperature.load(at) + particles.pore_pressure.load(at) + particles.stress.load(at);
     auto well = abs(state) <= Value(std::numeric_limits<Real>::max());
     for (int a = 0; a < Dim; ++a) {
@@ -48,7 +48,7 @@ struct UpdatePosition {
   }
 
  private:
-  // Of a particle that is not well.
+  // Records the fault of an invalid particle.
   template <class Particles>
   THAWSLIDE_HD static void record_fault(const Particles& particles, std::uint32_t p, InvalidParticle& invalid) {
     bool finite = std::isfinite(particles.temperature(p)) && std::isfinite(particles.pore_pressure(p)) &&

@@ -1,4 +1,4 @@
-// A single particle, where kernels otherwise have a batch.
+// Index of a single particle, for kernels that otherwise process a batch.
 #pragma once
 
 #include <array>

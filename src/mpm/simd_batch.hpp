@@ -1,6 +1,6 @@
-// Particles worked on at once, a lane each. Batches follow the canonical order; where they begin depends on how
-// particles stand in memory, so nothing that a particle gets may depend on its neighbours in the batch, and sums over
-// particles go lane after lane.
+// Batch of particles processed at once, one per SIMD lane. Batches follow the canonical order, but their boundaries
+// depend on the order in memory. Results of a particle must therefore be independent of its neighbours in the batch,
+// and sums over particles run in the order of lanes.
 #pragma once
 
 #include <algorithm>
@@ -19,9 +19,9 @@ struct SimdBatch {
 
   std::array<std::uint32_t, most> particle;  // by lane; lanes from `count` on repeat the last one
   std::size_t count;
-  bool contiguous;  // the particles fill `most` places in memory from a multiple of `most` on
+  bool contiguous;  // the particles are `most` consecutive ones in memory, starting at a multiple of `most`
 
-  // Adds up a quantity lane after lane.
+  // Adds a quantity in the order of lanes.
   THAWSLIDE_ALWAYS_INLINE void add_to(Real& sum, const Simd<Real>& quantity) const {
     alignas(sizeof(Simd<Real>)) Real numbers[most];
     quantity.store(numbers);
@@ -29,7 +29,7 @@ struct SimdBatch {
       sum += numbers[lane];
     }
   }
-  // of(particle), lane by lane.
+  // of(particle), by lane.
   template <class Of>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Value each(const Of& of) const {
     return Value::of([&](std::size_t lane) { return of(particle[lane]); });
@@ -42,8 +42,7 @@ struct SimdBatch {
   }
 };
 
-// The batch of particles first, first + 1, ... of `size` particles as they stand in memory; first is a multiple of the
-// lanes.
+// Batch of particles first, first + 1, ... of `size` particles in memory order; first is a multiple of the lane count.
 template <class Real>
 THAWSLIDE_ALWAYS_INLINE SimdBatch<Real> batch_in_memory(std::size_t first, std::size_t size) {
   SimdBatch<Real> batch;
@@ -56,22 +55,22 @@ THAWSLIDE_ALWAYS_INLINE SimdBatch<Real> batch_in_memory(std::size_t first, std::
   return batch;
 }
 
-// The nodes that the particles of a batch see: the places of the lowest ones in their tile's patch.
+// Nodes in reach of the particles of a batch: places of the lowest ones in the tile's patch.
 template <class Real>
 struct BatchNodes {
   static constexpr std::uint8_t irregular = 3;
 
   std::array<std::int32_t, simd_width<Real>> first;  // by lane
-  std::uint8_t runs;                                 // of lanes that see the same nodes: 1, 2 or many
-  std::uint8_t second_run_begin;                     // first lane of the second of two
-  bool goes_on;                                      // the next batch begins with a particle that sees the last's nodes
+  std::uint8_t runs;                                 // runs of lanes with the same nodes: 1, 2 or `irregular`
+  std::uint8_t second_run_begin;                     // first lane of the second of two runs
+  bool goes_on;  // the next batch begins with a particle of the same nodes as the last one of this batch
 };
 
-// A batch of one tile and one material. It and its nodes hold until some particle of the tile has another nearest node.
+// Batch of one tile and one material. It remains valid until the nearest node of a particle of the tile changes.
 template <int Dim, class Real>
 struct TileBatch : SimdBatch<Real> {
-  std::array<std::array<std::int32_t, simd_width<Real>>, Dim> nearest;  // numbers of the nearest node, by axis
-  BatchNodes<Real> nodes;                                               // 3 an axis, from the one before the nearest
+  std::array<std::array<std::int32_t, simd_width<Real>>, Dim> nearest;  // index of the nearest node, by axis
+  BatchNodes<Real> nodes;                                               // 3 per axis, from the one before the nearest
 };
 
 }  // namespace thawslide::mpm

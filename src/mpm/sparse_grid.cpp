@@ -14,11 +14,11 @@ namespace thawslide::mpm {
 namespace {
 
 constexpr std::size_t keys_per_task = 1024;
-// Sorting takes about as long as this many steps lose with all particles out of order.
+// Sorting takes about as long as the slowdown of this number of steps with all particles out of order.
 constexpr double most_scattered = 4;
 constexpr std::size_t none = ~std::size_t{0};
 
-// Places of nodes in the patch of a tile, from their numbers along the axes.
+// Places of nodes in the patch of a tile, from their indices along the axes.
 template <int Dim, class Real>
 BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Simd<Real>, Dim>& lowest) {
   using T = Tile<Dim>;
@@ -56,7 +56,7 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
   if (compute_keys(particles)) {
     merge_moved(particles);
   }
-  if (first_call) {  // never again do all particles move
+  if (first_call) {  // later steps move only few particles
     task_movers_ = std::vector<std::vector<CellChange>>();
     movers_ = std::vector<CellChange>();
   }
@@ -70,7 +70,7 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
   update_sort_heuristic(sorts);
 }
 
-// How much the order in memory costs: batches that are not contiguous, beyond those that never are, over the steps
+// Cost of the order in memory: batches that are not contiguous, minus those right after sorting, summed over the steps
 // since the last sorting.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::update_sort_heuristic(bool sorted) {
@@ -87,7 +87,7 @@ void SparseGrid<Dim, Real>::update_sort_heuristic(bool sorted) {
   }
 }
 
-// Particles move in memory to stand in canonical order.
+// Sorts particles in memory into canonical order.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::reorder(Particles<Dim, Real>& particles) {
   particles.reorder(order_);
@@ -101,7 +101,7 @@ void SparseGrid<Dim, Real>::reorder(Particles<Dim, Real>& particles) {
   std::fill(stale_.begin(), stale_.end(), std::uint8_t{1});
 }
 
-// Most particles have the nearest node that they had before, and nothing to do.
+// Most particles keep their nearest node and need no update.
 template <int Dim, class Real>
 bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) {
   const std::size_t count = particles.size();
@@ -132,7 +132,7 @@ bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) 
   return !movers_.empty();
 }
 
-// The key of a particle, from its nearest node and the layer of its body.
+// Key of a particle, from its nearest node and the layer of its body.
 template <int Dim, class Real>
 std::uint64_t SparseGrid<Dim, Real>::key_of(const Particles<Dim, Real>& particles, std::size_t particle) const {
   Index node{}, tile{};
@@ -146,7 +146,7 @@ std::uint64_t SparseGrid<Dim, Real>::key_of(const Particles<Dim, Real>& particle
   return (T::in_layer(T::key(tile), layer) << T::node_bits) | static_cast<std::uint64_t>(local);
 }
 
-// The keys of `count` particles from `first` on, from their nearest nodes.
+// Updates the keys of `count` particles from `first` on, from their nearest nodes.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::add_cell_changes(const Particles<Dim, Real>& particles, std::size_t first,
                                              std::size_t count, std::vector<CellChange>& movers) {
@@ -160,7 +160,7 @@ void SparseGrid<Dim, Real>::add_cell_changes(const Particles<Dim, Real>& particl
   }
 }
 
-// Those that stayed are still in order; those that moved are sorted and merged in.
+// Sorts the particles that changed cell and merges them with the others, which are still in order.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::merge_moved(const Particles<Dim, Real>& particles) {
   const auto before = [&](std::uint32_t a, std::uint32_t b) {
@@ -175,7 +175,7 @@ void SparseGrid<Dim, Real>::merge_moved(const Particles<Dim, Real>& particles) {
   parallel_for(tiles_.size(), [&](std::size_t t) { merge_tile(t, before); });
 }
 
-// The order of one tile's particles, from those that stayed in it and those that moved into or within it.
+// Order of one tile's particles, from those that stayed in their cell and those that changed cell or tile.
 template <int Dim, class Real>
 template <class Before>
 void SparseGrid<Dim, Real>::merge_tile(std::size_t t, const Before& before) {
@@ -215,7 +215,7 @@ void SparseGrid<Dim, Real>::count_leaving() {
   }
 }
 
-// The tiles that hold particles now, from those that did and what the movers left and entered.
+// Lists the occupied tiles, from the former ones and the particles that left or entered.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::list_tiles() {
   former_tiles_.swap(tiles_);
@@ -278,7 +278,8 @@ void SparseGrid<Dim, Real>::make_stale_batches(const Particles<Dim, Real>& parti
   });
 }
 
-// Particles, as many as lanes, that stand side by side in memory go together, the others fill up batches.
+// Forms batches of particles that are consecutive in memory, as many as lanes; the remaining particles fill other
+// batches.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, std::size_t t) {
   constexpr std::size_t most = SimdBatch<Real>::most;
@@ -294,7 +295,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
   auto& batches = batches_[t];
   batches.clear();
   const std::size_t contiguous = (tile.last - tile.first + most - 1) / most;
-  batches.reserve(contiguous + contiguous / 8 + 2);  // some are broken
+  batches.reserve(contiguous + contiguous / 8 + 2);  // some batches are not contiguous
   made_[t] = {};
   for (std::uint32_t k = tile.first; k < tile.last;) {
     TileBatch<Dim, Real> batch;

@@ -1,10 +1,10 @@
-// Particles that come and go between two steps.
+// Particles added and removed between two steps.
 #include "base/instances.hpp"
 #include "mpm/sparse_grid.hpp"
 
 namespace thawslide::mpm {
 
-// Particles beyond those known have no nearest node yet.
+// New particles have no nearest node yet.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::add_appended(const Particles<Dim, Real>& particles) {
   const std::size_t before = keys_.size(), count = particles.size();
@@ -38,8 +38,7 @@ void SparseGrid<Dim, Real>::remove(const Particles<Dim, Real>& particles, const 
   make_stale_batches(particles);
 }
 
-// Order and tiles without the particles that are nowhere now; stale are the tiles whose particles are others or stand
-// elsewhere in memory.
+// Drops removed particles from order and tiles. Tiles are stale if their particles changed or moved in memory.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::drop_from_tiles(const std::vector<std::uint32_t>& now_at) {
   std::uint32_t placed = 0;

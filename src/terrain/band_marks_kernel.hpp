@@ -1,4 +1,4 @@
-// What a particle does in mark_band_and_slip: kernels (mpm/kernel.hpp).
+// Particle kernels (mpm/kernel.hpp) of mark_band_and_slip.
 #pragma once
 
 #include "base/select.hpp"
@@ -7,7 +7,7 @@
 
 namespace thawslide::terrain {
 
-// Where no candidate node is near, none is in the band.
+// Resets the band mark: particles without a candidate node nearby are outside the band.
 template <int Dim, class Real>
 struct LeaveBand {
   using Reads = mpm::RecordList<>;
@@ -21,7 +21,8 @@ struct LeaveBand {
   }
 };
 
-// Particles in a cell with a candidate corner are in the band; those in one with a contact node slip as these do.
+// Marks particles in a cell with a candidate corner as band particles; adds nodal slip to particles in a cell with a
+// contact node.
 template <int Dim, class Real>
 struct MarkBand {
   using Reads = mpm::RecordList<mpm::Contact>;

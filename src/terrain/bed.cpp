@@ -55,7 +55,7 @@ void Bed<Dim, Real>::cover_part(const Column& part) {
   }
 }
 
-// A part is covered where the box of a particle near the ground reaches its middle.
+// A part is covered if the box of a particle near the ground reaches its centre.
 template <int Dim, class Real>
 void Bed<Dim, Real>::cover(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                            const mpm::BodySizes<Real>& sizes, const mpm::Particles<Dim, Real>& particles) {
@@ -114,7 +114,7 @@ void Bed<Dim, Real>::parallel_chunks(std::vector<Pressing>& nodes) const {
   const auto has_bed = [&](const Pressing& node) {
     return node.load > Real(0) && node.column != outside && left_[node.column] > Real(0);
   };
-  std::map<std::size_t, Real> load;  // by column where some of the bed is left [kg m/s]
+  std::map<std::size_t, Real> load;  // by column with remaining bed [kg m/s]
   for (const Pressing& node : nodes) {
     if (has_bed(node)) {
       load[node.column] += node.load;
@@ -156,7 +156,7 @@ template <int Dim, class Real>
 void Bed<Dim, Real>::collect(std::size_t column, const Real* record, Real normal_pressure) {
   const Real taken = record[Layout::taken];
   LooseMaterial<Dim, Real>& material = loose_[column];
-  left_[column] = std::max(left_[column] - taken, Real(0));  // of shares that sum to it but for rounding
+  left_[column] = std::max(left_[column] - taken, Real(0));  // the shares sum to it up to round-off
   material.mass += taken;
   material.momentum += mpm::vector_at<Dim, Real>(record, Layout::impulse);
   material.work += record[Layout::work];
@@ -185,7 +185,8 @@ typename Bed<Dim, Real>::Sums Bed<Dim, Real>::sums() const {
   return sums;
 }
 
-// Columns that the slide has covered or taken from, as number, what is left and parts; then what is loose.
+// Checkpoint state: number, remaining mass and covered parts of the columns that have been covered or entrained; then
+// the loose material.
 template <int Dim, class Real>
 std::vector<double> Bed<Dim, Real>::state() const {
   std::vector<double> numbers{0.0};
@@ -218,7 +219,7 @@ void Bed<Dim, Real>::restore(const std::vector<double>& numbers) {
   const auto next_column = [&] {
     return static_cast<std::size_t>(state.whole(static_cast<std::int64_t>(left_.size()) - 1));
   };
-  constexpr std::size_t of_column = 3;  // numbers: which it is, what is left, the parts of it that are covered
+  constexpr std::size_t of_column = 3;  // numbers per column: column number, remaining mass, covered parts
   const std::size_t changed = state.count(of_column);
   for (std::size_t c = 0; c < changed; ++c) {
     const std::size_t column = next_column();

@@ -9,12 +9,12 @@ namespace thawslide::terrain {
 
 namespace {
 
-constexpr int reach = 4;  // columns on each side that count
+constexpr int reach = 4;  // columns on each side in the average
 constexpr double round_off = 1e-9;
 
 template <class Number>
 std::uint64_t key_of(const Number& number) {
-  constexpr long origin = 1L << 31;  // so that columns before the domain have a key too
+  constexpr long origin = 1L << 31;  // offset that gives columns outside the domain a key too
   std::uint64_t key = 0;
   for (std::size_t a = 0; a < number.size(); ++a) {
     key |= static_cast<std::uint64_t>(number[a] + origin) << (32 * a);

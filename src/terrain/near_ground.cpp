@@ -11,8 +11,8 @@ namespace thawslide::terrain {
 
 namespace {
 
-// The contact offset of boxes of half size `half` [m], how far they stretch towards the ground if that lies along a
-// grid axis; seen: what they read of the patch.
+// Contact offset of boxes of half size `half` [m]: their extent towards the ground, if that lies along a grid axis.
+// seen: planes interpolated from the patch.
 template <int Dim, class Real>
 Simd<Real> contact_offset_of_box(const mpm::Reading<Dim, Simd<Real>, 1 + Dim>& seen, Simd<Real> half) {
   Simd<Real> largest = Real(0);
@@ -22,7 +22,7 @@ Simd<Real> contact_offset_of_box(const mpm::Reading<Dim, Simd<Real>, 1 + Dim>& s
   return half * largest;
 }
 
-// The smallest distance of particles from the planes of the nodes that they see [m].
+// Smallest distance of particles from the planes of the nodes in reach [m].
 template <int Dim, class Real>
 Simd<Real> smallest_gap(const mpm::BatchStencil<Dim, Real>& stencil, const mpm::Particles<Dim, Real>& particles,
                         const mpm::TileBatch<Dim, Real>& batch, const mpm::PatchOf<mpm::Planes, Dim, Real>& planes) {
@@ -48,7 +48,8 @@ template <int Dim, class Real>
 void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                         const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,
                         std::size_t first) {
-  constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off<Real>);  // times a particle's contact offset
+  // in units of a particle's contact offset
+  constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off<Real>);
   mpm::PatchOf<mpm::Planes, Dim, Real> patch;
   mpm::with_shape<Real>(model.shape, [&](auto shape) {
     const mpm::MomentumWeights<decltype(shape), Dim, Real> weights{model.sizes, model.sides};
@@ -73,7 +74,7 @@ void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
 
 namespace {
 
-// Adds particles to the candidate nodes by a kernel, and sums the named parts of their records over tiles.
+// Scatters particles to the candidate nodes with a kernel, and sums the named parts of their records over tiles.
 template <class... Parts, int Dim, class Real, class Kernel>
 void to_candidates(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                    const mpm::MotionModel<Dim, Real>& model, const Kernel& kernel, mpm::Particles<Dim, Real>& particles,

@@ -40,7 +40,7 @@ GroundAtNode<Dim, double> ProfileSurface<Dim>::at_node(const Vector<double, Dim>
     return node;
   }
   const Polyline::LinearShare share = line_.linear_share(x, z, cell);
-  const double across = Dim == 2 ? width_.at(x) : cell;  // the shape function's integral along y
+  const double across = Dim == 2 ? width_.at(x) : cell;  // integral of the shape function along y
   node.candidate = line_.highest(x - cell, x + cell) > z - cell + round_off * cell;
   const Vector<double, 2> place(x, z);
   Vector<double, 2> normal = nearest.normal;

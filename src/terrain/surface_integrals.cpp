@@ -8,14 +8,13 @@ namespace thawslide::terrain {
 
 namespace {
 
-// In parts of a cell: what lies this little beyond a plane of the grid is not cut off, since the cut would be all
-// round-off.
+// In cells: parts this little beyond a grid plane are not cut off, because the cut would consist of round-off.
 constexpr double sliver = 1e-12;
-// Less area than this, in parts of a cell's face, gives no direction.
+// In areas of a cell's face: a smaller area does not define a direction.
 constexpr double least_area = 1e-12;
 
-// Calls slice(k, part) for the parts of a polygon between k and k + 1 along an axis; k is -1 for all that is below 0
-// and `count` for all that is above `count`.
+// Calls slice(k, part) for the parts of a polygon between k and k + 1 along an axis; k is -1 for everything below 0 and
+// `count` for everything above `count`.
 template <class Slice>
 void for_slices(const ConvexPolygon& polygon, int axis, int count, const Slice& slice) {
   const auto [least, greatest] = polygon.extent(axis);
@@ -37,16 +36,16 @@ void for_slices(const ConvexPolygon& polygon, int axis, int count, const Slice& 
 
 using OfCorners = Eigen::Array<double, 4, 1>;  // of a grid cell's column: x fastest
 
-// Integrals of s(x) s(y) w^p over a piece's plan, p = 0, 1, 2, with w the height above the cell's floor; and of those
-// of p = 0, 1 times the distance from the corner along x and y.
+// Integrals of s(x) s(y) w^p over the horizontal projection of a polygon, p = 0, 1, 2, where w is the height above the
+// cell's floor; and those of p = 0, 1 times the distance from the corner along x and y.
 struct Moments {
   OfCorners plan = OfCorners::Zero(), first = OfCorners::Zero(), second = OfCorners::Zero();
   std::array<OfCorners, 2> plan_along{OfCorners::Zero(), OfCorners::Zero()};
   std::array<OfCorners, 2> first_along{OfCorners::Zero(), OfCorners::Zero()};
 };
 
-// Six points of a triangle, exact to the fourth degree: Dunavant (1985), Int. J. Numer. Meth. Eng. 21, table II. Each
-// has two equal barycentric coordinates.
+// Six-point rule on triangles, exact to the fourth degree: Dunavant (1985), Int. J. Numer. Meth. Eng. 21, table II.
+// Each point has two equal barycentric coordinates.
 struct RulePoint {
   double weight, twice;
 };
@@ -136,7 +135,8 @@ void SurfaceIntegrals::add_to_cell(int column, int row, int layer, const Facet& 
       at.space += space;
       moment_[static_cast<std::size_t>(node(i, j, k))] += facet.stretch * from_node;
     };
-    // Upwards from w: s = 1 - w at the floor's node integrates to (1 - w)^2/2, s = w at the ceiling's to 1 - w^2/2.
+    // Integrals upwards from w: (1 - w)^2/2 for s = 1 - w at the floor's node, 1 - w^2/2 for s = w at the ceiling's
+    // node.
     const double plan = sum.plan[corner], first = sum.first[corner], second = sum.second[corner];
     const auto along = [&](std::size_t a) { return sum.plan_along[a][corner]; };
     const auto first_along = [&](std::size_t a) { return sum.first_along[a][corner]; };

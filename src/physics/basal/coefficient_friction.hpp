@@ -1,5 +1,5 @@
-// Friction as a given share of the whole load: sliding on a glacier, where what the load melts keeps friction low
-// without a pore pressure of its own. It stands in place of Eqs. 17 and 25.
+// Friction proportional to the total load: sliding on a glacier, where frictional melting keeps friction low without
+// an explicit pore pressure. Replaces Eqs. 17 and 25.
 //   tau = mu N
 #pragma once
 

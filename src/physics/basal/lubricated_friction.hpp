@@ -1,6 +1,6 @@
-// Friction that is lost as solid is: with the melting of ice, and with dilation.
+// Friction that decreases with the solid fraction: by melting of ice, and by dilation.
 //   mu_e = tan(phi_f) [1 - (1 - x)^omega],  x = (n_e - n_min)/(n_max - n_min) within [0, 1]                  (Eq. 25)
-// The limits on x are ours: beyond them Eq. 25 has no meaning.
+// The limits on x are an addition of the present implementation: beyond them, Eq. 25 is not meaningful.
 #pragma once
 
 #include <cmath>
