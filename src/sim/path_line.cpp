@@ -74,7 +74,7 @@ Place2 PathLine::point_at(double along) const {
 }
 
 void CentrePath::warning(const Place2& centre) {
-  constexpr double first_sight = 0.01;  // of the spacing: enough to tell the direction
+  constexpr double first_sight = 0.01;  // fraction of the spacing that suffices to determine the direction
   if (end_moves()) {
     line_.remove_last();
   }
