@@ -14,9 +14,7 @@ namespace thawslide::sim {
 namespace {
 
 template <int Dim>
-using Place =
-    std::array<int,
-               static_cast<std::size_t>(Dim)>;  // of a cube; particles that touch are in the same or in adjacent cubes
+using Place = std::array<int, static_cast<std::size_t>(Dim)>;  // of a cube; touching particles: in it or next to it
 
 constexpr double cube = 2.0;  // cells
 

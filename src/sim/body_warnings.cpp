@@ -22,8 +22,7 @@ constexpr double most_volume_off = 0.02;  // relative deviation of particle volu
 constexpr double least_standing = 0.5;    // fraction of a body's area
 constexpr double touching = 0.5;  // spacings: tolerance, because particles lie on a lattice and the ground may not
 constexpr int digits_of_places = 6;
-constexpr double strain_of_unbroken =
-    1.0;  // a material with a softening strain of at least this remains unbroken as it slides
+constexpr double strain_of_unbroken = 1.0;  // softening strain from which on a material slides unbroken
 
 // Particles lie on a lattice, so their volume may differ from that of the shape.
 std::string volume_warning(const config::Case& parameters, const BodyFigures& body) {

@@ -28,8 +28,8 @@ bool Simulation<Dim, Real>::settle(const std::function<bool()>& goes_on) {
   model_.contact.band_columns = false;
   band_columns_.reset();
   model_.contact.mass_damping = static_cast<Real>(parameters_.mechanics.settle_damping);
-  const config::Policy leaving =
-      std::exchange(parameters_.grid.leaving, config::Policy::stop);  // no particle may leave
+  // No particle may leave.
+  const config::Policy leaving = std::exchange(parameters_.grid.leaving, config::Policy::stop);
   const config::Guards guards = parameters_.guards;
   parameters_.guards.not_finite = parameters_.guards.volume = config::Policy::stop;
   const double dt = parameters_.time.stepping == config::Stepping::fixed ? parameters_.time.step
