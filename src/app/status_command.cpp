@@ -23,8 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct RunStatus {
-  std::string
-      state;  // running, killed, done, stopped, failed; unknown: running or killed, on file systems without locks
+  std::string state;  // running, killed, done, stopped, failed; unknown: running or killed, without file locks
   std::string message;
   std::string process;        // of the run, or a possible one; empty: none
   double time = 0.0;          // simulated [s]
