@@ -271,13 +271,12 @@ struct Band {
   CutCells cut_cells = CutCells::as_they_are;
   ThicknessChange thickness_change = ThicknessChange::conserving;
   BandGrowth growth = BandGrowth::none;
-  double grain_size = 0.05;      // m, BandGrowth::inertial
-  double inertial_number = 0.3;  // BandGrowth::inertial
-  double growth_per_slip = 0;    // BandGrowth::slip
-  double mixing_slip =
-      std::numeric_limits<double>::infinity();  // m, over which shear mixes the band; infinity: no mixing
-  double load_time = 1.0;                       // s, averaging time of N
-  double column_step = 0.1;                     // s, maximum time step of a column
+  double grain_size = 0.05;                                      // m, BandGrowth::inertial
+  double inertial_number = 0.3;                                  // BandGrowth::inertial
+  double growth_per_slip = 0;                                    // BandGrowth::slip
+  double mixing_slip = std::numeric_limits<double>::infinity();  // m, over which shear mixes the band; infinity: none
+  double load_time = 1.0;                                        // s, averaging time of N
+  double column_step = 0.1;                                      // s, maximum time step of a column
   double ground_temperature = std::numeric_limits<double>::quiet_NaN();  // C; NaN: temperature of the body's base
 };
 
