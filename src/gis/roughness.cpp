@@ -22,8 +22,7 @@ namespace {
 
 constexpr int tile_size = 16;              // points along each axis
 constexpr double median_of_unit = 0.6745;  // of |x| for a normal distribution of variance 1
-constexpr double rough_share =
-    0.86;  // fraction of the tiles that are smoother: noise counts if a seventh of the tiles exceeds it
+constexpr double rough_share = 0.86;       // quantile of the tiles: noise that a seventh of them exceeds
 constexpr double striped_share = 0.25;     // the same for noise of whole rows or columns, which is due to the survey
 constexpr std::size_t least_of_tile = 16;  // minimum number of deviations or slopes
 
