@@ -46,8 +46,7 @@ int create_file(const fs::path& file) {
 // Synchronizes the directory entry of a new or renamed file to disk.
 bool synchronise_folder(const fs::path& folder) {
   const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
-  const bool done =
-      descriptor >= 0 && (fsync(descriptor) == 0 || errno == EINVAL);  // not supported by some file systems
+  const bool done = descriptor >= 0 && (fsync(descriptor) == 0 || errno == EINVAL);  // EINVAL: not supported there
   return (descriptor < 0 || close(descriptor) == 0) && done;
 }
 

@@ -19,8 +19,7 @@ void require_memory(std::size_t bytes) {
 }
 
 hid_t memory_access(std::size_t bytes) {
-  constexpr std::size_t copies = 3,
-                        other_bytes = 8'000'000;  // the growing file, its image, and an allowance for other memory
+  constexpr std::size_t copies = 3, other_bytes = 8'000'000;  // the growing file and its image; other memory
   require_memory(copies * bytes + other_bytes);
   constexpr std::size_t growth = std::size_t{1} << 20;
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
