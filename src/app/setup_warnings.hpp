@@ -1,4 +1,4 @@
-// Facts about a case before it runs: what is unusual or probably unintended, and how long the run will take.
+// Facts about a case before it runs: unusual or probably unintended values, and the estimated run time.
 #pragma once
 
 #include <filesystem>

@@ -173,8 +173,8 @@ void Simulation<Dim, Real>::collect_bed() {
   }
 }
 
-// Adds loose material as soon as it makes up a particle. Smaller particles are added if the bed is exhausted, or if the
-// slide has moved on by a cell.
+// Adds loose material as soon as it suffices for a particle. Smaller particles are added if the bed is exhausted, or if
+// the slide has moved on by a cell.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::entrain_bed() {
   if (step_number_ % joining_interval != 0) {

@@ -21,12 +21,11 @@
 
 namespace thawslide::sim {
 
-// The discrete step, Section 2.3 of the paper; all stages use the shape functions at the positions the step begins
-// with.
+// Discrete step, Section 2.3 of the paper; all stages use the shape functions at the initial positions of the step.
 //   m_i = sum S m,  p_i = sum S m v,  f_i = sum S m b - V sigma.G                              Eq. 12
-//   P_i, S_i, n_i: averages with the linear shape functions; under band columns only where some node presses on ground
+//   P_i, S_i, n_i: averages with the linear shape functions; with band columns, only if a node presses on ground
 //   without a column                                                                         Eq. 21
-//   f_i of bodies that do not share nodes: with what they exert on one another               mpm/body_contact.hpp
+//   f_i of bodies that do not share nodes: including the forces between them                 mpm/body_contact.hpp
 //   p_i + f_i dt corrected by contact: N = p.n/(A dt), S_slide = mu_e (N - P) + c_S            Eqs. 15-17, 25
 //   v_p += sum S a dt,  x_p += sum S (v_i + a_i dt/2) dt                                       Eqs. 13, 14
 //   stress and porosity from the mapped-back velocities                                        Eqs. 11, 6
