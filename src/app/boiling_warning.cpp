@@ -13,7 +13,7 @@ namespace thawslide::app {
 namespace {
 
 constexpr double boiling = physics::Steam<double>::boiling_at_atmosphere;  // [C]
-constexpr double beyond_belief = 210.0;                                    // [C] steam of it lifts some 80 m of slide
+constexpr double beyond_belief = 210.0;  // [C] steam at this temperature lifts about 80 m of slide
 
 template <int Dim>
 double warmest_particle(const sim::Simulation<Dim, double>& simulation) {

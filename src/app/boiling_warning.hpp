@@ -1,4 +1,4 @@
-// What a run says where the base gets too hot to be believed.
+// Warnings of a base too hot to be physically credible.
 #pragma once
 
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace thawslide::app {
 
-// Notes where water would boil and does not, or band columns are hot or have boiled dry; each once.
+// Reports once each that water would boil but does not, and that band columns are hot or have boiled dry.
 class BoilingWatch {
  public:
-  // What is to be told now; empty where nothing is.
+  // Returns a new warning; empty if there is none.
   template <int Dim>
   std::string warning(const sim::Simulation<Dim, double>& simulation);
 
  private:
-  bool is_hot_ = false, is_dry_ = false;  // has been told
+  bool is_hot_ = false, is_dry_ = false;  // already reported
 };
 
 }  // namespace thawslide::app

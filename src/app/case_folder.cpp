@@ -84,7 +84,7 @@ config::Case trial_case(const std::string& folder, const MapOptions& maps) {
 
 namespace {
 
-// A message that names keys of a case, for a user who has not got one yet.
+// Replaces keys of a case by options in a message, for a user who has no case yet.
 std::string as_option_names(std::string message) {
   const std::vector<std::pair<std::string, std::string>> words{
       {"which body.slide.thickness asks for", "which is needed without --thickness"},

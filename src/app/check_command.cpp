@@ -1,4 +1,4 @@
-// thawslide check: what a run of the case will take, what is doubtful in it, and its picture before it starts.
+// thawslide check: resources and warnings of a case, and a figure of its setup, before a run.
 #include <filesystem>
 #include <stdexcept>
 
@@ -20,7 +20,7 @@ namespace thawslide::app {
 
 namespace {
 
-// What a card would make of the run, tried from where the trial on the processor has come to.
+// Speed and memory of the run on a GPU, tested from the state that the trial on the CPU has reached.
 template <int Dim>
 GpuFacts gpu_facts(sim::Simulation<Dim, double>& simulation, sim::RunRecords<Dim>& records, double steps) {
   GpuFacts facts = detect_gpu();
@@ -31,9 +31,9 @@ GpuFacts gpu_facts(sim::Simulation<Dim, double>& simulation, sim::RunRecords<Dim
   try {
     use_device<Dim>("gpu", simulation);
     if (simulation.time() < end) {
-      simulation.step(simulation.next_step(end));  // particles go to the card
+      simulation.step(simulation.next_step(end));  // copies particles to the GPU
       records.after_step(simulation);
-      static_cast<void>(records.history_row(simulation));  // which needs memory there too
+      static_cast<void>(records.history_row(simulation));  // allocates memory on the GPU as well
       static_cast<void>(simulation.front());
     }
     if (!(simulation.time() < end)) {
@@ -42,7 +42,7 @@ GpuFacts gpu_facts(sim::Simulation<Dim, double>& simulation, sim::RunRecords<Dim
     }
     facts.seconds = measured_step_seconds<Dim>(simulation) * steps;
     facts.used = facts.free - detect_gpu().free;
-  } catch (const std::runtime_error& error) {  // what was found on the processor holds all the same
+  } catch (const std::runtime_error& error) {  // the CPU results remain valid
     facts.why_not = error.what();
   }
   return facts;
@@ -59,7 +59,7 @@ std::vector<MapFacts> map_facts(const config::Case& parameters, const config::Si
            cells * static_cast<double>(sim::FlowMaps::bytes_of_cell() + sizeof(double))}};
 }
 
-// All that is known before the first step.
+// Facts known before the first step.
 template <int Dim>
 SetupFacts facts_of(const sim::Simulation<Dim, double>& simulation, const sim::RunRecords<Dim>& records) {
   const config::Case& parameters = simulation.parameters();
@@ -106,7 +106,7 @@ int check_case(const CheckOptions& options) {
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     Warnings warnings(options.json ? Warnings::Form::kept : Warnings::Form::printed);
     sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, warnings));
-    sim::RunRecords<Dim> records(simulation, simulation.site());  // maps, path and probes can be gathered
+    sim::RunRecords<Dim> records(simulation, simulation.site());  // checks that maps, path and probes can be recorded
     records.start(simulation);
     SetupFacts facts = facts_of<Dim>(simulation, records);
     add_setup_warnings(simulation, facts.bodies, facts.disk, facts.disk_folder, warnings);
@@ -120,7 +120,7 @@ int check_case(const CheckOptions& options) {
     try {
       facts.seconds = measured_step_seconds<Dim>(simulation) * facts.steps;
       facts.gpu = gpu_facts<Dim>(simulation, records, facts.steps);
-    } catch (const RunError& error) {  // what was known before holds all the same
+    } catch (const RunError& error) {  // earlier facts remain valid
       facts.error = error.what();
       report_line();
       throw;

@@ -1,4 +1,4 @@
-// The command line: what can be asked, and how it ends (exit codes in ARCHITECTURE.md).
+// Command line: options, commands and exit codes (listed in ARCHITECTURE.md).
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cmath>
@@ -42,7 +42,7 @@ void add_device_option(CLI::App& command, std::string& device) {
       ->check(CLI::IsMember({"cpu", "gpu", "auto"}));
 }
 
-// CLI11's own check prints the largest number that a computer knows.
+// Replaces CLI11's own check, whose message prints the largest floating-point number.
 CLI::Validator above_zero() {
   return {[](std::string& text) {
             double number = 0.0;
@@ -74,7 +74,7 @@ CLI::Option* add_map_options(CLI::App& command, MapOptions& maps) {
   return release;
 }
 
-// A misspelt command is named, with its nearest neighbour.
+// Reports a misspelt command with the most similar valid one.
 void require_known_command(const CLI::App& program, int count, char** arguments) {
   if (count < 2 || arguments[1][0] == '-') {
     return;
@@ -92,8 +92,8 @@ void require_known_command(const CLI::App& program, int count, char** arguments)
                   hint.empty() ? "." : hint, thawslide::config::comma_list(commands)));
 }
 
-// A reader that closes its pipe has read enough; what cannot be written otherwise is lost, and that is told. Returns
-// the exit code, `code` where there is nothing to tell.
+// Reports lost output. A closed pipe is not an error, because the reader has read enough. Returns the exit code, `code`
+// if there is nothing to report.
 int end_without_output(std::error_code reason, int code) {
   if (reason == std::errc::broken_pipe) {
     return code;
@@ -102,7 +102,7 @@ int end_without_output(std::error_code reason, int code) {
   return static_cast<int>(ExitCode::not_written);
 }
 
-// Returns the exit code of a command that returned `code`: its results have to be where they were sent before it ends.
+// Returns the exit code of a command that returned `code`, after its results have been flushed.
 int with_output_written(int code) {
   errno = 0;
   const bool is_flushed = std::fflush(stdout) == 0;
@@ -229,7 +229,7 @@ int run_program(int count, char** arguments) {
     }
     throw thawslide::UserError(fmt::format("{}. Run with --help for more information.", error.what()));
   }
-  // A run goes on without a terminal: its results are files.
+  // A run continues without a terminal, because its results are files.
   return run->parsed() || resume->parsed() ? exit_code : with_output_written(exit_code);
 }
 
@@ -237,7 +237,7 @@ int run_program(int count, char** arguments) {
 
 namespace {
 
-// Names of files, attributes and the like come from others.
+// Escapes control characters, because names of files, attributes and others come from external sources.
 std::string printable(std::string text) { return thawslide::config::printable(std::move(text), "\n\t"); }
 
 }  // namespace
@@ -267,7 +267,7 @@ int main(int count, char** arguments) {
         "grid.cell larger: twice the cell takes an eighth of the memory in 3D and a quarter in 2D.\n");
     return static_cast<int>(ExitCode::user_mistake);
   } catch (const std::exception& error) {
-    // Of what is printed amid a command fmt tells in this way that it could not be written.
+    // fmt reports a failed write of a command's output by this exception.
     const auto* of_system = dynamic_cast<const std::system_error*>(&error);
     if (of_system != nullptr && std::ferror(stdout) != 0) {
       return end_without_output(of_system->code(), static_cast<int>(ExitCode::done));

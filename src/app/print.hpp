@@ -1,5 +1,5 @@
-// What is told as the work goes on. Where nobody reads it any more (a closed pipe, a full disk) the work goes on; of
-// commands whose results are what they print, main.cpp tells at their end that these were lost.
+// Output during the work. If it cannot be written (a closed pipe, a full disk), the work continues. For commands whose
+// results are their output, main.cpp reports the loss at the end.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 
 namespace thawslide::app {
 
-// A stream that does not take it is no failure.
+// Ignores a stream that cannot be written.
 inline void put(std::FILE* stream, const std::string& text) {
   (void)std::fwrite(text.data(), 1, text.size(), stream);
   (void)std::fflush(stream);

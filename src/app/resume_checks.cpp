@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What resumes were to change of the case with this SHA-256, in order: they were cut off after run.json told of it and
-// before case.toml had it. Nothing where no part of the run had that case.
+// Changes that interrupted resumes were to make to the case with this SHA-256, in order: they are in run.json but not
+// in case.toml. Empty result if no part of the run had that case.
 std::optional<std::vector<std::string>> changes_cut_off(const io::Provenance& facts, const std::string& case_sha256) {
   std::vector<std::string> changes;
   for (auto part = facts.parts.rbegin(); part != facts.parts.rend(); ++part) {
@@ -35,14 +35,14 @@ std::optional<std::vector<std::string>> changes_cut_off(const io::Provenance& fa
   return std::nullopt;
 }
 
-// They must be told again: run.json tells of them already. Another value of their keys will do.
+// Requires these changes to be specified again, because run.json lists them already. Their keys may have other values.
 void require_same_changes(const fs::path& folder, const std::vector<std::string>& changes,
                           const std::vector<std::string>& sets) {
   const std::set<std::string> specified = config::keys_of(sets);
   std::vector<std::string> missing;
   for (const std::string& change : changes) {
     const std::string key = *config::keys_of({change}).begin();
-    // Of what changed a key more than once the last one holds.
+    // If a key was changed more than once, the last change applies.
     missing.erase(std::remove_if(missing.begin(), missing.end(),
                                  [&](const std::string& other) { return *config::keys_of({other}).begin() == key; }),
                   missing.end());
@@ -61,7 +61,7 @@ void require_same_changes(const fs::path& folder, const std::vector<std::string>
   }
 }
 
-// One of another run may have been put there.
+// Requires that the checkpoint belongs to this run, because that of another run may have been copied there.
 void require_checkpoint_of_run(const fs::path& folder, const io::Provenance& facts, const std::string& now,
                                const std::string& of_checkpoint) {
   const std::string sha256 = sha256_of_text(of_checkpoint);
@@ -178,7 +178,7 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
       throw UserError(fmt::format("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
                                   fmt::join(changes, "; "), advice_on(folder, facts, changes, usual)));
     }
-    cut_off = changes_cut_off(facts, sha256_of_text(before));  // what it says is that of the checkpoint
+    cut_off = changes_cut_off(facts, sha256_of_text(before));  // the case text is that of the checkpoint
   }
   require_same_changes(folder, *cut_off, sets);
 }

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What changes of the case, with --end among it.
+// All changes to the case, including --end.
 std::vector<std::string> sets_of(const ResumeOptions& options) {
   std::vector<std::string> sets = options.sets;
   if (!options.end.empty()) {
@@ -43,7 +43,7 @@ std::vector<std::string> sets_of(const ResumeOptions& options) {
   return sets;
 }
 
-// A run at its end stays as it is, and in a folder that cannot be written too.
+// Leaves a finished run unchanged, also in a read-only folder.
 int leave_finished(const fs::path& folder, const io::Provenance& facts) {
   const fs::path file = folder / "case.toml";
   const bool is_known = io::has_checkpoint(folder);
@@ -69,12 +69,12 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
   return static_cast<int>(ExitCode::done);
 }
 
-// What the run goes on with.
+// State and case with which a run continues.
 struct Continuation {
   config::Case parameters;
   std::string case_text;       // for case.toml
-  io::Provenance earlier;      // what run.json tells, with the part that begins
-  double earlier_end = 0.0;    // time.end before it was changed [s]
+  io::Provenance earlier;      // contents of run.json, with the part that begins
+  double earlier_end = 0.0;    // time.end before the change [s]
   std::string device = "cpu";  // --device
 };
 
@@ -105,7 +105,7 @@ Continuation continuation_of(const fs::path& folder, const std::vector<std::stri
   return next;
 }
 
-// run.json must tell of a change before: a kill between leaves no change untold.
+// run.json must record a change first, so that no change is unrecorded if the process is killed in between.
 void apply_changes(const fs::path& folder, const Continuation& next) {
   if (const std::vector<std::string>& changes = next.earlier.parts.back().changes; !changes.empty()) {
     io::write_file_atomically(folder / "case.toml", next.case_text);
@@ -124,7 +124,8 @@ void restore(sim::Simulation<Dim, double>& simulation, const std::vector<double>
   }
 }
 
-// What a change makes of a key that stays is told where that stands: in the run's case.toml, which is not for editing.
+// Reports an error that a change causes in an unchanged key at its location in the run's case.toml, which is not for
+// editing.
 template <int Dim>
 std::unique_ptr<sim::Simulation<Dim, double>> simulation_of(const fs::path& folder, const Continuation& next,
                                                             Warnings& warnings) {
@@ -156,8 +157,8 @@ int restart_from_begin(const fs::path& folder, const Continuation& next) {
   return start_and_run<Dim>(simulation, output, folder);
 }
 
-// Whether a run that is done goes on, with what was changed. falls_back: its last checkpoint is lost. Throws UserError
-// where it cannot, and the changes would be lost.
+// True if a finished run continues with the changes. falls_back: its last checkpoint is lost. Throws UserError if the
+// run cannot continue and the changes would be lost.
 template <int Dim>
 bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, bool falls_back,
                               sim::Simulation<Dim, double>& simulation) {
@@ -190,7 +191,8 @@ bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, 
   return true;
 }
 
-// The next checkpoint must not push the good one out and keep the damaged one. Says under which name that is kept.
+// Renames a damaged checkpoint, because the next one would otherwise replace the valid one and keep the damaged one.
+// Returns a text with the new name.
 std::string keep_damaged(const fs::path& damaged) {
   if (damaged.empty()) {
     return "";
@@ -223,7 +225,7 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
   const double end = next.parameters.time.end, half_a_step = 0.5 * simulation.last_step();
   const double had_come_to = std::max(next.earlier.simulated_time,
                                       io::last_time_in_history(folder / "history.csv").value_or(simulation.time()));
-  // One that failed is simulated anew from its checkpoint on, and may end before it fails.
+  // A failed run is simulated again from its checkpoint, and may end before the time of failure.
   const bool failed = next.earlier.status == "failed";
   const double has_come_to = failed ? simulation.time() : had_come_to;
   if (end < next.earlier_end && end < has_come_to - half_a_step) {

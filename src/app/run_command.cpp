@@ -30,7 +30,7 @@ int run_case(const RunOptions& options) {
     Warnings warnings;
     sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, warnings));
     {
-      sim::RunRecords<Dim> records(simulation, simulation.site());  // refused before anything is written, or removed
+      sim::RunRecords<Dim> records(simulation, simulation.site());  // throws before any file is written or removed
       records.start(simulation);
       add_setup_warnings(simulation, sim::body_figures(simulation),
                          disk_need(simulation, records.maps(), steps_to_end(simulation)), folder, warnings);

@@ -22,10 +22,10 @@ namespace thawslide::app {
 
 namespace {
 
-// What the progress line tells of the front.
+// Position and speed of the front for the progress line.
 class FrontWatch {
  public:
-  // front: how far it has come [m].
+  // front: distance travelled [m].
   template <int Dim>
   ProgressState state(const sim::Simulation<Dim, double>& simulation, double front, std::int64_t steps) {
     const double elapsed = simulation.time() - time_;
@@ -39,12 +39,12 @@ class FrontWatch {
   double front_ = std::nan(""), time_ = 0.0;
 };
 
-// Tells once that guards remove particles.
+// Reports once that guards remove particles.
 class RemovalWatch {
  public:
   explicit RemovalWatch(const sim::Removed& before) : told_(before.by_guards() > 0) {}
 
-  // Empty while there is nothing new to tell.
+  // Empty if there is nothing new to report.
   template <int Dim>
   std::string warning(const sim::Simulation<Dim, double>& simulation) {
     if (told_ || simulation.removed().by_guards() == 0) {
@@ -78,7 +78,8 @@ bool settle(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output) {
   }
 }
 
-// A file could not be written, or a card failed: what stands is whole, and the run can go on from its last checkpoint.
+// Ends a run after a failed write or a GPU error: all files are intact, and the run can resume from its last
+// checkpoint.
 template <int Dim>
 int end_at_once(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::exception& error,
                 ExitCode code, const std::filesystem::path& folder) {
@@ -102,7 +103,7 @@ UserError out_of_memory() {
   return UserError("the memory of this machine, or its limit (ulimit -v), was exhausted during the run");
 }
 
-// The steps of one process, and what is written between them.
+// Time loop of one process, with its output.
 template <int Dim>
 class Loop {
  public:
@@ -177,7 +178,7 @@ class Loop {
     output_.after_step(simulation_);
   }
 
-  // At rest the run ends: its last row and snapshot stand before a checkpoint tells that it is.
+  // A run at rest ends. Its last row and snapshot are written before a checkpoint records that.
   void write_what_is_due() {
     const double time = simulation_.time(), dt = simulation_.last_step();
     const bool rests = simulation_.ends_at_rest();
@@ -197,7 +198,7 @@ class Loop {
     }
   }
 
-  // Once.
+  // Prints the warning once.
   void warn_of_energy() {
     if (!has_warned_of_energy_) {
       const std::string warning = simulation_.energy_warning();
@@ -212,7 +213,7 @@ class Loop {
     }
   }
 
-  // Of a run that ends before its time; nothing can go on from there.
+  // Writes the last state of a run that ends early and cannot be continued.
   void write_last_state() {
     output_.write_history(simulation_);
     output_.write_snapshot(simulation_);
@@ -229,7 +230,8 @@ class Loop {
   }
 
   int end_by_signal() {
-    // The checkpoint holds this moment. A row or a snapshot of it would not be there had the run gone on.
+    // The checkpoint stores this state. A row or a snapshot is omitted, because an uninterrupted run would not have
+    // written it.
     output_.write_checkpoint(simulation_);
     close("stopped", fmt::format("signal {}", caught_signal()));
     print_error("interrupted by signal {} at t = {:g} s. To continue: thawslide resume {}\n", caught_signal(),

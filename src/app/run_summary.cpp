@@ -11,7 +11,7 @@ namespace thawslide::app {
 
 namespace {
 
-// Where the slide's front is at the end, in words.
+// Final position of the front as text.
 std::string front_text(double front, double runout) {
   return std::isfinite(front)
              ? fmt::format("front at {:.0f} m, runout {:.0f} m", front, runout)

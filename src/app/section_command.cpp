@@ -1,4 +1,4 @@
-// thawslide section: a 2D case, or a profile alone, cut out of a DEM along a line.
+// thawslide section: creates a 2D case, or a profile alone, from a DEM along a line.
 #include <algorithm>
 #include <filesystem>
 
@@ -24,7 +24,7 @@ namespace {
 constexpr const char* profile_name = "profile.csv";
 constexpr const char* line_option = "--line";
 
-// As a line of comments can hold it.
+// File name in a form that fits a line of comments.
 std::string name_of(const std::string& file) { return config::shown(fs::path(file).filename().string()); }
 
 struct Cut {
@@ -53,7 +53,7 @@ Cut cut_along_line(const config::Site& site, const std::string& line_file) {
   return cut;
 }
 
-// Of the case that the profile is cut for; `otherwise` where it has no body.
+// Cell of the case for which the profile is made; `otherwise` without a body.
 double cell_of(const config::ProfileTable& profile, double otherwise) {
   if (profile.surface.empty()) {
     return otherwise;
@@ -62,7 +62,7 @@ double cell_of(const config::ProfileTable& profile, double otherwise) {
   return body.area > 0.0 ? config::propose_section(profile, body).cell : otherwise;
 }
 
-// The ground as a run in space would have it, with the filter for such cells and the noise of the whole DEM.
+// Ground as in a 3D run, with the filter for such cells and the noise of the whole DEM.
 config::Site smoothed_site(config::Case trial, double cell) {
   trial.grid.cell = cell;
   trial.terrain.smooth.is_auto = true;
@@ -77,7 +77,7 @@ std::string format_filter(const SectionOptions& options, const config::Roughness
       name_of(options.maps.dem), ground.width, ground.cell, ground.noise, ground.bump_slope, ground.width);
 }
 
-// `taper`: of the edges of what is cut out [m].
+// `taper`: of the edges of the excavation [m].
 std::vector<std::string> comments_on(const SectionOptions& options, const config::Site& site, const Cut& cut,
                                      double taper) {
   std::vector<std::string> comments{
@@ -105,7 +105,7 @@ std::vector<std::string> comments_on(const SectionOptions& options, const config
   return comments;
 }
 
-// The release must lie on the line, with some cells of the domain at both ends.
+// Requires that the release lies on the line, with some cells of the domain at both ends.
 void check_body(const SectionOptions& options, const config::ProfileTable& profile, const config::SurfaceBody& body,
                 const config::Proposal& proposal) {
   const double margin = config::margin_cells * proposal.cell;

@@ -62,7 +62,7 @@ std::string text_of(const config::Roughness& ground) {
       100.0 * ground.apparent_friction, valleys);
 }
 
-// "3 checkpoints of 1.2 MB", and how they grow where they do.
+// Text such as "3 checkpoints of 1.2 MB", and their growth, if any.
 std::string checkpoints_text(const DiskNeed& need) {
   std::string text =
       fmt::format("{:.0f} checkpoints of {:.1f} MB", need.checkpoints, need.checkpoint_at_start / megabyte);

@@ -30,7 +30,7 @@ template <int Dim>
 double steps_to_end(const sim::Simulation<Dim, double>& simulation) {
   const config::Time& time = simulation.parameters().time;
   const double steps = time.end / simulation.next_step(time.end) * (1.0 - 1e-12);
-  // Fixed steps end the run half a step before its end already; adaptive ones are cut to meet it.
+  // Fixed steps may end the run up to half a step early; adaptive steps are cut to end exactly.
   return time.stepping == config::Stepping::fixed ? std::max(1.0, std::ceil(steps - 0.5)) : std::ceil(steps);
 }
 

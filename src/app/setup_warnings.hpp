@@ -1,4 +1,4 @@
-// Facts about a case before it runs: what is unusual or probably unintended, and how long the run will take.
+// Facts about a case before it runs: unusual or probably unintended values, and the estimated run time.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace thawslide::app {
 
-// folder: of the run to come. For a simulation that has not taken a step.
+// folder: of the planned run. Requires a simulation before its first step.
 template <int Dim>
 void add_setup_warnings(const sim::Simulation<Dim, double>& simulation, const std::vector<sim::BodyFigures>& bodies,
                         const DiskNeed& disk, const std::filesystem::path& folder, Warnings& warnings);
 
-// As many steps as a run takes, if all are as long as the first one.
+// Number of steps of a run if all are as long as the first one.
 template <int Dim>
 [[nodiscard]] double steps_to_end(const sim::Simulation<Dim, double>& simulation);
 

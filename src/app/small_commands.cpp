@@ -1,4 +1,4 @@
-// thawslide block, describe, report, version.
+// thawslide block, describe, report and version.
 #include <unistd.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ void print_table(const std::vector<sim::HistoryRow>& rows) {
   }
 }
 
-// Where the ground across the path adds to friction by more than this it is said.
+// Valley factor above which the effect of the cross-slope ground on friction is reported.
 constexpr double least_valley_factor = 1.03;
 
 void note_valley(const std::vector<sim::HistoryRow>& rows) {
@@ -67,7 +67,7 @@ void note_valley(const std::vector<sim::HistoryRow>& rows) {
   }
 }
 
-// A 3D case slides as a section of it.
+// Runs a 3D case as a section along its path.
 std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Warnings& warnings) {
   const sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters, warnings));
   std::vector<sim::HistoryRow> rows = sim::run_block(section.parameters, section.site, section.valley_factor);
@@ -105,14 +105,14 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Wa
         "Give "
         "{} to follow it further\n",
         end, value_of(*beyond, "time_s"), section.path_given ? "a longer maps.path, or a larger DEM," : "a larger DEM");
-    // The first row stays: the ground is known below the whole release.
+    // The first row is kept: the ground is known below the whole release.
     rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
   }
   note_valley(rows);
   return rows;
 }
 
-// A profile that does not go on ends where its rows do.
+// On a profile without extrapolation, the results end with it.
 std::vector<sim::HistoryRow> block_on_profile(const config::Case& parameters) {
   std::vector<sim::HistoryRow> rows = sim::run_block(parameters);
   if (parameters.terrain.kind != config::TerrainKind::profile || parameters.terrain.extend) {

@@ -23,17 +23,17 @@ namespace fs = std::filesystem;
 namespace {
 
 struct RunStatus {
-  std::string state;  // running, killed, done, stopped, failed; unknown: running or killed, without locks to tell by
+  std::string state;  // running, killed, done, stopped, failed; unknown: running or killed, without file locks
   std::string message;
-  std::string process;                                              // that is at work, or may be; empty: none
-  double time = 0.0;                                                // simulated [s]
-  std::optional<double> end;                                        // [s]; nothing where the case cannot be read
-  std::string case_error;                                           // why not
-  std::string history_error;                                        // why its rows cannot be read; empty: they can
+  std::string process;        // of the run, or a possible one; empty: none
+  double time = 0.0;          // simulated [s]
+  std::optional<double> end;  // [s]; empty if the case cannot be read
+  std::string case_error;     // reason why the case cannot be read
+  std::string history_error;  // reason why the history cannot be read; empty if it can
   std::optional<double> checkpoint_age, last_write_age, time_left;  // wall-clock [s]
 };
 
-// Of a time as run.json has it, in UTC [s].
+// Converts a UTC time in run.json to its age [s].
 std::optional<double> seconds_since(const std::string& utc) {
   std::tm parts{};
   if (strptime(utc.c_str(), "%Y-%m-%dT%H:%M:%SZ", &parts) == nullptr) {
@@ -49,7 +49,7 @@ std::optional<double> age_of(const fs::path& file) {
                : std::optional(std::chrono::duration<double>(fs::file_time_type::clock::now() - written).count());
 }
 
-// Whether a run is alive is to be known whatever has become of its case, or of its disk.
+// The state of the process is reported even if the case or its disk is unreadable.
 void add_end(const fs::path& folder, RunStatus& status) {
   try {
     status.end = config::read_case(folder).time.end;
@@ -58,7 +58,7 @@ void add_end(const fs::path& folder, RunStatus& status) {
   }
 }
 
-// The same of its history; run.json tells a time too, of when it was written.
+// The same for the history; run.json contains a time too, that of its last update.
 void add_time(const fs::path& folder, double specified, RunStatus& status) {
   status.time = specified;
   try {
@@ -68,7 +68,7 @@ void add_time(const fs::path& folder, double specified, RunStatus& status) {
   }
 }
 
-// The last checkpoint may be lost, or a kill has come between, and the one before is there.
+// If the last checkpoint is missing, or a kill occurred between two renames, the previous one exists.
 std::optional<double> checkpoint_age(const fs::path& folder) {
   for (const char* name : {io::checkpoint_name, io::previous_checkpoint_name}) {
     std::error_code unknown;
@@ -79,7 +79,7 @@ std::optional<double> checkpoint_age(const fs::path& folder) {
   return std::nullopt;
 }
 
-// Of the file of the run that was written last.
+// Age of the run's file that was written last.
 std::optional<double> last_write_age(const fs::path& folder) {
   std::optional<double> least;
   for (const fs::path& place : {folder, folder / "snapshots"}) {
@@ -94,7 +94,7 @@ std::optional<double> last_write_age(const fs::path& folder) {
   return least;
 }
 
-// Of a run that has a process, or may have, and no run.json yet.
+// Status of a run that has a process, or may have one, and no run.json yet.
 RunStatus status_at_start(const fs::path& folder, const io::AtWork& at_work) {
   RunStatus status;
   status.state = at_work.is_known ? "running" : "unknown";
@@ -128,7 +128,7 @@ RunStatus status_of(const fs::path& folder) {
   status.checkpoint_age = checkpoint_age(folder);
   const io::RunPart& part = facts.parts.back();
   const std::optional<double> elapsed = seconds_since(part.started);
-  const bool is_known = elapsed && *elapsed >= 1.0 && status.time > part.from_time;  // run.json tells whole seconds
+  const bool is_known = elapsed && *elapsed >= 1.0 && status.time > part.from_time;  // run.json is in whole seconds
   if (is_at_work && is_known && status.end) {
     status.time_left = *elapsed * std::max(0.0, *status.end - status.time) / (status.time - part.from_time);
   }
@@ -151,7 +151,7 @@ std::string json_text(const RunStatus& status) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-// [s]
+// age: [s].
 std::string age_text(double age) {
   return age < 0.0 ? "later than it is now by this machine's clock" : duration_text(age) + " ago";
 }
@@ -171,7 +171,7 @@ std::string status_text(const RunStatus& status) {
         age_text(status.last_write_age.value_or(0.0)));
   }
   if (status.state == "failed") {
-    return status.message.empty() ? "the run failed" : status.message;  // which begins with these words
+    return status.message.empty() ? "the run failed" : status.message;  // the message begins with these words
   }
   return status.message.empty() ? status.state : status.state + ": " + status.message;
 }

@@ -1,4 +1,4 @@
-// What a user is told of a case beside results and errors: printed as it comes, or kept for a reader of JSON.
+// Warnings and notes about a case, other than results and errors: printed immediately, or collected for JSON output.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ class Warnings {
   enum class Form { printed, kept };
   explicit Warnings(Form form = Form::printed) : form_(form) {}
 
-  // Nothing happens for an empty text.
+  // Ignores an empty text.
   void add(const std::string& text);
   void add(const std::vector<std::string>& texts);
 

@@ -1,5 +1,5 @@
-// Defaults that were the paper's forms in earlier versions. A case file that gives none of these keys was written
-// before, and gets one notice; the tests of the paper's equations take the former values from here.
+// Defaults that were the published formulations in earlier versions. A case file without any of these keys predates the
+// change and gets one notice. Tests of the published equations take the former values from here.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@
 namespace thawslide::config {
 
 struct ChangedDefault {
-  std::string table;  // "band"; "material.NAME": of each material
+  std::string table;  // "band"; "material.NAME" for each material
   std::string key;
-  std::string before;  // as TOML, and so is `now`
+  std::string before;  // as TOML, as `now`
   std::string now;
-  bool (*matters)(const Case&);  // whether a case feels it
+  bool (*matters)(const Case&);  // true if the change affects a case
 };
 
 const std::vector<ChangedDefault>& changed_defaults();
 
-// One notice that says what changed for this case; empty where its file gives any of the keys, or feels none.
+// Notice of the changes that affect this case; empty if its file gives any of the keys, or none has an effect.
 std::string notice_of_moved_defaults(const Case& parameters);
 
 }  // namespace thawslide::config

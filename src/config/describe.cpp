@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What holds where the key is absent, whenever it has a meaning.
+// Effect of omitting a key that is allowed.
 std::string absence_in_meaning(const Entry& entry) {
   if (entry.required.empty()) {
     return entry.otherwise.empty() ? entry.default_text : entry.otherwise;
@@ -21,7 +21,7 @@ std::string absence_in_meaning(const Entry& entry) {
   return entry.otherwise.empty() ? required : required + "; otherwise " + entry.otherwise;
 }
 
-// What holds where the key is absent, and when it has a meaning.
+// Effect of omitting a key, and the condition under which it is allowed.
 std::string absence(const Entry& entry) {
   const std::string text = absence_in_meaning(entry);
   const bool is_specified = entry.only.empty() || entry.only == entry.required;
@@ -34,7 +34,7 @@ std::string range_text(const Entry& entry) {
   return is_number ? entry.rule->range.text() : "";
 }
 
-// "usually 0.01 to 2 (not checked)"; empty where nothing is told.
+// Text such as "usually 0.01 to 2 (not checked)"; empty if no range is specified.
 std::string usual_text(const Entry& entry) {
   return entry.rule->usual.is_specified() ? "usually " + entry.rule->usual.text() : "";
 }
@@ -56,7 +56,7 @@ std::string in_table_cell(std::string text) {
 
 Json described(const Entry& entry) {
   Json json{{"key", entry.rule->key}, {"type", entry.type}, {"unit", entry.rule->unit}, {"allowed", range_text(entry)}};
-  json["dimension"] = entry.rule->dimension == 0 ? Json(nullptr) : Json(entry.rule->dimension);  // null: of any
+  json["dimension"] = entry.rule->dimension == 0 ? Json(nullptr) : Json(entry.rule->dimension);  // null: any
   json["usual"] = entry.rule->usual.text();
   json["default"] = entry.default_text.empty() ? Json(nullptr) : Json(entry.default_text);
   json["required"] = entry.required;
@@ -71,7 +71,7 @@ Json described(const Entry& entry) {
   return json;
 }
 
-// The schema of one table's keys.
+// Schema of one table's keys.
 Json table_schema(const TableDeclaration& table) {
   Json properties = Json::object();
   for (const Entry& entry : table.entries()) {

@@ -25,7 +25,7 @@ bool is_among(const std::string& name, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Throws UserError for a column that there is none of, a row of another length, or a part of the range alone.
+// Throws UserError for a missing or unknown column, a row of another length, or an incomplete range.
 void check_columns(const TableCsv& table, const std::string& file) {
   std::vector<std::string> allowed = needed, absent;
   allowed.insert(allowed.end(), of_range.begin(), of_range.end());
@@ -53,7 +53,7 @@ void check_columns(const TableCsv& table, const std::string& file) {
 
 using Cells = std::map<std::string, std::string>;
 
-// Returns the numbers of a row by column; throws UserError for a cell that holds none.
+// Returns the numbers of a row by column; throws UserError for a cell without a number.
 std::map<std::string, double> numbers_of(const Cells& cells, const std::vector<std::string>& columns,
                                          const std::string& place) {
   std::map<std::string, double> numbers;

@@ -1,4 +1,4 @@
-// The words of the case file for each enumeration of the Case.
+// Keywords of the case file for each enumeration of the Case.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct Choice {
   std::string text;
 };
 
-// The argument only chooses the enumeration.
+// The argument only selects the enumeration.
 inline std::vector<Choice<Stepping>> choices(Stepping) {
   return {{Stepping::fixed, "fixed", "every step is time.step"},
           {Stepping::adaptive, "adaptive", "a share of the smallest limit, at most time.step"}};

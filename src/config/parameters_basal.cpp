@@ -1,4 +1,4 @@
-// The parameters of the base: [basal], [substrate.NAME]. The words and numbers of its laws follow from physics/basal.
+// Parameters of the base: [basal], [substrate.NAME]. Keywords and parameters of the laws are defined in physics/basal.
 #include <algorithm>
 
 #include "config/table_declaration.hpp"
@@ -29,13 +29,13 @@ std::vector<Keyword> law_keywords() {
   return words;
 }
 
-// A number of laws, and the words of those that take it.
+// Parameter of laws, and the keywords of the laws that use it.
 struct LawNumber {
   const physics::basal::Parameter* number;
   std::vector<std::string> laws;
-  bool of_all = false;  // the laws of its kind
+  bool of_all = false;  // of all laws of its kind
 
-  // What it may be, with the words in its text.
+  // Rule of the parameter, with the keywords in its text.
   [[nodiscard]] Rule rule() const;
   [[nodiscard]] bool is_of(const std::string& law) const {
     return std::find(laws.begin(), laws.end(), law) != laws.end();
@@ -57,7 +57,7 @@ Rule LawNumber::rule() const {
 
 std::string LawNumber::chosen(const std::string& key) const { return key + " is " + quoted_list(laws, "or"); }
 
-// All numbers of the laws, each once.
+// All parameters of the laws, each once.
 template <class Laws>
 std::vector<LawNumber> law_numbers() {
   std::vector<LawNumber> numbers;
@@ -95,7 +95,7 @@ Parameter<Section> law_parameter(const LawNumber& of, std::string GroundStrength
       });
 }
 
-// The friction of one kind of ground; `prefix`: of its keys in messages, "basal." or nothing.
+// Friction of one kind of ground; `prefix`: of its keys in messages, "basal." or empty.
 template <class Section>
 std::vector<Parameter<Section>> friction_parameters(const std::string& prefix) {
   std::vector<Parameter<Section>> result{
@@ -117,7 +117,7 @@ std::vector<Parameter<Section>> friction_parameters(const std::string& prefix) {
   return result;
 }
 
-// The cohesion of one kind of ground.
+// Cohesion of one kind of ground.
 template <class Section>
 std::vector<Parameter<Section>> cohesion_parameters(const std::string& prefix) {
   std::vector<Parameter<Section>> result, of_some;

@@ -1,4 +1,4 @@
-// The parameters of the erodible bed: [bed].
+// Parameters of the erodible bed: [bed].
 #include "config/table_declaration.hpp"
 #include "physics/mixture.hpp"
 

@@ -1,4 +1,4 @@
-// The parameters of bodies, frames and where particles stand at t = 0: [body.NAME], [frame.NAME], [initial].
+// Parameters of bodies, frames and initial particle positions: [body.NAME], [frame.NAME], [initial].
 #include <limits>
 
 #include "config/table_declaration.hpp"

@@ -1,4 +1,4 @@
-// The parameters of the model: [mechanics], [mechanisms], [band], [heat], [pressure], [block].
+// Parameters of the model: [mechanics], [mechanisms], [band], [heat], [pressure], [block].
 #include "config/table_declaration.hpp"
 
 namespace thawslide::config {

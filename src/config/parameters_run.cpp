@@ -1,5 +1,4 @@
-// The parameters of a run as a whole: [case], [time], [grid], [terrain], [checkpoint], [maps],
-// [probe.NAME], [report].
+// Parameters of a run as a whole: [case], [time], [grid], [terrain], [checkpoint], [maps], [probe.NAME], [report].
 #include "config/table_declaration.hpp"
 
 namespace thawslide::config {
@@ -85,8 +84,8 @@ std::vector<Parameter<Grid>> grid_parameters() {
   };
 }
 
-// Where there is no choice between stopping and removing, what is wrong is the step or the case, not a particle, and a
-// run without that particle would be as wrong.
+// Guards without a choice between stopping and removing indicate a wrong step or case. Removing single particles would
+// not correct such a run.
 std::vector<Parameter<Guards>> guard_parameters() {
   return {
       parameter(&Guards::not_finite, {.key = "not_finite",

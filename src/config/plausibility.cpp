@@ -13,20 +13,20 @@ namespace thawslide::config {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double stiffest = 1e11;       // [Pa]; fresh rock has some 5e10
-constexpr double smallest_angle = 3.0;  // [degrees]; tan 3 is 0.05, the least that is said of ice on ice
+constexpr double stiffest = 1e11;       // [Pa]; fresh rock has about 5e10
+constexpr double smallest_angle = 3.0;  // [degrees]; tan 3 is 0.05, the minimum reported for ice on ice
 constexpr double largest_coefficient = 1.5;
 constexpr double least_turbulence = 100.0, most_turbulence = 10000.0;  // [m/s2]
-constexpr double steepest_widening = 1.0;                              // [m/m]; 27 degrees a side
+constexpr double steepest_widening = 1.0;                              // [m/m]; 27 degrees per side
 constexpr double warm = 0.0;                                           // [C]
 constexpr double most_snapshots = 10000.0;
 constexpr double least_wall_interval = 1.0;  // [s]
 constexpr double most_steps = 1e9;
-constexpr double least_on_earth = 9.5, most_on_earth = 10.1;         // [m/s2]; 9.81 and what is rounded from it
+constexpr double least_on_earth = 9.5, most_on_earth = 10.1;         // [m/s2]; 9.81 and its rounded values
 constexpr double lightest_in_grams = 0.5, heaviest_in_grams = 10.0;  // [g/cm3]
 constexpr double grams = 1000.0;                                     // [kg/m3] of 1 g/cm3
 
-// What a phase of a slide weighs, generously [kg/m3].
+// Generous range of the density of a phase [kg/m3].
 struct UsualDensity {
   const char* key;
   double Phases::*density;
@@ -41,12 +41,12 @@ constexpr UsualDensity usual_densities[] = {
 class Warnings {
  public:
   explicit Warnings(const Case& parameters) : case_(parameters) {}
-  // About a key [dotted], in words after its value.
+  // Adds a warning about a key [dotted]; `words` follow its value.
   template <class Value>
   void add(const std::string& key, const Value& value, const std::string& unit, const std::string& words) {
     found_.push_back(fmt::format("{}: {} is {}{}: {}", place_of(case_, key), key, value, unit, words));
   }
-  // About a key that is not given.
+  // Adds a warning about a key that is not given.
   void add_absent(const std::string& key, const std::string& words) {
     found_.push_back(fmt::format("{}: {} is not given: {}", case_.file, key, words));
   }
@@ -74,7 +74,7 @@ void warn_about_phases(const Case& parameters, Warnings& warnings) {
   }
 }
 
-// Lateral motion of a widening section has b'^2/12 of the kinetic energy, and none here.
+// Lateral motion of a widening section has b'^2/12 of the kinetic energy, which is neglected here.
 void warn_about_width(const Case& parameters, Warnings& warnings) {
   const Table& width = parameters.general.width.table;
   for (std::size_t k = 1; k < width.abscissa.size(); ++k) {
@@ -135,7 +135,7 @@ void warn_about_band(const Case& parameters, Warnings& warnings) {
   }
 }
 
-// Whether the friction law of a word uses a number.
+// True if the friction law of a keyword uses a parameter.
 bool uses(const std::string& law, const physics::basal::Parameter& number) {
   bool found = false;
   physics::basal::for_each_law<physics::basal::FrictionLaw<double>>([&]<class Law>(physics::basal::OfType<Law>) {
@@ -207,7 +207,7 @@ bool is_from_command_line(const Case& parameters, const std::string& key) {
   return place_of(parameters, key).starts_with("--");
 }
 
-// A short trial of a case that stops at rest: the command line sets the end, but no key of rest.
+// True for a short trial of a case that stops at rest: the command line sets the end, but no key of rest.
 bool is_shortened_trial(const Case& parameters) {
   return is_from_command_line(parameters, "time.end") && !is_from_command_line(parameters, "time.stop_at_rest") &&
          !is_from_command_line(parameters, "time.rest_time");
@@ -216,7 +216,7 @@ bool is_shortened_trial(const Case& parameters) {
 void warn_about_output(const Case& parameters, Warnings& warnings) {
   const Time& time = parameters.time;
   const bool is_fixed = time.stepping == Stepping::fixed;
-  // Nothing is written more than once a step, and adaptive steps are cut to the times of snapshots.
+  // Output is written at most once per step, and adaptive steps are cut to the times of snapshots.
   const double snapshots = std::min(time.end / time.output_interval, is_fixed ? time.end / time.step : infinity);
   if (time.output_interval > time.end) {
     warnings.add(

@@ -19,7 +19,7 @@ namespace {
 
 using Fields = std::vector<std::string>;
 
-// Of distances [m]: points nearer to one another would coincide in the coordinates of the domain.
+// [m]: closer points would coincide in the coordinates of the domain.
 constexpr double least_profile_step = 1e-6;
 
 const Fields all_columns{"distance_m", "terrain_elevation_m", "surface_elevation_m"};

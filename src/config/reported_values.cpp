@@ -108,7 +108,7 @@ class TargetsReader {
     found_.values.push_back({name, time, row.line, reported_quantity(name)->is_of_a_time});
   }
 
-  // Empty: none, and `time` [s] is told.
+  // Returns an empty text if there is no mistake, and sets `time` [s].
   std::string mistake_in(const TableCsv::Row& row, const std::string& name, double& time) const {
     if (const std::string mistake = mistake_in_periods(name); !mistake.empty()) {
       return mistake;
@@ -173,7 +173,7 @@ class TargetsReader {
     return comma_list(ends);
   }
 
-  // On a clock of their own only the run can tell when they are.
+  // With a separate clock, only the run can determine when the times are.
   void refuse_times_before_the_run() {
     for (const ReportedValue& value : found_.values) {
       if (value.is_of_a_time && value.time < 0.0 && !found_.have_clock) {

@@ -1,4 +1,4 @@
-// Values that are a number or an inline table: tables over time, initial fields, values of maps, heat boundaries.
+// Values that are a number or an inline table: tables over time, initial fields, map values, heat boundaries.
 #include <cmath>
 #include <utility>
 
@@ -12,7 +12,7 @@ using nlohmann::json;
 
 const Rule rule_of_numbers{};
 
-// The keys that say where the value of a map comes from.
+// Keys that specify the source of a map value.
 struct MapKeyword {
   MapValue::From from;
   const char* key;
@@ -55,7 +55,7 @@ std::vector<std::string> keys_of(const toml::table& table) {
 
 enum class Jumps { allowed, refused };
 
-// Reads { ABSCISSA = [...], value = [...] }: equal lengths, ascending, a jump being two equal abscissae.
+// Reads { ABSCISSA = [...], value = [...] }: equal lengths, ascending; two equal abscissae form a jump.
 bool read_table(const toml::table& node, const std::string& abscissa, const ValueReader& at, Table& table,
                 Jumps jumps = Jumps::allowed) {
   Table found;
@@ -107,7 +107,7 @@ bool read_number_or_table(const toml::node& node, const std::string& abscissa, c
   return true;
 }
 
-// The first of the keys that the table has, if it has no other; empty if none is its only one.
+// Key that the table contains, if it is its only key; empty otherwise.
 std::string only_key(const toml::table& table, std::initializer_list<const char*> keys) {
   for (const char* key : keys) {
     if (table.size() == 1 && table.contains(key)) {
@@ -239,7 +239,7 @@ json Value<InitialField>::schema(const Rule& rule) {
   return schema;
 }
 
-// value of a map
+// map value
 std::string Value<MapValue>::type(const Rule& rule) {
   return fmt::format("a number, {{ attribute = \"NAME\" }}, {{ raster = \"FILE\" }} or {{ surface = \"FILE\" }}{}",
                      range_and_unit(rule));
@@ -255,7 +255,7 @@ bool Value<MapValue>::read(const toml::node& node, const ValueReader& at, MapVal
     return fail_keys(node, at);
   }
   for (const MapKeyword& word : map_keywords) {
-    value.from = key == word.key ? word.from : value.from;  // known, whatever is wrong with the source
+    value.from = key == word.key ? word.from : value.from;  // valid regardless of problems with the source
   }
   return read_source(*table, key, at, value.source);
 }

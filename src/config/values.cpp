@@ -163,7 +163,7 @@ bool Value<bool>::read(const toml::node& node, const ValueReader& at, bool& valu
 std::string Value<bool>::write(const bool& value, const Rule&, const WriteContext&) { return value ? "true" : "false"; }
 json Value<bool>::schema(const Rule&) { return {{"type", "boolean"}}; }
 
-// text: a title, a name, one of a few words, or a path
+// text: a title, a name, a keyword, or a path
 std::string Value<std::string>::type(const Rule& rule) {
   if (!rule.words.empty()) {
     return "one of " + keyword_list(rule.words);
@@ -316,6 +316,6 @@ std::string Value<Numbers>::write(const Numbers& value, const Rule&, const Write
 }
 json Value<Numbers>::schema(const Rule& rule) { return array_schema(range_schema(rule.range, "number")); }
 
-// Tables, initial fields, values of maps and heat boundaries: value_tables.cpp.
+// Tables, initial fields, map values and heat boundaries: value_tables.cpp.
 
 }  // namespace thawslide::config

@@ -1,4 +1,4 @@
-// A file that is whole or not there: written beside its place, then renamed onto it.
+// File that is complete or absent: it is written under a temporary name in the same folder and then renamed.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@ class GdalMessages;
 class AtomicFile {
  public:
   explicit AtomicFile(const std::string& file);
-  ~AtomicFile();  // removes what was not put in place
+  ~AtomicFile();  // removes an unpublished temporary file
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  // Where to write; it has the file's own extension, which drivers look at.
+  // Temporary path to write to; it has the file's own extension, which drivers check.
   [[nodiscard]] const std::string& temporary() const { return temporary_; }
-  // Makes sure that it is on the disk, and renames it. Throws WriteError with the system's reason.
+  // Synchronizes the file to disk and renames it. Throws WriteError with the system's reason.
   void publish();
-  // Throws WriteError: cannot write FILE, and why.
+  // Throws WriteError with the file and the reason.
   [[noreturn]] void fail(const std::string& reason) const;
   [[noreturn]] void fail_with(const GdalMessages& messages) const;
 

@@ -31,7 +31,7 @@ void check_whole(const std::string& file, const Raster& codes) {
   }
 }
 
-// The value of the nearest point at each point of a layout; NaN beyond the cells about them.
+// Value of the nearest point at each point of a layout; NaN outside their cells.
 Raster nearest_codes(const std::string& file, const Raster& codes, const Raster& layout) {
   const Reprojection reprojection(layout.crs, codes.crs);
   Raster taken = layout.filled(std::numeric_limits<double>::quiet_NaN());

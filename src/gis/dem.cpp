@@ -39,7 +39,7 @@ std::string system_of(const config::Case& parameters, const RasterFile& file, st
   return system;
 }
 
-// Numbers that stand for no data although the file does not say so, which a slide would take for a pit.
+// Detects undeclared no-data values, which would act as pits.
 void check_elevations(const config::Case& parameters, const RasterFile& file, const Raster& raster) {
   constexpr double deepest = -11000.0, highest = 9000.0;  // m, on Earth
   for (int row = 0; row < raster.rows; ++row) {
@@ -56,7 +56,7 @@ void check_elevations(const config::Case& parameters, const RasterFile& file, co
   }
 }
 
-// The domain less the cells of the grid that reach beyond; empty where none stay.
+// Domain reduced by the grid cells that extend outside the DEM; empty if none remain.
 std::string domain_within(const config::Case& parameters, const Rectangle& span) {
   const config::Grid& grid = parameters.grid;
   const auto cells_beyond = [&](double distance) { return std::max(0.0, std::ceil(distance / grid.cell - 1e-9)); };
@@ -87,7 +87,7 @@ void check_domain(const config::Case& parameters, const std::string& file, const
                       format_range(span), within.empty() ? "grid.min and grid.max so" : within));
 }
 
-// Room about the domain: nodes of the grid's cells about it see the ground, and gradients there need neighbours.
+// Margin around the domain: nodes of the surrounding grid cells read the ground, and gradients there need neighbours.
 Rectangle area_to_read(const config::Case& parameters, const Raster& layout) {
   const double grid_cells = 3.0 * parameters.grid.cell;
   return domain_of(parameters).widened(grid_cells + 2.0 * layout.cell_x, grid_cells + 2.0 * layout.cell_y);
@@ -124,7 +124,8 @@ Raster read_and_resample(const config::Case& parameters, const RasterFile& file,
   return resampled(raster, target);
 }
 
-// Around the polygons of releases and around boxes. Files that cannot be read are reported when the release is loaded.
+// Rectangles around the polygons of releases and around boxes. Unreadable files are reported when the release is
+// loaded.
 std::vector<Rectangle> places_of_bodies(const config::Case& parameters, const std::string& crs) {
   std::vector<Rectangle> places;
   for (const auto& [name, body] : parameters.bodies) {
@@ -144,7 +145,7 @@ std::vector<Rectangle> places_of_bodies(const config::Case& parameters, const st
   return places;
 }
 
-// Points that were interpolated between those of the file have no noise of their own.
+// Points interpolated between those of the file have no noise themselves.
 config::Roughness roughness_of_file(const config::Case& parameters, const RasterFile& file, const Raster& raster,
                                     const std::string& crs) {
   const bool interpolated = raster.cell_x * raster.cell_y < file.layout().cell_x * file.layout().cell_y;
@@ -179,7 +180,7 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& warnings)
   dem.roughness = roughness_of_file(parameters, file, dem.raster, system);
   const double width = dem.roughness.width;
   if (width > 0.0) {
-    // The filter's reach, and the points that a window holds beyond its sides.
+    // Reach of the filter, plus the points that a window includes beyond its sides.
     const double reach = smoothing_reach * width + 2.0 * std::max(layout.cell_x, layout.cell_y);
     dem.before_smoothing = std::move(dem.raster);
     of_reading.clear();

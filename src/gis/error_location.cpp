@@ -4,7 +4,7 @@ namespace thawslide::gis {
 
 void fail_at(const config::Case& parameters, const std::string& key, const std::string& message) {
   const std::string& place = config::place_of(parameters, key);
-  // An option of a command, as --dem, says enough; a place in a file and --set want the key.
+  // A command option such as --dem is sufficient; a location in a file and --set need the key.
   const bool is_option = place.rfind("--", 0) == 0 && place.rfind("--set", 0) != 0;
   throw UserError(is_option ? fmt::format("{}: {}", place, message) : fmt::format("{}: {}: {}", place, key, message));
 }
@@ -18,7 +18,7 @@ void add_warning(const std::string& warning, std::vector<std::string>& warnings)
 std::string describe_overhang(const Rectangle& inner, const Rectangle& outer) {
   std::vector<std::string> sides;
   const auto add = [&](double distance, const char* side) {
-    constexpr double rounding = 1e-6;  // m, of places computed in files
+    constexpr double rounding = 1e-6;  // m, of coordinates computed from files
     if (distance > rounding) {
       sides.push_back(fmt::format("{:.4g} m in the {}", distance, side));
     }

@@ -12,7 +12,7 @@ namespace thawslide::gis {
 
 namespace {
 
-// To the nearest release, each taken as the rectangle that holds it [m].
+// Distance to the nearest release, each represented by its bounding rectangle [m].
 double distance_to_releases(const config::Site& site, double x, double y) {
   double least = HUGE_VAL;
   for (const auto& [name, release] : site.releases) {

@@ -17,11 +17,11 @@ namespace {
 constexpr double least_step = 100.0;           // m
 constexpr double steep = 5.67128181961770953;  // tan(80 degrees)
 
-// Points of one value in patches that lie apart from the ground about them.
+// Patches of points with one value, separated by cliffs from the surrounding ground.
 struct Apart {
   std::size_t points = 0;
-  double x = 0.0, y = 0.0;                        // of one of them [m]
-  double lowest = HUGE_VAL, highest = -HUGE_VAL;  // of the ground beside them [m]
+  double x = 0.0, y = 0.0;                        // of one of the points [m]
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;  // of the adjacent ground [m]
 };
 
 class Patches {
@@ -44,7 +44,7 @@ class Patches {
     int column = 0, row = 0;
   };
 
-  // Calls work(column, row, distance) for the points beside one that are known.
+  // Calls work(column, row, distance) for the known neighbours of a point.
   template <class Work>
   void for_each_neighbour(const Place& place, const Work& work) const {
     constexpr std::array<Place, 4> directions{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
@@ -61,7 +61,7 @@ class Patches {
     return std::abs(one - other) > std::max(least_step, steep * distance);
   }
 
-  // Only a point at a cliff can be one of a patch that has cliffs all about it.
+  // A patch surrounded by cliffs can begin only at a point next to a cliff.
   [[nodiscard]] bool begins_patch(int column, int row) const {
     const double height = ground_.at(column, row);
     bool at_cliff = false;
@@ -73,7 +73,7 @@ class Patches {
     return at_cliff;
   }
 
-  // All points of the same value that hang together with this one.
+  // Collects all points of the same value connected to this one.
   void take_patch(int first_column, int first_row) {
     const double height = ground_.at(first_column, first_row);
     Apart patch;

@@ -16,7 +16,7 @@ namespace thawslide::gis {
 
 namespace {
 
-// To the points that have a thickness and one more on each side, as far as the ground reaches.
+// Crops to the points with a thickness and one more on each side, within the extent of the ground.
 Raster cropped(const Raster& thickness, const Raster& ground) {
   PointWindow window{thickness.columns, thickness.rows, 0, 0};
   int last_column = -1, last_row = -1;
@@ -58,7 +58,7 @@ void check_volume(const config::Case& parameters, const std::string& name, const
   }
 }
 
-// A thickness in another unit makes a tower of a release.
+// A thickness in a wrong unit makes a release implausibly tall.
 void warn_of_tower(const std::string& name, const config::Release& release, std::vector<std::string>& warnings) {
   constexpr double share_of_width = 0.5;
   const double width = std::sqrt(release.area);

@@ -17,8 +17,8 @@ namespace thawslide::gis {
 
 namespace {
 
-// The ground's points about an extent, also where they lie beyond those that were read: that there is no ground is told
-// later, of points that need one.
+// Ground points around an extent, including those outside the points that were read: missing ground is reported later,
+// for points that need it.
 Raster points_about(const Rectangle& extent, double taper, const Raster& ground) {
   const auto along = [&](double low, double high, double first, double cell, double& new_first, int& count) {
     const int margin = 2 + taper_reach(taper, cell);
@@ -35,7 +35,7 @@ Raster points_about(const Rectangle& extent, double taper, const Raster& ground)
   return layout;
 }
 
-// `extent`: of all that has a thickness before it is tapered.
+// `extent`: of all positive thickness before tapering.
 void check_place(const config::Case& parameters, const std::string& body, const Rectangle& extent, const Dem& ground) {
   const auto check = [&](const char* what, const Rectangle& outer, const std::string& remedy) {
     const std::string beyond = describe_overhang(extent, outer);
@@ -53,7 +53,7 @@ void check_place(const config::Case& parameters, const std::string& body, const 
   check("the domain", domain_of(parameters), "Widen grid.min and grid.max.");
 }
 
-// The widest taper whose points lie within, beyond an extent that does.
+// Widest taper whose points lie within `outer`, around an extent that does.
 double widest_taper(const Rectangle& extent, const Rectangle& outer, const Raster& ground) {
   const auto along = [](double room, double cell) { return 2.0 * (std::floor(room / cell + 1e-9) + 1.0) * cell; };
   return std::min({along(extent.min_x - outer.min_x, ground.cell_x), along(outer.max_x - extent.max_x, ground.cell_x),
@@ -78,8 +78,8 @@ void check_taper(const config::Case& parameters, const std::string& body, const 
   check("the domain", domain_of(parameters), "widen grid.min and grid.max");
 }
 
-// The DEM's points get their share of a release each: one that is smaller than a cell would become much
-// thinner.
+// A release smaller than a cell would become much thinner, because its volume is distributed over the cells of DEM
+// points.
 void check_size(const config::Case& parameters, const std::string& body, double size, const Raster& ground) {
   const double cell = ground.cell_x * ground.cell_y;
   if (size < cell * (1.0 - 1e-9)) {
@@ -137,7 +137,8 @@ Rectangle extent_of_positive(const config::Body& body, const Raster& source, con
   return extent;
 }
 
-// Means of what a finer surface has above the ground, over the share of each cell that the surface is known in.
+// Means of the height of a finer surface above the ground, over the fraction of each cell in which the surface is
+// known.
 Raster finer_above(const Raster& surface, const Raster& ground, double tolerance) {
   Raster above = averaged(above_ground(surface, ground), ground, Missing::nothing);
   Raster known = surface;
@@ -151,8 +152,8 @@ Raster finer_above(const Raster& surface, const Raster& ground, double tolerance
   return above;
 }
 
-// What another surface has above the ground's points. Those at its rim take their shares of the heights above ground at
-// its own points: its elevations there are those of other places.
+// Height of another surface above the ground's points. Points at its rim are weighted by the heights above ground at
+// the surface's own points, because its elevations there belong to other positions.
 Raster coarser_above(const Raster& surface, const Raster& ground, double tolerance) {
   Raster above = above_ground(sampled(surface, ground, Missing::unknown), ground);
   const Raster shares = sampled(above_ground(surface, ground), ground, Missing::zero);
@@ -164,7 +165,7 @@ Raster coarser_above(const Raster& surface, const Raster& ground, double toleran
   return above;
 }
 
-// The thickness that a raster tells, or what a surface has above the ground at the ground's points.
+// Thickness from a raster, or height of a surface above the ground, at the ground's points.
 Raster thickness_without_polygons(const config::Case& parameters, const std::string& name, const Dem& ground,
                                   std::vector<std::string>& warnings) {
   const config::MapValue& thickness = parameters.bodies.at(name).thickness;
@@ -174,7 +175,7 @@ Raster thickness_without_polygons(const config::Case& parameters, const std::str
   if (thickness.from == config::MapValue::From::raster) {
     return map;
   }
-  // Not smoothed, as a surface before the slide is not either.
+  // not smoothed, like the surface before release
   const Raster& measured = ground.as_measured();
   const double tolerance = parameters.bodies.at(name).surface_tolerance;
   return is_finer(map, measured) ? finer_above(map, measured, tolerance) : coarser_above(map, measured, tolerance);

@@ -17,7 +17,7 @@ namespace thawslide::gis {
 
 namespace {
 
-// The range is that of the key's number: above `low`, up to `high`.
+// Field with the range of the key's number: above `low`, up to `high`.
 struct MappedField {
   const char* key;
   InitialField config::Body::*member;
@@ -33,7 +33,7 @@ constexpr MappedField mapped_fields[] = {
     {"ice_content", &config::Body::ice_content, 0.0, 0.95, "", Quantity::share},
 };
 
-// Means of the polygons' values over each point's cell; NaN where none of them lies.
+// Means of the polygons' values over each point's cell; NaN outside the polygons.
 Raster from_attribute(const ReleaseArea& area, const std::string& attribute, const std::string& key) {
   if (area.is_raster()) {
     throw UserError("a raster gives the release: it has no attributes. Name a raster of the quantity, or a number.");
@@ -53,7 +53,7 @@ Raster from_attribute(const ReleaseArea& area, const std::string& attribute, con
   return sum;
 }
 
-// `missing`: whether a point without data is an error.
+// `missing`: whether a no-data point is an error.
 void check_values(const Raster& field, const Raster& share, const MappedField& what, const std::string& source,
                   bool missing = true) {
   for (int row = 0; row < field.rows; ++row) {
@@ -72,7 +72,7 @@ void check_values(const Raster& field, const Raster& share, const MappedField& w
   }
 }
 
-// Single values of a finer raster are checked too: a mean may hide one that is not allowed.
+// Single values of a finer raster are checked too, because a mean may hide an invalid one.
 Raster from_raster(const ReleaseArea& area, const Raster& map, const MappedField& what, const std::string& source) {
   if (!is_finer(map, area.share)) {
     return sampled(map, area.share, Missing::nothing);

@@ -55,7 +55,7 @@ class ThicknessMaker {
     fail_at(case_, key_of(name_, key), message);
   }
 
-  // Column and row of a point of the area among the ground's, and whether it has ground.
+  // Indices of a point of the area in the ground raster; false if there is no ground.
   bool has_ground(int column, int row, int& ground_column, int& ground_row) const {
     const Raster& share = area_.share;
     ground_column = column + static_cast<int>(std::lround((share.x - ground_.x) / ground_.cell_x));
@@ -64,7 +64,7 @@ class ThicknessMaker {
            !std::isnan(ground_.at(ground_column, ground_row));
   }
 
-  // Calls body(column, row, value) for the points with a value.
+  // Calls work(column, row, value) for the points with a value.
   template <class Work>
   static void for_each_positive(Raster& raster, const Work& work) {
     for (int row = 0; row < raster.rows; ++row) {
@@ -76,7 +76,7 @@ class ThicknessMaker {
     }
   }
 
-  // `spread`: what brought the release to its points.
+  // `spread`: method that distributed the release to its points.
   void check_ground(Raster& thickness, Spread spread) const {
     int without = 0;
     std::string first;
@@ -186,8 +186,8 @@ class ThicknessMaker {
     return times_share([&](std::size_t k) { return map.values[k]; });
   }
 
-  // Cells of the raster that lie across an outline may share an area with a cell of the ground that lies beyond it:
-  // this volume goes to the others.
+  // Raster cells across an outline may share an area with a ground cell beyond it; this volume is distributed to the
+  // other cells.
   Raster of_finer_raster(const Raster& source) const {
     const CoveredRaster part = at_thickness([&] { return covered_part(source, area_.polygons, ground_.crs); });
     require_not_negative(part.values, &part.share, "thickness", body_.thickness.source);
@@ -259,7 +259,7 @@ class ThicknessMaker {
     return thickness;
   }
 
-  // `share`: of the same points, those that count; null: all of them.
+  // `share`: at the same points, those that count; null: all of them.
   void require_not_negative(const Raster& raster, const Raster* share, const char* key, const std::string& file) const {
     for (int row = 0; row < raster.rows; ++row) {
       for (int column = 0; column < raster.columns; ++column) {
@@ -276,7 +276,7 @@ class ThicknessMaker {
   const config::Body& body_;
   const ReleaseArea& area_;
   const Raster& ground_;
-  const Raster& measured_;  // not smoothed, as a surface before the slide is not either
+  const Raster& measured_;  // not smoothed, like the surface before release
   std::vector<std::string>& warnings_;
 };
 

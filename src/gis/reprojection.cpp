@@ -18,7 +18,7 @@ Reprojection::Reprojection(const std::string& from_wkt, const std::string& to_wk
     return;
   }
   const GdalMessages messages;
-  // Heights stay what they are: coordinates of the plane alone are taken from one system to the other.
+  // Only horizontal coordinates are transformed; heights remain unchanged.
   OGRSpatialReference from = reference_from_wkt(from_wkt);
   OGRSpatialReference to = reference_from_wkt(to_wkt);
   for (OGRSpatialReference* system : {&from, &to}) {

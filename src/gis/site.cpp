@@ -18,7 +18,7 @@ namespace thawslide::gis {
 
 namespace {
 
-// The one line of a file, some of which lies in the domain.
+// Reads the only line of a file, a part of which must lie in the domain.
 config::Polyline2 load_line(const config::Case& parameters, const std::string& key, const std::string& file,
                             const std::string& crs, std::vector<std::string>& warnings) {
   return with_error_location(parameters, key, [&] {
@@ -48,7 +48,7 @@ config::Polyline2 load_line(const config::Case& parameters, const std::string& k
   });
 }
 
-// Bodies that are cut out of the ground leave it lower.
+// Lowers the ground where bodies are excavated.
 Raster less_what_is_cut(const config::Case& parameters, const std::map<std::string, config::Release>& releases,
                         Raster ground) {
   for (const auto& [name, release] : releases) {
@@ -69,7 +69,7 @@ Raster less_what_is_cut(const config::Case& parameters, const std::map<std::stri
   return ground;
 }
 
-// Bodies that come from one file have the same to say of it.
+// Removes repeated warnings, because bodies from one file share them.
 std::vector<std::string> each_once(const std::vector<std::string>& warnings) {
   std::vector<std::string> once;
   for (const std::string& warning : warnings) {

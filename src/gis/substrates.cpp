@@ -15,7 +15,8 @@ namespace thawslide::gis {
 
 namespace {
 
-// Of the smaller area: outlines drawn along one another by hand, or taken from another reference system, share slivers.
+// Fraction of the smaller area: adjacent outlines drawn by hand, or transformed from another reference system, overlap
+// in slivers.
 constexpr double overlap_tolerance = 1e-3;
 
 using Areas = std::map<std::string, config::SubstrateArea>;
@@ -25,7 +26,7 @@ std::string key_of(const std::string& substrate, const std::string& key) {
   return fmt::format("substrate.{}.{}", substrate, key);
 }
 
-// The key that says where a substrate lies.
+// Key that specifies the extent of a substrate.
 std::string key_of_place(const std::string& name, const config::Substrate& substrate) {
   return key_of(name, !substrate.raster.empty()        ? "raster"
                       : !substrate.outline.empty()     ? "outline"
@@ -33,7 +34,7 @@ std::string key_of_place(const std::string& name, const config::Substrate& subst
                                                        : "x_max");
 }
 
-// Also fills `inside` with what lies in the domain.
+// Also sets `inside` to the part in the domain.
 config::SubstrateArea area_of_outline(const config::Case& parameters, const std::string& name, const Dem& ground,
                                       Polygons& inside, std::vector<std::string>& warnings) {
   const config::Substrate& substrate = parameters.substrates.at(name);
@@ -114,8 +115,8 @@ void check_overlap(const config::Case& parameters, const std::string& first, con
                   100.0 * overlap_tolerance));
 }
 
-// Of those that one raster tells no two can overlap; those along x were compared when the case was read. `polygons`: of
-// those with outlines.
+// Substrates of one raster cannot overlap; those along x were compared when the case was read. `polygons`: of those
+// with outlines.
 void check_overlaps(const config::Case& parameters, const Areas& areas, PolygonsOf polygons) {
   const auto polygons_once = [&](const std::string& name) -> const Polygons& {
     const auto found = polygons.find(name);

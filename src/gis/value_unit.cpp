@@ -14,9 +14,9 @@ namespace thawslide::gis {
 
 namespace {
 
-constexpr double survey_foot = 1200.0 / 3937.0;  // m, of the United States
+constexpr double survey_foot = 1200.0 / 3937.0;  // m, US survey foot
 
-// Spellings in small letters, without spaces, points, brackets, underscores and hyphens.
+// Spelling in lower case, without spaces, points, brackets, underscores and hyphens.
 struct Spelling {
   const char* word;
   double factor, offset = 0.0;
@@ -105,9 +105,9 @@ constexpr Spelling shares[] = {
 struct UnitsOfQuantity {
   const Spelling* begin;
   const Spelling* end;
-  const char* of;       // what the unit is to be one of
-  const char* allowed;  // a few of them
-  const char* own;      // that the program computes in, for messages
+  const char* of;       // quantity of the unit
+  const char* allowed;  // examples of allowed units
+  const char* own;      // unit of the computation, for messages
   const char* short_own;
 };
 
@@ -136,7 +136,7 @@ std::string simplified(const std::string& unit) {
   return simple;
 }
 
-// A file that says that it does not know says nothing.
+// A unit such as "unknown" counts as not stated.
 bool states_nothing(const std::string& unit) {
   const std::string simple = simplified(unit);
   return simple.empty() || simple == "unknown" || simple == "unspecified" || simple == "none";
@@ -157,7 +157,7 @@ std::optional<Spelling> known_unit(const std::string& unit, const UnitsOfQuantit
 }
 
 void check_that_both_agree(const StatedUnits& stated, double band_metres) {
-  constexpr double agreement = 1e-5;  // the feet of both kinds differ by less
+  constexpr double agreement = 1e-5;  // relative; the two kinds of feet differ by less
   if (!states_nothing(stated.vertical) && std::abs(band_metres / stated.vertical_metres - 1.0) > agreement) {
     throw UserError(fmt::format(
         "{}: two units are stated for the values: '{}' by the band, '{}' by the heights of the coordinate reference "
@@ -180,7 +180,7 @@ UnitConversion with_warning(const StatedUnits& stated, const std::string& unit, 
 
 UnitConversion conversion_from(const StatedUnits& stated, Quantity quantity) {
   const UnitsOfQuantity units = units_of(quantity);
-  // GDAL takes the unit of heights for that of a band without one, whatever the band measures.
+  // GDAL reports the vertical unit for a band without a unit, whatever the band measures.
   const bool is_vertical = states_nothing(stated.band) || stated.band == stated.vertical;
   if (quantity == Quantity::code || (is_vertical && quantity != Quantity::length)) {
     return {};

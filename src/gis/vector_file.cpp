@@ -50,13 +50,13 @@ bool holds(OGRwkbGeometryType type, Kind kind) {
   }
 }
 
-// Names within a file may hold anything, also what steers a terminal.
+// Names within a file may contain characters that control a terminal.
 std::vector<std::string> all_shown(std::vector<std::string> names) {
   std::transform(names.begin(), names.end(), names.begin(), config::shown);
   return names;
 }
 
-// Of the formats that GDAL knows some name other files, or places in a network, that a case could not.
+// Other GDAL formats are excluded, because they may refer to files or network locations that a case may not name.
 const char* const vector_formats[] = {"ESRI Shapefile", "GPKG", "GeoJSON", nullptr};
 
 GDALDatasetUniquePtr open_vector(const std::string& file, Kind kind) {
@@ -87,7 +87,7 @@ bool layer_holds(OGRLayer& layer, Kind kind) {
   if (wkbFlatten(layer.GetGeomType()) != wkbUnknown) {
     return holds(layer.GetGeomType(), kind);
   }
-  // By its first feature that has a geometry; where none has one, that is told of the first.
+  // Decides by the first feature with a geometry; if none has one, the first feature is reported.
   layer.ResetReading();
   bool any = false;
   for (const auto& feature : layer) {
@@ -216,7 +216,7 @@ class LayerReader {
     result_.features.push_back(std::move(feature));
   }
 
-  // Its number, and what an attribute "name" says.
+  // Title with the feature's number and its attribute "name".
   std::string title_of(const OGRFeature& source) const {
     const char* kind = kind_ == Kind::polygons ? "polygon" : kind_ == Kind::lines ? "line" : "point";
     const auto found = std::find(result_.attributes.begin(), result_.attributes.end(), "name");

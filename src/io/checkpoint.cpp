@@ -12,7 +12,7 @@ namespace thawslide::io {
 
 namespace {
 
-constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" in bytes
+constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" as bytes
 constexpr std::uint64_t format_version = 8;
 
 class Writer {
@@ -33,8 +33,8 @@ class Writer {
   std::string text_;
 };
 
-// Takes numbers off the bytes of a checkpoint. A count is held against the bytes that are left before room is made for
-// it: the checksum says that nothing changed since, not who wrote them.
+// Parser of a checkpoint. Counts are compared with the remaining bytes before memory is allocated, because the checksum
+// detects changes but does not authenticate the writer.
 class Reader {
  public:
   Reader(std::string_view text, const std::filesystem::path& file) : left_(text), file_(file) {}
@@ -43,7 +43,7 @@ class Reader {
     get_raw(&value, sizeof value);
     return value;
   }
-  // Of items that take so many bytes each.
+  // Count of items of `item_bytes` each.
   std::size_t count(std::size_t item_bytes, const char* what) {
     const std::uint64_t found = number();
     if (found > left_.size() / item_bytes) {
@@ -96,7 +96,7 @@ class Reader {
   std::filesystem::path file_;
 };
 
-// Bytes that each field of a checkpoint takes for a particle.
+// Bytes per particle of each field in a checkpoint.
 template <int Dim, class Real>
 std::vector<std::size_t> row_sizes() {
   mpm::Particles<Dim, Real> one;
@@ -110,7 +110,7 @@ std::vector<std::size_t> row_sizes() {
   return sizes;
 }
 
-// What is wrong with a checkpoint's bytes; empty: they are what was written.
+// Description of the damage in a checkpoint's bytes; empty if they are as written.
 std::string damage_of(const std::filesystem::path& file, const std::string& bytes) {
   Digest stored{};
   if (bytes.size() > stored.size()) {
@@ -123,14 +123,13 @@ std::string damage_of(const std::filesystem::path& file, const std::string& byte
   return fmt::format("{} is damaged: its checksum does not fit its {} bytes", file.string(), bytes.size());
 }
 
-// Whether anything has the name, be it a link that leads nowhere.
+// True if the name exists, including a dangling link.
 bool is_present(const std::filesystem::path& file) {
   std::error_code unknown;
   return std::filesystem::exists(std::filesystem::symlink_status(file, unknown));
 }
 
-// Reads a checkpoint. Returns what is wrong with it, empty where it is whole: what cannot be read is as good as
-// damaged.
+// Reads a checkpoint. Returns the problem, empty if the file is intact; an unreadable file counts as damaged.
 std::string fault_of(const std::filesystem::path& file, std::string& bytes) {
   if (const std::string found = config::what_stands_at(file); !found.empty()) {
     return fmt::format("{} is {}, no file", file.string(), found);
@@ -143,7 +142,7 @@ std::string fault_of(const std::filesystem::path& file, std::string& bytes) {
   return damage_of(file, bytes);
 }
 
-// At the case's text.
+// Reader positioned at the case text.
 Reader reader_of(const WholeCheckpoint& checkpoint) {
   Reader reader(std::string_view(checkpoint.bytes).substr(0, checkpoint.bytes.size() - sizeof(Digest)),
                 checkpoint.file);
@@ -236,12 +235,12 @@ NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<D
                              std::vector<double>& scalars) {
   const std::filesystem::path& file = checkpoint.file;
   Reader reader = reader_of(checkpoint);
-  (void)reader.text();  // the case
+  (void)reader.text();  // skips the case
   reader.expect(Dim, "dimension");
   reader.expect(sizeof(Real), "number size");
   reader.expect(particles.size(), "particles at t = 0:");
   const std::vector<std::size_t> record_bytes = row_sizes<Dim, Real>();
-  // Some have left since, or joined.
+  // The number of particles may have changed, by removal or entrainment.
   particles.resize(
       reader.count(std::accumulate(record_bytes.begin(), record_bytes.end(), std::size_t{0}), "particles"));
   scalars = reader.numbers();

@@ -13,7 +13,7 @@ namespace {
 using Work = std::function<bool(std::size_t)>;
 
 [[noreturn]] void work_through(std::size_t first, std::size_t count, const Work& work, int to) {
-  constexpr unsigned longest = 60;  // s
+  constexpr unsigned longest = 60;  // s, time limit
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
   for (std::size_t k = first; k < count; ++k) {
@@ -30,7 +30,7 @@ using Work = std::function<bool(std::size_t)>;
   _exit(0);
 }
 
-// Appends what a process tells, which began with the work that is next.
+// Appends the results of a child process, which started with the next item.
 void listen(int from, pid_t child, std::vector<bool>& specified) {
   char one = 0;
   for (ssize_t got = 1; got > 0 || (got < 0 && errno == EINTR);) {
@@ -65,7 +65,7 @@ std::vector<bool> probe_in_subprocess(std::size_t count, const Work& work) {
     }
     listen(ends[0], child, specified);
     if (specified.size() < count) {
-      specified.push_back(false);  // it ended there
+      specified.push_back(false);  // the child ended during this item
     }
   }
   specified.resize(count, true);

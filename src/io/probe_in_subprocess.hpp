@@ -1,4 +1,4 @@
-// Work of a library that may crash on damaged files, tried in a process of its own before it is done here.
+// Trial of library calls that may crash on damaged files, in a separate process.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,9 @@
 
 namespace thawslide::io {
 
-// Calls work(k) for k = 0 .. count-1 in a process of its own. Returns for which it returned true: not where it threw,
-// ended its process or took more than a minute; another process then goes on behind it. Where the system gives no
-// process, true without a try.
+// Calls work(k) for k = 0 .. count-1 in a separate process. Returns the results; false if the call threw, ended its
+// process or took more than a minute, after which another process continues with the next item. If no process can be
+// created, all are true without a trial.
 [[nodiscard]] std::vector<bool> probe_in_subprocess(std::size_t count, const std::function<bool(std::size_t)>& work);
 
 }  // namespace thawslide::io

@@ -96,7 +96,7 @@ RunPart part_of(const Json& json) {
   return part;
 }
 
-// Of what is told on terminals, which control letters would steer.
+// Removes control characters from text for terminals.
 std::string without_control_letters(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; }, '?');

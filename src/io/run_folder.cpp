@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Throws UserError where the folder holds what is not to be replaced.
+// Throws UserError if the folder contains anything that must not be replaced.
 void require_replaceable(const fs::path& folder, bool overwrite) {
   if (!holds_a_run(folder)) {
     throw UserError(

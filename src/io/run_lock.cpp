@@ -23,7 +23,7 @@ namespace {
 
 enum class Lock { ours, of_another, unknown };
 
-// A file system may have no locks.
+// The file system may not support locks.
 Lock ask(int descriptor, int kind) {
   if (flock(descriptor, kind | LOCK_NB) == 0) {
     return Lock::ours;
@@ -31,7 +31,7 @@ Lock ask(int descriptor, int kind) {
   return errno == EWOULDBLOCK ? Lock::of_another : Lock::unknown;
 }
 
-// Who only asks holds the lock for a moment, so one refusal tells nothing.
+// A process that only tests the lock holds it briefly, so a single refusal is not conclusive.
 Lock take(int descriptor) {
   constexpr int attempts = 20;
   constexpr useconds_t pause = 5000;  // microseconds
@@ -43,14 +43,14 @@ Lock take(int descriptor) {
   return lock;
 }
 
-// What stands in the place of a lock and is no file of its folder; empty: a file, or nothing.
+// Kind of a path at the place of the lock that is not a regular file; empty for a file, or nothing.
 std::string what_is_no_lock(const fs::path& file) {
   std::error_code unknown;
   return fs::is_symlink(fs::symlink_status(file, unknown)) ? "a link" : config::what_stands_at(file);
 }
 
-// Returns -1 and leaves the reason in errno where it cannot be opened. A link could lead to a file that is not the
-// run's, and be written over; a pipe would wait for ever.
+// Returns -1, with the reason in errno, if the file cannot be opened. A link could cause another file to be
+// overwritten, and a pipe could block forever.
 int open_lock(const fs::path& file, int flags) {
   const int descriptor = open(file.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666);
   const int reason = errno;
@@ -70,7 +70,7 @@ int open_lock(const fs::path& file, int flags) {
   return -1;
 }
 
-// Whether the file is still that of the name: whoever gives the lock back removes it.
+// True if the name still refers to the open file, because the holder of the lock removes it on release.
 bool is_of_name(int descriptor, const fs::path& file) {
   struct stat opened {};
   struct stat named {};
@@ -78,7 +78,7 @@ bool is_of_name(int descriptor, const fs::path& file) {
          opened.st_dev == named.st_dev;
 }
 
-// What the holder has written into the file, which it may have taken out since.
+// Text written by the holder of the lock, which may have been removed since.
 std::string line_in(int descriptor) {
   char text[512];
   const ssize_t length = pread(descriptor, text, sizeof text, 0);
@@ -97,7 +97,7 @@ std::string host_name() {
 
 std::string format_process(pid_t number) { return fmt::format("process {} on {}", number, host_name()); }
 
-// The number in "process 123 on HOST" where HOST is this machine; 0: it is another, or this is no such line.
+// Number in "process 123 on HOST" if HOST is this machine; 0 for another machine or another text.
 pid_t process_of_this_machine(const std::string& line) {
   constexpr std::string_view begin = "process ";
   pid_t number = 0;
@@ -107,7 +107,8 @@ pid_t process_of_this_machine(const std::string& line) {
   return number > 0 && line == config::shown(format_process(number)) ? number : 0;
 }
 
-// Who is at work by what the file says, where there are no locks. A process with our own number has left it behind.
+// Process at work according to the file, on file systems without locks. An entry with our own number was left by an
+// earlier process.
 AtWork at_work_by(const std::string& line) {
   const pid_t number = process_of_this_machine(line);
   if (number == 0) {
@@ -141,7 +142,7 @@ std::string refusal(const fs::path& file, const AtWork& at_work, Lock lock) {
                      without_locks);
 }
 
-// Returns a descriptor that holds the lock, or -1 where the file that was opened has lost its name since.
+// Returns a descriptor that holds the lock, or -1 if the file was unlinked after opening.
 int acquire_lock(const fs::path& file) {
   const int descriptor = open_lock(file, O_RDWR | O_CREAT);
   if (descriptor < 0) {
@@ -180,7 +181,7 @@ RunLock::RunLock(RunLock&& other) noexcept
 RunLock::~RunLock() {
   if (descriptor_ >= 0) {
     std::error_code ignored;
-    (void)!ftruncate(descriptor_, 0);  // without locks the name alone would keep others out
+    (void)!ftruncate(descriptor_, 0);  // without locks, the entry alone would exclude others
     if (fs::exists(file_.parent_path() / "run.json", ignored) && is_of_name(descriptor_, file_)) {
       fs::remove(file_, ignored);
     }
@@ -196,7 +197,7 @@ OwnFolder::OwnFolder(const fs::path& folder) : lock_(folder / lock_name) {
   }
 }
 
-// A file system may give a file another number in the course of time: then what it says decides.
+// A file system may change the file number over time; the contents then decide.
 bool OwnFolder::is_own() const {
   struct stat facts {};
   if (lstat(lock_.c_str(), &facts) != 0) {

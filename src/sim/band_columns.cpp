@@ -1,4 +1,4 @@
-// The band columns of a simulation: how they begin, and their part in a step.
+// Band columns of a simulation: initialization and update in a time step.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace thawslide::sim {
 
 namespace {
 
-// Of the particles in the band, by volume; all of one material.
+// Volume averages over the particles in the band, which must all be of one material.
 template <int Dim, class Real>
 ColumnMaterial material_of_base(const config::Case& parameters, const Model<Dim, Real>& model,
                                 const mpm::Particles<Dim, Real>& particles) {
@@ -55,7 +55,7 @@ ColumnMaterial material_of_base(const config::Case& parameters, const Model<Dim,
 template <int Dim, class Real>
 void Simulation<Dim, Real>::restore_band_columns(const std::vector<double>& state) {
   band_columns_->restore(state);
-  // Pieces go with the slide, whose cells reach beyond the domain.
+  // Segments move with the slide, whose cells extend beyond the domain.
   const Real margin = Real(8) * static_cast<Real>(parameters_.grid.cell);
   for (const auto& segment : band_columns_->segments()) {
     if (!is_about_domain<Dim, Real>(segment.position, model_.constraints.extent, margin)) {

@@ -1,4 +1,4 @@
-// The erodible bed below a slide whose steps a device takes: it stays with the processor.
+// Erodible bed of a simulation on a device: the bed itself is computed on the CPU.
 #include "sim/bed_of_device.hpp"
 
 #include "base/instances.hpp"

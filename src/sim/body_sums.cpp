@@ -1,4 +1,4 @@
-// Sums over the particles of a run: energies, masses, momentum, and what rows of the history tell the means of.
+// Sums over the particles of a run: energies, masses, momentum, and sums for the means in the history.
 #include "base/instances.hpp"
 #include "mpm/sum_over_particles.hpp"
 #include "sim/simulation.hpp"
@@ -21,7 +21,7 @@ BodySums<Dim, Real> Simulation<Dim, Real>::sum_over_marked(const std::vector<std
   return sum_over_particles(marked.data());
 }
 
-// marked: by particle; null: all are.
+// marked: by particle; null selects all particles.
 template <int Dim, class Real>
 BodySums<Dim, Real> Simulation<Dim, Real>::sum_over_particles(const std::uint8_t* marked) const {
   using Sums = BodySums<Dim, Real>;

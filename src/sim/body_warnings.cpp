@@ -17,14 +17,14 @@ namespace thawslide::sim {
 
 namespace {
 
-constexpr double most_strain = 0.05;      // by its own weight, at the base of the thickest column
-constexpr double most_volume_off = 0.02;  // share that particles may have more or less than the shape
-constexpr double least_standing = 0.5;    // share of a body's area
-constexpr double touching = 0.5;          // spacings: particles stand on a lattice, and the ground need not
+constexpr double most_strain = 0.05;      // under its own weight, at the base of the thickest column
+constexpr double most_volume_off = 0.02;  // relative deviation of particle volume from the shape's volume
+constexpr double least_standing = 0.5;    // fraction of a body's area
+constexpr double touching = 0.5;  // spacings: tolerance, because particles lie on a lattice and the ground may not
 constexpr int digits_of_places = 6;
-constexpr double strain_of_unbroken = 1.0;  // material that softens over a strain as long stays unbroken as it slides
+constexpr double strain_of_unbroken = 1.0;  // softening strain from which on a material slides unbroken
 
-// Particles stand on a lattice, which the shape need not.
+// Particles lie on a lattice, so their volume may differ from that of the shape.
 std::string volume_warning(const config::Case& parameters, const BodyFigures& body) {
   const double more = body.volume / body.shape_volume - 1.0;
   if (std::abs(more) <= most_volume_off) {
@@ -40,7 +40,7 @@ std::string volume_warning(const config::Case& parameters, const BodyFigures& bo
       more > 0.0 ? "more" : "less");
 }
 
-// A body over nothing, or far above what is below it.
+// Warns of a body over nothing, or far above its support.
 std::string standing_warning(const config::Case& parameters, const BodyFigures& body) {
   const std::string key = "body." + body.name;
   if (!parameters.mechanics.enabled || parameters.general.gravity == 0.0 || !parameters.frames.empty()) {
@@ -106,14 +106,15 @@ bool is_plastic(const config::Case& parameters, const config::Material& material
 double sine_of(double degrees) { return std::sin(degrees * pi<double> / 180.0); }
 double cosine_of(double degrees) { return std::cos(degrees * pi<double> / 180.0); }
 
-// The weight of a body over its median thickness, as a pressure [Pa].
+// Pressure of the body's weight at its median thickness [Pa].
 double usual_load(const config::Case& parameters, const BodyFigures& body) {
   return body.mass / body.volume * parameters.general.gravity * body.median_thickness;
 }
 
-// A base that bears more than the broken body above it: the slide then shears in the cells above its base, which
-// stays frozen, and how much depends on the cell. The same bound holds in soil mechanics: the friction angle of an
-// interface is at most that of the soil. Along planes parallel to the base the body bears N tan(phi) + c.
+// Warns of a base that is stronger than the broken body above it. The slide then shears in the cells above its base,
+// the base stays frozen, and the result depends on the cell size. The same bound applies in soil mechanics: the
+// friction angle of an interface is at most that of the soil. On planes parallel to the base, the body resists N
+// tan(phi) + c.
 std::string strength_warning(const config::Case& parameters, const BodyFigures& body) {
   const std::string& name = parameters.bodies.at(body.name).material;
   const config::Material& material = parameters.materials.at(name);
@@ -143,7 +144,7 @@ std::string strength_warning(const config::Case& parameters, const BodyFigures& 
       std::floor(10.0 * std::atan(borne) * 180.0 / pi<double>) / 10.0);
 }
 
-// Material that softens over a slip and releases more elastic energy in a cell than its rupture takes.
+// Warns of material that softens over a slip and releases more elastic energy in a cell than its rupture consumes.
 std::string softening_warning(const config::Case& parameters, const BodyFigures& body) {
   const std::string& name = parameters.bodies.at(body.name).material;
   const config::Material& material = parameters.materials.at(name);
@@ -168,7 +169,7 @@ std::string softening_warning(const config::Case& parameters, const BodyFigures&
       material.softening_slip * parameters.grid.cell / widest);
 }
 
-// The temperatures that the case gives as numbers are looked at when it is read.
+// Checks temperatures from maps; temperatures given as numbers are checked when the case is read.
 std::string temperature_warning(const config::Case& parameters, const BodyFigures& body) {
   const InitialField& temperature = parameters.bodies.at(body.name).temperature;
   const bool is_map = temperature.is_map() && !parameters.bodies.at(body.name).saturation.is_given();
@@ -182,7 +183,7 @@ std::string temperature_warning(const config::Case& parameters, const BodyFigure
       config::place_of(parameters, key), key, body.warmest, digits_of_places, temperature.source);
 }
 
-// Too few particles across its median thickness, or too few cells for maps.
+// Warns of too few particles across the median thickness, or too few cells for maps.
 std::string resolution_warning(const config::Case& parameters, const BodyFigures& body) {
   if (!parameters.mechanics.enabled) {
     return "";

@@ -1,4 +1,4 @@
-// What is most likely not meant of bodies as they stand at t = 0.
+// Warnings about initial states of bodies that are probably unintended.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace thawslide::sim {
 
-// Each with the place of what it is about, what was found and what to do.
+// Each warning specifies the location in the case, the finding and the remedy.
 [[nodiscard]] std::vector<std::string> body_warnings(const config::Case& parameters,
                                                      const std::vector<BodyFigures>& bodies);
 

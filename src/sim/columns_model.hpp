@@ -1,4 +1,4 @@
-// From the case to the model of band columns.
+// Builds the model of band columns from the case.
 #pragma once
 
 #include "band/basal_segments.hpp"
@@ -7,8 +7,8 @@
 
 namespace thawslide::sim {
 
-// What columns are made of, and where: temperature of the body's base [C], its porosity and hydraulic conductivity
-// [m/s], its largest thickness [m].
+// Material of the columns at the body's base: temperature [C], porosity, hydraulic conductivity [m/s], and maximum flow
+// depth [m].
 struct ColumnMaterial {
   double temperature, porosity, hydraulic_conductivity, depth;
 };

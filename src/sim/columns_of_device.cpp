@@ -1,4 +1,4 @@
-// The band columns under a slide whose steps a device takes: they stay with the processor.
+// Band columns of a simulation on a device: the columns are computed on the CPU.
 #include <algorithm>
 
 #include "base/instances.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using mpm::BaseState, mpm::Contact;
 
-// The blocks change. Pieces of base see nodes in blocks with candidate nodes and in those about them.
+// Updates the active blocks. Basal segments read nodes in blocks with candidate nodes and in adjacent blocks.
 template <int Dim, class Real>
 void update_blocks(const Model<Dim, Real>& model, const std::vector<std::uint64_t>& keys,
                    GridOfDevice<Dim, Real>& base) {

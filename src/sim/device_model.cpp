@@ -56,7 +56,7 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   device.effective_stress = model.motion.effective_stress;
   device.lubrication = model.motion.lubrication;
   device.faces = static_cast<const mpm::DomainFaces<Dim, Real>&>(model.constraints);
-  // Particles that are to be removed may be on their way out of the domain until the end of the step.
+  // Particles that will be removed may leave the domain before the end of the step.
   const Real margin = parameters.grid.leaving == config::Policy::remove ? device.cell : Real(0);
   const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
   device.lower = -beyond;
@@ -68,7 +68,7 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   device.base_holds = model.contact.base_holds;
   device.pore_pressure = model.contact.pore_pressure;
   device.distance_check = model.contact.distance_check;
-  const bool has_columns = model.contact.band_columns;  // which have all heat and pore pressure of the base
+  const bool has_columns = model.contact.band_columns;  // columns carry all heat and pore pressure of the base
   device.pressure_changes = model.band.pressure && !has_columns;
   device.heat = model.band.heat && !has_columns;
   device.starts = starts;

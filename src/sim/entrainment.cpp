@@ -14,13 +14,13 @@ namespace thawslide::sim {
 
 namespace {
 
-// Less of a particle than this share of a whole one waits: particles almost without mass are of no use.
+// Minimum fraction of a full particle; smaller volumes wait, because particles with almost no mass are useless.
 constexpr double least_share = 0.01;
-// Steps from one joining to the next: each makes the grid anew about those that join.
+// Steps between two additions; each addition rebuilds the grid around the new particles.
 constexpr std::int64_t joining_interval = 8;
 
-// Volume of bed below the nodes of a column [m3]: in the part of the domain that is nearest to them. The depth is
-// looked up at as many places along each axis.
+// Volume of bed below the nodes of a column [m3], over the part of the domain nearest to them. The depth is sampled at
+// the same number of points along each axis.
 template <int Dim>
 double volume_below(const config::Case& parameters, const config::Site& site,
                     const typename terrain::Bed<Dim, double>::Column& column) {
@@ -79,9 +79,9 @@ std::optional<terrain::Bed<Dim, Real>> make_bed(const config::Case& parameters, 
   return terrain::Bed<Dim, Real>(make_bed_material(parameters.bed, model.bed_density), columns, std::move(mass));
 }
 
-// Places below the slide where what was taken off columns may join, relative to the domain's lower corner: under the
-// lowest of the particles over each. Ahead of these or beside them it would carry the slide to bed that it has not
-// reached. A column that none is over keeps its middle.
+// Positions below the slide at which material removed from columns may join, relative to the domain's lower corner:
+// below the lowest particle over each column. Particles farther ahead or to the side would carry the slide to bed that
+// it has not reached. A column without particles above it uses its centre.
 template <int Dim, class Real>
 std::vector<Vector<double, Dim - 1>> Simulation<Dim, Real>::places_below_slide(
     const std::vector<typename terrain::Bed<Dim, Real>::Column>& columns) const {
@@ -117,9 +117,9 @@ std::vector<Vector<double, Dim - 1>> Simulation<Dim, Real>::places_below_slide(
   return places;
 }
 
-// A particle of bed matter lies on the ground, somewhere in the stretch of a particle's length behind a place below the
-// slide: numbers one after the other fill it evenly (multiples of the golden section). It bears nothing at first, so
-// that the forces on nodes are what they were.
+// Creates a bed particle on the ground, within one particle length behind a position below the slide. Consecutive
+// numbers fill this length evenly (multiples of the golden ratio). The particle carries no stress at first, so nodal
+// forces do not change.
 template <int Dim, class Real>
 NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(Vector<double, Dim - 1> place,
                                                               const terrain::LooseMaterial<Dim, Real>& material,
@@ -156,7 +156,7 @@ NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(Vector<double, Dim
   return one;
 }
 
-// The bed as the slide meets it in this step; null as bed_in_reach.
+// Bed in contact with the slide in this step; null like bed_in_reach.
 template <int Dim, class Real>
 const terrain::Bed<Dim, Real>* Simulation<Dim, Real>::bed_to_meet() {
   if (bed_in_reach() != nullptr) {
@@ -165,7 +165,7 @@ const terrain::Bed<Dim, Real>* Simulation<Dim, Real>::bed_to_meet() {
   return bed_in_reach();
 }
 
-// What contact nodes have taken in this step.
+// Collects the mass that contact nodes entrained in this step.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::collect_bed() {
   if (bed_in_reach() != nullptr) {
@@ -173,8 +173,8 @@ void Simulation<Dim, Real>::collect_bed() {
   }
 }
 
-// What is loose joins as soon as it makes a particle; as a smaller one where nothing is left of the bed, or where the
-// slide has gone on by a cell.
+// Adds loose material as soon as it suffices for a particle. Smaller particles are added if the bed is exhausted, or if
+// the slide has moved on by a cell.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::entrain_bed() {
   if (step_number_ % joining_interval != 0) {

@@ -17,7 +17,7 @@ const MapKind thickness_at_start{"", "m", "", [](const MapCell& cell) { return c
 const MapKind thickness_now{"", "m", "", [](const MapCell& cell) { return cell.thickness; }};
 const MapKind largest_thickness{"", "m", "", [](const MapCell& cell) { return cell.max_thickness; }};
 
-// The remainder in [0, divisor), also of negative numbers.
+// Remainder in [0, divisor), also for negative numbers.
 std::uint64_t modulo(int number, int divisor) {
   return static_cast<std::uint64_t>((number % divisor + divisor) % divisor);
 }
@@ -62,10 +62,10 @@ FlowMaps::MapTile& FlowMaps::touch(int tile_x, int tile_y) {
   return *tiles_[number];
 }
 
-// Sorts the background grid's tiles into stacks and these by colour: stacks of a colour stand so far apart that boxes
-// of different ones never share a map cell, so that their sums may be made at the same time.
+// Sorts the background grid's tiles into stacks, and the stacks by colour. Stacks of a colour are so far apart that no
+// two share a map cell, so their sums can be computed in parallel.
 void FlowMaps::place_tiles(const Grid& grid) {
-  const double reach = cells_.largest_half + grid.cell();  // as mpm::map_window has it
+  const double reach = cells_.largest_half + grid.cell();  // as in mpm::map_window
   const double tile_width = grid.cell() * mpm::Tile<3>::edge;
   const double widest_cell = std::max(map_grid_.cell_x, map_grid_.cell_y);
   const int colours = 1 + static_cast<int>(std::ceil((widest_cell + 2.0 * reach) / tile_width));  // along each axis
@@ -86,7 +86,7 @@ void FlowMaps::place_tiles(const Grid& grid) {
 void FlowMaps::set_window(const Grid& grid, Stack& stack) {
   using T = mpm::Tile<3>;
   const auto index = T::index(places_[stack.first].stack);
-  // The tiles of the map, first and last, along an axis.
+  // First and last map tile along an axis.
   const auto tiles_along = [&](std::size_t a, double corner, double inverse_cell, int cells) {
     const mpm::MapWindow window =
         mpm::map_window(T::edge * index[a], T::edge, grid.cell(), cells_.largest_half, corner, inverse_cell, cells);
@@ -106,7 +106,7 @@ void FlowMaps::set_window(const Grid& grid, Stack& stack) {
   }
 }
 
-// The tiles in windows; in those that no particle reaches any more nothing lies now.
+// Updates the active tiles, those in the windows. Tiles that no particle reaches any more become empty.
 void FlowMaps::note_active() {
   std::swap(active_, formerly_active_);
   for (MapTile* tile : formerly_active_) {
@@ -192,7 +192,8 @@ void FlowMaps::add_stack(const Grid& grid, const Particles& particles, const Sta
   }
 }
 
-// Its heat and pressure count to the cells that the slide may reach, by the share of its width over each.
+// Adds heat and pressure of the segment to the cells that the slide may reach, weighted by the fraction of its width
+// over each.
 void FlowMaps::add_segment(const SegmentBelow& segment) {
   using ScalarIndex = Simd<double>;
   const mpm::CellRange x = mpm::cell_spans(ScalarIndex((segment.x - cells_.corner_x) * cells_.inverse_cell_x),
@@ -256,7 +257,7 @@ void FlowMaps::gather(const std::vector<std::uint64_t>& keys, const std::vector<
   take_sums(time);
 }
 
-// What has been summed over the active tiles, which are then ready for the next sums.
+// Records the sums of the active tiles and resets them.
 void FlowMaps::take_sums(double time) {
   parallel_for(active_.size(), [&](std::size_t k) {
     MapTile& tile = *active_[k];
@@ -381,7 +382,7 @@ void FlowMaps::restore(const std::vector<double>& numbers) {
     }
     touch(column >> edge_bits, row >> edge_bits).cells[place_in_tile(column, row)] = map_cell_of(values);
   }
-  // Any of them may hold what lies on it now.
+  // Any tile may be occupied.
   for (const std::unique_ptr<MapTile>& tile : tiles_) {
     active_.push_back(tile.get());
   }

@@ -8,7 +8,7 @@ namespace thawslide::sim {
 
 namespace {
 
-// What the band's figures are: means over its particles, or over the base where it is of columns.
+// Adds the means of the band, over its particles or, if the band consists of columns, over the base.
 template <int Dim, class Real>
 void add_band(const Simulation<Dim, Real>& simulation, const BodySums<Dim, Real>& sums, HistoryRow& row) {
   const auto add = [&](const char* name, double value) { row.emplace_back(name, value); };
@@ -32,7 +32,7 @@ void add_band(const Simulation<Dim, Real>& simulation, const BodySums<Dim, Real>
   add("band_pore_pressure_Pa", static_cast<double>(sums.band_pore_pressure) / mass);
 }
 
-// The balances of heat and water in band columns; returns the heat that columns hold less what they got.
+// Adds the heat and water balances of band columns; returns the heat held by the columns minus the heat supplied.
 template <int Dim, class Real, class Add>
 Real add_columns(const Simulation<Dim, Real>& simulation, const Add& add) {
   const auto* columns = simulation.band_columns();
@@ -62,8 +62,8 @@ Real add_columns(const Simulation<Dim, Real>& simulation, const Add& add) {
   return sums.heat + heat_out - heat_in;
 }
 
-// What the slide has taken up of an erodible bed, what is left of that, and the balances of both. `add` takes the name
-// and a number per metre of width.
+// Adds the entrained mass, the remaining bed, and the balances of both. `add` takes the name and a number per metre of
+// width.
 template <int Dim, class Real, class Add>
 void add_bed(const Simulation<Dim, Real>& simulation, const Add& add) {
   const auto* bed = simulation.bed();
@@ -193,7 +193,7 @@ HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow
   row.emplace_back("dilation_volume_m3", width * static_cast<double>(sums.volume_change));
   row.emplace_back("dilation_share", static_cast<double>(sums.volume_change / sums.initial_volume));
   const char* axes = Dim == 2 ? "xy" : "xyz";
-  // Before the first step no force is known.
+  // No force is known before the first step.
   const double known = simulation.step_number() > 0 ? width : std::nan("");
   for (int a = 0; a < Dim; ++a) {
     row.emplace_back(fmt::format("basal_force_{}_N", axes[a]), known * static_cast<double>(contact.force[a]));

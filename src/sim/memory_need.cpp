@@ -18,7 +18,7 @@ namespace {
 
 constexpr double gigabyte = 1e9;
 
-// Horizontal area of what is thicker than nothing [m2].
+// Horizontal area of positive thickness [m2].
 double covered_area(const Raster& thickness) {
   const auto covered =
       std::count_if(thickness.values.begin(), thickness.values.end(), [](double value) { return value > 0.0; });
@@ -59,7 +59,8 @@ std::string parts_of(const MemoryNeed& need) {
   return text;
 }
 
-// No cell helps, as what does not depend on cells takes too much by itself: what takes most is blamed.
+// Refuses a case that no cell size can make fit, because its cell-independent memory is too large. The message names
+// the largest contribution.
 [[noreturn]] void refuse_whatever_the_cell(const config::Case& parameters, const BodiesAtStart& bodies,
                                            const MemoryNeed& need, const std::string& amounts) {
   const double fixed = bytes_of_program + need.maps + need.ground;
@@ -137,7 +138,7 @@ double smallest_cell(const MemoryNeed& need, double cell, double bytes) {
   if (!(fixed < bytes)) {
     return 0.0;
   }
-  // The need falls as cells grow: bisection of the factor that they grow by.
+  // Memory decreases as cells grow: bisection of the growth factor.
   const auto fits = [&](double factor) {
     return fixed + by_volume / std::pow(factor, Dim) + by_area / std::pow(factor, Dim - 1) <= bytes;
   };

@@ -1,4 +1,4 @@
-// What a run is watched for while it goes well: energy without a cause, volumes out of range, and rest.
+// Monitor of a run: unexplained energy growth, volume limits, and rest.
 #include "sim/monitor.hpp"
 
 #include <algorithm>
@@ -14,32 +14,33 @@ namespace thawslide::sim {
 
 namespace {
 
-// Round-off of sums over particles, of which the potential energy is by far the largest.
+// Round-off of sums over particles, relative to their largest term, the potential energy.
 constexpr double round_off = 1e-10;
 
-// A body that all but rests holds so little energy that the step's own errors are a large share of it. Energy counts no
-// less than that of a fall by so many cells, which an instability passes within some steps.
+// Lower bound of the reference energy, as the energy of a fall by this number of cells. A body almost at rest has so
+// little energy that discretization errors are a large fraction of it. An instability exceeds the bound within some
+// steps.
 constexpr double noticed_fall = 1.0;
 
-// An instability grows within some hundred steps. What a body that rests for long makes little by little, and loses
-// again on the ground, is none: the level that energy rises from follows it by this share each time it is looked at.
+// Fraction by which the reference level relaxes to the current energy at each check. An instability grows within a few
+// hundred steps. The slow gains of a body at rest for a long time, which contact dissipates again, do not count.
 constexpr double forgotten_share = 0.02;
 
-// The speed below which the slide rests [m/s]: time.stop_at_rest, if the case has one.
+// Speed below which the slide is at rest [m/s]: time.stop_at_rest, if specified.
 double rest_speed(const config::Time& times) {
   return times.stop_at_rest > 0.0 ? times.stop_at_rest : usual_rest_speed;
 }
 
-// A slide that is slow since the start is at rest after so many times of what free fall takes to the speed of rest:
-// what begins to slide by a fiftieth of gravity is faster by then.
+// A slide that is slow from the start is at rest after this multiple of the free-fall time to the rest speed. A mass
+// that accelerates at a fiftieth of gravity exceeds that speed by then.
 constexpr double fall_times = 50.0;
 
-// Watch::has_moved of a run that was not asked to stop at rest.
+// Value of RunMonitor::has_moved in a run that does not stop at rest.
 constexpr double not_sampled = -1.0;
 
-// Energy that is there or went where the accounts say, less what came in [J]: what the transfers and the time steps
-// made, or lost. It is mechanical_residual_J and numerical_J of the history together, which in a stable run keep each
-// other's balance.
+// Energy present or accounted for, minus energy supplied [J]: the energy gained or lost by the transfers and the time
+// steps. It is the sum of mechanical_residual_J and numerical_J of the history, which compensate each other in a stable
+// run.
 template <int Dim, class Real>
 double energy_made(const Ledger<Dim, Real>& ledger, const mpm::MonitorSums<Real>& seen) {
   const Real there = seen.kinetic + seen.potential + ledger.stress_work + ledger.pore_work + ledger.left_mechanical;
@@ -48,14 +49,14 @@ double energy_made(const Ledger<Dim, Real>& ledger, const mpm::MonitorSums<Real>
   return static_cast<double>(there + gone - came);
 }
 
-// All energy that matter held or moved with, or that has been dissipated [J].
+// Total energy so far: held by the material, kinetic or dissipated [J].
 template <int Dim, class Real>
 double energy_so_far(const Ledger<Dim, Real>& ledger, const mpm::MonitorSums<Real>& seen, double held_at_start) {
   return held_at_start + static_cast<double>(seen.kinetic + std::abs(ledger.stress_work) + ledger.viscous +
                                              ledger.damping + ledger.friction_work + ledger.contact_loss);
 }
 
-// Whether more than the stray share has a velocity above that of rest [m/s].
+// True if more than escaped_fraction of the mass moves faster than `speed` [m/s].
 template <int Dim, class Real>
 bool starts_faster(const mpm::Particles<Dim, Real>& particles, double speed) {
   double mass = 0.0, fast_mass = 0.0;
@@ -67,12 +68,12 @@ bool starts_faster(const mpm::Particles<Dim, Real>& particles, double speed) {
   return fast_mass > escaped_fraction * mass;
 }
 
-// How long a slide has to be slow since the start to be at rest [s].
+// Time for which a slide must be slow from the start to be at rest [s].
 double rest_time_from_start(const config::Time& times, double gravity) {
   return std::min(times.rest_time, fall_times * rest_speed(times) / gravity);
 }
 
-// Whether more than the stray share has gone further than a way [m].
+// True if more than escaped_fraction of the mass has moved farther than a distance [m].
 template <int Dim, class Real>
 bool has_gone_further(const mpm::Particles<Dim, Real>& particles, Real way) {
   Real mass = 0, far_mass = 0;
@@ -87,8 +88,8 @@ bool has_gone_further(const mpm::Particles<Dim, Real>& particles, Real way) {
 
 template <int Dim, class Real>
 mpm::MonitorSums<Real> Simulation<Dim, Real>::monitor_sums() const {
-  // A way of more than this in a step is fast. The velocity of a particle has parts beside that the grid does not see,
-  // and which move nothing (FLIP).
+  // Displacement per step above which a particle is fast. Particle velocity also contains FLIP noise, which the grid
+  // does not resolve and which displaces nothing.
   const Real fast_distance = static_cast<Real>(rest_speed(parameters_.time)) * dt_;
   const mpm::MonitorKernel<Dim, Real> look{model_.motion.gravity, model_.origin.template cast<Real>(), fast_distance,
                                            static_cast<Real>(parameters_.guards.smallest_volume),
@@ -151,7 +152,7 @@ void Simulation<Dim, Real>::update_rest(const mpm::MonitorSums<Real>& seen) {
   if (parameters_.time.stop_at_rest <= 0.0) {
     monitor_.has_moved = not_sampled;
   } else if (monitor_.has_moved == not_sampled) {
-    // Rest was judged by another speed so far.
+    // The criterion of rest used another speed so far.
     monitor_.rest_since = -1.0;
     monitor_.has_moved =
         has_gone_further(std::as_const(*this).particles(), static_cast<Real>(parameters_.grid.cell)) ? 1.0 : 0.0;
@@ -200,7 +201,8 @@ std::string Simulation<Dim, Real>::energy_warning() const {
     return "";
   }
   return fmt::format(
-      "warning: by t = {:.6g} s the steps have made {:.3g} % of all energy, little by little and without a cause: do not "
+      "warning: by t = {:.6g} s the steps have made {:.3g} % of all energy, little by little and without a cause: do "
+      "not "
       "trust what the slide does from here on. A body without viscosity flutters: give its material a viscosity_time "
       "(0.001 to 0.02 s), or take smaller steps",
       time_, 100.0 * monitor_.made_share);

@@ -1,4 +1,4 @@
-// The step to take next, and what is said of one too short to go on with.
+// Size of the next step, and the message if it is too small.
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +10,9 @@ namespace thawslide::sim {
 
 namespace {
 
-constexpr double round_off = 1e-9;  // of summed times, as a fraction of a step
+constexpr double round_off = 1e-9;  // of accumulated times, as a fraction of a step
 
-// What to do about a limit that has become a small part of what it was.
+// Advice on a limit that has fallen to a small fraction of its initial value.
 std::string advice_on(LimitKind kind) {
   switch (kind) {
     case LimitKind::wave:
@@ -64,7 +64,7 @@ double Simulation<Dim, Real>::next_step(double until) const {
   const double dt = adaptive_step();
   stop_if_step_collapses(dt);
   const double left = until - time_;
-  const double steps = std::ceil(left / dt * (1.0 - round_off));  // else a rounding remainder takes one more step
+  const double steps = std::ceil(left / dt * (1.0 - round_off));  // otherwise round-off adds one more step
   return left / std::max(1.0, steps);
 }
 

@@ -10,7 +10,7 @@ namespace thawslide::sim {
 
 namespace {
 
-// Adds the shares of the way from one number to another at which it passes a whole one.
+// Adds the fractions of the interval between two numbers at which it crosses an integer.
 void add_crossings(double from, double to, std::vector<double>& shares) {
   const double lower = std::min(from, to), upper = std::max(from, to);
   const auto last = static_cast<std::int64_t>(std::ceil(upper));

@@ -1,5 +1,5 @@
-// Particles that are bad, or have left the domain or the part of the terrain that is known: they end the run, or are
-// removed and counted, as the case has it.
+// Handling of particles that are invalid, or have left the domain or the known terrain: they end the run, or are
+// removed and counted, as specified by the case.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace thawslide::sim {
 
 namespace {
 
-// Why a particle is removed.
+// Reason for removal of a particle.
 enum Mark : std::uint8_t { stays, has_left, is_not_finite, has_inverted };
 
 Mark mark_of(mpm::Fault fault, const config::Guards& guards) {
@@ -33,7 +33,7 @@ Mark mark_of(mpm::Fault fault, const config::Guards& guards) {
   return stays;
 }
 
-// What is wrong with a particle by itself, after a step.
+// Fault of a single particle after a step.
 template <int Dim, class Real>
 mpm::Fault fault_of(const mpm::Particles<Dim, Real>& particles, std::size_t p, const config::Guards& guards) {
   const Real volume = particles.volume(p);
@@ -57,7 +57,7 @@ mpm::Fault fault_of(const mpm::Particles<Dim, Real>& particles, std::size_t p, c
   return ratio > guards.largest_volume ? mpm::Fault::volume_too_large : mpm::Fault::none;
 }
 
-// Marks the particles beyond the sides of the domain.
+// Marks particles outside the domain.
 template <int Dim, class Real>
 void mark_left_domain(const mpm::Particles<Dim, Real>& particles, const Vector<Real, Dim>& extent,
                       std::vector<std::uint8_t>& marks) {
@@ -79,7 +79,7 @@ std::int64_t count_of(const std::vector<std::uint8_t>& marks, Mark mark) {
 
 }  // namespace
 
-// Leaves in invalid_ what has to end the run.
+// Sets invalid_ to the fault that must end the run.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::mark_invalid_particles() {
   const config::Guards& guards = parameters_.guards;
@@ -107,8 +107,8 @@ void Simulation<Dim, Real>::mark_left_particles() {
   }
   const std::size_t tiles = model_.ground ? grid_.tiles().size() : 0;
   invalid_ += parallel_sum<mpm::InvalidParticle>(tiles, [&](std::size_t t, mpm::InvalidParticle& invalid) {
-    // The tile's own block stands in the middle of those about it; its ground is looked at a cell further.
-    // After steps of a device tiles may be those of long ago: all particles are looked at.
+    // The tile's own block is the middle one of its stencil, and its ground is checked one cell beyond its edge. After
+    // device steps the tiles may be outdated, so all particles are checked.
     const auto own = static_cast<std::size_t>(grid_.blocks_about_tile(t)[mpm::Tile<Dim>::stencil / 2]);
     if (!device_solver_ && !ground_.partly_unknown(own)) {
       return;
@@ -128,8 +128,8 @@ void Simulation<Dim, Real>::mark_left_particles() {
   });
 }
 
-// What the marked particles take along. Of one that is not finite mass and place are known, and no more: the residuals
-// of the other accounts show what it had.
+// Adds the budget terms of the marked particles. For a non-finite particle, only mass and position are known; the
+// residuals of the other terms show its content.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::add_removed_particles() {
   std::vector<std::uint8_t> known = marks_;
@@ -149,7 +149,7 @@ void Simulation<Dim, Real>::add_removed_particles() {
   ledger_.left_seeped += sums.seeped;
 }
 
-// What a step with a particle that is not finite did is not known either: its accounts stay as they were.
+// The effect of a step with a non-finite particle is unknown as well, so its budget terms stay unchanged.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::correct_energy_for_removal() {
   std::vector<Real> before;
@@ -161,7 +161,7 @@ void Simulation<Dim, Real>::correct_energy_for_removal() {
   });
 }
 
-// Names of the bad particles that were marked last the one of smallest id.
+// Reports the particle with the smallest id among those marked last as invalid.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::stop_for_removed_mass(double share) {
   for (std::size_t p = 0; p < particles_.size(); ++p) {

@@ -1,4 +1,4 @@
-// Message of a failed run: the particle, the place, the time and the likely cause.
+// Message of a failed run: particle, position, time and probable cause.
 #include <algorithm>
 #include <cmath>
 
@@ -14,28 +14,28 @@ namespace thawslide::sim {
 
 namespace {
 
-// A particle this many times faster than the body's mean has come loose from it.
+// A particle faster than this multiple of the body's mean speed has detached from it.
 constexpr double runaway = 5.0;
 
-// Below this [C] it is squeezing that has closed pores, not the rock's expansion.
+// Below this temperature [C], compression has closed the pores rather than thermal expansion of the rock.
 constexpr double hot = 1000.0;
 
-// Of a DEM that ends too soon.
+// Advice for a DEM that ends too soon.
 constexpr const char* anew =
     "`thawslide new` crops the DEM to the domain: create the case again with a smaller --reach-angle, which uses more "
     "of the DEM, or from a larger DEM.";
 
-// Where a particle is heading over the horizontal plane, in words; x is east and y north.
+// Horizontal direction of a particle's motion as text; x is east and y north.
 std::string heading(double x, double y) {
   const double speed = std::hypot(x, y);
-  // A direction counts where it is more than 22.5 degrees off the other axis.
+  // A component counts if the direction is more than 22.5 degrees from the other axis.
   constexpr double share = 0.3826834323650898;
   const std::string along = y > share * speed ? "north" : y < -share * speed ? "south" : "";
   const std::string across = x > share * speed ? "east" : x < -share * speed ? "west" : "";
   return along + (along.empty() || across.empty() ? "" : "-") + across;
 }
 
-// The axis along which a particle within the domain is the first to come to a side of it.
+// Axis along which a particle within the domain reaches a side first.
 template <int Dim, class Real>
 int axis_of_exit(const Vector<Real, Dim>& place, const Vector<Real, Dim>& velocity, const Vector<Real, Dim>& extent) {
   int first = 0;
@@ -52,7 +52,7 @@ int axis_of_exit(const Vector<Real, Dim>& place, const Vector<Real, Dim>& veloci
   return first;
 }
 
-// How far the DEM reaches from a place on, the way it moves over the plane [m].
+// Distance from a position to the edge of the DEM, in the horizontal direction of motion [m].
 double distance_to_domain_edge(const config::Site& site, const Place2& place, const Place2& velocity) {
   const double speed = std::hypot(velocity[0], velocity[1]);
   const Raster& ground = *site.ground;
@@ -68,7 +68,7 @@ double distance_to_domain_edge(const config::Site& site, const Place2& place, co
   return std::max(room, 0.0);
 }
 
-// Place in memory; of several the one of smallest id.
+// Index in memory; ties are broken by the smallest id.
 template <int Dim, class Real>
 std::size_t fastest_particle(const mpm::Particles<Dim, Real>& particles) {
   const auto speed = [&](std::size_t p) { return particles.velocity.template get<Vector<Real, Dim>>(p).norm(); };
@@ -81,13 +81,13 @@ std::size_t fastest_particle(const mpm::Particles<Dim, Real>& particles) {
   return fastest;
 }
 
-// The cause that lies in pores closed by heat, if some are: their water then has no room, and its pressure no bound.
+// Failure due to pores closed by heat, if any: their water has no volume left, and its pressure is unbounded.
 template <int Dim, class Real>
 std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
   std::size_t closed = 0;
   double hottest = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    double temperature = 0.0;  // of now and before, where these are numbers
+    double temperature = 0.0;  // current and previous temperature, if finite
     for (const Real one : {particles.temperature(p), particles.previous_temperature(p)}) {
       temperature = std::max(temperature, static_cast<double>(one));
     }
@@ -107,7 +107,7 @@ std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
 
 }  // namespace
 
-// Throws where none has that id.
+// Throws if no particle has that id.
 template <int Dim, class Real>
 std::size_t Simulation<Dim, Real>::place_in_memory(std::int64_t id) const {
   std::size_t p = 0;
@@ -118,7 +118,7 @@ std::size_t Simulation<Dim, Real>::place_in_memory(std::int64_t id) const {
   return p;
 }
 
-// In the coordinates of the case [m].
+// Position in the coordinates of the case [m].
 template <int Dim, class Real>
 Vector<double, Dim> Simulation<Dim, Real>::place_of(std::size_t p) const {
   Vector<double, Dim> place;
@@ -139,7 +139,7 @@ std::string Simulation<Dim, Real>::particle_text(std::size_t p) const {
                      model_.body_names[static_cast<std::size_t>(particles_.body(p))], numbers);
 }
 
-// Of the particle that invalid_ is about.
+// Describes the fault of the particle in invalid_.
 template <int Dim, class Real>
 std::string Simulation<Dim, Real>::fault_text(std::size_t p) const {
   const auto ratio = static_cast<double>(particles_.volume(p) / particles_.initial_volume(p));
@@ -167,8 +167,7 @@ std::string Simulation<Dim, Real>::fault_text(std::size_t p) const {
   return "nothing is wrong with it";
 }
 
-// How much further a particle would go the way it moves, until friction has taken its energy, v2/(2 g tan(angle)), and
-// how far the DEM reaches there.
+// Stopping distance of a particle by friction, v2/(2 g tan(angle)), compared with the distance to the edge of the DEM.
 template <int Dim, class Real>
 std::string Simulation<Dim, Real>::terrain_ahead(std::size_t p) const {
   const Vector<double, Dim> velocity = particles_.velocity.template get<Vector<Real, Dim>>(p).template cast<double>();

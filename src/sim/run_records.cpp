@@ -42,7 +42,7 @@ double highest_point(const Simulation<3, double>& simulation) {
   return highest + simulation.model().origin[2];
 }
 
-// The pieces of base as maps take them; none where the band is not of columns.
+// Basal segments in the form that maps need; empty unless the band consists of columns.
 std::vector<SegmentBelow> segments_below(const Simulation<3, double>& simulation) {
   std::vector<SegmentBelow> segments;
   const auto* columns = simulation.band_columns();
@@ -60,7 +60,7 @@ std::vector<SegmentBelow> segments_below(const Simulation<3, double>& simulation
   return segments;
 }
 
-// Corners of the cell about a point of a raster.
+// Adds the corners of the cell around a raster point.
 void add_cell(const Raster& raster, int column, int row, config::Polyline2& corners) {
   for (const double i : {-0.5, 0.5}) {
     for (const double j : {-0.5, 0.5}) {
@@ -69,8 +69,7 @@ void add_cell(const Raster& raster, int column, int row, config::Polyline2& corn
   }
 }
 
-// Between which all bodies lie at the start: those of the outlines of releases, of the cells of their rasters, of
-// boxes.
+// Corners that bound all bodies at the start: release outlines, raster cells of releases, and boxes.
 config::Polyline2 corners_at_start(const config::Case& parameters,
                                    const std::map<std::string, config::Release>& releases) {
   config::Polyline2 corners;
@@ -158,7 +157,7 @@ void RunRecords<Dim>::slide_left() {
   }
 }
 
-// The centre of mass over the horizontal plane.
+// Adds the centre of mass in the horizontal plane.
 template <int Dim>
 void RunRecords<Dim>::add_to_path(const Simulation& simulation, const mpm::MassMoments& sums) {
   if (!path_given_) {

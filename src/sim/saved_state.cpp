@@ -1,4 +1,4 @@
-// The numbers of a run that checkpoints keep beside its particles, and how it goes on from them.
+// State of a run stored in checkpoints in addition to its particles, and its restoration.
 #include "base/instances.hpp"
 #include "base/state_numbers.hpp"
 #include "sim/restored_state.hpp"
@@ -45,7 +45,7 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
     *count = state.whole(largest_whole);
   }
   require_sound(particles_, model_, next_id_, state);
-  // Rows came back in order of id: nothing of the former order may be trusted.
+  // Rows are sorted by id after a restart, so the former order is invalid.
   grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell), model_.between_bodies.layer_of_body);
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     particles_.previous_temperature(p) = particles_.temperature(p);

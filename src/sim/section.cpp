@@ -33,7 +33,7 @@ bool reaches(const Raster& raster, const Place2& place) {
 
 std::vector<double> stations_along(const PathLine& line, double from, double to, double spacing) {
   THAWSLIDE_ASSERT(from < to && spacing > 0.0, "from {} to {} m, {} m apart", from, to, spacing);
-  constexpr double least_share = 1e-4;  // of the spacing: corners nearer to one another count as one
+  constexpr double least_share = 1e-4;  // fraction of the spacing: closer corners count as one
   std::vector<double> fixed{from};
   for (const double corner : line.distances()) {
     if (corner > fixed.back() + least_share * spacing && corner < to - least_share * spacing) {

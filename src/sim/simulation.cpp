@@ -21,12 +21,11 @@
 
 namespace thawslide::sim {
 
-// The discrete step, Section 2.3 of the paper; all stages use the shape functions at the positions the step begins
-// with.
+// Discrete step, Section 2.3 of the paper; all stages use the shape functions at the initial positions of the step.
 //   m_i = sum S m,  p_i = sum S m v,  f_i = sum S m b - V sigma.G                              Eq. 12
-//   P_i, S_i, n_i: averages with the linear shape functions; under band columns only where some node presses on ground
+//   P_i, S_i, n_i: averages with the linear shape functions; with band columns, only if a node presses on ground
 //   without a column                                                                         Eq. 21
-//   f_i of bodies that do not share nodes: with what they exert on one another               mpm/body_contact.hpp
+//   f_i of bodies that do not share nodes: including the forces between them                 mpm/body_contact.hpp
 //   p_i + f_i dt corrected by contact: N = p.n/(A dt), S_slide = mu_e (N - P) + c_S            Eqs. 15-17, 25
 //   v_p += sum S a dt,  x_p += sum S (v_i + a_i dt/2) dt                                       Eqs. 13, 14
 //   stress and porosity from the mapped-back velocities                                        Eqs. 11, 6
@@ -38,7 +37,7 @@ void Simulation<Dim, Real>::step(double dt) {
   dt_ = static_cast<Real>(dt);
   ledger_before_ = ledger_;
   if (step_number_ == 0) {
-    start_monitor();  // once more: who set the run up may have changed the state
+    start_monitor();  // again, because the caller may have changed the state
   }
   if (make_solver_) {
     stopwatch_.time("step_on_device", [&] { advance_on_device(); });
@@ -51,8 +50,8 @@ void Simulation<Dim, Real>::step(double dt) {
   post_step();
 }
 
-// The time at the end of the step that was taken. No round-off gathers in that of fixed steps, which are counted from
-// where there first was one of their size.
+// Time at the end of the step. Fixed steps are counted from the first step of their size, so round-off does not
+// accumulate.
 template <int Dim, class Real>
 double Simulation<Dim, Real>::time_after(double dt) {
   if (parameters_.time.stepping != config::Stepping::fixed || dt != parameters_.time.step) {
@@ -80,7 +79,7 @@ void Simulation<Dim, Real>::step_on_cpu() {
   stopwatch_.time("update_positions", [&] { update_positions(); });
 }
 
-// What ends a run, or takes particles out of it, or brings new ones.
+// Ends the run, or removes or adds particles, if necessary.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::post_step() {
   watch();
@@ -99,7 +98,7 @@ void Simulation<Dim, Real>::stop_for_or_remove_particles() {
   stop_if_invalid();
   mark_left_particles();
   if (invalid_.id >= 0) {
-    watch();  // what an explosion throws off the known ground is not told to get a larger one
+    watch();  // reports an instability before an out-of-DEM error, so that the user is not advised to enlarge the DEM
   }
   stop_if_invalid();
   remove_marked_particles();
@@ -110,7 +109,7 @@ void Simulation<Dim, Real>::find_particles_cells() {
   grid_.update(particles_, sorting_interval_);
   update_ground();
   if (grid_.blocks_changed() && !parameters_.mechanics.enabled) {
-    terrain::start_contact(grid_, ground(), nodes_);  // there is none, and no step resolves it
+    terrain::start_contact(grid_, ground(), nodes_);  // there is no contact, and no step resolves it
   }
 }
 
@@ -124,7 +123,7 @@ void Simulation<Dim, Real>::update_ground() const {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::average_band_on_grid() {
   if (model_.band.rescaling_mixes) {
-    rescale_band();  // which changes temperatures
+    rescale_band();  // changes temperatures
   }
   if (!band_columns_ && (model_.ground || model_.band.heat || model_.band.pressure)) {
     band::average_on_grid(grid_, model_.band, particles_, nodes_);
@@ -136,7 +135,7 @@ void Simulation<Dim, Real>::momentum_to_grid() {
   force_of_walls_ = mpm::momentum_to_grid(grid_, particles_, model_.motion, nodes_);
 }
 
-// Nodes within reach of band columns get the state of the base from these. Only other nodes need that of the particles.
+// Nodes within reach of band columns take the state of the base from these. Only the other nodes need the particles.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::press_on_ground() {
   if (!model_.ground) {
@@ -215,7 +214,7 @@ void Simulation<Dim, Real>::conduct_heat() {
   if (!model_.band.rescaling_mixes) {
     rescale_band();
   }
-  if (band_columns_) {  // the body keeps its temperature
+  if (band_columns_) {  // the body's temperature is constant
     ledger_.friction_heat += contact_.friction_work - contact_.converted;
     return;
   }
@@ -242,7 +241,7 @@ void Simulation<Dim, Real>::drain_pore_pressure() {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::update_positions() {
   if (parameters_.mechanics.enabled) {
-    // Those that are to be removed may be on their way out of the domain until the end of the step.
+    // Particles that will be removed may leave the domain before the end of the step.
     const Real margin = parameters_.grid.leaving == config::Policy::remove ? grid_.cell() : Real(0);
     const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
     mpm::update_positions(particles_, Vector<Real, Dim>(-beyond), Vector<Real, Dim>(model_.constraints.extent + beyond),
@@ -258,7 +257,7 @@ void Simulation<Dim, Real>::update_positions() {
 
 namespace {
 
-// What makes a wave fast, which may be a slip of the pen; empty for other limits.
+// Material parameter behind a fast wave, possibly a typing error in the case; empty for other limits.
 template <int Dim, class Real>
 std::string material_text(const config::Case& parameters, const Model<Dim, Real>& model,
                           const mpm::Particles<Dim, Real>& particles, const StepLimit& limit) {
@@ -278,7 +277,7 @@ std::string material_text(const config::Case& parameters, const Model<Dim, Real>
 
 template <int Dim, class Real>
 Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::Site& site)
-    : parameters_(require_memory<Dim>(parameters, site)),  // before anything is made
+    : parameters_(require_memory<Dim>(parameters, site)),  // checked before any allocation
       site_(site),
       model_(make_model<Dim, Real>(parameters, site)),
       grid_(static_cast<Real>(parameters.grid.cell), model_.between_bodies.layer_of_body),
@@ -304,7 +303,7 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::
   }
 }
 
-// Here, and not wherever a run ends: half of what such a source took to compile.
+// Defined here, because instantiation wherever a run ends took half of the compile time of those sources.
 template <int Dim, class Real>
 Simulation<Dim, Real>::~Simulation() = default;
 
@@ -346,7 +345,7 @@ void Simulation<Dim, Real>::seed() {
   grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell), model_.between_bodies.layer_of_body);
 }
 
-// Which particles are in the band before anything has moved.
+// Marks the particles in the band before anything has moved.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::mark_band() {
   terrain::start_contact(grid_, ground(), nodes_);

@@ -1,10 +1,10 @@
-// What a step did goes to the accounts, wherever it was taken.
+// Budget terms of a step, on the CPU or on a device.
 #include "base/instances.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
 
-// Contact and everything that acts on the slide as a whole.
+// Adds contact and all terms that act on the slide as a whole.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::add_contact_energy() {
   ledger_.friction_work += contact_.friction_work;

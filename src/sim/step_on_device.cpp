@@ -1,4 +1,4 @@
-// Steps that a device takes (src/device), and how its particles come back.
+// Steps on a device (src/device), and synchronization of its particles.
 #include <algorithm>
 
 #include "base/error.hpp"
@@ -21,8 +21,8 @@ void Simulation<Dim, Real>::use_device(const std::string& device, device::Solver
   make_solver_ = std::move(make);
 }
 
-// Work that the device does for the step. Of particles that stood on one that failed only what was brought back last is
-// left, or a mixture, where it failed as they were brought back.
+// Runs work on the device. If the device fails, the host keeps the particles of the last synchronization, or a mixture
+// if it fails during one.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::on_device(const std::function<void()>& work) const {
   try {
@@ -64,7 +64,7 @@ void Simulation<Dim, Real>::advance_on_device() {
   ledger_.numerical += sums.mapped_back;
   add_stress_work(sums.deformed.work);
   ledger_.band_rescale += model_.band.heat ? sums.band_rescale : Real(0);
-  if (band_columns_) {  // the body keeps its temperature
+  if (band_columns_) {  // the body's temperature is constant
     ledger_.friction_heat += contact_.friction_work - contact_.converted;
   } else {
     add_heat_gain(sums.heat);
@@ -112,7 +112,7 @@ void Simulation<Dim, Real>::copy_particles_back() const {
   }
 }
 
-// The grid becomes that of where they stand: what is summed in its order does not depend on when they came.
+// Rebuilds the grid from the particles' positions: sums in its order then do not depend on the time of synchronization.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::sync_to_host() const {
   copy_particles_back();

@@ -1,4 +1,4 @@
-// Steps as a card takes them, by the processor in its place: thread after thread, in the order that is asked for.
+// Steps of the GPU backend emulated on the CPU, one thread at a time, in the requested order.
 #pragma once
 
 #include "device/host_backend.hpp"

@@ -1,5 +1,5 @@
-// The kernels of the step (mpm/kernel.hpp) in device code, a thread a particle as in device/particle_pass.hpp, in
-// double precision. They are compiled and never run: that they can be, and in how many registers, is the test.
+// Kernels of the step (mpm/kernel.hpp) in device code, with one particle per thread as in device/particle_pass.hpp, in
+// double precision. They are compiled and never run: the test is that they compile, and their register count.
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -23,7 +23,7 @@ namespace thawslide {
 
 using Real = double;
 
-// A tile's particles, and the records that its nodes hold.
+// Particles of a tile, and the records of its nodes.
 template <int Dim>
 struct TileOnDevice {
   mpm::ParticleView<Dim, Real> particles;
@@ -45,7 +45,7 @@ struct PatchOnDevice {
   const Real* numbers;
 };
 
-// A tile's patch, if there is one, in shared memory; a thread a number.
+// Copies a tile's patch, if any, to shared memory, one number per thread.
 template <int Dim, class... Names>
 __device__ auto fetch(mpm::RecordList<Names...> /*names*/, const Real* records, Real* shared) {
   static_assert(sizeof...(Names) <= 1, "no kernel reads more");
@@ -259,7 +259,7 @@ __global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim,
                     Pressure<Dim, Balances>{model, hydraulic, Real(0.5) * tile.cell, *columns});
 }
 
-// The columns of the slide: what a box overlaps, a column at the body's edge, and the load of a particle below one.
+// Columns of the slide: overlap of a box, a column at the body's edge, and the load of a particle below one.
 template <int Dim>
 __global__ void box_in_columns(std::uint64_t tile_key, TileOnDevice<Dim> tile, band::Overlaps<Dim, Real>* overlaps) {
   const mpm::ScalarIndex<Real> at{{tile.particle[threadIdx.x]}};
@@ -288,8 +288,8 @@ __global__ void take_position(TileOnDevice<Dim> tile, Results<Dim, mpm::UpdatePo
   visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
 }
 
-// The second phase of a pass: what the particles first .. last-1 of a cell add to a number of one of its nodes, or the
-// smallest that they bring.
+// Second phase of a pass: reduces the contributions of particles first .. last-1 of a cell to a number of one of its
+// nodes, by sum or minimum.
 template <class Name, int Dim>
 __global__ void sum_in_cell(const mpm::OneWeights<Dim, Real>* weights, const CarriedTo<Name, Dim>* carried,
                             std::size_t first, std::size_t last, Real* sums) {

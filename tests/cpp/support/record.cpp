@@ -11,7 +11,7 @@ namespace thawslide::verification {
 
 namespace {
 
-// In one write, since tests run side by side.
+// A single write, because tests run in parallel.
 void append(const char* file, const std::string& line) {
   const int descriptor = open(file, O_WRONLY | O_APPEND | O_CREAT, 0666);
   EXPECT_EQ(write(descriptor, line.data(), line.size()), static_cast<ssize_t>(line.size())) << file;

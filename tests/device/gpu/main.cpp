@@ -1,11 +1,12 @@
-// thawslide_device_test: steps on a card against the same on the processor, and how fast the card is.
-//   thawslide_device_test            small slides compared, then 100,000 and 10 million particles for their speed
-//   thawslide_device_test --compare  small slides alone: for compute-sanitizer
-//   thawslide_device_test --speed N  so many particles alone, with the time of each stage
-//   thawslide_device_test --table    how fast, by size, up to what the card holds: the table of gpu-backend.md
-//   thawslide_device_test --rehearse  as --compare, without a card: its threads run on the processor, in no order
-// Exit codes: 0 the bits are the same, or differ by at most 1e-12 of each quantity's largest value (it says which);
-// 1 they differ by more, or two runs on the card differ at all; 2 wrong options; 5 there is no card to run on.
+// thawslide_device_test: compares steps on a GPU with those on the CPU, and measures the speed of the GPU.
+//    thawslide_device_test            compares small slides, then measures 100,000 and 10 million particles
+//    thawslide_device_test --compare  small slides alone: for compute-sanitizer
+//    thawslide_device_test --speed N  speed of N particles alone, with the time of each stage
+//    thawslide_device_test --table    speed by size, up to the GPU's memory: the table of docs/gpu.md
+//    thawslide_device_test --rehearse  as --compare, without a GPU: its threads are emulated on the CPU, in shuffled
+//    order
+// Exit codes: 0 bitwise identical, or differences of at most 1e-12 of each quantity's maximum (the output states
+// which); 1 larger differences, or any difference between two runs on the GPU; 2 invalid options; 5 no GPU available.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,12 +30,12 @@ constexpr Size in_plane{20, 1, 8}, in_space{8, 5, 4};
 
 struct Comparison {
   std::size_t fields = 0, fields_of_same_bits = 0;
-  double largest = 0;  // difference, as a share of the field's largest value
+  double largest = 0;  // maximum difference, relative to the field's maximum
 };
 
 template <int Dim>
 Comparison compare(const ParticleMemory<Dim>& a, const ParticleMemory<Dim>& b) {
-  // Places in memory may differ: particles are told apart by id.
+  // Places in memory may differ, so particles are matched by id.
   std::vector<std::size_t> by_id_a(a.size()), by_id_b(a.size());
   const auto list = [](const ParticleMemory<Dim>& of, std::vector<std::size_t>& by_id) {
     for (std::size_t k = 0; k < by_id.size(); ++k) {
@@ -55,7 +56,7 @@ Comparison compare(const ParticleMemory<Dim>& a, const ParticleMemory<Dim>& b) {
                            same = same && std::memcmp(&x, &y, sizeof x) == 0;
                            scale = std::max(scale, std::abs(static_cast<double>(x)));
                            const double apart = std::abs(static_cast<double>(x) - static_cast<double>(y));
-                           difference = apart <= difference ? difference : apart;  // not a number is the largest
+                           difference = apart <= difference ? difference : apart;  // NaN counts as the maximum
                          }
                        }
                        ++all.fields;
@@ -66,7 +67,7 @@ Comparison compare(const ParticleMemory<Dim>& a, const ParticleMemory<Dim>& b) {
   return all;
 }
 
-// Returns the sums of the last one.
+// Returns the sums of the last step.
 template <int Dim>
 device::StepSums<Dim, Real> take_steps(Steps<Dim>& steps, int from, int to) {
   device::StepSums<Dim, Real> sums;
@@ -83,7 +84,7 @@ bool report_line(const char* what, const Comparison& found, bool bits_are_asked_
   return is_well;
 }
 
-// Whether the slide does what it is there for.
+// True if all processes to be tested act on the slide.
 template <int Dim>
 bool tell_work(const device::StepSums<Dim, Real>& sums) {
   const bool works = sums.contact.friction_work > 0 && sums.deformed.work.plastic > 0 && sums.heat.friction > 0 &&
@@ -96,7 +97,7 @@ bool tell_work(const device::StepSums<Dim, Real>& sums) {
   return works;
 }
 
-// Of more segments than one look takes.
+// More segments than one kernel launch processes.
 sim::PathLine bent_line() {
   sim::PathLine line;
   for (int k = 0; k < 40; ++k) {
@@ -105,7 +106,7 @@ sim::PathLine bent_line() {
   return line;
 }
 
-// What a run asks of its particles after a step, but for whole numbers.
+// Non-integer results that a run reduces from its particles after a step.
 template <int Dim>
 std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& sums) {
   mpm::MonitorKernel<Dim, Real> look;
@@ -135,7 +136,7 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& 
     const mpm::PathSample front = steps.front({way, {5.0, 7.0}}, body.mass);
     numbers.insert(numbers.end(), {front.along, front.mass, front.place[0], front.place[1]});
   }
-  std::vector<std::array<Real, 2>> escapes;  // they come in the order of the device's memory
+  std::vector<std::array<Real, 2>> escapes;  // their order is that of device memory
   for (const Vector<Real, Dim>& place : steps.escaped_positions()) {
     escapes.push_back({place[0], place[Dim - 1]});
   }
@@ -182,7 +183,7 @@ bool compare_slides(const device::SolverFactory<Dim, Real>& make, const device::
   for (const int steps : {1, 20, 60}) {
     const auto sums = take_steps(*processor, done, steps), of_this_gpu = take_steps(*gpu, done, steps);
     if (steps == 20) {
-      again->sort_in_memory();  // which may change nothing
+      again->sort_in_memory();  // must not change results
     }
     take_steps(*again, done, steps);
     done = steps;
@@ -192,7 +193,7 @@ bool compare_slides(const device::SolverFactory<Dim, Real>& make, const device::
     again->copy_to(of_second.view());
     const std::string when = dim + std::to_string(start.size()) + " particles, " + std::to_string(steps) + " steps, ";
     well = (steps > 1 || tell_looks(when, looks(*processor, sums), looks(*gpu, of_this_gpu))) && well;
-    // Round-off grows from step to step: it is held to the tolerance after the first one.
+    // Round-off grows from step to step, so the tolerance applies only after the first one.
     const Comparison found = compare(of_cpu, of_gpu);
     well = report_line((when + "card against processor").c_str(), found, false) || steps > 1 ? well : false;
     well = report_line((when + "card against card").c_str(), compare(of_gpu, of_second), true) && well;
@@ -200,7 +201,7 @@ bool compare_slides(const device::SolverFactory<Dim, Real>& make, const device::
   return well;
 }
 
-// What else models choose: the same bits on both, of particles, looks and what the processor is told amid steps.
+// Other model options: particles, reductions and data for the CPU during steps must be bitwise identical on both.
 template <int Dim>
 bool compare_variant(const device::SolverFactory<Dim, Real>& make, const Size& size, const NamedVariant& of) {
   ParticleMemory<Dim> start(size.particles(Dim)), of_cpu(start.size()), of_gpu(start.size());
@@ -246,7 +247,7 @@ void measure(std::size_t particles) {
   }
 }
 
-// make: what takes the place of `on a card`; make_again: the same in another way, whose bits must be the same.
+// make: replaces `on a GPU`; make_again: the same by another method, which must give bitwise identical results.
 template <int Dim>
 bool compare_all(const device::SolverFactory<Dim, Real>& make, const device::SolverFactory<Dim, Real>& make_again,
                  const Size& size) {
@@ -257,7 +258,7 @@ bool compare_all(const device::SolverFactory<Dim, Real>& make, const device::Sol
   return well;
 }
 
-// One of whose runs launches its kernels as graphs, and another each by itself.
+// Compares a run that launches its kernels as graphs with one that launches them individually.
 bool compare_gpus() {
   constexpr auto one_by_one = device::Launching::one_by_one;
   const bool well = compare_all<2>(device::on_gpu<2>(), device::on_gpu<2>(one_by_one), in_plane);

@@ -1,4 +1,4 @@
-// How fast steps of the slide in space are, and what they take, by size.
+// Speed and memory of steps of a 3D slide, by size.
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@ namespace thawslide::gpu_test {
 
 struct Measured {
   std::size_t particles = 0;
-  double yielding = 0;  // share of the particles, in the last step
+  double yielding = 0;  // fraction of the particles, in the last step
   double seconds_a_step = 0;
-  double seconds_of_row = 0;   // sums and front: what a row of the history waits for
-  double seconds_of_copy = 0;  // all particles to the processor: what a snapshot or a checkpoint waits for
+  double seconds_of_row = 0;   // sums and front: delay due to a row of the history
+  double seconds_of_copy = 0;  // copying all particles to the CPU: delay due to a snapshot or a checkpoint
   double memory = 0;           // of the device [bytes]
 };
 
@@ -32,7 +32,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-// About so many particles: as long as wide, a quarter as high.
+// Size for approximately this number of particles: square base, height a quarter of the side.
 inline Size size_of(std::size_t particles) {
   const double height = std::cbrt(static_cast<double>(particles) / 8.0 / 16.0);
   const auto cells = [](double number) { return static_cast<std::size_t>(std::max(1.0, std::round(number))); };
@@ -47,7 +47,8 @@ inline std::vector<Real> plastic_strain_by_id(const ParticleMemory<3>& particles
   return strain;
 }
 
-// free_memory: of the device, now [bytes]. stage: told the name and the seconds a step of each stage, if it is given.
+// free_memory: of the device, now [bytes]. stage: called with the name and the seconds per step of each stage, if
+// given.
 using ReportStage = std::function<void(const std::string&, double)>;
 inline Measured measured(const device::SolverFactory<3, Real>& make, std::size_t particles, Variant variant,
                          double seconds_at_least, const std::function<double()>& free_memory,
@@ -68,16 +69,16 @@ inline Measured measured(const device::SolverFactory<3, Real>& make, std::size_t
   take(5);
   steps->sort_in_memory();
   take(5);
-  steps->copy_to(memory.view());  // which waits for all that is under way
+  steps->copy_to(memory.view());  // waits for all pending work
   const int first = done;
   const Stopwatch of_steps;
   do {
     take(10);
   } while (of_steps.seconds() < seconds_at_least && done < first + 200);
-  found.seconds_a_step = of_steps.seconds() / (done - first);  // a step ends with sums that the processor waits for
+  found.seconds_a_step = of_steps.seconds() / (done - first);  // a step ends with sums for which the CPU waits
   found.memory = free_before - free_memory();
   const auto row = [&] { steps->front({}, steps->sum_over_body(sums_of_particle<3>()).mass); };
-  row();  // takes memory
+  row();  // allocates memory
   const Stopwatch of_row;
   row();
   found.seconds_of_row = of_row.seconds();
@@ -109,7 +110,7 @@ inline void print_row(const Measured& found) {
   std::fflush(stdout);
 }
 
-// The first table of gpu-backend.md, as Markdown: each size elastic and yielding, up to what does not fit any more.
+// Table of docs/gpu.md as Markdown: each size elastic and yielding, up to the first that does not fit in memory.
 inline void print_table(const device::SolverFactory<3, Real>& make, const std::vector<std::size_t>& sizes,
                         double seconds_at_least, const std::function<double()>& free_memory) {
   std::printf(

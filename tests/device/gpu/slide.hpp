@@ -1,5 +1,5 @@
-// A block of frictional matter that slides down a plane, its front half melted and the rest about to melt, seeded
-// without any other part of the program: for steps on a card and on the processor, compared.
+// Block of frictional material that slides down a plane, with its front half melted and the rest about to melt. It is
+// seeded independently of the other modules, for comparing steps on GPU and CPU.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace thawslide::gpu_test {
 
 using Real = double;
 
-// All fields of so many particles, 0 at first.
+// All fields of a given number of particles, initially 0.
 template <int Dim>
 class ParticleMemory {
  public:
@@ -47,13 +47,13 @@ class ParticleMemory {
 };
 
 inline constexpr Real cell = 1.0;           // [m]
-inline constexpr int ground_index = 8;      // of the nodes on the ground, along the vertical
+inline constexpr int ground_index = 8;      // of the ground nodes, along the vertical
 inline constexpr Real density = 2000.0;     // [kg/m3]
 inline constexpr Real slope = 35.0;         // [degrees]
 inline constexpr Real time_step = 1e-3;     // [s]
-inline constexpr std::size_t per_axis = 2;  // particles in a cell
+inline constexpr std::size_t per_axis = 2;  // particles per cell
 
-// Cells of the block along each axis; in the plane the second one is not used.
+// Cells of the block along each axis; the second one is unused in 2D.
 struct Size {
   std::size_t length, width, height;
 
@@ -95,16 +95,16 @@ void seed(const Size& size, ParticleMemory<Dim>& memory) {
   }
   for (std::size_t k = 0; k < memory.size(); ++k) {
     const std::array<std::size_t, 3> place{k % count[0], k / count[0] % count[1], k / count[0] / count[1]};
-    p.id(k) = static_cast<std::int64_t>((k * 7919) % memory.size() * 3);  // in no order, with gaps
+    p.id(k) = static_cast<std::int64_t>((k * 7919) % memory.size() * 3);  // unordered, with gaps
     for (int a = 0; a < Dim; ++a) {
       const Real from = a == Dim - 1 ? static_cast<Real>(ground_index) * cell : Real(16) * cell;
-      // Out of line, so that no two particles do the same, nor come to another cell in the same step.
+      // Displaced, so that no two particles behave alike or change cell in the same step.
       const Real off = 0.45 * std::sin(static_cast<Real>(k % 1009) + 2.4 * a);
       p.position(k, a) = from + (static_cast<Real>(place[static_cast<std::size_t>(a)]) + 0.5 + off) * spacing;
     }
     p.volume(k) = p.initial_volume(k) = volume;
     p.mass(k) = density * volume;
-    p.velocity(k, 0) = 3.0 + 6.0 * static_cast<Real>(place[Dim - 1]) / static_cast<Real>(count[2]);  // it shears
+    p.velocity(k, 0) = 3.0 + 6.0 * static_cast<Real>(place[Dim - 1]) / static_cast<Real>(count[2]);  // shear
     p.velocity(k, Dim - 1) = -0.3;
     const Real depth = static_cast<Real>(size.height) * cell - (p.position(k, Dim - 1) - ground_index * cell);
     for (int c = 0; c < 3; ++c) {
@@ -168,7 +168,7 @@ device::StepModel<Dim, Real> model_of_slide() {
   return model;
 }
 
-// What rows of the history sum.
+// Sums for rows of the history.
 template <int Dim>
 band::SumsOfParticle<Dim, Real> sums_of_particle() {
   band::SumsOfParticle<Dim, Real> of_particle;
@@ -180,7 +180,7 @@ band::SumsOfParticle<Dim, Real> sums_of_particle() {
   return of_particle;
 }
 
-// Of a plane along the grid.
+// Ground on a plane aligned with the grid.
 template <int Dim>
 bool query_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
   using T = mpm::Tile<Dim>;

@@ -1,4 +1,4 @@
-// Steps of the block (slide.hpp) on a card, or by the processor in a card's place.
+// Steps of the block (slide.hpp) on a GPU, or emulated on the CPU.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace thawslide::gpu_test {
 template <int Dim>
 using Steps = device::Solver<Dim, Real>;
 
-// told: what the processor's part in the steps is told.
+// specified: record of the data that the CPU receives during steps.
 template <int Dim>
 std::unique_ptr<Steps<Dim>> steps_of(const device::SolverFactory<Dim, Real>& make, const ParticleMemory<Dim>& particles,
                                      Variant variant = Variant::plain,

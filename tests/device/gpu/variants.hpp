@@ -1,5 +1,5 @@
-// What else a model may choose than the slide of slide.hpp does, and what the processor then has a part in: stand-ins
-// for band columns and an erodible bed, which note what they are told.
+// Model options other than those of slide.hpp, with CPU parts of the step: stubs of band columns and an erodible bed,
+// which record the data they receive.
 #pragma once
 
 #include <array>
@@ -66,13 +66,13 @@ device::StepModel<Dim, Real> model_of(Variant variant) {
       break;
     case Variant::heated_face:
       model.heat_faces.extent.setConstant(1e5);
-      model.heat_faces.extent[0] = 20.0;  // amid the slide: all nodes from there on count
+      model.heat_faces.extent[0] = 20.0;  // within the slide: all nodes beyond it count
       model.heat_faces.faces[1] = {band::FaceHeat::flux, 500.0};
       break;
     case Variant::at_rest:
       model.moves = false;
       break;
-    case Variant::columns:  // as sim::device_model_of has it
+    case Variant::columns:  // as in sim::device_model_of
       model.heat = model.pressure_changes = model.rescales_band = false;
       break;
     case Variant::plain:
@@ -84,10 +84,10 @@ device::StepModel<Dim, Real> model_of(Variant variant) {
   return model;
 }
 
-// What the processor's part in a step was told, number after number.
+// Data received by the CPU part of a step, in sequence.
 using Told = std::vector<Real>;
 
-// Columns that are the same everywhere. Nodes that may touch the ground are those of one layer of each lowest block.
+// Uniform columns. Candidate nodes are those of one layer of each lowest block.
 template <int Dim>
 device::HostColumns<Real> columns_below(const std::shared_ptr<Told>& specified) {
   const auto states = std::make_shared<std::vector<Real>>();
@@ -116,7 +116,7 @@ device::HostColumns<Real> columns_below(const std::shared_ptr<Told>& specified) 
       [specified](const std::vector<Real>& nodes) { specified->insert(specified->end(), nodes.begin(), nodes.end()); }};
 }
 
-// A bed without end, of which a node may take more where much of its column is covered.
+// Inexhaustible bed, whose available mass at a node increases with the covered part of its column.
 template <int Dim>
 device::HostBed<Dim, Real> bed_below(const std::shared_ptr<Told>& specified) {
   using Bed = device::HostBed<Dim, Real>;

@@ -1,5 +1,5 @@
-// What src/device/gpu.cu says of a card, said of the processor in a card's place: `thawslide run --device gpu` then
-// takes its steps by the code of the card, thread after thread.
+// CPU emulation of src/device/gpu.cu: `thawslide run --device gpu` executes the GPU code one thread at a time, in
+// shuffled order.
 #include "device/gpu.hpp"
 
 #include "../emulated.hpp"

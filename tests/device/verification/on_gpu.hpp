@@ -1,5 +1,5 @@
-// Included before tests/cpp/verification where these take their steps on a card: every Simulation of a test then does,
-// but those whose case no device takes, which tell so and stay with the processor.
+// Included before tests/cpp/verification to run its steps on a GPU. Every Simulation of a test uses it, except cases
+// that no device supports; these report it and run on the CPU.
 #pragma once
 
 #include <cstdio>
