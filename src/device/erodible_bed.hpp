@@ -141,7 +141,7 @@ class ErodibleBed {
  public:
   ErodibleBed(Backend& backend, HostBed<Dim, Real> processor) : backend_(backend), cpu_(std::move(processor)) {}
 
-  [[nodiscard]] bool exists() const { return static_cast<bool>(cpu_.parallel_chunks); }
+  [[nodiscard]] bool exists() const { return static_cast<bool>(cpu_.distribute); }
 
   // Call after blocks have changed.
   void update(const std::vector<std::uint64_t>& blocks, const Ground<Backend, Dim, Real>& ground) {
@@ -164,16 +164,16 @@ class ErodibleBed {
   }
 
   // Sets the bed mass available to each candidate node. Call after the basal law has been evaluated.
-  void parallel_chunks(const TileTables<Dim>& tables, const mpm::ParticleView<Dim, Real>& particles,
-                       const mpm::SizesOfBodies<Real>& sizes, const Ground<Backend, Dim, Real>& ground, Real cell,
-                       const NodeViews<Dim, Real>& nodes) {
+  void distribute(const TileTables<Dim>& tables, const mpm::ParticleView<Dim, Real>& particles,
+                  const mpm::SizesOfBodies<Real>& sizes, const Ground<Backend, Dim, Real>& ground, Real cell,
+                  const NodeViews<Dim, Real>& nodes) {
     constexpr std::size_t threads = 128;
     backend_.for_groups(
         tables.tiles, threads, 0,
         CoverBed<Dim, Real>{tables, particles, sizes, ground.sees_candidates(), cell, stack_.data(), covered_.data()});
     backend_.for_each(parts_.size(), PackParts<Dim>{covered_.data(), parts_.data()});
     backend_.for_each(loads_.size(), PackLoad<Dim, Real>{nodes, ground.candidates(), loads_.data()});
-    available_.set(cpu_.parallel_chunks(parts_.get(), loads_.get()));
+    available_.set(cpu_.distribute(parts_.get(), loads_.get()));
     backend_.for_each(loads_.size(), OfferBed<Dim, Real>{available_.data(), records_.data()});
   }
 

@@ -163,8 +163,8 @@ class Step {
                             band_columns_.states(), bases_.data());
     }
     if (bed_.exists()) {
-      bed_.parallel_chunks(step.tables, passes_.particles.view(), passes_.body_sizes(), passes_.ground,
-                           passes_.model.cell, step.nodes);
+      bed_.distribute(step.tables, passes_.particles.view(), passes_.body_sizes(), passes_.ground, passes_.model.cell,
+                      step.nodes);
       resolve_contact(step, bed_.below_nodes());
       bed_.collect(step.nodes, passes_.ground.candidates());
     } else {

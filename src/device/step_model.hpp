@@ -115,7 +115,7 @@ struct HostBed {
   // Called with the newly covered bed parts of the block columns (terrain/bed.hpp) and the loads of the candidate
   // nodes. Returns the bed mass available to each candidate node [kg].
   std::function<const std::vector<Real>&(const std::vector<std::uint32_t>& parts, const std::vector<Real>& loads)>
-      parallel_chunks;
+      distribute;
   // Called after contact, with a record of bed_record_size<Dim> numbers per candidate node.
   std::function<void(const std::vector<Real>& nodes)> collect;
 };

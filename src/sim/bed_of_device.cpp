@@ -35,7 +35,7 @@ device::HostBed<Dim, Real> Simulation<Dim, Real>::host_bed() {
             for (std::size_t n = 0; n < loads.size(); ++n) {
               below.nodes[n].load = loads[n];
             }
-            bed_->parallel_chunks(below.nodes);
+            bed_->distribute(below.nodes);
             below.available.clear();
             for (const auto& node : below.nodes) {
               below.available.push_back(node.available);

@@ -73,7 +73,7 @@ Place2 PathLine::point_at(double along) const {
           corners_[k][1] + share * (corners_[k + 1][1] - corners_[k][1])};
 }
 
-void CentrePath::warning(const Place2& centre) {
+void CentrePath::add_position(const Place2& centre) {
   constexpr double first_sight = 0.01;  // fraction of the spacing that suffices to determine the direction
   if (end_moves()) {
     line_.remove_last();

@@ -45,7 +45,7 @@ class RunRecords {
   [[nodiscard]] const FlowMaps* maps() const { return maps_ ? &*maps_ : nullptr; }
   // Given path, or path of the centre of mass so far, with a corner per cell of the grid. Empty in 2D, and while the
   // centre has barely moved (CentrePath).
-  [[nodiscard]] const PathLine& path() const { return path_given_ ? given_ : transformation_.line(); }
+  [[nodiscard]] const PathLine& path() const { return path_given_ ? given_ : centre_path_.line(); }
   [[nodiscard]] bool path_given() const { return path_given_; }
   // Front along the path; empty without a path, without particles, or after a device failed.
   [[nodiscard]] std::optional<Front> front(const Simulation& simulation) const;

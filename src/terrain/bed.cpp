@@ -87,7 +87,7 @@ void Bed<Dim, Real>::cover(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
 }
 
 template <int Dim, class Real>
-void Bed<Dim, Real>::parallel_chunks(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const {
+void Bed<Dim, Real>::distribute(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const {
   nodes.bed.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.base.holds(b); });
   struct Place {
     std::size_t block, node;
@@ -103,14 +103,14 @@ void Bed<Dim, Real>::parallel_chunks(const mpm::SparseGrid<Dim, Real>& grid, mpm
       }
     }
   }
-  parallel_chunks(pressing);
+  distribute(pressing);
   for (std::size_t n = 0; n < places.size(); ++n) {
     nodes.bed.of_block(places[n].block)[places[n].node][Layout::available] = pressing[n].available;
   }
 }
 
 template <int Dim, class Real>
-void Bed<Dim, Real>::parallel_chunks(std::vector<Pressing>& nodes) const {
+void Bed<Dim, Real>::distribute(std::vector<Pressing>& nodes) const {
   const auto has_bed = [&](const Pressing& node) {
     return node.load > Real(0) && node.column != outside && left_[node.column] > Real(0);
   };

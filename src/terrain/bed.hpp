@@ -52,14 +52,14 @@ class Bed {
 
   // Distributes the remaining bed below each column over its nodes, in proportion to their loads (nodes.base). Nodes
   // therefore cannot entrain the same mass twice, nor bed that was never covered. Fills nodes.bed.
-  void parallel_chunks(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
+  void distribute(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
   // The same for a list of nodes of any columns.
   struct Pressing {
     std::size_t column = outside;
     Real load = 0;       // as in BaseLayout
     Real available = 0;  // of the bed [kg]
   };
-  void parallel_chunks(std::vector<Pressing>& nodes) const;
+  void distribute(std::vector<Pressing>& nodes) const;
 
   // Transfers the mass entrained by nodes in a step of dt from the bed to the loose material.
   void collect(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes, Real dt);

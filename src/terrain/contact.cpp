@@ -191,7 +191,7 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
   apply_contact_conditions(grid, ground, nodes);
   const Real smallest = static_cast<Real>(smallest_area) * (Dim == 2 ? grid.cell() : grid.cell() * grid.cell());
   if (bed != nullptr) {
-    bed->parallel_chunks(grid, nodes);
+    bed->distribute(grid, nodes);
   }
   using Work = ContactWork<Dim, Real>;
   return parallel_sum<Work>(grid.blocks().size(), [&](std::size_t b, Work& work) {

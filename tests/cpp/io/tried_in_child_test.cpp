@@ -14,7 +14,7 @@
 namespace thawslide::io {
 namespace {
 
-using Told = std::vector<bool>;
+using Reported = std::vector<bool>;
 
 TEST(TriedInChild, TellsWhatCanBeDone) {
   int done_here = 0;
@@ -23,9 +23,9 @@ TEST(TriedInChild, TellsWhatCanBeDone) {
                                   ++done_here;
                                   return k != 1;
                                 }),
-            (Told{true, false, true}));
+            (Reported{true, false, true}));
   EXPECT_EQ(done_here, 0);  // it was done elsewhere
-  EXPECT_EQ(probe_in_subprocess(0, [](std::size_t /*k*/) { return true; }), Told{});
+  EXPECT_EQ(probe_in_subprocess(0, [](std::size_t /*k*/) { return true; }), Reported{});
 }
 
 TEST(TriedInChild, GoesOnBehindWhatEndsItsProcess) {
@@ -39,7 +39,7 @@ TEST(TriedInChild, GoesOnBehindWhatEndsItsProcess) {
     }
     return true;
   };
-  EXPECT_EQ(probe_in_subprocess(6, work), (Told{false, false, true, false, false, true}));
+  EXPECT_EQ(probe_in_subprocess(6, work), (Reported{false, false, true, false, false, true}));
 }
 
 class DamagedSnapshot : public FolderOfTest {};

@@ -44,9 +44,8 @@ class Record {
 
  private:
   // Records the errors and the orders between consecutive resolutions; returns the last order.
-  double update_sort_heuristic(const std::string& resolution, const std::vector<double>& resolutions,
-                               const std::string& error, const std::vector<double>& errors, double expected,
-                               double allowed);
+  double add_order(const std::string& resolution, const std::vector<double>& resolutions, const std::string& error,
+                   const std::vector<double>& errors, double expected, double allowed);
 
   std::unique_ptr<nlohmann::json> facts_;
 };

@@ -86,7 +86,7 @@ bool report_line(const char* what, const Comparison& found, bool bits_are_asked_
 
 // True if all processes to be tested act on the slide.
 template <int Dim>
-bool tell_work(const device::StepSums<Dim, Real>& sums) {
+bool print_work(const device::StepSums<Dim, Real>& sums) {
   const bool works = sums.contact.friction_work > 0 && sums.deformed.work.plastic > 0 && sums.heat.friction > 0 &&
                      sums.drained.mass > 0 && sums.drained.heat > 0 && sums.vented != 0;
   std::printf(
@@ -153,7 +153,7 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& 
   }
   return numbers;
 }
-bool tell_numbers(const std::string& what, const std::vector<double>& of_cpu, const std::vector<double>& of_gpu) {
+bool print_numbers(const std::string& what, const std::vector<double>& of_cpu, const std::vector<double>& of_gpu) {
   std::size_t same = 0;
   bool well = of_gpu.size() == of_cpu.size();
   for (std::size_t k = 0; well && k < of_gpu.size(); ++k) {
@@ -165,8 +165,8 @@ bool tell_numbers(const std::string& what, const std::vector<double>& of_cpu, co
   return well;
 }
 
-bool tell_looks(const std::string& when, const std::vector<double>& of_cpu, const std::vector<double>& of_gpu) {
-  return tell_numbers(when + "looks at particles", of_cpu, of_gpu);
+bool print_reductions(const std::string& when, const std::vector<double>& of_cpu, const std::vector<double>& of_gpu) {
+  return print_numbers(when + "looks at particles", of_cpu, of_gpu);
 }
 
 template <int Dim>
@@ -187,12 +187,12 @@ bool compare_slides(const device::SolverFactory<Dim, Real>& make, const device::
     }
     take_steps(*again, done, steps);
     done = steps;
-    well = (steps < 60 || tell_work(sums)) && well;
+    well = (steps < 60 || print_work(sums)) && well;
     processor->copy_to(of_cpu.view());
     gpu->copy_to(of_gpu.view());
     again->copy_to(of_second.view());
     const std::string when = dim + std::to_string(start.size()) + " particles, " + std::to_string(steps) + " steps, ";
-    well = (steps > 1 || tell_looks(when, looks(*processor, sums), looks(*gpu, of_this_gpu))) && well;
+    well = (steps > 1 || print_reductions(when, looks(*processor, sums), looks(*gpu, of_this_gpu))) && well;
     // Round-off grows from step to step, so the tolerance applies only after the first one.
     const Comparison found = compare(of_cpu, of_gpu);
     well = report_line((when + "card against processor").c_str(), found, false) || steps > 1 ? well : false;
@@ -206,7 +206,7 @@ template <int Dim>
 bool compare_variant(const device::SolverFactory<Dim, Real>& make, const Size& size, const NamedVariant& of) {
   ParticleMemory<Dim> start(size.particles(Dim)), of_cpu(start.size()), of_gpu(start.size());
   seed(size, start);
-  const auto specified = std::make_shared<Told>(), reported_by_gpu = std::make_shared<Told>();
+  const auto specified = std::make_shared<Reported>(), reported_by_gpu = std::make_shared<Reported>();
   const auto processor = steps_of(device::emulated<Dim>(), start, of.variant, specified);
   const auto gpu = steps_of(make, start, of.variant, reported_by_gpu);
   bool well = true;
@@ -221,8 +221,8 @@ bool compare_variant(const device::SolverFactory<Dim, Real>& make, const Size& s
     well =
         (report_line((when + "card against processor").c_str(), compare(of_cpu, of_gpu), false) || steps > 1) && well;
     if (steps == 1) {
-      well = tell_looks(when, looks(*processor, sums), looks(*gpu, of_this_gpu)) && well;
-      well = (specified->empty() || tell_numbers(when + "what the processor is told", *specified, *reported_by_gpu)) &&
+      well = print_reductions(when, looks(*processor, sums), looks(*gpu, of_this_gpu)) && well;
+      well = (specified->empty() || print_numbers(when + "what the processor is told", *specified, *reported_by_gpu)) &&
              well;
     }
   }

@@ -15,7 +15,7 @@ using Steps = device::Solver<Dim, Real>;
 template <int Dim>
 std::unique_ptr<Steps<Dim>> steps_of(const device::SolverFactory<Dim, Real>& make, const ParticleMemory<Dim>& particles,
                                      Variant variant = Variant::plain,
-                                     const std::shared_ptr<Told>& specified = std::make_shared<Told>()) {
+                                     const std::shared_ptr<Reported>& specified = std::make_shared<Reported>()) {
   return make(model_of<Dim>(variant), particles.view(), particles.size(), processor_of<Dim>(variant, specified));
 }
 

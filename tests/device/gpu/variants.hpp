@@ -85,11 +85,11 @@ device::StepModel<Dim, Real> model_of(Variant variant) {
 }
 
 // Data received by the CPU part of a step, in sequence.
-using Told = std::vector<Real>;
+using Reported = std::vector<Real>;
 
 // Uniform columns. Candidate nodes are those of one layer of each lowest block.
 template <int Dim>
-device::HostColumns<Real> columns_below(const std::shared_ptr<Told>& specified) {
+device::HostColumns<Real> columns_below(const std::shared_ptr<Reported>& specified) {
   const auto states = std::make_shared<std::vector<Real>>();
   return {
       [states](const std::vector<std::uint64_t>& blocks) {
@@ -118,14 +118,14 @@ device::HostColumns<Real> columns_below(const std::shared_ptr<Told>& specified) 
 
 // Inexhaustible bed, whose available mass at a node increases with the covered part of its column.
 template <int Dim>
-device::HostBed<Dim, Real> bed_below(const std::shared_ptr<Told>& specified) {
+device::HostBed<Dim, Real> bed_below(const std::shared_ptr<Reported>& specified) {
   using Bed = device::HostBed<Dim, Real>;
   Bed bed;
   bed.material = {terrain::BedLaw::strength, 0.0, 0.01, 0.5, 1000.0};
   const auto available = std::make_shared<std::vector<Real>>();
   bed.set_columns = [](const typename Bed::Columns& /*of_blocks*/, const typename Bed::Columns& /*of_candidates*/) {};
-  bed.parallel_chunks = [specified, available](const std::vector<std::uint32_t>& parts,
-                                               const std::vector<Real>& loads) -> const std::vector<Real>& {
+  bed.distribute = [specified, available](const std::vector<std::uint32_t>& parts,
+                                          const std::vector<Real>& loads) -> const std::vector<Real>& {
     Real covered = 0;
     for (const std::uint32_t of_column : parts) {
       specified->push_back(of_column);
@@ -145,7 +145,7 @@ device::HostBed<Dim, Real> bed_below(const std::shared_ptr<Told>& specified) {
 }
 
 template <int Dim>
-device::HostCallbacks<Dim, Real> processor_of(Variant variant, const std::shared_ptr<Told>& specified) {
+device::HostCallbacks<Dim, Real> processor_of(Variant variant, const std::shared_ptr<Reported>& specified) {
   device::HostCallbacks<Dim, Real> ask = terrain_of_slide<Dim>();
   if (variant == Variant::unknown_ground) {
     ask.ground = [](std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
