@@ -71,6 +71,7 @@ def test_a_free_relative_opens_a_sentence() -> None:
     assert [words for _, words, _ in hits_in("It runs. What it notes is valid.")] == ["What it"]
     assert [words for _, words, _ in hits_in("- Where a body rests.\n")] == ["Where a"]
     assert hits_in("What is the runout? It shows what it notes.") == []
+    assert hits_in("# What to try\n") == []
 
 
 def test_tokens_are_whole_words() -> None:
