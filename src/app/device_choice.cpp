@@ -14,7 +14,7 @@ template <int Dim>
 std::string step_on_gpu(sim::Simulation<Dim, double>& simulation) {
   const device::Gpu gpu = device::find_gpu();
   if (!gpu.is_usable) {
-    throw UserError(fmt::format("--device gpu: {}. Run it on the processor: --device cpu", gpu.why_not));
+    throw UserError(fmt::format("--device gpu: {}. Run the case on the CPU: --device cpu", gpu.why_not));
   }
   simulation.use_device(gpu.name, device::on_gpu<Dim>());
   return gpu.name;
@@ -24,7 +24,7 @@ template <int Dim>
 std::string step_on_gpu(sim::Simulation<Dim, double>& /*simulation*/) {
   throw UserError(
       "--device gpu: this program was built without CUDA. Install CUDA 12 or later and build again (./run --setup), or "
-      "run it on the processor: --device cpu");
+      "run the case on the CPU: --device cpu");
 }
 #endif
 

@@ -85,7 +85,7 @@ template <int Dim, class Real>
 void BasalSegments<Dim, Real>::take(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
                                     const NodeGroundOf& node_ground, Real thickness, Real dt,
                                     mpm::Nodes<Dim, Real>& nodes) {
-  THAWSLIDE_ASSERT(stencils_.size() == segments_.size(), "{} pieces take from nodes, of which {} have given to them",
+  THAWSLIDE_ASSERT(stencils_.size() == segments_.size(), "{} segments read from nodes, of which {} have added to them",
                    segments_.size(), stencils_.size());
   if (checks_gaps_ || some_node_is_bare(grid, nodes)) {
     create_segments(grid, ground, node_ground, thickness, nodes);

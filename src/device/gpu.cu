@@ -23,7 +23,7 @@ Gpu find_gpu() {
     int driver = 0;
     static_cast<void>(cudaDriverGetVersion(&driver));
     gpu.why_not =
-        driver == 0 ? "there is no NVIDIA driver"
+        driver == 0 ? "no NVIDIA driver found"
                     : "the NVIDIA driver is too old for CUDA " + std::to_string(CUDART_VERSION / 1000) + ": update it";
     return gpu;
   }
@@ -32,12 +32,12 @@ Gpu find_gpu() {
     return gpu;
   }
   if (count == 0) {
-    gpu.why_not = "there is no NVIDIA card";
+    gpu.why_not = "no NVIDIA GPU found";
     return gpu;
   }
   cudaDeviceProp known{};
   if (cudaGetDeviceProperties(&known, 0) != cudaSuccess) {
-    gpu.why_not = "the NVIDIA card does not answer";
+    gpu.why_not = "the NVIDIA GPU does not respond";
     return gpu;
   }
   gpu.name = std::string(known.name) + ", compute capability " + std::to_string(known.major) + "." +
@@ -45,12 +45,12 @@ Gpu find_gpu() {
   try {
     const Cuda probe;
     std::size_t free = 0, total = 0;
-    expect_done(cudaMemGetInfo(&free, &total), "asking the card for its memory");
+    expect_done(cudaMemGetInfo(&free, &total), "reading the memory of the GPU");
     gpu.free = static_cast<double>(free);
   } catch (const GpuError& error) {
     const bool is_of_others =
         error.code() == cudaErrorNoKernelImageForDevice || error.code() == cudaErrorInvalidDeviceFunction;
-    gpu.why_not = "the card (" + gpu.name + ") cannot run this program: " + error.what() +
+    gpu.why_not = "the GPU (" + gpu.name + ") cannot run this program: " + error.what() +
                   (is_of_others ? ". Build with THAWSLIDE_CUDA_ARCHITECTURES for it" : "");
     return gpu;
   }

@@ -59,7 +59,7 @@ void Simulation<Dim, Real>::restore_band_columns(const std::vector<double>& stat
   const Real margin = Real(8) * static_cast<Real>(parameters_.grid.cell);
   for (const auto& segment : band_columns_->segments()) {
     if (!is_about_domain<Dim, Real>(segment.position, model_.constraints.extent, margin)) {
-      StateNumbers(state, "band columns").fail(fmt::format("the piece {} lies far beyond the domain", segment.id));
+      StateNumbers(state, "band columns").fail(fmt::format("segment {} lies far beyond the domain", segment.id));
     }
   }
 }

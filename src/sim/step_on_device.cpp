@@ -13,8 +13,8 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::use_device(const std::string& device, device::SolverFactory<Dim, Real> make) {
   const std::string missing = not_on_devices(parameters_, model_);
   if (!missing.empty()) {
-    throw UserError(fmt::format("{}: no step on {} does {} yet. Run it on the processor: --device cpu",
-                                parameters_.name, device, missing));
+    throw UserError(fmt::format("{}: {} is not supported on {}. Run the case on the CPU: --device cpu",
+                                parameters_.name, missing, device));
   }
   release_device();
   device_name_ = device;

@@ -91,8 +91,8 @@ def test_check_says_what_a_run_will_take(thawslide: Program) -> None:
     assert re.match(r"0\.01 s; the limit is 0\.0\d+ s, set by the elastic wave of material 'rock_ice'", said["step"])
     assert said["steps"] == "20000"
     assert re.fullmatch(r"about [1-9]\d{0,2} MB; \S+ [MG]B are (free|left by .*)", said["memory"])
-    without = r"none takes the steps: (this program was built without CUDA|there is no NVIDIA (driver|card)|the .*)"
-    assert re.fullmatch(without + r"|about .* \(measured on the first steps\) and .* free, on .*", said["gpu"])
+    without = r"not used: (this program was built without CUDA|no NVIDIA (driver|GPU) found|the .*)"
+    assert re.fullmatch(without + r"|about .* \(measured on the first steps\) and .* free, on .*", said["GPU"])
     assert re.match(
         r"slide: 8\.428e\+04 m3 and 1\.738e\+08 kg per metre of width, along 1055 m; 79\.9 m thick on average, 90 m "
         r"in the median and 90 m at most \(vertical\)",

@@ -11,7 +11,7 @@ namespace {
 TEST(DeviceRun, EndsWithTheSameWords) {
   const config::Case parameters = sliding_bodies<2>();
   Simulation<2, double> emulated(parameters), on_device(parameters);
-  on_device.use_device("a card", emulated_gpu<2>(ThreadOrder::forward));
+  on_device.use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
   for (Simulation<2, double>* simulation : {&emulated, &on_device}) {
     for (std::size_t p = 0; p < simulation->particles().size(); ++p) {
       simulation->particles().velocity(p, 0) = -500.0;
@@ -49,7 +49,7 @@ std::string reported_failure(int sound, int steps) {
     return std::make_unique<BreaksDown>(emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)),
                                         sound);
   };
-  simulation.use_device("a card", make);
+  simulation.use_device("a GPU", make);
   std::string specified;
   try {
     for (int k = 0; k < steps; ++k) {
@@ -64,15 +64,15 @@ std::string reported_failure(int sound, int steps) {
 }
 
 TEST(DeviceRun, TellsOfADeviceThatFails) {
-  EXPECT_EQ(reported_failure(3, 5), "a card failed at step 3: allocating memory on the GPU: out of memory");
-  EXPECT_EQ(reported_failure(9, 5), "a card failed at step 5: copying from the GPU: unspecified launch failure");
+  EXPECT_EQ(reported_failure(3, 5), "a GPU failed at step 3: allocating memory on the GPU: out of memory");
+  EXPECT_EQ(reported_failure(9, 5), "a GPU failed at step 5: copying from the GPU: unspecified launch failure");
 }
 
 // The same while a body settles.
 TEST(DeviceRun, TellsOfADeviceThatFailsAsABodySettles) {
   Simulation<2, double> simulation(sliding_bodies<2>(
       {"mechanics.initial_stress=\"settle\"", "mechanics.settle_time=0.1", "mechanics.settle_damping=5.0"}));
-  simulation.use_device("a card", [](const auto& model, const auto& particles, std::size_t count, auto ask) {
+  simulation.use_device("a GPU", [](const auto& model, const auto& particles, std::size_t count, auto ask) {
     return std::make_unique<BreaksDown>(emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)),
                                         3);
   });
@@ -84,7 +84,7 @@ TEST(DeviceRun, GoesOnFromACheckpoint) {
   const config::Case parameters = sliding_bodies<2>({"time.stepping=\"adaptive\""});
   Simulation<2, double> whole(parameters), first(parameters);
   for (Simulation<2, double>* simulation : {&whole, &first}) {
-    simulation->use_device("a card", emulated_gpu<2>(ThreadOrder::forward));
+    simulation->use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
   }
   const auto go_on = [](Simulation<2, double>& simulation, int steps) {
     for (int k = 0; k < steps; ++k) {
@@ -99,7 +99,7 @@ TEST(DeviceRun, GoesOnFromACheckpoint) {
   for (const bool on_device : {false, true}) {
     Simulation<2, double> second(parameters);
     if (on_device) {
-      second.use_device("a card", emulated_gpu<2>(ThreadOrder::backward));
+      second.use_device("a GPU", emulated_gpu<2>(ThreadOrder::backward));
     }
     std::vector<double> numbers;
     io::read_checkpoint<2, double>(io::newest_checkpoint(folder), second.particles(), numbers);
@@ -127,10 +127,10 @@ TEST(DeviceRun, RefusesWhatNoDeviceDoesYet) {
   for (const auto& [parameters, specified] : cases) {
     Simulation<2, double> simulation(parameters);
     try {
-      simulation.use_device("a card", emulated_gpu<2>(ThreadOrder::forward));
+      simulation.use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
       ADD_FAILURE() << specified;
     } catch (const UserError& error) {
-      EXPECT_NE(std::string(error.what()).find("no step on a card does " + specified + " yet"), std::string::npos)
+      EXPECT_NE(std::string(error.what()).find(specified + " is not supported on a GPU"), std::string::npos)
           << error.what();
     }
   }

@@ -19,7 +19,7 @@ template <int Dim>
 int expect_the_same_run(const config::Case& parameters, int steps, const config::Site& site = {}) {
   Simulation<Dim, double> emulated(parameters, site), on_device(parameters, site);
   int copies = 0;
-  on_device.use_device("a card", counting_copies<Dim>(ThreadOrder::shuffled, copies));
+  on_device.use_device("a GPU", counting_copies<Dim>(ThreadOrder::shuffled, copies));
   on_device.set_sorting_interval(32);
   for (int k = 0; k < steps; ++k) {
     emulated.step(emulated.next_step(10.0));
@@ -93,7 +93,7 @@ void expect_the_same_columns(int steps) {
   const config::Case parameters = sliding_bodies<Dim>(on_columns);
   EXPECT_EQ(expect_the_same_run<Dim>(parameters, steps), 0);
   Simulation<Dim, double> emulated(parameters), on_device(parameters);
-  on_device.use_device("a card", emulated_gpu<Dim>(ThreadOrder::forward));
+  on_device.use_device("a GPU", emulated_gpu<Dim>(ThreadOrder::forward));
   const std::size_t at_start = emulated.band_columns()->segments().size();
   for (int k = 0; k < steps; ++k) {
     emulated.step(0.002);
@@ -115,7 +115,7 @@ void expect_the_same_bed(const std::vector<std::string>& more, int steps) {
   const config::Case parameters = sliding_bodies<Dim>(sets);
   EXPECT_GT(expect_the_same_run<Dim>(parameters, steps), 0);
   Simulation<Dim, double> emulated(parameters), on_device(parameters);
-  on_device.use_device("a card", emulated_gpu<Dim>(ThreadOrder::backward));
+  on_device.use_device("a GPU", emulated_gpu<Dim>(ThreadOrder::backward));
   for (int k = 0; k < steps; ++k) {
     emulated.step(0.002);
     on_device.step(0.002);
@@ -140,7 +140,7 @@ TEST(DeviceRun, SettlesABody) {
       {"mechanics.initial_stress=\"settle\"", "mechanics.settle_time=0.1", "mechanics.settle_damping=5.0"});
   Simulation<2, double> emulated(parameters), on_device(parameters);
   int copies = 0;
-  on_device.use_device("a card", counting_copies<2>(ThreadOrder::shuffled, copies));
+  on_device.use_device("a GPU", counting_copies<2>(ThreadOrder::shuffled, copies));
   EXPECT_TRUE(emulated.settle() && on_device.settle());
   EXPECT_EQ(copies, 1);
   EXPECT_EQ(on_device.time(), 0.0);
@@ -189,7 +189,7 @@ TEST(DeviceRun, StaysOnGroundThatIsKnown) {
   for (const bool on_device : {false, true}) {
     Simulation<3, double> simulation(parameters, bumpy_site(8.0));
     if (on_device) {
-      simulation.use_device("a card", emulated_gpu<3>(ThreadOrder::forward));
+      simulation.use_device("a GPU", emulated_gpu<3>(ThreadOrder::forward));
     }
     specified.push_back(error_of(simulation));
   }
@@ -248,7 +248,7 @@ TEST(DeviceRun, GathersTheMapsOfTheCpu) {
     const config::Case parameters = sliding_bodies<3>(sets);
     Simulation<3, double> emulated(parameters), on_device(parameters);
     int copies = 0;
-    on_device.use_device("a card", counting_copies<3>(ThreadOrder::backward, copies));
+    on_device.use_device("a GPU", counting_copies<3>(ThreadOrder::backward, copies));
     RunRecords<3> expected(emulated, {}), found(on_device, {});
     expected.start(emulated);
     found.start(on_device);
@@ -282,7 +282,7 @@ TEST(DeviceRun, BringsParticlesBackInTheirOrder) {
     return by_place;
   };
   const std::vector<std::int64_t> at_start = ids();
-  simulation.use_device("a card", emulated_gpu<2>(ThreadOrder::forward));
+  simulation.use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
   simulation.set_sorting_interval(10);
   for (int k = 0; k < 60; ++k) {
     simulation.step(0.002);
@@ -294,7 +294,7 @@ TEST(DeviceRun, BringsParticlesBackInTheirOrder) {
 TEST(DeviceRun, ContinuesFromParticlesChangedOnTheCpu) {
   const config::Case parameters = sliding_bodies<2>();
   Simulation<2, double> emulated(parameters), on_device(parameters);
-  on_device.use_device("a card", emulated_gpu<2>(ThreadOrder::backward));
+  on_device.use_device("a GPU", emulated_gpu<2>(ThreadOrder::backward));
   for (Simulation<2, double>* simulation : {&emulated, &on_device}) {
     for (int k = 0; k < 7; ++k) {
       simulation->step(0.002);

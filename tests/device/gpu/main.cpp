@@ -195,8 +195,8 @@ bool compare_slides(const device::SolverFactory<Dim, Real>& make, const device::
     well = (steps > 1 || print_reductions(when, looks(*processor, sums), looks(*gpu, of_this_gpu))) && well;
     // Round-off grows from step to step, so the tolerance applies only after the first one.
     const Comparison found = compare(of_cpu, of_gpu);
-    well = report_line((when + "card against processor").c_str(), found, false) || steps > 1 ? well : false;
-    well = report_line((when + "card against card").c_str(), compare(of_gpu, of_second), true) && well;
+    well = report_line((when + "GPU against CPU").c_str(), found, false) || steps > 1 ? well : false;
+    well = report_line((when + "GPU against GPU").c_str(), compare(of_gpu, of_second), true) && well;
   }
   return well;
 }
@@ -218,12 +218,11 @@ bool compare_variant(const device::SolverFactory<Dim, Real>& make, const Size& s
     gpu->copy_to(of_gpu.view());
     const std::string when =
         (Dim == 2 ? "2D, " : "3D, ") + std::string(of.name) + ", " + std::to_string(steps) + " steps, ";
-    well =
-        (report_line((when + "card against processor").c_str(), compare(of_cpu, of_gpu), false) || steps > 1) && well;
+    well = (report_line((when + "GPU against CPU").c_str(), compare(of_cpu, of_gpu), false) || steps > 1) && well;
     if (steps == 1) {
       well = print_reductions(when, looks(*processor, sums), looks(*gpu, of_this_gpu)) && well;
-      well = (specified->empty() || print_numbers(when + "what the processor is told", *specified, *reported_by_gpu)) &&
-             well;
+      well =
+          (specified->empty() || print_numbers(when + "what the CPU receives", *specified, *reported_by_gpu)) && well;
     }
   }
   return well;
@@ -311,7 +310,7 @@ int main(int count, char** arguments) {
   try {
     return thawslide::gpu_test::run(what, static_cast<std::size_t>(particles));
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "the card failed: %s\n", error.what());
+    std::fprintf(stderr, "the GPU failed: %s\n", error.what());
     return 1;
   }
 }

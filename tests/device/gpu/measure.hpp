@@ -115,7 +115,7 @@ inline void print_table(const device::SolverFactory<3, Real>& make, const std::v
                         double seconds_at_least, const std::function<double()>& free_memory) {
   std::printf(
       "| particles | yielding [%%] | a step [ms] | million particle-steps a second | a row of the history [ms] | all "
-      "particles to the processor [ms] | memory [GiB] |\n|---|---|---|---|---|---|---|\n");
+      "particles to the CPU [ms] | memory [GiB] |\n|---|---|---|---|---|---|---|\n");
   for (const std::size_t particles : sizes) {
     for (const Variant variant : {Variant::elastic, Variant::plain}) {
       try {

@@ -13,6 +13,6 @@ SolverFactory<Dim, double> on_gpu(Launching /*launching*/) {
 template SolverFactory<2, double> on_gpu<2>(Launching);
 template SolverFactory<3, double> on_gpu<3>(Launching);
 
-Gpu find_gpu() { return {true, "the processor in a card's place", "", 8e9}; }
+Gpu find_gpu() { return {true, "CPU emulation", "", 8e9}; }
 
 }  // namespace thawslide::device

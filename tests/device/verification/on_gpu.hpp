@@ -21,9 +21,9 @@ class SimulationOnGpu : public Simulation<Dim, Real> {
   explicit SimulationOnGpu(const config::Case& parameters, const config::Site& site = {})
       : Simulation<Dim, Real>(parameters, site) {
     try {
-      this->use_device("a card", device::on_gpu<Dim>());
+      this->use_device("a GPU", device::on_gpu<Dim>());
     } catch (const UserError& refused) {
-      std::printf("on the processor: %s\n", refused.what());
+      std::printf("on the CPU: %s\n", refused.what());
     }
   }
 };
