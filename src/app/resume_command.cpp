@@ -230,7 +230,7 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
   const double has_come_to = failed ? simulation.time() : had_come_to;
   if (end < next.earlier_end && end < has_come_to - half_a_step) {
     throw UserError(
-        fmt::format("the end of {:g} s has passed: the run had come to {:g} s. Give a later one.", end, has_come_to));
+        fmt::format("the end of {:g} s has passed: the run had reached {:g} s. Give a later one.", end, has_come_to));
   }
   if (failed && next.earlier.parts.back().changes.empty()) {
     print_text(
@@ -246,7 +246,7 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
                                                              checkpoint.warning, keep_damaged(checkpoint.damaged)));
   }
   RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
-  print_text("going on from t = {:g} s{}\n", simulation.time(),
+  print_text("continuing from t = {:g} s{}\n", simulation.time(),
              had_come_to > simulation.time()
                  ? fmt::format("; it had reached {:g} s: rows and snapshots after {:g} s are written again",
                                had_come_to, simulation.time())

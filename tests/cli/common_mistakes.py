@@ -86,7 +86,8 @@ COMMON_MISTAKES = [
         new="cell = 1,0",
         said=(
             "error: {case}/case.toml:11:9: this is not TOML: Error while parsing key-value pair: expected a "
-            "comment or whitespace, saw ','. A number has a decimal point, no comma. Correct the line; see https://toml.io for the syntax.\n"
+            "comment or whitespace, saw ','. A number has a decimal point, no comma. Correct the line; see "
+            "https://toml.io for the syntax.\n"
         ),
     ),
     CommonMistake(
@@ -95,7 +96,8 @@ COMMON_MISTAKES = [
         new="end = 0.2\nend = 0.3",
         said=(
             "error: {case}/case.toml:6:7: this is not TOML: Error while parsing key-value pair: cannot "
-            "redefine existing floating-point 'end'. A key stands once in a table. Correct the line; see https://toml.io for the syntax.\n"
+            "redefine existing floating-point 'end'. A key stands once in a table. Correct the line; see "
+            "https://toml.io for the syntax.\n"
         ),
     ),
     CommonMistake(

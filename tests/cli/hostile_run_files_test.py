@@ -47,7 +47,7 @@ def test_a_link_in_place_of_the_lock_is_refused(
     lock = killed / "run.lock"
     lock.symlink_to(victim.with_name(leads_to))
     said = (
-        f"error: {lock} is a link, where a run keeps its lock, a regular file. Remove it once no run is at work in "
+        f"error: {lock} is a link, but must be a regular file: the lock of a run. Remove it once no run is at work in "
         f"{killed}.\n"
     )
     for words in (["resume", killed], ["run", small_case, "--output", killed, "--overwrite"], ["status", killed]):
@@ -156,7 +156,8 @@ def test_a_checkpoint_that_cannot_be_read_gives_way_to_the_one_before(thawslide:
     outcome = thawslide("resume", killed)
     assert outcome.returncode == 0, outcome.stderr
     note = (
-        f"{last} is a folder, no file; it is kept as checkpoint.damaged.bin, and the run continues from the previous checkpoint"
+        f"{last} is a folder, no file; it is kept as checkpoint.damaged.bin, and the run continues from the previous "
+        f"checkpoint"
     )
     assert outcome.stdout.startswith(f"warning: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
     assert (killed / "checkpoint.damaged.bin").is_dir() and last.is_file()
@@ -190,7 +191,8 @@ def test_snapshots_that_no_run_wrote_are_left_out(thawslide: Program, killed: Pa
     outcome = thawslide("resume", killed, limit=SOON)
     assert outcome.returncode == 0, outcome.stderr
     assert (
-        "warning: of the 5 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf leaves them "
+        "warning: of the 5 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf leaves "
+        "them "
         "out\n"
     ) in outcome.stdout
 

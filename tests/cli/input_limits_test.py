@@ -1,4 +1,4 @@
-"""Inputs that are too large, too deep, or links: refused with a clear word, or handled as docs/reference/limits.md states."""
+"""Inputs that are too large, too deep, or links: refused, or handled as docs/reference/limits.md states."""
 
 from __future__ import annotations
 
@@ -41,9 +41,7 @@ def test_large_profile(thawslide: Program, small_case: Path) -> None:
     profile = with_profile(small_case)
     os.truncate(profile, 200_000_000)
     said = refusal(thawslide, "check", small_case)
-    assert (
-        f'{profile}: the file has 200 MB; allowed: 100 MB. A DEM is read with terrain.type = "dem".' in said
-    )
+    assert f'{profile}: the file has 200 MB; allowed: 100 MB. A DEM is read with terrain.type = "dem".' in said
 
 
 def test_long_profile(thawslide: Program, small_case: Path) -> None:

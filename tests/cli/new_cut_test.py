@@ -26,7 +26,8 @@ def test_a_release_that_is_cut_out_gets_out(thawslide: Program, tmp_path: Path, 
     assert outcome.returncode == 0, outcome.stderr
     # The cell follows where most of the volume is; most of the area is below ramps.
     assert [line for line in outcome.stdout.splitlines() if line.startswith("note:")] == [
-        "warning: --cell: across the median thickness of body slide, 10 m, there are too few particles to resolve shear "
+        "warning: --cell: across the median thickness of body slide, 10 m, there are too few particles to resolve "
+        "shear "
         "and thinning (found 3.3; needed 4). Set --cell to 3 m, at about 16 times the run time."
     ]
     assert (

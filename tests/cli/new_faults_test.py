@@ -74,13 +74,14 @@ def test_dem_with_a_wrong_tag(thawslide: Program, tmp_path: Path, slope: Slope, 
     assert_refused(
         made(thawslide, folder, wrong, release, "--thickness", THICKNESS),
         tmp_path,
-        "--dem: wrong.tif: the tag says degrees (EPSG:4326), the numbers are metric (x from 411995 to 412895, y from "
+        "--dem: wrong.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric (x from 411995 to "
+        "412895, y from "
         '5159995 to 5160595). Set --crs "EPSG:..." to the system the numbers are in; its maker states it.',
     )
     given = made(thawslide, folder, wrong, release, "--thickness", THICKNESS, "--crs", "EPSG:32632")
     assert given.returncode == 0, given.stderr
     assert given.stdout.startswith(
-        "warning: wrong.tif is taken to be in EPSG:32632, as --crs says; the file says EPSG:4326\n"
+        "warning: wrong.tif is read as EPSG:32632, as set by --crs; the file specifies EPSG:4326\n"
     )
 
 
@@ -160,7 +161,8 @@ def test_release_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: 
     text = said(outcome.stderr, tmp_path)
     assert text.startswith("error: --release: broken.geojson: the file cannot be opened; GDAL says: "), text
     assert text.endswith(
-        ". Allowed: Shapefile (with its .shx and .dbf), GeoPackage or GeoJSON; check that the file is complete and readable.\n"
+        ". Allowed: Shapefile (with its .shx and .dbf), GeoPackage or GeoJSON; check that the file is complete and "
+        "readable.\n"
     ), text
     assert_refused(
         made(thawslide, folder, slope(), tmp_path / "absent.shp", "--thickness", THICKNESS),

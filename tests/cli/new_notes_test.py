@@ -117,7 +117,8 @@ def test_release_smaller_than_a_cell_of_the_dem(thawslide: Program, tmp_path: Pa
 def test_thickness_of_the_order_of_the_width(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 300)
     assert outcome.stdout.startswith(
-        "warning: the release of the body slide is up to 300 m thick and, by its area, 109.5 m wide: is the thickness in "
+        "warning: the release of the body slide is up to 300 m thick and, by its area, 109.5 m wide: is the "
+        "thickness in "
         "metres?\n"
     ), outcome.stdout + outcome.stderr
 
@@ -131,7 +132,8 @@ def test_hole_filled_with_zeros(thawslide: Program, tmp_path: Path, slope: Slope
         file.write(heights, 1)
     outcome = made(thawslide, tmp_path / "slide", dem, release, "--thickness", THICKNESS)
     note = (
-        "warning: 15 points of dem.tif are exactly 0 m amid ground of 1000 to 1035 m, such as (412400, 5160300): a hole "
+        "warning: 15 points of dem.tif are exactly 0 m among heights of 1000 to 1035 m, such as (412400, 5160300): a "
+        "hole "
         "without data? Then say so in the file, gdal_edit.py -a_nodata 0 {}dem.tif, or fill it\n"
     )
     assert said(outcome.stdout, tmp_path).startswith(note.format("")), outcome.stdout + outcome.stderr

@@ -154,7 +154,8 @@ def test_a_default_without_drainage_is_told_by_run_too(thawslide: Program, small
     file = small_case / "case.toml"
     file.write_text(file.read_text() + '\n[band]\nmodel = "columns"\nthickness = 0.2\n')
     note = (
-        f"warning: {file}: material.rock.hydraulic_conductivity is 0 m/s, its default: pore water never drains, and what "
+        f"warning: {file}: material.rock.hydraulic_conductivity is 0 m/s, its default: pore water never drains, and "
+        f"what "
         "is under pressure may never stop. Of the base of a slide 1e-8 to 1e-5 m/s is said. Give it, and if 0 is meant "
         "0, and this note goes.\n"
     )

@@ -28,7 +28,8 @@ def test_a_case_changed_before_the_first_checkpoint_is_refused(thawslide: Progra
         outcome = thawslide("resume", done, *words)
         assert outcome.returncode == 2
         assert outcome.stderr == (
-            f"error: {file} has changed since the run began (run.json has its SHA-256), and no checkpoint holds its content. Put back what was there, or run the case again.\n"
+            f"error: {file} has changed since the run began (run.json has its SHA-256), and no checkpoint holds its "
+            f"content. Put back what was there, or run the case again.\n"
         )
     assert content_of(done) == before
     file.unlink()
@@ -120,12 +121,12 @@ def test_an_end_that_was_passed_before_the_kill_is_refused(thawslide: Program, d
     before = content_of(done)
     outcome = thawslide("resume", done, "--end", 0.1)
     assert outcome.returncode == 2
-    assert outcome.stderr == "error: the end of 0.1 s has passed: the run had come to 0.2 s. Give a later one.\n"
+    assert outcome.stderr == "error: the end of 0.1 s has passed: the run had reached 0.2 s. Give a later one.\n"
     assert content_of(done) == before
     outcome = thawslide("resume", done, "--end", 0.25)
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stdout.startswith(
-        "going on from t = 0 s; it had come to 0.2 s: rows and snapshots after 0 s are written anew\n"
+        "continuing from t = 0 s; it had reached 0.2 s: rows and snapshots after 0 s are written again\n"
     )
 
 

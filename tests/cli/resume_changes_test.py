@@ -78,7 +78,7 @@ def test_the_checkpoint_of_another_run_is_refused(
     outcome = thawslide("resume", done)
     assert outcome.returncode == 2
     assert outcome.stderr == (
-        f"error: the checkpoint of {done} was not written by this run: run.json tells of no part with its case, in "
+        f"error: the checkpoint of {done} was not written by this run: run.json lists no part with its case, in "
         "which basal.friction_angle is 5.0, was 10.0. Put back the run's own checkpoint.bin or "
         "checkpoint.previous.bin, or run the case again.\n"
     )

@@ -107,7 +107,10 @@ def test_where_there_are_no_locks_it_cannot_be_told_whether_a_run_lives(
         os.utime(file, (long_ago, long_ago))
     said = thawslide("status", run, environment=without).stdout
     assert re.match(
-        re.escape(f"{run}: it cannot be determined whether it runs, because its file system has no locks; its last file was written ")
+        re.escape(
+            f"{run}: it cannot be determined whether it runs, because its file system has no locks; its last file was "
+            "written "
+        )
         + r"5 min 0\d s ago\n",
         said,
     ), said
@@ -163,9 +166,7 @@ def test_a_run_that_sets_up_is_alive(thawslide: Program, tmp_path: Path) -> None
 def test_status_where_there_is_no_run(thawslide: Program, tmp_path: Path) -> None:
     outcome = thawslide("status", tmp_path)
     assert outcome.returncode == 2
-    assert (
-        outcome.stderr == f"error: {tmp_path} holds no run: run.json is missing, which a run writes at its start.\n"
-    )
+    assert outcome.stderr == f"error: {tmp_path} holds no run: run.json is missing, which a run writes at its start.\n"
 
 
 def test_a_run_does_not_take_its_own_case_away(thawslide: Program, small_case: Path, tmp_path: Path) -> None:

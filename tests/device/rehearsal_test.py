@@ -114,6 +114,6 @@ def test_a_killed_run_on_a_card_ends_with_the_same_bits(on_card: Path, tmp_path:
     process.kill()
     assert process.wait() == -signal.SIGKILL
     outcome = run(on_card, "resume", tmp_path / "killed", "--device", "gpu")
-    assert "going on from t = " in outcome.stdout
+    assert "continuing from t = " in outcome.stdout
     for file in ("history.csv", "checkpoint.bin"):
         assert (tmp_path / "killed" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()

@@ -23,10 +23,10 @@ std::string warning_of(const Raster& dem) { return pits_warning("folder/dem.tif"
 
 TEST(PitsTest, HolesFilledWithAConstant) {
   EXPECT_EQ(warning_of(slope_with(0.0, 3, 5)),
-            "15 points of dem.tif are exactly 0 m amid ground of 1292 to 1302 m, such as (400100, 300050): a hole "
+            "15 points of dem.tif are exactly 0 m among heights of 1292 to 1302 m, such as (400100, 300050): a hole "
             "without data? Then say so in the file, gdal_edit.py -a_nodata 0 folder/dem.tif, or fill it");
   EXPECT_EQ(warning_of(slope_with(0.0, 1, 1)),
-            "1 point of dem.tif is exactly 0 m amid ground of 1298 to 1302 m, such as (400100, 300050): a hole "
+            "1 point of dem.tif is exactly 0 m among heights of 1298 to 1302 m, such as (400100, 300050): a hole "
             "without data? Then say so in the file, gdal_edit.py -a_nodata 0 folder/dem.tif, or fill it");
   EXPECT_EQ(warning_of(slope_with(-99.5, 2, 1)).substr(0, 39), "2 points of dem.tif are exactly -99.5 m");
   EXPECT_EQ(warning_of(slope_with(8000.0, 2, 2)).substr(0, 38), "4 points of dem.tif are exactly 8000 m");
@@ -35,7 +35,7 @@ TEST(PitsTest, HolesFilledWithAConstant) {
   for (int row = 0; row < edge.rows; ++row) {
     edge.values[edge.index(0, row)] = edge.values[edge.index(1, row)] = 0.0;
   }
-  EXPECT_EQ(warning_of(edge).substr(0, 60), "62 points of dem.tif are exactly 0 m amid ground of 1345 to ");
+  EXPECT_EQ(warning_of(edge).substr(0, 60), "62 points of dem.tif are exactly 0 m among heights of 1345 to ");
 }
 
 TEST(PitsTest, SoundGroundIsNotTold) {
@@ -66,7 +66,7 @@ TEST(PitsTest, TheSiteTellsOfThem) {
   const SiteAndWarnings loaded = load_site(parameters);
   ASSERT_EQ(loaded.warnings.size(), 1U);
   EXPECT_EQ(
-      loaded.warnings[0].rfind("2 points of dem.tif are exactly 0 m amid ground of 1580 to 1591 m, such as (400550, "
+      loaded.warnings[0].rfind("2 points of dem.tif are exactly 0 m among heights of 1580 to 1591 m, such as (400550, "
                                "300350): a hole without data?",
                                0),
       0U)

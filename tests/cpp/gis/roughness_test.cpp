@@ -116,7 +116,7 @@ TEST(RoughnessTest, NoiseOfAPartOfTheDomainCounts) {
   }
 }
 
-// A band of noise narrower than a tile is none in the domain; a release on it tells of it.
+// A band of noise narrower than a tile is none in the domain; a release on it triggers the warning.
 TEST(RoughnessTest, NoiseBelowABodyCounts) {
   Raster raster = ground_of([](double x, double y) { return 0.5 * x - 0.1 * y; }, 0.2, 7, 321, 161);
   for (int row = 0; row < raster.rows; ++row) {

@@ -38,7 +38,7 @@ TEST_F(SharedDataTest, TagOfFluchthornIsNamed) {
   config::Case parameters = case_on("fluchthorn/fluchthorn.tif",
                                     {span.min_x + 50.0, span.min_y + 50.0, span.max_x - 50.0, span.max_y - 50.0});
   const std::string message = error_of([&] { static_cast<void>(load_site(parameters)); });
-  EXPECT_NE(message.find("fluchthorn.tif: the tag says degrees (EPSG:4326), the numbers are metric (x from "),
+  EXPECT_NE(message.find("fluchthorn.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric (x from "),
             std::string::npos)
       << message;
   EXPECT_NE(message.find("Set terrain.crs = \"EPSG:...\" to the system the numbers are in"), std::string::npos);

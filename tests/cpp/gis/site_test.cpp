@@ -60,14 +60,14 @@ TEST(SiteTest, KeyOverrulesTheFile) {
   parameters.terrain.crs = "EPSG:31254";
   const SiteAndWarnings loaded = load_site(parameters);
   EXPECT_EQ(loaded.site.crs_name, "EPSG:31254");
-  EXPECT_EQ(loaded.warnings,
-            std::vector<std::string>{"dem.tif is taken to be in EPSG:31254, as terrain.crs says; the file "
-                                     "says EPSG:4326"});
+  EXPECT_EQ(loaded.warnings, std::vector<std::string>{
+                                 "dem.tif is read as EPSG:31254, as set by terrain.crs; the file specifies EPSG:4326"});
 }
 
 TEST(SiteTest, WrongTagIsToldAtTheKey) {
   EXPECT_EQ(error_of_site(plain_case(ground("EPSG:4326"))),
-            "case.toml:5:8: terrain.file: FOLDER/dem.tif: the tag says degrees (EPSG:4326), the numbers are metric (x "
+            "case.toml:5:8: terrain.file: FOLDER/dem.tif: the tag specifies degrees (EPSG:4326), but the numbers are "
+            "metric (x "
             "from 399997.5 to 401002.5, y from 299997.5 to 300802.5). Set terrain.crs = \"EPSG:...\" to the system the "
             "numbers are in; its maker states it.");
   config::Case parameters = plain_case(ground(""));

@@ -120,9 +120,10 @@ TEST_F(HostileFiles, AHistoryThatAUserHasNamedGoesWhereALinkLeads) {
 TEST_F(HostileFiles, ALockIsAFileOfItsFolder) {
   const fs::path lock = folder_ / lock_name, victim = folder_ / "victim";
   const auto expect_refusal = [&](const std::string& found) {
-    const std::string message = lock.string() + " is " + found +
-                                ", where a run keeps its lock, a regular file. Remove it once no run is at work in " +
-                                folder_.string() + ".";
+    const std::string message =
+        lock.string() + " is " + found +
+        ", but must be a regular file: the lock of a run. Remove it once no run is at work in " + folder_.string() +
+        ".";
     EXPECT_EQ(failure_of([&] { const RunLock taken(folder_); }), message);
     EXPECT_EQ(failure_of([&] { (void)process_at_work(folder_); }), message);
     fs::remove(lock);
