@@ -100,14 +100,14 @@ TEST(CentrePath, GoesOnFromItsNumbers) {
   for (const int stop : {0, 1, 7, 19, 20, 21, 60}) {
     CentrePath whole(2.0), first(2.0);
     for (int k = 0; k <= stop; ++k) {
-      first.warning({0.1 * k, 0.02 * k});
+      first.add_position({0.1 * k, 0.02 * k});
     }
     CentrePath second(2.0);
     second.restore(first.state());
     for (int k = 0; k <= 80; ++k) {
-      whole.warning({0.1 * k, 0.02 * k});
+      whole.add_position({0.1 * k, 0.02 * k});
       if (k > stop) {
-        second.warning({0.1 * k, 0.02 * k});
+        second.add_position({0.1 * k, 0.02 * k});
       }
     }
     EXPECT_EQ(second.state(), whole.state()) << stop;
