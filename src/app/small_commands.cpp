@@ -8,7 +8,6 @@
 #include <cstring>
 
 #include "app/commands.hpp"
-#include "app/describe_outputs.hpp"
 #include "app/input_guard.hpp"
 #include "app/map_files.hpp"
 #include "base/error.hpp"
@@ -170,7 +169,6 @@ int describe_parameters(const DescribeOptions& options) {
   fmt::print("{}", options.json       ? config::describe_json()
                    : options.markdown ? config::describe_markdown()
                    : options.schema   ? config::schema_json()
-                   : options.outputs  ? describe_outputs()
                                       : config::describe_text());
   return static_cast<int>(ExitCode::done);
 }

@@ -134,8 +134,10 @@ Place expect_error(Simulation<3, double> simulation) {
   const std::regex expected(
       "the run failed at t = ([0-9.]+) s \\(step [0-9]+\\): particle [0-9]+ of body 'slide' at \\((-?[0-9.]+), "
       "(-?[0-9.]+), (-?[0-9.]+)\\) m: the terrain below it is not known: the DEM ends or has a hole there\\. .*Give a "
-      "DEM that .*, or set grid\\.leaving = \"remove\" to let such particles go\\. `thawslide new` crops the DEM to the "
-      "domain: create the case again with a smaller --reach-angle, which uses more of the DEM, or from a larger DEM\\.");
+      "DEM that .*, or set grid\\.leaving = \"remove\" to let such particles go\\. `thawslide new` crops the DEM to "
+      "the "
+      "domain: create the case again with a smaller --reach-angle, which uses more of the DEM, or from a larger "
+      "DEM\\.");
   std::smatch found;
   EXPECT_TRUE(std::regex_match(text, found, expected)) << text;
   return found.empty() ? Place(HUGE_VAL, HUGE_VAL) : Place(std::stod(found[2]), std::stod(found[3]));
