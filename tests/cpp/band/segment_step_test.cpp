@@ -1,4 +1,4 @@
-// A piece of base and its column below a slide of some depth.
+// A basal segment and its column below a slide of some depth.
 #include <gtest/gtest.h>
 
 #include <cmath>
