@@ -16,6 +16,7 @@ import difflib
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 from dataclasses import dataclass, field
@@ -23,7 +24,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("THAWSLIDE_BINARY", ROOT / "build" / "release" / "thawslide"))
-LIMIT = {False: 120.0, True: 1800.0}  # s, of a command; of one in a block marked long
+LIMIT = {False: 300.0, True: 1800.0}  # s, of a command; of one in a block marked long
 
 FENCE = re.compile(r"^( *)```(\S*)\s*$")
 MARK = re.compile(r"^ *<!-- (not run|long|exit code|setup|file|merged into): (.+) -->$")
@@ -154,22 +155,26 @@ class Scratch:
         """Run a command where the one before it ended; return its exit code and what it printed."""
         kept = self.folder / ".current"
         script = f'{command}\ncode=$?; pwd > "{kept}"; exit $code'
-        try:
-            done = subprocess.run(
-                ["bash", "-c", script],
-                cwd=self.current,
-                env=self.environment,
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.STDOUT,
-                timeout=limit,
-                check=False,
-            )
-        except subprocess.TimeoutExpired:
-            return -1, [f"(stopped after {limit:.0f} s)"]
+        with subprocess.Popen(
+            ["bash", "-c", script],
+            cwd=self.current,
+            env=self.environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            encoding="utf-8",
+            errors="replace",
+            start_new_session=True,
+        ) as running:
+            try:
+                printed, _ = running.communicate(timeout=limit)
+            except subprocess.TimeoutExpired:
+                os.killpg(running.pid, signal.SIGKILL)  # with what the shell has started
+                return -1, [f"(stopped after {limit:g} s)"]
         if kept.exists():
             self.current = Path(kept.read_text().strip())
-        return done.returncode, [line.rstrip() for line in done.stdout.decode(errors="replace").splitlines()]
+        return running.returncode, [line.rstrip() for line in printed.splitlines()]
 
     def write(self, name: str, text: str) -> Path:
         """Write a file in the folder."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
 import pytest
@@ -91,6 +92,14 @@ def test_commands_of_a_page_run_in_one_folder(tmp_path: Path) -> None:
     (failure,) = page_failures(page.replace("a.txt\none\n", "a.txt\ntwo\n"), Scratch(tmp_path / "other"), long=False)
     assert failure.startswith("line 7: $ cat a.txt\ndoes not come: two\n")
     assert "-two\n+one" in failure
+
+
+def test_a_command_over_its_limit_is_stopped_with_what_it_started(tmp_path: Path) -> None:
+    scratch = Scratch(tmp_path / "clone")
+    code, output = scratch.run("(sleep 3; touch late) & sleep 30", 0.5)
+    assert (code, output) == (-1, ["(stopped after 0.5 s)"])
+    time.sleep(4.0)
+    assert not (scratch.folder / "late").exists()
 
 
 def test_snippets_are_checked_with_what_they_are_for(tmp_path: Path) -> None:
