@@ -11,8 +11,6 @@ from snippets import ROOT, Scratch, blocks_of, fault_of, page_failures
 
 # Pages whose blocks do not have the form yet.
 NOT_CONVERTED = {
-    "docs/user-guide.md",
-    "docs/gpu.md",
     "docs/theory/width.md",
     "cases/alr/README.md",
     "cases/entrainment/README.md",
