@@ -35,7 +35,7 @@ if(NOT THAWSLIDE_CUDA STREQUAL "OFF")
       set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION -std=c++20)
     endif()
     find_package(CUDAToolkit REQUIRED)
-    message(STATUS "Built for NVIDIA cards of compute capability ${THAWSLIDE_CUDA_ARCHITECTURES}")
+    message(STATUS "Built for NVIDIA GPUs of compute capability ${THAWSLIDE_CUDA_ARCHITECTURES}")
   elseif(THAWSLIDE_CUDA STREQUAL "ON")
     message(FATAL_ERROR "THAWSLIDE_CUDA is ON, but: ${why_not}. Install CUDA, or set CUDA_HOME")
   else()
@@ -43,8 +43,8 @@ if(NOT THAWSLIDE_CUDA STREQUAL "OFF")
   endif()
 endif()
 
-# What every target of ours with device code is compiled with. Products and sums are contracted neither on the card nor
-# on the processor, so that bits may be compared. Eigen 3.4 marks functions that need no mark (20012).
+# Flags of all targets with device code. Products and sums are contracted neither on the GPU nor
+# on the CPU: results can then be compared bit by bit. Eigen 3.4 marks functions that need no mark (20012).
 add_library(thawslide_device_flags INTERFACE)
 target_include_directories(thawslide_device_flags INTERFACE ${PROJECT_SOURCE_DIR}/src)
 target_link_libraries(thawslide_device_flags INTERFACE Eigen3::Eigen)

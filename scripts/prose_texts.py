@@ -250,7 +250,8 @@ def all_texts(root, rules, only=()):
     """Return the texts of the repository, or those of some of its files."""
     root = Path(root)
     pages = {*root.glob("*.md"), *(root / "docs").rglob("*.md"), *(root / "cases").rglob("*.md")}
-    sources = {*(root / "src").rglob("*.[ch]pp"), *(root / "python" / "thawslide").rglob("*.py")}
+    sources = {*(root / "src").rglob("*.[ch]pp")}
+    sources |= {path for folder in ("python/thawslide", "reproduction") for path in (root / folder).rglob("*.py")}
     texts = []
     for path in sorted(pages | sources):
         file = path.relative_to(root).as_posix()

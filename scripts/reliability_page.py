@@ -28,7 +28,7 @@ def head() -> str:
     return "# Reliability\n\n" + paragraph(
         "This page reports how a run behaves when its process is killed, its disk fills up, or its files are damaged. "
         "`scripts/reliability` runs the tests and generates the page in about four hours on two cores, mostly fuzzing. "
-        "`./test` contains a sample of each part. The [user guide](user-guide.md#when-a-run-stops) explains how to "
+        "`./test` contains a sample of each part. [Stop and resume](reference/stop-and-resume.md) explains how to "
         "continue a run that has stopped."
     )
 

@@ -22,7 +22,7 @@ constexpr std::size_t states = 256;
 template <class Value>
 constexpr std::size_t particles_of = 1;
 template <>
-constexpr std::size_t particles_of<Lanes<double>> = lane_count<double>;
+constexpr std::size_t particles_of<Simd<double>> = simd_width<double>;
 
 template <class Value>
 void count_particles(benchmark::State& state) {
@@ -133,7 +133,7 @@ struct Body {
     for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
       for (const auto& batch : grid.batches(t)) {
         const auto place = place_of(grid, particles, batch);
-        work(batch, mpm::make_stencil<mpm::Ugimp<double>>(grid, batch, place, {Lanes<double>(0.25), Lanes<double>(4.0)},
+        work(batch, mpm::make_stencil<mpm::Ugimp<double>>(grid, batch, place, {Simd<double>(0.25), Simd<double>(4.0)},
                                                           mpm::HeldSides<Dim>()));
       }
     }
@@ -199,7 +199,7 @@ void add_formulas(const std::string& of) {
 
 void add_kernels() {
   add_formulas<double>("one number: ");
-  add_formulas<Lanes<double>>("lanes: ");
+  add_formulas<Simd<double>>("lanes: ");
   benchmark::RegisterBenchmark("momentum_to_nodes, plane", momentum_to_nodes<2>);
   benchmark::RegisterBenchmark("momentum_to_nodes, space", momentum_to_nodes<3>);
   benchmark::RegisterBenchmark("gradient_from_nodes, plane", gradient_from_nodes<2>);

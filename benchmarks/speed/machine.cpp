@@ -8,8 +8,8 @@
 #include <cstdint>
 
 #include "base/aligned.hpp"
-#include "base/lanes.hpp"
 #include "base/parallel.hpp"
+#include "base/simd.hpp"
 
 namespace thawslide::speed {
 
@@ -48,7 +48,7 @@ double triad(std::size_t length, int repeats, std::size_t parts) {
 
 // Enough independent chains of multiply-adds to fill the pipelines, few enough to stay in registers.
 double multiply_add() {
-  using Numbers = Lanes<double>;
+  using Numbers = Simd<double>;
   constexpr std::size_t chains = 12;
   constexpr int rounds = 2'000'000;
   double start = 1.0, factor = 0.999999;

@@ -107,7 +107,7 @@ void time_cases(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  let_threads_wait_passively(argv);
+  set_passive_wait(argv);
   CLI::App app{"Speed of the step"};
   Options options;
   declare(app, options);

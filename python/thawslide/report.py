@@ -215,7 +215,7 @@ def result_warnings(run: Run) -> list[str]:
 def resume_notes(run: Run) -> list[str]:
     """Return what the parts of a run found damaged when they went on with it, such as rows that are lost."""
     parts = run.facts.get("parts")
-    told = [part.get("notes") for part in parts if isinstance(part, dict)] if isinstance(parts, list) else []
+    told = [part.get("warnings") for part in parts if isinstance(part, dict)] if isinstance(parts, list) else []
     return [str(note)[:1000] for notes in told if isinstance(notes, list) for note in notes[:100]]
 
 

@@ -148,7 +148,7 @@ def read_targets(path: Path) -> list[Target]:
         if key in lines:
             raise ReportError(
                 f"{path}:{line}: {target.quantity} at this time from this source is in line {lines[key]} already; "
-                "keep one of the two, or tell their sources apart"
+                "keep one of the two, or give them different sources"
             )
         if target.quantity == SETS_CLOCK:
             if clock:

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 #include "gis/point_window.hpp"
@@ -84,8 +84,8 @@ config::Case trial_case(const std::string& folder, const MapOptions& maps) {
 
 namespace {
 
-// A message that names keys of a case, for a user who has not got one yet.
-std::string in_words_of_options(std::string message) {
+// Replaces keys of a case by options in a message, for a user who has no case yet.
+std::string as_option_names(std::string message) {
   const std::vector<std::pair<std::string, std::string>> words{
       {"which body.slide.thickness asks for", "which is needed without --thickness"},
       {"terrain.crs = ", "--crs "},
@@ -108,37 +108,38 @@ std::string in_words_of_options(std::string message) {
 
 namespace {
 
-gis::SiteAndNotes read_files(const config::Case& trial) {
+gis::SiteAndWarnings read_files(const config::Case& trial) {
   try {
-    gis::SiteAndNotes read = gis::load_site(trial);
-    if (const std::string note = sim::orient_lines(trial, read.site); !note.empty()) {
-      read.notes.push_back(note);
+    gis::SiteAndWarnings read = gis::load_site(trial);
+    if (const std::string warning = sim::orient_lines(trial, read.site); !warning.empty()) {
+      read.warnings.push_back(warning);
     }
     return read;
   } catch (const UserError& error) {
-    throw UserError(in_words_of_options(error.what()));
+    throw UserError(as_option_names(error.what()));
   }
 }
 
 }  // namespace
 
-config::Site look_at_files(const config::Case& trial) {
-  gis::SiteAndNotes read = read_files(trial);
-  for (const std::string& note : read.notes) {
-    fmt::print("note: {}\n", in_words_of_options(note));
+config::Site open_site(const config::Case& trial) {
+  gis::SiteAndWarnings read = read_files(trial);
+  for (const std::string& warning : read.warnings) {
+    fmt::print("warning: {}\n", as_option_names(warning));
   }
   return std::move(read.site);
 }
 
-config::Site look_again(const config::Case& trial) { return read_files(trial).site; }
+config::Site reopen_site(const config::Case& trial) { return read_files(trial).site; }
 
 config::EdgeTaper taper_edges(config::Case& trial, const config::Site& site) {
   const config::EdgeTaper taper = config::propose_taper(*site.ground, site.releases.at(body_name).thickness);
   if (taper.is_cramped()) {
     const auto degrees = [](double rise) { return std::atan(rise) * 180.0 / std::numbers::pi; };
     fmt::print(
-        "note: --cut: the edges of the cut should be ramps {:g} m wide, and there is room for {:g} m, as the release "
-        "is narrow or near the end of what the terrain model knows; they rise by up to {:.0f} degrees against the "
+        "warning: --cut: the edges of the cut should be ramps {:g} m wide, and there is room for {:g} m, as the "
+        "release "
+        "is narrow or near the end of what the DEM knows; they rise by up to {:.0f} degrees against the "
         "terrain, which falls by {:.0f}, and may hold the slide back. --on-top has no such edges\n",
         taper.wanted, taper.width, degrees(taper.steepest), degrees(taper.slope));
   }
@@ -167,7 +168,7 @@ void make_new_folder(const fs::path& folder) {
 }
 
 void print_next_commands(const std::string& program, const fs::path& folder) {
-  const std::string called = shell_word(program), made = shell_word(folder.string());
+  const std::string called = shell_quote(program), made = shell_quote(folder.string());
   fmt::print("look at it:  {} check {} --picture\nrun it:      {} run {}\n", called, made, called, made);
 }
 

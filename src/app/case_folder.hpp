@@ -1,4 +1,4 @@
-// What commands that make a case folder from maps have in common.
+// Functions shared by the commands that make a case folder from maps.
 #pragma once
 
 #include <filesystem>
@@ -13,31 +13,29 @@ namespace thawslide::app {
 
 inline constexpr const char* body_name = "slide";
 
-// Throws UserError: this build has no GDAL, which the file needs.
+// Throws UserError: the file requires GDAL, which this build lacks.
 [[noreturn]] void fail_without_gis(const std::string& file);
 
-// A case over the whole DEM, to look at what the files hold: without a body where no release is given. For builds with
-// GDAL.
+// Case over the whole DEM for inspecting the files, without a body if no release is given. Requires GDAL.
 config::Case trial_case(const std::string& folder, const MapOptions& maps);
 
-// What the map files of such a case hold; prints what the user should know of them. A UserError names options, not
-// keys. For builds with GDAL.
-config::Site look_at_files(const config::Case& trial);
+// Reads the map files of such a case and prints warnings. A UserError names options, not keys. Requires GDAL.
+config::Site open_site(const config::Case& trial);
 
-// Gives the release of such a case, which is to be cut out of the DEM, the taper that lets the slide get out, and says
-// where there is no room for it. `site`: of the case so far, with nothing cut out. For builds with GDAL.
+// Sets the taper of a release that is excavated from the DEM, so that the slide can leave the pit, and reports where
+// space for it is missing. `site`: of the case so far, without excavation. Requires GDAL.
 config::EdgeTaper taper_edges(config::Case& trial, const config::Site& site);
 
-// As look_at_files, for files that were looked at before: prints nothing.
-config::Site look_again(const config::Case& trial);
+// The same as open_site for files already inspected: prints nothing.
+config::Site reopen_site(const config::Case& trial);
 
-// The last part of a folder's path.
+// Last component of a folder's path.
 std::string title_of(const std::filesystem::path& folder);
 
-// Makes the folder. Throws UserError where there is something in it already.
+// Creates the folder. Throws UserError if it exists and is not empty.
 void make_new_folder(const std::filesystem::path& folder);
 
-// What to do with a case folder that was made. `program`: as it was called.
+// Prints the commands to continue with in a new case folder. `program`: as called by the user.
 void print_next_commands(const std::string& program, const std::filesystem::path& folder);
 
 }  // namespace thawslide::app

@@ -1,4 +1,4 @@
-// thawslide check: what a run of the case will take, what is doubtful in it, and its picture before it starts.
+// thawslide check: resources and warnings of a case, and a figure of its setup, before a run.
 #include <filesystem>
 #include <stdexcept>
 
@@ -6,11 +6,11 @@
 #include "app/device_choice.hpp"
 #include "app/input_guard.hpp"
 #include "app/map_files.hpp"
-#include "app/notes_of_setup.hpp"
 #include "app/run_loop.hpp"
 #include "app/setup_facts.hpp"
 #include "app/setup_json.hpp"
 #include "app/setup_picture.hpp"
+#include "app/setup_warnings.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "config/read_case.hpp"
@@ -20,20 +20,20 @@ namespace thawslide::app {
 
 namespace {
 
-// What a card would make of the run, tried from where the trial on the processor has come to.
+// Speed and memory of the run on a GPU, tested from the state that the trial on the CPU has reached.
 template <int Dim>
-CardFacts facts_of_card(sim::Simulation<Dim, double>& simulation, sim::RunRecords<Dim>& records, double steps) {
-  CardFacts facts = look_for_card();
+GpuFacts gpu_facts(sim::Simulation<Dim, double>& simulation, sim::RunRecords<Dim>& records, double steps) {
+  GpuFacts facts = detect_gpu();
   if (!facts.why_not.empty()) {
     return facts;
   }
   const double end = simulation.parameters().time.end;
   try {
-    take_steps_on<Dim>("gpu", simulation);
+    use_device<Dim>("gpu", simulation);
     if (simulation.time() < end) {
-      simulation.step(simulation.next_step(end));  // particles go to the card
+      simulation.step(simulation.next_step(end));  // copies particles to the GPU
       records.after_step(simulation);
-      static_cast<void>(records.history_row(simulation));  // which needs memory there too
+      static_cast<void>(records.history_row(simulation));  // allocates memory on the GPU as well
       static_cast<void>(simulation.front());
     }
     if (!(simulation.time() < end)) {
@@ -41,8 +41,8 @@ CardFacts facts_of_card(sim::Simulation<Dim, double>& simulation, sim::RunRecord
       return facts;
     }
     facts.seconds = measured_step_seconds<Dim>(simulation) * steps;
-    facts.used = facts.free - look_for_card().free;
-  } catch (const std::runtime_error& error) {  // what was found on the processor holds all the same
+    facts.used = facts.free - detect_gpu().free;
+  } catch (const std::runtime_error& error) {  // the CPU results remain valid
     facts.why_not = error.what();
   }
   return facts;
@@ -59,7 +59,7 @@ std::vector<MapFacts> map_facts(const config::Case& parameters, const config::Si
            cells * static_cast<double>(sim::FlowMaps::bytes_of_cell() + sizeof(double))}};
 }
 
-// All that is known before the first step.
+// Facts known before the first step.
 template <int Dim>
 SetupFacts facts_of(const sim::Simulation<Dim, double>& simulation, const sim::RunRecords<Dim>& records) {
   const config::Case& parameters = simulation.parameters();
@@ -104,28 +104,28 @@ int check_case(const CheckOptions& options) {
   use_threads(options.threads);
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
-    Notes notes(options.json ? Notes::Form::kept : Notes::Form::printed);
-    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, notes));
-    sim::RunRecords<Dim> records(simulation, simulation.site());  // maps, path and probes can be gathered
+    Warnings warnings(options.json ? Warnings::Form::kept : Warnings::Form::printed);
+    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, warnings));
+    sim::RunRecords<Dim> records(simulation, simulation.site());  // checks that maps, path and probes can be recorded
     records.start(simulation);
     SetupFacts facts = facts_of<Dim>(simulation, records);
-    add_notes_of_setup(simulation, facts.bodies, facts.disk, facts.disk_folder, notes);
-    facts.notes = notes.all();
+    add_setup_warnings(simulation, facts.bodies, facts.disk, facts.disk_folder, warnings);
+    facts.warnings = warnings.all();
     if (options.draws) {
-      facts.picture = options.picture.empty() ? picture_beside(parameters.file) : options.picture;
+      facts.picture = options.picture.empty() ? picture_path(parameters.file) : options.picture;
       require_no_input_at(facts.picture, "--picture", parameters);
       draw_setup(setup_json<Dim>(simulation), facts.picture);
     }
-    const auto tell = [&] { fmt::print("{}", options.json ? json_of(facts) : text_of(facts)); };
+    const auto report_line = [&] { fmt::print("{}", options.json ? json_of(facts) : text_of(facts)); };
     try {
       facts.seconds = measured_step_seconds<Dim>(simulation) * facts.steps;
-      facts.card = facts_of_card<Dim>(simulation, records, facts.steps);
-    } catch (const RunError& error) {  // what was known before holds all the same
+      facts.gpu = gpu_facts<Dim>(simulation, records, facts.steps);
+    } catch (const RunError& error) {  // earlier facts remain valid
       facts.error = error.what();
-      tell();
+      report_line();
       throw;
     }
-    tell();
+    report_line();
     return static_cast<int>(ExitCode::done);
   });
 }

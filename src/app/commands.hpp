@@ -1,4 +1,4 @@
-// The commands of the program. Each returns an exit code (ExitCode), or throws UserError.
+// Commands of the program. Each returns an exit code (ExitCode), or throws UserError.
 #pragma once
 
 #include <string>
@@ -26,8 +26,8 @@ struct ResumeOptions {
   std::string folder;
   int threads = 0;
   std::string device = "cpu";
-  std::vector<std::string> sets;  // what changes of the case
-  std::string end;                // a new time.end [s]; empty: as it is
+  std::vector<std::string> sets;  // changes to the case
+  std::string end;                // new time.end [s]; empty: unchanged
 };
 int resume_run(const ResumeOptions& options);
 
@@ -35,14 +35,14 @@ struct StatusOptions {
   std::string folder;
   bool json = false;
 };
-int tell_status(const StatusOptions& options);
+int print_status(const StatusOptions& options);
 
 struct CheckOptions {
   CaseOptions of_case;
   int threads = 0;
-  bool draws = false;   // a picture
-  std::string picture;  // its file; empty: setup.png beside the case
-  bool json = false;    // for programs
+  bool draws = false;   // plot a figure
+  std::string picture;  // its file; empty: setup.png in the folder of the case
+  bool json = false;    // output for programs
 };
 int check_case(const CheckOptions& options);
 
@@ -52,20 +52,20 @@ struct BlockOptions {
 };
 int run_block_model(const BlockOptions& options);
 
-// Files that a case is made from.
+// Input files of a new case.
 struct MapOptions {
-  std::string dem, release, crs;  // crs: for a DEM whose file does not tell
+  std::string dem, release, crs;  // crs: for a DEM file without one
   double thickness = 0.0;         // m, vertical; 0: the attribute "thickness"
-  bool cut = false;               // out of the DEM, not on top of it
-  double largest_volume = 0.0;    // m3, confirmed; 0: the parameter's default holds
+  bool cut = false;               // excavate the DEM instead of adding to it
+  double largest_volume = 0.0;    // m3, confirmed; 0: default of the parameter
 };
 
 struct NewOptions {
-  std::string program;  // as it was called
+  std::string program;  // as called by the user
   std::string folder;
   MapOptions maps;
   double reach_angle = config::usual_reach_angle;  // degrees
-  double cell = 0.0;                               // m; 0: that of the resolution
+  double cell = 0.0;                               // m; 0: from the resolution
   std::string resolution;                          // a name of config::resolutions; empty: quick
 };
 int make_new_case(const NewOptions& options);
@@ -83,7 +83,7 @@ struct DescribeOptions {
 };
 int describe_parameters(const DescribeOptions& options);
 
-// Becomes `thawslide-report` with the given arguments; returns only if that is not found.
+// Replaces the process by `thawslide-report` with the given arguments; returns only if it is not found.
 int hand_over_to_report(const std::vector<std::string>& arguments);
 
 int print_version();

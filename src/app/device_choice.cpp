@@ -1,51 +1,51 @@
 #include "app/device_choice.hpp"
 
 #include "base/error.hpp"
-#ifdef THAWSLIDE_WITH_CARD
-#include "device/card.hpp"
+#ifdef THAWSLIDE_WITH_GPU
+#include "device/gpu.hpp"
 #endif
 
 namespace thawslide::app {
 
 namespace {
 
-#ifdef THAWSLIDE_WITH_CARD
+#ifdef THAWSLIDE_WITH_GPU
 template <int Dim>
-std::string take_steps_on_card(sim::Simulation<Dim, double>& simulation) {
-  const device::Card card = device::find_card();
-  if (!card.is_usable) {
-    throw UserError(fmt::format("--device gpu: {}. Run it on the processor: --device cpu", card.why_not));
+std::string step_on_gpu(sim::Simulation<Dim, double>& simulation) {
+  const device::Gpu gpu = device::find_gpu();
+  if (!gpu.is_usable) {
+    throw UserError(fmt::format("--device gpu: {}. Run the case on the CPU: --device cpu", gpu.why_not));
   }
-  simulation.take_steps_on(card.name, device::on_card<Dim>());
-  return card.name;
+  simulation.use_device(gpu.name, device::on_gpu<Dim>());
+  return gpu.name;
 }
 #else
 template <int Dim>
-std::string take_steps_on_card(sim::Simulation<Dim, double>& /*simulation*/) {
+std::string step_on_gpu(sim::Simulation<Dim, double>& /*simulation*/) {
   throw UserError(
       "--device gpu: this program was built without CUDA. Install CUDA 12 or later and build again (./run --setup), or "
-      "run it on the processor: --device cpu");
+      "run the case on the CPU: --device cpu");
 }
 #endif
 
 }  // namespace
 
-CardFacts look_for_card() {
-#ifdef THAWSLIDE_WITH_CARD
-  const device::Card card = device::find_card();
-  return {card.name, card.why_not, card.free, 0.0, 0.0};
+GpuFacts detect_gpu() {
+#ifdef THAWSLIDE_WITH_GPU
+  const device::Gpu gpu = device::find_gpu();
+  return {gpu.name, gpu.why_not, gpu.free, 0.0, 0.0};
 #else
   return {"", "this program was built without CUDA", 0.0, 0.0, 0.0};
 #endif
 }
 
 template <int Dim>
-std::string take_steps_on(const std::string& device, sim::Simulation<Dim, double>& simulation) {
+std::string use_device(const std::string& device, sim::Simulation<Dim, double>& simulation) {
   if (device == "cpu") {
     return "";
   }
   try {
-    return take_steps_on_card<Dim>(simulation);
+    return step_on_gpu<Dim>(simulation);
   } catch (const UserError&) {
     if (device == "auto") {
       return "";
@@ -54,7 +54,7 @@ std::string take_steps_on(const std::string& device, sim::Simulation<Dim, double
   }
 }
 
-template std::string take_steps_on<2>(const std::string&, sim::Simulation<2, double>&);
-template std::string take_steps_on<3>(const std::string&, sim::Simulation<3, double>&);
+template std::string use_device<2>(const std::string&, sim::Simulation<2, double>&);
+template std::string use_device<3>(const std::string&, sim::Simulation<3, double>&);
 
 }  // namespace thawslide::app

@@ -1,4 +1,4 @@
-// Where the steps of a run are taken: --device.
+// Device of a run: --device.
 #pragma once
 
 #include <string>
@@ -7,20 +7,20 @@
 
 namespace thawslide::app {
 
-// A card that this program can use.
-struct CardFacts {
+// GPU that this program can use.
+struct GpuFacts {
   std::string name;
-  std::string why_not;   // no card takes the steps; empty: this one does
+  std::string why_not;   // reason why the GPU cannot be used; empty: it can
   double free = 0.0;     // memory before the run [bytes]
   double used = 0.0;     // by the run after its first steps [bytes]
-  double seconds = 0.0;  // of wall time that the run takes, from the first steps
+  double seconds = 0.0;  // wall-clock time of the run, estimated from the first steps
 };
-[[nodiscard]] CardFacts look_for_card();
+[[nodiscard]] GpuFacts detect_gpu();
 
-// Steps on a card where that is asked for: "gpu", or "auto" where there is a card and the run needs nothing that no
-// device does yet; "cpu" changes nothing. Returns where they are taken, in words; empty: on the processor. Throws
-// UserError for a card that is not there, with the reason, and for what it does not do.
+// Selects a GPU for the steps if requested: "gpu", or "auto" if there is a GPU and the run needs only supported
+// features; "cpu" changes nothing. Returns the device as text; empty for the CPU. Throws UserError with the reason if
+// the GPU is unavailable or does not support the case.
 template <int Dim>
-std::string take_steps_on(const std::string& device, sim::Simulation<Dim, double>& simulation);
+std::string use_device(const std::string& device, sim::Simulation<Dim, double>& simulation);
 
 }  // namespace thawslide::app

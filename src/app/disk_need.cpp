@@ -20,12 +20,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double bytes_of_number = 19.0;     // in history.csv, with its comma: 16 digits, a point, an exponent
-constexpr double columns_of_probe = 4.0;     // in probes.csv, of a section; a point has fewer
-constexpr double generations = 3.0;          // of checkpoints: two, and the one that is being written
-constexpr double ground_map_count = 2.0;     // terrain and release, on the DEM's points
-constexpr double bytes_beside_points = 1e4;  // of a snapshot, and of a checkpoint, which holds the case
-constexpr double most_of_free = 0.9;         // what a run may take of the free disk without a word
+constexpr double bytes_of_number = 19.0;      // in history.csv, including the comma: 16 digits, a point, an exponent
+constexpr double columns_of_probe = 4.0;      // in probes.csv, for a section; a point has fewer
+constexpr double generations = 3.0;           // of checkpoints: two, and the one being written
+constexpr double ground_map_count = 2.0;      // terrain and release, on the DEM's points
+constexpr double bytes_besides_points = 1e4;  // of a snapshot, and of a checkpoint, which contains the case
+constexpr double most_of_free = 0.9;          // fraction of the free disk that a run may use without a warning
 constexpr double gigabyte = 1e9;
 
 // Number of whole intervals until the end, plus one for the start. It is limited to the number of steps, unless steps
@@ -47,7 +47,7 @@ double bytes_of_files(const config::Case& parameters) {
   return bytes;
 }
 
-// What a checkpoint holds for each cell of the maps that the slide has been in: its number, and what it keeps.
+// Size of a visited map cell in a checkpoint: its number, and its state.
 constexpr double bytes_of_map_cell = (1.0 + sim::map_cell_numbers) * sizeof(double);
 
 double bytes_of_maps(const sim::FlowMaps& maps) {
@@ -62,14 +62,14 @@ double bytes_of_all_maps(const sim::MapGrid& grid) {
 
 double bytes_of(const std::vector<double>& numbers) { return static_cast<double>(numbers.size() * sizeof(double)); }
 
-// Sets how large checkpoints are. Bed and particles stay as many as they are.
+// Sets the size of checkpoints. The numbers of bed columns and particles are constant.
 template <int Dim>
 void count_checkpoint(const sim::Simulation<Dim, double>& simulation, const sim::FlowMaps* maps, DiskNeed& need) {
-  const double lasting = bytes_beside_points +
+  const double lasting = bytes_besides_points +
                          static_cast<double>(simulation.particles().size()) *
                              static_cast<double>(io::checkpoint_bytes_of_particle<Dim>()) +
                          (simulation.bed() == nullptr ? 0.0 : bytes_of(simulation.bed()->state()));
-  // Columns are laid by the first step: as many as there is room for, and about as large there as in memory.
+  // The first step creates columns: assume the maximum number, and the same size as in memory.
   const sim::BodiesAtStart bodies = sim::bodies_at_start<Dim>(simulation.parameters(), simulation.site());
   const double columns = sim::memory_need<Dim>(simulation.parameters(), simulation.site(), bodies).columns;
   const double of_maps = maps == nullptr ? 0.0 : bytes_of_maps(*maps);
@@ -88,7 +88,7 @@ DiskNeed disk_need(const sim::Simulation<Dim, double>& simulation, const sim::Fl
   const auto particles = static_cast<double>(simulation.particles().size());
   DiskNeed need;
   need.snapshots = count_of(time, time.output_interval, steps, time.stepping == config::Stepping::adaptive);
-  need.snapshot = particles * static_cast<double>(io::snapshot_bytes_of_particle<Dim>()) + bytes_beside_points;
+  need.snapshot = particles * static_cast<double>(io::snapshot_bytes_of_particle<Dim>()) + bytes_besides_points;
   count_checkpoint(simulation, maps, need);
   need.history_rows = time.history_interval > 0.0 ? count_of(time, time.history_interval, steps, false) : steps + 1.0;
   const double columns = static_cast<double>(sim::history_row(simulation).size()) +
@@ -113,7 +113,7 @@ double free_on_disk(const fs::path& folder) {
   return unknown ? HUGE_VAL : static_cast<double>(space.available);
 }
 
-std::string doubt_of_disk(const config::Case& parameters, const DiskNeed& need, double free, const fs::path& folder) {
+std::string warning_of_disk(const config::Case& parameters, const DiskNeed& need, double free, const fs::path& folder) {
   if (!(need.total() > most_of_free * free)) {
     return "";
   }

@@ -1,4 +1,4 @@
-// What a command writes must not take away what it reads. All throw UserError.
+// Protection of inputs against being overwritten by a command. All functions throw UserError.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +8,14 @@
 
 namespace thawslide::app {
 
-// Of what a run will copy some is not read before, as what lies beside a map: a run that is to be replaced must still
-// be there when that cannot be read.
+// Checks inputs that a run copies but does not otherwise read, such as files that accompany a map. If one is
+// unreadable, the run to be replaced must still be intact.
 void require_readable_inputs(const config::Case& parameters);
 
-// No input may lie in a folder that a run is to replace.
+// Requires that no input lies in a folder that a run will replace.
 void require_no_input_in(const std::filesystem::path& folder, const config::Case& parameters);
 
-// No input may be the file that an option of the command line says to write.
+// Requires that no input is the output file specified by a command-line option.
 void require_no_input_at(const std::filesystem::path& file, const std::string& option, const config::Case& parameters);
 
 }  // namespace thawslide::app

@@ -1,4 +1,4 @@
-// The command line: what can be asked, and how it ends (exit codes in ARCHITECTURE.md).
+// Command line: options, commands and exit codes (listed in ARCHITECTURE.md).
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "app/commands.hpp"
-#include "app/say.hpp"
+#include "app/print.hpp"
 #include "app/signals.hpp"
 #include "app/standard_streams.hpp"
 #include "base/error.hpp"
@@ -38,11 +38,11 @@ void add_threads_option(CLI::App& command, int& threads) {
 }
 
 void add_device_option(CLI::App& command, std::string& device) {
-  command.add_option("--device", device, "Where steps are taken: cpu (default), gpu (an NVIDIA card), or auto")
+  command.add_option("--device", device, "Device for the time steps: cpu (default), gpu (an NVIDIA GPU), or auto")
       ->check(CLI::IsMember({"cpu", "gpu", "auto"}));
 }
 
-// CLI11's own check prints the largest number that a computer knows.
+// Replaces CLI11's own check, whose message prints the largest floating-point number.
 CLI::Validator above_zero() {
   return {[](std::string& text) {
             double number = 0.0;
@@ -55,7 +55,7 @@ CLI::Validator above_zero() {
 
 // Returns the option of the release.
 CLI::Option* add_map_options(CLI::App& command, MapOptions& maps) {
-  command.add_option("--dem", maps.dem, "Terrain model, GeoTIFF or ESRI ASCII, in projected metres")->required();
+  command.add_option("--dem", maps.dem, "DEM, GeoTIFF or ESRI ASCII, in projected metres")->required();
   CLI::Option* release = command.add_option("--release", maps.release,
                                             "Polygons (Shapefile, GeoPackage, GeoJSON), or a raster of the thickness");
   command
@@ -70,11 +70,11 @@ CLI::Option* add_map_options(CLI::App& command, MapOptions& maps) {
       ->description("Put the release on top of the DEM (default)")
       ->needs(release)
       ->excludes(placement->get_option("--cut"));
-  command.add_option("--crs", maps.crs, "Coordinate reference system of a DEM that does not tell it: EPSG:31287");
+  command.add_option("--crs", maps.crs, "Coordinate reference system of a DEM whose file has none: EPSG:31287");
   return release;
 }
 
-// A misspelt command is named, with its nearest neighbour.
+// Reports a misspelt command with the most similar valid one.
 void require_known_command(const CLI::App& program, int count, char** arguments) {
   if (count < 2 || arguments[1][0] == '-') {
     return;
@@ -89,20 +89,20 @@ void require_known_command(const CLI::App& program, int count, char** arguments)
   const std::string hint = thawslide::config::did_you_mean(arguments[1], commands);
   throw thawslide::UserError(
       fmt::format("there is no command '{}'{} Commands: {}. Run with --help for more information.", arguments[1],
-                  hint.empty() ? "." : hint, thawslide::config::list_words(commands)));
+                  hint.empty() ? "." : hint, thawslide::config::comma_list(commands)));
 }
 
-// A reader that closes its pipe has read enough; what cannot be written otherwise is lost, and that is told. Returns
-// the exit code, `code` where there is nothing to tell.
+// Reports lost output. A closed pipe is not an error, because the reader has read enough. Returns the exit code, `code`
+// if there is nothing to report.
 int end_without_output(std::error_code reason, int code) {
   if (reason == std::errc::broken_pipe) {
     return code;
   }
-  say_error("error: the output cannot be written: {}. Send it to where there is room for it.\n", reason.message());
+  print_error("error: the output cannot be written: {}. Redirect it to a disk with free space.\n", reason.message());
   return static_cast<int>(ExitCode::not_written);
 }
 
-// Returns the exit code of a command that returned `code`: its results have to be where they were sent before it ends.
+// Returns the exit code of a command that returned `code`, after its results have been flushed.
 int with_output_written(int code) {
   errno = 0;
   const bool is_flushed = std::fflush(stdout) == 0;
@@ -126,7 +126,7 @@ int run_program(int count, char** arguments) {
   run->callback([&] { exit_code = run_case(run_options); });
 
   ResumeOptions resume_options;
-  CLI::App* resume = program.add_subcommand("resume", "Go on with a run from its checkpoint");
+  CLI::App* resume = program.add_subcommand("resume", "Continue a run from its checkpoint");
   resume->add_option("run", resume_options.folder, "Folder of the run")->required();
   add_threads_option(*resume, resume_options.threads);
   add_device_option(*resume, resume_options.device);
@@ -140,10 +140,11 @@ int run_program(int count, char** arguments) {
   resume->callback([&] { exit_code = resume_run(resume_options); });
 
   StatusOptions status_options;
-  CLI::App* status = program.add_subcommand("status", "Say whether a run is alive, how far it is, and how to go on");
+  CLI::App* status =
+      program.add_subcommand("status", "Report whether a run is active, its progress, and how to continue it");
   status->add_option("run", status_options.folder, "Folder of the run")->required();
   status->add_flag("--json", status_options.json, "As JSON");
-  status->callback([&] { exit_code = tell_status(status_options); });
+  status->callback([&] { exit_code = print_status(status_options); });
 
   CheckOptions check_options;
   CLI::App* check = program.add_subcommand("check", "Validate a case and say what its run will take");
@@ -151,7 +152,7 @@ int run_program(int count, char** arguments) {
   add_threads_option(*check, check_options.threads);
   CLI::Option* picture = check->add_option(
       "--picture", check_options.picture,
-      "Draw terrain, grid, bodies and boundaries to a PNG file (default: setup.png beside the case file)");
+      "Plot terrain, grid, bodies and boundaries to a PNG file (default: setup.png next to the case file)");
   picture->expected(0, 1);
   check->add_flag("--json", check_options.json, "As JSON, for programs");
   check->callback([&] {
@@ -166,7 +167,7 @@ int run_program(int count, char** arguments) {
   block->callback([&] { exit_code = run_block_model(block_options); });
 
   NewOptions new_options;
-  CLI::App* make_new = program.add_subcommand("new", "Make a case folder from a terrain model and a release area");
+  CLI::App* make_new = program.add_subcommand("new", "Make a case folder from a DEM and a release area");
   make_new->add_option("folder", new_options.folder, "Folder to make")->required();
   add_map_options(*make_new, new_options.maps)->required();
   make_new
@@ -193,7 +194,7 @@ int run_program(int count, char** arguments) {
   make_new->callback([&] { exit_code = make_new_case(new_options); });
 
   SectionOptions section_options;
-  CLI::App* section = program.add_subcommand("section", "Cut a 2D case out of a terrain model, along a line");
+  CLI::App* section = program.add_subcommand("section", "Cut a 2D case out of a DEM, along a line");
   section->add_option("folder", section_options.folder, "Folder to make")->required();
   section->add_option("--line", section_options.line, "File with the line, downhill: Shapefile, GeoPackage or GeoJSON")
       ->required();
@@ -228,7 +229,7 @@ int run_program(int count, char** arguments) {
     }
     throw thawslide::UserError(fmt::format("{}. Run with --help for more information.", error.what()));
   }
-  // A run goes on without a terminal: its results are files.
+  // A run continues without a terminal, because its results are files.
   return run->parsed() || resume->parsed() ? exit_code : with_output_written(exit_code);
 }
 
@@ -236,7 +237,7 @@ int run_program(int count, char** arguments) {
 
 namespace {
 
-// Names of files, attributes and the like come from others.
+// Escapes control characters, because names of files, attributes and others come from external sources.
 std::string printable(std::string text) { return thawslide::config::printable(std::move(text), "\n\t"); }
 
 }  // namespace
@@ -244,34 +245,34 @@ std::string printable(std::string text) { return thawslide::config::printable(st
 int main(int count, char** arguments) {
   hold_standard_streams();
   survive_size_limits();
-  thawslide::let_threads_wait_passively(arguments);
+  thawslide::set_passive_wait(arguments);
   try {
     return run_program(count, arguments);
   } catch (const thawslide::WriteError& error) {
-    say_error("error: {}\n", printable(error.what()));
+    print_error("error: {}\n", printable(error.what()));
     return static_cast<int>(ExitCode::not_written);
   } catch (const thawslide::UserError& error) {
-    say_error("error: {}\n", printable(error.what()));
+    print_error("error: {}\n", printable(error.what()));
     return static_cast<int>(ExitCode::user_mistake);
   } catch (const thawslide::RunError& error) {
-    say_error("error: {}\n", printable(error.what()));
-    return static_cast<int>(ExitCode::run_went_bad);
+    print_error("error: {}\n", printable(error.what()));
+    return static_cast<int>(ExitCode::run_failed);
   } catch (const std::filesystem::filesystem_error& error) {
     const std::string paths = error.path1().string() + (error.path2().empty() ? "" : " and " + error.path2().string());
-    say_error("error: {}: {}\n", printable(paths), error.code().message());
+    print_error("error: {}: {}\n", printable(paths), error.code().message());
     return static_cast<int>(ExitCode::user_mistake);
   } catch (const std::bad_alloc&) {
-    say_error(
+    print_error(
         "error: the memory of this machine, or what a limit allows of it (ulimit -v), is not enough. Make "
         "grid.cell larger: twice the cell takes an eighth of the memory in 3D and a quarter in 2D.\n");
     return static_cast<int>(ExitCode::user_mistake);
   } catch (const std::exception& error) {
-    // Of what is printed amid a command fmt tells in this way that it could not be written.
+    // fmt reports a failed write of a command's output by this exception.
     const auto* of_system = dynamic_cast<const std::system_error*>(&error);
     if (of_system != nullptr && std::ferror(stdout) != 0) {
       return end_without_output(of_system->code(), static_cast<int>(ExitCode::done));
     }
-    say_error("internal error, please report it: {}\n", error.what());
+    print_error("internal error, please report it: {}\n", error.what());
     return 1;
   }
 }

@@ -13,18 +13,18 @@
 
 namespace thawslide::app {
 
-config::Site read_map_files(const config::Case& parameters, [[maybe_unused]] Notes& notes) {
+config::Site read_map_files(const config::Case& parameters, [[maybe_unused]] Warnings& warnings) {
   if (parameters.terrain.kind != config::TerrainKind::dem) {
     return {};
   }
 #ifdef THAWSLIDE_WITH_GIS
-  gis::SiteAndNotes read = gis::load_site(parameters);
-  notes.add(read.notes);
-  notes.add(gis::holes_note(parameters, read.site));
-  notes.add(gis::probes_in_holes(read.site));
-  notes.add(sim::orient_lines(parameters, read.site));
-  notes.add(sim::doubt_of_path(parameters, read.site));
-  notes.add(gis::roughness_note(parameters, read.site));
+  gis::SiteAndWarnings read = gis::load_site(parameters);
+  warnings.add(read.warnings);
+  warnings.add(gis::holes_warning(parameters, read.site));
+  warnings.add(gis::probes_in_holes(read.site));
+  warnings.add(sim::orient_lines(parameters, read.site));
+  warnings.add(sim::warning_of_path(parameters, read.site));
+  warnings.add(gis::roughness_warning(parameters, read.site));
   return std::move(read.site);
 #else
   throw UserError(

@@ -23,7 +23,7 @@ void write_map(const fs::path& folder, const std::string& name, const Raster& ma
   gis::write_geotiff((folder / "maps" / (name + ".tif")).string(), map, text);
 }
 
-// The colours span the values there are; those of what rises and falls, as much on both sides of 0.
+// Colours span the values of the map; for signed quantities they are symmetric about 0.
 void write_style(const fs::path& folder, const std::string& name, const Raster& map, const std::string& unit,
                  double nothing_below) {
   double low = HUGE_VAL, high = -HUGE_VAL;
@@ -34,7 +34,7 @@ void write_style(const fs::path& folder, const std::string& name, const Raster& 
     }
   }
   if (low > high) {
-    return;  // nothing to draw
+    return;  // nothing to plot
   }
   high = high > low ? high : low + 1.0;
   const bool rises_and_falls = name == "elevation_change";
@@ -43,13 +43,13 @@ void write_style(const fs::path& folder, const std::string& name, const Raster& 
   gis::write_raster_style((folder / "maps" / (name + ".qml")).string(), stops, unit, nothing_below);
 }
 
-// Where the slide ever was.
+// Area that the slide covered at any time.
 gis::Polygons affected_area(const sim::FlowMaps& maps) {
   const Raster mask = maps.affected_cells().mask();
   return mask.empty() ? gis::Polygons{} : gis::areas_of_mask(mask);
 }
 
-// Width: of lines, or the size of points [mm].
+// width: of lines, or the size of points [mm].
 std::string style(gis::LayerKind kind, const gis::Color& color, double width, const std::string& label) {
   constexpr double fill = 0.25;
   return gis::vector_style({.kind = kind, .color = color, .width = width, .opacity = fill, .label = label});
@@ -74,7 +74,7 @@ void write_layers(const fs::path& folder, const sim::RunRecords<3>& records, con
                     {{"area_m2", std::vector{gis::area_of(area)}}, {"state", std::vector<std::string>{when}}},
                     style(gis::LayerKind::polygons, dark_red, 0.5, "")});
   if (!records.path().empty()) {
-    const std::string kind = records.path_given() ? "given" : "way of the centre of mass";
+    const std::string kind = records.path_given() ? "given" : "path of the centre of mass";
     layers.push_back({"path",
                       std::vector<config::Polyline2>{records.path().corners()},
                       {{"length_m", std::vector{records.path().length()}}, {"kind", std::vector<std::string>{kind}}},

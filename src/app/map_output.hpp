@@ -1,4 +1,4 @@
-// maps/ of a run in space: GeoTIFF maps, a GeoPackage of areas and lines, and QGIS styles beside them.
+// maps/ of a 3D run: GeoTIFF maps, a GeoPackage of areas and lines, and their QGIS styles.
 #pragma once
 
 #include <array>
@@ -9,20 +9,20 @@
 
 namespace thawslide::app {
 
-// Where the front was at a time [s].
+// Position of the front at a time [s].
 struct FrontAt {
   double time;
   Place2 place;
 };
 
-// Whether this build can write maps: it needs GDAL.
+// True if this build can write maps, which requires GDAL.
 [[nodiscard]] bool can_write_maps();
 
-// The ground that the slide moves on, and the thickness of what is released; nothing without a raster of the ground.
+// Writes terrain and release thickness; nothing without a ground raster.
 void write_ground_maps(const std::filesystem::path& folder, const config::Site& site);
 
-// What was gathered so far, over the maps of an earlier time. Each file is whole or not there. when: what the last
-// state is called (sim/end_state.hpp).
+// Writes the current maps and replaces earlier ones. Each file is replaced atomically. when: label of the last state
+// (sim/end_state.hpp).
 void write_maps(const std::filesystem::path& folder, const sim::RunRecords<3>& records,
                 const std::vector<FrontAt>& fronts, const std::string& when);
 

@@ -1,4 +1,4 @@
-// thawslide new: a case folder from a terrain model and a release area.
+// thawslide new: creates a case folder from a DEM and a release area.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,9 +10,9 @@
 #include "app/case_folder.hpp"
 #include "app/commands.hpp"
 #include "app/names_in_case.hpp"
-#include "app/notes_of_setup.hpp"
 #include "app/progress.hpp"
 #include "app/run_loop.hpp"
+#include "app/setup_warnings.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
@@ -38,7 +38,7 @@ namespace {
 
 constexpr double many_particles = 1e6;
 
-// The DEM as it is, cropped to the domain and some cells about it.
+// Writes the original DEM, cropped to the domain with a margin of some cells.
 void write_cropped_dem(const fs::path& file, const Raster& ground, const config::Proposal& proposal) {
   const double margin = 3.0 * proposal.cell;
   const gis::Rectangle about =
@@ -48,7 +48,8 @@ void write_cropped_dem(const fs::path& file, const Raster& ground, const config:
   gis::write_geotiff(file.string(), cropped, {"m", "elevation"});
 }
 
-// A release ends a cell of the DEM beyond its last points: where these are the DEM's last, there is no ground below it.
+// A release extends one cell of the DEM beyond its last points. If these are the DEM's last, there is no ground below
+// it.
 void require_ground_about(const std::string& file, const Raster& ground, const Raster& thickness) {
   std::array<bool, 4> reached{};  // west, east, south, north
   constexpr std::array<const char*, 4> sides{"west", "east", "south", "north"};
@@ -66,10 +67,10 @@ void require_ground_about(const std::string& file, const Raster& ground, const R
   }
   for (std::size_t k = 0; k < sides.size(); ++k) {
     if (reached[k]) {
-      throw UserError(fmt::format(
-          "--release: {}: the release reaches the outermost points of the terrain model in the {}; needed: {:g} m of "
-          "it, one of its cells, beyond the release, and beyond where the slide may go. Take a larger terrain model.",
-          file, sides[k], k < 2 ? ground.cell_x : ground.cell_y));
+      throw UserError(
+          fmt::format("--release: {}: the release reaches the outermost points of the DEM in the {}; needed: {:g} m of "
+                      "it, one of its cells, beyond the release, and beyond where the slide may go. Take a larger DEM.",
+                      file, sides[k], k < 2 ? ground.cell_x : ground.cell_y));
     }
   }
 }
@@ -83,7 +84,7 @@ std::string reason_for_cell(const config::Proposal& proposal, const NewOptions& 
                      proposal.thickness, proposal.cell);
 }
 
-// As many cells along each axis as a case may have.
+// Limits the number of cells along each axis to that of a valid case.
 void require_resolvable(const config::Proposal& proposal, const NewOptions& options) {
   constexpr double fewest = 2.0, most = 5e5;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -97,7 +98,7 @@ void require_resolvable(const config::Proposal& proposal, const NewOptions& opti
   }
 }
 
-// Before any file is written, in words for a user who has no case yet.
+// Checks memory before any file is written, with a message for a user who has no case yet.
 void require_memory(const config::Proposal& proposal, const NewOptions& options) {
   const sim::MemoryNeed need = sim::memory_of_particles<3>(proposal.particles);
   const AvailableMemory available = available_memory();
@@ -112,7 +113,7 @@ void require_memory(const config::Proposal& proposal, const NewOptions& options)
   }
 }
 
-// With the files that belong to it.
+// Copies the release with the files that belong to it.
 void copy_release(const fs::path& folder, const config::Case& trial) {
   config::Case release_alone;
   release_alone.bodies = trial.bodies;
@@ -121,10 +122,10 @@ void copy_release(const fs::path& folder, const config::Case& trial) {
   }
 }
 
-// Stands in a folder until its case is whole.
+// Marks a folder until its case is complete.
 constexpr const char* unfinished_mark = ".unfinished-case";
 
-// What a command that was killed has left is told as that: nobody else knows it for what it is.
+// Reports the remains of a killed command, which a user could not identify otherwise.
 void require_nothing_unfinished(const fs::path& folder) {
   std::error_code unknown;
   const fs::directory_iterator entries(folder, unknown);
@@ -137,7 +138,7 @@ void require_nothing_unfinished(const fs::path& folder) {
   }
 }
 
-// A folder that is made, of which nothing stays if the case in it turns out not to run.
+// New folder that is removed again if its case is invalid.
 class NewFolder {
  public:
   explicit NewFolder(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)) {
@@ -150,7 +151,7 @@ class NewFolder {
     if (!keeps_ && !was_there_) {
       fs::remove_all(path_, ignored);
     }
-    // It was empty, and may be a link to a folder elsewhere, which stays.
+    // The folder existed and was empty. It may be a link to another folder, so only its contents are removed.
     std::vector<fs::path> made;
     for (fs::directory_iterator entry(path_, ignored), end; !keeps_ && was_there_ && !ignored && entry != end;
          entry.increment(ignored)) {
@@ -175,7 +176,7 @@ class NewFolder {
   bool was_there_, keeps_ = false;
 };
 
-// A message without places in a file that does not stay: "case.toml:28:15: ".
+// Removes file locations such as "case.toml:28:15: " from a message, because the file is not kept.
 std::string without_places(std::string message, const std::string& file) {
   for (std::size_t at = message.find(file); at != std::string::npos; at = message.find(file, at)) {
     const std::size_t end = message.find_first_not_of(":0123456789", at + file.size());
@@ -188,7 +189,7 @@ std::string without_places(std::string message, const std::string& file) {
 // Estimated cost of a run to time.end.
 struct RunCost {
   double steps = 0.0;
-  double seconds = 0.0;  // of wall time
+  double seconds = 0.0;  // wall-clock time
   int threads = 1;
 };
 
@@ -241,12 +242,12 @@ int make_new_case(const NewOptions& options) {
   require_utf8("--release", release_name);
   require_nothing_unfinished(options.folder);
   config::Case trial = trial_case(options.folder, options.maps);
-  config::Site site = look_at_files(trial);
+  config::Site site = open_site(trial);
   require_ground_about(options.maps.release, *site.ground, site.releases.at(body_name).thickness);
   config::ProposalInput input;
   if (options.maps.cut) {
     input.taper = taper_edges(trial, site);
-    site = look_again(trial);
+    site = reopen_site(trial);
   }
   const std::string resolution = options.cell > 0.0 ? "" : options.resolution.empty() ? "quick" : options.resolution;
   const config::Proposal proposal =
@@ -284,14 +285,14 @@ int make_new_case(const NewOptions& options) {
   }
   config::BodyOnCells body = config::release_on_cells(proposal);
   body.has_maps = resolution.empty() || !cost;  // otherwise the text above states the cells for maps
-  if (const std::string note = config::resolution_note(body, "--cell"); !note.empty()) {
-    fmt::print("note: {}\n", note);
+  if (const std::string warning = config::resolution_warning(body, "--cell"); !warning.empty()) {
+    fmt::print("warning: {}\n", warning);
   }
   if (const std::string warning = config::edge_warning(proposal); !warning.empty()) {
     fmt::print("warning: {}\n", warning);
   }
   if (proposal.particles > many_particles) {
-    fmt::print("note: that will take long; a larger grid.cell in the case file is quicker and coarser\n");
+    fmt::print("warning: that will take long; a larger grid.cell in the case file is quicker and coarser\n");
   }
   print_next_commands(options.program, folder);
   return static_cast<int>(ExitCode::done);

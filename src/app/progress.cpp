@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <ctime>
 
-#include "app/say.hpp"
+#include "app/print.hpp"
 
 namespace thawslide::app {
 
@@ -18,7 +18,7 @@ constexpr double seconds_between_lines = 10.0;
 constexpr double share_between_lines = 0.1;
 constexpr int bar_width = 24;
 
-// Of a processor, for this thread: what a line costs, however busy the machine is.
+// CPU time of this thread: the cost of a line, independent of the load of the machine.
 double thread_seconds() {
   timespec spent{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
@@ -47,7 +47,7 @@ Progress::Progress(double begin)
     : terminal_(isatty(STDOUT_FILENO) != 0), begin_(begin), start_(Clock::now()), last_(start_) {}
 
 bool Progress::due(double time, double end) {
-  constexpr double least_work_between = 20.0;  // in times of what the last line took
+  constexpr double least_work_between = 20.0;  // in multiples of the cost of the last line
   const double share = (time - begin_) / (end - begin_), passed = seconds_since(last_);
   const bool is_due = terminal_ ? passed >= seconds_between_bars
                                 : share - last_share_ >= share_between_lines || passed >= seconds_between_lines;
@@ -61,32 +61,32 @@ void Progress::show(const ProgressState& state) {
   const double left = share > 0.0 ? elapsed * (1.0 - share) / share : 0.0;
   std::string text = fmt::format("{:.1f} of {:g} s | {:.0f} steps/s | {} left", state.time, state.end,
                                  static_cast<double>(state.steps) / elapsed, duration_text(left));
-  if (std::isfinite(state.front_position)) {  // in 3D there is none before the slide has moved
+  if (std::isfinite(state.front_position)) {  // in 3D it is undefined before the slide has moved
     text += fmt::format(" | front {:.0f} m", state.front_position);
   }
-  if (std::isfinite(state.front_speed)) {  // there is none before a second place of the front is known
+  if (std::isfinite(state.front_speed)) {  // it is undefined before the second position of the front
     text += fmt::format(" at {:.1f} m/s", state.front_speed);
   }
   if (terminal_) {
     const auto filled = static_cast<std::size_t>(share * bar_width);
-    say("\r\033[K[{:<{}}] {:3.0f} % | {}", std::string(filled, '='), bar_width, 100.0 * share, text);
+    print_text("\r\033[K[{:<{}}] {:3.0f} % | {}", std::string(filled, '='), bar_width, 100.0 * share, text);
     drawn_ = true;
   } else {
-    say("{:3.0f} % | {}\n", 100.0 * share, text);
+    print_text("{:3.0f} % | {}\n", 100.0 * share, text);
   }
   last_ = Clock::now();
   work_ = thread_seconds() - begun_;
   last_share_ = share;
 }
 
-void Progress::note(const std::string& text) {
-  say("{}{}\n", drawn_ ? "\r\033[K" : "", text);
+void Progress::warning(const std::string& text) {
+  print_text("{}{}\n", drawn_ ? "\r\033[K" : "", text);
   drawn_ = false;
 }
 
 void Progress::finish() {
   if (drawn_) {
-    say("\n");
+    print_text("\n");
     drawn_ = false;
   }
 }

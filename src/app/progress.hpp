@@ -1,4 +1,4 @@
-// How far a run is: a bar on a terminal, plain lines elsewhere.
+// Progress of a run: a bar on a terminal, otherwise plain lines.
 #pragma once
 
 #include <chrono>
@@ -7,24 +7,24 @@
 
 namespace thawslide::app {
 
-// What a progress line tells.
+// Contents of a progress line.
 struct ProgressState {
   double time, end;  // simulated [s]
   std::int64_t steps;
-  double front_position, front_speed;  // [m], [m/s]; NaN while not known
+  double front_position, front_speed;  // [m], [m/s]; NaN while unknown
 };
 
 class Progress {
  public:
-  // `begin`: simulated time the run starts at [s].
+  // `begin`: simulated start time of the run [s].
   explicit Progress(double begin);
 
-  // True if enough wall time has passed for a new line: the caller then works out the state, which may take no more
-  // than a small share of all time.
+  // True if enough wall-clock time has passed for a new line. The caller then computes the state, which may use only a
+  // small fraction of the total time.
   [[nodiscard]] bool due(double time, double end);
   void show(const ProgressState& state);
-  // A line of its own above the bar.
-  void note(const std::string& text);
+  // Prints a separate line above the bar.
+  void warning(const std::string& text);
   // Ends the bar.
   void finish();
 
@@ -34,8 +34,8 @@ class Progress {
   bool terminal_;
   bool drawn_ = false;
   double begin_, last_share_ = 0.0;
-  double work_ = 0.0;   // to show the last state, the caller's part too [s]
-  double begun_ = 0.0;  // the work, in processor time [s]
+  double work_ = 0.0;   // time to show the last state, including the caller's part [s]
+  double begun_ = 0.0;  // start of that work, in CPU time [s]
   Clock::time_point start_, last_;
 };
 

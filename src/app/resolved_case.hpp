@@ -1,4 +1,4 @@
-// The case a run keeps: every default written out, its inputs beside it.
+// Resolved case of a run, with all defaults written out and copies of its inputs.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace thawslide::app {
 
-// Writes case.toml and inputs/ into the folder; returns what the inputs are.
+// Writes case.toml and inputs/ into the folder; returns the list of inputs.
 std::vector<io::InputFile> write_resolved_case(const config::Case& parameters, const std::filesystem::path& folder);
 
 }  // namespace thawslide::app

@@ -4,9 +4,9 @@
 #include <optional>
 #include <set>
 
-#include "app/say.hpp"
+#include "app/print.hpp"
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "config/case_changes.hpp"
 #include "config/input_limits.hpp"
 #include "config/read_case.hpp"
@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What resumes were to change of the case with this SHA-256, in order: they were cut off after run.json told of it and
-// before case.toml had it. Nothing where no part of the run had that case.
+// Changes that interrupted resumes were to make to the case with this SHA-256, in order: they are in run.json but not
+// in case.toml. Empty result if no part of the run had that case.
 std::optional<std::vector<std::string>> changes_cut_off(const io::Provenance& facts, const std::string& case_sha256) {
   std::vector<std::string> changes;
   for (auto part = facts.parts.rbegin(); part != facts.parts.rend(); ++part) {
@@ -35,33 +35,33 @@ std::optional<std::vector<std::string>> changes_cut_off(const io::Provenance& fa
   return std::nullopt;
 }
 
-// They must be told again: run.json tells of them already. Another value of their keys will do.
-void require_told_again(const fs::path& folder, const std::vector<std::string>& changes,
-                        const std::vector<std::string>& sets) {
-  const std::set<std::string> told = config::keys_of(sets);
+// Requires these changes to be specified again, because run.json lists them already. Their keys may have other values.
+void require_same_changes(const fs::path& folder, const std::vector<std::string>& changes,
+                          const std::vector<std::string>& sets) {
+  const std::set<std::string> specified = config::keys_of(sets);
   std::vector<std::string> missing;
   for (const std::string& change : changes) {
     const std::string key = *config::keys_of({change}).begin();
-    // Of what changed a key more than once the last one holds.
+    // If a key was changed more than once, the last change applies.
     missing.erase(std::remove_if(missing.begin(), missing.end(),
                                  [&](const std::string& other) { return *config::keys_of({other}).begin() == key; }),
                   missing.end());
-    if (told.count(key) == 0) {
+    if (specified.count(key) == 0) {
       missing.push_back(change);
     }
   }
   if (!missing.empty()) {
     missing.insert(missing.end(), sets.begin(), sets.end());
     std::vector<std::string> words(missing.size());
-    std::transform(missing.begin(), missing.end(), words.begin(), shell_word);
+    std::transform(missing.begin(), missing.end(), words.begin(), shell_quote);
     throw UserError(
         fmt::format("the last resume was cut off before its change took hold. Give it again: thawslide resume {} --set "
                     "{}",
-                    shell_word(folder.string()), fmt::join(words, " --set ")));
+                    shell_quote(folder.string()), fmt::join(words, " --set ")));
   }
 }
 
-// One of another run may have been put there.
+// Requires that the checkpoint belongs to this run, because that of another run may have been copied there.
 void require_checkpoint_of_run(const fs::path& folder, const io::Provenance& facts, const std::string& now,
                                const std::string& of_checkpoint) {
   const std::string sha256 = sha256_of_text(of_checkpoint);
@@ -70,8 +70,8 @@ void require_checkpoint_of_run(const fs::path& folder, const io::Provenance& fac
   if (!is_known) {
     const std::vector<std::string> differences = config::differences(of_checkpoint, now);
     throw UserError(fmt::format(
-        "the checkpoint of {} was not written by this run: run.json tells of no part with its case{}{}. Put back the "
-        "run's own checkpoint.bin or checkpoint.previous.bin, or run the case anew.",
+        "the checkpoint of {} was not written by this run: run.json lists no part with its case{}{}. Put back the "
+        "run's own checkpoint.bin or checkpoint.previous.bin, or run the case again.",
         folder.string(), differences.empty() ? "" : ", in which ", fmt::join(differences, "; ")));
   }
 }
@@ -84,8 +84,8 @@ std::string advice_on(const fs::path& folder, const io::Provenance& facts, const
                       const std::string& otherwise) {
   const bool is_end = changes.size() == 1 && changes[0].rfind("time.end is ", 0) == 0;
   if (is_end && config::read_case(folder).time.end > facts.simulated_time) {
-    return fmt::format("A new end is told on the command line: thawslide resume {} --end {}.",
-                       shell_word(folder.string()), config::read_case(folder).time.end);
+    return fmt::format("Specify a new end on the command line: thawslide resume {} --end {}.",
+                       shell_quote(folder.string()), config::read_case(folder).time.end);
   }
   return otherwise;
 }
@@ -110,24 +110,24 @@ void require_same_inputs(const fs::path& folder, const std::vector<io::InputFile
     }
   }
   if (!changed.empty()) {
-    throw UserError(fmt::format(
-        "{}. A run goes on with the inputs it began with (run.json has their SHA-256): put them back, or run "
-        "the case anew.",
-        fmt::join(changed, "; ")));
+    throw UserError(
+        fmt::format("{}. A run continues with the inputs of its start (run.json has their SHA-256): put them back, or "
+                    "run the case again.",
+                    fmt::join(changed, "; ")));
   }
 }
 
 std::vector<std::string> changed_originals(const std::vector<io::InputFile>& inputs) {
-  std::vector<std::string> notes;
+  std::vector<std::string> warnings;
   for (const io::InputFile& input : inputs) {
     std::error_code unreadable;
     const bool same_size = fs::file_size(input.path, unreadable) == input.bytes;
     if (!unreadable && (!same_size || io::sha256_of_file(input.path) != input.sha256)) {
-      notes.push_back(fmt::format("{} has changed since the run began, which goes on with its copy, {}",
-                                  config::shown(input.path), config::shown(input.copy)));
+      warnings.push_back(fmt::format("{} has changed since the run began. The run continues with its copy, {}",
+                                     config::shown(input.path), config::shown(input.copy)));
     }
   }
-  return notes;
+  return warnings;
 }
 
 std::vector<std::string> gaps_in_results(const fs::path& folder, const io::Provenance& facts) {
@@ -150,7 +150,7 @@ std::vector<std::string> gaps_in_results(const fs::path& folder, const io::Prove
   return gaps;
 }
 
-void tell_of_changed_copy(const fs::path& folder, const std::vector<io::InputFile>& inputs, const std::string& error) {
+void report_changed_copy(const fs::path& folder, const std::vector<io::InputFile>& inputs, const std::string& error) {
   for (const io::InputFile& input : inputs) {
     if (error.find(input.copy) != std::string::npos) {
       require_same_inputs(folder, {input}, {});
@@ -163,7 +163,7 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
   const fs::path file = folder / "case.toml";
   if (!fs::exists(file)) {
     io::write_file_atomically(file, before);
-    say("note: {} was missing; it is written anew from the checkpoint\n", file.string());
+    print_text("note: {} was missing. It was written again from the checkpoint\n", file.string());
   }
   const std::string now = io::read_file(file);
   require_checkpoint_of_run(folder, facts, now, before);
@@ -172,27 +172,27 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
     const std::vector<std::string> changes = config::differences(now, before, config::keys_of(sets));
     if (!changes.empty()) {
       const std::string usual = fmt::format(
-          "Put that back, or remove the file, which then is written anew; what should change is told on the command "
-          "line: thawslide resume {} --set KEY=VALUE, or --end T.",
-          shell_word(folder.string()));
+          "Put that back, or remove the file, which is then written again. Specify changes on the command line: "
+          "thawslide resume {} --set KEY=VALUE, or --end T.",
+          shell_quote(folder.string()));
       throw UserError(fmt::format("{} has changed since the run wrote its checkpoint: {}. {}", file.string(),
                                   fmt::join(changes, "; "), advice_on(folder, facts, changes, usual)));
     }
-    cut_off = changes_cut_off(facts, sha256_of_text(before));  // what it says is that of the checkpoint
+    cut_off = changes_cut_off(facts, sha256_of_text(before));  // the case text is that of the checkpoint
   }
-  require_told_again(folder, *cut_off, sets);
+  require_same_changes(folder, *cut_off, sets);
 }
 
 void require_case_of_start(const fs::path& folder, const io::Provenance& facts, const std::vector<std::string>& sets) {
   const fs::path file = folder / "case.toml";
-  const bool is_there = fs::exists(file);
-  const auto cut_off = changes_cut_off(facts, is_there ? io::sha256_of_file(file) : "");
+  const bool is_present = fs::exists(file);
+  const auto cut_off = changes_cut_off(facts, is_present ? io::sha256_of_file(file) : "");
   if (!cut_off) {
     throw UserError(fmt::format(
-        "{} {}, and there is no checkpoint to tell what it was. Put back what was there, or run the case anew.",
-        file.string(), is_there ? "has changed since the run began (run.json has its SHA-256)" : "is missing"));
+        "{} {}, and no checkpoint holds its content. Put back what was there, or run the case again.", file.string(),
+        is_present ? "has changed since the run began (run.json has its SHA-256)" : "is missing"));
   }
-  require_told_again(folder, *cut_off, sets);
+  require_same_changes(folder, *cut_off, sets);
 }
 
 void require_no_more_than_a_start(const fs::path& folder, const io::Provenance& facts) {
@@ -200,10 +200,10 @@ void require_no_more_than_a_start(const fs::path& folder, const io::Provenance& 
       std::max(facts.simulated_time, io::last_time_in_history(folder / "history.csv").value_or(0.0));
   if (facts.steps > 0 || had_come_to > 0.0) {
     throw UserError(fmt::format(
-        "{0} had come to {1:g} s, and neither checkpoint.bin nor checkpoint.previous.bin is there to go on from: begun "
-        "anew it would write over what it has. Put one of them back, or run the case anew in another folder: thawslide "
+        "{0} had reached {1:g} s, but checkpoint.bin and checkpoint.previous.bin are missing. A new start would "
+        "overwrite its results. Put one of them back, or run the case again in another folder: thawslide "
         "run {2} --output OTHER.",
-        folder.string(), had_come_to, shell_word(folder.string())));
+        folder.string(), had_come_to, shell_quote(folder.string())));
   }
 }
 

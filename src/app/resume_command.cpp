@@ -6,13 +6,13 @@
 #include "app/commands.hpp"
 #include "app/device_choice.hpp"
 #include "app/map_files.hpp"
+#include "app/print.hpp"
 #include "app/resume_checks.hpp"
 #include "app/run_loop.hpp"
-#include "app/say.hpp"
 #include "app/signals.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "base/state_numbers.hpp"
 #include "config/case_changes.hpp"
 #include "config/describe.hpp"
@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What changes of the case, with --end among it.
+// All changes to the case, including --end.
 std::vector<std::string> sets_of(const ResumeOptions& options) {
   std::vector<std::string> sets = options.sets;
   if (!options.end.empty()) {
@@ -43,7 +43,7 @@ std::vector<std::string> sets_of(const ResumeOptions& options) {
   return sets;
 }
 
-// A run at its end stays as it is, and in a folder that cannot be written too.
+// Leaves a finished run unchanged, also in a read-only folder.
 int leave_finished(const fs::path& folder, const io::Provenance& facts) {
   const fs::path file = folder / "case.toml";
   const bool is_known = io::has_checkpoint(folder);
@@ -54,27 +54,27 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
     if (!changes.empty()) {
       throw UserError(fmt::format("{} has reached its end at {:g} s, and {} has changed since: {}. {}", folder.string(),
                                   facts.simulated_time, file.string(), fmt::join(changes, "; "),
-                                  is_known ? advice_on(folder, facts, changes, "Put that back, or run the case anew.")
-                                           : "There is no checkpoint to go on from: run the case anew."));
+                                  is_known ? advice_on(folder, facts, changes, "Put that back, or run the case again.")
+                                           : "There is no checkpoint to continue from: run the case again."));
     }
   }
-  say("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
-      facts.message.empty() ? "" : ": " + facts.message);
+  print_text("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
+             facts.message.empty() ? "" : ": " + facts.message);
   for (const std::string& gap : gaps_in_results(folder, facts)) {
-    say("note: {}\n", gap);
+    print_text("warning: {}\n", gap);
   }
   if (!is_known) {
-    say("note: {} holds no checkpoint: it cannot be given a later end\n", folder.string());
+    print_text("note: {} holds no checkpoint: it cannot be given a later end\n", folder.string());
   }
   return static_cast<int>(ExitCode::done);
 }
 
-// What the run goes on with.
+// State and case with which a run continues.
 struct Continuation {
   config::Case parameters;
   std::string case_text;       // for case.toml
-  io::Provenance earlier;      // what run.json tells, with the part that begins
-  double earlier_end = 0.0;    // time.end before it was changed [s]
+  io::Provenance earlier;      // contents of run.json, with the part that begins
+  double earlier_end = 0.0;    // time.end before the change [s]
   std::string device = "cpu";  // --device
 };
 
@@ -84,7 +84,7 @@ Continuation continuation_of(const fs::path& folder, const std::vector<std::stri
   try {
     next.parameters = config::read_case(folder, sets);
   } catch (const UserError& error) {
-    tell_of_changed_copy(folder, next.earlier.inputs, error.what());
+    report_changed_copy(folder, next.earlier.inputs, error.what());
     throw;
   }
   next.earlier_end = next.parameters.time.end;
@@ -93,7 +93,7 @@ Continuation continuation_of(const fs::path& folder, const std::vector<std::stri
     if (config::guards_remove(before) != config::guards_remove(next.parameters)) {
       throw UserError(
           "history.csv has a column removed_mass_kg where [guards] may remove particles, and none where they may not: "
-          "a run that goes on cannot change that. Run the case anew.");
+          "a continued run cannot change this. Run the case again.");
     }
     next.earlier_end = before.time.end;
     next.case_text = config::resolved_toml(next.parameters, "inputs");
@@ -105,11 +105,11 @@ Continuation continuation_of(const fs::path& folder, const std::vector<std::stri
   return next;
 }
 
-// run.json must tell of a change before: a kill between leaves no change untold.
-void take_changes(const fs::path& folder, const Continuation& next) {
+// run.json must record a change first, so that no change is unrecorded if the process is killed in between.
+void apply_changes(const fs::path& folder, const Continuation& next) {
   if (const std::vector<std::string>& changes = next.earlier.parts.back().changes; !changes.empty()) {
     io::write_file_atomically(folder / "case.toml", next.case_text);
-    say("changed: {}\n", fmt::join(changes, ", "));
+    print_text("changed: {}\n", fmt::join(changes, ", "));
   }
 }
 
@@ -124,40 +124,41 @@ void restore(sim::Simulation<Dim, double>& simulation, const std::vector<double>
   }
 }
 
-// What a change makes of a key that stays is told where that stands: in the run's case.toml, which is not for editing.
+// Reports an error that a change causes in an unchanged key at its location in the run's case.toml, which is not for
+// editing.
 template <int Dim>
 std::unique_ptr<sim::Simulation<Dim, double>> simulation_of(const fs::path& folder, const Continuation& next,
-                                                            Notes& notes) {
+                                                            Warnings& warnings) {
   try {
-    return std::make_unique<sim::Simulation<Dim, double>>(next.parameters, read_map_files(next.parameters, notes));
+    return std::make_unique<sim::Simulation<Dim, double>>(next.parameters, read_map_files(next.parameters, warnings));
   } catch (const UserError& error) {
     if (std::string(error.what()).rfind((folder / "case.toml").string(), 0) != 0) {
       throw;
     }
     throw UserError(
-        fmt::format("{} What should change of a run is told on the command line: thawslide resume {} --set "
+        fmt::format("{} Specify changes of a run on the command line: thawslide resume {} --set "
                     "KEY=VALUE.",
-                    error.what(), shell_word(folder.string())));
+                    error.what(), shell_quote(folder.string())));
   }
 }
 
 template <int Dim>
-int start_anew(const fs::path& folder, const Continuation& next) {
-  Notes notes;
-  sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, notes));
-  take_steps_on<Dim>(next.device, simulation);
-  say("{} was cut off before its first checkpoint; it starts again\n", folder.string());
-  for (const std::string& note : next.earlier.parts.back().notes) {
-    say("note: {}\n", note);
+int restart_from_begin(const fs::path& folder, const Continuation& next) {
+  Warnings warnings;
+  sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, warnings));
+  use_device<Dim>(next.device, simulation);
+  print_text("{} was cut off before its first checkpoint; it starts again\n", folder.string());
+  for (const std::string& warning : next.earlier.parts.back().warnings) {
+    print_text("warning: {}\n", warning);
   }
   RunOutput<Dim> output(folder, simulation, next.earlier, next.case_text);
-  take_changes(folder, next);
-  notes.add(config::notices(next.parameters));
+  apply_changes(folder, next);
+  warnings.add(config::notices(next.parameters));
   return start_and_run<Dim>(simulation, output, folder);
 }
 
-// Whether a run that is done goes on, with what was changed. falls_back: its last checkpoint is lost. Throws UserError
-// where it cannot, and the changes would be lost.
+// True if a finished run continues with the changes. falls_back: its last checkpoint is lost. Throws UserError if the
+// run cannot continue and the changes would be lost.
 template <int Dim>
 bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, bool falls_back,
                               sim::Simulation<Dim, double>& simulation) {
@@ -169,28 +170,29 @@ bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, 
           "{} has reached its end at {:g} s: no step is left that could take {}. Give a later end too: --end T.",
           folder.string(), simulation.time(), fmt::join(changes, ", ")));
     }
-    say("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
+    print_text("{} has reached its end at {:g} s; nothing to do\n", folder.string(), simulation.time());
     return false;
   }
   if (simulation.ends_at_rest()) {
     if (changes.empty() || is_end_alone) {
-      say("{} has come to rest at {:g} s; nothing to do. It goes on with --set time.stop_at_rest=0\n", folder.string(),
-          simulation.time());
+      print_text("{} has come to rest at {:g} s; nothing to do. To continue it, add --set time.stop_at_rest=0\n",
+                 folder.string(), simulation.time());
       return false;
     }
-    simulation.wait_for_rest_anew();
+    simulation.restart_rest_time();
   } else if (next.earlier.message.rfind(sim::at_rest, 0) != 0 &&
              simulation.time() < next.earlier_end - 0.5 * simulation.last_step() && !falls_back &&
              !next.earlier.message.empty()) {
     throw UserError(
-        fmt::format("{} has ended, and nothing is left of the slide to go on with: {}. Run the case anew, "
+        fmt::format("{} has ended, and no particles are left to continue with: {}. Run the case again, "
                     "in a larger domain.",
                     folder.string(), next.earlier.message));
   }
   return true;
 }
 
-// The next checkpoint must not push the good one out and keep the damaged one. Says under which name that is kept.
+// Renames a damaged checkpoint, because the next one would otherwise replace the valid one and keep the damaged one.
+// Returns a text with the new name.
 std::string keep_damaged(const fs::path& damaged) {
   if (damaged.empty()) {
     return "";
@@ -209,8 +211,8 @@ std::string keep_damaged(const fs::path& damaged) {
 
 template <int Dim>
 int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continuation next) {
-  Notes notes;
-  const auto made = simulation_of<Dim>(folder, next, notes);
+  Warnings warnings;
+  const auto made = simulation_of<Dim>(folder, next, warnings);
   sim::Simulation<Dim, double>& simulation = *made;
   std::vector<double> scalars;
   const NamedNumbers blocks = io::read_checkpoint<Dim, double>(checkpoint, simulation.particles(), scalars);
@@ -219,37 +221,38 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
   } catch (const UserError& error) {
     throw UserError(fmt::format("{}: {}", checkpoint.file.string(), error.what()));
   }
-  take_steps_on<Dim>(next.device, simulation);
+  use_device<Dim>(next.device, simulation);
   const double end = next.parameters.time.end, half_a_step = 0.5 * simulation.last_step();
   const double had_come_to = std::max(next.earlier.simulated_time,
                                       io::last_time_in_history(folder / "history.csv").value_or(simulation.time()));
-  // One that failed is simulated anew from its checkpoint on, and may end before it fails.
+  // A failed run is simulated again from its checkpoint, and may end before the time of failure.
   const bool failed = next.earlier.status == "failed";
   const double has_come_to = failed ? simulation.time() : had_come_to;
   if (end < next.earlier_end && end < has_come_to - half_a_step) {
     throw UserError(
-        fmt::format("the end of {:g} s has passed: the run had come to {:g} s. Give a later one.", end, has_come_to));
+        fmt::format("the end of {:g} s has passed: the run had reached {:g} s. Give a later one.", end, has_come_to));
   }
   if (failed && next.earlier.parts.back().changes.empty()) {
-    say("note: the run failed, and nothing is changed: it fails again unless what failed was not of the case. A key "
+    print_text(
+        "note: the run failed, and nothing is changed: it fails again unless what failed was not of the case. A key "
         "is changed by --set KEY=VALUE, an end before that by --end T\n");
   }
   if (next.earlier.status == "done" &&
-      !takes_changes_at_its_end<Dim>(folder, next, !checkpoint.note.empty(), simulation)) {
+      !takes_changes_at_its_end<Dim>(folder, next, !checkpoint.warning.empty(), simulation)) {
     return static_cast<int>(ExitCode::done);
   }
-  if (!checkpoint.note.empty()) {
-    next.earlier.parts.back().notes.push_back(fmt::format("{}; {}the run goes on from the checkpoint before",
-                                                          checkpoint.note, keep_damaged(checkpoint.damaged)));
+  if (!checkpoint.warning.empty()) {
+    next.earlier.parts.back().warnings.push_back(fmt::format("{}; {}the run continues from the previous checkpoint",
+                                                             checkpoint.warning, keep_damaged(checkpoint.damaged)));
   }
   RunOutput<Dim> output = RunOutput<Dim>::resume(folder, simulation, blocks, next.earlier, next.case_text);
-  say("going on from t = {:g} s{}\n", simulation.time(),
-      had_come_to > simulation.time()
-          ? fmt::format("; it had come to {:g} s: rows and snapshots after {:g} s are written anew", had_come_to,
-                        simulation.time())
-          : "");
-  take_changes(folder, next);
-  notes.add(config::notices(next.parameters));
+  print_text("continuing from t = {:g} s{}\n", simulation.time(),
+             had_come_to > simulation.time()
+                 ? fmt::format("; it had reached {:g} s: rows and snapshots after {:g} s are written again",
+                               had_come_to, simulation.time())
+                 : "");
+  apply_changes(folder, next);
+  warnings.add(config::notices(next.parameters));
   return run_to_end<Dim>(simulation, output, folder);
 }
 
@@ -261,7 +264,7 @@ int resume_run(const ResumeOptions& options) {
   const fs::path folder = options.folder;
   if (!fs::exists(folder / "run.json")) {
     throw UserError(
-        fmt::format("{} holds no run to go on from: there is no run.json, which a run writes when it begins. "
+        fmt::format("{} holds no run to continue: run.json is missing, which a run writes at its start. "
                     "Run the case again.",
                     folder.string()));
   }
@@ -293,11 +296,11 @@ int resume_run(const ResumeOptions& options) {
     io::require_own_folders(folder, {"maps"});
   }
   require_same_inputs(folder, facts.inputs, next.parameters.report);
-  next.earlier.parts.back().notes = changed_originals(facts.inputs);
-  return with_dimension(next.parameters.general.dimension,
-                        [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
-                          return has_checkpoint ? go_on<Dim>(folder, checkpoint, next) : start_anew<Dim>(folder, next);
-                        });
+  next.earlier.parts.back().warnings = changed_originals(facts.inputs);
+  return with_dimension(
+      next.parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
+        return has_checkpoint ? go_on<Dim>(folder, checkpoint, next) : restart_from_begin<Dim>(folder, next);
+      });
 }
 
 }  // namespace thawslide::app

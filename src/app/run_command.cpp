@@ -3,9 +3,9 @@
 #include "app/device_choice.hpp"
 #include "app/input_guard.hpp"
 #include "app/map_files.hpp"
-#include "app/notes_of_setup.hpp"
+#include "app/print.hpp"
 #include "app/run_loop.hpp"
-#include "app/say.hpp"
+#include "app/setup_warnings.hpp"
 #include "app/signals.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
@@ -27,21 +27,21 @@ int run_case(const RunOptions& options) {
   require_no_input_in(folder, parameters);
   io::require_usable(folder, options.overwrite);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
-    Notes notes;
-    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, notes));
+    Warnings warnings;
+    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, warnings));
     {
-      sim::RunRecords<Dim> records(simulation, simulation.site());  // refused before anything is written, or removed
+      sim::RunRecords<Dim> records(simulation, simulation.site());  // throws before any file is written or removed
       records.start(simulation);
-      add_notes_of_setup(simulation, sim::body_figures(simulation),
-                         disk_need(simulation, records.maps(), steps_to_end(simulation)), folder, notes);
+      add_setup_warnings(simulation, sim::body_figures(simulation),
+                         disk_need(simulation, records.maps(), steps_to_end(simulation)), folder, warnings);
     }
-    const std::string device = take_steps_on<Dim>(options.device, simulation);
+    const std::string device = use_device<Dim>(options.device, simulation);
     const io::RunLock lock = io::make_run_folder(folder, options.overwrite);
     RunOutput<Dim> output(folder, simulation);
-    say("{}: {} particles, {:g} s to simulate, on {} thread{}{}\n",
-        config::shown(parameters.general.title.empty() ? parameters.name : parameters.general.title),
-        simulation.particles().size(), parameters.time.end, thread_count(), thread_count() == 1 ? "" : "s",
-        device.empty() ? "" : " and " + device);
+    print_text("{}: {} particles, {:g} s to simulate, on {} thread{}{}\n",
+               config::shown(parameters.general.title.empty() ? parameters.name : parameters.general.title),
+               simulation.particles().size(), parameters.time.end, thread_count(), thread_count() == 1 ? "" : "s",
+               device.empty() ? "" : " and " + device);
     return start_and_run<Dim>(simulation, output, folder);
   });
 }

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <new>
 
-#include "app/boiling_note.hpp"
+#include "app/boiling_warning.hpp"
+#include "app/print.hpp"
 #include "app/progress.hpp"
 #include "app/run_summary.hpp"
-#include "app/say.hpp"
 #include "app/signals.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "base/thread_choice.hpp"
 #include "io/checkpoint.hpp"
 #include "sim/direction.hpp"
@@ -22,10 +22,10 @@ namespace thawslide::app {
 
 namespace {
 
-// What the progress line tells of the front.
+// Position and speed of the front for the progress line.
 class FrontWatch {
  public:
-  // front: how far it has come [m].
+  // front: distance travelled [m].
   template <int Dim>
   ProgressState state(const sim::Simulation<Dim, double>& simulation, double front, std::int64_t steps) {
     const double elapsed = simulation.time() - time_;
@@ -39,20 +39,20 @@ class FrontWatch {
   double front_ = std::nan(""), time_ = 0.0;
 };
 
-// Tells once that guards remove particles.
+// Reports once that guards remove particles.
 class RemovalWatch {
  public:
   explicit RemovalWatch(const sim::Removed& before) : told_(before.by_guards() > 0) {}
 
-  // Empty while there is nothing new to tell.
+  // Empty if there is nothing new to report.
   template <int Dim>
-  std::string note(const sim::Simulation<Dim, double>& simulation) {
+  std::string warning(const sim::Simulation<Dim, double>& simulation) {
     if (told_ || simulation.removed().by_guards() == 0) {
       return "";
     }
     told_ = true;
     return fmt::format(
-        "note: at t = {:.6g} s guards have removed {}; history.csv has their mass, run.json their number",
+        "warning: at t = {:.6g} s guards have removed {}; history.csv has their mass, run.json their number",
         simulation.time(), sim::text_of(simulation.removed()));
   }
 
@@ -67,7 +67,7 @@ bool settle(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output) {
   if (!simulation.needs_settling()) {
     return true;
   }
-  say("settling under gravity for {:g} s\n", simulation.parameters().mechanics.settle_time);
+  print_text("settling under gravity for {:g} s\n", simulation.parameters().mechanics.settle_time);
   try {
     return simulation.settle([] { return caught_signal() == 0; });
   } catch (const RunError& error) {
@@ -78,31 +78,32 @@ bool settle(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output) {
   }
 }
 
-// A file could not be written, or a card failed: what stands is whole, and the run can go on from its last checkpoint.
+// Ends a run after a failed write or a GPU error: all files are intact, and the run can resume from its last
+// checkpoint.
 template <int Dim>
 int end_at_once(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::exception& error,
                 ExitCode code, const std::filesystem::path& folder) {
   try {
     output.require_own_folder();
   } catch (const WriteError& lost) {
-    say_error("error: {}\nstopped at t = {:g} s\n", lost.what(), simulation.time());
+    print_error("error: {}\nstopped at t = {:g} s\n", lost.what(), simulation.time());
     return static_cast<int>(code);
   }
   try {
     output.write_provenance(simulation, "stopped", error.what(), output.wall_seconds());
   } catch (const WriteError&) {  // NOLINT(bugprone-empty-catch): it is told below what could not be written first
   }
-  say_error("error: {}\nstopped at t = {:g} s; what stands is whole, and `thawslide resume {}` {}\n", error.what(),
-            simulation.time(), shell_word(folder.string()),
-            io::has_checkpoint(folder) ? "goes on from the last checkpoint" : "starts it again");
+  print_error("error: {}\nstopped at t = {:g} s; what stands is whole, and `thawslide resume {}` {}\n", error.what(),
+              simulation.time(), shell_quote(folder.string()),
+              io::has_checkpoint(folder) ? "continues from the last checkpoint" : "starts it again");
   return static_cast<int>(code);
 }
 
 UserError out_of_memory() {
-  return UserError("the memory of this machine, or what a limit allows of it (ulimit -v), has run out amid the run");
+  return UserError("the memory of this machine, or its limit (ulimit -v), was exhausted during the run");
 }
 
-// The steps of one process, and what is written between them.
+// Time loop of one process, with its output.
 template <int Dim>
 class Loop {
  public:
@@ -141,7 +142,7 @@ class Loop {
       output_.slide_left();
       write_last_state();
       close("done", end.what());
-      say("{}\n", end.what());
+      print_text("{}\n", end.what());
       return static_cast<int>(ExitCode::done);
     } catch (const RunError& error) {
       write_last_state();
@@ -172,12 +173,12 @@ class Loop {
     simulation_.step(simulation_.next_step(std::min(snapshots_.next(), times_.end)));
     seconds_in_steps_ += output_.wall_seconds() - before;
     set_thread_count(threads_.after_step(seconds_in_steps_));
-    tell(removal_.note(simulation_));
-    tell_of_energy();
+    report_line(removal_.warning(simulation_));
+    warn_of_energy();
     output_.after_step(simulation_);
   }
 
-  // At rest the run ends: its last row and snapshot stand before a checkpoint tells that it is.
+  // A run at rest ends. Its last row and snapshot are written before a checkpoint records that.
   void write_what_is_due() {
     const double time = simulation_.time(), dt = simulation_.last_step();
     const bool rests = simulation_.ends_at_rest();
@@ -186,7 +187,7 @@ class Loop {
     }
     if (rests || snapshots_.reached(time, dt)) {
       output_.write_snapshot(simulation_);
-      tell(boiling_.note<Dim>(simulation_));
+      report_line(boiling_.warning<Dim>(simulation_));
     }
     const double wall_interval = simulation_.parameters().checkpoint.wall_interval;
     const bool is_old = wall_interval > 0.0 && output_.wall_seconds() - wall_of_checkpoint_ > wall_interval;
@@ -197,22 +198,22 @@ class Loop {
     }
   }
 
-  // Once.
-  void tell_of_energy() {
-    if (!told_of_energy_) {
-      const std::string note = simulation_.energy_note();
-      told_of_energy_ = !note.empty();
-      tell(note);
+  // Prints the warning once.
+  void warn_of_energy() {
+    if (!has_warned_of_energy_) {
+      const std::string warning = simulation_.energy_warning();
+      has_warned_of_energy_ = !warning.empty();
+      report_line(warning);
     }
   }
 
-  void tell(const std::string& note) {
-    if (!note.empty()) {
-      progress_.note(note);
+  void report_line(const std::string& warning) {
+    if (!warning.empty()) {
+      progress_.warning(warning);
     }
   }
 
-  // Of a run that ends before its time; nothing can go on from there.
+  // Writes the last state of a run that ends early and cannot be continued.
   void write_last_state() {
     output_.write_history(simulation_);
     output_.write_snapshot(simulation_);
@@ -229,11 +230,12 @@ class Loop {
   }
 
   int end_by_signal() {
-    // The checkpoint holds this moment. A row or a snapshot of it would not be there had the run gone on.
+    // The checkpoint stores this state. A row or a snapshot is omitted, because an uninterrupted run would not have
+    // written it.
     output_.write_checkpoint(simulation_);
     close("stopped", fmt::format("signal {}", caught_signal()));
-    say_error("stopped by signal {} at t = {:g} s; `thawslide resume {}` goes on from here\n", caught_signal(),
-              simulation_.time(), shell_word(folder_.string()));
+    print_error("interrupted by signal {} at t = {:g} s. To continue: thawslide resume {}\n", caught_signal(),
+                simulation_.time(), shell_quote(folder_.string()));
     return static_cast<int>(ExitCode::stopped_by_signal);
   }
 
@@ -242,7 +244,7 @@ class Loop {
     output_.write_checkpoint(simulation_);
     close("done", rest);
     if (!rest.empty()) {
-      say("{}\n", rest);
+      print_text("{}\n", rest);
     }
     return static_cast<int>(ExitCode::done);
   }
@@ -260,7 +262,7 @@ class Loop {
   int most_threads_;
   ThreadChoice threads_;
   double seconds_in_steps_ = 0.0, wall_of_checkpoint_ = 0.0;
-  bool told_of_energy_ = false;
+  bool has_warned_of_energy_ = false;
 };
 
 }  // namespace
@@ -279,8 +281,8 @@ int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& outp
   try {
     if (!settle<Dim>(simulation, output)) {
       output.write_provenance(simulation, "stopped", fmt::format("signal {}", caught_signal()), 0.0);
-      say_error("stopped by signal {} while it settled; `thawslide resume {}` begins anew\n", caught_signal(),
-                shell_word(folder.string()));
+      print_error("interrupted by signal {} while the body settled. To start again: thawslide resume {}\n",
+                  caught_signal(), shell_quote(folder.string()));
       return static_cast<int>(ExitCode::stopped_by_signal);
     }
     output.begin(simulation);

@@ -1,11 +1,11 @@
-// A run from its present time to its end, with output, progress and a closing summary.
+// Time loop of a run from its present time to its end, with output, progress and a final summary.
 #pragma once
 
 #include "app/run_output.hpp"
 
 namespace thawslide::app {
 
-// Settles a new run that asks for it, writes its first state and runs it; as run_to_end otherwise.
+// Settles a new run if requested, writes its first state and runs it; otherwise as run_to_end.
 template <int Dim>
 int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
                   const std::filesystem::path& folder);
@@ -21,7 +21,7 @@ int with_dimension(int dimension, const Work& work) {
   return dimension == 2 ? work(std::integral_constant<int, 2>{}) : work(std::integral_constant<int, 3>{});
 }
 
-// Where results go unless the user says otherwise.
+// Default output folder.
 [[nodiscard]] std::filesystem::path usual_run_folder(const config::Case& parameters);
 
 // Sets the number of threads; 0: all available cores.

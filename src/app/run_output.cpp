@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "app/print.hpp"
 #include "app/resolved_case.hpp"
-#include "app/say.hpp"
 #include "base/parallel.hpp"
 #include "base/state_numbers.hpp"
 #include "config/describe.hpp"
@@ -27,8 +27,8 @@ void Schedule::pass(double time, double step) {
   if (interval_ <= 0.0) {
     return;
   }
-  // The first multiple beyond the time, computed: to count up to it would take for ever where the interval is tiny. The
-  // quotient is rounded, so that the floor may be two short.
+  // Computes the first multiple after the time directly, because counting takes too long for tiny intervals. Rounding
+  // of the quotient may make the floor too small by up to two.
   const double beyond = time + early_ * step;
   count_ = std::max(count_, std::floor(beyond / interval_));
   for (int k = 0; k < 2 && count_ * interval_ <= beyond; ++k) {
@@ -53,7 +53,7 @@ void write_terrain(const fs::path& folder, const sim::Simulation<Dim, double>& s
   if (!model.profile) {
     return;
   }
-  // The vertices inside the domain, and the ground at its two sides.
+  // Vertices inside the domain, and the ground at its two sides.
   const auto& line = *model.profile;
   const double extent = static_cast<double>(model.constraints.extent[0]);
   std::vector<double> x{0.0};
@@ -71,19 +71,19 @@ void write_terrain(const fs::path& folder, const sim::Simulation<Dim, double>& s
   io::write_profile_csv(folder / "terrain.csv", {std::move(x), std::move(height), {}});
 }
 
-// What stands from the start of a run, where it is there no more.
+// Rewrites initial output files that are missing.
 template <int Dim>
 void write_what_is_missing(const fs::path& folder, const sim::Simulation<Dim, double>& simulation) {
   if (!fs::exists(folder / "terrain.csv")) {
     write_terrain(folder, simulation);
   }
-  const auto is_there = [&](const char* name) { return fs::exists(folder / "maps" / name); };
-  if (!is_there("terrain.tif") || !is_there("release.tif") || !is_there("release.qml")) {
+  const auto is_present = [&](const char* name) { return fs::exists(folder / "maps" / name); };
+  if (!is_present("terrain.tif") || !is_present("release.tif") || !is_present("release.qml")) {
     write_ground_maps(folder, simulation.site());
   }
 }
 
-// Fills in what this process knows by itself; `provenance` has what earlier ones told, and the part that begins.
+// Fills in the data of this process; `provenance` contains that of earlier ones, and the part that begins.
 template <int Dim>
 void complete(io::Provenance& provenance, const sim::Simulation<Dim, double>& simulation) {
   const auto& model = simulation.model();
@@ -101,7 +101,7 @@ void complete(io::Provenance& provenance, const sim::Simulation<Dim, double>& si
   }
 }
 
-// Inputs and resolved case of a new run, written to its folder, and its first part.
+// Writes inputs and resolved case of a new run to its folder; returns the provenance with its first part.
 io::Provenance first_part(const config::Case& parameters, const fs::path& folder) {
   io::Provenance provenance;
   provenance.inputs = write_resolved_case(parameters, folder);
@@ -128,9 +128,9 @@ std::vector<FrontAt> fronts_of(const std::vector<double>& numbers) {
 }
 
 constexpr const char* fronts_block = "fronts";
-constexpr const char* files_block = "files";  // what of them stood at the checkpoint
+constexpr const char* files_block = "files";  // their extent at the checkpoint
 
-// What the files that grow held at a checkpoint.
+// Extent of growing files at a checkpoint.
 struct FilesThen {
   std::size_t snapshots = 0;
   io::HistoryExtent history, probes;
@@ -209,18 +209,18 @@ RunOutput<Dim> RunOutput<Dim>::resume(const fs::path& folder, const Simulation& 
   sim::RunRecords<Dim> records(simulation, simulation.site());
   records.restore(blocks);
   const FilesThen then = files_of(block_of(blocks, files_block));
-  std::vector<std::string>& notes = earlier.parts.back().notes;
+  std::vector<std::string>& warnings = earlier.parts.back().warnings;
   const auto go_on_with = [&](const char* name, const io::HistoryWriter::Row& row, const io::HistoryExtent& extent) {
-    return io::HistoryWriter::continue_after(folder / name, io::header_of(row), extent, notes);
+    return io::HistoryWriter::continue_after(folder / name, io::header_of(row), extent, warnings);
   };
   io::HistoryWriter history = go_on_with("history.csv", records.history_row(simulation), then.history);
-  io::SnapshotSeries snapshots = io::SnapshotSeries::continue_after(folder, then.snapshots, notes);
+  io::SnapshotSeries snapshots = io::SnapshotSeries::continue_after(folder, then.snapshots, warnings);
   RunOutput output(folder, std::move(records), std::move(history), std::move(snapshots));
   if (output.records_.has_probes()) {
     output.probes_.emplace(go_on_with("probes.csv", output.records_.probe_row(simulation), then.probes));
   }
-  for (const std::string& note : notes) {
-    say("note: {}\n", note);
+  for (const std::string& warning : warnings) {
+    print_text("warning: {}\n", warning);
   }
   write_what_is_missing(folder, simulation);
   output.provenance_ = std::move(earlier);
@@ -286,7 +286,7 @@ void RunOutput<Dim>::write_maps(const Simulation& simulation) {
   }
 }
 
-// What the run comes to so far, for run.json.
+// Key figures of the run so far, for run.json.
 template <int Dim>
 void RunOutput<Dim>::add_figures(const Simulation& simulation) {
   const auto height = [&](double x, double y) {
@@ -333,7 +333,7 @@ void RunOutput<Dim>::write_state(const Simulation& simulation) {
   own_.require();
   checkpoint_step_ = simulation.step_number();
   stopwatch_.time("write_checkpoint", [&] {
-    // A run that goes on from here must find all that was written before.
+    // Flush all earlier output, because a resumed run depends on it.
     snapshots_.finish_writing();
     history_.synchronise();
     if (probes_) {
@@ -382,7 +382,7 @@ void RunOutput<Dim>::write_provenance(const Simulation& simulation, const std::s
   provenance_.removed = {{"left", removed.left}, {"not_finite", removed.not_finite}, {"volume", removed.volume}};
   provenance_.parts.back().wall_seconds = wall_seconds;
   provenance_.seconds_per_stage = seconds_per_stage(simulation);
-  provenance_.seconds_beside = snapshots_.seconds_beside();
+  provenance_.writer_seconds = snapshots_.writer_seconds();
   io::write_provenance(folder_ / "run.json", provenance_);
 }
 

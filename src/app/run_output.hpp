@@ -1,4 +1,4 @@
-// The files of a run, written as it goes (ARCHITECTURE.md lists them).
+// Output files of a run, written during the run (ARCHITECTURE.md lists them).
 #pragma once
 
 #include <chrono>
@@ -20,21 +20,21 @@
 
 namespace thawslide::app {
 
-// Moments at which something is written: every multiple of an interval, and the end.
+// Output times: every multiple of an interval, and the end.
 class Schedule {
  public:
-  // Goes on from `begin`, reached by a step of `last_step` (0: nothing has run yet), as if it had run up to there.
-  // early: fraction of a step by which a step may end before a time and still reach it; for the end it is 0.5.
+  // Begins at `begin`, reached by a step of `last_step` (0: no step yet), as if the run had been uninterrupted. early:
+  // fraction of a step by which a step may end before a time and still reach it; for the end it is 0.5.
   Schedule(double interval, double begin, double last_step, double end, double early = 0.5);
   [[nodiscard]] double next() const { return next_; }
-  // Returns whether the next time is reached, and then advances to the following one.
+  // Returns whether the next time is reached, and if so advances to the following one.
   bool reached(double time, double step);
 
  private:
   void pass(double time, double step);
 
   double interval_, end_, early_, next_;
-  double count_ = 1.0;  // of intervals up to the next moment
+  double count_ = 1.0;  // intervals up to the next time
 };
 
 template <int Dim>
@@ -42,19 +42,19 @@ class RunOutput {
  public:
   using Simulation = sim::Simulation<Dim, double>;
 
-  // A new run in a folder that is there and empty, and whose lock the process holds: writes the inputs, the resolved
-  // case, run.json and the ground. What writes throws WriteError where the folder is not its own any more.
+  // Starts a new run in an existing empty folder whose lock the process holds: writes the inputs, the resolved case,
+  // run.json and the ground. All writing functions throw WriteError if the folder no longer belongs to this run.
   RunOutput(const std::filesystem::path& folder, const Simulation& simulation);
-  // The same of a run that was cut off before its first checkpoint: inputs and case stand; earlier: what run.json
-  // tells, with the part that begins; case_text: resolved.
+  // Restarts a run that was interrupted before its first checkpoint: inputs and case exist; earlier: contents of
+  // run.json, with the part that begins; case_text: resolved.
   RunOutput(const std::filesystem::path& folder, const Simulation& simulation, io::Provenance earlier,
             std::string case_text);
-  // Row and snapshot of the state that the first step begins with.
+  // Writes row and snapshot of the state before the first step.
   void write_first_state(const Simulation& simulation);
-  // The checkpoint before the first step; from here on time counts.
+  // Writes the checkpoint before the first step; work is counted from here.
   void begin(const Simulation& simulation);
-  // Goes on with a run at the simulation's time; blocks: what its checkpoint holds beside the particles; the others as
-  // above. Tells what it finds damaged, as run.json does.
+  // Resumes a run at the simulation's time; blocks: contents of its checkpoint other than the particles; the other
+  // arguments as above. Reports damaged files, also in run.json.
   static RunOutput resume(const std::filesystem::path& folder, const Simulation& simulation, const NamedNumbers& blocks,
                           io::Provenance earlier, std::string case_text);
 
@@ -63,41 +63,40 @@ class RunOutput {
   [[nodiscard]] double wall_seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_start_).count();
   }
-  // Counts the work; before every step.
+  // Counts the work; call before every step.
   void before_step(const Simulation& simulation);
-  // Gathers what maps and probes tell; after every step.
+  // Samples maps and probes; call after every step.
   void after_step(const Simulation& simulation);
-  // In place of it, after a step that none of the slide stayed on (SlideLeft).
+  // Replaces after_step after a step that removed the last of the slide (SlideLeft).
   void slide_left();
-  // As run.json has it; of the last call of write_provenance.
+  // End state in run.json, as of the last call of write_provenance.
   [[nodiscard]] const sim::EndState& end_state() const { return end_state_; }
   [[nodiscard]] const std::vector<std::string>& warnings() const { return provenance_.warnings; }
-  // Throws WriteError where the run's folder is not the one any more that it began in.
+  // Throws WriteError if the run's folder was replaced by another one.
   void require_own_folder() const { own_.require(); }
-  // One row of history.csv, and of probes.csv where there are probes.
+  // Writes one row of history.csv, and of probes.csv if there are probes.
   void write_history(const Simulation& simulation);
   [[nodiscard]] sim::HistoryRow history_row(const Simulation& simulation) const {
     return records_.history_row(simulation);
   }
-  // maps/ in 3D, of what was gathered so far.
+  // Writes maps/ in 3D, as recorded so far.
   void write_maps(const Simulation& simulation);
-  // How far the front has come [m]: along x in 2D, along the path in 3D, NaN while there is none.
+  // Position of the front [m]: along x in 2D, along the path in 3D, NaN while there is none.
   [[nodiscard]] double front_position(const Simulation& simulation) const;
   void write_snapshot(const Simulation& simulation);
-  // particles.vtkhdf over all snapshots so far.
+  // Writes particles.vtkhdf over all snapshots so far.
   void write_index() {
     own_.require();
     stopwatch_.time("write_snapshot", [&] { snapshots_.write_index(); });
   }
-  // What `resume` goes on from, and the maps so far.
+  // Writes the state for `resume`, and the maps so far.
   void write_checkpoint(const Simulation& simulation);
-  // run.json; status as architecture's words: running, done, stopped, failed; wall_seconds: of this process.
+  // Writes run.json; status: running, done, stopped or failed; wall_seconds: of this process.
   void write_provenance(const Simulation& simulation, const std::string& status, const std::string& message,
                         double wall_seconds);
-  // What run.json tells the run came to, by name, in 3D.
+  // Key figures by name as in run.json, in 3D.
   [[nodiscard]] const std::vector<std::pair<std::string, double>>& figures() const { return provenance_.figures; }
-  // What run.json tells of the work: particles at the start, and the sum over this process's steps of those that were
-  // there.
+  // Amount of work as in run.json: particles at the start, and the sum of particles over this process's steps.
   [[nodiscard]] std::size_t particles_at_start() const { return provenance_.particles; }
   [[nodiscard]] double particle_steps() const { return provenance_.parts.back().particle_steps; }
   // Wall-clock time [s] of the step's stages and of writing.
@@ -114,12 +113,12 @@ class RunOutput {
   io::HistoryWriter history_;
   io::SnapshotSeries snapshots_;
   sim::RunRecords<Dim> records_;
-  std::vector<FrontAt> fronts_;              // at the moments of snapshots
+  std::vector<FrontAt> fronts_;              // at the times of snapshots
   std::optional<io::HistoryWriter> probes_;  // none without probes
   io::Provenance provenance_;
   sim::EndState end_state_;
   bool slide_left_ = false;
-  std::string case_text_;  // resolved, as case.toml has it
+  std::string case_text_;  // resolved, as in case.toml
   Stopwatch stopwatch_;
   std::chrono::steady_clock::time_point clock_start_;
   std::int64_t history_step_ = -1, snapshot_step_ = -1, checkpoint_step_ = -1;

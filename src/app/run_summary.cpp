@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/print.hpp"
 #include "app/progress.hpp"
-#include "app/say.hpp"
 #include "base/parallel.hpp"
 
 namespace thawslide::app {
 
 namespace {
 
-// Where the slide's front is at the end, in words.
+// Final position of the front as text.
 std::string front_text(double front, double runout) {
-  return std::isfinite(front) ? fmt::format("front at {:.0f} m, runout {:.0f} m", front, runout)
-                              : "no front: maps.path is not given, and the slide has hardly moved, so there is no path "
-                                "to measure along";
+  return std::isfinite(front)
+             ? fmt::format("front at {:.0f} m, runout {:.0f} m", front, runout)
+             : "no front: maps.path is not given, and the slide has barely moved: there is no flow path";
 }
 
 }  // namespace
@@ -24,37 +24,37 @@ template <int Dim>
 void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutput<Dim>& output, std::int64_t steps,
                    double wall, const std::filesystem::path& folder) {
   const std::size_t at_start = output.particles_at_start(), at_end = simulation.particles().size();
-  say("{} particles{}, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}\n", at_start,
-      at_end == at_start ? "" : fmt::format(", {} of them at the end", at_end), steps, duration_text(wall),
-      output.particle_steps() / wall / 1e6, thread_count() == 1 ? "" : "at most ", thread_count(),
-      thread_count() == 1 ? "" : "s");
+  print_text("{} particles{}, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}\n", at_start,
+             at_end == at_start ? "" : fmt::format(", {} of them at the end", at_end), steps, duration_text(wall),
+             output.particle_steps() / wall / 1e6, thread_count() == 1 ? "" : "at most ", thread_count(),
+             thread_count() == 1 ? "" : "s");
   std::vector<std::pair<double, std::string>> stages;
   for (const auto& [name, seconds] : output.seconds_per_stage(simulation)) {
     stages.emplace_back(seconds, name);
   }
   std::sort(stages.rbegin(), stages.rend());
   for (const auto& [seconds, name] : stages) {
-    say("  {:<28}{:8.2f} s {:5.1f} %\n", name, seconds, 100.0 * seconds / wall);
+    print_text("  {:<28}{:8.2f} s {:5.1f} %\n", name, seconds, 100.0 * seconds / wall);
   }
   const sim::HistoryRow row = output.history_row(simulation);
   const auto value = [&](const std::string& name) {
     return std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; })->second;
   };
-  say("{}: mean velocity {:.2f} m/s, mean displacement {:.0f} m, {}\n", sim::when_text(output.end_state()),
-      value("mean_velocity_m_s"), value("mean_displacement_m"),
-      front_text(value("front_position_m"), value("runout_m")));
+  print_text("{}: mean velocity {:.2f} m/s, mean displacement {:.0f} m, {}\n", sim::when_text(output.end_state()),
+             value("mean_velocity_m_s"), value("mean_displacement_m"),
+             front_text(value("front_position_m"), value("runout_m")));
   for (const auto& [name, number] : output.figures()) {
     if (std::isfinite(number)) {
-      say("  {:<28}{:12.6g}\n", name, number);
+      print_text("  {:<28}{:12.6g}\n", name, number);
     }
   }
   if (simulation.removed().by_guards() > 0) {
-    say("guards have removed {}\n", sim::text_of(simulation.removed()));
+    print_text("guards have removed {}\n", sim::text_of(simulation.removed()));
   }
   for (const std::string& warning : output.warnings()) {
-    say("warning: {}\n", warning);
+    print_text("warning: {}\n", warning);
   }
-  say("results in {}\n", folder.string());
+  print_text("results in {}\n", folder.string());
 }
 
 template void print_summary<2>(const sim::Simulation<2, double>&, const RunOutput<2>&, std::int64_t, double,

@@ -1,4 +1,4 @@
-// What a run tells at its end.
+// Summary at the end of a run.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace thawslide::app {
 
-// Throughput, time of each stage and where the slide is; steps, wall [s]: of this process.
+// Prints throughput, time of each stage and position of the slide; steps, wall [s]: of this process.
 template <int Dim>
 void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutput<Dim>& output, std::int64_t steps,
                    double wall, const std::filesystem::path& folder);

@@ -1,4 +1,4 @@
-// thawslide section: a 2D case, or a profile alone, cut out of a terrain model along a line.
+// thawslide section: creates a 2D case, or a profile alone, from a DEM along a line.
 #include <algorithm>
 #include <filesystem>
 
@@ -24,7 +24,7 @@ namespace {
 constexpr const char* profile_name = "profile.csv";
 constexpr const char* line_option = "--line";
 
-// As a line of comments can hold it.
+// File name in a form that fits a line of comments.
 std::string name_of(const std::string& file) { return config::shown(fs::path(file).filename().string()); }
 
 struct Cut {
@@ -53,7 +53,7 @@ Cut cut_along_line(const config::Site& site, const std::string& line_file) {
   return cut;
 }
 
-// Of the case that the profile is cut for; `otherwise` where it has no body.
+// Cell of the case for which the profile is made; `otherwise` without a body.
 double cell_of(const config::ProfileTable& profile, double otherwise) {
   if (profile.surface.empty()) {
     return otherwise;
@@ -62,14 +62,14 @@ double cell_of(const config::ProfileTable& profile, double otherwise) {
   return body.area > 0.0 ? config::propose_section(profile, body).cell : otherwise;
 }
 
-// The ground as a run in space would have it, with the filter for such cells and the noise of the whole terrain model.
+// Ground as in a 3D run, with the filter for such cells and the noise of the whole DEM.
 config::Site smoothed_site(config::Case trial, double cell) {
   trial.grid.cell = cell;
   trial.terrain.smooth.is_auto = true;
-  return look_again(trial);
+  return reopen_site(trial);
 }
 
-std::string words_of_filter(const SectionOptions& options, const config::Roughness& ground) {
+std::string format_filter(const SectionOptions& options, const config::Roughness& ground) {
   return fmt::format(
       "{} was smoothed with a standard deviation of {:g} m, as for a 3D run on {:g} m cells whose domain is the whole "
       "DEM; it has noise of {:.2g} m rms and bumps with an rms slope of {:.2g}. Set terrain.smooth = {:g} in a 3D case "
@@ -77,7 +77,7 @@ std::string words_of_filter(const SectionOptions& options, const config::Roughne
       name_of(options.maps.dem), ground.width, ground.cell, ground.noise, ground.bump_slope, ground.width);
 }
 
-// `taper`: of the edges of what is cut out [m].
+// `taper`: of the edges of the excavation [m].
 std::vector<std::string> comments_on(const SectionOptions& options, const config::Site& site, const Cut& cut,
                                      double taper) {
   std::vector<std::string> comments{
@@ -86,13 +86,12 @@ std::vector<std::string> comments_on(const SectionOptions& options, const config
       fmt::format("From x = {:.10g}, y = {:.10g} to x = {:.10g}, y = {:.10g}{}{}.", cut.begin[0], cut.begin[1],
                   cut.end[0], cut.end[1], site.crs_name.empty() ? "" : " in ", config::shown(site.crs_name))};
   if (!options.maps.release.empty()) {
-    comments.push_back(options.maps.cut
-                           ? fmt::format("The surface is that of the terrain model; the terrain is lower by the "
-                                         "vertical thickness of {}.",
-                                         name_of(options.maps.release))
-                           : fmt::format("The terrain is that of the terrain model; the surface is higher by the "
-                                         "vertical thickness of {}.",
-                                         name_of(options.maps.release)));
+    comments.push_back(options.maps.cut ? fmt::format("The surface is that of the DEM; the terrain is lower by the "
+                                                      "vertical thickness of {}.",
+                                                      name_of(options.maps.release))
+                                        : fmt::format("The terrain is that of the DEM; the surface is higher by the "
+                                                      "vertical thickness of {}.",
+                                                      name_of(options.maps.release)));
   }
   if (taper > 0.0) {
     comments.push_back(fmt::format(
@@ -101,12 +100,12 @@ std::vector<std::string> comments_on(const SectionOptions& options, const config
         taper));
   }
   if (site.roughness->width > 0.0) {
-    comments.push_back(words_of_filter(options, *site.roughness) + ".");
+    comments.push_back(format_filter(options, *site.roughness) + ".");
   }
   return comments;
 }
 
-// The release must lie on the line, with some cells of the domain at both ends.
+// Requires that the release lies on the line, with some cells of the domain at both ends.
 void check_body(const SectionOptions& options, const config::ProfileTable& profile, const config::SurfaceBody& body,
                 const config::Proposal& proposal) {
   const double margin = config::margin_cells * proposal.cell;
@@ -128,18 +127,18 @@ int make_section(const SectionOptions& options) {
   config::Case trial = trial_case(options.folder, options.maps);
   trial.maps.path = options.line;
   trial.places["maps.path"] = line_option;
-  config::Site site = look_at_files(trial);
+  config::Site site = open_site(trial);
   double taper = 0.0;
   if (options.maps.cut && !options.maps.release.empty()) {
     taper = taper_edges(trial, site).width;
     trial.bodies.at(body_name).placement = config::Placement::cut;
-    site = look_again(trial);
+    site = reopen_site(trial);
   }
   Cut cut = cut_along_line(site, options.line);
   site = smoothed_site(trial, cell_of(cut.profile, site.roughness->spacing));
   cut = cut_along_line(site, options.line);
   if (site.roughness->width > 0.0) {
-    fmt::print("note: {}\n", words_of_filter(options, *site.roughness));
+    fmt::print("note: {}\n", format_filter(options, *site.roughness));
   }
   const fs::path folder = options.folder;
   const std::vector<std::string> comments = comments_on(options, site, cut, taper);

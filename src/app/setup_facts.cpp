@@ -62,7 +62,7 @@ std::string text_of(const config::Roughness& ground) {
       100.0 * ground.apparent_friction, valleys);
 }
 
-// "3 checkpoints of 1.2 MB", and how they grow where they do.
+// Text such as "3 checkpoints of 1.2 MB", and their growth, if any.
 std::string checkpoints_text(const DiskNeed& need) {
   std::string text =
       fmt::format("{:.0f} checkpoints of {:.1f} MB", need.checkpoints, need.checkpoint_at_start / megabyte);
@@ -145,21 +145,21 @@ Json json_of(const DiskNeed& need, double free, const std::string& folder) {
           {"folder", folder}};
 }
 
-std::string text_of(const CardFacts& card) {
-  if (!card.why_not.empty()) {
-    return fmt::format("  card        none takes the steps: {}\n", card.why_not);
+std::string text_of(const GpuFacts& gpu) {
+  if (!gpu.why_not.empty()) {
+    return fmt::format("  GPU         not used: {}\n", gpu.why_not);
   }
-  return fmt::format("  card        about {} (measured on the first steps) and {} of {} free, on {}\n",
-                     duration_text(card.seconds), size_text(card.used), size_text(card.free), card.name);
+  return fmt::format("  GPU         about {} (measured on the first steps) and {} of {} free, on {}\n",
+                     duration_text(gpu.seconds), size_text(gpu.used), size_text(gpu.free), gpu.name);
 }
 
-Json json_of(const CardFacts& card) {
-  const bool takes_steps = card.why_not.empty();
-  return {{"name", card.name.empty() ? Json() : Json(card.name)},
-          {"why_not", takes_steps ? Json() : Json(card.why_not)},
-          {"wall_s", takes_steps ? Json(card.seconds) : Json()},
-          {"need_bytes", takes_steps ? Json(card.used) : Json()},
-          {"free_bytes", card.name.empty() ? Json() : Json(card.free)}};
+Json json_of(const GpuFacts& gpu) {
+  const bool takes_steps = gpu.why_not.empty();
+  return {{"name", gpu.name.empty() ? Json() : Json(gpu.name)},
+          {"why_not", takes_steps ? Json() : Json(gpu.why_not)},
+          {"wall_s", takes_steps ? Json(gpu.seconds) : Json()},
+          {"need_bytes", takes_steps ? Json(gpu.used) : Json()},
+          {"free_bytes", gpu.name.empty() ? Json() : Json(gpu.free)}};
 }
 
 Json json_of(const MapFacts& maps) {
@@ -181,7 +181,7 @@ Json list_of(const std::vector<Facts>& all) {
 
 std::string text_of(const SetupFacts& facts) {
   std::string text = fmt::format("{}: {}\n", facts.file,
-                                 facts.error.empty() ? "the case is sound" : "the run fails in its first steps");
+                                 facts.error.empty() ? "the case is valid" : "the run fails in its first steps");
   for (const sim::BodyFigures& body : facts.bodies) {
     text += text_of(body, facts);
   }
@@ -209,7 +209,7 @@ std::string text_of(const SetupFacts& facts) {
   if (facts.error.empty()) {
     text += fmt::format("  time        about {} on {} thread{} (measured on the first steps)\n",
                         duration_text(facts.seconds), facts.threads, facts.threads == 1 ? "" : "s");
-    text += text_of(facts.card);
+    text += text_of(facts.gpu);
   }
   if (!facts.picture.empty()) {
     text += fmt::format("  picture     {}\n", facts.picture);
@@ -221,7 +221,7 @@ std::string json_of(const SetupFacts& facts) {
   Json json;
   json["file"] = facts.file;
   json["dimension"] = facts.dimension;
-  json["notes"] = facts.notes;
+  json["warnings"] = facts.warnings;
   json["bodies"] = list_of(facts.bodies);
   json["substrates"] = list_of(facts.substrates);
   json["roughness"] = Json();
@@ -242,7 +242,7 @@ std::string json_of(const SetupFacts& facts) {
   json["disk"] = json_of(facts.disk, facts.free_disk, facts.disk_folder);
   json["wall_s"] = std::isfinite(facts.seconds) ? Json(facts.seconds) : Json();
   json["threads"] = facts.threads;
-  json["card"] = facts.error.empty() ? json_of(facts.card) : Json();
+  json["gpu"] = facts.error.empty() ? json_of(facts.gpu) : Json();
   json["picture"] = facts.picture.empty() ? Json() : Json(facts.picture);
   json["error"] = facts.error.empty() ? Json() : Json(facts.error);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

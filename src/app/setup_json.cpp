@@ -11,9 +11,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int largest_picture = 600;  // points of a raster along each axis
+constexpr int largest_picture = 600;  // maximum number of raster points along each axis
 
-// Every n-th point of a raster, with as few as `largest_picture` along each axis; null where there is no data.
+// Every n-th point of a raster, at most `largest_picture` along each axis; null for no data.
 Json thinned(const Raster& raster) {
   const int every = std::max(1, (std::max(raster.columns, raster.rows) + largest_picture - 1) / largest_picture);
   Json values = Json::array();
@@ -34,8 +34,8 @@ Json thinned(const Raster& raster) {
           {"heights", values}};
 }
 
-// The names of the substrates, and the number of the one at each of some places: 0 where none lies. Null where the case
-// has none.
+// Names of the substrates, and the number of the substrate at given points: 0 if there is none. Null if the case has no
+// substrates.
 template <int Dim>
 Json substrates_json(const sim::Simulation<Dim, double>& simulation, const Json& numbers) {
   if (numbers.is_null()) {

@@ -1,4 +1,4 @@
-// What thawslide-report --setup draws before a run: terrain, grid, bodies, boundaries and frames as JSON.
+// Input of thawslide-report --setup: terrain, grid, bodies, boundaries and frames of a case as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,8 +7,8 @@
 
 namespace thawslide::app {
 
-// A map where the terrain is a DEM, otherwise a section along x. Heights of a DEM are thinned out to what a picture
-// shows.
+// A map if the terrain is a DEM, otherwise a section along x. Heights of a DEM are thinned to the resolution of a
+// figure.
 template <int Dim>
 nlohmann::ordered_json setup_json(const sim::Simulation<Dim, double>& simulation);
 

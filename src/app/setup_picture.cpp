@@ -14,7 +14,7 @@ namespace thawslide::app {
 
 namespace {
 
-// A file without a name, which nothing else can open and which is gone with its last reader.
+// Unnamed temporary file, which no other process can open and which is deleted with its last reader.
 class NamelessFile {
  public:
   explicit NamelessFile(const std::string& text) : file_(std::tmpfile(), &std::fclose) {
@@ -25,7 +25,7 @@ class NamelessFile {
           fmt::format("the picture was not drawn: a temporary file cannot be written: {}.", std::strerror(errno)));
     }
   }
-  // Makes the file this process's standard input, from its beginning.
+  // Makes the file this process's standard input, read from its beginning.
   [[nodiscard]] bool becomes_input() const {
     const int descriptor = fileno(file_.get());
     return lseek(descriptor, 0, SEEK_SET) == 0 && dup2(descriptor, STDIN_FILENO) == STDIN_FILENO;
@@ -37,17 +37,17 @@ class NamelessFile {
 
 }  // namespace
 
-std::string picture_beside(const std::filesystem::path& case_file) {
+std::string picture_path(const std::filesystem::path& case_file) {
   const std::string variant = case_file.stem() == "case" ? "" : case_file.stem().string() + "-";
   return (case_file.parent_path() / (variant + "setup.png")).string();
 }
 
 void draw_setup(const nlohmann::ordered_json& setup, const std::string& picture) {
   const NamelessFile file(setup.dump());
-  std::fflush(stdout);  // what was said so far stands before what the child says
+  std::fflush(stdout);  // so that earlier output precedes the child's
   const pid_t child = fork();
   if (child == 0) {
-    // What it says is no result: of ours there may be a program that reads it.
+    // Output of the child goes to stderr, because a program may read our stdout.
     if (file.becomes_input() && dup2(STDERR_FILENO, STDOUT_FILENO) == STDOUT_FILENO) {
       execlp("thawslide-report", "thawslide-report", "--setup", "/dev/stdin", "--picture", picture.c_str(), nullptr);
     }

@@ -1,4 +1,4 @@
-// The picture of a case before it runs, which thawslide-report draws.
+// Figure of a case before it runs, plotted by thawslide-report.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,10 @@
 
 namespace thawslide::app {
 
-// setup.png, of a variant its name before it: several case files may share a folder.
-[[nodiscard]] std::string picture_beside(const std::filesystem::path& case_file);
+// setup.png, prefixed by the name of a variant, because several case files may share a folder.
+[[nodiscard]] std::string picture_path(const std::filesystem::path& case_file);
 
-// setup: as setup_json tells it. Throws UserError where thawslide-report is not found, or fails.
+// setup: from setup_json. Throws UserError if thawslide-report is not found, or fails.
 void draw_setup(const nlohmann::ordered_json& setup, const std::string& picture);
 
 }  // namespace thawslide::app

@@ -10,7 +10,7 @@ volatile std::sig_atomic_t signal_number = 0;
 
 constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
 
-// One that whoever started the program has it ignore, as nohup does, stays ignored.
+// A signal that the parent process ignores, as under nohup, remains ignored.
 void answer(int number, void (*handler)(int)) {
   if (std::signal(number, handler) == SIG_IGN) {
     std::signal(number, SIG_IGN);

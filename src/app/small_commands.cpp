@@ -1,4 +1,4 @@
-// thawslide block, describe, report, version.
+// thawslide block, describe, report and version.
 #include <unistd.h>
 
 #include <algorithm>
@@ -50,7 +50,7 @@ void print_table(const std::vector<sim::HistoryRow>& rows) {
   }
 }
 
-// Where the ground across the path adds to friction by more than this it is said.
+// Valley factor above which the effect of the cross-slope ground on friction is reported.
 constexpr double least_valley_factor = 1.03;
 
 void note_valley(const std::vector<sim::HistoryRow>& rows) {
@@ -67,9 +67,9 @@ void note_valley(const std::vector<sim::HistoryRow>& rows) {
   }
 }
 
-// A 3D case slides as a section of it.
-std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Notes& notes) {
-  const sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters, notes));
+// Runs a 3D case as a section along its path.
+std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Warnings& warnings) {
+  const sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters, warnings));
   std::vector<sim::HistoryRow> rows = sim::run_block(section.parameters, section.site, section.valley_factor);
   fmt::print("a section along {}, with the release's mean thickness across the path; fronts are distances along it\n",
              section.path_given ? "maps.path"
@@ -87,11 +87,11 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, No
   };
   if (section.pit) {
     const auto beyond = first_beyond(section.pit->along);
-    fmt::print("note: that way ends in a pit after {:.6g} m, at x = {:.10g}, y = {:.10g}{}\n", section.pit->along,
-               section.pit->place[0], section.pit->place[1],
+    fmt::print("warning: the flow path ends in a closed depression after {:.6g} m, at x = {:.10g}, y = {:.10g}{}\n",
+               section.pit->along, section.pit->place[0], section.pit->place[1],
                beyond == rows.end() ? ", which the front does not reach"
-                                    : fmt::format(". The front comes there at {:.4g} s, and the block stops here. Give "
-                                                  "maps.path, a line that goes on, to follow it further",
+                                    : fmt::format(". The front reaches it at {:.4g} s, and the block stops there. Set "
+                                                  "maps.path to a longer line to follow the slide further",
                                                   value_of(*beyond, "time_s")));
     rows.erase(beyond == rows.end() ? beyond : beyond + 1, rows.end());
     note_valley(rows);
@@ -101,17 +101,18 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, No
   const auto beyond = first_beyond(end);
   if (beyond != rows.end()) {
     fmt::print(
-        "note: the path's ground is known for {:.6g} m; the front leaves it at {:.4g} s, and the rows end before. Give "
+        "warning: the path's ground is known for {:.6g} m; the front leaves it at {:.4g} s, and the rows end before. "
+        "Give "
         "{} to follow it further\n",
         end, value_of(*beyond, "time_s"), section.path_given ? "a longer maps.path, or a larger DEM," : "a larger DEM");
-    // The first row stays: the ground is known below the whole release.
+    // The first row is kept: the ground is known below the whole release.
     rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
   }
   note_valley(rows);
   return rows;
 }
 
-// A profile that does not go on ends where its rows do.
+// On a profile without extrapolation, the results end with it.
 std::vector<sim::HistoryRow> block_on_profile(const config::Case& parameters) {
   std::vector<sim::HistoryRow> rows = sim::run_block(parameters);
   if (parameters.terrain.kind != config::TerrainKind::profile || parameters.terrain.extend) {
@@ -125,7 +126,8 @@ std::vector<sim::HistoryRow> block_on_profile(const config::Case& parameters) {
   });
   if (beyond != rows.end()) {
     fmt::print(
-        "note: the profile is known from {:.6g} to {:.6g} m; the front leaves it at {:.4g} s, and the rows end before. "
+        "warning: the profile is known from {:.6g} to {:.6g} m; the front leaves it at {:.4g} s, and the rows end "
+        "before. "
         "Give a longer profile, or set terrain.extend = true, to follow it further\n",
         first, last, value_of(*beyond, "time_s"));
     rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
@@ -140,11 +142,11 @@ int run_block_model(const BlockOptions& options) {
   if (!options.output.empty()) {
     require_no_input_at(options.output, "--output", parameters);
   }
-  Notes notes;
-  notes.add(config::notices(parameters));
+  Warnings warnings;
+  warnings.add(config::notices(parameters));
   const auto start = std::chrono::steady_clock::now();
   const std::vector<sim::HistoryRow> rows = parameters.terrain.kind == config::TerrainKind::dem
-                                                ? block_along_path(parameters, notes)
+                                                ? block_along_path(parameters, warnings)
                                                 : block_on_profile(parameters);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (options.output.empty()) {

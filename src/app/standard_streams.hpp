@@ -1,10 +1,10 @@
-// Input, output and messages of the process.
+// Standard input, output and error of the process.
 #pragma once
 
 namespace thawslide::app {
 
-// From now on no file that is opened takes the place of a stream that whoever started the program has closed: what is
-// told would be written into it. Reading from such a stream, and writing to it, fails as before.
+// Occupies standard streams that the parent process has closed, so that no later file takes their descriptors and
+// receives messages. Reading and writing such a stream fails as before.
 void hold_standard_streams();
 
 }  // namespace thawslide::app

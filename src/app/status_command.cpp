@@ -8,7 +8,7 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "config/read_case.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
@@ -23,17 +23,17 @@ namespace fs = std::filesystem;
 namespace {
 
 struct RunStatus {
-  std::string state;  // running, killed, done, stopped, failed; unknown: running or killed, without locks to tell by
+  std::string state;  // running, killed, done, stopped, failed; unknown: running or killed, without file locks
   std::string message;
-  std::string process;                                              // that is at work, or may be; empty: none
-  double time = 0.0;                                                // simulated [s]
-  std::optional<double> end;                                        // [s]; nothing where the case cannot be read
-  std::string case_error;                                           // why not
-  std::string history_error;                                        // why its rows cannot be read; empty: they can
+  std::string process;        // of the run, or a possible one; empty: none
+  double time = 0.0;          // simulated [s]
+  std::optional<double> end;  // [s]; empty if the case cannot be read
+  std::string case_error;     // reason why the case cannot be read
+  std::string history_error;  // reason why the history cannot be read; empty if it can
   std::optional<double> checkpoint_age, last_write_age, time_left;  // wall-clock [s]
 };
 
-// Of a time as run.json has it, in UTC [s].
+// Converts a UTC time in run.json to its age [s].
 std::optional<double> seconds_since(const std::string& utc) {
   std::tm parts{};
   if (strptime(utc.c_str(), "%Y-%m-%dT%H:%M:%SZ", &parts) == nullptr) {
@@ -49,7 +49,7 @@ std::optional<double> age_of(const fs::path& file) {
                : std::optional(std::chrono::duration<double>(fs::file_time_type::clock::now() - written).count());
 }
 
-// Whether a run is alive is to be known whatever has become of its case, or of its disk.
+// The state of the process is reported even if the case or its disk is unreadable.
 void add_end(const fs::path& folder, RunStatus& status) {
   try {
     status.end = config::read_case(folder).time.end;
@@ -58,17 +58,17 @@ void add_end(const fs::path& folder, RunStatus& status) {
   }
 }
 
-// The same of its history; run.json tells a time too, of when it was written.
-void add_time(const fs::path& folder, double told, RunStatus& status) {
-  status.time = told;
+// The same for the history; run.json contains a time too, that of its last update.
+void add_time(const fs::path& folder, double specified, RunStatus& status) {
+  status.time = specified;
   try {
-    status.time = std::max(told, io::last_time_in_history(folder / "history.csv").value_or(0.0));
+    status.time = std::max(specified, io::last_time_in_history(folder / "history.csv").value_or(0.0));
   } catch (const UserError& error) {
     status.history_error = error.what();
   }
 }
 
-// The last checkpoint may be lost, or a kill has come between, and the one before is there.
+// If the last checkpoint is missing, or a kill occurred between two renames, the previous one exists.
 std::optional<double> checkpoint_age(const fs::path& folder) {
   for (const char* name : {io::checkpoint_name, io::previous_checkpoint_name}) {
     std::error_code unknown;
@@ -79,7 +79,7 @@ std::optional<double> checkpoint_age(const fs::path& folder) {
   return std::nullopt;
 }
 
-// Of the file of the run that was written last.
+// Age of the run's file that was written last.
 std::optional<double> last_write_age(const fs::path& folder) {
   std::optional<double> least;
   for (const fs::path& place : {folder, folder / "snapshots"}) {
@@ -94,7 +94,7 @@ std::optional<double> last_write_age(const fs::path& folder) {
   return least;
 }
 
-// Of a run that has a process, or may have, and no run.json yet.
+// Status of a run that has a process, or may have one, and no run.json yet.
 RunStatus status_at_start(const fs::path& folder, const io::AtWork& at_work) {
   RunStatus status;
   status.state = at_work.is_known ? "running" : "unknown";
@@ -111,7 +111,7 @@ RunStatus status_of(const fs::path& folder) {
       return status_at_start(folder, at_work);
     }
     throw UserError(
-        fmt::format("{} holds no run: there is no run.json, which a run writes when it begins.", folder.string()));
+        fmt::format("{} holds no run: run.json is missing, which a run writes at its start.", folder.string()));
   }
   const bool is_at_work = at_work.is_known && !at_work.process.empty();
   const io::Provenance facts = io::read_provenance(folder);
@@ -128,7 +128,7 @@ RunStatus status_of(const fs::path& folder) {
   status.checkpoint_age = checkpoint_age(folder);
   const io::RunPart& part = facts.parts.back();
   const std::optional<double> elapsed = seconds_since(part.started);
-  const bool is_known = elapsed && *elapsed >= 1.0 && status.time > part.from_time;  // run.json tells whole seconds
+  const bool is_known = elapsed && *elapsed >= 1.0 && status.time > part.from_time;  // run.json is in whole seconds
   if (is_at_work && is_known && status.end) {
     status.time_left = *elapsed * std::max(0.0, *status.end - status.time) / (status.time - part.from_time);
   }
@@ -151,12 +151,12 @@ std::string json_text(const RunStatus& status) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-// [s]
+// age: [s].
 std::string age_text(double age) {
   return age < 0.0 ? "later than it is now by this machine's clock" : duration_text(age) + " ago";
 }
 
-std::string words_for(const RunStatus& status) {
+std::string status_text(const RunStatus& status) {
   if (status.state == "running") {
     return "running, by " + status.process;
   }
@@ -166,38 +166,37 @@ std::string words_for(const RunStatus& status) {
   }
   if (status.state == "unknown") {
     return fmt::format(
-        "whether it runs cannot be told, as its file system has no locks{}; its last file was written {}",
+        "it cannot be determined whether it runs, because its file system has no locks{}; its last file was written {}",
         status.process.empty() ? "" : fmt::format(" and {} has begun to write it", status.process),
         age_text(status.last_write_age.value_or(0.0)));
   }
   if (status.state == "failed") {
-    return status.message.empty() ? "the run failed" : status.message;  // which begins with these words
+    return status.message.empty() ? "the run failed" : status.message;  // the message begins with these words
   }
   return status.message.empty() ? status.state : status.state + ": " + status.message;
 }
 
-std::string words_on_going_on(const fs::path& folder, const RunStatus& status) {
+std::string continue_text(const fs::path& folder, const RunStatus& status) {
   if (status.state == "killed" || status.state == "stopped") {
-    return fmt::format("  to go on: thawslide resume {}\n", shell_word(folder.string()));
+    return fmt::format("  to continue: thawslide resume {}\n", shell_quote(folder.string()));
   }
   if (status.state == "unknown") {
     return status.process.empty()
-               ? fmt::format("  if nothing writes there any more: thawslide resume {}\n", shell_word(folder.string()))
+               ? fmt::format("  if nothing writes there any more: thawslide resume {}\n", shell_quote(folder.string()))
                : fmt::format("  if that has surely ended: remove {}, then thawslide resume {}\n",
-                             (folder / io::lock_name).string(), shell_word(folder.string()));
+                             (folder / io::lock_name).string(), shell_quote(folder.string()));
   }
   if (status.state == "failed") {
     return fmt::format(
-        "  the message above says what to change: run the case anew with it or, where the key may change amid a run, "
-        "go "
-        "on: thawslide resume {} --set KEY=VALUE\n",
-        shell_word(folder.string()));
+        "  the message above states what to change. Run the case again with it. If the key may change during a run, "
+        "continue: thawslide resume {} --set KEY=VALUE\n",
+        shell_quote(folder.string()));
   }
   return "";
 }
 
 std::string text_of(const fs::path& folder, const RunStatus& status) {
-  std::string text = fmt::format("{}: {}\n", folder.string(), words_for(status));
+  std::string text = fmt::format("{}: {}\n", folder.string(), status_text(status));
   if (status.end) {
     const double share = std::floor(100.0 * std::min(1.0, status.time / *status.end));
     text += fmt::format("  {:g} of {:g} s simulated{}{}\n", status.time, *status.end,
@@ -214,12 +213,12 @@ std::string text_of(const fs::path& folder, const RunStatus& status) {
   }
   text += status.checkpoint_age ? fmt::format("  last checkpoint {}\n", age_text(*status.checkpoint_age))
                                 : "  no checkpoint yet\n";
-  return text + words_on_going_on(folder, status);
+  return text + continue_text(folder, status);
 }
 
 }  // namespace
 
-int tell_status(const StatusOptions& options) {
+int print_status(const StatusOptions& options) {
   const RunStatus status = status_of(options.folder);
   fmt::print("{}", options.json ? json_text(status) + "\n" : text_of(options.folder, status));
   return static_cast<int>(ExitCode::done);

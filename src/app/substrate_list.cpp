@@ -12,12 +12,12 @@ namespace thawslide::app {
 
 namespace {
 
-// Along x, within the domain [m].
+// Length along x within the domain [m].
 double length_of(const config::Substrate& strip, const config::Grid& grid) {
   return std::min(strip.x_max, grid.max[0]) - std::max(strip.x_min, grid.min[0]);
 }
 
-// What a substrate covers of the domain, along x or of its horizontal area.
+// Part of the domain covered by a substrate, along x or as horizontal area.
 double covered_by(const std::string& name, const config::Case& parameters, const config::Site& site) {
   const config::Substrate& substrate = parameters.substrates.at(name);
   const double width = parameters.general.dimension == 3 ? parameters.grid.max[1] - parameters.grid.min[1] : 1.0;

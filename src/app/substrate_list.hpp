@@ -1,4 +1,4 @@
-// What of the ground has laws of its own, and which.
+// Substrates with separate laws, for reports.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 namespace thawslide::app {
 
 struct SubstrateFacts {
-  std::string name;      // empty: what [basal] holds for, elsewhere
-  std::string place;     // in words
-  double covered = 0.0;  // of the domain: [m2], in the plane [m]
-  double share = 0.0;    // of the domain
-  std::string strength;  // its laws in words
+  std::string name;      // empty: ground with the laws of [basal]
+  std::string place;     // as text
+  double covered = 0.0;  // part of the domain: [m2], in 2D [m]
+  double share = 0.0;    // fraction of the domain
+  std::string strength;  // laws as text
 };
 
-// Each substrate, and last what is left to [basal]; empty where the case has none.
+// Each substrate, and last the remaining ground with [basal]; empty if the case has no substrates.
 [[nodiscard]] std::vector<SubstrateFacts> substrate_facts(const config::Case& parameters, const config::Site& site);
 
 }  // namespace thawslide::app

@@ -1,4 +1,4 @@
-// The heat content laws that a run may have, by their freezing curves.
+// Heat content laws available to a run, by freezing curve.
 #pragma once
 
 #include <variant>

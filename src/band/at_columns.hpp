@@ -1,4 +1,4 @@
-// What a function has at columns, remembered: tiles change in nearly every step.
+// Cache of a function's values at columns, because tiles change in nearly every step.
 #pragma once
 
 #include <functional>
@@ -9,14 +9,14 @@
 
 namespace thawslide::band {
 
-// Of a horizontal place [m].
+// Function of a horizontal position [m].
 template <int Dim, class Real>
 using OfPlace = std::function<Real(const Vector<Real, Dim - 1>&)>;
 
 template <int Dim, class Real>
 class AtColumns {
  public:
-  // At the middle of a column; `of` must be the same in every call.
+  // Value at the middle of a column; `of` must be the same in every call.
   [[nodiscard]] Real at(std::uint64_t key, Real cell, const OfPlace<Dim, Real>& of) {
     const auto k = static_cast<std::size_t>(index_.insert(key));
     if (k == values_.size()) {
@@ -25,7 +25,7 @@ class AtColumns {
     return values_[k];
   }
 
-  // Begun anew when the slide has left most of the columns.
+  // Clears the cache when the sliding mass has left most of its columns.
   void forget_if_many(std::size_t columns) {
     constexpr std::size_t held_per_column = 4;
     if (values_.size() > held_per_column * columns) {
@@ -35,7 +35,7 @@ class AtColumns {
   }
 
  private:
-  KeyIndex index_;  // column key -> place in values_
+  KeyIndex index_;  // column key -> index in values_
   std::vector<Real> values_;
 };
 

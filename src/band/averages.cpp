@@ -28,8 +28,9 @@ void average_seeping_water(const mpm::SparseGrid<Dim, Real>& grid, const BandMod
     return;
   }
   const auto hydraulic = model.hydraulic();
-  const bool any_seeps = find_seepage<Dim, Real>(
-      grid, nodes.marks, [&](const mpm::Batch<Real>& batch) { return any(seeps(model, hydraulic, particles, batch)); });
+  const bool any_seeps = find_seepage<Dim, Real>(grid, nodes.marks, [&](const mpm::SimdBatch<Real>& batch) {
+    return any(seeps(model, hydraulic, particles, batch));
+  });
   if (!any_seeps) {
     return;
   }

@@ -7,14 +7,15 @@
 
 namespace thawslide::band {
 
-// What the nodes see of the particles' temperature and pore pressure by the linear shape functions: nodes.averages, the
-// sums, and nodes.state.
+// Averages temperature and pore pressure of particles to the nodes with the linear shape functions: nodes.averages
+// (sums) and nodes.state.
 template <int Dim, class Real>
 void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                      mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes);
 
-// Where frozen rows are sealed or vented: the pressure of the water that seeps takes the place of the mean over all
-// matter in nodes.state, for the stages after contact, conduct_heat and drain_pore_pressure. Elsewhere it is that mean.
+// With sealed or vented frozen rows: replaces the mean pore pressure over all material in nodes.state by that of the
+// seeping water. The stages after contact, conduct_heat and drain_pore_pressure, use it. At nodes without seepage, the
+// mean remains.
 template <int Dim, class Real>
 void average_seeping_water(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
                            mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes);

@@ -1,4 +1,4 @@
-// What a particle does in average_on_grid: kernels (mpm/kernel.hpp).
+// Particle kernels (mpm/kernel.hpp) of average_on_grid.
 #pragma once
 
 #include "band/physics.hpp"
@@ -8,16 +8,16 @@
 
 namespace thawslide::band {
 
-// The sums of Eq. 21.
+// Sums of Eq. 21.
 template <int Dim, class Real>
 struct AddAverages {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<mpm::Averages>;
   using Account = mpm::NoAccount;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     const auto volume = particles.volume.load(at);
     auto& averages = added.template of<mpm::Averages>();
     averages.value[mpm::Averages::volume] = volume;
@@ -26,7 +26,7 @@ struct AddAverages {
   }
 };
 
-// Whether water seeps from and to a particle: it is melted and lets water through.
+// True if water seeps to or from a particle: it is melted and permeable.
 template <class Real, class Particles, class At>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto seeps(const BandPhysics<Real>& model,
                                                 const HydraulicConductivity<Real>& hydraulic,
@@ -34,8 +34,9 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto seeps(const BandPhysics<Real>& model,
   return (particles.temperature.load(at) >= model.reference_temperature) & (hydraulic(particles, at) > Real(0));
 }
 
-// The sums of Eq. 21 over the pores that take part in seepage, where frozen ones do not, or count as empty: sealed or
-// vented. What is averaged over other pores than those that store would be no mean of what they hold.
+// Sums of Eq. 21 over the pores that take part in seepage. Frozen pores are excluded (sealed) or count as empty
+// (vented). The average must be over the same pores that store water in SeepageFlows; otherwise it is not the mean of
+// the stored water.
 template <int Dim, class Real>
 struct AddSeepingWater {
   using Reads = mpm::RecordList<>;
@@ -45,9 +46,9 @@ struct AddSeepingWater {
   const BandPhysics<Real>& model;
   HydraulicConductivity<Real> hydraulic;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const Value volume = particles.volume.load(at), zero = Real(0);
     const auto seeping = seeps(model, hydraulic, particles, at);

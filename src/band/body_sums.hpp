@@ -1,4 +1,4 @@
-// What a row of the history and the accounts sum over particles.
+// Sums over particles for history rows and budgets.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,15 @@ template <int Dim, class Real>
 struct BodySums {
   Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();     // [kg m/s]
   Real kinetic = 0, potential = 0, sensible = 0, latent = 0;  // [J]
-  ExactSum<Real> mass;                                        // [kg]: it stays what it is to the last bit
+  ExactSum<Real> mass;                                        // [kg]; exact, because it must be conserved bitwise
   Real rock = 0, ice = 0, water = 0;                          // [kg]
-  Real seeped = 0;                                            // water that seepage brought, less what it took [kg]
-  Real gas = 0;                                               // void in the pores of the band's own matter [m3]
-  Real initial_volume = 0, volume_change = 0;                 // at t = 0 or when it joined; since then [m3]
+  Real seeped = 0;                                            // net water gained by seepage [kg]
+  Real gas = 0;                                               // void in the pores of the band's own material [m3]
+  Real initial_volume = 0, volume_change = 0;                 // at t = 0 or on joining; change since then [m3]
   Real largest_speed2 = 0;                                    // squared [m2/s2]
-  // Weighted by mass: the length of particles' ways [kg m] and their plastic strain [kg].
+  // Weighted by mass: path length of particles [kg m] and plastic strain [kg].
   Real displacement = 0, plastic_strain = 0;
-  // The same of particles in the band: mass [kg], temperature [kg C], saturation [kg] and pore pressure [kg Pa].
+  // Sums over particles in the band: mass [kg], temperature [kg C], saturation [kg] and pore pressure [kg Pa].
   Real band_mass = 0, band_temperature = 0, band_saturation = 0, band_pore_pressure = 0;
 
   THAWSLIDE_HD BodySums& operator+=(const BodySums& part) {
@@ -52,13 +52,13 @@ struct BodySums {
   }
 };
 
-// What one particle brings to them.
+// Contribution of one particle.
 template <int Dim, class Real>
 struct SumsOfParticle {
   Vector<Real, Dim> gravity, origin;  // [m/s2]; of positions [m]
   physics::Phases<Real> phases;
-  bool latent;          // melting takes heat
-  bool current_masses;  // heat is held by masses from the current porosity and volume, as printed
+  bool latent;          // melting consumes latent heat
+  bool current_masses;  // heat content uses masses from the current porosity and volume, as published
   bool melt_contracts;  // melting leaves a void
 
   template <class Particles>
@@ -105,15 +105,15 @@ struct SumsOfParticle {
     sums.sensible = (particles.initial_volume(p) * particles.heat_content(p) - molten) / particles.thermal_scaling(p);
   }
 
-  // The saturation that a particle's masses are counted with. Heat sees the volume V/xi of it, the band's own, and only
-  // that has melted: the rest stands for matter as it was at t = 0.
+  // Saturation used for a particle's masses. Heat acts on its volume V/xi, the band's own part, and only that part
+  // melts. The rest represents material in its state at t = 0.
   template <class Particles>
   [[nodiscard]] THAWSLIDE_HD Real saturation_of_masses(const Particles& particles, std::uint32_t p) const {
     const Real start = particles.initial_saturation(p);
     return start + (particles.liquid_saturation(p) - start) / particles.thermal_scaling(p);
   }
 
-  // Those of t = 0, of which ice and water change into each other at constant sum.
+  // Masses at t = 0; the sum of ice and water remains constant.
   template <class Particles>
   THAWSLIDE_HD void add_initial_phases(const Particles& particles, std::uint32_t p, BodySums<Dim, Real>& sums) const {
     const Real start = particles.initial_saturation(p), saturation = saturation_of_masses(particles, p);
@@ -124,7 +124,7 @@ struct SumsOfParticle {
     sums.water = saturation * pore_water;
   }
 
-  // Those of the current porosity and volume, as printed: their sum is not the particle's mass.
+  // Masses from the current porosity and volume, as published. Their sum differs from the particle's mass.
   template <class Particles>
   THAWSLIDE_HD void add_current_phases(const Particles& particles, std::uint32_t p, BodySums<Dim, Real>& sums) const {
     const Real pore = particles.volume(p) * particles.porosity(p), saturation = saturation_of_masses(particles, p);
@@ -133,7 +133,8 @@ struct SumsOfParticle {
     sums.water = pore * saturation * phases.water_density;
   }
 
-  // Void in the pores of a particle's own part of the band [m3]; what is still frozen leaves less of it than its water.
+  // Void in the pores of a particle's own part of the band [m3]. Pores that are still frozen have less void than their
+  // water will leave.
   template <class Particles>
   [[nodiscard]] THAWSLIDE_HD Real void_in_pores(const Particles& particles, std::uint32_t p) const {
     if (!particles.pore_void.is_kept()) {

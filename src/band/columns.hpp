@@ -1,5 +1,5 @@
-// The columns of cells that the slide stands in (band/flow_depth.hpp): their keys, what particles bring to one, and
-// what follows from that. For host and device.
+// Columns of grid cells filled by the sliding mass (band/flow_depth.hpp): keys, contributions of particles, and
+// results. For host and device.
 #pragma once
 
 #include <array>
@@ -13,17 +13,17 @@
 
 namespace thawslide::band {
 
-// A tile's particles reach from the cell below its first node to that above its last one; a box that ends there looks
-// for its share of 0 in one more.
+// Particles of a tile extend from the cell below its first node to the cell above its last one. A box that ends there
+// also evaluates one more cell, with a fraction of 0.
 template <int Dim>
 inline constexpr int columns_per_axis = mpm::Tile<Dim>::edge + 2;
 template <int Dim>
 inline constexpr auto columns_per_tile = static_cast<std::size_t>(mpm::power(columns_per_axis<Dim>, Dim - 1));
 
-// Column numbers count from here, so that a step to a neighbour never carries from one axis into the next.
+// Column numbers are offset by this number to avoid a carry from one axis into the next.
 inline constexpr std::int64_t column_origin = std::int64_t{1} << 31;
 
-// Along each horizontal axis the number of the first cell that particles of a tile may overlap.
+// Number of the first cell, along each horizontal axis, that particles of a tile may overlap.
 template <int Dim>
 THAWSLIDE_HD std::array<int, Dim - 1> first_cell_of(std::uint64_t tile_key) {
   const auto tile = mpm::Tile<Dim>::index(tile_key);
@@ -34,7 +34,7 @@ THAWSLIDE_HD std::array<int, Dim - 1> first_cell_of(std::uint64_t tile_key) {
   return first;
 }
 
-// The column at a place in a tile.
+// Key of the column at a place in a tile.
 template <int Dim>
 THAWSLIDE_HD std::uint64_t column_key(std::uint64_t tile_key, std::size_t place) {
   const auto first = first_cell_of<Dim>(tile_key);
@@ -47,10 +47,10 @@ THAWSLIDE_HD std::uint64_t column_key(std::uint64_t tile_key, std::size_t place)
   return key;
 }
 
-// The next column on a side; each axis has two, the lower one first.
+// Adjacent column on a side. Each axis has two sides, the lower one first.
 template <int Dim>
 inline constexpr std::size_t column_sides = 2 * (static_cast<std::size_t>(Dim) - 1);
-THAWSLIDE_HD inline std::uint64_t column_beside(std::uint64_t key, std::size_t side) {
+THAWSLIDE_HD inline std::uint64_t neighbour_column(std::uint64_t key, std::size_t side) {
   const std::uint64_t step = std::uint64_t{1} << (32 * (side / 2));
   return side % 2 == 0 ? key - step : key + step;
 }
@@ -65,7 +65,7 @@ Vector<Real, Dim - 1> middle_of_column(std::uint64_t key, Real cell) {
   return middle;
 }
 
-// What boxes cover of a column along each horizontal axis [m].
+// Extent of the boxes in a column along each horizontal axis [m].
 template <int Dim, class Real>
 struct Extent {
   std::array<Real, Dim - 1> from, to;
@@ -85,21 +85,21 @@ struct Extent {
   }
 };
 
-// What stands in a column: volume [m3], and the upper end of its highest box [m].
+// Contents of a column: volume [m3], and top of its highest box [m].
 template <class Real>
-struct Pile {
+struct ColumnMass {
   Real volume = 0;
   Real top = std::numeric_limits<Real>::lowest();
 
-  [[nodiscard]] THAWSLIDE_HD bool is_there() const { return volume > Real(0); }
-  THAWSLIDE_HD Pile& operator+=(const Pile& part) {
+  [[nodiscard]] THAWSLIDE_HD bool is_present() const { return volume > Real(0); }
+  THAWSLIDE_HD ColumnMass& operator+=(const ColumnMass& part) {
     volume += part.volume;
     top = max(top, part.top);
     return *this;
   }
 };
 
-// Whether a column lacks a neighbour. filled(side): whether the slide stands in the next one.
+// True if a column lacks a neighbour. filled(side): the adjacent column contains part of the sliding mass.
 template <int Dim, class Filled>
 THAWSLIDE_HD bool lacks_neighbour(const Filled& filled) {
   for (std::size_t side = 0; side < column_sides<Dim>; ++side) {
@@ -110,7 +110,8 @@ THAWSLIDE_HD bool lacks_neighbour(const Filled& filled) {
   return false;
 }
 
-// The footprint [m2], per metre of width in 2D: the cell's, or at the body's edge what boxes cover of it.
+// Footprint [m2], per metre of width in 2D: that of the cell, or, at the edge of the body, the extent of the boxes in
+// it.
 template <int Dim, class Real, class Filled>
 THAWSLIDE_HD Real footprint_of(Real cell, bool at_edge, const Extent<Dim, Real>& extent, const Filled& filled) {
   Real footprint = 1;
@@ -122,18 +123,18 @@ THAWSLIDE_HD Real footprint_of(Real cell, bool at_edge, const Extent<Dim, Real>&
 }
 
 template <class Real>
-THAWSLIDE_HD Real thickness_of(const Pile<Real>& pile, Real footprint) {
-  return pile.is_there() ? pile.volume / footprint : Real(0);
+THAWSLIDE_HD Real thickness_of(const ColumnMass<Real>& column_mass, Real footprint) {
+  return column_mass.is_present() ? column_mass.volume / footprint : Real(0);
 }
 
-// What a metre of the column presses on the ground with [Pa/m]. normal_gravity: of the column [m/s2].
+// Load on the ground per depth of the column [Pa/m]. normal_gravity: of the column [m/s2].
 template <class Real>
-THAWSLIDE_HD Real load_per_depth(const Pile<Real>& pile, Real mass, Real normal_gravity) {
-  return mass / pile.volume * normal_gravity;
+THAWSLIDE_HD Real load_per_depth(const ColumnMass<Real>& column_mass, Real mass, Real normal_gravity) {
+  return mass / column_mass.volume * normal_gravity;
 }
 
 template <class Particles, class Real>
-THAWSLIDE_HD void take_load(Particles& particles, std::uint32_t particle, Real load) {
+THAWSLIDE_HD void update_load(Particles& particles, std::uint32_t particle, Real load) {
   particles.load_change(particle) = load - particles.normal_load(particle);
   particles.normal_load(particle) = load;
 }

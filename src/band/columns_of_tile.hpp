@@ -1,4 +1,4 @@
-// The columns of the slide that the particles of one tile see, and the depth of particles in them.
+// Columns of the sliding mass as seen from the particles of one tile, and the depth of particles in them.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@
 
 namespace thawslide::band {
 
-// What boxes cover of the two cells, `lower` and the next one, that they may overlap along one horizontal axis.
+// Overlap of boxes with two cells along one horizontal axis, `lower` and the next one.
 template <class Value>
 struct Overlap {
-  Value lower;     // number of the cell, from the tile's first one
+  Value lower;     // number of the cell, relative to the tile's first one
   Value from[2];   // [m]
   Value to[2];     // [m]
-  Value share[2];  // of the box
+  Value share[2];  // fraction of the box
 };
 
 template <class Value, class Real>
@@ -52,12 +52,12 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Overlaps<Dim, typename At::Value> overlaps(
     along[a] = overlap(particles.position.load(at, static_cast<int>(a)), size, first_cell[a], cell, inverse_cell);
     const auto inside = (along[a].lower >= Real(0)) & (along[a].lower <= Real(mpm::Tile<Dim>::edge));
     THAWSLIDE_ASSERT(!any(!inside), "of particles {} ... one lies outside its tile: cells {} ...",
-                     particles.id(at.particle[0]), in_lane(along[a].lower, 0));
+                     particles.id(at.particle[0]), extract(along[a].lower, 0));
   }
   return along;
 }
 
-// Calls visit(which of the two cells along each axis, places in the tile, shares) for every column that boxes may
+// Calls visit(which of the two cells along each axis, places in the tile, fractions) for every column that boxes may
 // overlap.
 template <int Dim, class Value, class Visit>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_columns(const Overlaps<Dim, Value>& along, const Visit& visit) {
@@ -75,18 +75,18 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_columns(const Overlaps<Dim, Value>
   });
 }
 
-// What a particle's box covers of one of these columns. lane: of the particle.
+// Extent of a particle's box in one of these columns. lane: of the particle.
 template <int Dim, class Value, class Side>
 THAWSLIDE_HD auto extent_in_column(const Overlaps<Dim, Value>& along, const Side& side, std::size_t lane) {
   Extent<Dim, typename NumberOf<Value>::Type> own;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    own.from[a] = in_lane(along[a].from[side[a]], lane);
-    own.to[a] = in_lane(along[a].to[side[a]], lane);
+    own.from[a] = extract(along[a].from[side[a]], lane);
+    own.to[a] = extract(along[a].to[side[a]], lane);
   }
   return own;
 }
 
-// A number of each column that a tile sees, by place.
+// One number per column in reach of a tile, by place.
 template <int Dim, class Real>
 struct NumbersOfTile {
   std::array<Real, columns_per_tile<Dim>> numbers;
@@ -96,7 +96,7 @@ struct NumbersOfTile {
     return look_up(numbers.data(), place);
   }
 };
-// The same, found among those of all columns.
+// The same, by index into the numbers of all columns.
 template <class Real>
 struct NumbersOfColumns {
   const Real* numbers;
@@ -107,16 +107,16 @@ struct NumbersOfColumns {
   }
 };
 
-// What the particles of one tile see of the grid's columns. Numbers: of each column, by place in the tile.
+// Columns in reach of the particles of one tile. Numbers: one number per column, by place in the tile.
 template <int Dim, class Real, class Numbers = NumbersOfTile<Dim, Real>>
 struct ColumnsOfTile {
   std::array<int, Dim - 1> first_cell;  // number along each horizontal axis
   Real cell, inverse_cell;              // [m], [1/m]
-  mpm::SizesOfBodies<Real> sizes;       // of particles [m]
+  mpm::SizesOfBodies<Real> sizes;       // half sizes of particles [m]
   Numbers thickness, top, cosine;
 
-  // H [m]: the columns' thickness in the band, elsewhere the depth below their tops; each column by the share of the
-  // box in it.
+  // H [m]: column thickness in the band, depth below the column top elsewhere; averaged over columns by the fraction of
+  // the box in each.
   template <class Particles, class At>
   [[nodiscard]] THAWSLIDE_HD typename At::Value flow_depth(const Particles& particles, const At& at) const {
     using Value = typename At::Value;
@@ -137,7 +137,7 @@ struct ColumnsOfTile {
                      });
     return depth;
   }
-  // Depth below the top of the column that holds the particle's middle [m], vertical.
+  // Vertical depth below the top of the column that contains the particle's centre [m].
   template <class Particles, class At>
   [[nodiscard]] THAWSLIDE_HD typename At::Value below_top(const Particles& particles, const At& at) const {
     using Value = typename At::Value;

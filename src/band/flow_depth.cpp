@@ -8,7 +8,7 @@
 
 namespace thawslide::band {
 
-// Numbers every column that particles of the tiles might overlap; holds until there are other tiles.
+// Numbers every column that particles of the tiles may overlap. Valid until the tiles change.
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid, const mpm::SectionWidth<Real>& width,
                                           const SlopeCosine& slope_cosine) {
@@ -31,7 +31,7 @@ void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid
   normal_gravities_.forget_if_many(columns_.size());
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     for (std::size_t side = 0; side < column_sides<Dim>; ++side) {
-      columns_[c].beside[side] = column_index_.find(column_beside(column_keys_[c], side));
+      columns_[c].adjacent[side] = column_index_.find(neighbour_column(column_keys_[c], side));
     }
     columns_[c].width = width.at(middle_of_column<Dim, Real>(column_keys_[c], grid.cell())[0]);
     if (slope_cosine) {
@@ -40,22 +40,22 @@ void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid
   }
 }
 
-// Particle after particle, whatever the batches, so that sums do not depend on them.
+// Sums in the order of particles, to be independent of the batches.
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
                                     std::size_t t) {
   constexpr std::size_t corners = static_cast<std::size_t>(1) << (Dim - 1);
   TilePart& part = tiles_[t];
-  part.pile.fill({});
+  part.column_mass.fill({});
   const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
   for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-    const Lanes<Real> top = particles.position.load(batch, Dim - 1) + sizes_.of(particles, batch).half;
-    const Lanes<Real> volume = particles.volume.load(batch);
+    const Simd<Real> top = particles.position.load(batch, Dim - 1) + sizes_.of(particles, batch).half;
+    const Simd<Real> volume = particles.volume.load(batch);
     const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
-    std::array<std::array<std::int32_t, mpm::Batch<Real>::most>, corners> columns;
-    std::array<Lanes<Real>, corners> volumes;
+    std::array<std::array<std::int32_t, mpm::SimdBatch<Real>::most>, corners> columns;
+    std::array<Simd<Real>, corners> volumes;
     std::size_t seen = 0;
-    for_columns<Dim>(along, [&](const auto& /*side*/, Lanes<Real> place, Lanes<Real> share) THAWSLIDE_INLINE_LAMBDA {
+    for_columns<Dim>(along, [&](const auto& /*side*/, Simd<Real> place, Simd<Real> share) THAWSLIDE_INLINE_LAMBDA {
       if (any(share > Real(0))) {
         place.store_whole(columns[seen].data());
         volumes[seen++] = share * volume;
@@ -64,7 +64,7 @@ void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, cons
     for (std::size_t lane = 0; lane < batch.count; ++lane) {
       for (std::size_t k = 0; k < seen; ++k) {
         if (volumes[k][lane] > Real(0)) {
-          part.pile[static_cast<std::size_t>(columns[k][lane])] += {volumes[k][lane], top[lane]};
+          part.column_mass[static_cast<std::size_t>(columns[k][lane])] += {volumes[k][lane], top[lane]};
         }
       }
     }
@@ -79,7 +79,7 @@ void FlowDepth<Dim, Real>::add_extents(const mpm::SparseGrid<Dim, Real>& grid,
   const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
   for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
     const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
-    for_columns<Dim>(along, [&](const auto& side, Lanes<Real> place, Lanes<Real> share) {
+    for_columns<Dim>(along, [&](const auto& side, Simd<Real> place, Simd<Real> share) {
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         if (share[lane] > Real(0)) {
           part.extent[static_cast<std::size_t>(place[lane])] += extent_in_column<Dim>(along, side, lane);
@@ -89,26 +89,26 @@ void FlowDepth<Dim, Real>::add_extents(const mpm::SparseGrid<Dim, Real>& grid,
   }
 }
 
-// The tiles' parts add up in the order of tiles, so that sums do not depend on threads.
+// Sums in the order of tiles, to be independent of threads.
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::sum_columns() {
   for (Column& column : columns_) {
-    column.pile = {};
+    column.column_mass = {};
   }
   for (const TilePart& tile : tiles_) {
     for (std::size_t place = 0; place < places; ++place) {
-      columns_[static_cast<std::size_t>(tile.number[place])].pile += tile.pile[place];
+      columns_[static_cast<std::size_t>(tile.number[place])].column_mass += tile.column_mass[place];
     }
   }
 }
 
-// The columns that lack a neighbour, and the tiles that see one of them.
+// Finds the columns that lack a neighbour, and the tiles in reach of one of them.
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::find_edge() {
   for (Column& column : columns_) {
     column.extent = {};
-    column.at_edge = column.pile.is_there() &&
-                     lacks_neighbour<Dim>([&](std::size_t side) { return is_filled(column.beside[side]); });
+    column.at_edge = column.column_mass.is_present() &&
+                     lacks_neighbour<Dim>([&](std::size_t side) { return is_filled(column.adjacent[side]); });
   }
   edge_tiles_.clear();
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
@@ -129,7 +129,7 @@ void FlowDepth<Dim, Real>::set_footprints(Real cell) {
   }
   for (Column& column : columns_) {
     column.footprint = column.width * footprint_of<Dim>(cell, column.at_edge, column.extent, [&](std::size_t side) {
-                         return is_filled(column.beside[side]);
+                         return is_filled(column.adjacent[side]);
                        });
   }
 }
@@ -159,8 +159,8 @@ ColumnsOfTile<Dim, Real> FlowDepth<Dim, Real>::of_tile(const mpm::SparseGrid<Dim
   columns.sizes = sizes_.view();
   for (std::size_t place = 0; place < places; ++place) {
     const Column& here = columns_[static_cast<std::size_t>(tiles_[t].number[place])];
-    columns.thickness.numbers[place] = thickness_of(here.pile, here.footprint);
-    columns.top.numbers[place] = here.pile.top;
+    columns.thickness.numbers[place] = thickness_of(here.column_mass, here.footprint);
+    columns.top.numbers[place] = here.column_mass.top;
     columns.cosine.numbers[place] = here.cosine;
   }
   return columns;
@@ -177,7 +177,7 @@ void FlowDepth<Dim, Real>::depth_to_particles(const mpm::SparseGrid<Dim, Real>& 
   });
 }
 
-// Particle after particle and tile after tile, as volumes are summed.
+// Sums in the order of particles and tiles, like the volumes.
 template <int Dim, class Real>
 void FlowDepth<Dim, Real>::sum_masses(const mpm::SparseGrid<Dim, Real>& grid,
                                       const mpm::Particles<Dim, Real>& particles) {
@@ -189,9 +189,9 @@ void FlowDepth<Dim, Real>::sum_masses(const mpm::SparseGrid<Dim, Real>& grid,
     const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
       const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
-      std::array<Lanes<Real>, corners> columns, shares;
+      std::array<Simd<Real>, corners> columns, shares;
       std::size_t corner = 0;
-      for_columns<Dim>(along, [&](const auto& /*side*/, Lanes<Real> place, Lanes<Real> share) {
+      for_columns<Dim>(along, [&](const auto& /*side*/, Simd<Real> place, Simd<Real> share) {
         columns[corner] = place;
         shares[corner++] = share;
       });
@@ -220,8 +220,8 @@ void FlowDepth<Dim, Real>::load_to_particles(const mpm::SparseGrid<Dim, Real>& g
   sum_masses(grid, particles);
   load_per_depth_.assign(columns_.size(), Real(0));
   for (std::size_t c = 0; c < columns_.size(); ++c) {
-    if (columns_[c].pile.is_there()) {
-      load_per_depth_[c] = load_per_depth(columns_[c].pile, masses_[c],
+    if (columns_[c].column_mass.is_present()) {
+      load_per_depth_[c] = load_per_depth(columns_[c].column_mass, masses_[c],
                                           normal_gravities_.at(column_keys_[c], grid.cell(), normal_gravity));
     }
   }
@@ -231,11 +231,11 @@ void FlowDepth<Dim, Real>::load_to_particles(const mpm::SparseGrid<Dim, Real>& g
       columns.cosine.numbers[place] = load_per_depth_[static_cast<std::size_t>(tiles_[t].number[place])];
     }
     for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-      const Lanes<Real> load = columns.flow_depth(particles, batch);
+      const Simd<Real> load = columns.flow_depth(particles, batch);
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         const std::uint32_t p = batch.particle[lane];
         if (p >= first) {
-          take_load(particles, p, load[lane]);
+          update_load(particles, p, load[lane]);
         }
       }
     }

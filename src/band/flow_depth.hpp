@@ -1,4 +1,4 @@
-// The thickness of the slide above the ground, and the depth of particles in it.
+// Thickness of the sliding mass above the ground, and depth of particles in it.
 #pragma once
 
 #include <array>
@@ -12,29 +12,30 @@
 
 namespace thawslide::band {
 
-// H of P_I = rho_I g H [m]: band particles see the thickness of the whole grid column (volume over footprint), others
-// their depth below its top; both times the cosine of the terrain's slope there. A particle belongs to
-// the columns its box overlaps, by its share in each; the footprint is the cell's, or in a column at the body's edge
-// what the boxes cover of it. So thickness does not jump when particles pass from column to column, and the top by the
-// rise of one particle at most.
+// H of P_I = rho_I g H [m]. Band particles use the thickness of the whole grid column (volume over footprint), others
+// their depth below its top; both are multiplied by the cosine of the terrain slope. A particle contributes to the
+// columns that its box overlaps, by its fraction in each. The footprint is that of the cell, or, in a column at the
+// edge of the body, the extent of the boxes in it. Thickness is therefore continuous when particles move between
+// columns; the top jumps by at most the rise of one particle.
 template <int Dim, class Real>
 class FlowDepth {
  public:
-  // Of the terrain at a horizontal place [m].
+  // Slope cosine of the terrain at a horizontal position [m].
   using SlopeCosine = OfPlace<Dim, Real>;
-  // What of gravity presses a column of mass over footprint on its ground at a horizontal place [m/s2]: the part into
-  // the ground, g.n, times the slope's cosine, since the ground below is larger than the footprint by that.
+  // Gravity component that loads the ground per mass and footprint, at a horizontal position [m/s2]: g.n times the
+  // slope cosine, because the ground area exceeds the footprint by its inverse.
   using NormalGravity = OfPlace<Dim, Real>;
 
-  // The columns from positions and volumes. slope_cosine may be empty: level ground; it must be the same in every call.
+  // Updates the columns from positions and volumes. slope_cosine may be empty (level ground) and must be the same in
+  // every call.
   void update(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
               const SlopeCosine& slope_cosine, const mpm::Particles<Dim, Real>& particles);
-  // particles.flow_depth from the columns and in_band.
+  // Sets particles.flow_depth from the columns and in_band.
   void depth_to_particles(const mpm::SparseGrid<Dim, Real>& grid, mpm::Particles<Dim, Real>& particles) const;
 
-  // particles.normal_load, and in load_change by how much it changed, from the columns of the last update: N of the
-  // whole column in the band, elsewhere of what lies above, at the column's mean density. normal_gravity must be the
-  // same in every call. Only of the particles that stand in memory from `first` on.
+  // Sets particles.normal_load and its change load_change from the columns of the last update, for particles at memory
+  // index `first` and above. N is that of the whole column in the band, elsewhere that of the material above, at the
+  // column's mean density. normal_gravity must be the same in every call.
   void load_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const NormalGravity& normal_gravity,
                          mpm::Particles<Dim, Real>& particles, std::size_t first = 0);
 
@@ -45,18 +46,18 @@ class FlowDepth {
   static constexpr std::size_t places = columns_per_tile<Dim>;
 
   struct Column {
-    Pile<Real> pile;
-    Extent<Dim, Real> extent;  // of a column at the body's edge
+    ColumnMass<Real> column_mass;
+    Extent<Dim, Real> extent;  // of a column at the edge of the body
     bool at_edge = false;
     Real footprint = 0;
-    Real cosine = 1;                                       // of the terrain's slope
-    Real width = 1;                                        // of the section, relative
-    std::array<std::int32_t, column_sides<Dim>> beside{};  // the next columns, or KeyIndex::absent
+    Real cosine = 1;                                         // of the terrain slope
+    Real width = 1;                                          // of the section, relative
+    std::array<std::int32_t, column_sides<Dim>> adjacent{};  // adjacent columns, or KeyIndex::absent
   };
-  // What one tile's particles are to the columns they see, by place.
+  // Contribution of one tile's particles to the columns in reach, by place.
   struct TilePart {
-    std::array<Pile<Real>, places> pile;
-    std::array<Extent<Dim, Real>, places> extent;  // where one of the columns is at the edge
+    std::array<ColumnMass<Real>, places> column_mass;
+    std::array<Extent<Dim, Real>, places> extent;  // if one of the columns is at the edge
     std::array<std::int32_t, places> number;
   };
 
@@ -68,21 +69,20 @@ class FlowDepth {
   void find_edge();
   void set_footprints(Real cell);
   void sum_masses(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles);
-  // Whether the slide stands in a column that may be absent.
+  // True if the column exists and contains part of the sliding mass.
   [[nodiscard]] bool is_filled(std::int32_t column) const {
-    return column != KeyIndex::absent && columns_[static_cast<std::size_t>(column)].pile.is_there();
+    return column != KeyIndex::absent && columns_[static_cast<std::size_t>(column)].column_mass.is_present();
   }
 
-  std::vector<std::uint64_t> numbered_;  // the tiles that columns, their numbers and sizes_ are of
+  std::vector<std::uint64_t> numbered_;  // tiles for which columns, their numbers and sizes_ are valid
   KeyIndex column_index_;
   std::vector<std::uint64_t> column_keys_;
   AtColumns<Dim, Real> cosines_, normal_gravities_;
   std::vector<Column> columns_;
   std::vector<TilePart> tiles_;
   std::vector<std::size_t> edge_tiles_;
-  mpm::BodySizes<Real> sizes_;  // of particles [m]
-  // Where the load is asked for: the mass of tiles' columns by place and of columns [kg], and their load per depth
-  // [Pa/m].
+  mpm::BodySizes<Real> sizes_;  // half sizes of particles [m]
+  // If loads are required: mass of each tile's columns by place, and of columns [kg]; load per depth [Pa/m].
   std::vector<std::array<Real, places>> tile_masses_;
   std::vector<Real> masses_, load_per_depth_;
 };

@@ -22,7 +22,7 @@ NodalHeat<Real> solve_with_tangent(const mpm::SparseGrid<Dim, Real>& grid, const
                                    bool first_step, mpm::Nodes<Dim, Real>& nodes) {
   using mpm::HeatRates;
   nodes.heat_rates.resize(grid.blocks().size());
-  nodes.orphan_heat.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.contact.holds(b); });
+  nodes.unreached_heat.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.contact.holds(b); });
   const SolveTemperatureRate<Dim, Real> solve{grid, model, dt, first_step};
   return mpm::node_pass<NodalHeat<Real>>(
       grid, [&](std::size_t b) { return mpm::sum_block<HeatRates>(grid, b, nodes); },
@@ -32,9 +32,9 @@ NodalHeat<Real> solve_with_tangent(const mpm::SparseGrid<Dim, Real>& grid, const
       });
 }
 
-// In blocks in which temperatures change, patches contain the sums of particles with their secant capacity. Other
-// patches still contain the sums with the tangent; rates there are unchanged except for the conditions at faces.
-// Returns the heat through faces [J].
+// In blocks with temperature changes, patches contain the sums of particles with their secant capacity. Other patches
+// still contain the sums with the tangent capacity; rates there are unchanged except for face conditions. Returns the
+// heat through faces [J].
 template <int Dim, class Real>
 Real solve_with_secant(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
                        bool first_step, mpm::Nodes<Dim, Real>& nodes) {
@@ -58,7 +58,7 @@ Real solve_with_secant(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<D
   return solved.gain.boundary;
 }
 
-// Marks the tiles in which some particle's temperature may change by more than is negligible, and the blocks about
+// Marks the tiles in which the temperature of a particle may change by more than is negligible, and the blocks around
 // them.
 template <int Dim, class Real, class Law>
 void find_changes(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, Real dt,
@@ -97,16 +97,16 @@ void find_changes(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, Real d
   grid.mark_blocks_about(marks.changing_tiles, marks.changing_blocks);
 }
 
-// Selects tiles, and batches of these, in whose reach nodes without linear weight have friction heat.
+// Filter for tiles, and their batches, in reach of nodes that have friction heat but no linear weight.
 template <int Dim, class Real>
-struct SeesOrphanHeat {
+struct SeesUnreachedHeat {
   const mpm::SparseGrid<Dim, Real>& grid;
-  const mpm::SparseRecordsOf<mpm::OrphanHeat, Dim, Real>& orphan_heat;
+  const mpm::SparseRecordsOf<mpm::UnreachedHeat, Dim, Real>& unreached_heat;
   std::vector<std::uint64_t>& rows;  // by tile: rows of its patch (Tile::rows_from) with such heat
 
   [[nodiscard]] bool operator()(std::size_t tile) const {
-    mpm::PatchOf<mpm::OrphanHeat, Dim, Real> heat;
-    load_patch(grid, tile, orphan_heat, heat);
+    mpm::PatchOf<mpm::UnreachedHeat, Dim, Real> heat;
+    load_patch(grid, tile, unreached_heat, heat);
     rows[tile] = heat.rows_with(grid.rows_seen(tile), [](const auto& record) { return record[0] != Real(0); });
     return rows[tile] != 0;
   }
@@ -116,16 +116,16 @@ struct SeesOrphanHeat {
   }
 };
 
-// What nodes without linear weight hold of friction heat, to the particles that see them.
+// Distributes the friction heat of nodes without linear weight to the particles in their reach.
 template <int Dim, class Real>
-void take_orphan_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
-                      mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
-  thread_local std::vector<std::uint64_t> rows;  // kept: a step allocates nothing
+void redistribute_unreached_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
+                                 mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
+  thread_local std::vector<std::uint64_t> rows;  // persistent, to avoid allocation in each step
   rows.resize(grid.tiles().size());
-  const SeesOrphanHeat<Dim, Real> sees_heat{grid, nodes.orphan_heat, rows};
+  const SeesUnreachedHeat<Dim, Real> sees_heat{grid, nodes.unreached_heat, rows};
   mpm::with_shape<Real>(model.shape, [&](auto shape) {
     const mpm::MomentumWeights<decltype(shape), Dim, Real> weights{model.sizes, model.sides};
-    mpm::particle_pass(grid, weights, particles, nodes, sees_heat, TakeOrphanHeat<Dim, Real>{dt});
+    mpm::particle_pass(grid, weights, particles, nodes, sees_heat, RedistributeUnreachedHeat<Dim, Real>{dt});
   });
 }
 
@@ -136,10 +136,10 @@ HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandMo
                             bool first_step, mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
   return with_particle_heat(model, [&](const auto& law) {
     using Law = std::decay_t<decltype(law)>;
-    const auto pass = [&](const auto& takes_tile, const auto& kernel) {
-      return std::get<0>(mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, takes_tile, kernel));
+    const auto pass = [&](const auto& tile_filter, const auto& kernel) {
+      return std::get<0>(mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, tile_filter, kernel));
     };
-    const Real from_porosity = model.current_masses ? pass(every_tile, CountMassesAnew<Dim, Real, Law>{law}) : Real(0);
+    const Real from_porosity = model.current_masses ? pass(every_tile, UpdateHeatMass<Dim, Real, Law>{law}) : Real(0);
     const bool subgrid = model.secant_capacity && !first_step;
     pass(every_tile, HeatFlows<Dim, Real, Law>{model, model.hydraulic(), law, dt, grid.inverse_cell(), subgrid});
     NodalHeat<Real> solved = solve_with_tangent(grid, model, dt, first_step, nodes);
@@ -150,13 +150,13 @@ HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandMo
       solved.gain.boundary = solve_with_secant(grid, model, dt, first_step, nodes);
     }
     HeatGain<Real> gain = solved.gain;
-    if (solved.orphans > 0) {
-      take_orphan_heat(grid, model, dt, nodes, particles);
+    if (solved.unreached_nodes > 0) {
+      redistribute_unreached_heat(grid, model, dt, nodes, particles);
     }
     if (model.secant_capacity) {
-      pass(every_tile, TakeHeat<Dim, Real, Law>{model, law, dt});
+      pass(every_tile, UpdateHeat<Dim, Real, Law>{model, law, dt});
     } else {
-      gain.capacity = pass(every_tile, TakeHeatAsPrinted<Dim, Real, Law>{model, law, dt});
+      gain.capacity = pass(every_tile, UpdateHeatApparentCapacity<Dim, Real, Law>{model, law, dt});
     }
     gain.porosity = from_porosity;
     return gain;

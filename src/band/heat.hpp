@@ -1,4 +1,4 @@
-// Heat on the grid (Eqs. 9, 18-20), with the shear band scaling of Sec. 2.3: as if the grid were xi times finer.
+// Heat on the grid (Eqs. 9, 18-20), with the shear band scaling of Sec. 2.3: equivalent to a grid finer by xi.
 #pragma once
 
 #include <functional>
@@ -10,24 +10,24 @@
 
 namespace thawslide::band {
 
-// Heat content, temperature and saturation of all particles after dt; nodes.state must hold what average_on_grid made
-// of this step. first_step: prescribed temperatures jump now.
+// Updates heat content, temperature and saturation of all particles over dt. nodes.state must be that of
+// average_on_grid in this step. first_step: prescribed temperatures are applied as a jump.
 template <int Dim, class Real>
 HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
                             bool first_step, mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles);
 
-// A particle gets heat [J] and has the temperature that follows. particle: its place in memory.
+// Adds heat [J] to a particle and updates its temperature. particle: memory index.
 template <int Dim, class Real>
 void add_heat(const BandModel<Dim, Real>& model, Real heat, std::size_t particle, mpm::Particles<Dim, Real>& particles);
 
-// Sets heat content and saturation from temperature and porosity, of particles that begin: of those that stand in
-// memory from `first` on.
+// Sets heat content and saturation of new particles, those at memory index `first` and above, from temperature and
+// porosity.
 template <int Dim, class Real>
 void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles, std::size_t first = 0);
 
-// Gives each particle the scaling xi = layer / thickness now in force (1 outside the region); returns the heat [J] the
-// change adds at constant temperature and pressure. thickness 0: no band, xi = 1. layer_thickness(x), the thickness of
-// the cells that make up the band, may be empty: one cell. Only of the particles that stand in memory from `first` on.
+// Sets the current scaling xi = layer / thickness of particles at memory index `first` and above (1 outside the
+// region). Returns the heat [J] that the change adds at constant temperature and pressure. thickness 0: no band, xi =
+// 1. layer_thickness(x): thickness of the cells that form the band; empty: one cell.
 template <int Dim, class Real>
 Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real thickness,
                   const std::function<Real(const Vector<Real, Dim - 1>&)>& layer_thickness,

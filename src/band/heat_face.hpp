@@ -1,4 +1,4 @@
-// Conditions for heat at the faces of the domain. For host and device.
+// Thermal boundary conditions at the faces of the domain. For host and device.
 #pragma once
 
 #include "base/linear.hpp"
@@ -29,7 +29,7 @@ struct HeatFaces {
     return false;
   }
 
-  // The face that a node at a position lies on, if that face has a condition; null otherwise.
+  // Face with a condition that contains a node at a position; null if there is none.
   [[nodiscard]] THAWSLIDE_HD const HeatFace<Real>* at(const Vector<Real, Dim>& position) const {
     for (int a = 0; a < Dim; ++a) {
       const HeatFace<Real>& lower = faces[2 * a];
@@ -45,7 +45,7 @@ struct HeatFaces {
   }
 };
 
-// A prescribed temperature takes its node before gradients are formed. face: of the node, or null; state: its record of
+// Sets a prescribed nodal temperature before gradients are computed. face: of the node, or null. state: record of
 // NodalState.
 template <class Real, class Record>
 THAWSLIDE_HD void prescribe_temperature(const HeatFace<Real>* face, Record& state) {
@@ -54,9 +54,9 @@ THAWSLIDE_HD void prescribe_temperature(const HeatFace<Real>* face, Record& stat
   }
 }
 
-// The condition of the face that a node lies on, if any: whether it prescribes the rate of temperature; else heat that
-// flows in adds to the power [W]. averages: the node's record of Averages; first_step: prescribed temperatures jump
-// now; inflow: heat that comes in [J].
+// Applies the condition of a node's face, if any. Returns true if it prescribes the temperature rate; an inflow adds to
+// the power [W]. averages: record of Averages. first_step: prescribed temperatures are applied as a jump. inflow: heat
+// gained [J].
 template <class Real, class Record>
 THAWSLIDE_HD bool meets_face(const HeatFace<Real>* face, bool first_step, const Record& averages, Real capacity,
                              Real cell, Real dt, Real& rate, Real& power, Real& inflow) {

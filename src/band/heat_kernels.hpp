@@ -1,5 +1,5 @@
-// What a particle does in conduct_heat: kernels (mpm/kernel.hpp). With the tangent to its heat content it tells the
-// nodes what flows; with the secant along the change that these predict, what it will take; then it takes it.
+// Particle kernels (mpm/kernel.hpp) of conduct_heat: fluxes to the nodes with the tangent capacity; sums with the
+// secant capacity along the predicted change; update of the particles.
 #pragma once
 
 #include "band/particle_heat.hpp"
@@ -12,9 +12,9 @@
 
 namespace thawslide::band {
 
-// Conduction and advection (Eq. 19), and the capacity with the tangent. Differences within a cell, which nodes do not
-// see, diffuse between particle and nodes by themselves, and the heat that this brings is taken off at the nodes
-// (subgrid diffusion; Gerya and Yuen 2003).
+// Conduction and advection (Eq. 19), and the tangent capacity. Differences within a cell, which nodes do not resolve,
+// diffuse between particle and nodes; the heat that particles gain is subtracted at the nodes (subgrid diffusion; Gerya
+// and Yuen 2003).
 template <int Dim, class Real, class Law>
 struct HeatFlows {
   using Reads = mpm::RecordList<mpm::NodalState>;
@@ -25,11 +25,13 @@ struct HeatFlows {
   HydraulicConductivity<Real> hydraulic;
   const Law& law;
   Real dt, inverse_cell;
-  bool subgrid;  // false where prescribed temperatures jump, since nodes then are ahead of particles, and as printed
+  // false in the first step, when prescribed temperatures jump and nodes are ahead of particles, and in the published
+  // formulation
+  bool subgrid;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const auto state = seen.template read<mpm::NodalState, 1>(mpm::NodalState::temperature);
     const auto gradient = gradient_of(state, 0);
@@ -70,7 +72,7 @@ struct HeatFlows {
   }
 
  private:
-  // Water seeps where it is melted; the heat it carries [W].
+  // Heat advected by water seeping through melted material [W].
   template <class Particles, class At, class Seen, class Gradient>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value advection(const Particles& particles, const At& at,
                                                                     const Seen& seen,
@@ -83,7 +85,7 @@ struct HeatFlows {
     return particles.volume.load(at) * capacity * mobility * pressure_gradient.dot(temperature_gradient);
   }
 
-  // The same as a flux, V xi rho_L C_L q_L (T - Tref) with q_L = -(k_L/gamma_w) grad P [W m].
+  // Advection as a flux, V xi rho_L C_L q_L (T - Tref) with q_L = -(k_L/gamma_w) grad P [W m].
   template <class Particles, class At, class Seen>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto carried_heat(const Particles& particles, const At& at,
                                                          const Seen& seen) const {
@@ -99,7 +101,7 @@ struct HeatFlows {
   }
 };
 
-// The change of temperature [K] of a step, at the particle's place and within its cell.
+// Temperature change [K] in a step: interpolated from nodes plus the change within the cell.
 template <class Real, class Particles, class At, class Seen>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value change_of_temperature(const Particles& particles, const At& at,
                                                                               const Seen& seen, Real dt) {
@@ -107,8 +109,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value change_of_temperature(co
          dt * seen.template read<mpm::NodalState, 1>(mpm::NodalState::temperature_rate).value[0];
 }
 
-// The secant capacity along the predicted change: with it the sum of what particles take equals what nodes give. Where
-// no temperature changes it is the tangent.
+// Secant capacity along the predicted change, which makes the sum of the particles' gains equal to the heat given by
+// the nodes. Without a temperature change, it equals the tangent.
 template <int Dim, class Real, class Law>
 struct SecantCapacity {
   using Reads = mpm::RecordList<mpm::NodalState>;
@@ -118,9 +120,9 @@ struct SecantCapacity {
   const Law& law;
   Real dt;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const Value change = change_of_temperature(particles, at, seen, dt);
     Value secant = particles.secant_capacity.load(at);  // still the tangent
@@ -136,20 +138,20 @@ struct SecantCapacity {
   }
 };
 
-// Friction heat of nodes that the linear shape functions do not reach goes to the particles whose momentum does, as a
-// change within the cell.
+// Adds friction heat of nodes out of reach of the linear shape functions to the particles within reach of the momentum
+// shape functions, as a change within the cell.
 template <int Dim, class Real>
-struct TakeOrphanHeat {
-  using Reads = mpm::RecordList<mpm::OrphanHeat>;
+struct RedistributeUnreachedHeat {
+  using Reads = mpm::RecordList<mpm::UnreachedHeat>;
   using Adds = mpm::RecordList<>;
   using Account = mpm::NoAccount;
 
   Real dt;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& /*added*/, Account& /*account*/) const {
-    const auto specific = seen.template read<mpm::OrphanHeat, 1>().value[0];
+                                                       Scatter& /*added*/, Account& /*account*/) const {
+    const auto specific = seen.template read<mpm::UnreachedHeat, 1>().value[0];
     const auto gain = dt * specific * particles.mass.load(at) * particles.thermal_scaling.load(at) /
                       particles.initial_volume.load(at);  // [J/m3]
     particles.conduction_in_cell.store(at,
@@ -158,7 +160,7 @@ struct TakeOrphanHeat {
   }
 };
 
-// Saturation and porosity follow a change of temperature where there was one.
+// Updates saturation and porosity after a change of temperature.
 template <class Phases, class Law, class Particles, class At, class Mask, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void follow_temperature(const Phases& phases, const Law& law, Particles& particles,
                                                              const At& at, const Mask& changed, const Value& before) {
@@ -170,9 +172,9 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void follow_temperature(const Phases& phase
   particles.porosity.store(at, select(changed, updated, porosity));
 }
 
-// Eq. 18 for the heat content: the gain goes to the particle's account, and its temperature follows.
+// Eq. 18 for the heat content: adds the gain and updates the temperature.
 template <int Dim, class Real, class Law>
-struct TakeHeat {
+struct UpdateHeat {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<>;
   using Account = mpm::NoAccount;
@@ -181,9 +183,9 @@ struct TakeHeat {
   const Law& law;
   Real dt;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& /*added*/, Account& /*account*/) const {
+                                                       Scatter& /*added*/, Account& /*account*/) const {
     using Value = typename At::Value;
     const Value secant = particles.secant_capacity.load(at);
     const Value gain = secant * change_of_temperature(particles, at, seen, dt);
@@ -200,10 +202,10 @@ struct TakeHeat {
   }
 };
 
-// Eqs. 18 and 19 as printed: the old apparent capacity turns heat into a change of temperature. The heat a particle
-// then holds is not what it was given; the difference is counted [J].
+// Eqs. 18 and 19 as published: the old apparent capacity converts heat to a temperature change. The resulting heat
+// content differs from the heat gained; the difference is summed [J].
 template <int Dim, class Real, class Law>
-struct TakeHeatAsPrinted {
+struct UpdateHeatApparentCapacity {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<>;
   using Account = Real;
@@ -212,9 +214,9 @@ struct TakeHeatAsPrinted {
   const Law& law;
   Real dt;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& /*added*/, Account& made) const {
+                                                       Scatter& /*added*/, Account& made) const {
     using Value = typename At::Value;
     const Value tangent = particles.secant_capacity.load(at);
     const Value gain = tangent * change_of_temperature(particles, at, seen, dt);
@@ -232,18 +234,18 @@ struct TakeHeatAsPrinted {
   }
 };
 
-// Heat made by masses that follow porosity and volume [J]: temperatures stay, the heat the particles hold does not.
+// Heat created by masses that follow porosity and volume [J]: the heat content changes at constant temperature.
 template <int Dim, class Real, class Law>
-struct CountMassesAnew {
+struct UpdateHeatMass {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
   using Account = Real;
 
   const Law& law;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& /*added*/, Account& made) const {
+                                                       Scatter& /*added*/, Account& made) const {
     const auto before = particles.heat_content.load(at), anew = law.heat(particles, at);
     particles.heat_content.store(at, anew);
     at.add_to(made, particles.initial_volume.load(at) / particles.thermal_scaling.load(at) * (anew - before));

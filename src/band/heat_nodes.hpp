@@ -1,4 +1,4 @@
-// What nodes do in conduct_heat: their state from the averages, and their rate of temperature.
+// Nodal part of conduct_heat: state from the averages, and temperature rate.
 #pragma once
 
 #include "band/heat.hpp"
@@ -7,8 +7,7 @@
 
 namespace thawslide::band {
 
-// Temperature and pore pressure of a node (Eq. 21); a prescribed temperature takes its node before gradients are
-// formed.
+// Temperature and pore pressure of a node (Eq. 21). A prescribed temperature is set before gradients are computed.
 template <int Dim, class Real>
 struct SetNodalState {
   const mpm::SparseGrid<Dim, Real>& grid;
@@ -23,8 +22,8 @@ struct SetNodalState {
   }
 };
 
-// The rate of temperature of a node (Eq. 19) with a heat capacity [J/K] and the heat that particles took by subgrid
-// diffusion [J]; friction heat and face conditions come in here. first_step: prescribed temperatures jump now.
+// Temperature rate of a node (Eq. 19) from a heat capacity [J/K], the particles' gain by subgrid diffusion [J],
+// friction heat and face conditions. first_step: prescribed temperatures are applied as a jump.
 template <int Dim, class Real>
 struct SolveTemperatureRate {
   const mpm::SparseGrid<Dim, Real>& grid;
@@ -35,16 +34,16 @@ struct SolveTemperatureRate {
 
   void operator()(mpm::Nodes<Dim, Real>& nodes, const mpm::NodeAt& at, Real capacity, Real subgrid,
                   NodalHeat<Real>& sum) const {
-    const bool held = nodes.orphan_heat.holds(at.block);
+    const bool held = nodes.unreached_heat.holds(at.block);
     Real none = 0;
-    Real& orphan = held ? nodes.orphan_heat.of_block(at.block)[at.node][0] : none;
+    Real& unreached = held ? nodes.unreached_heat.of_block(at.block)[at.node][0] : none;
     solve_temperature_rate<Dim>(
         nodes.heat_rates(at), capacity, subgrid, nodes.contact(at)[mpm::Contact::friction_heat], nodes.momentum(at), dt,
-        nodes.state(at)[mpm::NodalState::temperature_rate], orphan, sum, [&](Real& rate, Real& power) {
+        nodes.state(at)[mpm::NodalState::temperature_rate], unreached, sum, [&](Real& rate, Real& power) {
           return has_faces && meets_face(model.at_faces.at(mpm::node_position(grid, at.block, at.node)), first_step,
                                          nodes.averages(at), capacity, grid.cell(), dt, rate, power, sum.gain.boundary);
         });
-    THAWSLIDE_ASSERT(held || !(orphan > Real(0)), "friction heat at node {} of block {}, which is in no contact",
+    THAWSLIDE_ASSERT(held || !(unreached > Real(0)), "friction heat at node {} of block {}, which is in no contact",
                      at.node, at.block);
   }
 };

@@ -1,4 +1,4 @@
-// What heat starts from: the content at t = 0, and the scaling by the band that is in force.
+// Initial heat content, and the current scaling by the band.
 #include "band/heat.hpp"
 #include "band/heat_kernels.hpp"
 #include "band/rescaling.hpp"
@@ -48,7 +48,7 @@ Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
   if (!by_place) {
     return parallel_sum<Real>(grid.tiles().size(), rescale_tile);
   }
-  // A thickness that depends on the place remembers what it worked out, one call at a time.
+  // A thickness that depends on the position caches its results: serial calls only.
   Real added = 0;
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
     rescale_tile(t, added);
@@ -60,7 +60,7 @@ template <int Dim, class Real>
 void add_heat(const BandModel<Dim, Real>& model, Real heat, std::size_t particle,
               mpm::Particles<Dim, Real>& particles) {
   const auto p = static_cast<std::uint32_t>(particle);
-  const mpm::One<Real> one{{p}};
+  const mpm::ScalarIndex<Real> one{{p}};
   const Real before = particles.temperature(p);
   particles.heat_content(p) += heat * particles.thermal_scaling(p) / particles.initial_volume(p);
   with_particle_heat(model, [&](const auto& law) {

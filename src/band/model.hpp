@@ -1,4 +1,4 @@
-// What heat and pore pressure need to know, the same for every step.
+// Parameters of heat and pore pressure that are constant during a run.
 #pragma once
 
 #include <type_traits>
@@ -25,9 +25,9 @@ struct BandModel : BandPhysics<Real> {
   bool heat = true;
   HeatFaces<Dim, Real> at_faces;
   ScaledRegion region = ScaledRegion::all;
-  bool secant_capacity = true;  // off: the old apparent capacity, as Eq. 19 is printed
-  bool current_masses = false;  // heat is held by masses from the current porosity and volume, as printed
-  bool lubrication = true;      // off: Eq. 25 sees the initial porosity and saturation (Sec. 3.3)
+  bool secant_capacity = true;  // off: the old apparent capacity, Eq. 19 as published
+  bool current_masses = false;  // heat content uses masses from the current porosity and volume, as published
+  bool lubrication = true;      // off: Eq. 25 uses the initial porosity and saturation (Sec. 3.3)
 
   bool pressure = true;
   bool normal_thickness = true;
@@ -62,7 +62,7 @@ decltype(auto) with_particle_heat(const BandModel<Dim, Real>& model, const Work&
   });
 }
 
-// Which fields of particles heat and pore pressure need; before the particles get their number.
+// Selects the particle fields that heat and pore pressure need. Call before particles are allocated.
 template <int Dim, class Real>
 void keep_fields(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles) {
   particles.volume_strain.keep(model.volumetric_term);

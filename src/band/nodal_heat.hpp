@@ -1,4 +1,4 @@
-// What nodes do in conduct_heat (Eq. 19), in the numbers of one node, and what comes of it. For host and device.
+// Nodal part of conduct_heat (Eq. 19) for one node, and its sums. For host and device.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@
 
 namespace thawslide::band {
 
-// Heat that came into the body in one step [J], by source.
+// Heat gained by the body in one step [J], by source.
 template <class Real>
 struct HeatGain {
   Real friction = 0;
   Real boundary = 0;
   Real advection = 0;
-  Real capacity = 0;  // made by updating with the old apparent capacity
-  Real porosity = 0;  // made by counting masses from the current porosity and volume
+  Real capacity = 0;  // created by updating with the old apparent capacity
+  Real porosity = 0;  // created by masses from the current porosity and volume
 
   THAWSLIDE_HD HeatGain& operator+=(const HeatGain& part) {
     friction += part.friction;
@@ -27,34 +27,34 @@ struct HeatGain {
   }
 };
 
-// What comes of some nodes.
+// Sums over nodes.
 template <class Real>
 struct NodalHeat {
   HeatGain<Real> gain;
-  std::uint64_t orphans = 0;  // nodes with heat and without linear weight
+  std::uint64_t unreached_nodes = 0;  // nodes with heat but without linear weight
 
   THAWSLIDE_HD NodalHeat& operator+=(const NodalHeat& part) {
     gain += part.gain;
-    orphans += part.orphans;
+    unreached_nodes += part.unreached_nodes;
     return *this;
   }
 };
 
-// The rate of temperature [K/s] of a node with a heat capacity [J/K], the heat that particles took by subgrid diffusion
-// [J] and friction heat [W]. rates, momentum: its records of HeatRates and Momentum. orphan: friction heat per mass
-// [W/kg] where the node has no linear weight. meets_face(rate, power): whether a condition at a face has set the rate;
-// it may add to the power [W].
+// Temperature rate [K/s] of a node with a heat capacity [J/K], the particles' gain by subgrid diffusion [J] and
+// friction heat [W]. rates, momentum: records of HeatRates and Momentum. unreached: friction heat per mass [W/kg] if
+// the node has no linear weight. meets_face(rate, power): true if a face condition has set the rate; it may add to the
+// power [W].
 template <int Dim, class Real, class Rates, class MomentumRecord, class MeetsFace>
 THAWSLIDE_HD void solve_temperature_rate(const Rates& rates, Real capacity, Real subgrid, Real friction,
-                                         const MomentumRecord& momentum, Real dt, Real& rate, Real& orphan,
+                                         const MomentumRecord& momentum, Real dt, Real& rate, Real& unreached,
                                          NodalHeat<Real>& sum, const MeetsFace& meets_face) {
   using mpm::HeatRates;
-  rate = orphan = Real(0);
+  rate = unreached = Real(0);
   sum.gain.friction += dt * friction;
   if (!(capacity > Real(0))) {
     if (friction > Real(0)) {
-      orphan = friction / momentum[mpm::MomentumLayout<Dim>::mass];
-      ++sum.orphans;
+      unreached = friction / momentum[mpm::MomentumLayout<Dim>::mass];
+      ++sum.unreached_nodes;
     }
     return;
   }

@@ -1,4 +1,4 @@
-// What nodes do in drain_pore_pressure and average_seeping_water, in the numbers of one node. For host and device.
+// Nodal part of drain_pore_pressure and average_seeping_water, for one node. For host and device.
 #pragma once
 
 #include "base/portability.hpp"
@@ -7,7 +7,7 @@
 
 namespace thawslide::band {
 
-// The pressure that seepage brings to a node in a step [Pa], Eq. 22. sums: its record of Seepage.
+// Pressure change of a node by seepage in a step [Pa], Eq. 22. sums: record of Seepage.
 template <class Real, class Sums>
 THAWSLIDE_HD Real pressure_change(const Sums& sums, Real dt) {
   using mpm::Seepage;
@@ -16,18 +16,18 @@ THAWSLIDE_HD Real pressure_change(const Sums& sums, Real dt) {
              : Real(0);
 }
 
-// What frozen pores take of the seepage at a node [Pa m3]: the node's change of pressure times their pore space.
+// Seepage taken up by frozen pores at a node [Pa m3]: pressure change of the node times their pore space.
 template <class Real, class Sums>
 THAWSLIDE_HD Real taken_by_frozen(const Sums& sums, Real change) {
   return (sums[mpm::Seepage::pore_space] - sums[mpm::Seepage::seeping]) * change;
 }
-// The mass of that water [kg].
+// Mass of that water [kg].
 template <class Real>
 THAWSLIDE_HD Real mass_of_taken(const physics::Phases<Real>& phases, Real taken) {
   return phases.water_density / phases.water_bulk_modulus * taken;
 }
 
-// The pore pressure of a node that water seeps to [Pa]. water: its record of SeepingWater.
+// Pore pressure of a node with seeping water [Pa]. water: record of SeepingWater.
 template <class Real, class Water>
 THAWSLIDE_HD Real seeping_pressure(const Water& water) {
   const Real volume = water[mpm::SeepingWater::volume];

@@ -1,4 +1,4 @@
-// Temperature and pore pressure of a node from the averages about it (Eq. 21). For host and device.
+// Nodal temperature and pore pressure from the averages (Eq. 21). For host and device.
 #pragma once
 
 #include "base/portability.hpp"
@@ -6,7 +6,7 @@
 
 namespace thawslide::band {
 
-// averages, state: the node's records of Averages and NodalState. False where no particle is near: all is 0 there.
+// averages, state: records of Averages and NodalState. Returns false, with a state of 0, if no particle is near.
 template <int Dim, class Real, class Averaged, class State>
 THAWSLIDE_HD bool set_nodal_state(const Averaged& averages, State& state) {
   using mpm::Averages, mpm::NodalState;

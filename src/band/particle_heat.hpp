@@ -1,12 +1,12 @@
-// The heat a particle holds, per volume of t = 0, and what it takes to change it: the heat content of Eq. 9 with the
-// masses it counts. What a particle's volume is worth to heat, V0/xi, stays outside.
+// Heat content of a particle per volume at t = 0, and its derivatives: Eq. 9 with the masses of the formulation. The
+// factor V0/xi, the volume that heat acts on, is not included.
 #pragma once
 
 #include "base/portability.hpp"
 
 namespace thawslide::band {
 
-// Rock, ice and water of t = 0.
+// Rock, ice and water at t = 0.
 struct InitialMasses {
   template <class Particles, class At>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static auto porosity(const Particles& particles, const At& at) {
@@ -19,7 +19,7 @@ struct InitialMasses {
   }
 };
 
-// All from the current porosity and volume, as printed.
+// Masses from the current porosity and volume, as published.
 struct CurrentMasses {
   template <class Particles, class At>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static auto porosity(const Particles& particles, const At& at) {
@@ -41,7 +41,7 @@ struct ParticleHeat {
     return Masses::volume_ratio(particles, at) *
            content.content(particles.temperature.load(at), Masses::porosity(particles, at));
   }
-  // dH/dT [J/m3/K] there.
+  // dH/dT [J/m3/K] at the particle's temperature.
   template <class Particles, class At>
   [[nodiscard]] THAWSLIDE_HD auto tangent(const Particles& particles, const At& at) const {
     return Masses::volume_ratio(particles, at) *
@@ -53,7 +53,7 @@ struct ParticleHeat {
     return Masses::volume_ratio(particles, at) *
            content.secant_capacity(particles.temperature.load(at), change, Masses::porosity(particles, at));
   }
-  // Temperature [C] at which the particle holds `heat` [J/m3], from a guess near it.
+  // Temperature [C] at a heat content [J/m3]. guess: initial value of the iteration.
   template <class Particles, class At, class Value>
   [[nodiscard]] THAWSLIDE_HD Value temperature(const Particles& particles, const At& at, const Value& heat,
                                                const Value& guess) const {

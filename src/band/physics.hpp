@@ -1,4 +1,4 @@
-// What a particle's heat and pore pressure depend on, in plain numbers: all that kernels need to know of the run.
+// Parameters of heat and pore pressure at particles, as plain numbers for kernels.
 #pragma once
 
 #include <algorithm>
@@ -12,56 +12,56 @@
 
 namespace thawslide::band {
 
-// What frozen matter is to water that seeps towards it.
+// Boundary condition of frozen material for seepage.
 enum class FrozenRows {
   draining,  // its pores take part, at the pressure of its ice
-  sealed,    // no water passes: it takes no part
-  vented     // its pores take part, at the pressure of the air
+  sealed,    // impermeable
+  vented     // its pores take part, at atmospheric pressure
 };
 
 template <class Real>
 struct BandPhysics {
   physics::Phases<Real> phases;
   Real reference_temperature = 0;  // Tref [C]
-  Real clapeyron_sign = 1;         // +1 as usual, -1 as Eq. 4 prints it
+  Real clapeyron_sign = 1;         // +1 by default, -1 as published in Eq. 4
   Real gravity = 0;                // magnitude [m/s2]
   bool conduction = true;
   bool advection = true;
   bool thermal_pressurization = true;
-  bool volumetric_term = false;  // Eq. 8's -div v, which Eq. 23 drops
+  bool volumetric_term = false;  // -div v in Eq. 8, which Eq. 23 drops
   bool seepage = true;
-  bool seepage_as_printed = false;  // Eq. 23 with one xi over the whole pore space
+  bool published_seepage = false;  // Eq. 23 with one xi over the whole pore space
   bool thickness_each_step = true;
   FrozenRows frozen_rows = FrozenRows::draining;
   bool ice_presses = true;              // P is that of ice and liquid while frozen; off: 0
   bool melt_contracts = false;          // melting leaves a void
-  Real residual_stress = 0;             // s0, on thawing where ice does not press [Pa]
+  Real residual_stress = 0;             // s0, on thawing if ice does not press [Pa]
   Real skeleton_compressibility = 0;    // m_v [1/Pa]
   physics::WaterExpansion<Real> water;  // beta_L
-  bool conservative_advection = false;  // heat that water carries is a flux; off: rho_L C_L q.grad T, as Eq. 9 has it
-  bool rescaling_mixes = false;         // a band that thickens takes in matter as it was at t = 0
+  bool conservative_advection = false;  // advected heat is a flux; off: rho_L C_L q.grad T, as in Eq. 9
+  bool rescaling_mixes = false;         // a thickening band takes in material in its state at t = 0
 
-  // Where the surplus of water in a pore decides (physics/pore_water.hpp), and not Eq. 23 as printed.
+  // True if the water balance of pores is used (physics/pore_water.hpp) instead of Eq. 23 as published.
   [[nodiscard]] THAWSLIDE_HD bool balances_water() const {
     return !ice_presses || melt_contracts || skeleton_compressibility > Real(0) ||
            water.law != physics::WaterExpansionLaw::constant;
   }
-  // Where the normal load N on particles is asked for.
+  // True if particles need the normal load N.
   [[nodiscard]] bool needs_normal_load() const { return !ice_presses || skeleton_compressibility > Real(0); }
 };
 
-// Whether water may seep anywhere. hydraulic_conductivity: by material [m/s].
+// True if water may seep anywhere. hydraulic_conductivity: by material [m/s].
 template <class Real>
 bool water_may_seep(const BandPhysics<Real>& model, const std::vector<Real>& hydraulic_conductivity) {
   return model.seepage && model.thermal_pressurization &&
          std::any_of(hydraulic_conductivity.begin(), hydraulic_conductivity.end(), [](Real k) { return k > Real(0); });
 }
 
-// Hydraulic conductivities [m/s] of particles, by their material.
+// Hydraulic conductivity [m/s] of particles, by material.
 template <class Real>
 struct HydraulicConductivity {
   const Real* of_material;
-  bool is_uniform;  // of_material has one number, for all
+  bool is_uniform;  // one value for all materials
 
   template <class Particles, class At>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value operator()(const Particles& particles,

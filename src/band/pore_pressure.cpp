@@ -13,7 +13,7 @@ namespace thawslide::band {
 
 namespace {
 
-// The pressure that seepage brings to nodes in a step (Eq. 22); returns the mass of water lost to frozen pores [kg].
+// Nodal pressure change by seepage in a step (Eq. 22). Returns the mass of water lost to frozen pores [kg].
 template <int Dim, class Real>
 Real seep(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
           mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes) {
@@ -46,7 +46,7 @@ WaterLoss<Real> drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, cons
     return model.balances_water() ? pass(UpdatePorePressure<Dim, Real, seeps(), true>{grid, model, depth})
                                   : pass(UpdatePorePressure<Dim, Real, seeps(), false>{grid, model, depth});
   };
-  const auto seeps = [&](const mpm::Batch<Real>& batch) {
+  const auto seeps = [&](const mpm::SimdBatch<Real>& batch) {
     return any_seeped(model, model.hydraulic(), particles, batch);
   };
   WaterLoss<Real> loss;
@@ -78,7 +78,7 @@ void set_pore_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Re
       particles.pore_pressure(p) = frozen.pore;
     } else {
       particles.liquid_pressure(p) =
-          thawing_pressure(model, particles, mpm::One<Real>{{static_cast<std::uint32_t>(p)}});
+          thawing_pressure(model, particles, mpm::ScalarIndex<Real>{{static_cast<std::uint32_t>(p)}});
       particles.pore_pressure(p) = particles.liquid_pressure(p);
     }
   }

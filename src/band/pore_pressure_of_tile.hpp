@@ -1,4 +1,4 @@
-// PorePressure (band/pressure_kernels.hpp) tile by tile, each with the columns of the slide that its particles see.
+// PorePressure kernel (band/pressure_kernels.hpp) per tile, with the columns in reach of its particles.
 #pragma once
 
 #include "band/flow_depth.hpp"

@@ -1,4 +1,4 @@
-// What a particle does in drain_pore_pressure: kernels (mpm/kernel.hpp).
+// Particle kernels (mpm/kernel.hpp) of drain_pore_pressure.
 #pragma once
 
 #include "band/physics.hpp"
@@ -17,7 +17,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto melted_before(const BandPhysics<Real>&
   return particles.previous_temperature.load(at) >= model.reference_temperature;
 }
 
-// Whether water seeps from or to any of some particles: it was melted and lets water through.
+// True if water seeps to or from any of the particles: melted before and permeable.
 template <class Real, class Particles, class At>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE bool any_seeped(const BandPhysics<Real>& model,
                                                      const HydraulicConductivity<Real>& hydraulic,
@@ -41,8 +41,8 @@ THAWSLIDE_HD Pressures<Value> frozen_pressures(const BandPhysics<Real>& model, V
   return {liquid, physics::pore_pressure(saturation, liquid, ice_pressure)};
 }
 
-// Pressure at which the liquid starts when the last ice melts, before it fills a void: continuous with Eq. 4 at Tref,
-// or, where ice does not press, what the water takes over of the load.
+// Initial liquid pressure when the last ice melts, before water fills a void. melting_pressure: continuous with Eq. 4
+// at Tref. thawing_pressure: if ice does not press, the part of the load transferred to the water.
 template <class Real, class Value>
 THAWSLIDE_HD Value melting_pressure(const BandPhysics<Real>& model, Value ice_pressure) {
   return ice_pressure * model.phases.water_density / model.phases.ice_density;
@@ -56,7 +56,7 @@ THAWSLIDE_HD typename At::Value thawing_pressure(const BandPhysics<Real>& model,
   return physics::thawing_pressure(particles.normal_load.load(at), typename At::Value(model.residual_stress));
 }
 
-// The void that the water of a particle leaves when all of it is melted, at t = 0 (physics/pore_water.hpp).
+// Void left by a particle's water after complete melting, at t = 0 (physics/pore_water.hpp).
 template <class Real, class Particles>
 THAWSLIDE_HD Real void_at_start(const BandPhysics<Real>& model, const Particles& particles, std::size_t p) {
   return model.melt_contracts ? physics::melting_void(model.phases, particles.initial_porosity(p),
@@ -64,12 +64,12 @@ THAWSLIDE_HD Real void_at_start(const BandPhysics<Real>& model, const Particles&
                               : Real(0);
 }
 
-// Seepage between melted particles (Eq. 23: flow times xi; pore space over xi, or whole as printed); frozen particles
-// keep their pressure and act as sinks. Differences within a cell, which nodes do not see, diffuse between particle and
-// nodes by themselves, and what this changes at the nodes is taken off there (Gerya and Yuen 2003). Particles without
-// hydraulic conductivity count for nothing. Frozen ones count with their pores where these stand in the nodal pressure
-// (FrozenRows): the share that reaches them is lost to the sink. Left out of one and not the other, a node with few
-// melted particles would drive these to pressures without bound.
+// Seepage between melted particles (Eq. 23: flow times xi; pore space over xi, or undivided as published). Frozen
+// particles keep their pressure and act as sinks. Differences within a cell, which nodes do not resolve, diffuse
+// between particle and nodes; the change is subtracted at the nodes (Gerya and Yuen 2003). Impermeable particles do not
+// contribute. Frozen particles contribute their pores if these are part of the nodal pressure (FrozenRows); water that
+// reaches them is lost to the sink. Including them in only one of the two would give unbounded pressures at nodes with
+// few melted particles.
 template <int Dim, class Real>
 struct SeepageFlows {
   using Reads = mpm::RecordList<mpm::NodalState>;
@@ -80,14 +80,14 @@ struct SeepageFlows {
   HydraulicConductivity<Real> hydraulic_conductivity;
   Real dt, inverse_cell;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const Value zero = Real(0);
     const Value hydraulic = hydraulic_conductivity(particles, at);
     const Value scaling = particles.thermal_scaling.load(at);
-    const Value pore_scaling = physics::pore_space_scaling(scaling, model.seepage_as_printed);
+    const Value pore_scaling = physics::pore_space_scaling(scaling, model.published_seepage);
     const Value volume = particles.volume.load(at);
     const Value storing =
         physics::storing_porosity(model.phases, particles.porosity.load(at), model.skeleton_compressibility);
@@ -115,7 +115,7 @@ struct SeepageFlows {
   }
 };
 
-// Water that leaves the body at its surface, and the heat that it takes along.
+// Water that leaves the body at its surface, and the heat that it carries.
 template <class Real>
 struct DrainedWater {
   Real mass = 0, heat = 0;  // [kg], [J]
@@ -127,9 +127,9 @@ struct DrainedWater {
   }
 };
 
-// Depth, ice pressure, and the pressures of liquid and pore: Clapeyron while ice and water coexist, then thermal
-// pressurization and seepage. Columns: of the slide, with the flow depth of a particle and its depth below the top.
-// Seeps: somewhere water seeps. Balances: BandPhysics::balances_water().
+// Flow depth, ice pressure, and pressures of liquid and pore: Clapeyron while ice and water coexist, then thermal
+// pressurization and seepage. Columns: of the sliding mass, with flow depth and depth below the top. Seeps: water seeps
+// somewhere. Balances: BandPhysics::balances_water().
 template <class Real, class Columns, bool Seeps, bool Balances>
 struct PorePressure {
   using Reads = std::conditional_t<Seeps, mpm::RecordList<mpm::NodalState>, mpm::RecordList<>>;
@@ -138,12 +138,12 @@ struct PorePressure {
 
   const BandPhysics<Real>& model;
   HydraulicConductivity<Real> hydraulic_conductivity;
-  Real drained_depth;  // below the top, where the pressure of a permeable body is 0 [m]
+  Real drained_depth;  // depth below the top within which the pressure of a permeable body is 0 [m]
   Columns columns;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& /*added*/, Account& drained) const {
+                                                       Scatter& /*added*/, Account& drained) const {
     using Value = typename At::Value;
     if (model.thickness_each_step) {
       particles.flow_depth.store(at, columns.flow_depth(particles, at));
@@ -156,7 +156,7 @@ struct PorePressure {
     if (any(frozen) && (!Balances || model.ice_presses)) {
       now = frozen_pressures(model, ice, temperature, particles.liquid_saturation.load(at));
     }
-    // What has just frozen still contracts down to Tref.
+    // newly frozen water still contracts down to Tref
     if (any(!frozen) || (Balances && any(melted_before(model, particles, at)))) {
       const Value melted = melted_pressure(particles, at, seen, !frozen, drained);
       now = {select(frozen, now.liquid, melted), select(frozen, now.pore, melted)};
@@ -166,7 +166,7 @@ struct PorePressure {
   }
 
  private:
-  // Heating, load and seepage; 0 near the free surface of a drained body.
+  // Pressure from heating, load and seepage; 0 near the free surface of a drained body.
   template <class Particles, class At, class Seen, class Mask>
   THAWSLIDE_HD typename At::Value melted_pressure(Particles& particles, const At& at, [[maybe_unused]] const Seen& seen,
                                                   const Mask& melted, Account& drained) const {
@@ -195,7 +195,7 @@ struct PorePressure {
     return pressure;
   }
 
-  // Eq. 23 as printed. `seeped`: what seepage changes [Pa].
+  // Eq. 23 as published. seeped: pressure change by seepage [Pa].
   template <class Particles, class At, class Mask>
   THAWSLIDE_HD typename At::Value pressurized(const Particles& particles, const At& at, const Mask& was_melted,
                                               const typename At::Value& seeped) const {
@@ -217,7 +217,7 @@ struct PorePressure {
     return select(was_melted, pressure - stiffness * particles.volume_strain.load(at), pressure);
   }
 
-  // The same by the balance of the pore's water, whose surplus is a pressure or a void.
+  // The same from the water balance of the pore, whose surplus is a pressure or a void.
   template <class Particles, class At, class Mask>
   THAWSLIDE_HD typename At::Value balanced(Particles& particles, const At& at, const Mask& melted,
                                            const Mask& was_melted, const typename At::Value& seeped) const {
@@ -244,14 +244,14 @@ struct PorePressure {
     return filling.pressure;
   }
 
-  // Mass of water that a change of pressure [Pa] stores in the particle's own part of the band [kg].
+  // Mass of water stored by a pressure change [Pa] in the particle's own part of the band [kg].
   template <class Particles, class At>
   THAWSLIDE_HD typename At::Value water_of(const Particles& particles, const At& at,
                                            const typename At::Value& pressure) const {
     using Value = typename At::Value;
     const Value storage =
         physics::pore_storage(model.phases, particles.porosity.load(at), model.skeleton_compressibility);
-    const Value scaling = physics::pore_space_scaling(particles.thermal_scaling.load(at), model.seepage_as_printed);
+    const Value scaling = physics::pore_space_scaling(particles.thermal_scaling.load(at), model.published_seepage);
     return model.phases.water_density * storage * pressure * particles.volume.load(at) / scaling;
   }
 
@@ -260,8 +260,8 @@ struct PorePressure {
     particles.seeped_water.store(at, particles.seeped_water.load(at) + mass);
   }
 
-  // The water that a pressure [Pa] stores leaves the body, with its heat where this goes along with it: from the
-  // content of melted matter, which is linear.
+  // Removes the water stored by a pressure [Pa] from the body. With conservative advection, its heat is removed too,
+  // from the heat content of melted material, which is linear.
   template <class Particles, class At>
   THAWSLIDE_HD void drain(Particles& particles, const At& at, const typename At::Value& pressure,
                           Account& drained) const {

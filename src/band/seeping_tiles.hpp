@@ -1,4 +1,4 @@
-// Where water seeps: tiles and blocks to go over.
+// Tiles and blocks with seepage.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,8 @@
 
 namespace thawslide::band {
 
-// Marks the tiles that hold a batch for which seeps(batch) is true, and the blocks about them; false if there are none.
+// Marks the tiles with a batch for which seeps(batch) is true, and the blocks around them. Returns false if there are
+// none.
 template <int Dim, class Real, class Seeps>
 bool find_seepage(const mpm::SparseGrid<Dim, Real>& grid, mpm::ActivityMarks& marks, const Seeps& seeps) {
   marks.seeping_tiles.resize(grid.tiles().size());

@@ -1,4 +1,4 @@
-// What of particles bounds the time step (sim/time_step.hpp).
+// Particle extremes that limit the time step (sim/time_step.hpp).
 #pragma once
 
 #include <cmath>
@@ -6,13 +6,13 @@
 #include <limits>
 
 #include "band/physics.hpp"
-#include "mpm/one.hpp"
+#include "mpm/scalar_index.hpp"
 #include "physics/free_gap.hpp"
 #include "physics/pressurization.hpp"
 
 namespace thawslide::band {
 
-// An extreme of some numbers, and the id of the first particle that has it; negative: none has.
+// Extreme value, and the id of the first particle that has it; negative: none.
 struct Extreme {
   double value = 0.0;
   std::int64_t particle = -1;
@@ -30,12 +30,13 @@ struct Extreme {
 };
 
 struct StepExtremes {
-  Extreme density{std::numeric_limits<double>::infinity()};          // smallest [kg/m3]
-  Extreme elastic_density{std::numeric_limits<double>::infinity()};  // smallest at which elastic stiffness acts [kg/m3]
-  Extreme speed;                                                     // largest [m/s]
-  Extreme diffusivity;                                               // largest, of heat [m2/s]
-  Extreme seepage;                                                   // largest diffusivity of pore pressure [m2/s]
-  double pore_stiffness = 0.0;                                       // largest [Pa]
+  Extreme density{std::numeric_limits<double>::infinity()};  // smallest [kg/m3]
+  // smallest density at which elastic stiffness acts [kg/m3]
+  Extreme elastic_density{std::numeric_limits<double>::infinity()};
+  Extreme speed;                // largest [m/s]
+  Extreme diffusivity;          // largest, of heat [m2/s]
+  Extreme seepage;              // largest, of pore pressure [m2/s]
+  double pore_stiffness = 0.0;  // largest [Pa]
 
   THAWSLIDE_HD StepExtremes& operator+=(const StepExtremes& part) {
     density.lower(part.density);
@@ -48,12 +49,12 @@ struct StepExtremes {
   }
 };
 
-// By material, whether gaps are free (physics/free_gap.hpp).
+// Free gaps by material (physics/free_gap.hpp).
 template <class Real>
 struct FreeGaps {
-  const Real* of_material;  // 1: free, 0: gaps bear stress
+  const Real* of_material;  // 1: free; 0: gaps bear stress
 
-  // The particle's density at which elastic stiffness acts [kg/m3].
+  // Density of the particle at which elastic stiffness acts [kg/m3].
   template <class Particles>
   [[nodiscard]] THAWSLIDE_HD Real elastic_density(const Particles& particles, std::uint32_t p) const {
     const Real density = particles.mass(p) / particles.volume(p);
@@ -83,8 +84,8 @@ THAWSLIDE_HD StepExtremes extremes_of_particle(const BandPhysics<Real>& model,
   found.diffusivity.raise({static_cast<double>(physics::conductivity(model.phases, porosity, saturation) /
                                                physics::heat_capacity(model.phases, porosity, saturation)),
                            id});
-  found.seepage.raise({static_cast<double>(physics::hydraulic_diffusivity(model.phases, storing, Real(1),
-                                                                          hydraulic(particles, mpm::One<Real>{{p}}))),
+  found.seepage.raise({static_cast<double>(physics::hydraulic_diffusivity(
+                           model.phases, storing, Real(1), hydraulic(particles, mpm::ScalarIndex<Real>{{p}}))),
                        id});
   found.pore_stiffness = static_cast<double>(physics::pore_stiffness(model.phases, storing, Real(1)));
   return found;

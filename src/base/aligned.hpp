@@ -1,4 +1,4 @@
-// Storage on cache-line boundaries.
+// Storage aligned to cache lines.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct AlignedAllocator {
   }
 };
 
-// Room for `count` items and little more: std::vector would double its room for one more item than it holds.
+// Resizes to `count` items with little spare capacity: std::vector would double its capacity for one additional item.
 template <class Vector>
 void resize_sparingly(Vector& items, std::size_t count) {
   if (count > items.capacity()) {

@@ -23,14 +23,14 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-// The number that a file begins with; not a number where there is no file or no number ("max").
+// Number at the start of a file; NaN without a file or a number ("max").
 double number_in(const fs::path& file) {
   std::ifstream stream(file);
   double number = 0.0;
   return stream >> number ? number : std::nan("");
 }
 
-// The number after a word that begins a line; not a number where there is none.
+// Number after a word at the start of a line; NaN if there is none.
 double number_after(const std::string& text, const std::string& word) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
@@ -44,9 +44,9 @@ double number_after(const std::string& text, const std::string& word) {
   return std::nan("");
 }
 
-// The names of the files by which a version of control groups tells its bounds.
+// Files in which a version of control groups states its memory limit.
 struct BoundFiles {
-  const char *limit, *used, *droppable;  // the last: a word of memory.stat
+  const char *limit, *used, *droppable;  // droppable: a key of memory.stat
 };
 constexpr BoundFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"};
 constexpr BoundFiles version_2{"memory.max", "memory.current", "inactive_file"};
@@ -60,7 +60,7 @@ double left_in_group(const fs::path& folder, const BoundFiles& files) {
   return std::max(0.0, limit - used + (std::isnan(droppable) ? 0.0 : droppable));
 }
 
-// A group is bounded by those around it too.
+// The limits of the parent groups apply too.
 double left_up_to(const fs::path& mount, const std::string& group, const BoundFiles& files) {
   double left = left_in_group(mount, files);
   fs::path folder = mount;
@@ -111,14 +111,14 @@ AvailableMemory available_memory() {
   const double free_now = available_in(text_of("/proc/meminfo"));
   const double whole = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   AvailableMemory least{std::isnan(free_now) ? whole : free_now, "are free"};
-  const auto take_smaller = [&least](double bytes, const char* bound) {
+  const auto keep_smaller = [&least](double bytes, const char* bound) {
     if (bytes < least.bytes) {
       least = {bytes, bound};
     }
   };
-  take_smaller(left_by_control_groups(text_of("/proc/self/cgroup"), "/sys/fs/cgroup"),
+  keep_smaller(left_by_control_groups(text_of("/proc/self/cgroup"), "/sys/fs/cgroup"),
                "are left by the bound of a control group (of a container or a batch system)");
-  take_smaller(left_of_address_space(), "are left by the bound of ulimit -v");
+  keep_smaller(left_of_address_space(), "are left by the bound of ulimit -v");
   return least;
 }
 

@@ -1,4 +1,4 @@
-// How much more memory this process may take, as the system tells it.
+// Memory available to this process, as reported by the system.
 #pragma once
 
 #include <filesystem>
@@ -8,18 +8,18 @@ namespace thawslide {
 
 struct AvailableMemory {
   double bytes = 0.0;
-  std::string bound;  // what bounds it, in words that follow on an amount: "are free"
+  std::string bound;  // the limiting bound, as words that follow an amount: "are free"
 };
 
-// The smallest of what the machine has free now, what a limit of address space leaves (ulimit -v), and what the control
-// groups of this process leave (those of containers and batch systems). Swap does not count.
+// Minimum of the free memory of the machine, the remaining address space (ulimit -v), and the memory left by the
+// control groups of this process (containers and batch systems). Excludes swap.
 [[nodiscard]] AvailableMemory available_memory();
 
-// What /proc/meminfo says may be taken without swapping [bytes]; not a number where it says nothing of the kind.
+// Memory available without swapping according to /proc/meminfo [bytes]; NaN if not stated.
 [[nodiscard]] double available_in(const std::string& meminfo);
 
-// What control groups leave [bytes], by the text of /proc/self/cgroup and the folder they are mounted at; infinite
-// where none bounds it. Pages of files that the system may drop count as free.
+// Memory left by control groups [bytes], from the text of /proc/self/cgroup and the mount folder; infinite without a
+// limit. File pages that the system may drop count as free.
 [[nodiscard]] double left_by_control_groups(const std::string& membership, const std::filesystem::path& mount);
 
 }  // namespace thawslide

@@ -1,5 +1,5 @@
-// Numbers that look random and follow from a counter and a key alone, whatever was drawn before: Philox4x32-10 of
-// Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3". All in integers: the same on every machine.
+// Counter-based pseudo-random numbers, which depend only on a counter and a key: Philox4x32-10 of Salmon et al. 2011,
+// "Parallel random numbers: as easy as 1, 2, 3". Integer arithmetic makes them identical on all machines.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ inline std::array<std::uint32_t, 4> random_words(std::array<std::uint32_t, 4> co
   return counter;
 }
 
-// A number between -1 and 1, ends excluded, evenly spread and symmetric about 0; exact.
+// Number between -1 and 1, exclusive, uniformly distributed and symmetric around 0; exact.
 inline double between_minus_one_and_one(std::uint32_t word) {
   constexpr double half_range = 2147483648.0;  // 2^31
   return (static_cast<double>(word) + 0.5) / half_range - 1.0;

@@ -1,5 +1,4 @@
-// The two families of failure. UserError and RunError are thrown and always on; THAWSLIDE_ASSERT is for our own
-// mistakes.
+// Errors. UserError, RunError and the like are always thrown; THAWSLIDE_ASSERT checks for defects of the program.
 #pragma once
 
 #ifdef __CUDACC__
@@ -17,40 +16,38 @@ namespace thawslide {
 enum class ExitCode : int {
   done = 0,
   user_mistake = 2,
-  run_went_bad = 3,
+  run_failed = 3,
   stopped_by_signal = 4,
   not_written = 5,
   device_failed = 6
 };
 
-// The user's mistake: the message says what was found, what is allowed and what to do. Exit code 2.
+// Error of the user. The message states what was found, what is allowed and the remedy. Exit code 2.
 class UserError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// A file that cannot be written: a full disk, no permission. A run that meets it ends with exit code 5 and can be
-// resumed.
+// File that cannot be written: full disk, missing permission. A run aborts with exit code 5 and can be resumed.
 class WriteError : public UserError {
  public:
   using UserError::UserError;
 };
 
-// A card that failed amid a run: no memory left, or worse. A run that meets it ends with exit code 6 and can be
-// resumed.
+// GPU failure during a run, such as insufficient memory. The run aborts with exit code 6 and can be resumed.
 class DeviceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// A run that failed (not finite, out of the domain, inverted): names particle, place, time and likely cause. Exit
-// code 3.
+// Run that failed (not finite, outside the domain, inverted). The message names particle, place, time and probable
+// cause. Exit code 3.
 class RunError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// Our own mistake: an invariant of the program does not hold.
+// Defect of the program: an invariant does not hold.
 class InternalError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -60,8 +57,8 @@ class InternalError : public std::logic_error {
 
 }  // namespace thawslide
 
-// Checks an invariant of the program; the further arguments (a fmt format and values) go into the message. Devices tell
-// the condition alone.
+// Checks an invariant of the program. The further arguments (a fmt format and values) are added to the message; devices
+// report only the condition.
 #ifdef __CUDACC__
 #define THAWSLIDE_ASSERT(condition, ...) assert(condition)
 #else

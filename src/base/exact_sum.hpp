@@ -1,13 +1,13 @@
-// Sums whose order does not matter. For host and device.
+// Sums independent of the order of additions. For host and device.
 #pragma once
 
 #include "base/portability.hpp"
 
 namespace thawslide {
 
-// A sum and what rounding took from it: two numbers, which are exact while the sum is less than 2^51 times the smallest
-// part, in double precision, so that no bit depends on the order in which parts of one sign are added. The error-free
-// sum of two numbers: Knuth 1998, The Art of Computer Programming, vol. 2, Section 4.2.2, Theorem B.
+// Sum with its rounding error. The pair is exact while the sum is less than 2^51 times the smallest part, in double
+// precision; sums of parts of one sign are then bitwise independent of the order. Error-free sum of two numbers: Knuth
+// 1998, The Art of Computer Programming, vol. 2, Section 4.2.2, Theorem B.
 template <class Real>
 class ExactSum {
  public:

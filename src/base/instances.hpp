@@ -1,5 +1,5 @@
-// What the templates of the step are compiled for: both dimensions, in double precision. The benchmarks compile them
-// once more in single precision, to measure only.
+// Template instances of the step: both dimensions, in double precision. The benchmarks also compile them in single
+// precision, for measurements only.
 #pragma once
 
 #ifndef THAWSLIDE_REAL

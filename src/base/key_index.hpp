@@ -1,4 +1,4 @@
-// A hash table from 64-bit keys to indices: open addressing, linear probing, no removal.
+// Hash table from 64-bit keys to indices: open addressing, linear probing, no removal.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,13 @@ class KeyIndex {
 
   [[nodiscard]] std::size_t size() const { return count_; }
 
-  // Forgets all keys and keeps its room.
+  // Removes all keys but keeps the memory.
   void clear() {
     std::fill(slots_.begin(), slots_.end(), Slot{});
     count_ = 0;
   }
 
-  // The index stored for the key, or absent.
+  // Index stored for the key, or absent.
   [[nodiscard]] std::int32_t find(std::uint64_t key) const {
     if (slots_.empty()) {
       return absent;
@@ -33,7 +33,7 @@ class KeyIndex {
     }
   }
 
-  // The index of the key; a new key gets the index size().
+  // Index of the key; a new key gets the index size().
   std::int32_t insert(std::uint64_t key) {
     if (2 * (count_ + 1) > slots_.size()) {
       grow();

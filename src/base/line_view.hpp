@@ -1,4 +1,4 @@
-// A line of straight segments in the horizontal plane, for host and device: where places lie along it.
+// Polyline in the horizontal plane, and projection of places onto it. For host and device.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@ namespace thawslide {
 
 using Place2 = std::array<double, 2>;  // x, y [m]
 
-// Where a place lies along a line.
+// Position relative to a line.
 struct PlaceOnLine {
   double along = 0.0;   // arc length from the line's first corner [m]; negative before it
   double offset = 0.0;  // distance from the line [m], positive to the left of its direction
 };
 
-// The rectangle about some segments that follow one another: one look tells that none of them is near.
+// Bounding box of consecutive segments, to reject all of them with one test.
 struct BoxOfLine {
   Place2 lower, upper;
 
@@ -33,25 +33,25 @@ struct BoxOfLine {
   }
 };
 
-// Holds while the line lives and does not change.
+// View of a line; valid while the line exists and does not change.
 struct LineView {
   static constexpr std::size_t segments_of_box = 8;
 
   const Place2* corners = nullptr;     // one more than segments
   const double* along = nullptr;       // arc length at each corner [m]
   const Place2* directions = nullptr;  // unit vectors from each corner but the last to the next
-  const BoxOfLine* boxes = nullptr;    // about so many segments each
-  std::size_t segments = 0;            // none: the line has no direction, and nothing can be projected onto it
+  const BoxOfLine* boxes = nullptr;    // one per segments_of_box segments
+  std::size_t segments = 0;            // 0: the line has no direction, and projection is undefined
 
   [[nodiscard]] THAWSLIDE_HD std::size_t boxes_count() const {
     return (segments + segments_of_box - 1) / segments_of_box;
   }
 
-  // The nearest point of the line, which goes on straight before its first corner and beyond its last one. Of points
-  // equally near the one closer to the first corner counts.
+  // Projects a place onto the nearest point of the line, which is extended straight beyond both ends. Of equally near
+  // points, the one closer to the first corner is used.
   [[nodiscard]] THAWSLIDE_HD PlaceOnLine project(const Place2& place) const {
     Nearest nearest;
-    project_onto(0, place, nearest);  // these two go on beyond the boxes
+    project_onto(0, place, nearest);  // these two extend beyond the boxes
     project_onto(segments - 1, place, nearest);
     const std::size_t count = boxes_count();
     std::size_t closest = 0;

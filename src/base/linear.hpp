@@ -1,7 +1,7 @@
-// Small fixed-size vectors and matrices (Eigen), named as the rest of the code uses them.
+// Small fixed-size vectors and matrices (Eigen).
 #pragma once
 
-// g++ leaves some of Eigen's small functions out of line, at the price of passing matrices through memory.
+// g++ does not inline some of Eigen's small functions, which then pass matrices through memory.
 #define EIGEN_STRONG_INLINE inline __attribute__((always_inline))
 #include <Eigen/Dense>
 
@@ -13,8 +13,8 @@ using Vector = Eigen::Matrix<Real, Dim, 1>;
 template <class Real, int Dim>
 using Matrix = Eigen::Matrix<Real, Dim, Dim>;
 
-// A symmetric tensor in three dimensions, components xx yy zz xy yz xz. Plane strain uses it whole, with yz = xz = 0,
-// so that the out-of-plane stress is a full component. Shear components are tensor components, not engineering strains.
+// Symmetric 3D tensor, components xx yy zz xy yz xz. Plane strain uses all of them, with yz = xz = 0, which includes
+// the out-of-plane stress. Shear components are tensor components, not engineering strains.
 template <class Real>
 using SymmetricTensor = Eigen::Matrix<Real, 6, 1>;
 

@@ -1,4 +1,4 @@
-// Numbers by name: what a checkpoint holds beside the particles, so that those who write and who read it agree.
+// Numbers by name: checkpoint data in addition to the particles, with one format for writer and reader.
 #pragma once
 
 #include <map>

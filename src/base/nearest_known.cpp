@@ -1,5 +1,5 @@
-// The nearest known point in two sweeps: first along each column, then along each row over the columns' nearest points.
-// The squared distances to these are parabolas along the row, of which the lower envelope counts: Felzenszwalb and
+// Nearest known point in two sweeps: along each column, then along each row over the columns' nearest points. The
+// squared distances to these are parabolas along the row, and their lower envelope gives the minimum: Felzenszwalb and
 // Huttenlocher (2012), Distance transforms of sampled functions, Theory of Computing 8, section 2.1.
 #include "base/nearest_known.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int none = -1;
 
-// By point: the row of the nearest known point in the same column; `none` where the column has none.
+// By point: row of the nearest known point in the same column, or `none`.
 std::vector<int> nearest_rows(const Raster& raster) {
   std::vector<int> nearest(raster.values.size(), none);
   for (int row = 0; row < raster.rows; ++row) {
@@ -34,12 +34,13 @@ std::vector<int> nearest_rows(const Raster& raster) {
   return nearest;
 }
 
-// The columns whose parabolas make up the lower envelope along a row, and where each begins to be the lowest.
+// Columns whose parabolas form the lower envelope along a row, and the start of the interval in which each is the
+// lowest.
 struct Envelope {
   std::vector<int> column;
   std::vector<double> begin;
 
-  // `height` is the parabola's least value; columns come in ascending order. `width` is that of a column.
+  // Adds columns in ascending order. height: minimum of the parabola. width: width of a column.
   void add(int next, const std::vector<double>& height, double width) {
     const auto lift = [&](int c) { return height[static_cast<std::size_t>(c)] / (width * width) + double(c) * c; };
     double from = -HUGE_VAL;
@@ -80,7 +81,7 @@ void fill_from_nearest_known(Raster& raster) {
         ++k;
       }
       const int there = nearest[raster.index(envelope.column[k], row)];
-      // In place: a point with data is its own nearest.
+      // In place: a point with data is its own nearest point.
       raster.values[raster.index(column, row)] = raster.at(envelope.column[k], there);
     }
   }

@@ -1,4 +1,4 @@
-// Numbers as whole numbers of the same order, for sorting by bits.
+// Numbers as integers of the same order, for radix sorting.
 #pragma once
 
 #include <bit>

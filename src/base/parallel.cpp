@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t most_shares = 64;
 
-// The calls next, next + 1, ..., last-1 are still to be taken.
+// Pending calls next .. last-1 of one thread.
 struct alignas(cache_line) Share {
   std::atomic<std::size_t> next;
   std::size_t last;
@@ -36,12 +36,12 @@ void set_thread_count(int threads) {
 int available_cores() { return omp_get_num_procs(); }
 
 std::size_t calls_at_a_time(std::size_t count) {
-  constexpr std::size_t most = 16, parts = 8;  // of a thread's share
+  constexpr std::size_t most = 16, parts = 8;  // most: calls per chunk; parts: fewest chunks per thread
   return std::clamp<std::size_t>(count / (parts * static_cast<std::size_t>(thread_count())), 1, most);
 }
 
-void share_out(std::size_t count, std::size_t at_a_time,
-               void (*run)(const void* body, std::size_t first, std::size_t last), const void* body) {
+void parallel_chunks(std::size_t count, std::size_t at_a_time,
+                     void (*run)(const void* body, std::size_t first, std::size_t last), const void* body) {
   const auto threads = static_cast<std::size_t>(thread_count());
   if (threads == 1 || count < fewest_shared_calls) {
     run(body, 0, count);
@@ -76,7 +76,7 @@ void share_out(std::size_t count, std::size_t at_a_time,
   }
 }
 
-void let_threads_wait_passively(char** arguments) {
+void set_passive_wait(char** arguments) {
   if (std::getenv("OMP_WAIT_POLICY") == nullptr) {
     setenv("OMP_WAIT_POLICY", "passive", 1);
     setenv("GOMP_SPINCOUNT", "1000", 0);

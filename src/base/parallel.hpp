@@ -1,4 +1,4 @@
-// Parallel loops. Their backend is named in parallel.cpp alone.
+// Parallel loops. Only parallel.cpp depends on the backend.
 #pragma once
 
 #include <algorithm>
@@ -11,45 +11,44 @@
 
 namespace thawslide {
 
-// Threads the loops below run on; at least 1.
+// Number of threads used by the loops below; at least 1.
 [[nodiscard]] int thread_count();
 void set_thread_count(int threads);
 
-// While one lives, the loops below run on the thread that made it alone: for many that are too short to share out.
-class LoneThread {
+// Restricts the loops below to the calling thread during its lifetime: for many loops too short to run in parallel.
+class SingleThreadScope {
  public:
-  LoneThread() : threads_(thread_count()) { set_thread_count(1); }
-  ~LoneThread() { set_thread_count(threads_); }
-  LoneThread(const LoneThread&) = delete;
-  LoneThread& operator=(const LoneThread&) = delete;
+  SingleThreadScope() : threads_(thread_count()) { set_thread_count(1); }
+  ~SingleThreadScope() { set_thread_count(threads_); }
+  SingleThreadScope(const SingleThreadScope&) = delete;
+  SingleThreadScope& operator=(const SingleThreadScope&) = delete;
 
  private:
   int threads_;
 };
 
-// Cores this process may run on.
+// Number of cores available to this process.
 [[nodiscard]] int available_cores();
 
-// Fewer calls than this are not worth waking other threads for.
+// Loops with fewer calls than this run on the calling thread, because waking others would cost more.
 inline constexpr std::size_t fewest_shared_calls = 9;
 
-// Makes threads that wait spin for some microseconds, which spares most waits within a step a trip through the kernel,
-// and then sleep, so that they do not burn a core another process needs. The OpenMP library reads this before main
-// begins: unless the user has chosen otherwise the program starts itself once more with it set.
-void let_threads_wait_passively(char** arguments);
+// Makes waiting threads spin for a few microseconds, which avoids most system calls within a step, and then sleep, to
+// release the core to other processes. The OpenMP library reads this setting before main begins; the program therefore
+// restarts itself once with it, unless the user has set OMP_WAIT_POLICY.
+void set_passive_wait(char** arguments);
 
-// Calls a thread takes at a time: few enough for threads to end together, enough for the handing out not to count.
+// Calls per chunk: few enough for an even load, enough to make the overhead negligible.
 [[nodiscard]] std::size_t calls_at_a_time(std::size_t count);
 
-// Calls run(body, first, last) until the calls 0 .. count-1 have been run, so many at a time. Every thread begins with
-// a share of its own, the same in every loop, so that it finds in its caches what it left there, and then takes from
-// the others'.
-void share_out(std::size_t count, std::size_t at_a_time,
-               void (*run)(const void* body, std::size_t first, std::size_t last), const void* body);
+// Calls run(body, first, last) for chunks of the calls 0 .. count-1. Every thread begins with the same part in every
+// loop, to reuse its caches, and then takes chunks from other threads.
+void parallel_chunks(std::size_t count, std::size_t at_a_time,
+                     void (*run)(const void* body, std::size_t first, std::size_t last), const void* body);
 
-// Calls body(k) for k = 0 .. count-1, each once, on any thread. Calls may not depend on one another: results must not
-// depend on which thread runs which k. The first exception thrown by a call is thrown again here; calls that had not
-// begun by then may be left out.
+// Calls body(k) for k = 0 .. count-1, each once, on any thread. Calls must be independent of each other, and results
+// independent of the assignment to threads. The first exception thrown by a call is rethrown here; calls that had not
+// begun by then may be skipped.
 template <class Body>
 void parallel_for(std::size_t count, std::size_t at_a_time, const Body& body) {
   const auto run = [](const void* calls, std::size_t first, std::size_t last) {
@@ -57,7 +56,7 @@ void parallel_for(std::size_t count, std::size_t at_a_time, const Body& body) {
       (*static_cast<const Body*>(calls))(k);
     }
   };
-  share_out(count, at_a_time, run, &body);
+  parallel_chunks(count, at_a_time, run, &body);
 }
 template <class Body>
 void parallel_for(std::size_t count, const Body& body) {
@@ -76,11 +75,11 @@ template <class Body>
   return found.load();
 }
 
-// What body(k, sum) adds up for k = 0 .. count-1, each once and from zero, on any thread; then call after call, in runs
-// (base/sum_order.hpp). No bit of the sum depends on how many calls run at a time.
+// Sum over body(k, sum) for k = 0 .. count-1, each starting from zero, on any thread. Results are added in the order of
+// calls, in runs (base/sum_order.hpp). The sum is bitwise independent of the number of threads.
 template <class Sum, class Body>
 [[nodiscard]] Sum parallel_sum(std::size_t count, const Body& body) {
-  thread_local std::vector<Sum> room;  // kept: a step allocates nothing
+  thread_local std::vector<Sum> room;  // persistent, to avoid allocation in each step
   THAWSLIDE_ASSERT(room.empty(), "a sum of {} calls within one of {}", count, room.size());
   room.resize(count);
   Sum* sums = room.data();

@@ -1,25 +1,25 @@
-// Marks, small constants and the hint of a prefetch every room shares.
+// Function attributes, small constants and prefetching for all modules.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-// A function with this mark may be called from host and from device code.
+// Function callable from host and device code.
 #if defined(__CUDACC__) || defined(__HIPCC__)
 #define THAWSLIDE_HD __host__ __device__
 #else
 #define THAWSLIDE_HD
 #endif
 
-// Before a loop that a device's compiler shall not unroll: what lies in memory there would come to need registers.
+// Prevents a device compiler from unrolling a loop, which would move its arrays from memory to registers.
 #if defined(__CUDA_ARCH__)
 #define THAWSLIDE_ROLLED _Pragma("unroll 1")
 #else
 #define THAWSLIDE_ROLLED
 #endif
 
-// A small function of the innermost loops that g++ leaves out of line on its own, at the price of passing its result
-// through memory; the second one stands after a lambda's parameters. Builds that check and need no speed say otherwise.
+// Forces inlining of small functions in the innermost loops, which g++ otherwise leaves out of line and whose results
+// then pass through memory. The second macro follows a lambda's parameters. Builds with checks override them.
 #ifndef THAWSLIDE_ALWAYS_INLINE
 #define THAWSLIDE_ALWAYS_INLINE [[gnu::always_inline]] inline
 #endif
@@ -29,19 +29,19 @@
 
 namespace thawslide {
 
-// Asks the memory for what lies so many bytes on, which need not be there at all: a number, not a pointer, goes there.
+// Prefetches the memory a number of bytes ahead. The address need not be valid, hence an integer instead of a pointer.
 inline void prefetch(const void* place, std::size_t bytes_on) {
   const auto there = reinterpret_cast<std::uintptr_t>(place) + bytes_on;
   __builtin_prefetch(reinterpret_cast<const void*>(there));  // NOLINT(performance-no-int-to-ptr)
 }
 
-// A tolerance in either precision.
+// Tolerance by precision.
 template <class Real>
 THAWSLIDE_HD constexpr Real by_precision(double in_double, double in_single) {
   return static_cast<Real>(sizeof(Real) == sizeof(double) ? in_double : in_single);
 }
 
-// Relative differences below are taken for round-off.
+// Relative tolerance: smaller differences count as round-off.
 template <class Real>
 inline constexpr Real round_off = by_precision<Real>(1e-9, 1e-5);
 

@@ -1,4 +1,4 @@
-// Numbers on a regular grid of points over the horizontal plane: a terrain model, a thickness, a map.
+// Values on a regular grid of points in the horizontal plane: a DEM, a thickness, a map.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@ struct Raster {
   double cell_x = 1.0, cell_y = 1.0;  // distance of the points [m]
   int columns = 0, rows = 0;
   std::vector<double> values;  // shape [rows, columns], rows from south to north; NaN: no data
-  std::string crs;             // coordinate reference system as WKT; empty: none is known
+  std::string crs;             // coordinate reference system as WKT; empty: unknown
 
   [[nodiscard]] bool empty() const { return values.empty(); }
   [[nodiscard]] std::size_t index(int column, int row) const {
@@ -23,7 +23,7 @@ struct Raster {
   [[nodiscard]] double y_of(int row) const { return y + row * cell_y; }
   [[nodiscard]] double x_end() const { return x_of(columns - 1); }
   [[nodiscard]] double y_end() const { return y_of(rows - 1); }
-  // The same points with another value at each.
+  // The same points with a uniform value.
   [[nodiscard]] Raster filled(double value) const {
     Raster other = *this;
     other.values.assign(values.size(), value);

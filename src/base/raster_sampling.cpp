@@ -5,7 +5,7 @@
 namespace thawslide {
 
 double bilinear(const Raster& raster, double x, double y, Missing missing) {
-  constexpr double rounding = 1e-9;  // cells
+  constexpr double rounding = 1e-9;  // in cells
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const double across = (x - raster.x) / raster.cell_x, up = (y - raster.y) / raster.cell_y;
   const double column = std::floor(across), row = std::floor(up);

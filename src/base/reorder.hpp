@@ -1,4 +1,4 @@
-// Permutation of items through a buffer that the caller keeps.
+// Permutation of items with a buffer provided by the caller.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace thawslide {
 // One entry per item, of up to eight bytes.
 using ReorderBuffer = std::vector<std::uint64_t>;
 
-// The item at k becomes the one that stood at order[k], a permutation; get(k) and set(k, item) reach them.
+// Moves the item at order[k] to k. order: a permutation. get(k) and set(k, item) access the items.
 template <class Item, class Get, class Set>
 void reorder(const std::vector<std::uint32_t>& order, ReorderBuffer& buffer, const Get& get, const Set& set) {
   static_assert(sizeof(Item) <= sizeof(ReorderBuffer::value_type));

@@ -1,5 +1,5 @@
-// Numbers with few digits, for messages. A bound that is rounded to the nearest such number may be on the wrong side of
-// the exact one: a user who follows the advice would be refused again.
+// Numbers with few digits, for messages. Rounding a bound to nearest could give a value on the wrong side of it, which
+// the program would refuse again.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,18 +10,18 @@
 
 namespace thawslide {
 
-// What digit of a number above 0 counts last, where so many count.
+// Unit of the last of a number of significant digits. number: above 0.
 inline double last_digit(double number, int digits) {
   return std::pow(10.0, std::floor(std::log10(number)) - (digits - 1));
 }
 
-// The smallest number of so many digits that is at least the given one, which is above 0; round-off is no more.
+// Smallest number with this many significant digits that is at least the given one, up to round-off. number: above 0.
 inline double rounded_up(double number, int digits) {
   const double digit = last_digit(number, digits);
   return std::ceil(number / digit * (1.0 - 1e-12)) * digit;
 }
 
-// The largest number of so many digits that is at most the given one, which is above 0; round-off is no less.
+// Largest number with this many significant digits that is at most the given one, up to round-off. number: above 0.
 inline double rounded_down(double number, int digits) {
   const double digit = last_digit(number, digits);
   return std::floor(number / digit * (1.0 + 1e-12)) * digit;

@@ -1,5 +1,5 @@
-// The words of formulas that serve one number, on processor and device, and the lanes of base/lanes.hpp alike; here for
-// one number. `select` stands in for a branch.
+// Functions for formulas that work on one number, on CPU and device, and on the SIMD lanes of base/simd.hpp; here for
+// one number. `select` replaces a branch.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace thawslide {
 
-// The type of a number, or of one lane.
+// Type of a number, or of one lane.
 template <class Value>
 struct NumberOf {
   using Type = Value;
@@ -22,7 +22,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value select(bool condition, const Value& a
 }
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE bool any(bool condition) { return condition; }
 
-// As of lanes: a where the two are equal or one is not a number. A device's own ones answer otherwise there.
+// Same semantics as for lanes: returns a if both are equal or one is NaN. The device's built-in functions differ in
+// this.
 template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real min(Real a, Real b) {
   return b < a ? b : a;
@@ -32,9 +33,9 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real max(Real a, Real b) {
   return a < b ? b : a;
 }
 
-// function(number), lane by lane.
+// function(number), by lane.
 template <class Real, class Function, class = std::enable_if_t<std::is_floating_point_v<Real>>>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real each_lane(Real number, const Function& function) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real map_lanes(Real number, const Function& function) {
   return function(number);
 }
 
@@ -46,9 +47,9 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_each_lane(bool condition, const Bo
   }
 }
 
-// The number in one lane.
+// Number in one lane.
 template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real in_lane(Real number, std::size_t /*lane*/) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real extract(Real number, std::size_t /*lane*/) {
   return number;
 }
 template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
@@ -56,19 +57,20 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void set_lane(Real& number, std::size_t /*l
   number = other;
 }
 
-// The number of a table at a place, a whole number.
+// Table entry at an integer place.
 template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real look_up(const Real* table, const Real& place) {
   return table[static_cast<std::size_t>(place)];
 }
 
-// function(number), number by number and out of line: where that is the rare way.
+// function(number), by lane and out of line: for rare cases.
 template <class Value, class Function>
-THAWSLIDE_HD [[gnu::noinline, gnu::cold]] Value rarely(Value x, const Function& function) {
-  return each_lane(x, function);
+THAWSLIDE_HD [[gnu::noinline, gnu::cold]] Value cold_call(Value x, const Function& function) {
+  return map_lanes(x, function);
 }
 
-// body(k) for k = 0 .. Count-1, k being a constant. An array of registers that is indexed by a variable leaves them.
+// Calls body(k) for k = 0 .. Count-1 with constant k. Indexing an array of registers by a variable would move it to
+// memory.
 template <std::size_t Count, class Body>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void unrolled(const Body& body) {
   [&]<std::size_t... K>(std::index_sequence<K...>) THAWSLIDE_INLINE_LAMBDA {

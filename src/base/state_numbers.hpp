@@ -1,5 +1,4 @@
-// Takes the numbers of a state off one after another, as a checkpoint gave them back. They are held against what they
-// stand for: a checksum says that nothing changed since, not who wrote it.
+// Reader of checkpoint state. Values are validated, because a checksum detects changes but not invalid content.
 #pragma once
 
 #include <cmath>
@@ -15,7 +14,7 @@ namespace thawslide {
 
 class StateNumbers {
  public:
-  // what: the state is of, for messages: "band columns". Keeps a reference to the numbers.
+  // what: name of the state in messages, such as "band columns". Keeps a reference to the numbers.
   StateNumbers(const std::vector<double>& numbers, const char* what) : numbers_(numbers), what_(what) {}
 
   [[nodiscard]] std::size_t left() const { return numbers_.size() - next_; }
@@ -25,7 +24,7 @@ class StateNumbers {
     }
     return numbers_[next_++];
   }
-  // One that is neither infinite nor missing.
+  // Next number, which must be finite.
   double next_finite() {
     const double number = next();
     if (!std::isfinite(number)) {
@@ -33,7 +32,7 @@ class StateNumbers {
     }
     return number;
   }
-  // A whole number from 0 to `most`, which a real number can count to.
+  // Next number, which must be an integer from 0 to `most`.
   std::int64_t whole(std::int64_t most) {
     const double number = next();
     if (!(number >= 0.0 && number <= static_cast<double>(most) && number == std::floor(number))) {
@@ -41,7 +40,8 @@ class StateNumbers {
     }
     return static_cast<std::int64_t>(number);
   }
-  // Of items that have so many of the numbers each, from `header` numbers further on.
+  // Next number, which must be a count of items with `numbers_each` numbers each, stored after `header` further
+  // numbers.
   std::size_t count(std::size_t numbers_each, std::size_t header = 0) {
     const std::size_t room = left() > header ? (left() - 1 - header) / numbers_each : 0;
     return static_cast<std::size_t>(whole(static_cast<std::int64_t>(room)));
@@ -64,7 +64,7 @@ class StateNumbers {
   std::size_t next_ = 0;
 };
 
-// One of the blocks of a checkpoint.
+// Block of a checkpoint by name.
 inline const std::vector<double>& block_of(const NamedNumbers& blocks, const char* name) {
   const auto found = blocks.find(name);
   if (found == blocks.end()) {
@@ -76,6 +76,6 @@ inline const std::vector<double>& block_of(const NamedNumbers& blocks, const cha
   return found->second;
 }
 
-inline constexpr std::int64_t largest_whole = std::int64_t{1} << 53;  // up to which every whole number is a double
+inline constexpr std::int64_t largest_whole = std::int64_t{1} << 53;  // largest range of exactly representable integers
 
 }  // namespace thawslide

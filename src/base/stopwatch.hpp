@@ -10,9 +10,10 @@ namespace thawslide {
 
 class Stopwatch {
  public:
-  using Seconds = std::map<std::string, double, std::less<>>;  // by stage; found by its name without a copy of it
+  // by stage; transparent comparison avoids copies of the name
+  using Seconds = std::map<std::string, double, std::less<>>;
 
-  // Runs a stage and adds its wall time [s] to the stage's account.
+  // Runs a stage and adds its wall-clock time [s] to the stage's total.
   template <class Stage>
   void time(std::string_view stage, const Stage& run) {
     const auto start = std::chrono::steady_clock::now();

@@ -1,4 +1,4 @@
-// A number given as a constant or as a table over one variable; linear between entries, constant beyond the ends.
+// Number given as a constant or as a table over one variable; linear between entries, constant beyond the ends.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace thawslide {
 
-// A jump is two entries at the same abscissa; at the jump itself the later value holds.
+// A jump is given by two entries at the same abscissa; the later value applies at the jump itself.
 struct Table {
   std::vector<double> abscissa;  // ascending; empty for a constant
   std::vector<double> value;     // one value, or as many as abscissae
@@ -21,18 +21,18 @@ struct Table {
   [[nodiscard]] double at(double x) const;
 };
 
-// The width of a 2D section: a number, 0 where none is given, or a table over x [m].
+// Width of a 2D section: a number, 0 if not given, or a table over x [m].
 struct WidthOverX {
   Table table{0.0};
 
   [[nodiscard]] bool varies() const { return !table.is_constant(); }
-  // The width that results are per metre of, the first of a table; and what sums of them are multiplied by.
+  // Reference width, per metre of which results are given: the first of a table. factor: multiplier of sums of results.
   [[nodiscard]] double reference() const { return table.value.front(); }
   [[nodiscard]] double factor() const { return reference() > 0.0 ? reference() : 1.0; }
 };
 
-// An initial field: a value, a table over depth below the body's surface [m] or over x [m], or from a map, as an
-// attribute of polygons or a raster: then it has no table.
+// Initial field: a value, a table over depth below the body's surface [m] or over x [m], or a map (attribute of
+// polygons, or raster) without a table.
 struct InitialField {
   enum class Over { nothing, depth, x, attribute, raster };
   Over over = Over::nothing;
@@ -43,7 +43,7 @@ struct InitialField {
   explicit InitialField(double constant) : table(constant) {}
   [[nodiscard]] bool is_given() const { return is_map() || !table.value.empty(); }
   [[nodiscard]] bool is_map() const { return over == Over::attribute || over == Over::raster; }
-  [[nodiscard]] double at(double depth, double x) const;  // not of a map
+  [[nodiscard]] double at(double depth, double x) const;  // not for maps
 };
 
 }  // namespace thawslide

@@ -8,15 +8,15 @@ namespace thawslide {
 
 namespace {
 
-constexpr double trial_seconds = 0.02;  // some time slices of the operating system
+constexpr double trial_seconds = 0.02;  // several time slices of the operating system
 constexpr std::int64_t trial_steps = 2;
-constexpr double first_pause = 0.1, longest_pause = 4;   // [s] between challenges, where steps are short
-constexpr double first_trials = 5, trials_between = 50;  // at least as many times a trial's length, where they are long
-constexpr int most_rounds = 3;  // single trials on a busy machine scatter by half, so a challenger must win in total
-constexpr double hopeless = 0.8, worth_it = 1.05;  // times the speed of the best
-constexpr double slowed_down = 0.7;                // of the usual speed: something has changed
+constexpr double first_pause = 0.1, longest_pause = 4;   // [s] between challenges, if steps are short
+constexpr double first_trials = 5, trials_between = 50;  // minimum pause in lengths of a trial, if steps are long
+constexpr int most_rounds = 3;  // single trials on a busy machine vary by half; a challenger must win in total
+constexpr double hopeless = 0.8, worth_it = 1.05;  // relative to the speed of the best
+constexpr double slowed_down = 0.7;                // relative to the usual speed: conditions have changed
 constexpr int few_slow_trials = 3;
-constexpr double memory = 0.8;  // of the usual speed, a trial
+constexpr double memory = 0.8;  // weight of the usual speed per trial
 
 }  // namespace
 
@@ -43,7 +43,7 @@ int ThreadChoice::after_step(double now) {
 }
 
 void ThreadChoice::end_trial(double steps, double seconds, double now) {
-  if (is_cold_) {  // memory was touched for the first time
+  if (is_cold_) {  // first access to memory
     is_cold_ = false;
   } else if (challenger_ == best_) {
     watch_best(steps, seconds, now);
@@ -68,7 +68,7 @@ void ThreadChoice::watch_best(double steps, double seconds, double now) {
   }
 }
 
-// Best and challenger take turns.
+// Best and challenger alternate.
 void ThreadChoice::go_on_with_challenge(double steps, double seconds, double now) {
   if (threads_ == best_) {
     of_best_.add(steps, seconds);

@@ -1,6 +1,5 @@
-// How many threads a run works on, found while it goes on: as many as it may use, or fewer while these only hold one
-// another up, as when another process sits on one of their cores or when a case is too small. Results do not depend on
-// the number.
+// Number of threads of a run, optimized while it runs. Fewer than the maximum are used if more slow each other down,
+// for example because another process occupies a core or a case is too small. Results are independent of the number.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +8,15 @@ namespace thawslide {
 
 class ThreadChoice {
  public:
-  // most: threads the run may use, at least 1. now: the clock's reading [s], of any clock that never turns back.
+  // most: maximum number of threads, at least 1. now: reading of a monotonic clock [s].
   ThreadChoice(int most, double now);
 
-  // The threads for the next step; to be asked after every step.
+  // Returns the number of threads for the next step. Call after every step.
   int after_step(double now);
   [[nodiscard]] int threads() const { return threads_; }
 
  private:
-  // What trials on some number of threads have brought.
+  // Totals of trials with a number of threads.
   struct Tally {
     double steps = 0, seconds = 0;
 
@@ -35,12 +34,12 @@ class ThreadChoice {
 
   int most_;
   int best_;        // so far
-  int threads_;     // in force: the best or its challenger
-  int challenger_;  // the best where there is none
+  int threads_;     // current: the best or its challenger
+  int challenger_;  // equal to the best if there is none
   int next_challenger_ = 0;
   Tally of_best_, of_challenger_;  // in this challenge
-  double usual_speed_ = 0;         // of the best [steps/s], its last trials counting most
-  int slow_trials_ = 0;            // of the best, one after another
+  double usual_speed_ = 0;         // of the best [steps/s], with exponentially decreasing weights
+  int slow_trials_ = 0;            // of the best, consecutive
   double trial_begin_;
   std::int64_t steps_ = 0;  // of this trial
   bool is_cold_ = true;     // the first trial does not count

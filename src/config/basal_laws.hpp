@@ -1,4 +1,4 @@
-// The laws of the base (physics/basal/laws.hpp) that a case chooses.
+// Laws of the base (physics/basal/laws.hpp) selected by a case.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace thawslide::config {
 
-// The law of a word, with its numbers.
+// Law of a keyword, with its parameters.
 template <class Laws>
 Laws law_named(const std::string& word, const LawNumbers& numbers) {
   Laws found{};
@@ -24,8 +24,8 @@ Laws law_named(const std::string& word, const LawNumbers& numbers) {
   return found;
 }
 
-// The laws of friction and cohesion of one kind of ground. Without cohesion at the start there is none to lose, and the
-// numbers that say how may be absent.
+// Friction and cohesion laws of one kind of ground. If the initial cohesion is zero, the parameters of its loss are not
+// needed.
 template <class Real>
 physics::basal::FrictionLaw<Real> friction_of(const GroundStrength& ground) {
   return law_named<physics::basal::FrictionLaw<Real>>(ground.friction, ground.numbers);

@@ -15,13 +15,13 @@ std::size_t number_of(const Case& parameters, const std::string& body) {
   return static_cast<std::size_t>(std::distance(parameters.bodies.begin(), parameters.bodies.find(body)));
 }
 
-// Gives all bodies of one layer the number of the other.
+// Merges the layers of two bodies under the lower number.
 void join(std::vector<std::size_t>& layer, std::size_t body, std::size_t other) {
   const std::size_t from = std::max(layer[body], layer[other]), to = std::min(layer[body], layer[other]);
   std::replace(layer.begin(), layer.end(), from, to);
 }
 
-// Whether two bodies are one by what holds for all: no pair names them.
+// True if a pair names the two bodies; otherwise the setting for all bodies applies.
 bool are_named(const Case& parameters, const std::string& body, const std::string& other) {
   return std::any_of(parameters.contact_pairs.begin(), parameters.contact_pairs.end(), [&](const auto& pair) {
     const auto& names = pair.second.bodies;
@@ -46,7 +46,7 @@ std::vector<std::size_t> layers_of(const Case& parameters) {
       }
     }
   }
-  // Numbers without gaps.
+  // Renumbers the layers without gaps.
   std::vector<std::size_t> used = layer;
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());

@@ -1,5 +1,4 @@
-// Which bodies move as one, and the friction between those that do not: what [contact] and [contact_pair.NAME] say
-// together.
+// Groups of bodies that move as one, and the friction between the groups, from [contact] and [contact_pair.NAME].
 #pragma once
 
 #include <cstddef>
@@ -10,7 +9,7 @@
 
 namespace thawslide::config {
 
-// Bodies that are bonded, one by way of others too, are of one layer; layers are numbered by their first body.
+// Bodies that are bonded, directly or through others, share a layer; layers are numbered by their first body.
 struct BodyLayers {
   std::vector<std::size_t> of_body;    // by name
   std::size_t count = 1;               // at least 1
@@ -21,8 +20,8 @@ struct BodyLayers {
   }
 };
 
-// For a case whose pairs name bodies that are there. `contradiction`, where it is not null, gets the text on the first
-// pair that does not fit the others, and `of_pair` its name.
+// Requires a case whose pairs name existing bodies. `contradiction`, unless null, receives the text on the first
+// inconsistent pair, and `of_pair` its name.
 [[nodiscard]] BodyLayers body_layers(const Case& parameters, std::string* contradiction = nullptr,
                                      std::string* of_pair = nullptr);
 

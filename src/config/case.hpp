@@ -1,5 +1,5 @@
-// The case: all that a run needs, typed, fully checked and never changed after it was read. Units are SI, angles in
-// degrees, temperatures in degrees Celsius. parameters_*.cpp declare each member once (key, unit, range, default).
+// Case: all typed and validated inputs of a run, constant after reading. Units are SI, angles in degrees, temperatures
+// in degrees Celsius. parameters_*.cpp declare each member once (key, unit, range, default).
 #pragma once
 
 #include <algorithm>
@@ -38,8 +38,8 @@ enum class CutCells { as_they_are, equal_thickness };
 enum class BandKind { scaled, columns };
 enum class BandGrowth { none, inertial, slip };
 enum class EndOfWater { sealed, vented };
-enum class ThicknessChange { as_printed, conserving };
-enum class AdvectionForm { as_printed, conservative };
+enum class ThicknessChange { as_published, conserving };
+enum class AdvectionForm { as_published, conservative };
 enum class WaterExpansionLaw { constant, by_temperature };
 enum class FrozenRows { draining, sealed, vented };
 enum class FrozenPressure { ice_pressure, none };
@@ -54,46 +54,46 @@ enum class BodyContact { bonded, frictional };
 enum class HeatBoundaryKind { insulated, temperature, flux };
 
 struct General {
-  std::string based_on;  // a case file of the same folder; empty: none
+  std::string based_on;  // case file in the same folder; empty: none
   std::string title;
   int dimension = 2;
   WidthOverX width;  // m; 0: extensive results are per metre of width (2D)
   double gravity = 9.81;
-  double gravity_tilt = 0.0;  // degrees, turned from -up towards +x
+  double gravity_tilt = 0.0;  // degrees, rotated from -up towards +x
 };
 
 struct Time {
   double end = 0.0;
   Stepping stepping = Stepping::fixed;
-  double step = 0.0;              // s; fixed step, or the largest adaptive one
-  double safety = 0.8;            // of the limits, adaptive
+  double step = 0.0;              // s; fixed step, or maximum adaptive step
+  double safety = 0.8;            // factor on the limits, adaptive
   double output_interval = 1.0;   // s between snapshots
   double history_interval = 0.0;  // s between history rows; 0: every step
-  double stop_at_rest = -1.0;     // m/s that the slide may move at and is at rest; 0, or not given: it runs to the end
-  double rest_time = 10.0;        // s that it has to be at rest
+  double stop_at_rest = -1.0;     // m/s, maximum speed at rest; 0 or not specified: the run continues to time.end
+  double rest_time = 10.0;        // s, minimum duration of rest
 };
 
 struct Grid {
   double cell = 0.0;
-  Point min{};  // the domain
+  Point min{};  // domain
   Point max{};
-  Policy leaving = Policy::stop;  // what becomes of particles that leave the domain or the DEM
-  // kinds of boundary at x_min, x_max, y_min, y_max, z_min, z_max
+  Policy leaving = Policy::stop;  // treatment of particles that leave the domain or the DEM
+  // boundary types at x_min, x_max, y_min, y_max, z_min, z_max
   std::array<BoundaryKind, 6> boundary{};
 };
 
-// What ends a run that goes wrong, or is taken out of it.
+// Limits beyond which a failing run is aborted, or particles are removed from it.
 struct Guards {
   Policy not_finite = Policy::stop, volume = Policy::stop;
-  double smallest_volume = 0.25;                                    // of that at t = 0
-  double largest_volume = std::numeric_limits<double>::infinity();  // of that at t = 0
-  double removed_mass = 0.01;                                       // of all mass
-  double energy_growth = 0.25;                                      // of all energy so far
-  double smallest_step = 0.001;                                     // of the first one
+  double smallest_volume = 0.25;                                    // relative to t = 0
+  double largest_volume = std::numeric_limits<double>::infinity();  // relative to t = 0
+  double removed_mass = 0.01;                                       // fraction of the total mass
+  double energy_growth = 0.25;                                      // fraction of the total energy so far
+  double smallest_step = 0.001;                                     // fraction of the first one
   double most_steps = 1e9;                                          // to the end
 };
 
-// A number, or the word "auto": the program chooses it.
+// Number, or the keyword "auto" for automatic choice.
 struct NumberOrAuto {
   bool is_auto = false;
   double number = 0.0;
@@ -106,9 +106,9 @@ struct Terrain {
   std::string file;        // of the profile or DEM; absolute once read
   bool extend = false;
   TerrainForm form = TerrainForm::signed_distance;
-  int layers = 2;                           // of rigid points, two to a cell
-  std::string crs;                          // of a DEM whose file does not tell, or tells a wrong one; "EPSG:31287"
-  double resample = 0.0;                    // m, new distance of the DEM's points; 0: as the file has them
+  int layers = 2;                           // layers of rigid points, two per cell
+  std::string crs;                          // of a DEM file without one, or with a wrong one; "EPSG:31287"
+  double resample = 0.0;                    // m, new spacing of the DEM; 0: as in the file
   NumberOrAuto smooth = {.is_auto = true};  // m, standard deviation of a Gaussian filter over the DEM; 0: none
 };
 
@@ -121,7 +121,7 @@ struct Phases {
   double water_bulk_modulus = 1e9;
   double latent_heat = 333.5e3;
   double water_unit_weight = 9810;
-  double ice_to_rock_density_ratio = 1.0 / 3.0;  // Eq. 2 as the paper rounds it
+  double ice_to_rock_density_ratio = 1.0 / 3.0;  // Eq. 2 as rounded in the paper
 };
 
 struct Freezing {
@@ -136,15 +136,15 @@ struct Material {
   double youngs_modulus = 0, poisson_ratio = 0;
   double friction_angle = 0, residual_friction_angle = 0, dilation_angle = 0;
   double cohesion = 0, residual_cohesion = 0;       // softening: c_f + (c_0 - c_f) exp(-eps/eps_c); equal: none
-  double softening_strain = 0, softening_slip = 0;  // eps_c, s_c [m]: where it softens one is given, 0 is the other
+  double softening_strain = 0, softening_slip = 0;  // eps_c, s_c [m]: softening uses the one that is not 0
   double tension_cutoff = std::numeric_limits<double>::infinity();  // Pa; infinity: none
-  bool gaps_close_first = true;       // torn material bears nothing until its gap is closed
+  bool gaps_close_first = true;       // separated material carries no stress until its gap has closed
   double viscosity_time = 0;          // s, Kelvin-Voigt
   double hydraulic_conductivity = 0;  // m/s
 };
 
-// A quantity of a release: a number, an attribute of its polygons, a raster, or for a thickness the difference between
-// a raster of the surface before the slide and the DEM.
+// Quantity of a release: a number, an attribute of its polygons, or a raster. A thickness may also be the difference
+// between a raster of the surface before release and the DEM.
 struct MapValue {
   enum class From { number, attribute, raster, surface };
   From from = From::number;
@@ -160,30 +160,30 @@ struct Body {
   int particles_per_axis = 2;                   // per cell and axis
   InitialField temperature{-10.0};
   InitialField porosity{0.375};
-  InitialField saturation;   // liquid, of the pores; if given, temperature follows from it by the freezing curve
-  InitialField ice_content;  // share of the volume; if given, porosity is ice_content / (1 - saturation)
+  InitialField saturation;   // liquid saturation of the pores; if given, the freezing curve determines the temperature
+  InitialField ice_content;  // volume fraction; if given, porosity is ice_content / (1 - saturation)
   Point velocity{};
-  std::string release;                // file of polygons; absolute once read; empty: a raster gives the thickness
-  std::vector<std::string> polygons;  // names of those of the file that make up the body; empty: all
+  std::string release;                // file of polygons; absolute once read; empty: a raster specifies the thickness
+  std::vector<std::string> polygons;  // names of the polygons that form the body; empty: all
   std::string name_attribute = "name";
   MapValue thickness;
   ThicknessAlong thickness_along = ThicknessAlong::vertical;
   Placement placement = Placement::on_top;
   double taper = 0.0;               // m, width over which the thickness falls to 0 at the edge
-  double surface_tolerance = 0.01;  // m, of a thickness between two surfaces: what counts as none
-  double largest_volume = 2e8;      // m3; more must be confirmed by a larger value
+  double surface_tolerance = 0.01;  // m, difference between two surfaces that counts as zero
+  double largest_volume = 2e8;      // m3; a larger volume must be confirmed by a larger value
 };
 
 struct Frame {
   Point min{}, max{};   // box at t = 0; moves with its velocity
-  std::string axis;     // x, y or z: the component it prescribes
+  std::string axis;     // x, y or z: prescribed component
   double velocity = 0;  // m/s
 };
 
 struct Initial {
   double noise =
-      0.0;       // largest displacement of a particle from its regular place, as a share of the particles' distance
-  int seed = 0;  // of the displacements
+      0.0;       // maximum displacement of a particle from its regular position, as a fraction of the particle spacing
+  int seed = 0;  // of the random displacements
 };
 
 struct Mechanics {
@@ -196,13 +196,13 @@ struct Mechanics {
   InitialStress initial_stress = InitialStress::geostatic;
   double k0 = -1.0;  // negative: nu / (1 - nu)
   bool slope_shear = false;
-  bool effective_stress = false;  // the pore pressure acts inside the body too
+  bool effective_stress = false;  // pore pressure also acts inside the body
   double settle_time = 0.0;       // s, InitialStress::settle
   double settle_damping = 0.0;    // 1/s, during settling
   double mass_damping = 0.0;      // 1/s, during the run
 };
 
-// Numbers that laws of the base take, by key; one that is not here has its default.
+// Parameters of basal laws by key; an absent one has its default.
 struct LawNumbers {
   std::map<std::string, double> by_key;
 
@@ -210,7 +210,7 @@ struct LawNumbers {
   [[nodiscard]] double& operator[](const physics::basal::Parameter& number);
 };
 
-// What one kind of ground bears: words of physics/basal/laws.hpp, and the numbers of these laws.
+// Strength of one kind of ground: keywords of physics/basal/laws.hpp, and the parameters of these laws.
 struct GroundStrength {
   std::string friction = "lubricated";
   std::string cohesion_law = "slip";
@@ -224,19 +224,19 @@ struct Basal : GroundStrength {
   bool distance_check = true;
 };
 
-// A kind of ground of its own, and where it lies: along x, within polygons, or where a raster has its code.
+// Ground with separate properties, and its extent: along x, within polygons, or where a raster has its code.
 struct Substrate : GroundStrength {
   double x_min = -std::numeric_limits<double>::infinity(), x_max = std::numeric_limits<double>::infinity();
   std::string outline;                // file of polygons; absolute once read; empty: none
-  std::vector<std::string> polygons;  // names of those of the file that bound it; empty: all
+  std::vector<std::string> polygons;  // names of the polygons that bound it; empty: all
   std::string name_attribute = "name";
-  std::string raster;  // of codes; absolute once read; empty: none
+  std::string raster;  // raster of codes; absolute once read; empty: none
   int code = 0;
 
   [[nodiscard]] bool is_strip() const { return outline.empty() && raster.empty(); }
 };
 
-// What lies on the ground and the slide takes up.
+// Erodible bed that the slide entrains.
 struct Bed {
   BedLaw law = BedLaw::none;
   InitialField depth;         // m, vertical: a number, a table over x, a raster
@@ -245,17 +245,17 @@ struct Bed {
   double depth_per_slip = 0;  // 1
   std::string material;
   double temperature = -10.0, porosity = 0.9;
-  int particles_per_axis = 2;  // per cell and axis, of what is taken up
+  int particles_per_axis = 2;  // per cell and axis, for entrained material
 };
 
-// What acts between bodies: [contact] of all, [contact_pair.NAME] of two.
+// Contact between bodies: [contact] for all, [contact_pair.NAME] for two.
 struct Contact {
   BodyContact between_bodies = BodyContact::bonded;
   double friction_angle = 0;  // degrees
 };
 
 struct ContactPair {
-  std::vector<std::string> bodies;  // names of two
+  std::vector<std::string> bodies;  // names of the two bodies
   BodyContact contact = BodyContact::frictional;
   double friction_angle = 0;  // degrees
 };
@@ -265,7 +265,7 @@ struct Mechanisms {  // Sec. 3.3
 };
 
 struct Band {
-  BandKind model = BandKind::scaled;  // where no file says otherwise: parameters_model.cpp
+  BandKind model = BandKind::scaled;  // default of a case file: parameters_model.cpp
   Table thickness;                    // m over time; empty: no band, xi = 1
   BandRegion region = BandRegion::all;
   CutCells cut_cells = CutCells::as_they_are;
@@ -274,10 +274,10 @@ struct Band {
   double grain_size = 0.05;                                      // m, BandGrowth::inertial
   double inertial_number = 0.3;                                  // BandGrowth::inertial
   double growth_per_slip = 0;                                    // BandGrowth::slip
-  double mixing_slip = std::numeric_limits<double>::infinity();  // m, over which shear mixes the band; infinity: not
-  double load_time = 1.0;                                        // s, over which N is averaged
-  double column_step = 0.1;                                      // s, largest time between the steps of a column
-  double ground_temperature = std::numeric_limits<double>::quiet_NaN();  // C; not a number: that of the body's base
+  double mixing_slip = std::numeric_limits<double>::infinity();  // m, over which shear mixes the band; infinity: none
+  double load_time = 1.0;                                        // s, averaging time of N
+  double column_step = 0.1;                                      // s, maximum time step of a column
+  double ground_temperature = std::numeric_limits<double>::quiet_NaN();  // C; NaN: temperature of the body's base
 };
 
 struct HeatBoundary {
@@ -299,12 +299,12 @@ struct Heat {
 
 struct Pressure {
   bool enabled = true;
-  bool thermal_pressurization = true;  // off: once melted the liquid keeps r^-1 P_I
+  bool thermal_pressurization = true;  // off: once melted, the liquid keeps r^-1 P_I
   ClapeyronSign clapeyron = ClapeyronSign::usual;
   bool volumetric_term = false;
   FrozenPressure frozen = FrozenPressure::none;
   double residual_stress = std::numeric_limits<double>::infinity();  // Pa, s0; infinity: no excess pressure on thawing
-  bool melt_contraction = true;                                      // melt leaves a void, filled before P rises
+  bool melt_contraction = true;                                      // melting leaves a void that fills before P rises
   double skeleton_compressibility = 2e-9;                            // 1/Pa, m_v; 0: rigid pore
   bool seepage = true;
   FrozenRows frozen_rows = FrozenRows::sealed;
@@ -316,7 +316,7 @@ struct Pressure {
 };
 
 struct Block {
-  bool bends = true;  // their pressure counts
+  bool bends = true;  // include the pressure due to bends
 };
 
 struct Probe {
@@ -328,9 +328,9 @@ struct Case {
   std::string name;  // of the run
   std::string file;  // absolute path of the case file
   std::map<std::string, std::string>
-      places;                           // of each given table and key by dotted name: "case.toml:12:7", "--set ..."
-  std::set<std::string> not_given;      // of these the ones that a run has written, at their defaults
-  std::vector<std::string> case_files;  // that and the files it is based on, absolute
+      places;  // locations of each given table and key by dotted name: "case.toml:12:7", "--set ..."
+  std::set<std::string> not_given;      // those of `places` that a resolved case contains as defaults
+  std::vector<std::string> case_files;  // the case file and those it is based on, absolute
   General general;
   Time time;
   Grid grid;
@@ -370,12 +370,12 @@ inline bool water_seeps(const Case& parameters) {
          std::any_of(parameters.materials.begin(), parameters.materials.end(), conducts);
 }
 
-// Whether the user has written a key; the case of a run's folder tells it of the case that the run began with.
+// True if the user specified a key; the case in a run folder records this from the original case.
 inline bool was_given(const Case& parameters, const std::string& dotted) {
   return parameters.places.count(dotted) > 0 && parameters.not_given.count(dotted) == 0;
 }
 
-// Where a key was written, for messages; the case file where it was not.
+// Location of a key for messages; the case file if the key is not given.
 inline const std::string& place_of(const Case& parameters, const std::string& dotted) {
   const auto found = parameters.places.find(dotted);
   return found == parameters.places.end() ? parameters.file : found->second;

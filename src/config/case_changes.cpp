@@ -16,7 +16,8 @@ namespace thawslide::config {
 
 namespace {
 
-// What the step reads anew each time and keeps no state for. A table ends with a dot: all of its keys.
+// Keys that the step reads each time and that have no stored state. A name ending with a dot includes all keys of the
+// table.
 constexpr std::array<std::string_view, 14> changeable = {
     "time.",
     "checkpoint.",
@@ -45,7 +46,7 @@ bool may_change(std::string_view key) {
 
 bool changes_no_run(const std::string& key) { return key == "case.title" || key.rfind("report.", 0) == 0; }
 
-// A value as the resolved case writes it.
+// Value in the form of the resolved case.
 std::string text_of(const toml::node& node) {
   if (const toml::value<double>* number = node.as_floating_point()) {
     return number_text(number->get());
@@ -62,7 +63,7 @@ std::string text_of(const toml::node& node) {
   return text.str();
 }
 
-// Every value by its dotted key.
+// Collects every value by its dotted key.
 void gather(const toml::table& table, const std::string& prefix, std::map<std::string, std::string>& values) {
   for (const auto& [key, node] : table) {
     const std::string dotted = prefix + std::string(key.str());
@@ -133,10 +134,10 @@ void require_changeable(const std::vector<std::string>& sets) {
     }
   }
   if (!fixed.empty()) {
-    throw UserError(fmt::format(
-        "a run that goes on cannot change {}: what it has computed so far was for the case it has. Allowed: "
-        "{}. For anything else run the case anew.",
-        fixed, changeable_keys()));
+    throw UserError(
+        fmt::format("{} cannot be changed on resume, because earlier results depend on it. Allowed: {}. For other "
+                    "changes, run the case again.",
+                    fixed, changeable_keys()));
   }
 }
 

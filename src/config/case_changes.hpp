@@ -1,4 +1,4 @@
-// What may change of a case when its run goes on, and how two resolved cases differ.
+// Permitted changes to the case of a resumed run, and differences between two resolved cases.
 #pragma once
 
 #include <set>
@@ -7,20 +7,20 @@
 
 namespace thawslide::config {
 
-// How the resolved case `now` differs from `before`, both TOML texts: "time.end is 20.0, was 10.0", one entry a key, in
-// the order of keys. The title and [report] do not count, since they change no run. A text that is no TOML is one
-// difference. Keys `apart_from` do not count either.
+// Differences of the resolved case `now` from `before`, both TOML texts: "time.end is 20.0, was 10.0", one entry per
+// key, in the order of keys. The title and [report] do not count, because they do not affect a run. A text that is not
+// TOML is one difference. Keys in `apart_from` do not count either.
 std::vector<std::string> differences(const std::string& now, const std::string& before,
                                      const std::set<std::string>& apart_from = {});
 
-// The keys that `--set` texts name. Throws UserError for a text without a key.
+// Keys in `--set` texts. Throws UserError for a text without a key.
 std::set<std::string> keys_of(const std::vector<std::string>& sets);
 
-// Throws UserError where one of the `--set` texts names a key that a run which goes on cannot change: what made its
-// first state, its grid, its ground and its records, and the laws it keeps state for.
+// Throws UserError if a `--set` text names a key that cannot be changed on resume: one that determines the initial
+// state, the grid, the ground, the records, or laws with stored state.
 void require_changeable(const std::vector<std::string>& sets);
 
-// Those that can, in words.
+// List of the changeable keys as text.
 std::string changeable_keys();
 
 }  // namespace thawslide::config

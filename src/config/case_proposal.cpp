@@ -20,18 +20,18 @@ namespace thawslide::config {
 namespace {
 
 constexpr double degree = 3.14159265358979323846 / 180.0;
-constexpr double slow = 20.0;  // m/s: a slide that crosses its domain at this speed gets to its end
+constexpr double slow = 20.0;  // m/s: a slide that crosses its domain at this speed reaches the far side
 constexpr double shortest_run = 60.0, longest_run = 400.0;  // [s]
-constexpr double rest_speed = 0.05;                         // m/s: the default of `run` for a case without the key
-constexpr double block_cells = 4.0;  // the domain is a multiple of, so that the cell may be doubled twice
-constexpr double snapshots = 40.0;   // about as many
+constexpr double rest_speed = 0.05;                         // m/s: default of `run` for a case without the key
+constexpr double block_cells = 4.0;  // the domain is a multiple of this, so the cell can be doubled twice
+constexpr double snapshots = 40.0;   // approximate number
 
-// The release in numbers. Its edge and its top are those of the DEM's points about it, as both lie between points.
+// Dimensions of the release. Edge and top include the surrounding DEM points, because both lie between points.
 struct ReleaseExtent {
-  double volume = 0.0, thickness = 0.0;  // [m3], [m]: half of the volume is where the release is thinner
-  double median_thickness = 0.0;         // [m]: half of the area is where it is thinner
+  double volume = 0.0, thickness = 0.0;  // [m3], [m]: half of the volume lies where the release is thinner
+  double median_thickness = 0.0;         // [m]: half of the area lies where the release is thinner
   double west = HUGE_VAL, east = -HUGE_VAL, south = HUGE_VAL, north = -HUGE_VAL;
-  double bottom = HUGE_VAL;  // also of one that is cut out of the DEM
+  double bottom = HUGE_VAL;  // also for an excavated release
   double top = -HUGE_VAL, top_x = 0.0, top_y = 0.0;
 };
 
@@ -39,7 +39,7 @@ struct Heights {
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
 };
 
-// Of the 3 x 3 points about a place.
+// Range of the 3 x 3 points around a position.
 Heights heights_about(const Raster& dem, double x, double y) {
   const long column = std::lround((x - dem.x) / dem.cell_x), row = std::lround((y - dem.y) / dem.cell_y);
   Heights heights;
@@ -55,7 +55,7 @@ Heights heights_about(const Raster& dem, double x, double y) {
   return heights;
 }
 
-// Half of the volume is where it is thinner.
+// Thickness below which half of the volume lies.
 double thickness_of_half_the_volume(std::vector<double> thicknesses) {
   std::sort(thicknesses.begin(), thicknesses.end());
   const double half = 0.5 * std::accumulate(thicknesses.begin(), thicknesses.end(), 0.0);
@@ -69,7 +69,7 @@ double thickness_of_half_the_volume(std::vector<double> thicknesses) {
   return 0.0;
 }
 
-// Half of the area is where it is thinner.
+// Thickness below which half of the area lies.
 double median_of(std::vector<double> thicknesses) {
   if (thicknesses.empty()) {
     return 0.0;
@@ -109,8 +109,8 @@ ReleaseExtent extent_of(const Raster& dem, const Raster& thickness) {
   return extent;
 }
 
-// Distance from the bounding box of the release to the nearest edge of the DEM or point without data [m]. Points are
-// looked at no farther away than `most` [m], which is returned where none is nearer.
+// Distance from the bounding box of the release to the nearest DEM edge or no-data point [m]. The search ends at `most`
+// [m], which is returned if nothing is nearer.
 double distance_to_edge(const Raster& dem, const ReleaseExtent& release, double most) {
   double nearest = std::min(
       {most, release.west - dem.x, dem.x_end() - release.east, release.south - dem.y, dem.y_end() - release.north});
@@ -126,15 +126,15 @@ double distance_to_edge(const Raster& dem, const ReleaseExtent& release, double 
   return nearest;
 }
 
-// Without the round-off of a product, which nobody wants to read in a file.
+// Removes the round-off of a product from a number for a file.
 double tidy(double number) { return std::stod(fmt::format("{:.12g}", number)); }
 
 struct Stretch {
   double low = 0.0, high = 0.0;
 };
 
-// The domain along x or y: what is to be `held` within the DEM. It begins and ends at multiples of four cells; where
-// that would cut the release at the edge of the DEM at multiples of a cell, or else at the edge of the DEM itself.
+// Domain along x or y that contains `held` within the DEM. It begins and ends at multiples of four cells. If that would
+// cut the release at the edge of the DEM, it ends at multiples of a cell, or otherwise at the edge of the DEM.
 Stretch domain_along(const Stretch& held, const Stretch& release, const Stretch& dem, double cell) {
   Stretch domain;
   for (const double block : {block_cells * cell, cell}) {
@@ -172,7 +172,7 @@ std::string edge_warning(const Proposal& proposal) {
   }
   return fmt::format(
       "--dem: the release is close to the edge of the known terrain (found {:.3g} m; needed its own length, {:.3g} m, "
-      "or more). Particles that pass the edge are removed, and the results lack them. Use a larger terrain model",
+      "or more). Particles that pass the edge are removed, and the results lack them. Use a larger DEM",
       proposal.edge_distance, proposal.length);
 }
 
@@ -256,7 +256,8 @@ std::string taper_text(const EdgeTaper& taper) {
       "{:.1f}\n"
       "# degrees here{}.\ntaper = {}  # m\n",
       degrees_of(taper.steepest), degrees_of(taper.slope),
-      taper.is_cramped() ? fmt::format("; {} m would be right, but there is no room", number_text(taper.wanted)) : "",
+      taper.is_cramped() ? fmt::format("; {} m is needed, but the release is too narrow", number_text(taper.wanted))
+                         : "",
       number_text(taper.width));
 }
 
@@ -269,7 +270,7 @@ std::string point_text(const Point& point) {
 std::string case_text(const ProposalInput& input, const Proposal& proposal) {
   const bool is_cut = input.placement == Placement::cut;
   std::string text = fmt::format(
-      R"(# Made by `thawslide new`. Every number may be changed; `thawslide describe` tells what keys there are.
+      R"(# Made by `thawslide new`. Every number may be changed; `thawslide describe` lists all keys.
 
 [case]
 title = {title}

@@ -1,5 +1,5 @@
-// A first case for a terrain model and a release: cell, domain and times that fit them. What a first 2D case
-// (section_proposal.hpp) has in common with it.
+// Initial case for a DEM and a release, with suitable cell, domain and times; also functions shared with 2D cases
+// (section_proposal.hpp).
 #pragma once
 
 #include <string>
@@ -11,18 +11,18 @@
 
 namespace thawslide::config {
 
-// How far a slide is given room to run where nothing else is asked for [degrees].
+// Default reach angle, which determines the size of the domain [degrees].
 constexpr double usual_reach_angle = 8.0;
 
-// What a user gives, and what a look at the files shows.
+// User input and facts from the files.
 struct ProposalInput {
   std::string title;
-  std::string dem_file, release_file;  // as the case is to name them; no release_file where a raster gives the release
+  std::string dem_file, release_file;  // as named in the case; no release_file if a raster specifies the release
   MapValue thickness;
   Placement placement = Placement::on_top;
-  EdgeTaper taper;                         // of a release that is cut out
+  EdgeTaper taper;                         // of an excavated release
   double reach_angle = usual_reach_angle;  // degrees
-  double largest_volume = 0.0;             // m3, confirmed; 0: the default of the parameter holds
+  double largest_volume = 0.0;             // m3, confirmed; 0: default of the parameter
 };
 
 struct Proposal {
@@ -31,22 +31,22 @@ struct Proposal {
   Point min{}, max{};             // of the domain [m]
   double end = 0.0;               // [s]
   double output_interval = 0.0;   // [s]
-  double thickness = 0.0;         // [m], that the cell follows from: half of the volume is where the release is thinner
-  double median_thickness = 0.0;  // [m]: half of the area is where the release is thinner; 0 in 2D
+  double thickness = 0.0;         // [m], determines the cell: half of the volume lies where the release is thinner
+  double median_thickness = 0.0;  // [m]: half of the area lies where the release is thinner; 0 in 2D
   double volume = 0.0;            // [m3], per metre of width in 2D
   double length = 0.0;            // longer side of the release's bounding box [m]; 0 in 2D
-  double edge_distance = 0.0;     // from the release to the edge of the known terrain, at most its length [m]
-  double particles = 0.0;         // about as many
+  double edge_distance = 0.0;     // from the release to the edge of the known terrain, at most the release's length [m]
+  double particles = 0.0;         // approximate number
 };
 
-// The domain holds every point of the DEM that lies below a line that falls by the reach angle from the release's
-// highest point, and all of the release, which may reach a cell of the DEM beyond the points that have a thickness. The
-// cell is that of the resolution. dem: NaN where there is no data; thickness: vertical [m], on points of the same
-// places. `cell`: size of the grid's cells [m] if the user specifies it; 0: not specified.
+// Proposes a domain that contains all DEM points below a line at the reach angle from the release's highest point. It
+// also contains the whole release, which may extend one DEM cell beyond the points with a thickness. The cell is that
+// of the resolution. dem: NaN for no data; thickness: vertical [m], on the same points. `cell`: size of the grid's
+// cells [m] if the user specifies it; 0: not specified.
 [[nodiscard]] Proposal propose(const Raster& dem, const Raster& thickness, double reach_angle, double cell = 0.0,
                                Resolution resolution = Resolution::quick);
 
-// The commented case file.
+// Case file with comments.
 [[nodiscard]] std::string case_text(const ProposalInput& input, const Proposal& proposal);
 
 inline constexpr int margin_cells = 4;  // between the release and the sides of the domain
@@ -54,29 +54,29 @@ inline constexpr int margin_cells = 4;  // between the release and the sides of 
 // Sets the cell and the number of particles; needs volume and thicknesses. `cell` as above.
 void propose_cell(Proposal& proposal, int dimension, double cell = 0.0, Resolution resolution = Resolution::quick);
 
-// Sets the end and the interval between snapshots, for a slide that may go so far [m].
+// Sets the end and the interval between snapshots; farthest: maximum travel distance [m].
 void propose_times(Proposal& proposal, double farthest);
 
-// The table [time], without an empty line after it.
+// Table [time], without a trailing empty line.
 [[nodiscard]] std::string time_text(const Proposal& proposal);
 
-// Of a raster of thickness [m] on points of one area each: half of the area is where it is thinner.
+// Median of a thickness raster [m] with points of equal area: half of the area is thinner.
 [[nodiscard]] double median_thickness(const Raster& thickness);
 
-// The release of a 3D case, which has maps.
+// Release of a 3D case, which has maps.
 [[nodiscard]] BodyOnCells release_on_cells(const Proposal& proposal);
 
-// A warning for a release that is nearer to the edge of the DEM, or to points without data, than its own length: an
-// avalanche spreads and travels by more than that. Empty where it is not.
+// Warning if a release is closer to the DEM edge or to no-data points than its own length, because an avalanche spreads
+// and travels farther than that. Empty otherwise.
 [[nodiscard]] std::string edge_warning(const Proposal& proposal);
 
-// How many particles the cell puts across the thickness, for the comment at grid.cell.
+// Number of particles across the thickness, for the comment at grid.cell.
 [[nodiscard]] std::string cell_comment(const Proposal& proposal);
 
-// The last keys of the body: particles and initial state.
+// Last keys of the body: particles and initial state.
 [[nodiscard]] std::string body_state_text(const Proposal& proposal);
 
-// The tables of material, base and band.
+// Tables of material, base and band.
 [[nodiscard]] std::string physics_text();
 
 }  // namespace thawslide::config

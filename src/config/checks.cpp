@@ -16,8 +16,8 @@ namespace thawslide::config {
 namespace {
 
 constexpr double fewest_cells = 2.0;    // of the domain along each axis
-constexpr double most_intervals = 1e9;  // within the run: more cannot be meant, and nothing could write them
-constexpr double most_cells = 5e5;      // what the numbers of the sparse grid's tiles can hold
+constexpr double most_intervals = 1e9;  // within the run: more are unintended and cannot be written
+constexpr double most_cells = 5e5;      // limit of the tile numbers in the sparse grid
 const char* const axis_names[] = {"x", "y", "z"};
 const std::array side_names{"heat.boundary.x_min", "heat.boundary.x_max", "heat.boundary.y_min",
                             "heat.boundary.y_max", "heat.boundary.z_min", "heat.boundary.z_max"};
@@ -52,7 +52,7 @@ void check_grid(const Case& checked, Reading& reading) {
       return;
     }
     if (std::abs(cells - std::round(cells)) > 1e-6 * cells) {
-      // One that fits this axis alone would be refused for another.
+      // A cell that fits this axis alone would be refused for another one.
       const double fitting = fitting_cell_near(grid.cell, lengths_of_domain(checked));
       reading.report_misfit({"grid.max", "grid.cell", "grid.min"},
                             fmt::format("the domain is {} m long along {}, which is {:.6g} cells of {} m; allowed: a "
@@ -132,7 +132,7 @@ void check_filter(const Case& checked, Reading& reading) {
   }
 }
 
-// Keys that take each other's meaning away.
+// Checks keys that make each other ineffective.
 void check_switches(const Case& checked, Reading& reading) {
   const bool has_ground = checked.terrain.kind != TerrainKind::none;
   if (reading.sound({"mechanics.enabled", "heat.enabled", "pressure.enabled"}) && !checked.mechanics.enabled &&
@@ -186,8 +186,8 @@ void check_switches(const Case& checked, Reading& reading) {
             {"band.cut_cells"},
             fmt::format(
                 "band.cut_cells is \"equal_thickness\", body.{}.particles_per_axis is {} and "
-                "body.{}.particles_per_axis is {}; allowed with it: one number for all bodies, since the band's "
-                "cells are told by it. Give the bodies the same, or set band.cut_cells = \"as_they_are\".",
+                "body.{}.particles_per_axis is {}; allowed with it: one number for all bodies, because it defines the "
+                "cells of the band. Give the bodies the same, or set band.cut_cells = \"as_they_are\".",
                 first_name, first.particles_per_axis, name, body.particles_per_axis));
         break;
       }
@@ -210,8 +210,8 @@ void check_switches(const Case& checked, Reading& reading) {
   }
 }
 
-// Beside band columns particles keep the temperature and pore pressure of t = 0, so what works on those does nothing.
-// Columns have none of the forms that make heat or water from nothing.
+// With band columns, particle temperature and pore pressure stay constant, so keys that act on them have no effect.
+// Columns lack the formulations that create heat or water spuriously.
 void check_band_columns(const Case& checked, Reading& reading) {
   if (!reading.sound({"band.model"}) || !has_band_columns(checked)) {
     return;
@@ -249,15 +249,15 @@ void check_band_columns(const Case& checked, Reading& reading) {
   }
 }
 
-// The same of heat and water in the band.
+// The same for heat and water in the band.
 void check_band_switches(const Case& checked, Reading& reading) {
   if (reading.sound({"heat.advection_form", "heat.update", "heat.masses"}) &&
       checked.heat.advection_form == AdvectionForm::conservative && water_seeps(checked) &&
       (checked.heat.update != HeatUpdate::enthalpy || checked.heat.masses != HeatMasses::initial)) {
     reading.report_misfit(
         {"heat.advection_form", "heat.update", "heat.masses"},
-        "heat.advection_form is \"conservative\", and heat.update or heat.masses is as printed, which makes heat all "
-        "the same; allowed with it: heat.update = \"enthalpy\" and heat.masses = \"initial\". Set both so, or "
+        "heat.advection_form is \"conservative\", and heat.update or heat.masses is as published, which still creates "
+        "heat; allowed with it: heat.update = \"enthalpy\" and heat.masses = \"initial\". Set both so, or "
         "heat.advection_form = \"as_printed\".");
   }
   if (reading.sound({"pressure.residual_stress", "pressure.frozen"}) &&
@@ -300,7 +300,7 @@ void check_times(const Case& checked, Reading& reading) {
   }
 }
 
-// Columns of the profile against the domain; empty where there is none, or it has a problem of its own.
+// Checks the profile against the domain; returns an empty table if there is none, or if it has other problems.
 ProfileTable checked_profile(const Case& checked, Reading& reading) {
   if (checked.terrain.kind != TerrainKind::profile || !reading.sound({"terrain.file"}) ||
       checked.terrain.file.empty()) {
@@ -337,7 +337,7 @@ void check_material(const Case& checked, const std::string& table, const std::st
     reading.report(table + ".material",
                    fmt::format("{}.material is '{}', and there is no [material.{}]{} Allowed: {}.", table, name, name,
                                hint.empty() ? "." : hint,
-                               known.empty() ? "none, as the case has no [material.NAME]" : list_words(known)));
+                               known.empty() ? "none, as the case has no [material.NAME]" : comma_list(known)));
   }
 }
 

@@ -1,4 +1,4 @@
-// What must hold between several keys of a case, and between keys and files.
+// Consistency checks between keys of a case, and between keys and files.
 #pragma once
 
 #include "config/case.hpp"
@@ -7,32 +7,31 @@
 
 namespace thawslide::config {
 
-// Adds a problem for each thing that does not fit. Checks whose keys already have a problem are left out.
+// Adds a problem for each inconsistency. Skips checks of keys that already have a problem.
 void check_case(const Case& checked, Reading& reading);
 
-// That the material named by a table is there.
+// Checks that the material named by a table exists.
 void check_material(const Case& checked, const std::string& table, const std::string& name, Reading& reading);
 
-// The part on terrain, bodies and frames. `profile` is empty where there is none, or it could not be read.
+// Checks terrain, bodies and frames. `profile` is empty if there is none, or if it could not be read.
 void check_bodies(const Case& checked, const ProfileTable& profile, Reading& reading);
 
-// The part on what bodies slide on: [basal], and [substrate.NAME] with where it lies.
+// Checks the ground: [basal], and [substrate.NAME] with its extent.
 void check_grounds(const Case& checked, Reading& reading);
 
-// The part on what the slide takes up: [bed].
+// Checks the erodible bed: [bed].
 void check_bed(const Case& checked, Reading& reading);
 
-// The part on what acts between bodies: [contact] and [contact_pair.NAME].
+// Checks contact between bodies: [contact] and [contact_pair.NAME].
 void check_contact(const Case& checked, Reading& reading);
 
-// The part on a DEM, releases, what maps give to bodies, and probes. Whether the maps hold what is asked of them is not
-// known here.
+// Checks DEM, releases, map inputs of bodies, and probes. The contents of the maps are checked later.
 void check_maps(const Case& checked, Reading& reading);
 
-// The part on the width of a section. After the others.
+// Checks the width of a section; must follow the other checks.
 void check_width(const Case& checked, Reading& reading);
 
-// The part on the names of input files, and on reported values.
+// Checks names of input files, and reported values.
 void check_files(const Case& checked, Reading& reading);
 
 }  // namespace thawslide::config

@@ -31,8 +31,8 @@ void check_depth(const Case& checked, Reading& reading) {
     if (deepest > checked.grid.cell) {
       reading.report_misfit(
           {key, "grid.cell"},
-          fmt::format("{} is {} m, more than grid.cell, which is {} m; the ground does not sink as the bed is taken "
-                      "up. Make the bed thinner, or let a lower terrain and a body on it stand for the bed.",
+          fmt::format("{} is {} m, more than grid.cell, which is {} m; the ground is not lowered as the bed is "
+                      "entrained. Make the bed thinner, or represent the bed by a body on lower terrain.",
                       key, deepest, checked.grid.cell));
     }
   }

@@ -12,10 +12,10 @@ namespace {
 
 const char* const axis_names[] = {"x", "y", "z"};
 constexpr double degree = 3.14159265358979323846 / 180.0;
-constexpr double hair = 1e-3;  // of a cell: how far a body may reach into the ground by rounding
-constexpr double flat = 1e-9;  // of the squared size of a polygon: an area that is rounding only
+constexpr double hair = 1e-3;  // fraction of a cell: depth to which a body may extend into the ground by rounding
+constexpr double flat = 1e-9;  // fraction of the squared size of a polygon: an area due to rounding
 
-// Elevation of the ground; -infinity where there is none, and of a DEM, which is not read here.
+// Elevation of the ground; -infinity without terrain, and on a DEM, which is not read here.
 double ground_at(const Case& checked, const ProfileTable& profile, double x) {
   switch (checked.terrain.kind) {
     case TerrainKind::none:
@@ -53,7 +53,7 @@ bool check_box_order(const Point& low, const Point& high, const std::string& tab
   return true;
 }
 
-// The keys say where the lowest and the highest corner come from.
+// low_key, high_key: keys that determine the lowest and the highest corner.
 void check_in_domain(const Case& checked, const Point& low, const Point& high, const std::string& table,
                      const std::string& low_key, const std::string& high_key, Reading& reading) {
   const Grid& grid = checked.grid;
@@ -116,12 +116,12 @@ double turn(const Vertex& a, const Vertex& b, const Vertex& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-// The lines between a and b and between c and d cross inside both.
+// True if the segments ab and cd cross at a point inside both.
 bool cross(const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& d) {
   return turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0;
 }
 
-// The numbers, from 1, of the vertices before two sides that cross; 0 and 0 if none do.
+// Numbers, from 1, of the first vertices of two sides that cross; 0 and 0 if none do.
 std::array<std::size_t, 2> crossing_sides(const Vertices& vertices) {
   const std::size_t count = vertices.size();
   for (std::size_t j = 0; j < count; ++j) {
@@ -134,7 +134,7 @@ std::array<std::size_t, 2> crossing_sides(const Vertices& vertices) {
   return {0, 0};
 }
 
-// The polygon goes once around an area; `size` is its largest extent.
+// Checks that the polygon encloses one area once; `size` is its maximum extent.
 bool check_outline(const Vertices& vertices, double size, const std::string& key, Reading& reading) {
   const auto [first, second] = crossing_sides(vertices);
   if (second > 0) {
@@ -156,7 +156,7 @@ bool check_outline(const Vertices& vertices, double size, const std::string& key
   return true;
 }
 
-// The points of a side that may lie deepest in the ground: its first end, and where the profile bends along it.
+// Points of a side that may lie deepest in the ground: its first end, and the profile points along it.
 Vertices low_points(const ProfileTable& profile, const Vertex& a, const Vertex& b) {
   Vertices points{a};
   for (const double x : profile.distance) {
@@ -196,8 +196,8 @@ void check_polygon(const Case& checked, const ProfileTable& profile, const Body&
   }
 }
 
-// The box around what the profile holds between its terrain and its surface. From a row where the surface is higher the
-// body thins out to the rows beside it. Of no extent where the surface is nowhere higher.
+// Bounding box of the body between terrain and surface of the profile. From a row with a higher surface, the body thins
+// out to the adjacent rows. The box is empty if the surface is nowhere higher.
 std::array<Point, 2> surface_extent(const ProfileTable& profile) {
   Point low{INFINITY, INFINITY, 0.0}, high{-INFINITY, -INFINITY, 0.0};
   const std::size_t rows = profile.distance.size();
@@ -271,7 +271,7 @@ void check_body(const Case& checked, const ProfileTable& profile, const std::str
   }
 }
 
-// A frame may reach out of the domain, but must meet it at some time of the run.
+// A frame may extend out of the domain, but must meet it at some time of the run.
 void check_frame_meets_domain(const Case& checked, const Frame& frame, const std::string& table, Reading& reading) {
   const int dimension = checked.general.dimension;
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {

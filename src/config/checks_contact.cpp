@@ -11,9 +11,9 @@ namespace thawslide::config {
 
 namespace {
 
-constexpr std::size_t most_layers = 15;  // mpm::Tile has so many
+constexpr std::size_t most_layers = 15;  // limit of mpm::Tile
 
-// That each pair names two bodies that are there, and no other pair the same two.
+// Checks that each pair names two existing bodies, and that no two pairs name the same bodies.
 bool check_names(const Case& checked, Reading& reading) {
   std::set<std::set<std::string>> seen;
   bool are_right = true;
@@ -40,7 +40,7 @@ bool check_names(const Case& checked, Reading& reading) {
         }
         const std::string hint = did_you_mean(body, known);
         reading.report(key, fmt::format("{} names '{}', and there is no [body.{}]{} Allowed: {}.", key, body, body,
-                                        hint.empty() ? "." : hint, list_words(known)));
+                                        hint.empty() ? "." : hint, comma_list(known)));
         are_right = false;
       }
     }

@@ -1,5 +1,4 @@
-// Checks of the files that a case names in addition to its maps: names that a run can keep in one folder, reported
-// values, a force record.
+// Checks of other input files: unique names for the copies in a run folder, reported values, force record.
 #include <fmt/format.h>
 
 #include "base/error.hpp"
@@ -12,7 +11,7 @@ namespace thawslide::config {
 
 namespace {
 
-// A run keeps copies of all inputs in one folder.
+// Names must be unique, because a run keeps copies of all inputs in one folder.
 void check_names(const Case& checked, Reading& reading) {
   const std::vector<InputFile> files = input_files_by_key(checked);
   for (std::size_t later = 1; later < files.size(); ++later) {

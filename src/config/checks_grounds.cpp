@@ -1,4 +1,4 @@
-// Checks of what bodies slide on: the numbers of its laws, and where substrates lie.
+// Checks of the ground: parameters of its laws, and extent of substrates.
 #include <fmt/format.h>
 
 #include "config/checks.hpp"
@@ -70,7 +70,7 @@ void check_map(const Case& checked, const Substrate& substrate, const std::strin
   }
 }
 
-// Strips that cover the same place, or leave a gap that no grid sees.
+// Checks for strips that overlap, or leave a gap too narrow for the grid.
 void check_neighbours(const Case& checked, Reading& reading) {
   const std::vector<Strip> strips = strips_of(checked);
   for (std::size_t k = 1; k < strips.size(); ++k) {
@@ -94,7 +94,7 @@ void check_neighbours(const Case& checked, Reading& reading) {
   }
 }
 
-// Substrates of one raster with the same code.
+// Checks for substrates of one raster with the same code.
 void check_codes(const Case& checked, Reading& reading) {
   for (auto one = checked.substrates.begin(); one != checked.substrates.end(); ++one) {
     for (auto other = checked.substrates.begin(); other != one; ++other) {
@@ -122,7 +122,7 @@ void check_grounds(const Case& checked, Reading& reading) {
                                         "give terrain.type.",
                                         table));
     } else if (!reading.sound({table + ".outline", table + ".raster"})) {
-      continue;  // told already
+      continue;  // already reported
     } else if (substrate.is_strip()) {
       check_strip(checked, substrate, table, reading);
     } else {

@@ -1,4 +1,4 @@
-// Checks of what maps give: a DEM as the ground, releases, initial fields of bodies, probes.
+// Checks of map inputs: a DEM as the ground, releases, initial fields of bodies, probes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -86,7 +86,7 @@ double saturation_at(const Freezing& freezing, double temperature) {
              : physics::LinearCurve<double>{freezing.reference_temperature, freezing.slope}.saturation(temperature);
 }
 
-// The temperature that a saturation stands for must exist.
+// Checks that the freezing curve has a temperature for the saturation.
 void check_saturation(const Case& checked, const Body& body, const std::string& table, Reading& reading) {
   const std::string key = table + ".saturation";
   if (!body.saturation.is_given() || body.saturation.is_map() || !reading.sound({key}) ||
@@ -105,8 +105,8 @@ void check_saturation(const Case& checked, const Body& body, const std::string& 
   }
 }
 
-// Where both are one number, the porosity that an ice content stands for; maps and tables are checked particle by
-// particle when the body is made.
+// Checks the porosity that follows from an ice content if both are single numbers. Maps and tables are checked for each
+// particle when the body is created.
 void check_ice_content(const Case& checked, const Body& body, const std::string& table, Reading& reading) {
   const std::string key = table + ".ice_content";
   const bool by_saturation = body.saturation.is_given();
@@ -132,7 +132,7 @@ void check_ice_content(const Case& checked, const Body& body, const std::string&
   }
 }
 
-// A file of a line is placed by the DEM's coordinate system.
+// A file of a line requires the DEM's coordinate system.
 void check_line(const Case& checked, const std::string& key, const std::string& file, Reading& reading) {
   if (checked.general.dimension == 3 && !file.empty() && checked.terrain.kind != TerrainKind::dem &&
       reading.sound({"terrain.type", key})) {

@@ -10,7 +10,7 @@ namespace {
 
 const std::string key = "case.width";
 
-// Whether some bodies have frictional contact; not known while the case has a problem.
+// True if some bodies have frictional contact; false while the case has problems.
 bool bodies_are_apart(const Case& checked, const Reading& reading) {
   return reading.problems.empty() && !checked.bodies.empty() && body_layers(checked).count > 1;
 }

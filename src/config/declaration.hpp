@@ -1,5 +1,5 @@
 // Declarations: a parameter is a Rule bound to a member of the Case; a table is a list of parameters. Reading, errors,
-// the reference, the resolved case file and the editor schema are all driven by them.
+// the reference, the resolved case file and the editor schema are all based on them.
 #pragma once
 
 #include <functional>
@@ -13,32 +13,32 @@
 
 namespace thawslide::config {
 
-// What the reference tells of a parameter.
+// Reference entry of a parameter.
 struct Entry {
   const Rule* rule = nullptr;
   std::string type;
   std::string default_text;  // TOML; empty: none
-  std::string required;      // "always", or when; empty: never
-  std::string otherwise;     // what holds where the key is absent and there is no fixed default
-  std::vector<Word> words;
+  std::string required;      // "always", or the condition; empty: never
+  std::string otherwise;     // default of an absent key that has no fixed default
+  std::vector<Keyword> words;
   nlohmann::json schema;
-  std::string only;  // when the key has a meaning; empty: always
+  std::string only;  // condition under which the key is allowed; empty: always
 };
 
-// When a key has a meaning, in words, and the key of the same table that decides it.
+// Condition under which a key is allowed, as text, and the key of the same table that decides it.
 struct Meaning {
   std::string when;
   std::string decided_by;
 };
 
-// A number of the case outside the usual ones.
+// Number of the case outside the usual range.
 struct Unusual {
   std::string key;  // dotted
   double value = 0.0;
   const Rule* rule = nullptr;
 };
 
-// The numbers that a value holds; of most types none.
+// Numbers contained in a value; none for most types.
 template <class T>
 std::vector<double> numbers_in(const T& value) {
   if constexpr (std::is_same_v<T, double>) {
@@ -53,7 +53,7 @@ std::vector<double> numbers_in(const T& value) {
 template <class Section>
 class Parameter {
  public:
-  // Binds a rule to what `access` (a pointer to member, or a function of the section) gives.
+  // Binds a rule to the result of `access` (a pointer to member, or a function of the section).
   template <class Access>
   static Parameter bind(Access access, Rule rule) {
     using T = std::remove_cvref_t<std::invoke_result_t<Access, Section&>>;
@@ -80,21 +80,21 @@ class Parameter {
   Parameter required() && {
     return std::move(*this).required_if("always", [](const Case&, const Section&) { return true; });
   }
-  // No default: the key must be given when the condition holds; `when` says it in words.
+  // No default: the key must be given when the condition holds; `when` is its text.
   Parameter required_if(std::string when, std::function<bool(const Case&, const Section&)> condition) && {
-    required_words = std::move(when);
+    required_text = std::move(when);
     is_required = std::move(condition);
     return std::move(*this);
   }
-  // What holds where the key is absent, in words, and how to fill it in (nothing: the member's initialiser says it).
-  Parameter otherwise(std::string words_for_it, std::function<void(const Case&, Section&)> filler = nullptr) && {
-    otherwise_words = std::move(words_for_it);
+  // Text of the default of an absent key, and a function that sets it (null: the member's initializer applies).
+  Parameter otherwise(std::string default_description, std::function<void(const Case&, Section&)> filler = nullptr) && {
+    otherwise_text = std::move(default_description);
     fill = std::move(filler);
     return std::move(*this);
   }
 
-  // The key has a meaning only when the condition holds, which `when` says in words: given without it is a mistake, and
-  // the resolved case leaves it out. `decided_by` is the key of the same table that the condition asks most of.
+  // The key is allowed only when the condition holds, with `when` as its text. Otherwise a given key is an error, and
+  // the resolved case omits it. `decided_by` is the main key of the same table in the condition.
   Parameter only_if(std::string when, std::string decided_by,
                     std::function<bool(const Case&, const Section&)> condition) && {
     meaning = {std::move(when), std::move(decided_by)};
@@ -102,25 +102,25 @@ class Parameter {
     return std::move(*this);
   }
 
-  // The numbers that are usual where the condition holds; nothing is said of others.
+  // Usual range under the condition; other cases are not checked.
   Parameter usually(Usual usual, std::function<bool(const Case&, const Section&)> condition) && {
     rule.usual = usual;
     has_usual = std::move(condition);
     return std::move(*this);
   }
 
-  // The default as TOML, from the member's initialiser; empty where there is none.
+  // Default as TOML, from the member's initializer; empty if there is none.
   [[nodiscard]] std::string default_text() const {
-    const bool has_default = required_words.empty() && otherwise_words.empty();
+    const bool has_default = required_text.empty() && otherwise_text.empty();
     return has_default ? write(Section{}, rule, WriteContext{}) : "";
   }
 
   Rule rule;
   std::string type;
-  std::vector<Word> words;
+  std::vector<Keyword> words;
   nlohmann::json schema;
-  std::string required_words;
-  std::string otherwise_words;
+  std::string required_text;
+  std::string otherwise_text;
   Meaning meaning;
   std::function<bool(const toml::node&, const ValueReader&, Section&)> read;
   std::function<std::string(const Section&, const Rule&, const WriteContext&)> write;
@@ -136,7 +136,7 @@ Parameter<Section> parameter(T Section::*member, Rule rule) {
   return Parameter<Section>::bind(member, std::move(rule));
 }
 
-// One entry of an array member.
+// Parameter for one entry of an array member.
 template <class Section, class T, std::size_t Size>
 Parameter<Section> element(std::array<T, Size> Section::*member, std::size_t index, Rule rule) {
   const auto access = [member, index](Section& section) -> T& { return (section.*member)[index]; };
@@ -152,17 +152,17 @@ class TableDeclaration {
   std::string name;  // "band", "grid.boundary"
   std::string text;
 
-  // "[band]" or, for tables with a name of their own, "[body.NAME]".
+  // "[band]" or, for named tables, "[body.NAME]".
   [[nodiscard]] std::string title() const { return "[" + name + (is_named() ? ".NAME]" : "]"); }
   [[nodiscard]] virtual bool is_named() const = 0;
   [[nodiscard]] virtual std::vector<Entry> entries() const = 0;
-  // Reads the table if the file has it; reports unknown keys and wrong values.
+  // Reads the table if the file contains it; reports unknown keys and invalid values.
   virtual void read(const toml::table& root, Case& result, Reading& reading) const = 0;
-  // Reports missing keys and fills in what follows from other keys.
+  // Reports missing keys and fills in values that follow from other keys.
   virtual void complete(Case& result, Reading& reading) const = 0;
   virtual void write(const Case& source, const WriteContext& context, std::string& out) const = 0;
   virtual void find_unusual(const Case& source, std::vector<Unusual>& found) const = 0;
-  // The names in the case of a named table.
+  // Names of the instances of a named table in the case.
   [[nodiscard]] virtual std::vector<std::string> names(const Case& source) const = 0;
 };
 
@@ -171,9 +171,8 @@ using Tables = std::vector<std::unique_ptr<TableDeclaration>>;
 // Every table of the case file, [case] first.
 const Tables& tables();
 
-// The parts of tables(): parameters_run.cpp, parameters_material.cpp, parameters_bodies.cpp and
-// parameters_model.cpp, among whose tables those of parameters_basal.cpp, parameters_bed.cpp and
-// parameters_contact.cpp stand.
+// Parts of tables(): parameters_run.cpp, parameters_material.cpp, parameters_bodies.cpp and parameters_model.cpp. The
+// last includes those of parameters_basal.cpp, parameters_bed.cpp and parameters_contact.cpp.
 void declare_run(Tables& tables);
 void declare_material(Tables& tables);
 void declare_bodies(Tables& tables);

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What holds where the key is absent, whenever it has a meaning.
+// Effect of omitting a key that is allowed.
 std::string absence_in_meaning(const Entry& entry) {
   if (entry.required.empty()) {
     return entry.otherwise.empty() ? entry.default_text : entry.otherwise;
@@ -21,11 +21,11 @@ std::string absence_in_meaning(const Entry& entry) {
   return entry.otherwise.empty() ? required : required + "; otherwise " + entry.otherwise;
 }
 
-// What holds where the key is absent, and when it has a meaning.
+// Effect of omitting a key, and the condition under which it is allowed.
 std::string absence(const Entry& entry) {
   const std::string text = absence_in_meaning(entry);
-  const bool is_told = entry.only.empty() || entry.only == entry.required;
-  return is_told ? text : fmt::format("{}{}only {}", text, text.empty() ? "" : "; ", entry.only);
+  const bool is_specified = entry.only.empty() || entry.only == entry.required;
+  return is_specified ? text : fmt::format("{}{}only {}", text, text.empty() ? "" : "; ", entry.only);
 }
 
 std::string range_text(const Entry& entry) {
@@ -34,14 +34,14 @@ std::string range_text(const Entry& entry) {
   return is_number ? entry.rule->range.text() : "";
 }
 
-// "usually 0.01 to 2 (not checked)"; empty where nothing is told.
+// Text such as "usually 0.01 to 2 (not checked)"; empty if no range is specified.
 std::string usual_text(const Entry& entry) {
-  return entry.rule->usual.is_told() ? "usually " + entry.rule->usual.text() : "";
+  return entry.rule->usual.is_specified() ? "usually " + entry.rule->usual.text() : "";
 }
 
-std::string words_text(const Entry& entry, const std::string& separator) {
+std::string keywords_text(const Entry& entry, const std::string& separator) {
   std::string text;
-  for (const Word& word : entry.words) {
+  for (const Keyword& word : entry.words) {
     text += fmt::format("{}\"{}\": {}", text.empty() ? "" : separator, word.word, word.text);
   }
   return text;
@@ -56,7 +56,7 @@ std::string in_table_cell(std::string text) {
 
 Json described(const Entry& entry) {
   Json json{{"key", entry.rule->key}, {"type", entry.type}, {"unit", entry.rule->unit}, {"allowed", range_text(entry)}};
-  json["dimension"] = entry.rule->dimension == 0 ? Json(nullptr) : Json(entry.rule->dimension);  // null: of any
+  json["dimension"] = entry.rule->dimension == 0 ? Json(nullptr) : Json(entry.rule->dimension);  // null: any
   json["usual"] = entry.rule->usual.text();
   json["default"] = entry.default_text.empty() ? Json(nullptr) : Json(entry.default_text);
   json["required"] = entry.required;
@@ -65,13 +65,13 @@ Json described(const Entry& entry) {
   json["text"] = entry.rule->text;
   json["source"] = entry.rule->source;
   json["words"] = Json::array();
-  for (const Word& word : entry.words) {
+  for (const Keyword& word : entry.words) {
     json["words"].push_back({{"word", word.word}, {"text", word.text}});
   }
   return json;
 }
 
-// The schema of one table's keys.
+// Schema of one table's keys.
 Json table_schema(const TableDeclaration& table) {
   Json properties = Json::object();
   for (const Entry& entry : table.entries()) {
@@ -107,7 +107,7 @@ std::string describe_text() {
         line.replace(line.find("default: "), 9, "");
       }
       out += fmt::format("  {:<26}{}\n", "", line);
-      for (const Word& word : entry.words) {
+      for (const Keyword& word : entry.words) {
         out += fmt::format("  {:<26}  \"{}\": {}\n", "", word.word, word.text);
       }
     }
@@ -138,7 +138,7 @@ std::string describe_markdown() {
     for (const Entry& entry : table->entries()) {
       const std::string usual = usual_text(entry);
       const std::string allowed =
-          entry.words.empty() ? entry.type + (usual.empty() ? "" : "; " + usual) : words_text(entry, "<br>");
+          entry.words.empty() ? entry.type + (usual.empty() ? "" : "; " + usual) : keywords_text(entry, "<br>");
       out +=
           fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", entry.rule->key, entry.rule->unit, in_table_cell(allowed),
                       in_table_cell(absence(entry)), in_table_cell(entry.rule->text), entry.rule->source);

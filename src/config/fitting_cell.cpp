@@ -11,20 +11,20 @@ namespace thawslide::config {
 
 namespace {
 
-constexpr double leeway = 1.5;          // how much finer or coarser, to come by a cell at all
-constexpr double little = 1.25;         // and to come by one of few digits, where others fit better
-constexpr double finest_unit = 1e-6;    // [m], of lengths: what is no multiple of it has no common measure
+constexpr double leeway = 1.5;          // factor by which the cell may be finer or coarser
+constexpr double little = 1.25;         // factor accepted for a cell of few digits if others fit better
+constexpr double finest_unit = 1e-6;    // [m], of lengths: other lengths have no common measure
 constexpr double fewest_cells = 2.0;    // of the domain along each axis
-constexpr double longest_count = 1e15;  // units, that are exact as numbers
+constexpr double longest_count = 1e15;  // units that are exact as floating-point numbers
 
-// Without the round-off of a product, which nobody wants to read.
+// Removes the round-off of a product from a number for a message.
 double tidy(double number) { return std::stod(fmt::format("{:.12g}", number)); }
 
 double of_few_digits(double number) { return std::stod(fmt::format("{:.2g}", number)); }
 
 bool has_few_digits(double number) { return std::abs(number - of_few_digits(number)) < 1e-9 * number; }
 
-// Cells: all lengths are whole multiples of so many, and of a whole part of them.
+// Greatest common divisor of all lengths, in cells.
 double common_cells(double cell, const std::vector<double>& lengths) {
   long common = 0;
   for (const double length : lengths) {
@@ -40,7 +40,7 @@ bool are_whole(const std::vector<double>& lengths, double unit) {
   });
 }
 
-// The largest length [m] of which all are whole multiples; 0 where they are not decimal numbers above 0.
+// Largest length [m] of which all are whole multiples; 0 if they are not positive decimal numbers.
 double common_length(const std::vector<double>& lengths) {
   double unit = 1.0;
   while (unit > 0.5 * finest_unit) {

@@ -25,7 +25,7 @@ bool is_among(const std::string& name, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Throws UserError for a column that there is none of, a row of another length, or a part of the range alone.
+// Throws UserError for a missing or unknown column, a row of another length, or an incomplete range.
 void check_columns(const TableCsv& table, const std::string& file) {
   std::vector<std::string> allowed = needed, absent;
   allowed.insert(allowed.end(), of_range.begin(), of_range.end());
@@ -33,7 +33,7 @@ void check_columns(const TableCsv& table, const std::string& file) {
     if (!is_among(name, allowed)) {
       const std::string near = nearest(shown(name), allowed);
       throw UserError(fmt::format("{}:{}: no column is called '{}'{} allowed are {}", file, table.line, shown(name),
-                                  near.empty() ? "." : "; did you mean " + near + "?", list_words(allowed)));
+                                  near.empty() ? "." : "; did you mean " + near + "?", comma_list(allowed)));
     }
   }
   for (const TableCsv::Row& row : table.rows) {
@@ -47,13 +47,13 @@ void check_columns(const TableCsv& table, const std::string& file) {
   if (!absent.empty() && absent.size() < of_range.size()) {
     throw UserError(
         fmt::format("{}:{}: the range is not complete (found no {}; allowed: all of {}, or none). Add what is missing.",
-                    file, table.line, list_words(absent), list_words(of_range)));
+                    file, table.line, comma_list(absent), comma_list(of_range)));
   }
 }
 
 using Cells = std::map<std::string, std::string>;
 
-// Returns the numbers of a row by column; throws UserError for a cell that holds none.
+// Returns the numbers of a row by column; throws UserError for a cell without a number.
 std::map<std::string, double> numbers_of(const Cells& cells, const std::vector<std::string>& columns,
                                          const std::string& place) {
   std::map<std::string, double> numbers;

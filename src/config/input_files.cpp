@@ -17,7 +17,7 @@ std::string in_capitals(std::string text) {
   return text;
 }
 
-// The files beside a map that belong to it, of those that there are.
+// Existing companion files of a map.
 std::vector<fs::path> companions(const fs::path& map) {
   std::vector<fs::path> result{map.string() + ".aux.xml", map.string() + ".msk"};
   for (const std::string ending : {".shx", ".dbf", ".prj", ".cpg", ".tfw"}) {
@@ -30,7 +30,7 @@ std::vector<fs::path> companions(const fs::path& map) {
   return result;
 }
 
-// The DEM, and what bodies, maps and probes are read from; may hold empty names.
+// DEM, and map files of bodies, maps and probes; may contain empty names.
 std::vector<InputFile> map_files(const Case& parameters) {
   std::vector<InputFile> files{{"maps.path", parameters.maps.path}};
   if (parameters.terrain.kind == TerrainKind::dem) {

@@ -1,4 +1,4 @@
-// The files that a case is read from, of which a run keeps copies.
+// Input files of a case, which a run copies.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,12 @@
 namespace thawslide::config {
 
 struct InputFile {
-  std::string key;  // dotted, that names it; empty: the case file itself
+  std::string key;  // dotted key that names the file; empty: the case file itself
   std::filesystem::path file;
 };
 
-// Every file that the case names, and its case files, each once, absolute. With a map come the files beside it that
-// belong to it: the parts of a shapefile, and what tells a map's coordinate system and place.
+// Every file that the case names, and its case files, each once, absolute. A map includes its companion files: the
+// parts of a shapefile, and files with coordinate system and georeference.
 std::vector<InputFile> input_files_by_key(const Case& parameters);
 std::vector<std::filesystem::path> input_files(const Case& parameters);
 

@@ -59,7 +59,7 @@ std::string what_stands_at(const fs::path& path) {
 
 bool lies_within(const fs::path& path, const fs::path& folder) {
   std::error_code error;
-  const fs::path whole = folder.empty() ? fs::path(".") : folder;  // of a bare name
+  const fs::path whole = folder.empty() ? fs::path(".") : folder;  // for a bare name
   const fs::path inside = fs::weakly_canonical(path, error).lexically_relative(fs::weakly_canonical(whole, error));
   return !inside.empty() && *inside.begin() != "..";
 }

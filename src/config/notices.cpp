@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "config/changed_defaults.hpp"
 #include "config/declaration.hpp"
-#include "config/moved_defaults.hpp"
 #include "config/plausibility.hpp"
 #include "config/strips.hpp"
 
@@ -24,7 +24,7 @@ std::vector<std::string> notices(const Case& parameters) {
                                   found.key, found.value, rule.unit.empty() ? "" : " ", rule.unit,
                                   rule.usual.text(rule.unit)));
   }
-  for (const auto& more : {implausible(parameters), notes_on_gaps(parameters)}) {
+  for (const auto& more : {implausible(parameters), warnings_of_gaps(parameters)}) {
     notices.insert(notices.end(), more.begin(), more.end());
   }
   return notices;

@@ -1,4 +1,4 @@
-// Values of a sound case that lie outside what is usual: what a user should know before a run, and no mistake.
+// Values of a valid case outside the usual range, reported before a run; they are not errors.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace thawslide::config {
 
-// Each says where the value was written, what it is, what is usual and what follows.
+// Each notice specifies the location, the value, the usual range and the consequence.
 std::vector<std::string> notices(const Case& parameters);
 
 }  // namespace thawslide::config

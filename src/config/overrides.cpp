@@ -34,7 +34,7 @@ Place place_of(const Override& override) {
   return {fmt::format("--set {}={}", override.key, override.value), 0, 0, true};
 }
 
-// The value as TOML; a bare word is a text. Nothing (and a problem) for what looks like TOML but is not.
+// Value as TOML; a bare word is a string. Returns nothing (and reports a problem) for invalid TOML.
 std::optional<toml::table> parse_value(const Override& override, Reading& reading) {
   try {
     toml::table parsed = toml::parse("value = " + override.value, std::string_view("--set"));
@@ -58,7 +58,7 @@ std::optional<toml::table> parse_value(const Override& override, Reading& readin
   return std::nullopt;
 }
 
-// A key of a named table must name one that the file has: otherwise a slip of the pen would make a second body.
+// A key of a named table must use a name from the file; otherwise a typing error would create a second body.
 bool names_existing_table(const Override& override, const std::vector<std::string>& parts, const toml::table& root,
                           Reading& reading) {
   if (parts.size() < 3) {
@@ -78,14 +78,14 @@ bool names_existing_table(const Override& override, const std::vector<std::strin
       reading.problems.add(place_of(override),
                            fmt::format("there is no {} '{}'{} In the case file: {}.", parts[0], parts[1],
                                        nearest(parts[1], names).empty() ? "." : did_you_mean(parts[1], names),
-                                       names.empty() ? "none" : list_words(names)));
+                                       names.empty() ? "none" : comma_list(names)));
       return false;
     }
   }
   return true;
 }
 
-// A table with a name of its own takes no value: one of its keys was meant.
+// A named table has no value itself: one of its keys was intended.
 bool fits_named_table(const Override& override, const std::vector<std::string>& parts, const toml::node& value,
                       Reading& reading) {
   const bool is_named = std::any_of(tables().begin(), tables().end(), [&](const auto& table) {
@@ -117,7 +117,7 @@ void apply(const Override& override, toml::table& root, Reading& reading) {
     }
     table = table->get_as<toml::table>(parts[k]);
   }
-  // The copy has no place in a file, by which Reading::place_of knows that it came from the command line.
+  // The copy has no source location, by which Reading::place_of identifies the command line.
   value->get("value")->visit([&](const auto& node) { table->insert_or_assign(parts.back(), node); });
 }
 

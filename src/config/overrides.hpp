@@ -1,4 +1,4 @@
-// The `--set key=value` texts of the command line.
+// `--set key=value` texts of the command line.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace thawslide::config {
 // Splits "band.thickness=0.1" at the first '='. Throws UserError if there is no '=' or no key.
 Override parse_override(const std::string& text);
 
-// Puts the values of reading.overrides into the tables, replacing what the file says.
+// Inserts the values of reading.overrides into the tables, replacing those of the file.
 void apply_overrides(toml::table& root, Reading& reading);
 
 }  // namespace thawslide::config

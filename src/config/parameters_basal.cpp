@@ -1,4 +1,4 @@
-// The parameters of the base: [basal], [substrate.NAME]. The words and numbers of its laws follow from physics/basal.
+// Parameters of the base: [basal], [substrate.NAME]. Keywords and parameters of the laws are defined in physics/basal.
 #include <algorithm>
 
 #include "config/table_declaration.hpp"
@@ -21,21 +21,21 @@ std::string quoted_list(const std::vector<std::string>& words, const std::string
 }
 
 template <class Laws>
-std::vector<Word> law_words() {
-  std::vector<Word> words;
+std::vector<Keyword> law_keywords() {
+  std::vector<Keyword> words;
   physics::basal::for_each_law<Laws>([&]<class Law>(physics::basal::OfType<Law>) {
     words.push_back({Law::word, Law::text});
   });
   return words;
 }
 
-// A number of laws, and the words of those that take it.
+// Parameter of laws, and the keywords of the laws that use it.
 struct LawNumber {
   const physics::basal::Parameter* number;
   std::vector<std::string> laws;
-  bool of_all = false;  // the laws of its kind
+  bool of_all = false;  // of all laws of its kind
 
-  // What it may be, with the words in its text.
+  // Rule of the parameter, with the keywords in its text.
   [[nodiscard]] Rule rule() const;
   [[nodiscard]] bool is_of(const std::string& law) const {
     return std::find(laws.begin(), laws.end(), law) != laws.end();
@@ -57,7 +57,7 @@ Rule LawNumber::rule() const {
 
 std::string LawNumber::chosen(const std::string& key) const { return key + " is " + quoted_list(laws, "or"); }
 
-// All numbers of the laws, each once.
+// All parameters of the laws, each once.
 template <class Laws>
 std::vector<LawNumber> law_numbers() {
   std::vector<LawNumber> numbers;
@@ -95,14 +95,14 @@ Parameter<Section> law_parameter(const LawNumber& of, std::string GroundStrength
       });
 }
 
-// The friction of one kind of ground; `prefix`: of its keys in messages, "basal." or nothing.
+// Friction of one kind of ground; `prefix`: of its keys in messages, "basal." or empty.
 template <class Section>
 std::vector<Parameter<Section>> friction_parameters(const std::string& prefix) {
   std::vector<Parameter<Section>> result{
       Parameter<Section>::bind(&GroundStrength::friction, {.key = "friction",
                                                            .text = "law of the friction coefficient mu_e",
                                                            .source = "Eqs. 17, 25",
-                                                           .words = law_words<FrictionLaws>()})};
+                                                           .words = law_keywords<FrictionLaws>()})};
   for (const LawNumber& of : law_numbers<FrictionLaws>()) {
     auto parameter = law_parameter<Section>(of, &GroundStrength::friction, "friction");
     if (of.number->is_needed) {
@@ -117,7 +117,7 @@ std::vector<Parameter<Section>> friction_parameters(const std::string& prefix) {
   return result;
 }
 
-// The cohesion of one kind of ground.
+// Cohesion of one kind of ground.
 template <class Section>
 std::vector<Parameter<Section>> cohesion_parameters(const std::string& prefix) {
   std::vector<Parameter<Section>> result, of_some;
@@ -136,7 +136,7 @@ std::vector<Parameter<Section>> cohesion_parameters(const std::string& prefix) {
   result.push_back(
       Parameter<Section>::bind(&GroundStrength::cohesion_law, {.key = "cohesion_law",
                                                                .text = "how the cohesion c_S along the ground is lost",
-                                                               .words = law_words<CohesionLaws>()}));
+                                                               .words = law_keywords<CohesionLaws>()}));
   for (auto& parameter : of_some) {
     result.push_back(std::move(parameter));
   }
@@ -158,11 +158,10 @@ std::vector<Parameter<Basal>> strength_parameters() {
                  .text = "energy conversion coefficient: share of the friction work that heats the slide",
                  .source = "Eq. 20, Secs. 3.3, 4"})
           .usually({0.8, 1}, [](const Case& whole, const Basal&) { return has_band_columns(whole); }),
-      parameter(&Basal::distance_check,
-                {.key = "distance_check",
-                 .text = "contact waits until the particles' own edges reach the ground; off: it acts as soon as nodes "
-                         "feel the slide approach, up to a cell early",
-                 .source = "Nairn 2013"}),
+      parameter(&Basal::distance_check, {.key = "distance_check",
+                                         .text = "contact waits until the particles' own edges reach the ground; off: "
+                                                 "it acts as soon as the slide approaches nodes, up to a cell early",
+                                         .source = "Nairn 2013"}),
   };
 }
 

@@ -1,4 +1,4 @@
-// The parameters of the erodible bed: [bed].
+// Parameters of the erodible bed: [bed].
 #include "config/table_declaration.hpp"
 #include "physics/mixture.hpp"
 
@@ -13,7 +13,7 @@ const char* const when_erodible = "when bed.law is not \"none\"";
 std::vector<Parameter<Bed>> law_parameters() {
   return {
       parameter(&Bed::law, {.key = "law",
-                            .text = "how the slide takes up the bed on the ground",
+                            .text = "how the slide entrains the bed on the ground",
                             .source = "Iverson 2012; Iverson and Ouyang 2015"}),
       parameter(&Bed::depth, {.key = "depth",
                               .unit = "m",
@@ -36,14 +36,14 @@ std::vector<Parameter<Bed>> law_parameters() {
           .only_if(when_erodible, "law", is_erodible),
       parameter(&Bed::depth_per_slip, {.key = "depth_per_slip",
                                        .range = above(0),
-                                       .text = "depth taken up per slip where the bed gives way [m/m]; with the law "
+                                       .text = "depth entrained per slip where the bed yields [m/m]; with the law "
                                                "\"momentum\" the largest"})
           .required_if(when_erodible, is_erodible)
           .only_if(when_erodible, "law", is_erodible),
   };
 }
 
-std::vector<Parameter<Bed>> matter_parameters() {
+std::vector<Parameter<Bed>> bed_material_parameters() {
   return {
       parameter(&Bed::material, {.key = "material", .text = "name of the material that the bed is made of"})
           .required_if(when_erodible, is_erodible)
@@ -61,7 +61,7 @@ std::vector<Parameter<Bed>> matter_parameters() {
       parameter(&Bed::particles_per_axis,
                 {.key = "particles_per_axis",
                  .range = between(1, 16),
-                 .text = "size of the particles that what is taken up becomes: so many per cell along each axis"})
+                 .text = "size of the particles of entrained material: number per cell along each axis"})
           .only_if(when_erodible, "law", is_erodible),
   };
 }
@@ -70,10 +70,10 @@ std::vector<Parameter<Bed>> matter_parameters() {
 
 void declare_bed(Tables& tables) {
   std::vector<Parameter<Bed>> parameters = law_parameters();
-  for (auto& more : matter_parameters()) {
+  for (auto& more : bed_material_parameters()) {
     parameters.push_back(std::move(more));
   }
-  tables.push_back(std::make_unique<SingleTable<Bed>>("bed", "Ice or debris on the ground that the slide takes up",
+  tables.push_back(std::make_unique<SingleTable<Bed>>("bed", "Ice or debris on the ground that the slide entrains",
                                                       &Case::bed, std::move(parameters)));
 }
 

@@ -1,4 +1,4 @@
-// The parameters of bodies, frames and where particles stand at t = 0: [body.NAME], [frame.NAME], [initial].
+// Parameters of bodies, frames and initial particle positions: [body.NAME], [frame.NAME], [initial].
 #include <limits>
 
 #include "config/table_declaration.hpp"
@@ -171,7 +171,7 @@ void declare_bodies(Tables& tables) {
                                                       &Case::bodies, body_parameters()));
   tables.push_back(std::make_unique<NamedTable<Frame>>("frame", "A rigid box that prescribes one velocity component",
                                                        &Case::frames, frame_parameters()));
-  tables.push_back(std::make_unique<SingleTable<Initial>>("initial", "Where particles stand at t = 0", &Case::initial,
+  tables.push_back(std::make_unique<SingleTable<Initial>>("initial", "Positions of particles at t = 0", &Case::initial,
                                                           initial_parameters()));
 }
 

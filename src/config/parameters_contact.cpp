@@ -1,4 +1,4 @@
-// The parameters of contact between bodies: [contact], [contact_pair.NAME].
+// Parameters of contact between bodies: [contact], [contact_pair.NAME].
 #include "config/table_declaration.hpp"
 
 namespace thawslide::config {

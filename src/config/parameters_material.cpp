@@ -1,4 +1,4 @@
-// The parameters of matter: [phases], [freezing], [material.NAME].
+// Parameters of materials: [phases], [freezing], [material.NAME].
 #include "config/table_declaration.hpp"
 
 namespace thawslide::config {
@@ -83,7 +83,7 @@ bool softens(const Material& material) {
          (loses_friction(material) || material.residual_cohesion < material.cohesion);
 }
 
-// The paper's softening, of cohesion alone over a plastic strain of 1, is left as it is.
+// The published softening, of cohesion alone over a plastic strain of 1, is excluded.
 bool breaks(const Case&, const Material& material) {
   constexpr double strain_of_the_paper = 1.0;
   return softens(material) && (loses_friction(material) || material.softening_strain != strain_of_the_paper);

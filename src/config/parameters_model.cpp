@@ -1,4 +1,4 @@
-// The parameters of the model: [mechanics], [mechanisms], [band], [heat], [pressure], [block].
+// Parameters of the model: [mechanics], [mechanisms], [band], [heat], [pressure], [block].
 #include "config/table_declaration.hpp"
 
 namespace thawslide::config {
@@ -219,7 +219,7 @@ std::vector<Parameter<Pressure>> pressure_parameters() {
                 {.key = "volumetric_term",
                  .text = "compressing the body presses on melted pore water too: -div v in Eq. 8, which Eq. 23 drops",
                  .source = "Eq. 8"}),
-      parameter(&Pressure::frozen, {.key = "frozen", .text = "pore pressure of frozen and partly frozen matter"}),
+      parameter(&Pressure::frozen, {.key = "frozen", .text = "pore pressure of frozen and partly frozen material"}),
       parameter(
           &Pressure::residual_stress,
           {.key = "residual_stress",
@@ -242,7 +242,8 @@ std::vector<Parameter<Pressure>> pressure_parameters() {
           &Pressure::seepage,
           {.key = "seepage", .text = "Darcy flow of melted pore water (Eq. 22); false: undrained", .source = "Eq. 22"}),
       parameter(&Pressure::frozen_rows,
-                {.key = "frozen_rows", .text = "frozen matter towards water that seeps to it; water lost is counted"}),
+                {.key = "frozen_rows",
+                 .text = "behaviour of frozen material towards water that seeps to it; the lost water is counted"}),
       parameter(
           &Pressure::column_top,
           {.key = "column_top", .text = "what water meets at the top of a band column that has thawed throughout"}),
@@ -250,7 +251,7 @@ std::vector<Parameter<Pressure>> pressure_parameters() {
                 {.key = "water_to_steam_viscosity",
                  .range = at_least(0),
                  .text = "viscosity of water over that of steam, by which steam of band columns seeps into vented "
-                         "matter; 0: it does not seep"}),
+                         "material; 0: it does not seep"}),
       parameter(&Pressure::seepage_scaling,
                 {.key = "seepage_scaling", .text = "how seepage is scaled in the band", .source = "Eq. 23"}),
       parameter(&Pressure::thickness_direction,

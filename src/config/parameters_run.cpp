@@ -1,5 +1,4 @@
-// The parameters of a run as a whole: [case], [time], [grid], [terrain], [checkpoint], [maps],
-// [probe.NAME], [report].
+// Parameters of a run as a whole: [case], [time], [grid], [terrain], [checkpoint], [maps], [probe.NAME], [report].
 #include "config/table_declaration.hpp"
 
 namespace thawslide::config {
@@ -64,7 +63,7 @@ std::vector<Parameter<Time>> time_parameters() {
                  .range = at_least(0),
                  .text = "the run ends before time.end when, for time.rest_time, no more than 0.5 % of the slide's "
                          "mass has been faster than this; never before more of it has; 0: it does not"})
-          .otherwise("the run goes on to time.end"),
+          .otherwise("the run continues to time.end"),
       parameter(&Time::rest_time,
                 {.key = "rest_time",
                  .unit = "s",
@@ -85,8 +84,8 @@ std::vector<Parameter<Grid>> grid_parameters() {
   };
 }
 
-// Where there is no choice between stopping and removing, what is wrong is the step or the case, not a particle, and a
-// run without that particle would be as wrong.
+// Guards without a choice between stopping and removing indicate a wrong step or case. Removing single particles would
+// not correct such a run.
 std::vector<Parameter<Guards>> guard_parameters() {
   return {
       parameter(&Guards::not_finite, {.key = "not_finite",
@@ -136,10 +135,9 @@ bool is_no_dem(const Case&, const Terrain& terrain) { return terrain.kind != Ter
 std::vector<Parameter<Terrain>> dem_parameters() {
   const std::string when_dem = "when terrain.type is \"dem\"";
   return {
-      parameter(&Terrain::crs,
-                {.key = "crs",
-                 .text = "coordinate reference system of a DEM whose file tells none, or a wrong one, as "
-                         "\"EPSG:31287\"; \"\": that of the file"})
+      parameter(&Terrain::crs, {.key = "crs",
+                                .text = "coordinate reference system of a DEM whose file has none, or a wrong one, as "
+                                        "\"EPSG:31287\"; \"\": that of the file"})
           .only_if(when_dem, "type", is_dem),
       parameter(&Terrain::resample, {.key = "resample",
                                      .unit = "m",
@@ -193,18 +191,19 @@ std::vector<Parameter<Terrain>> terrain_parameters() {
 }
 
 std::vector<Parameter<Checkpoint>> checkpoint_parameters() {
-  return {parameter(&Checkpoint::interval,
-                    {.key = "interval",
-                     .unit = "s",
-                     .range = at_least(0),
-                     .text = "simulated time between checkpoints, at least a billionth of time.end; 0: none by "
-                             "simulated time"}),
-          parameter(&Checkpoint::wall_interval,
-                    {.key = "wall_interval",
-                     .unit = "s",
-                     .range = at_least(0),
-                     .text = "time on the clock between checkpoints; 0: none by the clock. One is written before the "
-                             "first step and one at the end anyhow, and the one before the last is kept"})};
+  return {
+      parameter(&Checkpoint::interval,
+                {.key = "interval",
+                 .unit = "s",
+                 .range = at_least(0),
+                 .text = "simulated time between checkpoints, at least a billionth of time.end; 0: none by "
+                         "simulated time"}),
+      parameter(&Checkpoint::wall_interval,
+                {.key = "wall_interval",
+                 .unit = "s",
+                 .range = at_least(0),
+                 .text = "wall-clock time between checkpoints; 0: none by wall-clock time. One is written before the "
+                         "first step and one at the end anyhow, and the one before the last is kept"})};
 }
 
 std::vector<Parameter<Maps>> map_parameters() {
@@ -223,7 +222,7 @@ std::vector<Parameter<Maps>> map_parameters() {
                                            .dimension = 3}),
       parameter(&Maps::path, {.key = "path",
                               .text = "file of the line along which the front is measured, and `thawslide block` "
-                                      "slides; \"\": the way of the centre of mass",
+                                      "slides; \"\": the path of the centre of mass",
                               .dimension = 3,
                               .is_path = true}),
   };
@@ -281,9 +280,9 @@ void declare_run(Tables& tables) {
   tables.push_back(
       std::make_unique<SingleTable<Time>>("time", "Time, its steps and outputs", &Case::time, time_parameters()));
   tables.push_back(std::make_unique<SingleTable<Grid>>("grid", "The background grid", &Case::grid, grid_parameters()));
-  tables.push_back(std::make_unique<SingleTable<Grid>>("grid.boundary", "What the sides of the grid do to velocities",
+  tables.push_back(std::make_unique<SingleTable<Grid>>("grid.boundary", "Velocity conditions at the sides of the grid",
                                                        &Case::grid, six_sides(&Grid::boundary, "velocity condition")));
-  tables.push_back(std::make_unique<SingleTable<Guards>>("guards", "What ends a run that goes wrong", &Case::guards,
+  tables.push_back(std::make_unique<SingleTable<Guards>>("guards", "Limits that abort a failing run", &Case::guards,
                                                          guard_parameters()));
   tables.push_back(
       std::make_unique<SingleTable<Terrain>>("terrain", "The ground", &Case::terrain, terrain_parameters()));

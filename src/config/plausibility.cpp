@@ -13,20 +13,20 @@ namespace thawslide::config {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double stiffest = 1e11;       // [Pa]; fresh rock has some 5e10
-constexpr double smallest_angle = 3.0;  // [degrees]; tan 3 is 0.05, the least that is said of ice on ice
+constexpr double stiffest = 1e11;       // [Pa]; fresh rock has about 5e10
+constexpr double smallest_angle = 3.0;  // [degrees]; tan 3 is 0.05, the minimum reported for ice on ice
 constexpr double largest_coefficient = 1.5;
 constexpr double least_turbulence = 100.0, most_turbulence = 10000.0;  // [m/s2]
-constexpr double steepest_widening = 1.0;                              // [m/m]; 27 degrees a side
+constexpr double steepest_widening = 1.0;                              // [m/m]; 27 degrees per side
 constexpr double warm = 0.0;                                           // [C]
 constexpr double most_snapshots = 10000.0;
 constexpr double least_wall_interval = 1.0;  // [s]
 constexpr double most_steps = 1e9;
-constexpr double least_on_earth = 9.5, most_on_earth = 10.1;         // [m/s2]; 9.81 and what is rounded from it
+constexpr double least_on_earth = 9.5, most_on_earth = 10.1;         // [m/s2]; 9.81 and its rounded values
 constexpr double lightest_in_grams = 0.5, heaviest_in_grams = 10.0;  // [g/cm3]
 constexpr double grams = 1000.0;                                     // [kg/m3] of 1 g/cm3
 
-// What a phase of a slide weighs, generously [kg/m3].
+// Generous range of the density of a phase [kg/m3].
 struct UsualDensity {
   const char* key;
   double Phases::*density;
@@ -38,15 +38,15 @@ constexpr UsualDensity usual_densities[] = {
     {"phases.ice_density", &Phases::ice_density, 800.0, 950.0, "ice has"},
     {"phases.water_density", &Phases::water_density, 950.0, 1300.0, "water has"}};
 
-class Doubts {
+class Warnings {
  public:
-  explicit Doubts(const Case& parameters) : case_(parameters) {}
-  // About a key [dotted], in words after its value.
+  explicit Warnings(const Case& parameters) : case_(parameters) {}
+  // Adds a warning about a key [dotted]; `words` follow its value.
   template <class Value>
   void add(const std::string& key, const Value& value, const std::string& unit, const std::string& words) {
     found_.push_back(fmt::format("{}: {} is {}{}: {}", place_of(case_, key), key, value, unit, words));
   }
-  // About a key that is not given.
+  // Adds a warning about a key that is not given.
   void add_absent(const std::string& key, const std::string& words) {
     found_.push_back(fmt::format("{}: {} is not given: {}", case_.file, key, words));
   }
@@ -57,84 +57,85 @@ class Doubts {
   std::vector<std::string> found_;
 };
 
-void doubt_phases(const Case& parameters, Doubts& doubts) {
+void warn_about_phases(const Case& parameters, Warnings& warnings) {
   for (const auto& [key, member, low, high, of] : usual_densities) {
     const double density = parameters.phases.*member;
     if (density >= low && density <= high) {
       continue;
     }
     const bool is_in_grams = density >= lightest_in_grams && density <= heaviest_in_grams;
-    doubts.add(key, density, " kg/m3",
-               is_in_grams ? fmt::format("if it is in g/cm3, it is {:g} kg/m3.", density * grams)
-                           : fmt::format("{} {:g} to {:g} kg/m3.", of, low, high));
+    warnings.add(key, density, " kg/m3",
+                 is_in_grams ? fmt::format("if it is in g/cm3, it is {:g} kg/m3.", density * grams)
+                             : fmt::format("{} {:g} to {:g} kg/m3.", of, low, high));
   }
   const double gravity = parameters.general.gravity;
   if (gravity != 0.0 && (gravity < least_on_earth || gravity > most_on_earth)) {
-    doubts.add("case.gravity", gravity, " m/s2", "on Earth it is 9.81 m/s2.");
+    warnings.add("case.gravity", gravity, " m/s2", "on Earth it is 9.81 m/s2.");
   }
 }
 
-// Lateral motion of a widening section has b'^2/12 of the kinetic energy, and none here.
-void doubt_width(const Case& parameters, Doubts& doubts) {
+// Lateral motion of a widening section has b'^2/12 of the kinetic energy, which is neglected here.
+void warn_about_width(const Case& parameters, Warnings& warnings) {
   const Table& width = parameters.general.width.table;
   for (std::size_t k = 1; k < width.abscissa.size(); ++k) {
     const double slope = (width.value[k] - width.value[k - 1]) / (width.abscissa[k] - width.abscissa[k - 1]);
     if (std::abs(slope) > steepest_widening) {
-      doubts.add("case.width",
-                 fmt::format("{:g} m at x = {:g} m and {:g} m at x = {:g} m", width.value[k - 1], width.abscissa[k - 1],
-                             width.value[k], width.abscissa[k]),
-                 "",
-                 fmt::format("it changes by {:.3g} m per m. The neglected lateral motion would have {:.2g} of the "
-                             "kinetic energy there. Spread the change of width over a longer distance.",
-                             std::abs(slope), slope * slope / 12.0));
+      warnings.add("case.width",
+                   fmt::format("{:g} m at x = {:g} m and {:g} m at x = {:g} m", width.value[k - 1],
+                               width.abscissa[k - 1], width.value[k], width.abscissa[k]),
+                   "",
+                   fmt::format("it changes by {:.3g} m per m. The neglected lateral motion would have {:.2g} of the "
+                               "kinetic energy there. Spread the change of width over a longer distance.",
+                               std::abs(slope), slope * slope / 12.0));
       return;
     }
   }
 }
 
-void doubt_materials(const Case& parameters, Doubts& doubts) {
+void warn_about_materials(const Case& parameters, Warnings& warnings) {
   const bool deforms = parameters.mechanics.enabled && parameters.mechanisms.deformation;
   const bool is_pressed = has_pore_water(parameters) && parameters.mechanisms.pressurization &&
                           parameters.pressure.seepage && !parameters.band.thickness.value.empty();
   for (const auto& [name, material] : parameters.materials) {
     const std::string table = "material." + name + ".";
     if (deforms && material.youngs_modulus < softest_modulus) {
-      doubts.add(table + "youngs_modulus", material.youngs_modulus, " Pa",
-                 "so soft that a slide is squeezed flat by its own weight, or bursts. Broken rock and ice have 1e7 Pa "
-                 "and more.");
+      warnings.add(
+          table + "youngs_modulus", material.youngs_modulus, " Pa",
+          "so soft that a slide is squeezed flat by its own weight, or bursts. Broken rock and ice have 1e7 Pa "
+          "and more.");
     }
     if (deforms && material.youngs_modulus > stiffest) {
-      doubts.add(table + "youngs_modulus", material.youngs_modulus, " Pa",
-                 "stiffer than any rock, and steps are the shorter for it. Usual for slides are 1e8 to 1e10 Pa.");
+      warnings.add(table + "youngs_modulus", material.youngs_modulus, " Pa",
+                   "stiffer than any rock, and steps are the shorter for it. Usual for slides are 1e8 to 1e10 Pa.");
     }
     if (deforms && material.law == LawKind::mohr_coulomb && material.friction_angle > 0.0 &&
         material.friction_angle < smallest_angle) {
-      doubts.add(table + "friction_angle", material.friction_angle, " degrees",
-                 "was a coefficient meant? Angles are in degrees; 35 is a coefficient of 0.7.");
+      warnings.add(table + "friction_angle", material.friction_angle, " degrees",
+                   "was a coefficient meant? Angles are in degrees; 35 is a coefficient of 0.7.");
     }
     const std::string conductivity = table + "hydraulic_conductivity";
     if (is_pressed && material.hydraulic_conductivity == 0.0 && !was_given(parameters, conductivity)) {
-      doubts.add(conductivity, material.hydraulic_conductivity, " m/s, its default",
-                 "pore water never drains, and what is under pressure may never stop. Of the base of a slide 1e-8 to "
-                 "1e-5 m/s is said. Give it, and if 0 is meant 0, and this note goes.");
+      warnings.add(conductivity, material.hydraulic_conductivity, " m/s, its default",
+                   "pore water never drains, and what is under pressure may never stop. Of the base of a slide 1e-8 to "
+                   "1e-5 m/s is said. Give it, and if 0 is meant 0, and this note goes.");
     }
   }
 }
 
-void doubt_band(const Case& parameters, Doubts& doubts) {
+void warn_about_band(const Case& parameters, Warnings& warnings) {
   const bool rubs = parameters.mechanics.enabled && parameters.terrain.kind != TerrainKind::none;
   const bool is_felt = parameters.heat.enabled && parameters.basal.heat_fraction > 0.0 &&
                        (parameters.mechanisms.lubrication || parameters.mechanisms.pressurization);
   if (rubs && is_felt && parameters.band.thickness.value.empty()) {
-    doubts.add_absent("band.thickness",
-                      fmt::format("friction then heats the lowest cells as a whole, {:g} m thick, which hardly warm "
-                                  "or melt. Give the thickness of what shears at the base: usual is 0.01 to 2 m. If "
-                                  "nothing is to melt, set heat.enabled = false.",
-                                  parameters.grid.cell));
+    warnings.add_absent("band.thickness",
+                        fmt::format("friction then heats the lowest cells as a whole, {:g} m thick, which barely warm "
+                                    "or melt. Give the thickness of what shears at the base: usual is 0.01 to 2 m. If "
+                                    "nothing is to melt, set heat.enabled = false.",
+                                    parameters.grid.cell));
   }
 }
 
-// Whether the friction law of a word uses a number.
+// True if the friction law of a keyword uses a parameter.
 bool uses(const std::string& law, const physics::basal::Parameter& number) {
   bool found = false;
   physics::basal::for_each_law<physics::basal::FrictionLaw<double>>([&]<class Law>(physics::basal::OfType<Law>) {
@@ -144,62 +145,61 @@ bool uses(const std::string& law, const physics::basal::Parameter& number) {
   return found;
 }
 
-void doubt_ground(const std::string& table, const GroundStrength& ground, Doubts& doubts) {
+void warn_about_ground(const std::string& table, const GroundStrength& ground, Warnings& warnings) {
   const double coefficient = ground.numbers(physics::basal::friction_coefficient);
   if (uses(ground.friction, physics::basal::friction_coefficient) && coefficient > largest_coefficient) {
-    doubts.add(table + ".friction_coefficient", coefficient, "",
-               "was an angle in degrees meant? A coefficient is its tangent: 25 degrees are 0.466.");
+    warnings.add(table + ".friction_coefficient", coefficient, "",
+                 "was an angle in degrees meant? A coefficient is its tangent: 25 degrees are 0.466.");
   }
   const double turbulence = ground.numbers(physics::basal::turbulent_friction);
   if (uses(ground.friction, physics::basal::turbulent_friction) &&
       (turbulence < least_turbulence || turbulence > most_turbulence)) {
-    doubts.add(table + ".turbulent_friction", turbulence, " m/s2",
-               fmt::format("calibrated values of xi are {:g} to {:g} m/s2.", least_turbulence, most_turbulence));
+    warnings.add(table + ".turbulent_friction", turbulence, " m/s2",
+                 fmt::format("calibrated values of xi are {:g} to {:g} m/s2.", least_turbulence, most_turbulence));
   }
   const double angle = ground.numbers(physics::basal::friction_angle);
   if (uses(ground.friction, physics::basal::friction_angle) && angle > 0.0 && angle < smallest_angle) {
-    doubts.add(table + ".friction_angle", angle, " degrees",
-               "was a coefficient meant? Angles are in degrees; for a coefficient set friction = \"coefficient\" and "
-               "friction_coefficient.");
+    warnings.add(table + ".friction_angle", angle, " degrees",
+                 "was a coefficient meant? Angles are in degrees; for a coefficient set friction = \"coefficient\" and "
+                 "friction_coefficient.");
   }
 }
 
-void doubt_bed(const Case& parameters, Doubts& doubts) {
+void warn_about_bed(const Case& parameters, Warnings& warnings) {
   const Bed& bed = parameters.bed;
   if (bed.law == BedLaw::none) {
     return;
   }
   if (bed.friction_angle > 0.0 && bed.friction_angle < smallest_angle) {
-    doubts.add("bed.friction_angle", bed.friction_angle, " degrees",
-               "was a coefficient meant? Angles are in degrees; 6 is a coefficient of 0.1.");
+    warnings.add("bed.friction_angle", bed.friction_angle, " degrees",
+                 "was a coefficient meant? Angles are in degrees; 6 is a coefficient of 0.1.");
   }
   if (bed.temperature > parameters.freezing.reference_temperature) {
-    doubts.add("bed.temperature", bed.temperature, " C",
-               "the bed's pores hold water, no ice. Was a temperature below 0 meant?");
+    warnings.add("bed.temperature", bed.temperature, " C",
+                 "the bed's pores hold water, no ice. Was a temperature below 0 meant?");
   }
 }
 
-void doubt_bodies(const Case& parameters, Doubts& doubts) {
+void warn_about_bodies(const Case& parameters, Warnings& warnings) {
   for (const auto& [name, body] : parameters.bodies) {
     const auto& temperatures = body.temperature.table.value;
     const double warmest = temperatures.empty() ? warm : *std::max_element(temperatures.begin(), temperatures.end());
     if (parameters.terrain.kind != TerrainKind::none && !body.saturation.is_given() &&
         warmest > parameters.freezing.reference_temperature) {
-      doubts.add("body." + name + ".temperature", warmest, " C",
-                 "its pores hold water from the start, no ice. Was a temperature below 0 meant?");
+      warnings.add("body." + name + ".temperature", warmest, " C",
+                   "its pores hold water from the start, no ice. Was a temperature below 0 meant?");
     }
   }
 }
 
-void doubt_step(const Case& parameters, Doubts& doubts) {
+void warn_about_step(const Case& parameters, Warnings& warnings) {
   const Time& time = parameters.time;
   const double steps = time.end / time.step;
   if (time.stepping == Stepping::fixed && steps > most_steps) {
-    doubts.add(
-        "time.step", time.step, " s",
-        fmt::format("that is {:.4g} steps, from days to years of computing. `thawslide check` tells how long, and "
-                    "the limit, which a step may come close to.",
-                    steps));
+    warnings.add("time.step", time.step, " s",
+                 fmt::format("that is {:.4g} steps, from days to years of computing. `thawslide check` estimates the "
+                             "time and prints the limit of the step.",
+                             steps));
   }
 }
 
@@ -207,48 +207,48 @@ bool is_from_command_line(const Case& parameters, const std::string& key) {
   return place_of(parameters, key).starts_with("--");
 }
 
-// A short trial of a case that stops at rest: the command line sets the end, but no key of rest.
+// True for a short trial of a case that stops at rest: the command line sets the end, but no key of rest.
 bool is_shortened_trial(const Case& parameters) {
   return is_from_command_line(parameters, "time.end") && !is_from_command_line(parameters, "time.stop_at_rest") &&
          !is_from_command_line(parameters, "time.rest_time");
 }
 
-void doubt_output(const Case& parameters, Doubts& doubts) {
+void warn_about_output(const Case& parameters, Warnings& warnings) {
   const Time& time = parameters.time;
   const bool is_fixed = time.stepping == Stepping::fixed;
-  // Nothing is written more than once a step, and adaptive steps are cut to the times of snapshots.
+  // Output is written at most once per step, and adaptive steps are cut to the times of snapshots.
   const double snapshots = std::min(time.end / time.output_interval, is_fixed ? time.end / time.step : infinity);
   if (time.output_interval > time.end) {
-    doubts.add(
+    warnings.add(
         "time.output_interval", time.output_interval, " s",
         fmt::format("longer than the run of {} s, which leaves a snapshot of its start and one of its end.", time.end));
   }
   if (snapshots > most_snapshots) {
-    doubts.add(
+    warnings.add(
         "time.output_interval", time.output_interval, " s",
-        fmt::format("that is {:.6g} snapshots, each a file, more than a folder or a film is good for.", snapshots));
+        fmt::format("that is {:.6g} snapshots, each a file, too many for a folder or an animation.", snapshots));
   }
   if (const double interval = parameters.checkpoint.interval; is_fixed && interval > 0.0 && interval <= time.step) {
-    doubts.add("checkpoint.interval", interval, " s",
-               fmt::format("no longer than the step of {} s: a checkpoint every step takes longer than the step. "
-                           "checkpoint.wall_interval writes them by the clock.",
-                           time.step));
+    warnings.add("checkpoint.interval", interval, " s",
+                 fmt::format("no longer than the step of {} s: a checkpoint every step takes longer than the step. "
+                             "Set checkpoint.wall_interval to write them by wall-clock time.",
+                             time.step));
   }
   if (const double interval = parameters.checkpoint.interval; interval > time.end) {
-    doubts.add("checkpoint.interval", interval, " s",
-               fmt::format("longer than the run of {} s, which leaves the checkpoints of checkpoint.wall_interval.",
-                           time.end));
+    warnings.add("checkpoint.interval", interval, " s",
+                 fmt::format("longer than the run of {} s, which leaves the checkpoints of checkpoint.wall_interval.",
+                             time.end));
   }
   if (time.stop_at_rest > 0.0 && time.rest_time > time.end && !is_shortened_trial(parameters)) {
-    doubts.add("time.rest_time", time.rest_time, " s",
-               fmt::format("longer than the run of {} s, which then never stops at rest.", time.end));
+    warnings.add("time.rest_time", time.rest_time, " s",
+                 fmt::format("longer than the run of {} s, which then never stops at rest.", time.end));
   }
   if (const double interval = parameters.checkpoint.wall_interval; interval > 0.0 && interval < least_wall_interval) {
-    doubts.add("checkpoint.wall_interval", interval, " s",
-               "so often most of the time goes into checkpoints; usual is a minute to an hour.");
+    warnings.add("checkpoint.wall_interval", interval, " s",
+                 "so often most of the time goes into checkpoints; usual is a minute to an hour.");
   }
   if (time.history_interval > time.end) {
-    doubts.add(
+    warnings.add(
         "time.history_interval", time.history_interval, " s",
         fmt::format("longer than the run of {} s: history.csv gets a row of its start and one of its end.", time.end));
   }
@@ -257,20 +257,20 @@ void doubt_output(const Case& parameters, Doubts& doubts) {
 }  // namespace
 
 std::vector<std::string> implausible(const Case& parameters) {
-  Doubts doubts(parameters);
-  doubt_phases(parameters, doubts);
-  doubt_width(parameters, doubts);
-  doubt_materials(parameters, doubts);
-  doubt_band(parameters, doubts);
-  doubt_ground("basal", parameters.basal, doubts);
+  Warnings warnings(parameters);
+  warn_about_phases(parameters, warnings);
+  warn_about_width(parameters, warnings);
+  warn_about_materials(parameters, warnings);
+  warn_about_band(parameters, warnings);
+  warn_about_ground("basal", parameters.basal, warnings);
   for (const auto& [name, substrate] : parameters.substrates) {
-    doubt_ground("substrate." + name, substrate, doubts);
+    warn_about_ground("substrate." + name, substrate, warnings);
   }
-  doubt_bed(parameters, doubts);
-  doubt_bodies(parameters, doubts);
-  doubt_step(parameters, doubts);
-  doubt_output(parameters, doubts);
-  return doubts.take();
+  warn_about_bed(parameters, warnings);
+  warn_about_bodies(parameters, warnings);
+  warn_about_step(parameters, warnings);
+  warn_about_output(parameters, warnings);
+  return warnings.take();
 }
 
 }  // namespace thawslide::config

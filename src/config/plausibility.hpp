@@ -1,4 +1,4 @@
-// What in a case is sound and yet most likely not meant.
+// Values that are valid but probably unintended.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace thawslide::config {
 
-// A slide of matter with a smaller Young's modulus [Pa] is squeezed flat by its own weight.
+// Young's modulus [Pa] below which a slide collapses under its own weight.
 inline constexpr double softest_modulus = 1e6;
 
-// Each with the place of what it is about and what to do; none for a case that has nothing of the kind.
+// Each warning specifies its location and the remedy; empty if there are none.
 [[nodiscard]] std::vector<std::string> implausible(const Case& parameters);
 
 }  // namespace thawslide::config

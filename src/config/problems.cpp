@@ -32,12 +32,12 @@ void Problems::raise_if_any() const {
                                         std::tie(b.place.source, b.place.line, b.place.column);
   });
   std::string text;
-  const std::size_t told = std::min(sorted.size(), most_problems_told);
-  for (std::size_t k = 0; k < told; ++k) {
+  const std::size_t specified = std::min(sorted.size(), most_problems_listed);
+  for (std::size_t k = 0; k < specified; ++k) {
     text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", sorted[k].place.text(), sorted[k].message);
   }
-  if (told < sorted.size()) {
-    text += fmt::format("\nand {} more problems.", sorted.size() - told);
+  if (specified < sorted.size()) {
+    text += fmt::format("\nand {} more problems.", sorted.size() - specified);
   }
   throw UserError(text);
 }
@@ -92,6 +92,6 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return best.empty() ? "" : fmt::format("; did you mean '{}'?", best);
 }
 
-std::string list_words(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
+std::string comma_list(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
 }  // namespace thawslide::config

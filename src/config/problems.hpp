@@ -1,4 +1,4 @@
-// Problems found in a case file: each with its place, gathered so that all of them reach the user together.
+// Problems found in a case file, collected with their locations so that all are reported together.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace thawslide::config {
 
-// Where a value was written: a file with line and column (both from 1; 0: the file as a whole), or a `--set` text.
+// Location of a value: a file with line and column (both from 1; 0: the file as a whole), or a `--set` text.
 struct Place {
   std::string source;
   std::uint32_t line = 0;
@@ -23,7 +23,7 @@ class Problems {
   void add(Place place, std::string message);
   [[nodiscard]] bool empty() const { return found_.empty(); }
 
-  // Throws a UserError holding every problem, one a line, in the order of their places; returns if there is none.
+  // Throws a UserError with every problem, one per line, in the order of their locations; returns if there is none.
   void raise_if_any() const;
 
  private:
@@ -34,17 +34,17 @@ class Problems {
   std::vector<Problem> found_;
 };
 
-// Number of single-letter edits (insert, delete, replace, swap of neighbours) from one word to the other, letter case
-// and '-' against '_' ignored.
+// Edit distance of two words (insert, delete, replace, swap of adjacent letters); ignores letter case, and '-' against
+// '_'.
 std::size_t edit_distance(const std::string& first, const std::string& second);
 
-// The candidate with the smallest edit distance, if it is near enough to be a likely misspelling; empty otherwise.
+// Candidate with the smallest edit distance, if it is a likely misspelling; empty otherwise.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
-// "; did you mean 'thickness'?", or nothing where no candidate is near.
+// Text such as "; did you mean 'thickness'?", empty if no candidate is similar.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
 
 // "a, b, c"
-std::string list_words(const std::vector<std::string>& words);
+std::string comma_list(const std::vector<std::string>& words);
 
 }  // namespace thawslide::config

@@ -19,7 +19,7 @@ namespace {
 
 using Fields = std::vector<std::string>;
 
-// Of distances [m]: points nearer to one another would coincide in the coordinates of the domain.
+// [m]: closer points would coincide in the coordinates of the domain.
 constexpr double least_profile_step = 1e-6;
 
 const Fields all_columns{"distance_m", "terrain_elevation_m", "surface_elevation_m"};
@@ -44,7 +44,7 @@ class ProfileReader {
   explicit ProfileReader(std::string file) : file_(std::move(file)) {}
 
   ProfileTable read() {
-    require_size(file_, largest_table_file, "A terrain model is read with terrain.type = \"dem\".");
+    require_size(file_, largest_table_file, "A DEM is read with terrain.type = \"dem\".");
     std::ifstream stream(file_, std::ios::binary);
     std::string line;
     while (std::getline(stream, line)) {
@@ -57,7 +57,7 @@ class ProfileReader {
         continue;
       }
       const Fields fields = split_at_commas(text);
-      columns_ == 0 ? take_header(fields) : take_row(fields);
+      columns_ == 0 ? read_header(fields) : read_row(fields);
     }
     if (!stream.eof()) {
       throw UserError(
@@ -77,14 +77,14 @@ class ProfileReader {
     throw UserError(fmt::format("{}:{}: {}.", file_, std::max(line_, 1), message));
   }
 
-  void take_header(const Fields& fields) {
+  void read_header(const Fields& fields) {
     const bool is_binary = std::any_of(fields.begin(), fields.end(), [](const std::string& field) {
       return std::any_of(field.begin(), field.end(), [](unsigned char sign) { return std::iscntrl(sign) != 0; });
     });
     if (is_binary) {
       fail(
           "this is no text file; allowed: columns separated by commas under the header "
-          "distance_m,terrain_elevation_m[,surface_elevation_m]. A terrain model is read with terrain.type = \"dem\"");
+          "distance_m,terrain_elevation_m[,surface_elevation_m]. A DEM is read with terrain.type = \"dem\"");
     }
     const bool is_known =
         (fields.size() == 2 || fields.size() == 3) && std::equal(fields.begin(), fields.end(), all_columns.begin());
@@ -97,7 +97,7 @@ class ProfileReader {
     columns_ = fields.size();
   }
 
-  void take_row(const Fields& fields) {
+  void read_row(const Fields& fields) {
     if (fields.size() != columns_) {
       fail(fmt::format("the row has {} fields; the header has {}", fields.size(), columns_));
     }

@@ -1,4 +1,4 @@
-// A terrain profile from a CSV file.
+// Terrain profile from a CSV file.
 #pragma once
 
 #include <filesystem>
@@ -18,9 +18,9 @@ struct ProfileTable {
 };
 
 // Reads a CSV file with the header distance_m,terrain_elevation_m[,surface_elevation_m]; lines that start with # and
-// blank lines are passed over. Throws UserError with file and line: missing or unreadable file, wrong header, a row of
-// the wrong length, what is no finite number, distances that do not increase, a surface below the ground, fewer than
-// two rows.
+// blank lines are skipped. Throws UserError with file and line for: a missing or unreadable file, a wrong header, a row
+// of the wrong length, a value that is not a finite number, distances that do not increase, a surface below the ground,
+// fewer than two rows.
 ProfileTable read_profile(const std::filesystem::path& file);
 
 }  // namespace thawslide::config

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The names of the files in a folder that end so, or of all that is in it; empty if it cannot be read.
+// Names of the files in a folder with this ending, or of all entries; empty if it cannot be read.
 std::vector<std::string> names_in(const fs::path& folder, const std::string& ending) {
   std::vector<std::string> names;
   std::error_code error;
@@ -33,7 +33,7 @@ std::vector<std::string> names_in(const fs::path& folder, const std::string& end
   return names;
 }
 
-// The case file meant by a file or a folder; throws where there is none.
+// Case file for a file or a folder; throws if there is none.
 fs::path find_case_file(const fs::path& given) {
   std::error_code error;
   if (fs::is_regular_file(given, error)) {
@@ -58,12 +58,12 @@ fs::path find_case_file(const fs::path& given) {
     const std::vector<std::string> others = names_in(given, ".toml");
     throw UserError(fmt::format("{}: the folder has no case.toml. {}", given.string(),
                                 others.empty() ? "Give a case file, or a folder with a case.toml."
-                                               : fmt::format("Give one of its case files: {}.", list_words(others))));
+                                               : fmt::format("Give one of its case files: {}.", comma_list(others))));
   }
   return file;
 }
 
-// Names at the top of the file that are no tables of ours.
+// Reports top-level names in the file that are not known tables.
 void report_unknown_tables(const toml::table& root, Reading& reading) {
   std::set<std::string> top;
   std::vector<std::string> titles;
@@ -89,7 +89,7 @@ void report_unknown_tables(const toml::table& root, Reading& reading) {
     reading.problems.add(reading.place_of(word, key.source()),
                          fmt::format("{} is not known{} Allowed: {}.",
                                      node.is_table() ? "table [" + word + "]" : "key '" + word + "' outside of a table",
-                                     hint.empty() ? "." : hint, list_words(titles)));
+                                     hint.empty() ? "." : hint, comma_list(titles)));
   }
 }
 
@@ -137,7 +137,7 @@ Case read_case(const fs::path& case_file_or_folder, const std::vector<std::strin
       result.not_given.insert(key);
     }
   }
-  // What was read is whole: nothing is left of the base but its file.
+  // The merged case is complete and no longer depends on its base.
   result.general.based_on.clear();
   for (const fs::path& each : layered.files) {
     result.case_files.push_back(fs::absolute(each).lexically_normal().string());

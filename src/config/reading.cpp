@@ -12,13 +12,13 @@ namespace thawslide::config {
 
 namespace {
 
-// One dotted name is the other, or a table around it.
+// True if both dotted names are equal, or the outer one is a table around the inner one.
 bool within(const std::string& inner, const std::string& outer) {
   return inner == outer ||
          (inner.size() > outer.size() && inner.compare(0, outer.size(), outer) == 0 && inner[outer.size()] == '.');
 }
 
-// What a number out of its range most likely is.
+// Probable unit of a number out of its range.
 std::string likely_unit(const Rule& rule, double found) {
   constexpr double least_percent = 2.0, whole_in_percent = 100.0, coldest_in_kelvin = 150.0,
                    freezing_in_kelvin = 273.15;
@@ -32,8 +32,8 @@ std::string likely_unit(const Rule& rule, double found) {
   return "";
 }
 
-// "; did you mean 'profile.csv'?" of a file that is not there: one of its folder that ends alike. Nothing where none is
-// near.
+// Suggestion for a missing file, such as "; did you mean 'profile.csv'?": one in its folder with the same ending. Empty
+// if none is similar.
 std::string similar_file(const std::filesystem::path& file) {
   std::vector<std::string> stems;
   std::error_code error;
@@ -204,8 +204,8 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path, const 
     return fail(node,
                 fmt::format("is \"{}\": no such file ({}){} {}: {}", shown(path), shown(whole.parent_path().string()),
                             hint.empty() ? ";" : hint, hint.empty() ? "allowed" : "Allowed",
-                            from_command_line ? "a file, told from where you are"
-                                              : "a file, told from the folder of the case file"));
+                            from_command_line ? "a file, relative to the current folder"
+                                              : "a file, relative to the folder of the case file"));
   }
   path = whole.string();
   return true;

@@ -1,4 +1,4 @@
-// The state of one reading of a case file: places of keys, problems found, and what stands on the command line.
+// State while reading a case file: locations of keys, problems found, and command-line overrides.
 #pragma once
 
 #include <cstdint>
@@ -15,60 +15,60 @@
 
 namespace thawslide::config {
 
-// One `--set key=value`: value is the text of a TOML value, or a bare word, which stands for a text.
+// One `--set key=value`: value is the text of a TOML value, or a bare word for a string.
 struct Override {
   std::string key;
   std::string value;
 };
 
 struct Reading {
-  std::string file;              // as the user named it, for messages
+  std::string file;              // as named by the user, for messages
   std::filesystem::path folder;  // of the case file, absolute
   std::vector<Override> overrides;
-  int dimension = 2;  // of the case; 0 while not known
+  int dimension = 2;  // of the case; 0 while unknown
   Problems problems;
   std::map<std::string, Place> places;  // of each given table and key, by dotted name
-  std::set<std::string> unsound;        // dotted keys that are missing, or hold what they must not
+  std::set<std::string> unsound;        // dotted keys that are missing or invalid
 
-  // The place of a node of the key, or of the `--set` that gave it.
+  // Location of a node of the key, or of the `--set` that specified it.
   [[nodiscard]] Place place_of(const std::string& dotted, const toml::source_region& region) const;
-  // The place of a key or, if it was not given, of the table around it or the file.
+  // Location of a key or, if it is not given, of its table or of the file.
   [[nodiscard]] Place place_of(const std::string& dotted) const;
 
   [[nodiscard]] bool given(const std::string& dotted) const { return places.count(dotted) > 0; }
-  // None of the keys has a problem: a check over them makes sense.
+  // True if none of the keys has a problem, so that checks involving them are meaningful.
   [[nodiscard]] bool sound(std::initializer_list<std::string> dotted) const;
-  // A problem at the place of a key; marks the key as unsound.
+  // Adds a problem at the location of a key, and marks the key as invalid.
   void report(const std::string& dotted, std::string message);
-  // A problem that keys make together, told at the first of them that `--set` gave: most likely the case file fits
-  // together without it. Else at the first key, which is marked as unsound in either case.
+  // Adds a problem of several keys at the first of them set by `--set`, because the case file is probably consistent
+  // without it. Otherwise the location is the first key, which is marked as invalid in either case.
   void report_misfit(std::initializer_list<std::string> dotted, std::string message);
 };
 
-// Reads one value of one key, and says what is wrong with it. All functions return whether the value is right.
+// Reads one value of one key and reports problems. All functions return true if the value is valid.
 struct ValueReader {
   Reading& reading;
   std::string key;  // dotted
   const Rule& rule;
   std::string default_text;  // empty: none
-  std::string allowed;       // type, range and unit in words
+  std::string allowed;       // type, range and unit as text
 
-  // Adds "key: message" at the node's place.
+  // Adds "key: message" at the node's location.
   bool fail(const toml::node& node, const std::string& message) const;
-  // Says what was found, what is allowed and what to do.
+  // Reports the value found, the values allowed and the remedy.
   bool fail_type(const toml::node& node) const;
   // A finite number.
   bool finite_number(const toml::node& node, double& value) const;
   // A number in the range of the rule.
   bool number_in_range(const toml::node& node, double& value) const;
-  // Numbers in an array; `in_range`: each must be in the range of the rule.
+  // Array of numbers; `in_range`: each must be in the range of the rule.
   bool numbers(const toml::node& node, std::vector<double>& values, bool in_range) const;
-  // A file: inside the case's folder when the case file names it. The path becomes absolute. `form` is how a value of
-  // the key gives a path.
+  // File path; a path in the case file must lie in the case's folder. The path becomes absolute. `form`: form of a path
+  // in a value of the key.
   bool resolve_path(const toml::node& node, std::string& path, const std::string& form = "PATH") const;
 };
 
-// What a node holds, in a few words: `the text "long"`, `-3`, `an array of 2`.
+// Short description of a node: `the text "long"`, `-3`, `an array of 2`.
 std::string describe_node(const toml::node& node);
 
 }  // namespace thawslide::config

@@ -17,7 +17,7 @@ constexpr double absolute_zero = -273.15;                       // C
 constexpr double shortest_period = 1e-3, longest_period = 1e5;  // s
 constexpr double degrees_per_radian = 57.29577951308232;
 
-// A number of digits with a point between some, and nothing else.
+// Number of digits with an optional decimal point between them, and nothing else.
 std::optional<double> plain_decimal(const std::string& text) {
   constexpr const char* digits = "0123456789";
   const std::size_t point = text.find('.');
@@ -32,7 +32,7 @@ std::optional<double> plain_decimal(const std::string& text) {
   return value;
 }
 
-// Of NAME_35_150_s, a force between periods [s].
+// Periods [s] in NAME_35_150_s, a force between periods.
 std::optional<std::pair<double, double>> periods_of(const std::string& name) {
   const std::string prefix = std::string(reported_force) + "_", suffix = "_s";
   if (name.size() <= prefix.size() + suffix.size() || name.compare(0, prefix.size(), prefix) != 0 ||

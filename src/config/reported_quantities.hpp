@@ -1,4 +1,4 @@
-// The quantities that reports of a slide tell, and their units.
+// Quantities reported for slides, and their units.
 #pragma once
 
 #include <string>
@@ -24,10 +24,10 @@ inline constexpr const char* reported_force = "max_seismic_force";
 
 [[nodiscard]] const std::vector<ReportedQuantity>& reported_quantities();
 
-// Null where there is none of that name. A force between periods, max_seismic_force_35_150_s, is a force.
+// Null for an unknown name. A force between periods, max_seismic_force_35_150_s, is a force.
 [[nodiscard]] const ReportedQuantity* reported_quantity(const std::string& name);
 
-// What is wrong with the periods of such a force; empty: nothing, or it has none.
+// Mistake in the periods of such a force; empty if there is none, or no periods.
 [[nodiscard]] std::string mistake_in_periods(const std::string& name);
 
 }  // namespace thawslide::config

@@ -25,7 +25,9 @@ const std::vector<std::string> kinds{"observation", "model", "assumption"};
 
 std::string quoted(const std::string& text) { return "'" + shown(text) + "'"; }
 
-std::string unit_words(const std::string& unit) { return unit.empty() || unit == "-" || unit == "1" ? "" : " " + unit; }
+std::string format_unit(const std::string& unit) {
+  return unit.empty() || unit == "-" || unit == "1" ? "" : " " + unit;
+}
 
 std::string hint(const std::string& word, const std::vector<std::string>& known) {
   const std::string near = nearest(shown(word), known);
@@ -39,9 +41,9 @@ class TargetsReader {
   ReportedValues read() {
     try {
       const TableCsv table = read_table_csv(file_, needed, largest_targets_file);
-      take_columns(table);
+      set_columns(table);
       for (const TableCsv::Row& row : table.rows) {
-        take_row(row);
+        read_row(row);
       }
     } catch (const UserError& error) {
       found_.mistakes.emplace_back(error.what());
@@ -56,13 +58,13 @@ class TargetsReader {
     found_.mistakes.push_back(fmt::format("{}:{}: {}", file_, line, words));
   }
 
-  void take_columns(const TableCsv& table) {
+  void set_columns(const TableCsv& table) {
     std::vector<std::string> times;
     for (std::size_t k = 0; k < table.columns.size(); ++k) {
       const std::string& name = table.columns[k];
       if (std::find(allowed.begin(), allowed.end(), name) == allowed.end()) {
         throw UserError(fmt::format("{}:{}: no column is called {}{} allowed are {}", file_, table.line, quoted(name),
-                                    hint(name, allowed), list_words(allowed)));
+                                    hint(name, allowed), comma_list(allowed)));
       }
       if (seconds_of.count(name) > 0) {
         times.push_back(name);
@@ -76,7 +78,7 @@ class TargetsReader {
     time_ = times.front();
   }
 
-  void take_row(const TableCsv::Row& row) {
+  void read_row(const TableCsv::Row& row) {
     if (row.cells.size() != column_.size()) {
       add(row.line, fmt::format("{} values for {} columns", row.cells.size(), column_.size()));
       return;
@@ -91,8 +93,8 @@ class TargetsReader {
     }
     const auto [first, is_new] = lines_.emplace(std::tuple(name, time, source), row.line);
     if (!is_new) {
-      add(row.line, fmt::format("{} at this time from this source is in line {} already; keep one of the two, or tell "
-                                "their sources apart",
+      add(row.line, fmt::format("{} at this time from this source is in line {} already; keep one of the two, or give "
+                                "them different sources",
                                 name, first->second));
       return;
     }
@@ -106,7 +108,7 @@ class TargetsReader {
     found_.values.push_back({name, time, row.line, reported_quantity(name)->is_of_a_time});
   }
 
-  // Empty: none, and `time` [s] is told.
+  // Returns an empty text if there is no mistake, and sets `time` [s].
   std::string mistake_in(const TableCsv::Row& row, const std::string& name, double& time) const {
     if (const std::string mistake = mistake_in_periods(name); !mistake.empty()) {
       return mistake;
@@ -119,7 +121,7 @@ class TargetsReader {
       }
       return fmt::format(
           "no quantity is called {}{} There are: {}; and {}_35_150_s for a force between periods of 35 and 150 s",
-          quoted(name), hint(name, known), list_words(known), reported_force);
+          quoted(name), hint(name, known), comma_list(known), reported_force);
     }
     const std::string& unit_name = row.cells[column_.at("unit")];
     const auto& units = *quantity->units;
@@ -133,13 +135,13 @@ class TargetsReader {
         }
       }
       return fmt::format("{} for {}; allowed: {}", unit_name.empty() ? "no unit" : "the unit " + quoted(unit_name),
-                         name, list_words(known));
+                         name, comma_list(known));
     }
     if (const auto column = column_.find("kind"); column != column_.end()) {
       const std::string& kind = row.cells[column->second];
       if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
         return fmt::format("{} for {}; allowed: {}", kind.empty() ? "no kind" : "the kind " + quoted(kind), name,
-                           list_words(kinds));
+                           comma_list(kinds));
       }
     }
     double given = 0.0;
@@ -154,13 +156,13 @@ class TargetsReader {
       return name + ": a number that large cannot be converted";
     }
     if (value < quantity->low || value > quantity->high) {
-      return fmt::format("{} is {:g}{}; allowed: {}", name, given, unit_words(unit_name), range_of(*quantity));
+      return fmt::format("{} is {:g}{}; allowed: {}", name, given, format_unit(unit_name), range_of(*quantity));
     }
     return "";
   }
 
   static std::string range_of(const ReportedQuantity& quantity) {
-    const std::string unit = unit_words(quantity.units->front().name);
+    const std::string unit = format_unit(quantity.units->front().name);
     std::vector<std::string> ends;
     if (std::isfinite(quantity.low)) {
       ends.push_back(fmt::format("at least {:g}{}", quantity.low, unit));
@@ -168,10 +170,10 @@ class TargetsReader {
     if (std::isfinite(quantity.high)) {
       ends.push_back(fmt::format("at most {:g}{}", quantity.high, unit));
     }
-    return list_words(ends);
+    return comma_list(ends);
   }
 
-  // On a clock of their own only the run can tell when they are.
+  // With a separate clock, only the run can determine when the times are.
   void refuse_times_before_the_run() {
     for (const ReportedValue& value : found_.values) {
       if (value.is_of_a_time && value.time < 0.0 && !found_.have_clock) {
@@ -191,7 +193,7 @@ class TargetsReader {
 
 }  // namespace
 
-std::string note_on_late_values(const Case& parameters) {
+std::string warning_of_late_values(const Case& parameters) {
   if (parameters.report.targets.empty()) {
     return "";
   }

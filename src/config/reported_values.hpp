@@ -1,6 +1,6 @@
-// Reported values to compare a run with, from the CSV file of report.targets: read before a run, so that a mistake in
-// them is not told after it. What there is of quantities and units stands here; python/thawslide/targets.py, which
-// compares, has the same (tests/cli/targets_test.py).
+// Reported values for comparison with a run, from the CSV file of report.targets, read before a run so that mistakes
+// are reported early. The list of quantities and units is repeated in python/thawslide/targets.py, which makes the
+// comparison (tests/cli/targets_test.py).
 #pragma once
 
 #include <filesystem>
@@ -20,15 +20,15 @@ struct ReportedValue {
 
 struct ReportedValues {
   std::vector<ReportedValue> values;
-  bool have_clock = false;            // a row start_velocity: times are the reporter's, not the run's
+  bool have_clock = false;            // has a row start_velocity: times are the reporter's, not the run's
   std::vector<std::string> mistakes;  // each with file and line
 };
 
-// Reads all rows that can be understood. A column kind says of each value whether it is an observation, the result of
-// another model or an assumption, by which reports show them apart.
+// Reads all valid rows. The column kind marks each value as an observation, the result of another model or an
+// assumption, which reports distinguish.
 ReportedValues read_reported_values(const std::filesystem::path& file);
 
-// What the user should know of values that are later than the run; empty where none is.
-[[nodiscard]] std::string note_on_late_values(const Case& parameters);
+// Warning of values that are later than the end of the run; empty if there are none.
+[[nodiscard]] std::string warning_of_late_values(const Case& parameters);
 
 }  // namespace thawslide::config

@@ -16,10 +16,10 @@ namespace {
 bool are_enough(double found, double needed) { return found >= needed * (1.0 - 1e-9); }
 
 // Rounded down: a number that is too small must not appear to be enough.
-std::string found_words(double found) { return fmt::format("{:.2g}", rounded_down(found, 2)); }
+std::string format_found(double found) { return fmt::format("{:.2g}", rounded_down(found, 2)); }
 
 // Two significant digits, with commas between thousands.
-std::string times_words(double factor) {
+std::string format_factor(double factor) {
   return factor < 10.0 ? fmt::format("{:.2g}", factor) : with_commas(factor, 2);
 }
 
@@ -32,7 +32,7 @@ bool asks_for_maps(const Case& parameters) {
 
 double run_time_factor(double cell, double finer, int dimension) { return std::pow(cell / finer, dimension + 1); }
 
-std::string resolution_note(const BodyOnCells& body, const std::string& key, const std::vector<double>& lengths) {
+std::string resolution_warning(const BodyOnCells& body, const std::string& key, const std::vector<double>& lengths) {
   const double cells = body.thickness / body.cell, particles = cells * body.particles_per_axis;
   const bool lacks_particles = !are_enough(particles, fewest_particles);
   const bool lacks_cells = body.has_maps && !are_enough(cells, cells_for_maps);
@@ -40,17 +40,17 @@ std::string resolution_note(const BodyOnCells& body, const std::string& key, con
     return "";
   }
   const auto cell_for = [&](double needed) { return fitting_cell(body.thickness / needed, body.cell, lengths); };
-  const auto times = [&](double finer) { return times_words(run_time_factor(body.cell, finer, body.dimension)); };
+  const auto times = [&](double finer) { return format_factor(run_time_factor(body.cell, finer, body.dimension)); };
   const double moving = cell_for(proposed_particles / body.particles_per_axis), mapped = cell_for(cells_for_maps);
   std::string problem, remedy;
   if (lacks_particles) {
     problem = fmt::format("too few particles to resolve shear and thinning (found {}; needed {:g})",
-                          found_words(particles), fewest_particles);
+                          format_found(particles), fewest_particles);
     remedy = fmt::format("{:.9g} m, at about {} times the run time", moving, times(moving));
   }
   if (lacks_cells) {
     problem += fmt::format("{}too few cells for maps of thickness and area (found {}; needed {:g})",
-                           lacks_particles ? ", and " : "", found_words(cells), cells_for_maps);
+                           lacks_particles ? ", and " : "", format_found(cells), cells_for_maps);
     remedy += fmt::format("{}{:.9g} m, at about {} times the run time", lacks_particles ? ", or for maps to " : "",
                           mapped, times(mapped));
   }
@@ -68,7 +68,7 @@ std::string maps_comment(const BodyOnCells& body) {
       "# Travel distance and speed need 2 to 4 cells across the thickness of the release. Maps of thickness and area "
       "need\n"
       "# {:g}: cells of {:.9g} m (`thawslide new --resolution standard`), at about {} times the run time.\n",
-      cells_for_maps, finer, times_words(run_time_factor(body.cell, finer, body.dimension)));
+      cells_for_maps, finer, format_factor(run_time_factor(body.cell, finer, body.dimension)));
 }
 
 Resolution resolution_named(const std::string& name) {

@@ -35,8 +35,8 @@ struct BodyOnCells {
 // Warning about a body with too few particles across its median thickness, or with too few cells for maps; empty if
 // there are enough. It starts with `key`, which sets the cell. The proposed cells divide each of the `lengths` of the
 // domain [m] into a whole number; without lengths any cell fits, because the domain is derived from it.
-[[nodiscard]] std::string resolution_note(const BodyOnCells& body, const std::string& key,
-                                          const std::vector<double>& lengths = {});
+[[nodiscard]] std::string resolution_warning(const BodyOnCells& body, const std::string& key,
+                                             const std::vector<double>& lengths = {});
 
 // Comment for a case file: the cell for maps of a body, and its cost. Empty if the present cell is small enough.
 [[nodiscard]] std::string maps_comment(const BodyOnCells& body);

@@ -32,15 +32,15 @@ std::string Range::text() const {
   return infinity_allowed ? text + ", or inf" : text;
 }
 
-bool Usual::is_told() const {
+bool Usual::is_specified() const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return low > -infinity || high < infinity;
 }
 
 std::string Usual::text(const std::string& unit) const {
-  return is_told() ? fmt::format("{:g} to {:g}{}{}{}{} (not checked)", low, high, unit.empty() ? "" : " ", unit,
-                                 *where == '\0' ? "" : " ", where)
-                   : "";
+  return is_specified() ? fmt::format("{:g} to {:g}{}{}{}{} (not checked)", low, high, unit.empty() ? "" : " ", unit,
+                                      *where == '\0' ? "" : " ", where)
+                        : "";
 }
 
 Range above(double low) {

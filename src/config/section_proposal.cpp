@@ -47,7 +47,7 @@ Proposal propose_section(const ProfileTable& profile, const SurfaceBody& body) {
 
 std::string section_text(const std::string& title, const std::string& profile_file, const Proposal& proposal) {
   return fmt::format(
-      R"(# Made by `thawslide section`. Every number may be changed; `thawslide describe` tells what keys there are.
+      R"(# Made by `thawslide section`. Every number may be changed; `thawslide describe` lists all keys.
 #
 # A section has no side walls and does not spread: the slide moves in the plane of the section only, as if it were the
 # same at every place across it. A valley that narrows or widens it, or turns it, is not in this case.

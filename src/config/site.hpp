@@ -1,5 +1,5 @@
-// What map files tell of a case: the ground, and what each body is there. Read by the gis room, used by the simulation.
-// And the profile of a 2D case, from its file or from memory.
+// Map data of a case: the ground, and the fields of each body on it. Read by the gis module, used by the simulation.
+// Also the profile of a 2D case, from its file or from memory.
 #pragma once
 
 #include <array>
@@ -16,67 +16,67 @@
 
 namespace thawslide::config {
 
-using Polyline2 = std::vector<std::array<double, 2>>;  // x, y [m] of its corners
+using Polyline2 = std::vector<std::array<double, 2>>;  // x, y [m] of the corners
 
 struct Release {
   Raster thickness;   // vertical [m] at the points of the ground's raster, cropped to the release; 0 outside
   double area = 0.0;  // horizontal, of the outlines [m2]
-  std::vector<Polyline2> outlines;       // closed rings, for pictures; empty where a raster gives the release
-  std::map<std::string, Raster> fields;  // by key of the body: "temperature", "porosity", ... where a map gives it
-  // Of a body that touches another one, else empty. A place belongs to the body within whose outline it lies, beyond
-  // all outlines to the one with the largest claim.
+  std::vector<Polyline2> outlines;       // closed rings, for figures; empty if a raster specifies the release
+  std::map<std::string, Raster> fields;  // by key of the body: "temperature", "porosity", ... if given by a map
+  // Only for a body that touches another one, otherwise empty. A point belongs to the body whose outline contains it,
+  // and beyond all outlines to the body with the largest claim.
   Raster standing;  // vertical thickness [m] in the body's own part, without an edge towards the others
-  Raster claim;  // share of each point's cell that the outline covers; beyond all outlines, that its taper spreads to
+  Raster claim;     // fraction of each point's cell within the outline; beyond all outlines, within reach of its taper
 };
 
-// Where a substrate lies, as maps tell it.
+// Extent of a substrate from maps.
 struct SubstrateArea {
-  std::vector<Polyline2> rings;         // closed: outlines and their holes; empty where a raster tells
-  std::shared_ptr<const Raster> codes;  // null where polygons tell
+  std::vector<Polyline2> rings;         // closed: outlines and their holes; empty for a raster
+  std::shared_ptr<const Raster> codes;  // null for polygons
   double code = 0.0;                    // of the raster
   double area = 0.0;                    // horizontal, within the domain [m2]
 };
 
-// A part of a section in which a substrate lies, from one x to another [m].
+// Part of a section with a substrate, from one x to another [m].
 struct SubstrateStretch {
   std::string name;
   double from, to;
 };
 
-// Noise and short bumps of a terrain model, and the filter against them.
+// Noise and short bumps of a DEM, and the filter applied to them.
 struct Roughness {
-  double noise = 0.0;              // rms of white noise on points `spacing` apart that is as rough [m]
+  double noise = 0.0;              // rms of white noise of equal roughness on points `spacing` apart [m]
   double spacing = 0.0;            // [m]
   double cell = 0.0;               // of the grid [m]
-  double bump_length = 0.0;        // that shorter bumps are counted up to [m]
-  double bump_slope = 0.0;         // rms slope of these bumps without a filter
+  double bump_length = 0.0;        // maximum length of bumps that count [m]
+  double bump_slope = 0.0;         // rms slope of these bumps without the filter
   double width = 0.0;              // standard deviation of the filter [m]; 0: none
   double slope_left = 0.0;         // rms slope of noise or bumps at the scale of the cell, after the filter
-  double apparent_friction = 0.0;  // that it adds, as a share of the friction
-  double narrow_valley = 0.0;      // narrower ones lose a part of their wedge effect by the filter [m]
+  double apparent_friction = 0.0;  // that it adds, as a fraction of the friction
+  double narrow_valley = 0.0;      // width below which the filter reduces the wedge effect of valleys [m]
 };
 
-// With their names in files of JSON.
+// By the names used in JSON files.
 using NamedFigures = std::vector<std::pair<std::string, double>>;
 [[nodiscard]] NamedFigures named(const Roughness& ground);
 
 struct Site {
-  std::shared_ptr<const Raster> ground;  // what bodies slide on, less what is cut out of it; null: no raster
-  // Outermost points of the terrain model that the ground was cropped from [m]; empty: it was not cropped.
+  std::shared_ptr<const Raster> ground;  // sliding surface, after excavation of releases; null: no raster
+  // Outermost points of the DEM from which the ground was cropped [m]; empty: it was not cropped.
   std::optional<std::array<std::array<double, 2>, 2>> terrain_model;  // south-west, north-east
-  std::optional<Roughness> roughness;                                 // of the terrain model
+  std::optional<Roughness> roughness;                                 // of the DEM
   std::map<std::string, Release> releases;                            // by name of the body
-  ProfileTable profile;  // of a 2D case cut out of maps, instead of terrain.file; empty: there is the file
-  std::map<std::string, SubstrateArea> substrates;  // by name, those that maps give
-  std::vector<SubstrateStretch> stretches;          // of a 2D case cut out of maps, in place of all substrates' own
-  Polyline2 path;                                   // along which the front is measured; empty: none given
-  std::map<std::string, Polyline2> probes;          // by name: one point, or a line
-  Raster bed_depth;                                 // [m], at the points of the ground; empty: no raster gives it
-  std::string crs;                                  // of all of them, as WKT
-  std::string crs_name;                             // "EPSG:31287", or its title; empty: none is known
+  ProfileTable profile;  // of a 2D case derived from maps, instead of terrain.file; empty: use the file
+  std::map<std::string, SubstrateArea> substrates;  // by name, those given by maps
+  std::vector<SubstrateStretch> stretches;  // of a 2D case derived from maps, in place of all substrates' extents
+  Polyline2 path;                           // along which the front is measured; empty if none is given
+  std::map<std::string, Polyline2> probes;  // by name: one point, or a line
+  Raster bed_depth;                         // [m], at the points of the ground; empty if no raster is given
+  std::string crs;                          // of all maps, as WKT
+  std::string crs_name;                     // "EPSG:31287", or its title; empty if none is known
 };
 
-// The profile of a case with terrain.type "profile": the site's, or else what terrain.file holds.
+// Profile of a case with terrain.type "profile": that of the site, otherwise the contents of terrain.file.
 [[nodiscard]] ProfileTable profile_of(const Case& parameters, const Site& site);
 
 }  // namespace thawslide::config

@@ -17,18 +17,18 @@ std::vector<Strip> strips_of(const Case& parameters) {
   return strips;
 }
 
-std::vector<std::string> notes_on_gaps(const Case& parameters) {
-  std::vector<std::string> notes;
+std::vector<std::string> warnings_of_gaps(const Case& parameters) {
+  std::vector<std::string> warnings;
   const std::vector<Strip> strips = strips_of(parameters);
   for (std::size_t k = 1; k < strips.size(); ++k) {
     const double from = strips[k - 1].to, to = strips[k].from;
     if (to > from) {
-      notes.push_back(
+      warnings.push_back(
           fmt::format("between the substrates {} and {}, from x = {:g} to {:g} m, none lies: [basal] holds there",
                       strips[k - 1].name, strips[k].name, from, to));
     }
   }
-  return notes;
+  return warnings;
 }
 
 }  // namespace thawslide::config

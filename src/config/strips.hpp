@@ -1,4 +1,4 @@
-// Substrates that lie along x, one after another.
+// Substrates along x in sequence.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ struct Strip {
   double from, to;  // [m], either may be infinite
 };
 
-// By where they begin.
+// Sorted by their beginning.
 [[nodiscard]] std::vector<Strip> strips_of(const Case& parameters);
 
-// Of the domain, between strips that do not meet: a sentence each, without a full stop.
-[[nodiscard]] std::vector<std::string> notes_on_gaps(const Case& parameters);
+// Gaps between strips in the domain: a sentence each, without a full stop.
+[[nodiscard]] std::vector<std::string> warnings_of_gaps(const Case& parameters);
 
 }  // namespace thawslide::config

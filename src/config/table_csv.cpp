@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_columns_told = 12;
+constexpr std::size_t most_columns_listed = 12;
 
 std::string quoted(const std::string& text) { return "'" + shown(text) + "'"; }
 
@@ -29,7 +29,7 @@ std::string trimmed(std::string_view text) {
                                          : std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
 }
 
-// Bytes of the UTF-8 sign that begins the text; 0: none does.
+// Length in bytes of the UTF-8 character at the beginning of the text; 0 if it is invalid.
 std::size_t length_of_sign(std::string_view text) {
   const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
   const unsigned first = byte(0), second = byte(1);
@@ -43,7 +43,7 @@ std::size_t length_of_sign(std::string_view text) {
       return 0;
     }
   }
-  // Longer than needed, half of a pair, or beyond the last sign.
+  // Overlong, a surrogate, or beyond the last code point.
   const bool is_wrong = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
                         (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
   return is_wrong ? 0 : length;
@@ -96,7 +96,7 @@ std::string read_text(const std::string& file, double most_bytes) {
   return plain;
 }
 
-// A cell may stand in quotes, as one with a comma must; a quote in it is written twice.
+// A cell may be quoted, and must be if it contains a comma; a quote in it is doubled.
 std::vector<std::string> cells_of(std::string_view line, const std::string& where) {
   const auto fail = [&](const char* why) {
     throw UserError(fmt::format("{}: not a row of comma-separated cells: {}", where, why));
@@ -132,7 +132,7 @@ void require_columns(const TableCsv& table, const std::string& where, const std:
       std::vector<std::string> found;
       std::transform(
           table.columns.begin(),
-          table.columns.begin() + static_cast<std::ptrdiff_t>(std::min(table.columns.size(), most_columns_told)),
+          table.columns.begin() + static_cast<std::ptrdiff_t>(std::min(table.columns.size(), most_columns_listed)),
           std::back_inserter(found), quoted);
       const bool by_semicolons = table.columns.size() == 1 && table.columns[0].find(';') != std::string::npos;
       throw UserError(fmt::format("{}: no column {}; found {}{}{}", where, name, fmt::join(found, ", "),
@@ -187,7 +187,7 @@ std::string read_finite_number(const std::string& cell, double& value) {
                        has_decimal_comma ? "; write the decimals behind a point" : "");
   }
   if (result.ec == std::errc::result_out_of_range) {
-    value = std::strtod(begin, nullptr);  // infinite, or all but 0
+    value = std::strtod(begin, nullptr);  // infinite, or almost 0
   }
   return std::isfinite(value) ? "" : fmt::format("expected a finite number, found {}", quoted(cell));
 }

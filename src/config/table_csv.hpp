@@ -1,4 +1,4 @@
-// A table of comma-separated cells as it comes: encodings, line ends, quotes, and the line of every row.
+// CSV table in raw form: encodings, line ends, quotes, and the line number of every row.
 #pragma once
 
 #include <filesystem>
@@ -13,15 +13,15 @@ struct TableCsv {
     std::vector<std::string> cells;
   };
   std::vector<std::string> columns;
-  int line = 0;  // of the columns
+  int line = 0;  // of the header
   std::vector<Row> rows;
 };
 
-// Empty lines and those that begin with # are left out. Throws UserError, with the line, where the file is no text in
-// UTF-8, lacks a column that is `needed`, or has one twice. Rows may have more or fewer cells than there are columns.
+// Skips empty lines and those that begin with #. Throws UserError, with the line, if the file is not UTF-8 text, lacks
+// a column that is `needed`, or has one twice. Rows may have more or fewer cells than there are columns.
 TableCsv read_table_csv(const std::filesystem::path& file, const std::vector<std::string>& needed, double most_bytes);
 
-// Reads the finite number of a cell; returns what is wrong with it, "" for nothing.
+// Reads the finite number of a cell; returns the problem, "" if there is none.
 std::string read_finite_number(const std::string& cell, double& value);
 
 }  // namespace thawslide::config

@@ -10,7 +10,7 @@ namespace thawslide::config {
 
 namespace {
 
-// Tables that stand directly in this one: "boundary" in [grid].
+// Tables directly within this one: "boundary" in [grid].
 std::vector<std::string> tables_inside(const std::string& dotted) {
   std::vector<std::string> result;
   for (const auto& table : tables()) {
@@ -21,7 +21,7 @@ std::vector<std::string> tables_inside(const std::string& dotted) {
   return result;
 }
 
-// The tables, other than this one, that have a parameter of this key.
+// Other tables that have a parameter with this key.
 std::vector<std::string> tables_with(const std::string& key, const std::string& dotted) {
   std::vector<std::string> result;
   for (const auto& table : tables()) {
@@ -61,7 +61,7 @@ const toml::node* find_node(const toml::table& root, const std::string& dotted) 
   if (dot == std::string::npos || node == nullptr) {
     return node;
   }
-  // A parent that is no table is reported where it is read itself.
+  // A parent that is not a table is reported when it is read itself.
   return node->is_table() ? find_node(*node->as_table(), dotted.substr(dot + 1)) : nullptr;
 }
 
@@ -94,7 +94,7 @@ void report_unknown_keys(const toml::table& table, const std::string& dotted, co
                                                   : fmt::format("; it belongs in {}", fmt::join(elsewhere, " or "));
     reading.problems.add(reading.place_of(whole, key.source()),
                          fmt::format("key '{}' is not known in [{}]{} Allowed here: {}.", whole, dotted,
-                                     hint.empty() ? "." : hint + (hint.back() == '?' ? "" : "."), list_words(allowed)));
+                                     hint.empty() ? "." : hint + (hint.back() == '?' ? "" : "."), comma_list(allowed)));
     reading.unsound.insert(whole);
   }
 }

@@ -1,4 +1,4 @@
-// The two kinds of tables, over any section of the Case: [band], and [body.NAME].
+// The two kinds of tables, for any section of the Case: [band], and [body.NAME].
 #pragma once
 
 #include <algorithm>
@@ -15,28 +15,27 @@ namespace thawslide::config {
 // "[band]" of "band", and the key as a path below it.
 inline std::string join(const std::string& table, const std::string& key) { return table + "." + key; }
 
-// The node of a dotted table name; nullptr where the file has none.
+// Node of a dotted table name; nullptr if the file has none.
 const toml::node* find_node(const toml::table& root, const std::string& dotted);
-// Notes the place of a table and tells whether it is one.
+// Records the location of a table; returns whether it is one.
 bool enter_table(const toml::node& node, const std::string& dotted, Reading& reading);
-// Reports the keys of a table that no parameter has; `renamed`: keys by their former names.
+// Reports unknown keys of a table; `renamed`: keys by their former names.
 void report_unknown_keys(const toml::table& table, const std::string& dotted, const std::vector<std::string>& known,
                          const std::map<std::string, std::string>& renamed, Reading& reading);
-// Reports what stands beside the named tables of [body]; returns the names.
+// Reports other entries next to the named tables of [body]; returns the names.
 std::vector<std::string> table_names(const toml::node& node, const std::string& kind, Reading& reading);
 void report_missing(const std::string& table, const Rule& rule, const std::string& type, const std::string& when,
                     Reading& reading);
-// Reports a path that was given as no text at all.
+// Reports an empty path.
 void report_empty(const std::string& table, const Rule& rule, const std::string& type, const std::string& when,
                   Reading& reading);
-// Reports a key that was given where it has no meaning.
+// Reports a key that is given where it is not allowed.
 void report_without_meaning(const std::string& table, const Rule& rule, const Meaning& meaning, Reading& reading);
 bool check_dimension(const toml::node& node, const std::string& dotted, const Rule& rule, Reading& reading);
-// One line "key = value  # unit".
-// A line of the resolved case: `KEY = VALUE  # UNIT, not given`.
+// Line of the resolved case: `KEY = VALUE  # UNIT, not given`.
 std::string value_line(const Rule& rule, const std::string& value, bool was_given);
 
-// The parameters of one section, whatever table they stand in.
+// Parameters of one section, independent of its table.
 template <class Section>
 class SectionParameters {
  public:
@@ -46,7 +45,7 @@ class SectionParameters {
     std::vector<Entry> entries;
     for (const auto& p : parameters_) {
       entries.push_back(
-          {&p.rule, p.type, p.default_text(), p.required_words, p.otherwise_words, p.words, p.schema, p.meaning.when});
+          {&p.rule, p.type, p.default_text(), p.required_text, p.otherwise_text, p.words, p.schema, p.meaning.when});
     }
     return entries;
   }
@@ -73,7 +72,7 @@ class SectionParameters {
   }
 
   void complete(const std::string& dotted, const Case& whole, Section& section, Reading& reading) const {
-    // A word that is not known decides nothing: what its default would ask for may not be needed.
+    // An unknown keyword decides nothing: requirements of its default may not apply.
     const bool is_decided = std::all_of(parameters_.begin(), parameters_.end(), [&](const auto& p) {
       return p.words.empty() || reading.sound({join(dotted, p.rule.key)});
     });
@@ -86,14 +85,14 @@ class SectionParameters {
         }
         const bool is_empty = p.rule.is_path && p.write(section, p.rule, WriteContext{}) == quoted("");
         if (is_empty && is_decided && reading.sound({key}) && p.is_required && p.is_required(whole, section)) {
-          report_empty(dotted, p.rule, p.type, p.required_words, reading);
+          report_empty(dotted, p.rule, p.type, p.required_text, reading);
         }
         continue;
       }
-      if (!is_decided && p.is_required && p.required_words != "always") {
+      if (!is_decided && p.is_required && p.required_text != "always") {
         reading.unsound.insert(key);
       } else if (p.is_required && p.is_required(whole, section)) {
-        report_missing(dotted, p.rule, p.type, p.required_words, reading);
+        report_missing(dotted, p.rule, p.type, p.required_text, reading);
       } else if (p.fill) {
         p.fill(whole, section);
       }
@@ -108,7 +107,7 @@ class SectionParameters {
         continue;
       }
       const std::string value = p.write(section, p.rule, context);
-      const bool may_be_absent = !p.required_words.empty() || (!p.otherwise_words.empty() && !p.fill);
+      const bool may_be_absent = !p.required_text.empty() || (!p.otherwise_text.empty() && !p.fill);
       const bool is_absent = may_be_absent && !(p.is_required && p.is_required(whole, section)) &&
                              value == p.write(defaults, p.rule, context);
       const bool elsewhere = p.rule.dimension != 0 && p.rule.dimension != context.dimension;
@@ -118,7 +117,7 @@ class SectionParameters {
     }
   }
 
-  // Of a value over time the first number that is unusual.
+  // For a value over time, finds the first unusual number.
   void find_unusual(const std::string& dotted, const Case& whole, const Section& section,
                     std::vector<Unusual>& found) const {
     for (const auto& p : parameters_) {
@@ -138,7 +137,7 @@ class SectionParameters {
   std::vector<Parameter<Section>> parameters_;
 };
 
-// A parameter for each side of the grid, bound to an array of six.
+// Parameter for each side of the grid, bound to an array of six.
 template <class Section, class T>
 std::vector<Parameter<Section>> six_sides(std::array<T, 6> Section::*member, const std::string& text) {
   const std::array<std::string, 6> sides{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
@@ -151,7 +150,7 @@ std::vector<Parameter<Section>> six_sides(std::array<T, 6> Section::*member, con
   return result;
 }
 
-// A table that stands once, bound to a member of the Case.
+// Table that occurs once, bound to a member of the Case.
 template <class Section>
 class SingleTable : public TableDeclaration {
  public:
@@ -187,7 +186,7 @@ class SingleTable : public TableDeclaration {
   SectionParameters<Section> section_;
 };
 
-// A table that stands as often as there are names, bound to a map of the Case.
+// Table that occurs once per name, bound to a map of the Case.
 template <class Section>
 class NamedTable : public TableDeclaration {
  public:

@@ -7,9 +7,9 @@ namespace thawslide::config {
 
 namespace {
 
-constexpr double least_widths = 3.0, most_widths = 10.0;  // of the thickness
+constexpr double least_widths = 3.0, most_widths = 10.0;  // in multiples of the thickness
 
-// A rectangle of points about the release.
+// Rectangle of points around the release.
 struct Window {
   int columns = 0, rows = 0;
   [[nodiscard]] std::size_t index(int column, int row) const {
@@ -17,7 +17,8 @@ struct Window {
   }
 };
 
-// For each point the steps to the nearest marked one, along rows, columns and diagonals (Rosenfeld and Pfaltz 1968).
+// Number of steps from each point to the nearest marked one, along rows, columns and diagonals (Rosenfeld and Pfaltz
+// 1968).
 std::vector<int> steps_to(const std::vector<char>& marked, const Window& window) {
   const int far = window.columns + window.rows;
   std::vector<int> steps(marked.size());
@@ -49,7 +50,7 @@ std::vector<int> steps_to(const std::vector<char>& marked, const Window& window)
 
 class Release {
  public:
-  // With `margin` points of the DEM's, known or not, about those of the thickness.
+  // margin: number of DEM points, known or not, around those of the thickness.
   Release(const Raster& dem, const Raster& thickness, int margin)
       : dem_(dem),
         thickness_(thickness),
@@ -70,7 +71,7 @@ class Release {
     return inside ? dem_.at(i, j) : std::nan("");
   }
 
-  // Calls work(column, row) for the points of the window for which `is` says so.
+  // Calls work(column, row) for the points of the window for which `is` returns true.
   template <class Is, class Work>
   void for_each(const Is& is, const Work& work) const {
     for (int row = 0; row < window_.rows; ++row) {
@@ -107,7 +108,7 @@ class Release {
   Window window_;
 };
 
-// The largest thickness at points beside the edge, whose own cells the outline may cut.
+// Maximum thickness at points next to the edge; the outline may cut the cells of the edge points themselves.
 double edge_thickness(const Release& release, const std::vector<int>& steps_inside) {
   double largest = 0.0;
   release.for_each_point([&](int column, int row) {
@@ -153,7 +154,7 @@ EdgeTaper propose_taper(const Raster& dem, const Raster& thickness) {
   const double edge = edge_thickness(release, inside);
   const double wanted = std::clamp(2.0 * edge / std::max(taper.slope, 1e-9), least_widths * edge, most_widths * edge);
   const double wanted_cells = std::ceil(wanted / cell - 1e-9);
-  // Between points of the DEM an upright edge is a ramp a cell wide, as steep as a taper of two cells.
+  // An upright edge between DEM points is a ramp one cell wide, as steep as a taper of two cells.
   taper.wanted = wanted_cells > 2.0 ? wanted_cells * cell : 0.0;
   const double room = std::max(0.0, std::min(2.0 * (to_unknown - 1), 2.0 * (half_width - 1)) * cell);
   const double width = std::min(taper.wanted, room);

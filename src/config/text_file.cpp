@@ -19,7 +19,7 @@ std::string read_text_file(const std::filesystem::path& file) {
   std::string text;
   try {
     text.assign(std::istreambuf_iterator<char>(stream), {});
-  } catch (const std::ios_base::failure& error) {  // an iterator over a buffer passes on what the file's read met
+  } catch (const std::ios_base::failure& error) {  // the stream iterator passes on read errors of the file
     fail(error.code().message());
   }
   if (!stream) {

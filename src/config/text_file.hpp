@@ -1,4 +1,4 @@
-// A file of text as a whole.
+// Text file as a whole.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace thawslide::config {
 
-// Throws UserError with the file, and the system's reason where it tells one.
+// Throws UserError with the file, and the system's reason if available.
 [[nodiscard]] std::string read_text_file(const std::filesystem::path& file);
 
 }  // namespace thawslide::config

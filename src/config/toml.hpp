@@ -1,4 +1,4 @@
-// The one place that includes toml++, so that every file sees it with the same settings.
+// Only include of toml++, so that every file uses the same settings.
 #pragma once
 
 #ifndef TOML_EXCEPTIONS

@@ -1,4 +1,4 @@
-// Values that are a number or an inline table: tables over time, initial fields, values of maps, heat boundaries.
+// Values that are a number or an inline table: tables over time, initial fields, map values, heat boundaries.
 #include <cmath>
 #include <utility>
 
@@ -12,12 +12,12 @@ using nlohmann::json;
 
 const Rule rule_of_numbers{};
 
-// The keys that say where the value of a map comes from.
-struct MapWord {
+// Keys that specify the source of a map value.
+struct MapKeyword {
   MapValue::From from;
   const char* key;
 };
-constexpr MapWord map_words[] = {
+constexpr MapKeyword map_keywords[] = {
     {MapValue::From::attribute, "attribute"}, {MapValue::From::raster, "raster"}, {MapValue::From::surface, "surface"}};
 
 std::string write_array(const std::vector<double>& numbers) {
@@ -55,7 +55,7 @@ std::vector<std::string> keys_of(const toml::table& table) {
 
 enum class Jumps { allowed, refused };
 
-// Reads { ABSCISSA = [...], value = [...] }: equal lengths, ascending, a jump being two equal abscissae.
+// Reads { ABSCISSA = [...], value = [...] }: equal lengths, ascending; two equal abscissae form a jump.
 bool read_table(const toml::table& node, const std::string& abscissa, const ValueReader& at, Table& table,
                 Jumps jumps = Jumps::allowed) {
   Table found;
@@ -89,7 +89,7 @@ bool has_exactly(const toml::table& table, const std::string& abscissa) {
 bool fail_keys(const toml::node& node, const ValueReader& at) {
   return at.fail(node,
                  fmt::format("is a table with {}; allowed: {}",
-                             node.as_table()->empty() ? "no key" : "the keys " + list_words(keys_of(*node.as_table())),
+                             node.as_table()->empty() ? "no key" : "the keys " + comma_list(keys_of(*node.as_table())),
                              at.allowed));
 }
 
@@ -107,7 +107,7 @@ bool read_number_or_table(const toml::node& node, const std::string& abscissa, c
   return true;
 }
 
-// The first of the keys that the table has, if it has no other; empty if none is its only one.
+// Key that the table contains, if it is its only key; empty otherwise.
 std::string only_key(const toml::table& table, std::initializer_list<const char*> keys) {
   for (const char* key : keys) {
     if (table.size() == 1 && table.contains(key)) {
@@ -239,7 +239,7 @@ json Value<InitialField>::schema(const Rule& rule) {
   return schema;
 }
 
-// value of a map
+// map value
 std::string Value<MapValue>::type(const Rule& rule) {
   return fmt::format("a number, {{ attribute = \"NAME\" }}, {{ raster = \"FILE\" }} or {{ surface = \"FILE\" }}{}",
                      range_and_unit(rule));
@@ -254,13 +254,13 @@ bool Value<MapValue>::read(const toml::node& node, const ValueReader& at, MapVal
   if (key.empty()) {
     return fail_keys(node, at);
   }
-  for (const MapWord& word : map_words) {
-    value.from = key == word.key ? word.from : value.from;  // known, whatever is wrong with the source
+  for (const MapKeyword& word : map_keywords) {
+    value.from = key == word.key ? word.from : value.from;  // valid regardless of problems with the source
   }
   return read_source(*table, key, at, value.source);
 }
 std::string Value<MapValue>::write(const MapValue& value, const Rule&, const WriteContext& context) {
-  for (const MapWord& word : map_words) {
+  for (const MapKeyword& word : map_keywords) {
     if (value.from == word.from) {
       return write_source(word.key, value.source, context);
     }
@@ -269,7 +269,7 @@ std::string Value<MapValue>::write(const MapValue& value, const Rule&, const Wri
 }
 json Value<MapValue>::schema(const Rule& rule) {
   json any_of = json::array({Value<double>::schema(rule)});
-  for (const MapWord& word : map_words) {
+  for (const MapKeyword& word : map_keywords) {
     any_of.push_back(source_schema(word.key));
   }
   return {{"anyOf", any_of}};

@@ -15,8 +15,8 @@ using nlohmann::json;
 
 constexpr const char* automatic = "auto";
 
-bool in_words(const std::vector<Word>& words, const std::string& found) {
-  for (const Word& word : words) {
+bool is_keyword(const std::vector<Keyword>& words, const std::string& found) {
+  for (const Keyword& word : words) {
     if (word.word == found) {
       return true;
     }
@@ -68,35 +68,36 @@ std::string path_text(const std::string& path, const WriteContext& context) {
   return quoted((is_copied ? context.input_folder / whole.filename() : whole).generic_string());
 }
 
-std::string list_of_words(const std::vector<Word>& words) {
+std::string keyword_list(const std::vector<Keyword>& words) {
   std::vector<std::string> names;
-  for (const Word& word : words) {
+  for (const Keyword& word : words) {
     names.push_back(quoted(word.word));
   }
-  return list_words(names);
+  return comma_list(names);
 }
 
-json word_schema(const std::vector<Word>& words) {
+json keyword_schema(const std::vector<Keyword>& words) {
   json names = json::array();
-  for (const Word& word : words) {
+  for (const Keyword& word : words) {
     names.push_back(word.word);
   }
   return {{"enum", names}};
 }
 
-bool read_word(const toml::node& node, const ValueReader& at, const std::vector<Word>& words, std::string& found) {
+bool read_keyword(const toml::node& node, const ValueReader& at, const std::vector<Keyword>& words,
+                  std::string& found) {
   const auto* text = node.as_string();
   if (text == nullptr) {
     return at.fail_type(node);
   }
-  if (!in_words(words, text->get())) {
+  if (!is_keyword(words, text->get())) {
     std::vector<std::string> names;
-    for (const Word& word : words) {
+    for (const Keyword& word : words) {
       names.push_back(word.word);
     }
     const std::string hint = did_you_mean(text->get(), names);
     return at.fail(node, fmt::format("is \"{}\"{}: {}", shown(text->get()),
-                                     hint.empty() ? "; allowed" : hint + " Allowed", list_of_words(words)));
+                                     hint.empty() ? "; allowed" : hint + " Allowed", keyword_list(words)));
   }
   found = text->get();
   return true;
@@ -162,16 +163,16 @@ bool Value<bool>::read(const toml::node& node, const ValueReader& at, bool& valu
 std::string Value<bool>::write(const bool& value, const Rule&, const WriteContext&) { return value ? "true" : "false"; }
 json Value<bool>::schema(const Rule&) { return {{"type", "boolean"}}; }
 
-// text: a title, a name, one of a few words, or a path
+// text: a title, a name, a keyword, or a path
 std::string Value<std::string>::type(const Rule& rule) {
   if (!rule.words.empty()) {
-    return "one of " + list_of_words(rule.words);
+    return "one of " + keyword_list(rule.words);
   }
   return rule.is_path ? "the path of a file, in quotes" : "a text in quotes";
 }
 bool Value<std::string>::read(const toml::node& node, const ValueReader& at, std::string& value) {
   if (!at.rule.words.empty()) {
-    return read_word(node, at, at.rule.words, value);
+    return read_keyword(node, at, at.rule.words, value);
   }
   const auto* text = node.as_string();
   if (text == nullptr) {
@@ -191,7 +192,7 @@ std::string Value<std::string>::write(const std::string& value, const Rule& rule
   return path_text(value, context);
 }
 json Value<std::string>::schema(const Rule& rule) {
-  return rule.words.empty() ? json{{"type", "string"}} : word_schema(rule.words);
+  return rule.words.empty() ? json{{"type", "string"}} : keyword_schema(rule.words);
 }
 
 // texts
@@ -217,7 +218,7 @@ std::string Value<Names>::write(const Names& value, const Rule&, const WriteCont
   for (const std::string& text : value) {
     texts.push_back(quoted(text));
   }
-  return "[" + list_words(texts) + "]";
+  return "[" + comma_list(texts) + "]";
 }
 json Value<Names>::schema(const Rule&) { return array_schema({{"type", "string"}}); }
 
@@ -282,7 +283,7 @@ std::string Value<Vertices>::write(const Vertices& value, const Rule&, const Wri
   for (const auto& vertex : value) {
     pairs.push_back(fmt::format("[{}, {}]", number_text(vertex[0]), number_text(vertex[1])));
   }
-  return "[" + list_words(pairs) + "]";
+  return "[" + comma_list(pairs) + "]";
 }
 json Value<Vertices>::schema(const Rule&) {
   json schema = array_schema(array_schema(number_schema()));
@@ -311,10 +312,10 @@ std::string Value<Numbers>::write(const Numbers& value, const Rule&, const Write
   for (const double number : value) {
     texts.push_back(number_text(number));
   }
-  return "[" + list_words(texts) + "]";
+  return "[" + comma_list(texts) + "]";
 }
 json Value<Numbers>::schema(const Rule& rule) { return array_schema(range_schema(rule.range, "number")); }
 
-// Tables, initial fields, values of maps and heat boundaries: value_tables.cpp.
+// Tables, initial fields, map values and heat boundaries: value_tables.cpp.
 
 }  // namespace thawslide::config

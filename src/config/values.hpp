@@ -1,4 +1,4 @@
-// How each type of the Case is written in a case file: reading, writing, words for it, editor schema.
+// Form of each type of the Case in a case file: reading, writing, description, editor schema.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,30 +11,30 @@
 #include <vector>
 
 #include "config/case.hpp"
+#include "config/keywords.hpp"
 #include "config/reading.hpp"
-#include "config/words.hpp"
 
 namespace thawslide::config {
 
-// What writing a case needs to know beside the value.
+// Context for writing a value.
 struct WriteContext {
   int dimension = 2;
-  std::filesystem::path input_folder;  // if not empty: paths are this folder and the file's name
+  std::filesystem::path input_folder;  // if not empty, paths consist of this folder and the file's name
 };
 
-// Each specialisation has: type (words), read (reports and returns false where the node is wrong), write (TOML text),
-// schema (JSON schema), words (those allowed, if it is one of a few).
+// Each specialization has: type (text), read (reports problems and returns false if the node is invalid), write (TOML
+// text), schema (JSON schema), words (keywords allowed, if any).
 template <class T>
 struct Value;
 
-// What most types share: no words.
-struct ValueWithoutWords {
-  static std::vector<Word> words() { return {}; }
+// Default of most types: no keywords.
+struct ValueWithoutKeywords {
+  static std::vector<Keyword> words() { return {}; }
 };
 
 #define THAWSLIDE_DECLARE_VALUE(Type)                                              \
   template <>                                                                      \
-  struct Value<Type> : ValueWithoutWords {                                         \
+  struct Value<Type> : ValueWithoutKeywords {                                      \
     static std::string type(const Rule& rule);                                     \
     static bool read(const toml::node& node, const ValueReader& at, Type& value);  \
     static std::string write(const Type& value, const Rule&, const WriteContext&); \
@@ -50,7 +50,7 @@ THAWSLIDE_DECLARE_VALUE(int)
 THAWSLIDE_DECLARE_VALUE(bool)
 THAWSLIDE_DECLARE_VALUE(std::string)
 THAWSLIDE_DECLARE_VALUE(Names)     // texts
-THAWSLIDE_DECLARE_VALUE(Point)     // as many numbers as the case has dimensions, or x and y
+THAWSLIDE_DECLARE_VALUE(Point)     // one number per dimension of the case, or x and y
 THAWSLIDE_DECLARE_VALUE(Vertices)  // [[x, y], ...]
 THAWSLIDE_DECLARE_VALUE(Numbers)   // ascending
 THAWSLIDE_DECLARE_VALUE(NumberOrAuto)
@@ -63,28 +63,28 @@ THAWSLIDE_DECLARE_VALUE(HeatBoundary)  // "insulated" | { temperature = T } | { 
 
 #undef THAWSLIDE_DECLARE_VALUE
 
-// A word out of a list, with the nearest one where it is misspelt.
-bool read_word(const toml::node& node, const ValueReader& at, const std::vector<Word>& words, std::string& found);
-std::string list_of_words(const std::vector<Word>& words);
-nlohmann::json word_schema(const std::vector<Word>& words);
+// Reads a keyword from a list, and suggests the most similar one if it is misspelt.
+bool read_keyword(const toml::node& node, const ValueReader& at, const std::vector<Keyword>& words, std::string& found);
+std::string keyword_list(const std::vector<Keyword>& words);
+nlohmann::json keyword_schema(const std::vector<Keyword>& words);
 std::string quoted(const std::string& text);
-// A path as the written case names it.
+// Path in the form of the written case.
 std::string path_text(const std::string& path, const WriteContext& context);
 
 template <class Enum>
 requires std::is_enum_v<Enum>
 struct Value<Enum> {
-  static std::vector<Word> words() {
-    std::vector<Word> words;
+  static std::vector<Keyword> words() {
+    std::vector<Keyword> words;
     for (const Choice<Enum>& choice : choices(Enum{})) {
       words.push_back({choice.word, choice.text});
     }
     return words;
   }
-  static std::string type(const Rule&) { return "one of " + list_of_words(words()); }
+  static std::string type(const Rule&) { return "one of " + keyword_list(words()); }
   static bool read(const toml::node& node, const ValueReader& at, Enum& value) {
     std::string found;
-    if (!read_word(node, at, words(), found)) {
+    if (!read_keyword(node, at, words(), found)) {
       return false;
     }
     for (const Choice<Enum>& choice : choices(Enum{})) {
@@ -100,7 +100,7 @@ struct Value<Enum> {
     }
     return quoted("");
   }
-  static nlohmann::json schema(const Rule&) { return word_schema(words()); }
+  static nlohmann::json schema(const Rule&) { return keyword_schema(words()); }
 };
 
 }  // namespace thawslide::config

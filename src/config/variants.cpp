@@ -30,10 +30,11 @@ bool is_of_key(char letter) {
          letter == '\'';
 }
 
-// The parser follows a dotted key by calling itself. Text with as many dots between words is taken for one.
+// The parser handles dotted keys recursively, so their depth is limited. Other text with as many dots between words is
+// refused too.
 void require_shallow(const std::string& text, const std::string& file) {
   std::size_t line = 1, parts = 1;
-  char before = '\0';  // but for blanks
+  char before = '\0';  // excluding blanks
   bool after_dot = false;
   for (const char letter : text) {
     if (letter == ' ' || letter == '\t') {
@@ -55,7 +56,7 @@ void require_shallow(const std::string& text, const std::string& file) {
   }
 }
 
-// What the parser most likely stumbled over: where a value should have ended it saw something else.
+// Advice on the probable cause of a parser error.
 std::string likely_slip(std::string_view description) {
   const std::string_view end = "expected a comment or whitespace, saw '";
   const std::size_t at = description.find(end);
@@ -80,13 +81,13 @@ toml::table parse(const std::string& text, const std::string& file) {
     return root;
   } catch (const toml::parse_error& error) {
     const auto& begin = error.source().begin;
-    throw UserError(fmt::format("{}:{}:{}: this is not TOML: {}. {}Correct the line; https://toml.io tells the rules.",
-                                file, begin.line, begin.column, shown(std::string(error.description())),
-                                likely_slip(error.description())));
+    throw UserError(fmt::format(
+        "{}:{}:{}: this is not TOML: {}. {}Correct the line; see https://toml.io for the syntax.", file, begin.line,
+        begin.column, shown(std::string(error.description())), likely_slip(error.description())));
   }
 }
 
-// The file that [case] based_on names, if there is one; `chain`: the files that led here.
+// File named by case.based_on, if any; `chain`: the files that led here.
 std::optional<fs::path> base_of(const toml::table& root, const fs::path& file, const std::vector<fs::path>& chain) {
   const auto* node = root.at_path("case.based_on").node();
   const auto* text = node == nullptr ? nullptr : node->as_string();
@@ -118,7 +119,7 @@ std::optional<fs::path> base_of(const toml::table& root, const fs::path& file, c
   return base;
 }
 
-// Whether tables of the case have this dotted name, or stand inside it: "grid", "body", "body.slide". All other tables
+// True if tables of the case have this dotted name, or lie inside it: "grid", "body", "body.slide". All other tables
 // are values: { raster = "thickness.tif" }.
 bool names_a_table(const std::string& dotted) {
   return std::any_of(tables().begin(), tables().end(), [&](const auto& table) {
@@ -129,15 +130,15 @@ bool names_a_table(const std::string& dotted) {
   });
 }
 
-// Moves what `over` holds into `under`, both of this dotted name; tables are joined, all else is replaced.
-void lay_over(toml::table& under, toml::table&& over, const std::string& dotted) {
+// Moves the contents of `over` into `under`, both of this dotted name; tables are merged, everything else is replaced.
+void merge_over(toml::table& under, toml::table&& over, const std::string& dotted) {
   for (auto&& entry : over) {
     const toml::key& key = entry.first;
     toml::node& node = entry.second;
     toml::table* inner = under.get_as<toml::table>(key.str());
     const std::string name = (dotted.empty() ? "" : dotted + ".") + std::string(key.str());
     if (inner != nullptr && node.is_table() && names_a_table(name)) {
-      lay_over(*inner, std::move(*node.as_table()), name);
+      merge_over(*inner, std::move(*node.as_table()), name);
     } else {
       node.visit([&](auto& value) { under.insert_or_assign(key, std::move(value)); });
     }
@@ -169,7 +170,7 @@ toml::table read_chain(const fs::path& file, LayeredCase& found) {
     return root;
   }
   toml::table under = read_chain(*base, found);
-  lay_over(under, std::move(root), "");
+  merge_over(under, std::move(root), "");
   return under;
 }
 

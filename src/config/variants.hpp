@@ -1,4 +1,4 @@
-// A case file that is based on another one of its folder: the other's keys hold wherever it gives nothing else.
+// Case file that is based on another one of its folder: the keys of the base apply unless replaced.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,17 @@ namespace thawslide::config {
 
 struct LayeredCase {
   toml::table root;
-  std::vector<std::filesystem::path> files;  // the case file, what it is based on, what that is based on ...
-  // Of each of them, by its name: lines whose keys were written by us, at their defaults.
+  std::vector<std::filesystem::path> files;  // the case file, its base, the base of that ...
+  // Lines of each file, by name, whose keys the program wrote as defaults.
   std::map<std::string, std::set<std::uint32_t>> lines_not_given;
 };
 
-// What ends the line of such a key in the resolved case of a run.
+// End of the line of such a key in the resolved case of a run.
 inline constexpr const char* not_given_mark = "not given";
 
-// A case file as TOML, laid over the file that [case] based_on names, and so on. Nodes keep the places they were
-// written at. Throws UserError for a file that is unreadable, empty or not TOML, and for a base that is not there or
-// leads back.
+// Reads a case file as TOML and merges it over the file named by case.based_on, recursively. Nodes keep their original
+// locations. Throws UserError for a file that is unreadable, empty or not TOML, and for a base that is missing or forms
+// a cycle.
 LayeredCase read_with_bases(const std::filesystem::path& file);
 
 }  // namespace thawslide::config

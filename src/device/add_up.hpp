@@ -1,4 +1,4 @@
-// Sums of what tiles and blocks sum, always in the same order, that of the processor (base/sum_order.hpp).
+// Sums over tiles and blocks, in the same fixed order as on the CPU (base/sum_order.hpp).
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,14 @@
 
 namespace thawslide::device {
 
-// A group of threads: it fetches as many parts as there are in a run, which a single thread adds up, one run or one
-// after the other.
+// One thread group adds up `of_a_group` parts: its threads load up to `parts_of_a_run` of them at a time into shared
+// memory, and one thread adds them in order.
 template <class Sum>
 struct AddUp {
   static constexpr std::size_t at_a_time = parts_of_a_run, bytes = at_a_time * sizeof(Sum);
 
   const Sum* parts;
-  std::size_t count, of_a_group;  // parts
+  std::size_t count, of_a_group;  // numbers of parts
   Sum* sums;                      // by group
 
   template <class Group>
@@ -40,20 +40,22 @@ struct AddUp {
   }
 };
 
-// How many sums add_up needs room for, of so many parts.
-constexpr std::size_t room_to_add_up(std::size_t parts) { return parts + runs_of(parts) + 1; }
+// Buffer size, in sums, that add_up needs for this number of parts.
+constexpr std::size_t partial_sum_count(std::size_t parts) { return parts + runs_of(parts) + 1; }
 
-// sums: the parts, and room after them. Returns where in it their sum stands.
+// Sums the first `parts` entries of `sums`, a buffer of partial_sum_count(parts) entries. Returns a pointer to the
+// result within the buffer.
 template <class Backend, class Sum>
 Sum* add_up(Backend& backend, Sum* sums, std::size_t parts) {
-  using Adding = AddUp<Sum>;
+  using PartialSums = AddUp<Sum>;
   Sum* of_runs = sums + parts;
   const std::size_t runs = runs_of(parts);
-  backend.for_groups(runs, Adding::at_a_time, Adding::bytes, Adding{sums, parts, parts_of_a_run, of_runs});
+  backend.for_groups(runs, PartialSums::at_a_time, PartialSums::bytes,
+                     PartialSums{sums, parts, parts_of_a_run, of_runs});
   if (runs == 1) {
     return of_runs;
   }
-  backend.for_groups(1, Adding::at_a_time, Adding::bytes, Adding{of_runs, runs, runs, of_runs + runs});
+  backend.for_groups(1, PartialSums::at_a_time, PartialSums::bytes, PartialSums{of_runs, runs, runs, of_runs + runs});
   return of_runs + runs;
 }
 

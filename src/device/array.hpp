@@ -1,5 +1,5 @@
-// Numbers in a device's memory. A backend, Host (device/host_backend.hpp) or Cuda (device/cuda_backend.hpp), has
-// memory, runs a thread or a group of threads an item, sorts and sums.
+// Array in device memory. A backend, Host (device/host_backend.hpp) or Cuda (device/cuda_backend.hpp), allocates
+// memory, launches one thread or one thread group per item, sorts, and computes prefix sums.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +36,7 @@ class Array {
   [[nodiscard]] T* data() { return numbers_; }
   [[nodiscard]] const T* data() const { return numbers_; }
 
-  // What was in it is lost where there is too little room.
+  // Reallocation discards the contents.
   void resize(std::size_t count) {
     if (count > room_) {
       if (numbers_ != nullptr) {

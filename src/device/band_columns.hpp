@@ -1,5 +1,5 @@
-// The band columns under the slide (band/base_columns.hpp), which stay with the processor: what nodes in contact learn
-// of them, and they of the nodes.
+// Band columns below the sliding mass (band/basal_segments.hpp). They are computed on the CPU; each step exchanges data
+// with the nodes in contact.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "device/array.hpp"
-#include "device/node_works.hpp"
+#include "device/node_kernels.hpp"
 #include "device/step_model.hpp"
 
 namespace thawslide::device {
 
-// A thread a node of the blocks that the processor asks for.
+// Packs records of the nodes in the blocks that the CPU requested. One thread per node.
 template <int Dim, class Real>
-struct TellColumns {
+struct PackColumns {
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   static constexpr auto of_contact = static_cast<std::size_t>(mpm::Contact::size<Dim>);
 
@@ -24,7 +24,7 @@ struct TellColumns {
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     const std::size_t node = blocks[k / block_nodes] * block_nodes + k % block_nodes;
-    Real* record = records + k * columns_read<Dim>;
+    Real* record = records + k * column_record_size<Dim>;
     for (std::size_t c = 0; c < of_contact; ++c) {
       record[c] = nodes.contact_at(node)[c];
     }
@@ -38,41 +38,40 @@ struct TellColumns {
 template <class Backend, int Dim, class Real>
 class BandColumns {
  public:
-  BandColumns(Backend& backend, ColumnsOnProcessor<Real> processor)
-      : backend_(backend), processor_(std::move(processor)) {}
+  BandColumns(Backend& backend, HostColumns<Real> processor) : backend_(backend), cpu_(std::move(processor)) {}
 
-  [[nodiscard]] bool exist() const { return static_cast<bool>(processor_.states); }
+  [[nodiscard]] bool exist() const { return static_cast<bool>(cpu_.states); }
 
-  // To be called after blocks changed.
+  // Call after blocks have changed.
   void update(const std::vector<std::uint64_t>& blocks) {
     if (exist()) {
-      asked_.set(processor_.take_blocks(blocks));
-      records_.resize(asked_.size() * TellColumns<Dim, Real>::block_nodes * columns_read<Dim>);
+      queried_.set(cpu_.update_blocks(blocks));
+      records_.resize(queried_.size() * PackColumns<Dim, Real>::block_nodes * column_record_size<Dim>);
     }
   }
 
-  // Records of BaseState, by candidate node; null where there are no columns.
+  // Records of BaseState by candidate node; null without band columns.
   [[nodiscard]] const Real* states() {
     if (!exist()) {
       return nullptr;
     }
-    states_.set(processor_.states());
+    states_.set(cpu_.states());
     return states_.data();
   }
 
-  // Contact has been resolved.
+  // Call after contact has been resolved.
   void follow(const NodeViews<Dim, Real>& nodes) {
     if (exist()) {
-      backend_.for_each(asked_.size() * TellColumns<Dim, Real>::block_nodes,
-                        TellColumns<Dim, Real>{nodes, asked_.data(), records_.data()});
-      processor_.follow(records_.get());
+      backend_.for_each(queried_.size() * PackColumns<Dim, Real>::block_nodes,
+                        PackColumns<Dim, Real>{nodes, queried_.data(), records_.data()});
+      cpu_.follow(records_.get());
     }
   }
 
  private:
   Backend& backend_;
-  ColumnsOnProcessor<Real> processor_;
-  Array<std::uint32_t, Backend> asked_{backend_};
+  HostColumns<Real> cpu_;
+  Array<std::uint32_t, Backend> queried_{backend_};
   Array<Real, Backend> states_{backend_}, records_{backend_};
 };
 

@@ -1,12 +1,12 @@
-// The stages of a step on a device in which heat and pore pressure change (band/heat.hpp, band/pore_pressure.hpp).
+// Device stages that change heat and pore pressure (band/heat.hpp, band/pore_pressure.hpp).
 #pragma once
 
 #include <variant>
 
 #include "band/averages_kernel.hpp"
 #include "device/columns.hpp"
-#include "device/heat_works.hpp"
-#include "device/pressure_works.hpp"
+#include "device/heat_kernels.hpp"
+#include "device/pressure_kernels.hpp"
 #include "device/step_passes.hpp"
 
 namespace thawslide::device {
@@ -16,8 +16,8 @@ class BandStages {
   using Passes = StepPasses<Backend, Shape, Dim, Real>;
 
  public:
-  // sums: of the step, in the device's memory.
-  BandStages(Passes& passes, const AskProcessor<Dim, Real>& ask, StepSums<Dim, Real>* sums)
+  // sums: sums of the step, in device memory.
+  BandStages(Passes& passes, const HostCallbacks<Dim, Real>& ask, StepSums<Dim, Real>* sums)
       : passes_(passes),
         sums_(sums),
         columns_(passes.backend, passes.model.cell, passes.model.half_sizes, ask.slope_cosine, ask.normal_gravity),
@@ -25,19 +25,19 @@ class BandStages {
     hydraulic_.set(passes.model.hydraulic_conductivity);
   }
 
-  // Blocks have changed; there are so many nodes.
-  void make_room(std::size_t nodes) {
+  // Call after blocks have changed. nodes: number of nodes in active blocks.
+  void resize_for(std::size_t nodes) {
     if (passes_.model.heat) {
-      passes_.nodes.template make_room<mpm::HeatRates, mpm::OrphanHeat>(nodes);
+      passes_.nodes.template resize_for<mpm::HeatRates, mpm::UnreachedHeat>(nodes);
       secant_rates_.resize(passes_.template of<mpm::HeatRates>().size());
     }
     if (passes_.model.pressure_changes) {
-      passes_.nodes.template make_room<mpm::Seepage, mpm::SeepingWater>(nodes);
+      passes_.nodes.template resize_for<mpm::Seepage, mpm::SeepingWater>(nodes);
       columns_.update(passes_.cells.tables());
     }
   }
 
-  // The same, and the ground is below these.
+  // Call after blocks have changed, if there is a ground. blocks: keys of the active blocks.
   void take_layers(const std::vector<std::uint64_t>& blocks) {
     if (layers_.exists()) {
       layers_.update(blocks);
@@ -46,7 +46,7 @@ class BandStages {
 
   void average() {
     passes_.run(passes_.linear(), band::AddAverages<Dim, Real>{});
-    passes_.template sum<mpm::Averages, void>(EveryTile{});
+    passes_.template sum<mpm::Averages, void>(AllTiles{});
     passes_.backend.for_each(
         passes_.cells.tables().blocks * Passes::block_nodes,
         SetState<Dim, Real>{passes_.views(), passes_.cells.tables().block_keys, passes_.model.heat_faces,
@@ -58,7 +58,7 @@ class BandStages {
     passes_.backend.for_each(1, Fill<Real>{&sums_->band_rescale, Real(0)});
     if (layers_.exists() && thickness > Real(0)) {
       rescale_by(ScalingByLayer<Dim, Real>{layers_.layers(passes_.cells.tables(), cell), thickness});
-      scaling_in_force_ = Real(0);  // none that all have
+      scaling_in_force_ = Real(0);  // reset, because the scaling varies in space
       return;
     }
     const Real scaling = thickness > Real(0) ? cell / thickness : Real(1);
@@ -78,7 +78,7 @@ class BandStages {
   void drain_pore_pressure(Real dt) {
     columns_.sum(passes_.cells.tables(), passes_.particles.view());
     if (passes_.model.band.needs_normal_load()) {
-      passes_.run(passes_.linear(), TakeLoad<Dim, Real>{columns_.loading(passes_.cells.tables())});
+      passes_.run(passes_.linear(), AddPressureLoad<Dim, Real>{columns_.loading(passes_.cells.tables())});
     }
     if (find_seepage(SeepingBefore<Dim, Real>{{passes_.particles.view(), passes_.model.band, hydraulic()}})) {
       seep(dt);
@@ -108,20 +108,20 @@ class BandStages {
   void conduct_heat_by(const Content& content, Real dt) {
     passes_.run(passes_.linear(), HeatFlows<Dim, Real, Content>{content, passes_.model.band, hydraulic(), dt,
                                                                 Real(1) / passes_.model.cell, !passes_.model.starts});
-    passes_.template sum<mpm::HeatRates, void>(EveryTile{});
+    passes_.template sum<mpm::HeatRates, void>(AllTiles{});
     solve_rates(nullptr, dt);
     passes_.marks.mark_tiles(passes_.cells.tables(),
                              MayChange<Dim, Real, Content>{passes_.views(), passes_.particles.view(), content, dt});
     passes_.marks.mark_blocks(passes_.cells.tables());
     passes_.run(passes_.linear(passes_.marks.tiles()), SecantCapacity<Dim, Real, Content>{content, dt});
     passes_.backend.for_each(secant_rates_.size(),
-                             SumPatches<mpm::HeatRates, void, EveryTile, Dim, Real>{
+                             SumPatches<mpm::HeatRates, void, AllTiles, Dim, Real>{
                                  passes_.cells.tables(), {}, passes_.memory.patches(0), secant_rates_.data()});
     passes_.keep(&solve_rates(passes_.marks.blocks(), dt)->gain, &sums_->heat);
     passes_.marks.mark_tiles(passes_.cells.tables(),
-                             HoldsHeat<Dim, Real>{passes_.template of<mpm::OrphanHeat>().data()});
-    passes_.run(passes_.momentum(passes_.marks.tiles()), band::TakeOrphanHeat<Dim, Real>{dt});
-    passes_.run(passes_.linear(), TakeHeat<Dim, Real, Content>{content, passes_.model.band, dt});
+                             HasHeat<Dim, Real>{passes_.template of<mpm::UnreachedHeat>().data()});
+    passes_.run(passes_.momentum(passes_.marks.tiles()), band::RedistributeUnreachedHeat<Dim, Real>{dt});
+    passes_.run(passes_.linear(), UpdateHeat<Dim, Real, Content>{content, passes_.model.band, dt});
   }
   const band::NodalHeat<Real>* solve_rates(const std::uint8_t* changing_blocks, Real dt) {
     const std::size_t blocks = passes_.cells.tables().blocks;
@@ -129,7 +129,7 @@ class BandStages {
                                       passes_.template of<mpm::HeatRates>().data(),
                                       secant_rates_.data(),
                                       changing_blocks,
-                                      passes_.template of<mpm::OrphanHeat>().data(),
+                                      passes_.template of<mpm::UnreachedHeat>().data(),
                                       dt,
                                       passes_.cells.tables().block_keys,
                                       passes_.model.heat_faces,
@@ -137,10 +137,10 @@ class BandStages {
                                       passes_.model.starts,
                                       passes_.model.cell};
     return block_pass<Dim>(passes_.backend, blocks, solve,
-                           passes_.memory.template sums<band::NodalHeat<Real>>(room_to_add_up(blocks)));
+                           passes_.memory.template sums<band::NodalHeat<Real>>(partial_sum_count(blocks)));
   }
 
-  // Marks the blocks that water seeps to, and the tiles about them; false if there are none.
+  // Marks the blocks that water can seep to, and the tiles around them. Returns false if there are none.
   template <class Asks>
   bool find_seepage(const Asks& asks) {
     if (!passes_.model.lets_water_seep()) {
@@ -172,7 +172,7 @@ class BandStages {
     const Real* taken =
         block_pass<Dim>(passes_.backend, blocks,
                         SolveSeepage<Dim, Real>{passes_.views(), passes_.template of<mpm::Seepage>().data(), dt},
-                        passes_.memory.template sums<Real>(room_to_add_up(blocks)));
+                        passes_.memory.template sums<Real>(partial_sum_count(blocks)));
     passes_.backend.for_each(1, KeepVented<Real>{taken, passes_.model.band.phases, &sums_->vented});
   }
   template <bool Seeps>

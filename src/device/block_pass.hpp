@@ -1,4 +1,4 @@
-// One visit to the nodes of all blocks, a group of threads a block, with sums over them in the order of blocks.
+// Pass over the nodes of all blocks, one thread group per block, with sums over nodes in the order of blocks.
 #pragma once
 
 #include "device/add_up.hpp"
@@ -6,8 +6,8 @@
 
 namespace thawslide::device {
 
-// Work: visit(node, part) for a node by its number among those of all blocks, with a part of its own to fill; then
-// add(parts, count, sum) for those of a block.
+// Work provides visit(node, part), which fills the part of one node (numbered over all blocks), and add(parts, count,
+// sum), which reduces the parts of one block.
 template <class Work, int Dim>
 struct BlockPass {
   using Part = typename Work::Part;
@@ -35,7 +35,7 @@ struct BlockPass {
   }
 };
 
-// sums: room to add up the blocks. Returns where in it their sum stands.
+// sums: buffer of partial_sum_count(blocks) entries. Returns a pointer to the total within it.
 template <int Dim, class Backend, class Work>
 typename Work::Sum* block_pass(Backend& backend, std::size_t blocks, const Work& work, typename Work::Sum* sums) {
   using Pass = BlockPass<Work, Dim>;

@@ -1,4 +1,4 @@
-// Half sizes of particles, by body, in a device's memory.
+// Half sizes of particles by body, in device memory.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace thawslide::device {
 template <class Backend, class Real>
 class BodySizes {
  public:
-  // unit: what the half sizes are given in.
+  // unit: unit of half_sizes, as a factor.
   BodySizes(Backend& backend, const std::vector<Real>& half_sizes, Real unit) : half_(backend), inverse_(backend) {
     std::vector<Real> half, inverse;
     for (const Real number : half_sizes) {

@@ -1,11 +1,11 @@
-// Which cells, tiles and blocks particles are in, and their canonical order, as mpm/sparse_grid.hpp finds them, in a
-// device's memory. The tables are made anew when some particle has another nearest node.
+// Cells, tiles and blocks of particles, and their canonical order, as in mpm/sparse_grid.hpp, in device memory. The
+// tables are rebuilt when the nearest node of any particle changes.
 #pragma once
 
 #include "device/array.hpp"
-#include "device/cell_works.hpp"
-#include "device/first_of_keys.hpp"
+#include "device/cell_kernels.hpp"
 #include "device/tile_tables.hpp"
+#include "device/unique_keys.hpp"
 
 namespace thawslide::device {
 
@@ -20,7 +20,7 @@ class Cells {
   // cell: mesh size [m].
   Cells(Backend& backend, Real cell) : backend_(backend), inverse_cell_(Real(1) / cell) {}
 
-  // Brings the tables up to date with the positions of so many particles. by_id: the particles by ascending id.
+  // Updates the tables to the particle positions. by_id: particles by ascending id. count: number of particles.
   void update(const mpm::ParticleView<Dim, Real>& particles, const std::uint32_t* by_id, std::size_t count) {
     blocks_changed_ = false;
     if (count != keys_by_id_.size()) {
@@ -47,8 +47,8 @@ class Cells {
                                        first_of_cell_.data()});
   }
 
-  // Particles stand in memory in canonical order now.
-  void note_order_in_memory() { backend_.for_each(order_.size(), Count{order_.data()}); }
+  // Call after particles have been sorted in memory into canonical order.
+  void store_memory_order() { backend_.for_each(order_.size(), Count{order_.data()}); }
 
   [[nodiscard]] TileTables<Dim> tables() const {
     return {keys_.size(),
@@ -64,7 +64,7 @@ class Cells {
             blocks_about_block_.data()};
   }
   [[nodiscard]] std::vector<std::uint64_t> block_keys() const { return block_keys_.get(); }
-  // Whether the last update changed the blocks, and with them their numbers.
+  // True if the last update changed the blocks, and hence their numbers.
   [[nodiscard]] bool blocks_changed() const { return blocks_changed_; }
 
  private:
@@ -78,7 +78,7 @@ class Cells {
       return true;
     }
     fill(mark_, std::uint32_t{0});
-    backend_.for_each(tile_keys_.size(), TellDifference{tile_keys_.data(), former_tile_keys_.data(), mark_.data()});
+    backend_.for_each(tile_keys_.size(), FlagDifference{tile_keys_.data(), former_tile_keys_.data(), mark_.data()});
     return mark_.get(0) != 0;
   }
 
@@ -109,7 +109,7 @@ class Cells {
   Array<std::uint32_t, Backend> first_of_tile_{backend_}, first_of_cell_{backend_};
   Array<std::int32_t, Backend> blocks_about_tile_{backend_}, tiles_about_block_{backend_};
   Array<std::int32_t, Backend> blocks_about_block_{backend_};
-  FirstOfKeys<Backend> first_{backend_};
+  UniqueKeys<Backend> first_{backend_};
   bool blocks_changed_ = true;
 };
 

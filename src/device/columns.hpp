@@ -1,7 +1,7 @@
-// The columns of the slide in a device's memory: what band/flow_depth.hpp has. They are numbered whenever tiles change,
-// by sorting the keys of what each tile sees: 6 a tile in the plane, 36 in space, where a full tile has some 500
-// particles, whose keys are sorted more often. The processor then copies the keys of the columns, and asks of the
-// terrain at those that the slide comes to.
+// Columns of the sliding mass in device memory, as in band/flow_depth.hpp. They are renumbered when tiles change, by
+// sorting the keys of the columns that each tile overlaps: 6 per tile in 2D, 36 in 3D. A full 3D tile has about 500
+// particles, whose keys are sorted more often. The CPU then copies the column keys and evaluates the terrain at new
+// columns.
 #pragma once
 
 #include <utility>
@@ -10,9 +10,9 @@
 #include "band/at_columns.hpp"
 #include "device/array.hpp"
 #include "device/body_sizes.hpp"
-#include "device/column_works.hpp"
-#include "device/first_of_keys.hpp"
+#include "device/column_kernels.hpp"
 #include "device/former_places.hpp"
+#include "device/unique_keys.hpp"
 
 namespace thawslide::device {
 
@@ -21,8 +21,8 @@ class Columns {
   using Part = ColumnPart<Dim, Real>;
 
  public:
-  // half_sizes: of particles, by body, in cells. Where there is no slope_cosine, the ground is level; without
-  // normal_gravity there are no loads.
+  // half_sizes: of particles, by body, in cells. An empty slope_cosine means level ground; an empty normal_gravity
+  // means that no loads are computed.
   Columns(Backend& backend, Real cell, const std::vector<Real>& half_sizes, band::OfPlace<Dim, Real> slope_cosine,
           band::OfPlace<Dim, Real> normal_gravity)
       : backend_(backend),
@@ -31,7 +31,7 @@ class Columns {
         normal_gravity_{std::move(normal_gravity), {}, Array<Real, Backend>(backend)},
         sizes_(backend, half_sizes, cell) {}
 
-  // To be called after tiles changed.
+  // Call after tiles have changed.
   void update(const TileTables<Dim>& tables) {
     keys_of_seen_.resize(tables.tiles * band::columns_per_tile<Dim>);
     seen_.resize(keys_of_seen_.size());
@@ -43,16 +43,16 @@ class Columns {
     backend_.sort(keys_listed_.data(), listed_.data(), keys_of_seen_.data(), seen_.data(), seen_.size());
     first_.find(keys_of_seen_, 0, keys_, &first_seen_);
     backend_.for_each(seen_.size(), NumberColumns{seen_.data(), first_.is_first(), first_.number(), column_.data()});
-    beside_.resize(keys_.size() * band::column_sides<Dim>);
-    backend_.for_each(beside_.size(), FindColumnsBeside<Dim>{keys_.data(), keys_.size(), beside_.data()});
+    adjacent_.resize(keys_.size() * band::column_sides<Dim>);
+    backend_.for_each(adjacent_.size(), FindNeighbourColumns<Dim>{keys_.data(), keys_.size(), adjacent_.data()});
     sums_.resize(keys_.size());
     for (Array<Real, Backend>* numbers : {&thickness_, &top_, &load_per_depth_}) {
       numbers->resize(keys_.size());
     }
-    ask_terrain();
+    query_terrain();
   }
 
-  // The columns from positions, volumes and masses.
+  // Updates the columns from positions, volumes and masses.
   void sum(const TileTables<Dim>& tables, const mpm::ParticleView<Dim, Real>& particles) {
     using InTile = SumInTile<Dim, Real>;
     backend_.for_groups(tables.tiles, InTile::at_a_time, InTile::bytes,
@@ -60,7 +60,7 @@ class Columns {
     backend_.for_each(keys_.size(), SumParts<Part>{first_seen_.data(), seen_.data(), keys_.size(), seen_.size(),
                                                    parts_.data(), sums_.data()});
     backend_.for_each(keys_.size(),
-                      FinishColumns<Dim, Real>{sums_.data(), beside_.data(),
+                      FinishColumns<Dim, Real>{sums_.data(), adjacent_.data(),
                                                normal_gravity_.ask ? normal_gravity_.values.data() : nullptr, cell_,
                                                thickness_.data(), top_.data(), load_per_depth_.data()});
   }
@@ -68,23 +68,24 @@ class Columns {
   [[nodiscard]] ColumnsByTile<Dim, Real> seen(const TileTables<Dim>& tables) const {
     return seen_with(tables, slope_cosine_.values);
   }
-  // With the load per depth [Pa/m] in the place of the slope's cosine, so that a particle's flow depth is its load.
+  // Columns with the load per depth [Pa/m] in place of the slope's cosine: the flow depth of a particle is then its
+  // load.
   [[nodiscard]] ColumnsByTile<Dim, Real> loading(const TileTables<Dim>& tables) const {
     return seen_with(tables, load_per_depth_);
   }
 
  private:
-  // What the processor asks of the terrain at columns, and the answers.
-  struct Asked {
+  // Terrain query at columns and its results.
+  struct ColumnQuery {
     band::OfPlace<Dim, Real> ask;
     std::vector<Real> known;
     Array<Real, Backend> values;
   };
 
-  void ask_terrain() {
+  void query_terrain() {
     const std::vector<std::uint64_t> keys = keys_.get();
     const std::vector<std::int32_t> before = places_in(known_keys_, keys);
-    for (Asked* asked : {&slope_cosine_, &normal_gravity_}) {
+    for (ColumnQuery* asked : {&slope_cosine_, &normal_gravity_}) {
       std::vector<Real> values(keys.size(), Real(1));
       for (std::size_t k = 0; asked->ask && k < keys.size(); ++k) {
         values[k] = before[k] != absent ? asked->known[static_cast<std::size_t>(before[k])]
@@ -103,13 +104,13 @@ class Columns {
 
   Backend& backend_;
   Real cell_;
-  Asked slope_cosine_, normal_gravity_;
+  ColumnQuery slope_cosine_, normal_gravity_;
   std::vector<std::uint64_t> known_keys_;  // of the columns
-  BodySizes<Backend, Real> sizes_;         // of particles [m]
-  FirstOfKeys<Backend> first_{backend_};
+  BodySizes<Backend, Real> sizes_;         // half sizes of particles [m]
+  UniqueKeys<Backend> first_{backend_};
   Array<std::uint64_t, Backend> keys_listed_{backend_}, keys_of_seen_{backend_}, keys_{backend_};
   Array<std::uint32_t, Backend> listed_{backend_}, seen_{backend_}, first_seen_{backend_};
-  Array<std::int32_t, Backend> column_{backend_}, beside_{backend_};
+  Array<std::int32_t, Backend> column_{backend_}, adjacent_{backend_};
   Array<Part, Backend> parts_{backend_}, sums_{backend_};
   Array<Real, Backend> thickness_{backend_}, top_{backend_}, load_per_depth_{backend_};
 };

@@ -1,4 +1,4 @@
-// A card, by CUDA: to be compiled by nvcc. What goes wrong is thrown as a CardError.
+// CUDA backend for NVIDIA GPUs, compiled by nvcc. Errors are thrown as GpuError.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -19,9 +19,9 @@
 
 namespace thawslide::device {
 
-class CardError : public Failure {
+class GpuError : public Failure {
  public:
-  explicit CardError(cudaError_t code, const char* doing)
+  explicit GpuError(cudaError_t code, const char* doing)
       : Failure(std::string(doing) + ": " + cudaGetErrorString(code)), code_(code) {}
   [[nodiscard]] cudaError_t code() const { return code_; }
 
@@ -31,12 +31,12 @@ class CardError : public Failure {
 
 inline void expect_done(cudaError_t code, const char* doing) {
   if (code != cudaSuccess) {
-    static_cast<void>(cudaGetLastError());  // or the next call would tell of it again
-    throw CardError(code, doing);
+    static_cast<void>(cudaGetLastError());  // clear the error, or the next call would report it again
+    throw GpuError(code, doing);
   }
 }
 
-// The threads of a block.
+// Thread group of a kernel: the threads of a CUDA block.
 class CudaGroup {
  public:
   THAWSLIDE_HD explicit CudaGroup(std::byte* shared) : shared_(shared) {}
@@ -60,7 +60,7 @@ class CudaGroup {
   std::byte* shared_;
 };
 
-// A thread each.
+// Argument of a kernel with one thread per item.
 template <class Work>
 struct Each {
   std::size_t count;
@@ -84,14 +84,14 @@ struct NoWork {
   THAWSLIDE_HD void operator()(std::size_t /*k*/) const {}
 };
 
-// What is launched waits until the processor waits for the card, and then goes to it as a graph (cuda_graphs.hpp).
+// Kernel launches are queued until the CPU waits for the GPU, and are then submitted as a graph (cuda_graphs.hpp).
 class Cuda {
  public:
-  // The card that the process uses; throws where there is none that this program is for.
+  // Uses the current CUDA device of the process. Throws if there is none, or if the program was not compiled for it.
   explicit Cuda(Launching launching = Launching::in_graphs) : launching_(launching) {
-    expect_done(cudaGetDevice(&card_), "looking for a card");
+    expect_done(cudaGetDevice(&gpu_), "looking for a GPU");
     cudaFuncAttributes attributes;
-    expect_done(cudaFuncGetAttributes(&attributes, run_each<NoWork>), "asking the card to run this program");
+    expect_done(cudaFuncGetAttributes(&attributes, run_each<NoWork>), "loading this program on the GPU");
   }
   Cuda(const Cuda&) = delete;
   Cuda& operator=(const Cuda&) = delete;
@@ -100,29 +100,29 @@ class Cuda {
   template <class T>
   [[nodiscard]] T* allocate(std::size_t count) {
     void* memory = nullptr;
-    expect_done(cudaMalloc(&memory, count * sizeof(T)), "asking the card for memory");
+    expect_done(cudaMalloc(&memory, count * sizeof(T)), "allocating memory on the GPU");
     return static_cast<T*>(memory);
   }
-  // What has failed before is told by whoever waits for it.
+  // Does not throw: earlier failures are reported at the next launch or copy.
   void release(void* memory) {
-    note(graphs_.launch());  // what uses this memory yet
+    record_failure(graphs_.launch());  // queued kernels may still use this memory
     static_cast<void>(cudaFree(memory));
   }
 
   template <class T>
   void copy_in(T* to, const T* from, std::size_t count) {
     launch_waiting();
-    expect_done(cudaMemcpy(to, from, count * sizeof(T), cudaMemcpyHostToDevice), "copying to the card");
+    expect_done(cudaMemcpy(to, from, count * sizeof(T), cudaMemcpyHostToDevice), "copying to the GPU");
   }
   template <class T>
   void copy(T* to, const T* from, std::size_t count) {
     launch_waiting();
-    expect_done(cudaMemcpyAsync(to, from, count * sizeof(T), cudaMemcpyDeviceToDevice), "copying on the card");
+    expect_done(cudaMemcpyAsync(to, from, count * sizeof(T), cudaMemcpyDeviceToDevice), "copying on the GPU");
   }
   template <class T>
   void copy_out(T* to, const T* from, std::size_t count) {
     launch_waiting();
-    expect_done(cudaMemcpy(to, from, count * sizeof(T), cudaMemcpyDeviceToHost), "copying from the card");
+    expect_done(cudaMemcpy(to, from, count * sizeof(T), cudaMemcpyDeviceToHost), "copying from the GPU");
   }
 
   template <class Work>
@@ -135,11 +135,12 @@ class Cuda {
 
   template <class Work>
   void for_groups(std::size_t groups, std::size_t threads, std::size_t shared_bytes, const Work& work) {
-    static std::size_t has = 48 * 1024;  // what a group of this work may have; without asking at first
+    // shared memory [bytes] allowed for this kernel; 48 KiB is the limit without an attribute
+    static std::size_t has = 48 * 1024;
     if (shared_bytes > has) {
       expect_done(cudaFuncSetAttribute(run_groups<Work>, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                        static_cast<int>(shared_bytes)),
-                  "asking the card for shared memory");
+                  "allocating shared memory on the GPU");
       has = shared_bytes;
     }
     if (groups > 0) {
@@ -149,30 +150,30 @@ class Cuda {
 
   void sort(const std::uint64_t* keys, const std::uint32_t* values, std::uint64_t* sorted_keys,
             std::uint32_t* sorted_values, std::size_t count) {
-    with_working_room("sorting", [&](void* memory, std::size_t& bytes) {
+    with_scratch("sorting", [&](void* memory, std::size_t& bytes) {
       return cub::DeviceRadixSort::SortPairs(memory, bytes, keys, sorted_keys, values, sorted_values,
                                              static_cast<std::uint32_t>(count));
     });
   }
   void sort(const std::uint64_t* keys, std::uint64_t* sorted_keys, std::size_t count) {
-    with_working_room("sorting", [&](void* memory, std::size_t& bytes) {
+    with_scratch("sorting", [&](void* memory, std::size_t& bytes) {
       return cub::DeviceRadixSort::SortKeys(memory, bytes, keys, sorted_keys, static_cast<std::uint32_t>(count));
     });
   }
 
   void sum_before(const std::uint32_t* numbers, std::uint32_t* sums, std::size_t count) {
-    with_working_room("summing", [&](void* memory, std::size_t& bytes) {
+    with_scratch("summing", [&](void* memory, std::size_t& bytes) {
       return cub::DeviceScan::ExclusiveSum(memory, bytes, numbers, sums, static_cast<int>(count));
     });
   }
 
-  // Waits until the card has done all that it was given.
+  // Waits until the GPU has completed all submitted work.
   void wait() {
     launch_waiting();
-    expect_done(cudaDeviceSynchronize(), "waiting for the card");
+    expect_done(cudaDeviceSynchronize(), "waiting for the GPU");
   }
 
-  // From now on the end of each stage is waited for, which makes a step slower; seconds by stage, so far.
+  // Measures stages [s] from now on. Each stage then ends with a synchronization, which slows down the step.
   void time_stages() {
     wait();
     times_stages_ = true;
@@ -199,14 +200,14 @@ class Cuda {
     }
   }
   void launch_waiting() {
-    note(graphs_.launch());
-    expect_done(std::exchange(failed_, cudaSuccess), "starting threads on the card");
+    record_failure(graphs_.launch());
+    expect_done(std::exchange(failed_, cudaSuccess), "starting threads on the GPU");
   }
-  void note(cudaError_t code) { failed_ = failed_ == cudaSuccess ? code : failed_; }
+  void record_failure(cudaError_t code) { failed_ = failed_ == cudaSuccess ? code : failed_; }
 
-  // Calls work(memory, bytes): without memory it tells how much it needs.
+  // Calls work(memory, bytes) twice: with null memory, it sets the number of bytes needed.
   template <class Work>
-  void with_working_room(const char* doing, const Work& work) {
+  void with_scratch(const char* doing, const Work& work) {
     launch_waiting();
     std::size_t bytes = 0;
     expect_done(work(nullptr, bytes), doing);
@@ -220,14 +221,14 @@ class Cuda {
 
   using Clock = std::chrono::steady_clock;
 
-  int card_ = 0;
+  int gpu_ = 0;
   Launching launching_;
   CudaGraphs graphs_;
-  cudaError_t failed_ = cudaSuccess;  // of launches that nobody has been told of yet
+  cudaError_t failed_ = cudaSuccess;  // of launches, not yet reported
   bool times_stages_ = false;
   Clock::time_point last_;
   std::map<std::string, double> seconds_;
-  std::byte* working_ = nullptr;  // memory of sorts and sums, kept between them
+  std::byte* working_ = nullptr;  // scratch memory for sorts and prefix sums, reused
   std::size_t bytes_of_working_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Launches that go to a card together, as a CUDA graph: to be compiled by nvcc. A graph in which the same kernels
-// follow each other as in one before is that one, with the arguments that have changed since.
+// Kernel launches submitted to a GPU together as a CUDA graph, compiled by nvcc. A sequence of the same kernels reuses
+// its graph and updates only the arguments that have changed.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -24,7 +24,7 @@ class CudaGraphs {
     }
   }
 
-  // To be launched after those that were added before. argument: the kernel's only one, by its bytes.
+  // Queues a launch after those added before. argument: the kernel's only argument, copied bytewise.
   template <class Argument>
   void add(void (*kernel)(Argument), dim3 groups, dim3 threads, std::size_t shared_bytes, const Argument& argument) {
     const std::size_t first = waiting_.arguments.size();
@@ -34,7 +34,7 @@ class CudaGraphs {
     std::memcpy(waiting_.arguments.data() + first, &argument, sizeof argument);
   }
 
-  // Launches all that was added.
+  // Submits all queued launches.
   cudaError_t launch() {
     if (waiting_.launches.empty()) {
       return cudaSuccess;
@@ -46,7 +46,7 @@ class CudaGraphs {
   }
 
  private:
-  static constexpr std::size_t fewest = 4;  // launches that are worth a graph: a guess, to be measured
+  static constexpr std::size_t fewest = 4;  // fewest launches submitted as a graph: an estimate, not measured
 
   struct Launch {
     const void* kernel;
@@ -63,8 +63,8 @@ class CudaGraphs {
   struct Graph {
     cudaGraph_t graph = nullptr;
     cudaGraphExec_t executable = nullptr;
-    std::vector<cudaGraphNode_t> nodes;  // one a launch
-    Sequence known;                      // what the executable would launch
+    std::vector<cudaGraphNode_t> nodes;  // one per launch
+    Sequence known;                      // launches that the executable currently holds
   };
 
   cudaError_t launch_one_by_one() {

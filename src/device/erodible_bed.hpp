@@ -1,5 +1,5 @@
-// The erodible bed on the ground (terrain/bed.hpp), which stays with the processor: which parts of it the slide covers,
-// how nodes press on it, what of it they may take and what they took.
+// Erodible bed on the ground (terrain/bed.hpp). The bed is stored on the CPU; the device computes which bed parts the
+// sliding mass covers, the load of nodes, and the entrained mass.
 #pragma once
 
 #include <array>
@@ -9,18 +9,18 @@
 
 #include "device/array.hpp"
 #include "device/ground.hpp"
-#include "device/node_works.hpp"
+#include "device/node_kernels.hpp"
 #include "device/stacks.hpp"
 #include "device/step_model.hpp"
 #include "terrain/bed_node.hpp"
 
 namespace thawslide::device {
 
-// Parts of a column of nodes.
+// Bed parts per column of nodes.
 template <int Dim>
 inline constexpr std::size_t parts_of_column = static_cast<std::size_t>(mpm::power(terrain::bed_parts, Dim - 1));
 
-// Marks the parts that particles of tiles near the ground cover. A group of threads a tile.
+// Marks the bed parts that particles of tiles near the ground cover. One thread group per tile.
 template <int Dim, class Real>
 struct CoverBed {
   using T = mpm::Tile<Dim>;
@@ -44,7 +44,7 @@ struct CoverBed {
  private:
   THAWSLIDE_HD void cover(std::size_t tile, std::uint32_t particle) const {
     const Real half = sizes.half[sizes.is_uniform ? 0 : static_cast<std::size_t>(particles.body(particle))];
-    std::array<terrain::PartsCovered, 2> along{};  // in the plane the second is one part wide
+    std::array<terrain::PartsCovered, 2> along{};  // in 2D, the second axis is one part wide
     for (std::size_t a = 0; a + 1 < Dim; ++a) {
       along[a] = terrain::parts_covered(particles.position(particle, static_cast<int>(a)), half, cell);
     }
@@ -66,11 +66,12 @@ struct CoverBed {
       bit = bit * parts + part[a] % parts;
     }
     const std::size_t place = place_of_column<Dim>(tables, stack_of_block, tile, column);
-    covered[place * parts_of_column<Dim> + static_cast<std::size_t>(bit)] = 1;  // all who write it write the same
+    // benign race: all threads write the same value
+    covered[place * parts_of_column<Dim> + static_cast<std::size_t>(bit)] = 1;
   }
 };
 
-// The parts of a column in one number, a bit for each. A thread a column.
+// Packs the parts of a column into one bit mask. One thread per column.
 template <int Dim>
 struct PackParts {
   const std::uint8_t* covered;
@@ -85,10 +86,10 @@ struct PackParts {
   }
 };
 
-// How candidate nodes press on the ground; with what they may take, the records that they begin with; and what of these
-// the processor is told. A thread a candidate.
+// Kernels with one thread per candidate node: PackLoad gathers loads for the CPU, OfferBed initializes records with the
+// available mass, and PackPressure adds the normal pressure of entraining nodes for the CPU.
 template <int Dim, class Real>
-struct TellLoad {
+struct PackLoad {
   NodeViews<Dim, Real> nodes;
   const std::uint32_t* candidates;
   Real* loads;
@@ -101,21 +102,21 @@ struct OfferBed {
   Real* records;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    Real* record = records + k * bed_told<Dim>;
-    for (std::size_t c = 0; c < bed_told<Dim>; ++c) {
+    Real* record = records + k * bed_record_size<Dim>;
+    for (std::size_t c = 0; c < bed_record_size<Dim>; ++c) {
       record[c] = Real(0);
     }
     record[mpm::BedLayout<Dim>::available] = available[k];
   }
 };
 template <int Dim, class Real>
-struct TellPressure {
+struct PackPressure {
   NodeViews<Dim, Real> nodes;
   const std::uint32_t* candidates;
   Real* records;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    Real* record = records + k * bed_told<Dim>;
+    Real* record = records + k * bed_record_size<Dim>;
     const Real* contact = nodes.contact_at(candidates[k]);
     if (record[mpm::BedLayout<Dim>::taken] > Real(0)) {
       record[mpm::BedLayout<Dim>::size] = contact[mpm::Contact::normal_force] / contact[mpm::Contact::area];
@@ -123,27 +124,26 @@ struct TellPressure {
   }
 };
 
-// As ResolveContact asks (device/node_works.hpp).
+// Interface required by ResolveContact (device/node_kernels.hpp).
 template <int Dim, class Real>
 struct BedBelowNodes {
-  terrain::BedMatter<Real> matter;
+  terrain::BedMaterial<Real> material;
   Real* records;
 
   [[nodiscard]] THAWSLIDE_HD terrain::BedBelowNode<Dim, Real> below(std::size_t candidate, Real area, Real strength,
                                                                     Real dt, Real mass) const {
-    return {&matter, records + candidate * bed_told<Dim>, area, strength, dt, mass};
+    return {&material, records + candidate * bed_record_size<Dim>, area, strength, dt, mass};
   }
 };
 
 template <class Backend, int Dim, class Real>
 class ErodibleBed {
  public:
-  ErodibleBed(Backend& backend, BedOnProcessor<Dim, Real> processor)
-      : backend_(backend), processor_(std::move(processor)) {}
+  ErodibleBed(Backend& backend, HostBed<Dim, Real> processor) : backend_(backend), cpu_(std::move(processor)) {}
 
-  [[nodiscard]] bool exists() const { return static_cast<bool>(processor_.share_out); }
+  [[nodiscard]] bool exists() const { return static_cast<bool>(cpu_.distribute); }
 
-  // To be called after blocks changed.
+  // Call after blocks have changed.
   void update(const std::vector<std::uint64_t>& blocks, const Ground<Backend, Dim, Real>& ground) {
     if (!exists()) {
       return;
@@ -159,35 +159,35 @@ class ErodibleBed {
     covered_.resize(stacks.columns.size() * parts_of_column<Dim>);
     backend_.for_each(covered_.size(), Fill<std::uint8_t>{covered_.data(), 0});
     loads_.resize(of_candidates.size());
-    records_.resize(of_candidates.size() * bed_told<Dim>);
-    processor_.take_columns(stacks.columns, of_candidates);
+    records_.resize(of_candidates.size() * bed_record_size<Dim>);
+    cpu_.set_columns(stacks.columns, of_candidates);
   }
 
-  // The base has been asked: what candidate nodes may take.
-  void share_out(const TileTables<Dim>& tables, const mpm::ParticleView<Dim, Real>& particles,
-                 const mpm::SizesOfBodies<Real>& sizes, const Ground<Backend, Dim, Real>& ground, Real cell,
-                 const NodeViews<Dim, Real>& nodes) {
+  // Sets the bed mass available to each candidate node. Call after the basal law has been evaluated.
+  void distribute(const TileTables<Dim>& tables, const mpm::ParticleView<Dim, Real>& particles,
+                  const mpm::SizesOfBodies<Real>& sizes, const Ground<Backend, Dim, Real>& ground, Real cell,
+                  const NodeViews<Dim, Real>& nodes) {
     constexpr std::size_t threads = 128;
     backend_.for_groups(
         tables.tiles, threads, 0,
         CoverBed<Dim, Real>{tables, particles, sizes, ground.sees_candidates(), cell, stack_.data(), covered_.data()});
     backend_.for_each(parts_.size(), PackParts<Dim>{covered_.data(), parts_.data()});
-    backend_.for_each(loads_.size(), TellLoad<Dim, Real>{nodes, ground.candidates(), loads_.data()});
-    available_.set(processor_.share_out(parts_.get(), loads_.get()));
+    backend_.for_each(loads_.size(), PackLoad<Dim, Real>{nodes, ground.candidates(), loads_.data()});
+    available_.set(cpu_.distribute(parts_.get(), loads_.get()));
     backend_.for_each(loads_.size(), OfferBed<Dim, Real>{available_.data(), records_.data()});
   }
 
-  [[nodiscard]] BedBelowNodes<Dim, Real> below_nodes() { return {processor_.matter, records_.data()}; }
+  [[nodiscard]] BedBelowNodes<Dim, Real> below_nodes() { return {cpu_.material, records_.data()}; }
 
-  // Contact has been resolved.
+  // Call after contact has been resolved.
   void collect(const NodeViews<Dim, Real>& nodes, const std::uint32_t* candidates) {
-    backend_.for_each(loads_.size(), TellPressure<Dim, Real>{nodes, candidates, records_.data()});
-    processor_.collect(records_.get());
+    backend_.for_each(loads_.size(), PackPressure<Dim, Real>{nodes, candidates, records_.data()});
+    cpu_.collect(records_.get());
   }
 
  private:
   Backend& backend_;
-  BedOnProcessor<Dim, Real> processor_;
+  HostBed<Dim, Real> cpu_;
   Array<std::uint32_t, Backend> stack_{backend_}, parts_{backend_};
   Array<std::uint8_t, Backend> covered_{backend_};
   Array<Real, Backend> loads_{backend_}, available_{backend_}, records_{backend_};

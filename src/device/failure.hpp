@@ -1,11 +1,11 @@
-// A device that fails.
+// Error of a device.
 #pragma once
 
 #include <stdexcept>
 
 namespace thawslide::device {
 
-// Says what the device was doing.
+// The message states which operation failed.
 class Failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,4 +1,4 @@
-// What the processor was asked of tiles, blocks or columns before is not asked again.
+// Index map between former and current keys, to reuse earlier results of CPU queries for tiles, blocks and columns.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace thawslide::device {
 
-// Where each key of an ascending list stands in another, or absent.
+// Place of each key in the list `former`, or absent. Both lists ascend.
 inline std::vector<std::int32_t> places_in(const std::vector<std::uint64_t>& former,
                                            const std::vector<std::uint64_t>& keys) {
   std::vector<std::int32_t> places(keys.size(), absent);

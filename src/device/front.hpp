@@ -1,4 +1,4 @@
-// The front of the slide (mpm/front.hpp) among particles in a device's memory.
+// Front of the sliding mass (mpm/front.hpp) from particles in device memory.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@
 
 namespace thawslide::device {
 
-// By rank in canonical order: how far the particle is, to be sorted, and which it is.
+// Sort key of each particle, by rank in canonical order: its distance along the path.
 template <int Dim, class Real>
-struct ListAlongWay {
-  mpm::Way<Dim> way;
+struct ListAlongPath {
+  mpm::Transformation<Dim> way;
   mpm::ParticleView<Dim, Real> particles;
   const std::uint32_t* order;
   std::uint64_t* keys;
@@ -27,13 +27,13 @@ struct ListAlongWay {
   }
 };
 
-// Some of a list from its end on, the last one first.
+// The last particles of a sorted list, in reverse order.
 template <int Dim, class Real>
-struct TakeForemost {
-  mpm::Way<Dim> way;
+struct KeepForemost {
+  mpm::Transformation<Dim> way;
   mpm::ParticleView<Dim, Real> particles;
   const std::uint32_t* end;
-  mpm::OnWay* taken;
+  mpm::PathSample* taken;
 
   THAWSLIDE_HD void operator()(std::size_t k) const { taken[k] = way.of(particles, *(end - 1 - k)); }
 };
@@ -43,23 +43,23 @@ class Front {
  public:
   explicit Front(Backend& backend) : backend_(backend) {}
 
-  // Of so many particles, of some mass together [kg]; at least one. Of those equally far the one of the higher rank in
-  // canonical order counts as further.
-  mpm::OnWay find(const mpm::Way<Dim>& way, double mass, const TileTables<Dim>& tables,
-                  const mpm::ParticleView<Dim, Real>& particles, std::size_t count) {
-    const mpm::Way<Dim> here{copied(way.line), way.origin};
+  // count: number of particles, at least one. mass: their total mass [kg]. Among equal distances, the higher rank in
+  // canonical order is further ahead.
+  mpm::PathSample find(const mpm::Transformation<Dim>& way, double mass, const TileTables<Dim>& tables,
+                       const mpm::ParticleView<Dim, Real>& particles, std::size_t count) {
+    const mpm::Transformation<Dim> here{copied(way.line), way.origin};
     keys_.resize(count);
     sorted_keys_.resize(count);
     sorted_.resize(count);
-    backend_.for_each(count, ListAlongWay<Dim, Real>{here, particles, tables.order, keys_.data()});
+    backend_.for_each(count, ListAlongPath<Dim, Real>{here, particles, tables.order, keys_.data()});
     backend_.sort(keys_.data(), tables.order, sorted_keys_.data(), sorted_.data(), count);
     mpm::FrontSearch search(mass);
-    // Some more at a time than are ahead of the front where all have the same mass.
+    // Chunk size: slightly more particles than are ahead of the front if all masses are equal.
     const std::size_t at_a_time = count / 150 + 1024;
     for (std::size_t left = count;; left -= taken_.size()) {
       taken_.resize(std::min(left, at_a_time));
-      backend_.for_each(taken_.size(), TakeForemost<Dim, Real>{here, particles, sorted_.data() + left, taken_.data()});
-      for (const mpm::OnWay& one : taken_.get()) {
+      backend_.for_each(taken_.size(), KeepForemost<Dim, Real>{here, particles, sorted_.data() + left, taken_.data()});
+      for (const mpm::PathSample& one : taken_.get()) {
         if (search.is_at(one.mass)) {
           return one;
         }
@@ -86,9 +86,10 @@ class Front {
   }
 
   Backend& backend_;
-  Array<std::uint64_t, Backend> keys_{backend_}, sorted_keys_{backend_};  // kept: what a row needs is there
+  // persistent buffers, to avoid reallocation for each history row
+  Array<std::uint64_t, Backend> keys_{backend_}, sorted_keys_{backend_};
   Array<std::uint32_t, Backend> sorted_{backend_};
-  Array<mpm::OnWay, Backend> taken_{backend_};
+  Array<mpm::PathSample, Backend> taken_{backend_};
   Array<Place2, Backend> corners_{backend_}, directions_{backend_};
   Array<double, Backend> along_{backend_};
   Array<BoxOfLine, Backend> boxes_{backend_};

@@ -1,5 +1,5 @@
-// The ground at the nodes of the active blocks, in a device's memory: what terrain/ground_on_grid.hpp has. The
-// processor learns of blocks that the slide comes to; the device finds which tiles and cells see candidate nodes.
+// Ground at the nodes of active blocks, in device memory, as in terrain/ground_on_grid.hpp. The CPU evaluates new
+// blocks; the device finds the tiles and cells whose particles reach candidate nodes.
 #pragma once
 
 #include <utility>
@@ -14,7 +14,7 @@
 
 namespace thawslide::device {
 
-// Marks the cells of a tile whose particles see a candidate node with any shape functions. A thread a cell.
+// Marks the cells of a tile whose particles reach a candidate node with any shape function. One thread per cell.
 template <int Dim, class Real>
 struct FindNear {
   TileTables<Dim> tables;
@@ -56,15 +56,15 @@ struct FindNearTile {
   }
 };
 
-// What a node knows, from the blocks before or from those that the processor was asked for; its record, and whether
-// it is a candidate. A thread a node.
+// Copies the ground data of each node, from the former blocks or from newly queried blocks; sets its record and
+// candidate flag. One thread per node.
 template <int Dim, class Real>
-struct TakeGround {
+struct CopyGround {
   using AtNode = terrain::GroundAtNode<Dim, Real>;
 
-  const std::int32_t* block_before;  // by block; from `before` on: of those that were asked for
+  const std::int32_t* block_before;  // by block; from `before` on: index among newly queried blocks
   std::size_t before;
-  const AtNode *known_before, *asked_for;
+  const AtNode *known_before, *queried;
   AtNode* known;
   Real* records;
   std::uint32_t* is_candidate;
@@ -73,7 +73,7 @@ struct TakeGround {
     constexpr auto nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
     constexpr std::size_t size = mpm::record_size(mpm::components_of<mpm::Planes, Dim>);
     const auto block = static_cast<std::size_t>(block_before[k / nodes]);
-    const AtNode* from = block < before ? known_before + block * nodes : asked_for + (block - before) * nodes;
+    const AtNode* from = block < before ? known_before + block * nodes : queried + (block - before) * nodes;
     const AtNode node = from[k % nodes];
     known[k] = node;
     Real* record = records + k * size;
@@ -85,7 +85,7 @@ struct TakeGround {
     is_candidate[k] = node.candidate ? 1 : 0;
   }
 };
-// Lists the candidates; by node, which of them it is, or absent.
+// Lists the candidate nodes. number: index of each node among them, or absent.
 struct ListCandidates {
   const std::uint32_t *is_candidate, *before;
   std::uint32_t* candidates;
@@ -100,7 +100,7 @@ struct ListCandidates {
   }
 };
 
-// The tiles, and of these the particles by their cell, that see candidate nodes.
+// Filter for tiles that reach candidate nodes, and for the particles of their cells.
 template <int Dim>
 struct SeesCandidates {
   const std::uint8_t *near, *any_near;
@@ -119,13 +119,13 @@ class Ground {
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<mpm::Planes, Dim>);
 
  public:
-  Ground(Backend& backend, AskGround<Dim, Real> ask) : backend_(backend), ask_(std::move(ask)) {}
+  Ground(Backend& backend, GroundQuery<Dim, Real> ask) : backend_(backend), host_(std::move(ask)) {}
 
-  [[nodiscard]] bool exists() const { return static_cast<bool>(ask_); }
+  [[nodiscard]] bool exists() const { return static_cast<bool>(host_); }
 
-  // To be called after blocks or tiles changed.
+  // Call after blocks or tiles have changed.
   void update(const TileTables<Dim>& tables, const std::vector<std::uint64_t>& blocks) {
-    take_blocks(blocks);
+    update_blocks(blocks);
     list_candidates_of(blocks.size() * nodes);
     near_.resize(tables.tiles * nodes);
     any_near_.resize(tables.tiles);
@@ -135,40 +135,40 @@ class Ground {
 
   [[nodiscard]] const AtNode* known() const { return known_.data(); }
   [[nodiscard]] const Real* records() const { return records_.data(); }
-  // Nodes with a candidate; by node, which of them it is, or absent.
+  // Candidate nodes, and the index of each node among them (absent for others).
   [[nodiscard]] const std::uint32_t* candidates() const { return candidates_.data(); }
   [[nodiscard]] std::vector<std::uint32_t> list_candidates() const { return candidates_.get(); }
   [[nodiscard]] std::size_t candidate_count() const { return candidates_.size(); }
   [[nodiscard]] const std::int32_t* number() const { return number_.data(); }
-  // By block: whether the ground below it, and a cell about it, is not known everywhere.
+  // By block: 1 if the ground below it or within one cell around it has no-data parts.
   [[nodiscard]] const std::uint8_t* partly_unknown() const { return partly_unknown_.data(); }
   [[nodiscard]] SeesCandidates<Dim> sees_candidates() const { return {near_.data(), any_near_.data()}; }
 
  private:
-  // The processor is asked for the blocks that are new.
-  void take_blocks(const std::vector<std::uint64_t>& blocks) {
+  // Queries the CPU for new blocks only.
+  void update_blocks(const std::vector<std::uint64_t>& blocks) {
     std::vector<std::int32_t> before = places_in(blocks_, blocks);
-    std::vector<AtNode> asked_for;
+    std::vector<AtNode> queried;
     std::vector<std::uint8_t> partly_unknown(blocks.size());
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       if (before[b] != absent) {
         partly_unknown[b] = is_partly_unknown_[static_cast<std::size_t>(before[b])];
         continue;
       }
-      before[b] = static_cast<std::int32_t>(blocks_.size() + asked_for.size() / nodes);
-      asked_for.resize(asked_for.size() + nodes);
-      partly_unknown[b] = ask_(blocks[b], &asked_for[asked_for.size() - nodes]) ? 0 : 1;
+      before[b] = static_cast<std::int32_t>(blocks_.size() + queried.size() / nodes);
+      queried.resize(queried.size() + nodes);
+      partly_unknown[b] = host_(blocks[b], &queried[queried.size() - nodes]) ? 0 : 1;
     }
     block_before_.set(before);
-    asked_for_.set(asked_for);
+    queried_.set(queried);
     partly_unknown_.set(partly_unknown);
     known_before_.swap(known_);
     known_.resize(blocks.size() * nodes);
     records_.resize(known_.size() * size);
     is_candidate_.resize(known_.size());
     backend_.for_each(known_.size(),
-                      TakeGround<Dim, Real>{block_before_.data(), blocks_.size(), known_before_.data(),
-                                            asked_for_.data(), known_.data(), records_.data(), is_candidate_.data()});
+                      CopyGround<Dim, Real>{block_before_.data(), blocks_.size(), known_before_.data(), queried_.data(),
+                                            known_.data(), records_.data(), is_candidate_.data()});
     blocks_ = blocks;
     is_partly_unknown_ = std::move(partly_unknown);
   }
@@ -183,11 +183,11 @@ class Ground {
   }
 
   Backend& backend_;
-  AskGround<Dim, Real> ask_;
-  std::vector<std::uint64_t> blocks_;            // that are known
+  GroundQuery<Dim, Real> host_;
+  std::vector<std::uint64_t> blocks_;            // known blocks
   std::vector<std::uint8_t> is_partly_unknown_;  // by block
   Array<std::int32_t, Backend> block_before_{backend_};
-  Array<AtNode, Backend> asked_for_{backend_}, known_before_{backend_}, known_{backend_};
+  Array<AtNode, Backend> queried_{backend_}, known_before_{backend_}, known_{backend_};
   Array<Real, Backend> records_{backend_};
   Array<std::uint32_t, Backend> is_candidate_{backend_}, candidates_before_{backend_}, candidates_{backend_};
   Array<std::int32_t, Backend> number_{backend_};

@@ -1,7 +1,6 @@
-// The processor in the place of a device. Threads of a group run one after the other, in any order asked for: what does
-// not depend on the order of threads gives the same bits in all of them, and what a phase reads of a phase that no
-// barrier ended is not there yet. What is launched waits until the processor asks for something, as on a card, and
-// memory holds no numbers at first.
+// CPU emulation of a device. Threads of a group run one after the other in a selectable order. Results that are
+// independent of thread order are bitwise identical in all orders; missing barriers become visible, because a phase
+// runs only at the next barrier. As on a GPU, launches are queued until the CPU waits, and new memory is uninitialized.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +19,7 @@ namespace thawslide::device {
 
 enum class ThreadOrder { forward, backward, shuffled };
 
-// Calls visit(k) for k = 0 .. count-1 in an order.
+// Calls visit(k) for k = 0 .. count-1 in the given order.
 template <class Visit>
 void in_thread_order(std::size_t count, ThreadOrder order, const Visit& visit) {
   if (order == ThreadOrder::forward) {
@@ -32,7 +31,7 @@ void in_thread_order(std::size_t count, ThreadOrder order, const Visit& visit) {
       visit(k);
     }
   } else {
-    // From place to place by a stride that shares no factor with their count, and so comes to each once.
+    // A stride coprime to the count visits each place once.
     std::size_t stride = count * 5 / 8 + 1;
     while (std::gcd(stride, count) > 1) {
       ++stride;
@@ -45,22 +44,22 @@ void in_thread_order(std::size_t count, ThreadOrder order, const Visit& visit) {
   }
 }
 
-// Threads that work together: in phases, between which barriers let all wait for each other, on memory that they share.
+// Thread group with shared memory. Threads run in phases, separated by barriers.
 class HostGroup {
  public:
   static constexpr int none = -1;
 
-  // threads: in the order in which they run. omitted_barrier: number of the barrier that is left out, to show that it
-  // is needed.
+  // threads: thread numbers in execution order. omitted_barrier: number of a barrier to skip, for tests that show it is
+  // needed.
   HostGroup(const std::vector<std::size_t>& threads, std::size_t shared_bytes, int omitted_barrier)
       : threads_(threads), omitted_barrier_(omitted_barrier), shared_(shared_bytes / sizeof(std::max_align_t) + 1) {
     std::memset(shared_.data(), 0xff, shared_.size() * sizeof(std::max_align_t));
   }
 
-  // Aligned for any number.
+  // Aligned for all types.
   [[nodiscard]] std::byte* shared() { return reinterpret_cast<std::byte*>(shared_.data()); }
 
-  // A phase: work(k) for k = 0 .. count-1, each by one thread. It has run once a barrier has been passed.
+  // Adds a phase: work(k) for k = 0 .. count-1, distributed over the threads. It runs at the next barrier.
   void each(std::size_t count, std::function<void(std::size_t)> work) { phases_.push_back({count, std::move(work)}); }
 
   void barrier() {
@@ -69,7 +68,7 @@ class HostGroup {
     }
   }
 
-  // Runs what no barrier has ended.
+  // Runs the phases since the last barrier.
   void end() {
     for (const std::size_t thread : threads_) {
       for (const Phase& phase : phases_) {
@@ -95,7 +94,7 @@ class HostGroup {
 
 class Host {
  public:
-  // threads: of a group, whatever is asked for; 0: as many as are asked for.
+  // threads: group size that overrides the requested one; 0: as requested.
   explicit Host(ThreadOrder order = ThreadOrder::forward, std::size_t threads = 0,
                 int omitted_barrier = HostGroup::none)
       : order_(order), threads_(threads), omitted_barrier_(omitted_barrier) {}
@@ -115,7 +114,7 @@ class Host {
     ::operator delete(memory);
   }
 
-  // From the processor's memory to the device's, within that, and back.
+  // Copies from CPU to device memory, within device memory, and from device to CPU memory.
   template <class T>
   void copy_in(T* to, const T* from, std::size_t count) {
     wait();
@@ -132,13 +131,13 @@ class Host {
     std::copy_n(from, count, to);
   }
 
-  // work(k) for k = 0 .. count-1, a thread each.
+  // Launches work(k) for k = 0 .. count-1, one thread each.
   template <class Work>
   void for_each(std::size_t count, const Work& work) {
     waiting_.push_back([this, count, work] { in_thread_order(count, order_, work); });
   }
 
-  // work(group, k) for k = 0 .. groups-1, a group of so many threads each.
+  // Launches work(group, k) for k = 0 .. groups-1, one thread group each.
   template <class Work>
   void for_groups(std::size_t groups, std::size_t threads, std::size_t shared_bytes, const Work& work) {
     waiting_.push_back([this, groups, threads, shared_bytes, work] {
@@ -152,7 +151,7 @@ class Host {
     });
   }
 
-  // Until all that was launched is done.
+  // Runs all queued launches.
   void wait() {
     launches_ += waiting_.size();
     waits_ += waiting_.empty() ? 0 : 1;
@@ -160,11 +159,11 @@ class Host {
       launch();
     }
   }
-  // How many were launched, and how often something was to be waited for: the graphs of a card.
+  // Number of launches, and number of waits with queued launches: the graphs submitted on a GPU.
   [[nodiscard]] std::size_t launches() const { return launches_; }
   [[nodiscard]] std::size_t waits() const { return waits_; }
 
-  // Sorts keys and what belongs to them; equal keys keep their order.
+  // Stable sort of keys and their values.
   void sort(const std::uint64_t* keys, const std::uint32_t* values, std::uint64_t* sorted_keys,
             std::uint32_t* sorted_values, std::size_t count) {
     wait();
@@ -181,13 +180,13 @@ class Host {
     std::partial_sort_copy(keys, keys + count, sorted_keys, sorted_keys + count);
   }
 
-  // sums[k] = numbers[0] + ... + numbers[k-1], for k = 0 .. count-1.
+  // Exclusive prefix sum: sums[k] = numbers[0] + ... + numbers[k-1], for k = 0 .. count-1.
   void sum_before(const std::uint32_t* numbers, std::uint32_t* sums, std::size_t count) {
     wait();
     std::exclusive_scan(numbers, numbers + count, sums, std::uint32_t{0});
   }
 
-  // Stages are not timed here.
+  // Stages are not timed in the emulation.
   void end_stage(const char* /*stage*/) {}
   void time_stages() {}
   [[nodiscard]] std::map<std::string, double> seconds() const { return {}; }

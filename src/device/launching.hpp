@@ -1,9 +1,9 @@
-// How kernels go to a card.
+// Launch mode of GPU kernels.
 #pragma once
 
 namespace thawslide::device {
 
-// Together, as a graph, when the processor next waits for the card; or each by itself, at once.
+// in_graphs: together, as a graph, when the CPU next waits for the GPU. one_by_one: immediately.
 enum class Launching { in_graphs, one_by_one };
 
 }  // namespace thawslide::device

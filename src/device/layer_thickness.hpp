@@ -1,5 +1,5 @@
-// How thick the cells along the ground are which make up the band (terrain/layer_thickness.hpp), in a device's memory:
-// the processor tells of the middles of columns, and particles see what lies between these.
+// Thickness of the band's cells along the ground (terrain/layer_thickness.hpp), in device memory. The CPU evaluates it
+// at the middles of columns; particles interpolate between them.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace thawslide::device {
 
-// Of one tile, as kernels see it.
+// Layer thickness as seen from the particles of one tile.
 template <int Dim>
 struct LayersOfTile {
   TileTables<Dim> tables;
@@ -30,7 +30,7 @@ struct LayersOfTile {
     for (std::size_t a = 0; a < first.size(); ++a) {
       const double in_columns = place[a] / cell + 0.5;  // 1 in the middle of column 0
       const int left = static_cast<int>(floor(in_columns)) - 1 - corner[a];
-      first[a] = left < -1 ? -1 : left;  // by rounding it may be the one before, which then has no weight
+      first[a] = left < -1 ? -1 : left;  // rounding can yield the column before, whose weight is then zero
       share[a] = in_columns - floor(in_columns);
     }
     return terrain::between_middles(share, [&](const ColumnIndex<Dim>& steps) {
@@ -47,16 +47,16 @@ template <class Backend, int Dim, class Real>
 class LayerThickness {
  public:
   LayerThickness(Backend& backend, LayerAtMiddle<Dim> at_middle)
-      : ask_(std::move(at_middle)), stack_(backend), at_middle_(backend) {}
+      : host_(std::move(at_middle)), stack_(backend), at_middle_(backend) {}
 
-  [[nodiscard]] bool exists() const { return static_cast<bool>(ask_); }
+  [[nodiscard]] bool exists() const { return static_cast<bool>(host_); }
 
-  // To be called after blocks changed.
+  // Call after blocks have changed.
   void update(const std::vector<std::uint64_t>& blocks) {
     const Stacks<Dim> stacks(blocks);
     std::vector<double> at_middle;
     for (const ColumnIndex<Dim>& column : stacks.columns) {
-      at_middle.push_back(ask_(column));
+      at_middle.push_back(host_(column));
     }
     stack_.set(stacks.of_block);
     at_middle_.set(at_middle);
@@ -67,7 +67,7 @@ class LayerThickness {
   }
 
  private:
-  LayerAtMiddle<Dim> ask_;
+  LayerAtMiddle<Dim> host_;
   Array<std::uint32_t, Backend> stack_;
   Array<double, Backend> at_middle_;
 };

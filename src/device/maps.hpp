@@ -1,5 +1,5 @@
-// The sums that maps take (sim/flow_maps.hpp), in a device's memory. The cells that tiles are above are numbered when
-// tiles have changed, by sorting their keys.
+// Sums for maps (sim/flow_maps.hpp), in device memory. After a change of tiles, the map cells below them are renumbered
+// by sorting their keys.
 #pragma once
 
 #include <cmath>
@@ -8,10 +8,10 @@
 
 #include "device/array.hpp"
 #include "device/body_sizes.hpp"
-#include "device/column_works.hpp"
-#include "device/first_of_keys.hpp"
-#include "device/map_works.hpp"
+#include "device/column_kernels.hpp"
+#include "device/map_kernels.hpp"
 #include "device/step_model.hpp"
+#include "device/unique_keys.hpp"
 
 namespace thawslide::device {
 
@@ -22,12 +22,12 @@ class Maps {
   Maps(Backend& backend, Real cell, const std::vector<Real>& half_sizes)
       : backend_(backend), cell_(cell), sizes_(backend, half_sizes, cell) {}
 
-  // Tiles have changed.
+  // Call after tiles have changed.
   void forget_tiles() { knows_tiles_ = false; }
 
-  // Of particles that stand where a step has brought them, by the tiles that it began with.
+  // Sums over particles at their positions after a step, with the tiles from its beginning.
   void sum(const mpm::MapCells& cells, const TileTables<3>& tables, const mpm::ParticleView<3, Real>& particles,
-           MapLook& look) {
+           MapSample& look) {
     if (!knows_tiles_ || !(cells == places_.cells)) {
       number_cells(cells, tables);
       known_keys_ = keys_.get();
@@ -67,11 +67,11 @@ class Maps {
 
   Backend& backend_;
   Real cell_;
-  BodySizes<Backend, Real> sizes_;  // of particles [m]
+  BodySizes<Backend, Real> sizes_;  // half sizes of particles [m]
   MapPlaces places_;
   bool knows_tiles_ = false;
-  std::vector<std::uint64_t> known_keys_;  // of cells below some tile
-  FirstOfKeys<Backend> first_{backend_};
+  std::vector<std::uint64_t> known_keys_;  // of cells below at least one tile
+  UniqueKeys<Backend> first_{backend_};
   Array<std::uint64_t, Backend> keys_listed_{backend_}, keys_of_seen_{backend_}, keys_{backend_};
   Array<std::uint32_t, Backend> listed_{backend_}, seen_{backend_}, first_seen_{backend_};
   Array<mpm::MapSums, Backend> parts_{backend_}, sums_{backend_};

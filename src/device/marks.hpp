@@ -1,14 +1,14 @@
-// Marks of tiles and blocks, for passes that need not go over all.
+// Marks of tiles and blocks, to restrict passes to them.
 #pragma once
 
 #include "device/array.hpp"
-#include "device/cell_works.hpp"
+#include "device/cell_kernels.hpp"
 #include "device/tile_tables.hpp"
 
 namespace thawslide::device {
 
-// Marks the tiles whose nodes, or whose particles, meet a condition. A group of threads a tile. Asks: of_node(number
-// among those of all blocks), of_particle(particle).
+// Marks the tiles with a node or particle that meets a condition. One thread group per tile. Asks provides
+// of_node(node), numbered over all blocks, and of_particle(particle).
 template <class Asks, int Dim>
 struct MarkTiles {
   using T = mpm::Tile<Dim>;
@@ -26,7 +26,7 @@ struct MarkTiles {
       const PlaceInBlock<Dim> place = place_in_block<Dim>(k);
       const std::int32_t block = tables.blocks_about_tile[tile * stencil + place.direction];
       if (asks.of_node(static_cast<std::size_t>(block) * nodes + place.node)) {
-        marks[tile] = 1;  // all who write it write the same
+        marks[tile] = 1;  // benign race: all threads write the same value
       }
     });
     group.each(last - first, [this, tile, first](std::size_t k) {
@@ -37,7 +37,7 @@ struct MarkTiles {
   }
 };
 
-// Blocks whose nodes particles of marked tiles may see.
+// Marks the blocks whose nodes particles of marked tiles may reach.
 template <int Dim>
 struct MarkBlocks {
   TileTables<Dim> tables;
@@ -55,7 +55,7 @@ struct MarkBlocks {
   }
 };
 
-// Marks the tiles whose particles see nodes of marked blocks, and tells whether there are any.
+// Marks the tiles whose particles reach nodes of marked blocks, and sets any_marked if there are any.
 template <int Dim>
 struct MarkTilesAbout {
   TileTables<Dim> tables;
@@ -71,12 +71,12 @@ struct MarkTilesAbout {
     }
     tiles[tile] = any;
     if (any != 0) {
-      *any_marked = 1;  // all who write it write the same
+      *any_marked = 1;  // benign race: all threads write the same value
     }
   }
 };
 
-// Of a pass over marked tiles.
+// Tile filter of a pass over marked tiles.
 struct MarkedTiles {
   const std::uint8_t* marks;
 
@@ -89,7 +89,7 @@ class Marks {
  public:
   explicit Marks(Backend& backend) : backend_(backend) {}
 
-  // To be called after blocks changed.
+  // Call after blocks have changed.
   void resize(const TileTables<Dim>& tables) {
     tiles_.resize(tables.tiles);
     blocks_.resize(tables.blocks);
@@ -103,7 +103,7 @@ class Marks {
   void mark_blocks(const TileTables<Dim>& tables) {
     backend_.for_each(tables.blocks, MarkBlocks<Dim>{tables, tiles_.data(), blocks_.data()});
   }
-  // The tiles about marked blocks; false if there are none.
+  // Marks the tiles around marked blocks. Returns false if there are none.
   bool mark_tiles_about(const TileTables<Dim>& tables) {
     backend_.for_each(1, Fill<std::uint32_t>{any_.data(), 0});
     backend_.for_each(tables.tiles, MarkTilesAbout<Dim>{tables, blocks_.data(), tiles_.data(), any_.data()});

@@ -1,4 +1,4 @@
-// Strain and stress of the particles of one material, with all that the kernel refers to by value.
+// Strain and stress of the particles of one material, with all kernel parameters held by value.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct DeformMaterial {
   using Adds = typename Kernel::Adds;
   using Account = typename Kernel::Account;
 
-  // As in the kernel.
+  // Parameters of mpm::Deform.
   Law law;
   physics::Elastic<Real> elastic;
   physics::Phases<Real> phases;
@@ -23,9 +23,9 @@ struct DeformMaterial {
   bool effective_stress;
   Real dt;
   std::int32_t material;
-  bool is_only_one;  // all particles are of it
+  bool is_only_one;  // all particles have this material
 
-  // Of material m of a model of the step.
+  // Kernel for material m of a step model.
   template <class Model>
   static DeformMaterial of(const Law& law, const Model& model, std::size_t m, Real dt) {
     const auto& material = model.materials[m];
@@ -40,8 +40,8 @@ struct DeformMaterial {
             model.materials.size() == 1};
   }
 
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
                                Account& account) const {
     if (is_only_one || particles.material(at.particle[0]) == material) {
       const Kernel deform{law, elastic, phases, gaps_close_first, viscosity_time, effective_stress, dt};

@@ -1,8 +1,8 @@
-// The records of all nodes of active blocks in a device's memory, by name.
+// Records of all nodes of active blocks in device memory, by name.
 #pragma once
 
 #include "device/array.hpp"
-#include "device/node_works.hpp"
+#include "device/node_kernels.hpp"
 #include "device/passes.hpp"
 
 namespace thawslide::device {
@@ -12,9 +12,9 @@ class NodeMemory {
  public:
   explicit NodeMemory(Backend& backend) : backend_(backend) {}
 
-  // For so many nodes; what was in it is lost.
+  // Resizes records to a number of nodes. Reallocation discards the contents.
   template <class... Names>
-  void make_room(std::size_t nodes) {
+  void resize_for(std::size_t nodes) {
     (of<Names>().resize(nodes * mpm::record_size(mpm::components_of<Names, Dim>)), ...);
   }
   void clear_base(std::size_t nodes) {
@@ -30,7 +30,7 @@ class NodeMemory {
   [[nodiscard]] const Array<Real, Backend>& of() const {
     return records_.template of<Name>();
   }
-  // known: of the ground, by node; null where there is none.
+  // known: ground data by node; null without ground.
   [[nodiscard]] NodeViews<Dim, Real> views(const terrain::GroundAtNode<Dim, Real>* known) {
     return {of<mpm::Averages>().data(),
             of<mpm::NodalState>().data(),
@@ -47,7 +47,7 @@ class NodeMemory {
   Backend& backend_;
   Array<Real, Backend> base_{backend_};
   NodeArrays<Backend, Real, mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact, mpm::Motion,
-             mpm::Velocity, mpm::HeatRates, mpm::OrphanHeat, mpm::Seepage, mpm::SeepingWater, mpm::FilterMoments,
+             mpm::Velocity, mpm::HeatRates, mpm::UnreachedHeat, mpm::Seepage, mpm::SeepingWater, mpm::FilterMoments,
              mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>
       records_{backend_};
 };

@@ -1,4 +1,4 @@
-// Sums at nodes of what the patches about them hold, in the order of mpm/transfer.hpp; and the records of nodes.
+// Nodal records, and their sums over the patches around each node in the order of mpm/transfer.hpp.
 #pragma once
 
 #include <limits>
@@ -10,17 +10,17 @@
 
 namespace thawslide::device {
 
-// The records of a name: those of the nodes of all blocks, one after another.
+// Records of one name, consecutive over the nodes of all blocks.
 template <class Name, int Dim, class Real>
 struct RecordsOf {
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
   Real* numbers;
 
-  // Of a node of all blocks.
+  // node: number over all blocks.
   [[nodiscard]] THAWSLIDE_HD Real* operator()(std::size_t node) const { return numbers + node * size; }
 };
 
-// Where a pass finds the records of names that it reads.
+// Pointers to the records that a pass reads.
 template <class Names, class Real>
 struct RecordsRead;
 template <class... Names, class Real>
@@ -32,14 +32,14 @@ struct RecordsRead<mpm::RecordList<Names...>, Real> {
   }
 };
 
-// A thread a number of a node: the sum of what the tiles about it hold, its own tile first; for components that are
-// lowered the smallest. Lowered: a name with such components, or void.
-template <class Name, class Lowered, class Takes, int Dim, class Real>
+// Sum, over the tiles around a node, of their patches, its own tile first; the minimum for min-reduced components. One
+// thread per component of a node. MinReduced: a name with such components, or void.
+template <class Name, class MinReduced, class TileFilter, int Dim, class Real>
 struct SumPatches {
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
 
   TileTables<Dim> tables;
-  Takes takes;
+  TileFilter accepts;
   const Real* patches;
   Real* records;
 
@@ -48,13 +48,13 @@ struct SumPatches {
     constexpr auto nodes = static_cast<std::size_t>(T::nodes);
     constexpr std::size_t own = static_cast<std::size_t>(T::stencil) / 2;
     const std::size_t component = k % size, node = k / size % nodes, block = k / size / nodes;
-    const bool lowered = is_lowered(component);
-    Real sum = lowered ? std::numeric_limits<Real>::max() : Real(0);
-    if (!lowered) {
+    const bool min_reduced = is_min_reduced(component);
+    Real sum = min_reduced ? std::numeric_limits<Real>::max() : Real(0);
+    if (!min_reduced) {
       take(block, node, own, component, [&](Real part) { sum = part; });
     }
     for_directions_that_see(node, [&](std::size_t d) {
-      if (lowered) {
+      if (min_reduced) {
         take(block, node, d, component, [&](Real part) { sum = min(sum, part); });
       } else if (d != own) {
         take(block, node, d, component, [&](Real part) { sum += part; });
@@ -64,16 +64,16 @@ struct SumPatches {
   }
 
  private:
-  THAWSLIDE_HD static constexpr bool is_lowered([[maybe_unused]] std::size_t component) {
-    if constexpr (std::is_void_v<Lowered>) {
+  THAWSLIDE_HD static constexpr bool is_min_reduced([[maybe_unused]] std::size_t component) {
+    if constexpr (std::is_void_v<MinReduced>) {
       return false;
     } else {
-      return component >= mpm::part_of<Lowered, Dim>.from &&
-             component < mpm::part_of<Lowered, Dim>.from + mpm::part_of<Lowered, Dim>.count;
+      return component >= mpm::part_of<MinReduced, Dim>.from &&
+             component < mpm::part_of<MinReduced, Dim>.from + mpm::part_of<MinReduced, Dim>.count;
     }
   }
-  // Calls visit(direction) for those, in order, in which a tile's patch reaches a node of a block: along each axis the
-  // block's own, and that on the side on which the node is the last one.
+  // Calls visit(direction), in order, for the directions whose tile's patch contains a node of a block. Along each
+  // axis, these are the block's own, and the adjacent side if the node is the outermost one.
   template <class Visit>
   THAWSLIDE_HD static void for_directions_that_see(std::size_t node, const Visit& visit) {
     constexpr auto edge = static_cast<std::size_t>(mpm::Tile<Dim>::edge);
@@ -91,13 +91,13 @@ struct SumPatches {
       }
     }
   }
-  // Calls with(number) with what the tile in some direction holds.
+  // Calls with(number) with the component in the patch of the tile in a direction, if that tile exists.
   template <class With>
   THAWSLIDE_HD void take(std::size_t block, std::size_t node, std::size_t direction, std::size_t component,
                          const With& with) const {
     using T = mpm::Tile<Dim>;
     const std::int32_t tile = tables.tiles_about_block[block * static_cast<std::size_t>(T::stencil) + direction];
-    if (tile == absent || !takes(static_cast<std::size_t>(tile))) {
+    if (tile == absent || !accepts(static_cast<std::size_t>(tile))) {
       return;
     }
     const std::size_t place = place_in_patch<Dim>(node, direction);

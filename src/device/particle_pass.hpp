@@ -1,30 +1,30 @@
-// A particle pass (mpm/particle_pass.hpp) on a device: a group of threads a tile. They fetch the records about it;
-// then, some particles at a time, a thread a particle runs the kernels, a thread a node of a cell adds what the cell's
-// particles carry, one after the other, and a thread a number adds what the cells bring, cell after cell, to the tile's
-// patch; what is lowered takes the smallest number instead. Barriers stand between. So no two threads write one number,
-// and the sums have the order, and the bits, of the processor's.
+// Particle pass (mpm/particle_pass.hpp) on a device, one thread group per tile. The threads load the records around the
+// tile. For each chunk of particles, one thread per particle runs the kernels; one thread per node of a cell adds the
+// contributions of the cell's particles in order; one thread per number adds those of the cells in order to the tile's
+// patch. Min-reduced components use the minimum instead. Barriers separate these phases. No two threads write the same
+// number, and sums have the order of the CPU: results are bitwise identical.
 #pragma once
 
 #include <limits>
 
-#include "device/pass_room.hpp"
+#include "device/shared_memory_layout.hpp"
 #include "device/tile_tables.hpp"
 
 namespace thawslide::device {
 
-// Of a pass that takes all tiles and all their particles.
-struct EveryTile {
+// Tile filter that accepts all tiles and all their particles.
+struct AllTiles {
   THAWSLIDE_HD bool operator()(std::size_t /*tile*/) const { return true; }
   THAWSLIDE_HD bool operator()(std::size_t /*tile*/, std::size_t /*cell*/) const { return true; }
 };
 
-// What a pass is given, but for its kernels. Takes: of a tile, and of a tile and a cell of it.
-template <class Weights, class Takes, int Dim, class Real>
+// Arguments of a pass except its kernels. TileFilter: called with a tile, or with a tile and one of its cells.
+template <class Weights, class TileFilter, int Dim, class Real>
 struct PassOver {
   TileTables<Dim> tables;
   mpm::ParticleView<Dim, Real> particles;
   Weights weights;
-  Takes takes;
+  TileFilter accepts;
   Real cell;
 };
 
@@ -32,13 +32,13 @@ template <class Over, class Reads, class Adds, int Dim, class Real, class... Ker
 struct ParticlePass;
 template <class Over, class... Reads, class... Adds, int Dim, class Real, class... Kernels>
 struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...> {
-  using Room = PassRoom<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...>;
+  using MemoryLayout = SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...>;
   using T = mpm::Tile<Dim>;
   using Sums = SumsOf<Kernels...>;
   static constexpr auto nodes = static_cast<std::size_t>(T::nodes);
   static constexpr auto patch_nodes = static_cast<std::size_t>(T::patch_nodes);
-  static constexpr std::size_t cell_nodes = Room::cell_nodes, size = Room::size;
-  static constexpr bool adds = sizeof...(Adds) > 0, adds_up = Room::adds_up;
+  static constexpr std::size_t cell_nodes = MemoryLayout::cell_nodes, size = MemoryLayout::size;
+  static constexpr bool adds = sizeof...(Adds) > 0, adds_up = MemoryLayout::adds_up;
 
   Over over;
   mpm::ByName<mpm::Named<Reads, const Real*>...> records;
@@ -46,21 +46,21 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   Sums* sums;     // by tile
   mpm::ByName<mpm::Named<Kernels, Kernels>...> kernels;
 
-  // Particles in canonical order from `first` to before `last`, of cells from `cell` on.
+  // Particles [first, last) in canonical order, from `cells` cells beginning at `cell`.
   struct Chunk {
     std::size_t tile, first, last, cell, cells, number;
   };
 
-  // The layers of cells, along the last axis, that a chunk has cells of. Those of nodes that they see are two more.
+  // Layers of cells, along the last axis, that a chunk touches. The nodes that they reach span two more layers.
   struct Layers {
     std::size_t first, end;
   };
 
   template <class Group>
   THAWSLIDE_HD void operator()(Group& group, std::size_t tile) const {
-    const Room room(group.shared());
+    const MemoryLayout room(group.shared());
     const std::size_t end = first_of_cell(tile, nodes);
-    if (!over.takes(tile)) {
+    if (!over.accepts(tile)) {
       group.each(1, [this, tile](std::size_t /*k*/) { sums[tile] = {}; });
       return;
     }
@@ -72,9 +72,9 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
       while (first_of_cell(tile, chunk.cell + 1) <= chunk.first) {
         ++chunk.cell;
       }
-      chunk.cells = chunk.cell + Room::most_cells < nodes ? Room::most_cells : nodes - chunk.cell;
+      chunk.cells = chunk.cell + MemoryLayout::most_cells < nodes ? MemoryLayout::most_cells : nodes - chunk.cell;
       const std::size_t of_cells = first_of_cell(tile, chunk.cell + chunk.cells);
-      chunk.last = chunk.first + Room::capacity < of_cells ? chunk.first + Room::capacity : of_cells;
+      chunk.last = chunk.first + MemoryLayout::capacity < of_cells ? chunk.first + MemoryLayout::capacity : of_cells;
       group.each(chunk.last - chunk.first, [this, chunk, room](std::size_t k) { visit(chunk, room, k); });
       group.barrier();
       if constexpr (adds_up) {
@@ -93,9 +93,9 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     return over.tables.first_of_cell[tile * nodes + cell];
   }
 
-  // A thread a number.
+  // Loads a record of the patch into shared memory. One thread per number.
   template <class Name, class Group>
-  THAWSLIDE_HD void fetch(Group& group, const Room& room, std::size_t tile) const {
+  THAWSLIDE_HD void fetch(Group& group, const MemoryLayout& room, std::size_t tile) const {
     constexpr std::size_t of_record = mpm::record_size(mpm::components_of<Name, Dim>);
     group.each(patch_nodes * of_record, [this, room, tile](std::size_t k) {
       const PlaceInBlock<Dim> place = place_in_block<Dim>(k / of_record);
@@ -107,12 +107,12 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     });
   }
 
-  // The patch before anything is added. An owner's record has been added to already.
+  // Initializes the patch. A record that aliases another one continues the sums of an earlier pass.
   template <class Group>
-  THAWSLIDE_HD void prepare(Group& group, const Room& room, std::size_t tile) const {
+  THAWSLIDE_HD void prepare(Group& group, const MemoryLayout& room, std::size_t tile) const {
     if constexpr (adds) {
       group.each(patch_nodes * size, [this, room, tile](std::size_t k) {
-        room.patch()[k] = Room::goes_on ? patches[tile * patch_nodes * size + k] : Real(0);
+        room.patch()[k] = MemoryLayout::goes_on ? patches[tile * patch_nodes * size + k] : Real(0);
         (raise<Adds>(k % size, room.patch()[k]), ...);
       });
     }
@@ -121,7 +121,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     }
   }
   template <class Group>
-  THAWSLIDE_HD void leave(Group& group, const Room& room, std::size_t tile) const {
+  THAWSLIDE_HD void leave(Group& group, const MemoryLayout& room, std::size_t tile) const {
     if constexpr (adds) {
       group.barrier();
       group.each(patch_nodes * size,
@@ -134,31 +134,31 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
 
   template <class Name>
   static constexpr std::size_t first_component =
-      mpm::IsLowered<Name> ? mpm::part_of<Name, Dim>.from : mpm::first_in_register<Name, Dim>;
-  // Of a sum, or of what is lowered.
+      mpm::IsMinReduced<Name> ? mpm::part_of<Name, Dim>.from : mpm::first_in_register<Name, Dim>;
+  // Initial value of a sum or a minimum.
   template <class Name>
-  static constexpr Real start = mpm::IsLowered<Name> ? std::numeric_limits<Real>::max() : Real(0);
+  static constexpr Real start = mpm::IsMinReduced<Name> ? std::numeric_limits<Real>::max() : Real(0);
 
-  // What is to be lowered begins beyond all bounds.
+  // Initializes min-reduced components to the largest number.
   template <class Name>
   THAWSLIDE_HD static void raise(std::size_t component, Real& number) {
-    if (mpm::IsLowered<Name> && component >= first_component<Name> &&
-        component < first_component<Name> + mpm::carried_numbers<Name, Dim>) {
+    if (mpm::IsMinReduced<Name> && component >= first_component<Name> &&
+        component < first_component<Name> + mpm::scatter_size<Name, Dim>) {
       number = start<Name>;
     }
   }
 
-  // A thread a particle.
-  THAWSLIDE_HD void visit(const Chunk& chunk, const Room& room, std::size_t k) const {
+  // Runs the kernels. One thread per particle.
+  THAWSLIDE_HD void visit(const Chunk& chunk, const MemoryLayout& room, std::size_t k) const {
     auto& slot = room.slots()[k];
     slot.sums = {};
     const TileTables<Dim>& tables = over.tables;
     const std::size_t place = chunk.first + k;
     const std::size_t node = tables.keys[place] & (nodes - 1), lowest = lowest_about<Dim>(node);
-    if (!over.takes(chunk.tile, node)) {
+    if (!over.accepts(chunk.tile, node)) {
       return;
     }
-    const mpm::One<Real> at{{tables.order[place]}};
+    const mpm::ScalarIndex<Real> at{{tables.order[place]}};
     const Real inverse_cell = Real(1) / over.cell;
     const typename T::Index nearest = T::node(T::index(tables.tile_keys[chunk.tile]), static_cast<int>(node));
     mpm::OnePlace<Dim, Real> from_node{{}, lowest, {}};
@@ -171,8 +171,8 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     mpm::OneWeights<Dim, Real> weights;
     over.weights.set(weights, from_node, over.particles, at, over.cell, inverse_cell);
     const auto patches_read = room.patches_read();
-    const mpm::SeenByOne<mpm::OneWeights<Dim, Real>, typename Room::PatchesRead> seen{weights, patches_read};
-    typename Room::Carried carried{};
+    const mpm::ScalarGather<mpm::OneWeights<Dim, Real>, typename MemoryLayout::PatchesRead> seen{weights, patches_read};
+    typename MemoryLayout::Carried carried{};
     Sums of_particle{};
     mpm::ParticleView<Dim, Real> particles = over.particles;
     (run(kernel_of(kernels.template of<Kernels>(), chunk.tile), particles, at, seen, carried,
@@ -183,12 +183,13 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     slot.keep(weights);
   }
   template <class Kernel, class Seen, class Sum>
-  THAWSLIDE_HD static void run(const Kernel& kernel, mpm::ParticleView<Dim, Real>& particles, const mpm::One<Real>& at,
-                               const Seen& seen, typename Room::Carried& carried, Sum& sum) {
+  THAWSLIDE_HD static void run(const Kernel& kernel, mpm::ParticleView<Dim, Real>& particles,
+                               const mpm::ScalarIndex<Real>& at, const Seen& seen,
+                               typename MemoryLayout::Carried& carried, Sum& sum) {
     kernel(particles, at, seen, carried, sum);
   }
 
-  THAWSLIDE_HD static void add_up(const Chunk& chunk, const Room& room) {
+  THAWSLIDE_HD static void add_up(const Chunk& chunk, const MemoryLayout& room) {
     Sums sum = *room.sums();
     for (std::size_t k = 0; k < chunk.last - chunk.first; ++k) {
       sum += room.slots()[k].sums;
@@ -196,28 +197,28 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     *room.sums() = sum;
   }
 
-  // Of the particles of a cell those of a chunk.
+  // Particles of a cell that belong to a chunk.
   struct CellPart {
     std::size_t first, last;
     bool begins, ends;
-    [[nodiscard]] THAWSLIDE_HD bool is_there() const { return first < last; }
+    [[nodiscard]] THAWSLIDE_HD bool is_present() const { return first < last; }
   };
   [[nodiscard]] THAWSLIDE_HD CellPart part_of_cell(const Chunk& chunk, std::size_t k) const {
     const std::size_t cell = chunk.cell + k;
     const std::size_t from = first_of_cell(chunk.tile, cell), to = first_of_cell(chunk.tile, cell + 1);
     CellPart part{from < chunk.first ? chunk.first : from, to < chunk.last ? to : chunk.last, from >= chunk.first,
                   to <= chunk.last};
-    if (!part.is_there() || !over.takes(chunk.tile, cell)) {
+    if (!part.is_present() || !over.accepts(chunk.tile, cell)) {
       part.last = part.first;
     }
     return part;
   }
 
-  // A thread a node of a cell, then a thread a number of the patch.
+  // Adds contributions with one thread per node of a cell, then one thread per number of the patch.
   template <class Name, class Group>
-  THAWSLIDE_HD void add(Group& group, const Room& room, const Chunk& chunk) const {
-    constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
-    if (!Room::template is_first<Name>()) {
+  THAWSLIDE_HD void add(Group& group, const MemoryLayout& room, const Chunk& chunk) const {
+    constexpr std::size_t carried = mpm::scatter_size<Name, Dim>;
+    if (!MemoryLayout::template is_first<Name>()) {
       group.barrier();
     }
     group.each(chunk.cells * cell_nodes, [this, room, chunk](std::size_t k) { sum_in_cell<Name>(room, chunk, k); });
@@ -229,10 +230,10 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   }
 
   template <class Name>
-  THAWSLIDE_HD void sum_in_cell(const Room& room, const Chunk& chunk, std::size_t k) const {
-    constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
+  THAWSLIDE_HD void sum_in_cell(const MemoryLayout& room, const Chunk& chunk, std::size_t k) const {
+    constexpr std::size_t carried = mpm::scatter_size<Name, Dim>;
     const CellPart part = part_of_cell(chunk, k / cell_nodes);
-    if (!part.is_there()) {
+    if (!part.is_present()) {
       return;
     }
     const std::size_t node = k % cell_nodes;
@@ -257,9 +258,9 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   }
 
   template <class Name>
-  THAWSLIDE_HD void add_cells(const Room& room, const Chunk& chunk, const Layers& layers, std::size_t node,
+  THAWSLIDE_HD void add_cells(const MemoryLayout& room, const Chunk& chunk, const Layers& layers, std::size_t node,
                               std::size_t component) const {
-    constexpr std::size_t carried = mpm::carried_numbers<Name, Dim>;
+    constexpr std::size_t carried = mpm::scatter_size<Name, Dim>;
     Real& number = room.patch()[node * size + first_component<Name> + component];
     for_cells_that_see(layers, node, [&](std::size_t cell, std::size_t node_of_cell) {
       const std::size_t k = cell - chunk.cell;
@@ -267,9 +268,9 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
         return;
       }
       const CellPart part = part_of_cell(chunk, k);
-      if (part.is_there() && part.ends) {
+      if (part.is_present() && part.ends) {
         const Real brought = room.cell_sums()[(k * cell_nodes + node_of_cell) * carried + component];
-        number = mpm::IsLowered<Name> ? min(number, brought) : number + brought;
+        number = mpm::IsMinReduced<Name> ? min(number, brought) : number + brought;
       }
     });
   }
@@ -280,7 +281,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     return {chunk.cell / layer_cells, (chunk.cell + chunk.cells - 1) / layer_cells + 1};
   }
 
-  // Calls visit(cell, node of the cell) for the cells of some layers, in order, that see a node of the patch.
+  // Calls visit(cell, node of the cell), in order, for the cells of the given layers that reach a node of the patch.
   template <class Visit>
   THAWSLIDE_HD static void for_cells_that_see(const Layers& layers, std::size_t node, const Visit& visit) {
     constexpr auto edge = static_cast<std::size_t>(T::edge), patch_edge = static_cast<std::size_t>(T::patch_edge);

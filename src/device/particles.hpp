@@ -1,4 +1,4 @@
-// Particles in a device's memory.
+// Particles in device memory.
 #pragma once
 
 #include <algorithm>
@@ -9,17 +9,17 @@
 #include <vector>
 
 #include "device/array.hpp"
-#include "device/cell_works.hpp"
+#include "device/cell_kernels.hpp"
 #include "mpm/particle_view.hpp"
 
 namespace thawslide::device {
 
-// One field's numbers as they shall stand in memory.
+// Reorders one field.
 template <class T, int Components>
 struct GatherField {
   mpm::FieldView<T, Components> from, to;
   const std::uint32_t* order;
-  std::size_t count;  // after which numbers are kept, of the last block
+  std::size_t count;  // entries beyond, in the last block, stay in place
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     for (int c = 0; c < Components; ++c) {
@@ -28,14 +28,14 @@ struct GatherField {
   }
 };
 
-// Where each particle of a list stands, once they stand in memory in some order.
-struct NotePlace {
+// Inverse permutation: the new place of each particle after reordering.
+struct StorePlace {
   const std::uint32_t* order;
   std::uint32_t* place;
 
   THAWSLIDE_HD void operator()(std::size_t k) const { place[order[k]] = static_cast<std::uint32_t>(k); }
 };
-struct TakePlace {
+struct GatherPlace {
   const std::uint32_t* place;
   std::uint32_t* particles;
 
@@ -47,13 +47,13 @@ class Particles {
  public:
   using View = mpm::ParticleView<Dim, Real>;
 
-  // Copies so many particles; fields that are not kept are not kept here either.
+  // Copies particles from CPU memory. Fields that are absent there stay absent.
   Particles(Backend& backend, const View& from, std::size_t count) : backend_(backend), count_(count) {
     mpm::for_fields_of(view_, from, [&](auto& here, const auto& there) {
       here = {};
       if (there.is_kept()) {
         const std::size_t numbers = numbers_of(here);
-        here.numbers = room_for(here, numbers);
+        here.numbers = buffer_for(here, numbers);
         backend_.copy_in(here.numbers, there.numbers, numbers);
       }
     });
@@ -65,7 +65,7 @@ class Particles {
   // By ascending id.
   [[nodiscard]] const std::uint32_t* by_id() const { return by_id_.data(); }
 
-  // Copies all fields back, to as many particles, in the order in which they came.
+  // Copies all fields back to the same number of particles, in their original order.
   void copy_to(const View& to) {
     mpm::for_fields_of(view_, to, [&](const auto& here, const auto& there) {
       if (here.is_kept()) {
@@ -74,7 +74,7 @@ class Particles {
     });
   }
 
-  // Particle k becomes the one that stood at order[k].
+  // Moves the particle at order[k] to place k.
   void reorder(const std::uint32_t* order) {
     mpm::for_fields_of(view_, view_, [&](const auto& here, const auto& /*same*/) {
       if (here.is_kept()) {
@@ -82,9 +82,9 @@ class Particles {
       }
     });
     place_.resize(count_);
-    backend_.for_each(count_, NotePlace{order, place_.data()});
-    backend_.for_each(count_, TakePlace{place_.data(), by_id_.data()});
-    backend_.for_each(count_, TakePlace{place_.data(), as_they_came_.data()});
+    backend_.for_each(count_, StorePlace{order, place_.data()});
+    backend_.for_each(count_, GatherPlace{place_.data(), by_id_.data()});
+    backend_.for_each(count_, GatherPlace{place_.data(), as_they_came_.data()});
   }
 
  private:
@@ -94,7 +94,7 @@ class Particles {
     return (count_ + block - 1) / block * block * Components;
   }
   template <class T, int Components>
-  T* room_for(const mpm::FieldView<T, Components>& /*field*/, std::size_t numbers) {
+  T* buffer_for(const mpm::FieldView<T, Components>& /*field*/, std::size_t numbers) {
     fields_.emplace_back(backend_, numbers * sizeof(T));
     return reinterpret_cast<T*>(fields_.back().data());
   }
@@ -118,7 +118,7 @@ class Particles {
   Backend& backend_;
   std::size_t count_;
   View view_{};
-  std::vector<Array<std::byte, Backend>> fields_;  // those that are kept, in order
+  std::vector<Array<std::byte, Backend>> fields_;  // fields that are present, in order
   Array<std::byte, Backend> gathered_{backend_};
   Array<std::uint32_t, Backend> by_id_{backend_}, as_they_came_{backend_}, place_{backend_};
 };

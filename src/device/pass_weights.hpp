@@ -1,5 +1,5 @@
-// What ties the particles of a pass to nodes, as a thread with one particle makes it: the weights of
-// mpm/particle_pass.hpp in plain numbers.
+// Shape function weights between a particle and nodes, one particle per thread: scalar counterpart of the weights in
+// mpm/particle_pass.hpp.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace thawslide::device {
 
-// All records of the pass go by the linear shape functions.
+// Linear shape functions for all records of the pass.
 struct LinearWeights {
   template <int Dim>
   [[nodiscard]] THAWSLIDE_HD static bool at_side(std::size_t /*axis*/, int /*node*/) {
@@ -17,13 +17,13 @@ struct LinearWeights {
   }
   template <int Dim, class Real, class Particles>
   THAWSLIDE_HD void set(mpm::OneWeights<Dim, Real>& weights, const mpm::OnePlace<Dim, Real>& place,
-                        const Particles& /*particles*/, const mpm::One<Real>& /*at*/, Real /*cell*/,
+                        const Particles& /*particles*/, const mpm::ScalarIndex<Real>& /*at*/, Real /*cell*/,
                         Real inverse_cell) const {
     weights.set_linear(place, inverse_cell);
   }
 };
 
-// Shape: of momentum. sizes: of particles, in cells; on the device.
+// Shape: shape functions of momentum. sizes: of particles, in cells, in device memory.
 template <class Shape, int Dim, class Real>
 struct MomentumWeights {
   mpm::SizesOfBodies<Real> sizes;
@@ -35,18 +35,20 @@ struct MomentumWeights {
   }
   template <class Particles>
   THAWSLIDE_HD void set(mpm::OneWeights<Dim, Real>& weights, const mpm::OnePlace<Dim, Real>& place,
-                        const Particles& particles, const mpm::One<Real>& at, Real /*cell*/, Real inverse_cell) const {
+                        const Particles& particles, const mpm::ScalarIndex<Real>& at, Real /*cell*/,
+                        Real inverse_cell) const {
     weights.set_linear(place, inverse_cell);
     weights.template set_momentum<Shape>(place, sizes.of(particles, at), inverse_cell);
   }
 };
 
-// With the weights of APIC.
+// Adds the weights of APIC.
 template <class Shape, int Dim, class Real>
 struct AffineWeights : MomentumWeights<Shape, Dim, Real> {
   template <class Particles>
   THAWSLIDE_HD void set(mpm::OneWeights<Dim, Real>& weights, const mpm::OnePlace<Dim, Real>& place,
-                        const Particles& particles, const mpm::One<Real>& at, Real cell, Real inverse_cell) const {
+                        const Particles& particles, const mpm::ScalarIndex<Real>& at, Real cell,
+                        Real inverse_cell) const {
     MomentumWeights<Shape, Dim, Real>::set(weights, place, particles, at, cell, inverse_cell);
     weights.template set_affine<Shape>(place, cell, inverse_cell);
   }

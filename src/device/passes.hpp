@@ -1,4 +1,4 @@
-// Passes over particles and sums at nodes, run by a backend.
+// Particle passes and nodal sums on a backend.
 #pragma once
 
 #include "device/add_up.hpp"
@@ -8,7 +8,7 @@
 
 namespace thawslide::device {
 
-// Room of a pass that is kept from step to step: patches, and what kernels sum.
+// Memory of passes, reused in all steps: patches, and sums of kernels.
 template <class Backend, class Real>
 class PassMemory {
  public:
@@ -18,7 +18,7 @@ class PassMemory {
     patches_.resize(numbers > patches_.size() ? numbers : patches_.size());
     return patches_.data();
   }
-  // So many.
+  // count: number of entries.
   template <class Sums>
   [[nodiscard]] Sums* sums(std::size_t count) {
     sums_.resize(count * sizeof(Sums) > sums_.size() ? count * sizeof(Sums) : sums_.size());
@@ -30,7 +30,7 @@ class PassMemory {
   Array<std::byte, Backend> sums_;
 };
 
-// The records of nodes, one after another, by name.
+// Nodal records, one array per name.
 template <class Backend, class Real, class... Names>
 struct NodeArrays : mpm::ByName<mpm::Named<Names, Array<Real, Backend>>...> {
   explicit NodeArrays(Backend& backend)
@@ -38,31 +38,31 @@ struct NodeArrays : mpm::ByName<mpm::Named<Names, Array<Real, Backend>>...> {
             mpm::Named<Names, Array<Real, Backend>>{Array<Real, Backend>(backend)}...} {}
 };
 
-// As mpm::particle_pass, with kernels that hold what they need by value. What they add stands in the patches of
-// `memory` then; returns where in the device's memory their sums over particles, if any, stand until the next pass.
-// records: of what is read, by name.
-template <class Backend, class Weights, class Takes, int Dim, class Real, class Records, class... Kernels>
+// Equivalent of mpm::particle_pass, with kernels that hold their parameters by value. Contributions are left in the
+// patches of `memory`. Returns a pointer, in device memory, to the kernels' sums over particles, valid until the next
+// pass. records: nodal records to read, by name.
+template <class Backend, class Weights, class TileFilter, int Dim, class Real, class Records, class... Kernels>
 SumsOf<Kernels...>* particle_pass(Backend& backend, PassMemory<Backend, Real>& memory,
-                                  const PassOver<Weights, Takes, Dim, Real>& over, const Records& records,
+                                  const PassOver<Weights, TileFilter, Dim, Real>& over, const Records& records,
                                   const Kernels&... kernels) {
   using Reads = mpm::AllOf<typename Kernels::Reads...>;
   using Adds = mpm::AllOf<typename Kernels::Adds...>;
-  using Pass = ParticlePass<PassOver<Weights, Takes, Dim, Real>, Reads, Adds, Dim, Real, Kernels...>;
+  using Pass = ParticlePass<PassOver<Weights, TileFilter, Dim, Real>, Reads, Adds, Dim, Real, Kernels...>;
   const std::size_t tiles = over.tables.tiles;
-  auto* sums = memory.template sums<SumsOf<Kernels...>>(room_to_add_up(tiles));
+  auto* sums = memory.template sums<SumsOf<Kernels...>>(partial_sum_count(tiles));
   const Pass pass{over,
                   RecordsRead<Reads, Real>::from(records),
                   memory.patches(tiles * Pass::patch_nodes * Pass::size),
                   sums,
                   {{kernels}...}};
-  backend.for_groups(tiles, Pass::Room::threads, Pass::Room::bytes, pass);
+  backend.for_groups(tiles, Pass::MemoryLayout::threads, Pass::MemoryLayout::bytes, pass);
   if constexpr (Pass::adds_up) {
     return add_up(backend, sums, tiles);
   }
   return sums;
 }
 
-// A kernel that neither reads nor adds to nodes, nor sums, for a particle as it stands in memory.
+// Calls, for one particle in memory order, a kernel that neither accesses nodes nor sums.
 template <int Dim, class Real, class Kernel>
 struct VisitInMemory {
   static_assert(std::is_same_v<typename Kernel::Reads, mpm::RecordList<>> &&
@@ -77,7 +77,7 @@ struct VisitInMemory {
     const mpm::ByName<> seen{};
     mpm::ByName<> added{};
     mpm::NoAccount account;
-    kernel(view, mpm::One<Real>{{static_cast<std::uint32_t>(k)}}, seen, added, account);
+    kernel(view, mpm::ScalarIndex<Real>{{static_cast<std::uint32_t>(k)}}, seen, added, account);
   }
 };
 

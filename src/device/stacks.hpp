@@ -1,4 +1,5 @@
-// Blocks that stand above each other, and the columns of nodes in them: for what depends on the horizontal place alone.
+// Stacks of blocks above each other, and their columns of nodes, for quantities that depend on the horizontal position
+// only.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,7 @@ using ColumnIndex = std::array<int, Dim - 1>;
 template <int Dim>
 inline constexpr std::size_t columns_of_block = static_cast<std::size_t>(mpm::power(mpm::Tile<Dim>::edge, Dim - 1));
 
-// The column of a node of a block.
+// Column of a node of a block.
 template <int Dim>
 ColumnIndex<Dim> column_of_node(std::uint64_t block, std::size_t node) {
   using T = mpm::Tile<Dim>;
@@ -32,8 +33,8 @@ ColumnIndex<Dim> column_of_node(std::uint64_t block, std::size_t node) {
 
 template <int Dim>
 struct Stacks {
-  std::vector<std::uint32_t> of_block;    // the stack that it is in
-  std::vector<ColumnIndex<Dim>> columns;  // of one stack after the other, x fastest
+  std::vector<std::uint32_t> of_block;    // stack of each block
+  std::vector<ColumnIndex<Dim>> columns;  // stack by stack, x fastest
 
   explicit Stacks(const std::vector<std::uint64_t>& blocks) {
     std::map<ColumnIndex<Dim>, std::uint32_t> numbers;  // by the first column
@@ -48,16 +49,16 @@ struct Stacks {
   }
 };
 
-// Where a column stands among those of all stacks. column: counted from the first of a tile, -1 .. edge.
+// Place of a column among those of all stacks. column: relative to the first column of a tile, -1 .. edge.
 template <int Dim>
 THAWSLIDE_HD std::size_t place_of_column(const TileTables<Dim>& tables, const std::uint32_t* stack_of_block,
                                          std::size_t tile, const ColumnIndex<Dim>& column) {
   using T = mpm::Tile<Dim>;
   int direction = T::stencil / 2, in_stack = 0;
   for (std::size_t a = Dim - 1; a-- > 0;) {
-    const int beside = column[a] >> T::edge_bits;  // rounds down
-    direction += beside * mpm::power(3, static_cast<int>(a));
-    in_stack = in_stack * T::edge + (column[a] - beside * T::edge);
+    const int adjacent = column[a] >> T::edge_bits;  // rounds down
+    direction += adjacent * mpm::power(3, static_cast<int>(a));
+    in_stack = in_stack * T::edge + (column[a] - adjacent * T::edge);
   }
   const std::int32_t block =
       tables.blocks_about_tile[tile * static_cast<std::size_t>(T::stencil) + static_cast<std::size_t>(direction)];

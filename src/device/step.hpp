@@ -1,5 +1,5 @@
-// A step on a device: momentum to the grid, contact, motion, stress, heat and pore pressure (simulation.cpp has the
-// same stages for the processor).
+// Time step on a device: momentum to the grid, contact, motion, stress, heat and pore pressure. The stages match those
+// of simulation.cpp on the CPU.
 #pragma once
 
 #include <variant>
@@ -8,12 +8,12 @@
 #include "device/band_stages.hpp"
 #include "device/base_laws.hpp"
 #include "device/erodible_bed.hpp"
+#include "device/escape_check.hpp"
 #include "device/front.hpp"
-#include "device/looks.hpp"
 #include "device/maps.hpp"
 #include "device/material_stress.hpp"
+#include "device/reductions.hpp"
 #include "device/step_passes.hpp"
-#include "device/strays.hpp"
 #include "device/velocity_filter.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/position_kernel.hpp"
@@ -21,16 +21,16 @@
 
 namespace thawslide::device {
 
-// Shape: of momentum's shape functions (mpm/shape.hpp).
+// Shape: shape functions of momentum (mpm/shape.hpp).
 template <class Backend, class Shape, int Dim, class Real>
 class Step {
   using Passes = StepPasses<Backend, Shape, Dim, Real>;
   using Sums = StepSums<Dim, Real>;
 
  public:
-  // So many particles of the processor's memory, copied.
+  // Copies `count` particles from CPU memory.
   Step(Backend& backend, const StepModel<Dim, Real>& model, const mpm::ParticleView<Dim, Real>& particles,
-       std::size_t count, const AskProcessor<Dim, Real>& ask)
+       std::size_t count, const HostCallbacks<Dim, Real>& ask)
       : passes_(backend, model, particles, count, ask.ground),
         sums_(backend, 1),
         band_(passes_, ask, sums_.data()),
@@ -41,23 +41,23 @@ class Step {
     free_gaps_.set(model.free_gaps);
   }
 
-  // To as many particles, in the order in which they came.
+  // Copies to the same number of particles, in their original order.
   void copy_to(const mpm::ParticleView<Dim, Real>& particles) { passes_.particles.copy_to(particles); }
   [[nodiscard]] TileTables<Dim> tables() const { return passes_.cells.tables(); }
 
-  // Particles move in memory to stand in canonical order. Results do not depend on it.
+  // Sorts particles in memory into canonical order. Does not affect results.
   void sort_in_memory() {
     find_cells();
     passes_.particles.reorder(passes_.cells.tables().order);
-    passes_.cells.note_order_in_memory();
+    passes_.cells.store_memory_order();
   }
 
-  // One step of dt [s] from a time [s] on.
+  // Advances the solution by dt [s], from time [s].
   Sums step(Real time, Real dt) {
     find_cells();
     passes_.backend.end_stage("find_cells");
     if (passes_.model.rescales_band && passes_.model.band.rescaling_mixes) {
-      band_.rescale(time);  // which changes temperatures
+      band_.rescale(time);  // changes temperatures
     }
     if (passes_.ground.exists() || passes_.model.has_band()) {
       band_.average();
@@ -77,26 +77,26 @@ class Step {
       band_.drain_pore_pressure(dt);
       passes_.backend.end_stage("drain_pore_pressure");
     }
-    take_positions();
-    passes_.backend.end_stage("take_new_positions");
+    update_positions();
+    passes_.backend.end_stage("update_positions");
     return sums_.get(0);
   }
 
-  // Of the particles as they are after a step.
-  mpm::WatchedSums<Real> watch(const mpm::LookAtParticle<Dim, Real>& look) {
-    return passes_.sum_over_particles(Watch<Dim, Real>{look}, watched_);
+  // Reductions over the particles after a step.
+  mpm::MonitorSums<Real> watch(const mpm::MonitorKernel<Dim, Real>& look) {
+    return passes_.sum_over_particles(RunMonitor<Dim, Real>{look}, watched_);
   }
   band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) {
     return passes_.sum_over_particles(SumOverBody<Dim, Real>{of_particle}, body_);
   }
-  mpm::OnWay front(const mpm::Way<Dim>& way, double mass) {
+  mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) {
     return front_.find(way, mass, passes_.cells.tables(), passes_.particles.view(), passes_.particles.size());
   }
-  // Where those stand that the last step told as strays, from the domain's lower corner [m].
-  std::vector<Vector<Real, Dim>> places_of_strays() {
-    return strays_.places(passes_, strays_kernel(), sums_.get(0).strays);
+  // Positions [m, relative to the domain's lower corner] of the particles that the last step counted as escaped.
+  std::vector<Vector<Real, Dim>> escaped_positions() {
+    return escape_check_.places(passes_, escape_kernel(), sums_.get(0).escapes);
   }
-  void look_at_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapLook& look) {
+  void sample_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapSample& look) {
     if constexpr (Dim == 3) {
       look.moments = passes_.sum_over_particles(SumMoments{}, moments_);
       maps_.sum(cells, passes_.cells.tables(), passes_.particles.view(), look);
@@ -104,18 +104,18 @@ class Step {
   }
 
  private:
-  // As in simulation.cpp, stage by stage.
+  // The stages below match those of simulation.cpp.
   void find_cells() {
     passes_.cells.update(passes_.particles.view(), passes_.particles.by_id(), passes_.particles.size());
     if (!passes_.cells.blocks_changed()) {
       return;
     }
     const std::size_t nodes = passes_.cells.tables().blocks * Passes::block_nodes;
-    passes_.nodes.template make_room<mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact,
-                                     mpm::Motion, mpm::Velocity>(nodes);
+    passes_.nodes.template resize_for<mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact,
+                                      mpm::Motion, mpm::Velocity>(nodes);
     passes_.marks.resize(passes_.cells.tables());
     maps_.forget_tiles();
-    band_.make_room(nodes);
+    band_.resize_for(nodes);
     if (!passes_.model.moves) {
       for (Array<Real, Backend>* records :
            {&passes_.template of<mpm::Momentum>(), &passes_.template of<mpm::Contact>()}) {
@@ -147,24 +147,24 @@ class Step {
     passes_.run(passes_.momentum(), mpm::AddMomentum<Dim, Real>{passes_.model.gravity, passes_.model.effective_stress,
                                                                 passes_.model.is_viscous()});
     passes_.if_affine([&](const auto& weights) {
-      passes_.run(passes_.over(weights, EveryTile{}), mpm::AddAffineMomentum<Dim, Real>{});
+      passes_.run(passes_.over(weights, AllTiles{}), mpm::AddAffineMomentum<Dim, Real>{});
     });
-    passes_.template sum<mpm::Momentum, void>(EveryTile{});
+    passes_.template sum<mpm::Momentum, void>(AllTiles{});
   }
 
   void resolve_contact(Real time, Real dt) {
-    const NodesInStep<Dim, Real> step = passes_.nodes_in_step(time, dt);
+    const NodeStageArgs<Dim, Real> step = passes_.nodes_in_step(time, dt);
     if (passes_.ground.exists()) {
       const SeesCandidates<Dim> sees = passes_.ground.sees_candidates();
       passes_.run(passes_.momentum(sees),
                   terrain::AddNearGround<Dim, Real>{passes_.model.phases, passes_.model.lubrication});
       passes_.template sum<mpm::NearGround, mpm::Clearance>(sees);
-      ask_of_base(passes_.backend, step, passes_.model.base, passes_.model.cell, passes_.ground, band_columns_.states(),
-                  bases_.data());
+      evaluate_law_at_nodes(passes_.backend, step, passes_.model.base, passes_.model.cell, passes_.ground,
+                            band_columns_.states(), bases_.data());
     }
     if (bed_.exists()) {
-      bed_.share_out(step.tables, passes_.particles.view(), passes_.body_sizes(), passes_.ground, passes_.model.cell,
-                     step.nodes);
+      bed_.distribute(step.tables, passes_.particles.view(), passes_.body_sizes(), passes_.ground, passes_.model.cell,
+                      step.nodes);
       resolve_contact(step, bed_.below_nodes());
       bed_.collect(step.nodes, passes_.ground.candidates());
     } else {
@@ -179,15 +179,16 @@ class Step {
   }
 
   template <class Beds>
-  void resolve_contact(const NodesInStep<Dim, Real>& step, const Beds& beds) {
+  void resolve_contact(const NodeStageArgs<Dim, Real>& step, const Beds& beds) {
     const std::size_t blocks = step.tables.blocks;
-    passes_.keep(block_pass<Dim>(passes_.backend, blocks,
-                                 ResolveContact<Beds, Dim, Real>{
-                                     step, passes_.ground.exists() ? passes_.ground.number() : nullptr, bases_.data(),
-                                     passes_.model.base.clamp, passes_.model.base.cap_pressure,
-                                     passes_.model.base.heat_fraction, beds},
-                                 passes_.memory.template sums<terrain::ContactWork<Dim, Real>>(room_to_add_up(blocks))),
-                 &sums_.data()->contact);
+    passes_.keep(
+        block_pass<Dim>(
+            passes_.backend, blocks,
+            ResolveContact<Beds, Dim, Real>{step, passes_.ground.exists() ? passes_.ground.number() : nullptr,
+                                            bases_.data(), passes_.model.base.clamp, passes_.model.base.cap_pressure,
+                                            passes_.model.base.heat_fraction, beds},
+            passes_.memory.template sums<terrain::ContactWork<Dim, Real>>(partial_sum_count(blocks))),
+        &sums_.data()->contact);
   }
 
   void move(Real time, Real dt) {
@@ -197,17 +198,17 @@ class Step {
                  &sums_.data()->particle_kinetic);
     passes_.if_affine([&](const auto& weights) {
       using Affine = mpm::MoveAffine<Dim, Real>;
-      const auto* more = passes_.run(passes_.over(weights, EveryTile{}), Affine{dt});
+      const auto* more = passes_.run(passes_.over(weights, AllTiles{}), Affine{dt});
       passes_.backend.for_each(1, Add<Real>{&more->template of<Affine>(), &sums_.data()->particle_kinetic});
     });
     passes_.backend.for_each(1, Fill<Real>{&sums_.data()->filtered, Real(0)});
     if (passes_.model.filter_order > 0 && passes_.model.filters_in_step(time, dt)) {
       filter_velocities(passes_, &sums_.data()->filtered);
     }
-    passes_.template sum<mpm::Velocity, void>(EveryTile{});
+    passes_.template sum<mpm::Velocity, void>(AllTiles{});
     const std::size_t blocks = passes_.cells.tables().blocks;
     passes_.keep(block_pass<Dim>(passes_.backend, blocks, MapBack<Dim, Real>{passes_.nodes_in_step(time, dt)},
-                                 passes_.memory.template sums<Real>(room_to_add_up(blocks))),
+                                 passes_.memory.template sums<Real>(partial_sum_count(blocks))),
                  &sums_.data()->mapped_back);
   }
 
@@ -224,34 +225,34 @@ class Step {
     }
   }
 
-  // And what the processor asks of the particles at their new places.
-  void take_positions() {
-    const mpm::TakePosition<Dim, Real> take{passes_.model.lower, passes_.model.upper};
+  // Updates positions and evaluates the reductions that the CPU requested.
+  void update_positions() {
+    const mpm::UpdatePosition<Dim, Real> take{passes_.model.lower, passes_.model.upper};
     const FindExtremes<Dim, Real> extremes{passes_.model.band, band_.hydraulic(), {free_gaps_.data()}};
-    const CountStrays<Dim, Real> strays = strays_kernel();
-    if (passes_.model.tells_extremes && passes_.model.tells_strays) {
-      take_positions(take, extremes, strays);
-    } else if (passes_.model.tells_extremes) {
-      take_positions(take, extremes);
-    } else if (passes_.model.tells_strays) {
-      take_positions(take, strays);
+    const CountEscaped<Dim, Real> escapes = escape_kernel();
+    if (passes_.model.finds_extremes && passes_.model.counts_escaped) {
+      update_positions(take, extremes, escapes);
+    } else if (passes_.model.finds_extremes) {
+      update_positions(take, extremes);
+    } else if (passes_.model.counts_escaped) {
+      update_positions(take, escapes);
     } else {
-      take_positions(take);
+      update_positions(take);
     }
   }
-  [[nodiscard]] CountStrays<Dim, Real> strays_kernel() const {
+  [[nodiscard]] CountEscaped<Dim, Real> escape_kernel() const {
     return {passes_.cells.tables().blocks_about_tile,
             passes_.ground.exists() ? passes_.ground.partly_unknown() : nullptr, passes_.model.faces.extent};
   }
   template <class... Kernels>
-  void take_positions(const Kernels&... kernels) {
+  void update_positions(const Kernels&... kernels) {
     const auto* all = passes_.run(passes_.linear(), kernels...);
     (passes_.keep(&all->template of<Kernels>(), place_of(&all->template of<Kernels>())), ...);
   }
-  // Where in the device's memory what the last pass sums is kept.
-  mpm::BadParticle* place_of(const mpm::BadParticle* /*sum*/) { return &sums_.data()->bad; }
+  // Destination, in device memory, of each sum of the last pass.
+  mpm::InvalidParticle* place_of(const mpm::InvalidParticle* /*sum*/) { return &sums_.data()->invalid; }
   band::StepExtremes* place_of(const band::StepExtremes* /*sum*/) { return &sums_.data()->extremes; }
-  std::uint64_t* place_of(const std::uint64_t* /*sum*/) { return &sums_.data()->strays; }
+  std::uint64_t* place_of(const std::uint64_t* /*sum*/) { return &sums_.data()->escapes; }
 
   Passes passes_;
   Array<Sums, Backend> sums_;
@@ -260,10 +261,10 @@ class Step {
   BandColumns<Backend, Dim, Real> band_columns_;
   ErodibleBed<Backend, Dim, Real> bed_;
   Array<Real, Backend> free_gaps_{passes_.backend};
-  Array<BaseOfNode<Real>, Backend> bases_{passes_.backend};
-  Strays<Backend, Dim, Real> strays_{passes_.backend};
+  Array<ContactInput<Real>, Backend> bases_{passes_.backend};
+  EscapeCheck<Backend, Dim, Real> escape_check_{passes_.backend};
   Front<Backend, Dim, Real> front_{passes_.backend};
-  Array<mpm::WatchedSums<Real>, Backend> watched_{passes_.backend, 1};
+  Array<mpm::MonitorSums<Real>, Backend> watched_{passes_.backend, 1};
   Array<band::BodySums<Dim, Real>, Backend> body_{passes_.backend, 1};
   Array<mpm::MassMoments, Backend> moments_{passes_.backend, 1};
 };

@@ -1,4 +1,4 @@
-// What the step on a device needs to know of the run, and what it tells of a step, in plain numbers.
+// Data exchanged between the run and a step on a device: model, host callbacks and sums.
 #pragma once
 
 #include <algorithm>
@@ -36,37 +36,37 @@ struct StepModel {
   std::vector<Real> half_sizes;                  // of particles, by body, in cells
   mpm::ShapeKind shape = mpm::ShapeKind::ugimp;  // of momentum
   bool affine = false;                           // APIC
-  bool moves = true;                             // off: heat and pore pressure alone
-  mpm::HeldSides<Dim> sides;                     // that prescribe velocity
+  bool moves = true;                             // off: heat and pore pressure only
+  mpm::HeldSides<Dim> sides;                     // with prescribed velocity
   Vector<Real, Dim> gravity;                     // [m/s2]
-  Real pic_share = 0;                            // of new velocities
-  int filter_order = 0;                          // of the velocity filter; 0: there is none
+  Real pic_share = 0;                            // fraction of PIC in new velocities
+  int filter_order = 0;                          // of the velocity filter; 0: none
   std::function<bool(Real time, Real dt)> filters_in_step;
   Real mass_damping = 0;  // [1/s]
   std::vector<mpm::MaterialModel<Real>> materials;
   physics::Phases<Real> phases;
-  bool effective_stress = false;  // the pore pressure acts inside the body too
-  bool lubrication = true;        // off: the base sees the initial porosity and saturation
+  bool effective_stress = false;  // pore pressure also acts inside the body
+  bool lubrication = true;        // off: the base uses the initial porosity and saturation
   mpm::DomainFaces<Dim, Real> faces;
-  Vector<Real, Dim> lower, upper;  // particles may be between these [m]
-  bool tells_extremes = false;     // StepSums::extremes is asked for
-  bool tells_strays = false;       // and StepSums::strays
+  Vector<Real, Dim> lower, upper;  // bounds of particle positions [m]
+  bool finds_extremes = false;     // StepSums::extremes is required
+  bool counts_escaped = false;     // StepSums::escapes is required
   terrain::BasalLaw<Real> base;
-  bool base_holds = false;        // no slip at all
+  bool base_holds = false;        // no slip
   bool pore_pressure = true;      // off: P = 0 at contact nodes
-  bool distance_check = false;    // a node may close its clearance before contact acts
-  bool pressure_changes = false;  // off: pore pressures rest
-  // Heat of particles, by masses of t = 0 and the secant to their heat content.
-  bool heat = false;   // off: temperatures rest
-  bool starts = true;  // the first step is that of t = 0
+  bool distance_check = false;    // contact acts only after a node has closed its clearance
+  bool pressure_changes = false;  // off: pore pressures are constant
+  // Heat of particles, with the masses at t = 0 and the secant of their heat content.
+  bool heat = false;   // off: temperatures are constant
+  bool starts = true;  // the next step is the first one, from t = 0
   band::AnyHeatContent<Real> heat_content;
   band::HeatFaces<Dim, Real> heat_faces;
   band::BandPhysics<Real> band;
   std::vector<Real> hydraulic_conductivity;       // by material [m/s]
-  std::vector<Real> free_gaps;                    // as band::FreeGaps
-  std::function<Real(Real time)> band_thickness;  // [m]; 0: there is no band, and xi = 1
-  bool rescales_band = true;                      // off: its scaling rests
-  bool scales_all = true;                         // and elsewhere too
+  std::vector<Real> free_gaps;                    // as in band::FreeGaps
+  std::function<Real(Real time)> band_thickness;  // [m]; 0: no band, xi = 1
+  bool rescales_band = true;                      // off: scaling is constant
+  bool scales_all = true;                         // scaling also applies outside the band
 
   [[nodiscard]] bool has_band() const { return heat || pressure_changes; }
   [[nodiscard]] bool lets_water_seep() const {
@@ -78,67 +78,66 @@ struct StepModel {
   }
 };
 
-// Tells what the nodes of a block know of the ground: of all nodes, x fastest; and returns whether the ground is known
-// everywhere below the block and a cell about it. Empty where there is no ground.
+// Returns the ground data of all nodes of a block, x fastest. The result is true if the ground is known everywhere
+// below the block and within one cell around it. Empty without ground.
 template <int Dim, class Real>
-using AskGround = std::function<bool(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes)>;
+using GroundQuery = std::function<bool(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes)>;
 
-// Thickness of the cells along the ground at the middle of a column of cells, by its indices along the horizontal axes
-// [m] (terrain/layer_thickness.hpp); empty: it is one cell.
+// Thickness [m] of the cells along the ground at the middle of a column of cells, by its indices along the horizontal
+// axes (terrain/layer_thickness.hpp). Empty: one cell.
 template <int Dim>
 using LayerAtMiddle = std::function<double(const std::array<int, Dim - 1>&)>;
 
-// Band columns, which lie under the slide and are the processor's; empty where there are none.
+// Band columns below the sliding mass, stored on the CPU; empty without band columns.
 template <class Real>
-struct ColumnsOnProcessor {
-  // Told of the active blocks, by ascending key, when they have changed: returns the numbers of those whose nodes it
-  // asks for.
-  std::function<std::vector<std::uint32_t>(const std::vector<std::uint64_t>& blocks)> take_blocks;
-  // Records of BaseState of the nodes that may touch the ground, in the order of blocks and nodes.
+struct HostColumns {
+  // Called after the active blocks have changed, with their ascending keys. Returns the numbers of the blocks whose
+  // nodes `follow` needs.
+  std::function<std::vector<std::uint32_t>(const std::vector<std::uint64_t>& blocks)> update_blocks;
+  // Records of BaseState of the candidate nodes, in the order of blocks and nodes.
   std::function<const std::vector<Real>&()> states;
-  // After contact: a record of columns_read<Dim> numbers of each node of the blocks that were asked for.
+  // Called after contact, with a record of column_record_size<Dim> numbers per node of the requested blocks.
   std::function<void(const std::vector<Real>& nodes)> follow;
 };
-// Of a node: the record of Contact, mass [kg] and mid-step velocity [m/s].
+// Per node: the record of Contact, mass [kg] and mid-step velocity [m/s].
 template <int Dim>
-inline constexpr std::size_t columns_read = static_cast<std::size_t>(mpm::Contact::size<Dim> + 1 + Dim);
+inline constexpr std::size_t column_record_size = static_cast<std::size_t>(mpm::Contact::size<Dim> + 1 + Dim);
 
-// The erodible bed, which is the processor's; empty where there is none.
+// Erodible bed, stored on the CPU; empty without one.
 template <int Dim, class Real>
-struct BedOnProcessor {
+struct HostBed {
   using Columns = std::vector<std::array<int, Dim - 1>>;  // by the indices of their nodes along the horizontal axes
 
-  terrain::BedMatter<Real> matter;
-  // Told of the columns of the active blocks and of those that the nodes stand in that may touch the ground, when
-  // blocks have changed; some are beyond the domain.
-  std::function<void(const Columns& of_blocks, const Columns& of_candidates)> take_columns;
-  // Told which parts of the former the slide has come to cover (terrain/bed.hpp) and how the latter press on the
-  // ground: what of the bed is available to these [kg].
+  terrain::BedMaterial<Real> material;
+  // Called after blocks have changed, with the columns of the active blocks and those of the candidate nodes. Some are
+  // outside the domain.
+  std::function<void(const Columns& of_blocks, const Columns& of_candidates)> set_columns;
+  // Called with the newly covered bed parts of the block columns (terrain/bed.hpp) and the loads of the candidate
+  // nodes. Returns the bed mass available to each candidate node [kg].
   std::function<const std::vector<Real>&(const std::vector<std::uint32_t>& parts, const std::vector<Real>& loads)>
-      share_out;
-  // After contact: a record of bed_told<Dim> numbers of each of the latter.
+      distribute;
+  // Called after contact, with a record of bed_record_size<Dim> numbers per candidate node.
   std::function<void(const std::vector<Real>& nodes)> collect;
 };
-// Of a node: the record of BedLayout, and the normal pressure where it has taken some of the bed [Pa].
+// Per node: the record of BedLayout, and the normal pressure [Pa] if the node has entrained bed material.
 template <int Dim>
-inline constexpr std::size_t bed_told = static_cast<std::size_t>(mpm::BedLayout<Dim>::size) + 1;
+inline constexpr std::size_t bed_record_size = static_cast<std::size_t>(mpm::BedLayout<Dim>::size) + 1;
 
-// What the processor is asked amid a step.
+// CPU functions called during a step.
 template <int Dim, class Real>
-struct AskProcessor {
-  AskGround<Dim, Real> ground;
-  // As band/flow_depth.hpp asks. Without the slope's cosine thickness is vertical; the gravity is needed for loads
-  // only.
+struct HostCallbacks {
+  GroundQuery<Dim, Real> ground;
+  // As in band/flow_depth.hpp. Without slope_cosine, thickness is vertical; normal_gravity is only needed for loads.
   band::OfPlace<Dim, Real> slope_cosine, normal_gravity;
   LayerAtMiddle<Dim> layer_at_middle;
-  ColumnsOnProcessor<Real> columns;
-  BedOnProcessor<Dim, Real> bed;
+  HostColumns<Real> columns;
+  HostBed<Dim, Real> bed;
 };
 
-// What maps and the way of the centre of mass take after a step, in space.
-struct MapLook {
-  std::vector<std::uint64_t> keys;  // of cells that the slide may be above, ascending (mpm::map_cell_key)
-  std::vector<mpm::MapSums> sums;   // of these
+// Sums for maps and for the path of the centre of mass after a step (3D only).
+struct MapSample {
+  std::vector<std::uint64_t> keys;  // of cells below the active tiles, ascending (mpm::map_cell_key)
+  std::vector<mpm::MapSums> sums;   // by key
   mpm::MassMoments moments;
 };
 
@@ -146,17 +145,17 @@ struct MapLook {
 template <int Dim, class Real>
 struct StepSums {
   terrain::ContactWork<Dim, Real> contact;
-  Real particle_kinetic = 0;  // as mpm::MoveWork
-  Real filtered = 0;          // kinetic energy that the velocity filter gave
-  Real mapped_back = 0;       // work of internal forces at mid-step velocities less that at the mapped-back ones
+  Real particle_kinetic = 0;  // as in mpm::MoveWork
+  Real filtered = 0;          // kinetic energy added by the velocity filter
+  Real mapped_back = 0;       // work of internal forces at mid-step velocities minus that at mapped-back velocities
   mpm::Deformed<Real> deformed;
-  Real band_rescale = 0;  // heat by another scaling
+  Real band_rescale = 0;  // heat added by changes of scaling
   band::HeatGain<Real> heat;
   band::DrainedWater<Real> drained;  // at the surface
   Real vented = 0;                   // water lost to frozen pores [kg]
-  mpm::BadParticle bad;              // after the particles have moved
+  mpm::InvalidParticle invalid;      // after particles have moved
   band::StepExtremes extremes;
-  std::uint64_t strays = 0;  // particles beyond the domain's sides, or in a block whose ground is partly unknown
+  std::uint64_t escapes = 0;  // particles outside the domain, or in a block with partly unknown ground
 };
 
 }  // namespace thawslide::device

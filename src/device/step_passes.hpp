@@ -1,4 +1,4 @@
-// What all stages of a step on a device share: particles, cells, records of nodes, and how passes run over them.
+// Data common to all stages of a step on a device: particles, cells, nodal records, and the passes over them.
 #pragma once
 
 #include "device/block_pass.hpp"
@@ -12,20 +12,20 @@
 
 namespace thawslide::device {
 
-// Shape: of momentum's shape functions (mpm/shape.hpp).
+// Shape: shape functions of momentum (mpm/shape.hpp).
 template <class Backend, class Shape, int Dim, class Real>
 class StepPasses {
  public:
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
 
-  // So many particles of the processor's memory, copied.
-  StepPasses(Backend& used, const StepModel<Dim, Real>& known, const mpm::ParticleView<Dim, Real>& of_processor,
-             std::size_t count, const AskGround<Dim, Real>& ask_ground)
+  // Copies `count` particles from CPU memory.
+  StepPasses(Backend& used, const StepModel<Dim, Real>& known, const mpm::ParticleView<Dim, Real>& of_cpu,
+             std::size_t count, const GroundQuery<Dim, Real>& query_ground)
       : backend(used),
         model(known),
-        particles(used, of_processor, count),
+        particles(used, of_cpu, count),
         cells(used, known.cell),
-        ground(used, ask_ground),
+        ground(used, query_ground),
         sizes_(used, known.half_sizes, Real(1)) {}
   StepPasses(const StepPasses&) = delete;
   StepPasses& operator=(const StepPasses&) = delete;
@@ -41,7 +41,7 @@ class StepPasses {
 
   [[nodiscard]] mpm::SizesOfBodies<Real> body_sizes() const { return sizes_.view(); }  // in cells
   [[nodiscard]] MomentumWeights<Shape, Dim, Real> weights() const { return {sizes_.view(), model.sides}; }
-  // Calls work(weights) with those of APIC where the model asks for it.
+  // Calls work(weights) with the weights of APIC if the model uses it.
   template <class Work>
   void if_affine(const Work& work) const {
     if constexpr (!std::is_same_v<Shape, mpm::Linear<Real>>) {
@@ -50,35 +50,35 @@ class StepPasses {
       }
     }
   }
-  // What a pass goes over: by linear shape functions, or by those of momentum.
-  template <class Takes = EveryTile>
-  [[nodiscard]] auto linear(const Takes& takes = {}) const {
-    return over(LinearWeights{}, takes);
+  // Pass arguments with linear shape functions, or with those of momentum.
+  template <class TileFilter = AllTiles>
+  [[nodiscard]] auto linear(const TileFilter& accepts = {}) const {
+    return over(LinearWeights{}, accepts);
   }
-  template <class Takes = EveryTile>
-  [[nodiscard]] auto momentum(const Takes& takes = {}) const {
-    return over(weights(), takes);
+  template <class TileFilter = AllTiles>
+  [[nodiscard]] auto momentum(const TileFilter& accepts = {}) const {
+    return over(weights(), accepts);
   }
-  template <class Weights, class Takes>
-  [[nodiscard]] PassOver<Weights, Takes, Dim, Real> over(const Weights& weights, const Takes& takes) const {
-    return {cells.tables(), particles.view(), weights, takes, model.cell};
+  template <class Weights, class TileFilter>
+  [[nodiscard]] PassOver<Weights, TileFilter, Dim, Real> over(const Weights& weights, const TileFilter& accepts) const {
+    return {cells.tables(), particles.view(), weights, accepts, model.cell};
   }
   template <class Over, class... Kernels>
   SumsOf<Kernels...>* run(const Over& over, const Kernels&... kernels) {
     return particle_pass(backend, memory, over, *this, kernels...);
   }
-  template <class Name, class Lowered, class Takes>
-  void sum(const Takes& takes) {
+  template <class Name, class MinReduced, class TileFilter>
+  void sum(const TileFilter& accepts) {
     const std::size_t numbers = of<Name>().size();
-    backend.for_each(numbers, SumPatches<Name, Lowered, Takes, Dim, Real>{cells.tables(), takes, memory.patches(0),
-                                                                          of<Name>().data()});
+    backend.for_each(numbers, SumPatches<Name, MinReduced, TileFilter, Dim, Real>{
+                                  cells.tables(), accepts, memory.patches(0), of<Name>().data()});
   }
   template <class Kernel, class Sum>
   Sum sum_over_particles(const Kernel& kernel, Array<Sum, Backend>& sum) {
     keep(&run(linear(), kernel)->template of<Kernel>(), sum.data());
     return sum.get(0);
   }
-  // What stands in memory that the next pass needs.
+  // Copies a sum from memory that the next pass reuses.
   template <class Sum>
   void keep(const Sum* from, Sum* to) {
     backend.for_each(1, Keep<Sum>{from, to});
@@ -89,12 +89,12 @@ class StepPasses {
     return nodes.template of<Name>();
   }
   [[nodiscard]] NodeViews<Dim, Real> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }
-  [[nodiscard]] NodesInStep<Dim, Real> nodes_in_step(Real time, Real dt) {
+  [[nodiscard]] NodeStageArgs<Dim, Real> nodes_in_step(Real time, Real dt) {
     return {cells.tables(), views(), model.faces,          model.gravity,       model.cell,      model.mass_damping,
             time,           dt,      model.distance_check, model.pore_pressure, model.base_holds};
   }
 
-  // The records that a pass reads (device/passes.hpp).
+  // Nodal records that a pass reads (device/passes.hpp).
   template <class Name>
   [[nodiscard]] const Real* numbers() const {
     if constexpr (std::is_same_v<Name, mpm::Planes>) {

@@ -1,4 +1,4 @@
-// What a thread knows of tiles and blocks (mpm/sparse_grid.hpp), as tables in the device's memory.
+// Tables of tiles and blocks (mpm/sparse_grid.hpp) in device memory.
 #pragma once
 
 #include <cstddef>
@@ -14,20 +14,20 @@ inline constexpr std::int32_t absent = -1;
 template <int Dim>
 struct TileTables {
   std::size_t particles, tiles, blocks;
-  // By place in canonical order: the particle, and its key, which is that of its tile and after it the place there of
-  // its nearest node.
+  // By rank in canonical order: the particle, and its key, which combines the tile's key with the place of its nearest
+  // node in the tile.
   const std::uint32_t* order;
   const std::uint64_t* keys;
   const std::uint64_t* tile_keys;   // ascending
   const std::uint64_t* block_keys;  // ascending
-  // By tile and node of the tile: the place in canonical order of the first particle of that cell or after; one more
-  // than there are.
+  // By tile and node of the tile: rank in canonical order of the first particle in that cell or after it. One extra
+  // entry at the end.
   const std::uint32_t* first_of_cell;
-  // By 3^Dim neighbours, in order; absent where there is none.
+  // By 3^Dim neighbours, in order; absent if there is none.
   const std::int32_t *blocks_about_tile, *tiles_about_block, *blocks_about_block;
 };
 
-// A node of a patch: the direction from its tile of the block that it lies in, and its place there.
+// Location of a patch node: direction of its block from the tile, and place within the block.
 template <int Dim>
 struct PlaceInBlock {
   std::size_t direction, node;
@@ -49,7 +49,7 @@ THAWSLIDE_HD PlaceInBlock<Dim> place_in_block(std::size_t in_patch) {
   return place;
 }
 
-// The place of a node of a block in the patch of the tile in some direction, which sees it.
+// Place of a block's node in the patch of the tile in a direction. The patch must contain the node.
 template <int Dim>
 THAWSLIDE_HD std::size_t place_in_patch(std::size_t in_block, std::size_t direction) {
   using T = mpm::Tile<Dim>;
@@ -65,7 +65,7 @@ THAWSLIDE_HD std::size_t place_in_patch(std::size_t in_block, std::size_t direct
   return place;
 }
 
-// Of a node of a tile, its own place and that of the lowest of the nodes about it, in the tile's patch.
+// Place, in the tile's patch, of the lowest of the nodes around a node of the tile.
 template <int Dim>
 THAWSLIDE_HD std::size_t lowest_about(std::size_t node) {
   using T = mpm::Tile<Dim>;

@@ -1,4 +1,4 @@
-// The velocities of particles replaced by those that their nodes' rigid motions give (mpm/velocity_filter.hpp).
+// Replaces particle velocities by those of the rigid motions of their nodes (mpm/velocity_filter.hpp).
 #pragma once
 
 #include "device/step_passes.hpp"
@@ -7,7 +7,7 @@
 
 namespace thawslide::device {
 
-// A thread a node.
+// One thread per node.
 template <int Dim, class Real>
 struct MakeIncrement {
   bool first;
@@ -30,16 +30,16 @@ struct MakeIncrement {
   }
 };
 
-// Momentum is added to the patches of Velocity anew. gained: kinetic energy [J], in the device's memory.
+// Recomputes the momentum in the patches of Velocity. gained: kinetic energy [J], in device memory.
 template <class Backend, class Shape, int Dim, class Real>
 void filter_velocities(StepPasses<Backend, Shape, Dim, Real>& passes, Real* gained) {
   using Passes = StepPasses<Backend, Shape, Dim, Real>;
-  using Taking = mpm::TakeFiltered<Dim, Real>;
+  using Taking = mpm::ApplyFiltered<Dim, Real>;
   const std::size_t nodes = passes.cells.tables().blocks * Passes::block_nodes;
-  passes.nodes.template make_room<mpm::FilterMoments, mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>(
+  passes.nodes.template resize_for<mpm::FilterMoments, mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>(
       nodes);
   const auto make_increments = [&](bool first) {
-    passes.template sum<mpm::FilterMomentum, void>(EveryTile{});
+    passes.template sum<mpm::FilterMomentum, void>(AllTiles{});
     passes.backend.for_each(
         nodes, MakeIncrement<Dim, Real>{
                    first, mpm::least_square_of(passes.model.cell), passes.template of<mpm::Momentum>().data(),
@@ -47,7 +47,7 @@ void filter_velocities(StepPasses<Backend, Shape, Dim, Real>& passes, Real* gain
                    passes.template of<mpm::FilterIncrement>().data(), passes.template of<mpm::FilterTotal>().data()});
   };
   passes.run(passes.momentum(), mpm::AddFilterMoments<Dim, Real>{});
-  passes.template sum<mpm::FilterMoments, void>(EveryTile{});
+  passes.template sum<mpm::FilterMoments, void>(AllTiles{});
   passes.run(passes.momentum(), mpm::AddFilterMomentum<Dim, Real>{});
   make_increments(true);
   for (int order = 2; order <= passes.model.filter_order; ++order) {

@@ -25,8 +25,8 @@ struct Axis {
   int count;
 };
 
-// Shares of the interval about a place in the cells of old points; places in units of their distance. What lies beyond
-// the outermost cells is left out.
+// Fractions of the interval around a position in the cells of old points; positions in units of their spacing. Parts
+// outside the outermost cells are omitted.
 AxisWeights overlaps(double place, double width, int count) {
   const double low = place - 0.5 * width, high = place + 0.5 * width;
   const int first = static_cast<int>(std::clamp(std::floor(low + 0.5), 0.0, count - 1.0));
@@ -38,7 +38,7 @@ AxisWeights overlaps(double place, double width, int count) {
   return made;
 }
 
-// Linear interpolation, without the points beyond the outermost.
+// Linear interpolation that omits points beyond the outermost ones.
 AxisWeights between_points(double place, int count) {
   const double below = std::floor(place), share = place - below;
   AxisWeights made;
@@ -69,7 +69,7 @@ WeightedSums sums_in_one_system(const Raster& raster, const Raster& layout) {
 
 using Place = std::array<double, 2>;
 
-// The corners of the cells of a layout's row, from its lower (0) or upper (1) side, in columns and rows of a raster.
+// Corners of the cells of a layout's row, on its lower (0) or upper (1) side, in columns and rows of a raster.
 std::vector<Place> corners_of(const Reprojection& reprojection, const Raster& raster, const Raster& layout, int row,
                               int side) {
   const auto count = static_cast<std::size_t>(layout.columns) + 1;
@@ -94,8 +94,8 @@ double distance(const Place& one, const Place& other) {
   return std::max(std::abs(one[0] - other[0]), std::abs(one[1] - other[1]));
 }
 
-// Three parts for each of the raster's cells along a side: a whole number of parts a cell, or nearly so, has no pattern
-// of its own against that of the cells.
+// Three parts for each of the raster's cells along a side. A nearly whole number of parts per cell avoids aliasing with
+// the pattern of the cells.
 int parts_of(double side) {
   constexpr double parts_per_cell = 3.0, most_parts = 255.0;
   return static_cast<int>(std::clamp(parts_per_cell * std::round(side), 1.0, most_parts));
@@ -143,7 +143,7 @@ WeightedSums sums_between_systems(const Reprojection& reprojection, const Raster
   return sums;
 }
 
-// Over the area of each new cell.
+// Sums over the area of each new cell.
 WeightedSums sums_over_cells(const Raster& raster, const Raster& layout) {
   const Reprojection reprojection(layout.crs, raster.crs);
   return reprojection.changes_nothing() ? sums_in_one_system(raster, layout)
@@ -161,7 +161,7 @@ Polygons in_system(const Polygons& polygons, const Reprojection& reprojection, c
     if (!reprojection.apply(x, y)) {
       throw UserError(
           fmt::format("the release has no place in the coordinate reference system {} of the raster. "
-                      "Reproject the raster to the system of the terrain model.",
+                      "Reproject the raster to the system of the DEM.",
                       name));
     }
     for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -196,7 +196,7 @@ Raster averaged(const Raster& raster, const Raster& layout, Missing missing) {
 
 CoveredRaster covered_part(const Raster& raster, const Polygons& polygons, const std::string& crs) {
   const Polygons there = in_system(polygons, Reprojection(crs, raster.crs), name_of(raster.crs));
-  constexpr double half = 0.499999;  // of a cell, so that rounding leads no corner out of the outermost ones
+  constexpr double half = 0.499999;  // of a cell, so that rounding moves no corner out of the outermost cells
   const Rectangle all = span_of_points(raster).widened(half * raster.cell_x, half * raster.cell_y);
   const Polygons inside = intersection_of(there, {box_polygon(all)});
   if (inside.empty()) {
@@ -223,7 +223,7 @@ CoveredMeans averaged(const CoveredRaster& part, const Raster& layout) {
     known.values[k] = std::isnan(amount.values[k]) ? 0.0 : known.values[k];
   }
   means.amount = averaged(amount, layout, Missing::zero);
-  means.mean = averaged(part.values, layout, Missing::nothing);  // beside slivers that the parts of cells miss
+  means.mean = averaged(part.values, layout, Missing::nothing);  // kept for slivers that the parts of cells miss
   const Raster weight = averaged(known, layout, Missing::zero);
   for (std::size_t k = 0; k < weight.values.size(); ++k) {
     if (weight.values[k] > 0.0) {

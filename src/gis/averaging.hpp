@@ -1,10 +1,11 @@
-// Means of a raster over the cells of other points that are farther apart.
+// Means of a raster over the cells of points with a larger spacing.
 //
-// A value v_k of a raster is that of its whole cell, A_k the area which this cell shares with that of a new point:
-//   mean = sum v_k A_k / sum A_k
-// so that sum over the new cells of mean times area is the raster's own (a volume, if the values are thicknesses). In
-// one reference system the areas are exact. From another one the cell of a new point is divided into parts smaller than
-// the raster's cells, each of which has the value of the cell that its middle lies in.
+// A value v_k of a raster applies to its whole cell; A_k is the area that this cell shares with the cell of a new
+// point:
+//    mean = sum v_k A_k / sum A_k
+// The sum of mean times area over the new cells therefore equals that of the raster (a volume, if the values are
+// thicknesses). Within one reference system the areas are exact. For another system, the cell of a new point is divided
+// into parts smaller than the raster's cells. Each part has the value of the cell that contains its centre.
 #pragma once
 
 #include "base/raster_sampling.hpp"
@@ -12,26 +13,27 @@
 
 namespace thawslide::gis {
 
-// Whether the points of a raster are nearer to one another than those of a layout, along any axis, by more than a
-// hundredth: between points farther apart, bilinear interpolation keeps the volume.
+// True if the points of a raster are closer together than those of a layout along any axis, by more than a hundredth.
+// For a wider spacing, bilinear interpolation conserves the volume.
 [[nodiscard]] bool is_finer(const Raster& raster, const Raster& layout);
 
-// The means of a finer raster at the points of a layout. Where it has no data: 0 if missing is zero. Else the mean is
-// that of the rest, and NaN without a rest, or if missing is unknown, where the rest is less than half of the cell.
+// Means of a finer raster at the points of a layout. No-data points count as 0 if missing is zero. Otherwise the mean
+// is that of the remaining area, and NaN if none remains, or if missing is unknown and less than half of the cell
+// remains.
 [[nodiscard]] Raster averaged(const Raster& raster, const Raster& layout, Missing missing);
 
-// The part of a raster that polygons cover.
+// Part of a raster that polygons cover.
 struct CoveredRaster {
-  Raster values;  // about the polygons; without points where it does not reach them
-  Raster share;   // of each of its cells within them
+  Raster values;  // around the polygons; without points if the raster does not reach them
+  Raster share;   // covered fraction of each of its cells
 };
 // `crs`: of the polygons, as WKT.
 [[nodiscard]] CoveredRaster covered_part(const Raster& raster, const Polygons& polygons, const std::string& crs);
 
-// Of a finer raster within polygons, at the points of a layout.
+// Means of a finer raster within polygons, at the points of a layout.
 struct CoveredMeans {
-  Raster amount;  // sum v_k A_k over the area of the point's cell, A_k of what polygons cover: 0 without data
-  Raster mean;    // over what they cover; NaN without data
+  Raster amount;  // sum v_k A_k over the area of the point's cell, A_k: covered by polygons; 0 for no data
+  Raster mean;    // over the covered area; NaN for no data
 };
 [[nodiscard]] CoveredMeans averaged(const CoveredRaster& part, const Raster& layout);
 

@@ -1,4 +1,4 @@
-// Values at new points as weighted sums of old ones, along one axis and then along the other.
+// Values at new points as separable weighted sums of old ones, along one axis and then the other.
 #pragma once
 
 #include <vector>
@@ -7,20 +7,20 @@
 
 namespace thawslide::gis {
 
-// The old points that make a new one along an axis.
+// Weights of the old points for a new one along an axis.
 struct AxisWeights {
   int first = 0;
   std::vector<double> weights;  // of old points first, first + 1, ...
 };
 
-// Per point of a layout: the sum of weights times values, and the sum of the weights, of old points with data.
+// Sums at each point of a layout, over old points with data: of weights times values, and of weights.
 struct WeightedSums {
   Raster values, weights;
 };
 [[nodiscard]] WeightedSums weighted_sums(const Raster& raster, const std::vector<AxisWeights>& along_x,
                                          const std::vector<AxisWeights>& along_y, const Raster& layout);
 
-// Value over weight where the weight exceeds `least`; else NaN.
+// Value over weight if the weight exceeds `least`; otherwise NaN.
 [[nodiscard]] Raster means_of(WeightedSums sums, double least);
 
 }  // namespace thawslide::gis

@@ -2,13 +2,13 @@
 
 #include <cmath>
 
+#include "gis/error_location.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/sampling.hpp"
-#include "gis/told_at.hpp"
 
 namespace thawslide::gis {
 
-Raster load_bed_depth(const config::Case& parameters, const Dem& ground, std::vector<std::string>& notes) {
+Raster load_bed_depth(const config::Case& parameters, const Dem& ground, std::vector<std::string>& warnings) {
   const InitialField& depth = parameters.bed.depth;
   if (parameters.bed.law == config::BedLaw::none || depth.over != InitialField::Over::raster) {
     return {};
@@ -17,8 +17,8 @@ Raster load_bed_depth(const config::Case& parameters, const Dem& ground, std::ve
   const Rectangle domain = domain_of(parameters);
   const Rectangle about = domain.widened(ground.raster.cell_x, ground.raster.cell_y);
   const Raster map =
-      read_map(parameters, {key, depth.source, Quantity::length, ground.raster.crs, about, "the domain"}, notes);
-  return told_at(parameters, key, [&] {
+      read_map(parameters, {key, depth.source, Quantity::length, ground.raster.crs, about, "the domain"}, warnings);
+  return with_error_location(parameters, key, [&] {
     Raster made = sampled(map, ground.raster, Missing::unknown);
     for (int row = 0; row < made.rows; ++row) {
       for (int column = 0; column < made.columns; ++column) {

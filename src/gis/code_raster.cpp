@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "gis/error_location.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/point_window.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/reprojection.hpp"
-#include "gis/told_at.hpp"
 
 namespace thawslide::gis {
 
@@ -31,7 +31,7 @@ void check_whole(const std::string& file, const Raster& codes) {
   }
 }
 
-// The value of the nearest point at each point of a layout; NaN beyond the cells about them.
+// Value of the nearest point at each point of a layout; NaN outside their cells.
 Raster nearest_codes(const std::string& file, const Raster& codes, const Raster& layout) {
   const Reprojection reprojection(layout.crs, codes.crs);
   Raster taken = layout.filled(std::numeric_limits<double>::quiet_NaN());
@@ -66,25 +66,25 @@ void count(CodesFound::Points& points, double x, double y) {
   points.extent.take_in(x, y);
 }
 
-std::string share_words(const CodesFound::Points& points, const CodesFound& found) {
+std::string format_fraction(const CodesFound::Points& points, const CodesFound& found) {
   return fmt::format("{:.2g} % of the domain, {}",
                      100.0 * static_cast<double>(points.count) / static_cast<double>(found.count),
-                     range_words(points.extent));
+                     format_range(points.extent));
 }
 
 }  // namespace
 
 Raster read_codes(const config::Case& parameters, const std::string& key, const std::string& file, const Raster& ground,
-                  std::vector<std::string>& notes) {
+                  std::vector<std::string>& warnings) {
   const Raster codes =
-      read_map(parameters, {key, file, Quantity::code, ground.crs, domain_of(parameters), "the domain"}, notes);
-  return told_at(parameters, key, [&] {
+      read_map(parameters, {key, file, Quantity::code, ground.crs, domain_of(parameters), "the domain"}, warnings);
+  return with_error_location(parameters, key, [&] {
     check_whole(file, codes);
     if (Reprojection(codes.crs, ground.crs).changes_nothing()) {
       return codes;
     }
-    notes.push_back(fmt::format("the codes of {}, which is in {}, were taken to the points of the terrain model",
-                                name_of_file(file), name_of(codes.crs)));
+    warnings.push_back(fmt::format("the codes of {}, which is in {}, were taken to the points of the DEM",
+                                   name_of_file(file), name_of(codes.crs)));
     return nearest_codes(file, codes, ground);
   });
 }
@@ -103,7 +103,7 @@ CodesFound codes_in(const Rectangle& area, const Raster& codes) {
   return found;
 }
 
-std::string words_of_codes(const CodesFound& found) {
+std::string format_codes(const CodesFound& found) {
   std::string words;
   std::size_t k = 0;
   for (const auto& [code, points] : found.by_code) {
@@ -113,27 +113,27 @@ std::string words_of_codes(const CodesFound& found) {
   return words.empty() ? "none" : words;
 }
 
-std::vector<std::string> notes_on_codes(const Rectangle& domain, const std::string& file, const Raster& codes,
-                                        const std::set<double>& named) {
+std::vector<std::string> warnings_of_codes(const Rectangle& domain, const std::string& file, const Raster& codes,
+                                           const std::set<double>& named) {
   const CodesFound found = codes_in(domain, codes);
   const std::string name = name_of_file(file);
-  std::vector<std::string> notes;
+  std::vector<std::string> warnings;
   for (const auto& [code, points] : found.by_code) {
     if (named.count(code) == 0) {
-      notes.push_back(fmt::format("the code {:g} of {} ({}) belongs to no substrate: [basal] holds there", code, name,
-                                  share_words(points, found)));
+      warnings.push_back(fmt::format("the code {:g} of {} ({}) belongs to no substrate: [basal] holds there", code,
+                                     name, format_fraction(points, found)));
     }
   }
   if (found.without.count > 0) {
-    notes.push_back(fmt::format("{} has no data at {} of its points in the domain ({}): [basal] holds there", name,
-                                found.without.count, share_words(found.without, found)));
+    warnings.push_back(fmt::format("{} has no data at {} of its points in the domain ({}): [basal] holds there", name,
+                                   found.without.count, format_fraction(found.without, found)));
   }
   const Rectangle covered = span_of_points(codes).widened(0.5 * codes.cell_x, 0.5 * codes.cell_y);
-  if (const std::string beyond = words_beyond(domain, covered); !beyond.empty()) {
-    notes.push_back(
+  if (const std::string beyond = describe_overhang(domain, covered); !beyond.empty()) {
+    warnings.push_back(
         fmt::format("{} does not cover the domain, which reaches beyond it by {}: [basal] holds there", name, beyond));
   }
-  return notes;
+  return warnings;
 }
 
 }  // namespace thawslide::gis

@@ -1,4 +1,4 @@
-// Rasters of codes: whole numbers that say what lies where.
+// Rasters of codes: integers that identify substrates.
 #pragma once
 
 #include <map>
@@ -12,13 +12,13 @@
 
 namespace thawslide::gis {
 
-// The codes of a file in the ground's coordinates, about the domain; NaN: none. In another reference system than the
-// ground's they are taken to the ground's points, each from the nearest of the file. `key` named the file. Throws
-// UserError for numbers that are not whole. Adds to the notes.
+// Codes of a file in the ground's coordinates, around the domain; NaN: none. A raster in another reference system is
+// sampled at the ground's points by nearest neighbour. `key`: key that named the file. Throws UserError for non-integer
+// values. Appends warnings.
 [[nodiscard]] Raster read_codes(const config::Case& parameters, const std::string& key, const std::string& file,
-                                const Raster& ground, std::vector<std::string>& notes);
+                                const Raster& ground, std::vector<std::string>& warnings);
 
-// How many points of a raster in a rectangle hold each code, and where these lie.
+// Number of raster points in a rectangle with each code, and their extent.
 struct CodesFound {
   struct Points {
     long count = 0;
@@ -31,10 +31,10 @@ struct CodesFound {
 [[nodiscard]] CodesFound codes_in(const Rectangle& area, const Raster& codes);
 
 // "1, 2 and 7"
-[[nodiscard]] std::string words_of_codes(const CodesFound& found);
+[[nodiscard]] std::string format_codes(const CodesFound& found);
 
-// What the user should know of a domain and the codes in it: those not named, and what is without.
-[[nodiscard]] std::vector<std::string> notes_on_codes(const Rectangle& domain, const std::string& file,
-                                                      const Raster& codes, const std::set<double>& named);
+// Warnings about unnamed codes in a domain, and about parts of it without a code.
+[[nodiscard]] std::vector<std::string> warnings_of_codes(const Rectangle& domain, const std::string& file,
+                                                         const Raster& codes, const std::set<double>& named);
 
 }  // namespace thawslide::gis

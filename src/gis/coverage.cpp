@@ -10,7 +10,7 @@ namespace {
 
 using Ring = std::vector<std::array<double, 2>>;  // in units of cells, from the corner of the first; not closed
 
-// What of a ring lies on one side of a line across an axis: side = 1 beyond it, -1 before it.
+// Part of a ring on one side of a line across an axis: side = 1 beyond it, -1 before it.
 Ring cut(const Ring& ring, std::size_t axis, double line, double side) {
   Ring left;
   for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -42,7 +42,8 @@ double area_in_cell(const Ring& ring, int column, int row) {
   return 0.5 * twice;
 }
 
-// Adds the area of a ring in each cell of columns and rows from the first to before the last, which hold all of it.
+// Adds the area of a ring in each cell of the columns and rows from `first` up to but excluding `last`, which contain
+// all of it.
 void add_area(const Ring& ring, double sign, std::array<int, 2> first, std::array<int, 2> last, Raster& shares) {
   if (ring.size() < 3) {
     return;
@@ -85,7 +86,7 @@ Raster coverage_of(const Polygons& polygons, const Raster& layout) {
       add_ring(hole, true, shares);
     }
   }
-  constexpr double rounding = 1e-12;  // of a share: what differs from none and from all by less is that
+  constexpr double rounding = 1e-12;  // fraction of a cell: smaller differences from 0 and 1 are round-off
   for (double& share : shares.values) {
     THAWSLIDE_ASSERT(share > -1e-9 && share < 1.0 + 1e-9, "a share of {}", share);
     share = share < rounding ? 0.0 : share > 1.0 - rounding ? 1.0 : share;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "config/input_limits.hpp"
+#include "gis/error_location.hpp"
 #include "gis/pits.hpp"
 #include "gis/polygons.hpp"
 #include "gis/raster_file.hpp"
@@ -14,32 +15,31 @@
 #include "gis/resampling.hpp"
 #include "gis/roughness.hpp"
 #include "gis/smoothing.hpp"
-#include "gis/told_at.hpp"
 #include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
 
 namespace {
 
-std::string system_of(const config::Case& parameters, const RasterFile& file, std::vector<std::string>& notes) {
+std::string system_of(const config::Case& parameters, const RasterFile& file, std::vector<std::string>& warnings) {
   const std::string& given = parameters.terrain.crs;
   const Raster& layout = file.layout();
-  const std::string system = told_at(parameters, given.empty() ? "terrain.file" : "terrain.crs", [&] {
+  const std::string system = with_error_location(parameters, given.empty() ? "terrain.file" : "terrain.crs", [&] {
     return metric_system({file.file(), file.extent(), layout.cell_x, layout.cell_y}, layout.crs, given);
   });
-  if (const std::string note = place_note({file.file(), file.extent(), layout.cell_x, layout.cell_y}, system);
-      !note.empty()) {
-    notes.push_back(note);
+  if (const std::string warning = place_warning({file.file(), file.extent(), layout.cell_x, layout.cell_y}, system);
+      !warning.empty()) {
+    warnings.push_back(warning);
   }
   if (!given.empty() && name_of(system) != name_of(layout.crs)) {
-    notes.push_back(fmt::format("{} is taken to be in {}, as terrain.crs says; the file says {}",
-                                std::filesystem::path(file.file()).filename().string(), name_of(system),
-                                layout.crs.empty() ? "nothing" : name_of(layout.crs)));
+    warnings.push_back(fmt::format("{} is read as {}, as set by terrain.crs; the file specifies {}",
+                                   std::filesystem::path(file.file()).filename().string(), name_of(system),
+                                   layout.crs.empty() ? "nothing" : name_of(layout.crs)));
   }
   return system;
 }
 
-// Numbers that stand for no data although the file does not say so, which a slide would take for a pit.
+// Detects undeclared no-data values, which would act as pits.
 void check_elevations(const config::Case& parameters, const RasterFile& file, const Raster& raster) {
   constexpr double deepest = -11000.0, highest = 9000.0;  // m, on Earth
   for (int row = 0; row < raster.rows; ++row) {
@@ -56,7 +56,7 @@ void check_elevations(const config::Case& parameters, const RasterFile& file, co
   }
 }
 
-// The domain less the cells of the grid that reach beyond; empty where none stay.
+// Domain reduced by the grid cells that extend outside the DEM; empty if none remain.
 std::string domain_within(const config::Case& parameters, const Rectangle& span) {
   const config::Grid& grid = parameters.grid;
   const auto cells_beyond = [&](double distance) { return std::max(0.0, std::ceil(distance / grid.cell - 1e-9)); };
@@ -73,7 +73,7 @@ std::string domain_within(const config::Case& parameters, const Rectangle& span)
 
 void check_domain(const config::Case& parameters, const std::string& file, const Rectangle& span) {
   const Rectangle domain = domain_of(parameters);
-  const std::string beyond = words_beyond(domain, span);
+  const std::string beyond = describe_overhang(domain, span);
   if (beyond.empty()) {
     return;
   }
@@ -81,19 +81,19 @@ void check_domain(const config::Case& parameters, const std::string& file, const
   const std::string within = domain_within(parameters, span);
   const double resample = parameters.terrain.resample;
   fail_at(parameters, low ? "grid.min" : "grid.max",
-          fmt::format("the domain {} {}{}, by {}; allowed: {}. Set {}, or take a larger terrain model.",
+          fmt::format("the domain {} {}{}, by {}; allowed: {}. Set {}, or take a larger DEM.",
                       domain.touches(span) ? "reaches beyond the outermost points of" : "lies outside", file,
                       resample > 0.0 ? fmt::format(", taken to points {:g} m apart", resample) : "", beyond,
-                      range_words(span), within.empty() ? "grid.min and grid.max so" : within));
+                      format_range(span), within.empty() ? "grid.min and grid.max so" : within));
 }
 
-// Room about the domain: nodes of the grid's cells about it see the ground, and gradients there need neighbours.
+// Margin around the domain: nodes of the surrounding grid cells read the ground, and gradients there need neighbours.
 Rectangle area_to_read(const config::Case& parameters, const Raster& layout) {
   const double grid_cells = 3.0 * parameters.grid.cell;
   return domain_of(parameters).widened(grid_cells + 2.0 * layout.cell_x, grid_cells + 2.0 * layout.cell_y);
 }
 
-// Points of the whole terrain model are numbered before those of the domain are read.
+// Points of the whole DEM are numbered before those of the domain are read.
 void check_distance(const config::Case& parameters, const RasterFile& file) {
   const Raster& layout = file.layout();
   const double length = std::max((layout.columns - 1) * layout.cell_x, (layout.rows - 1) * layout.cell_y);
@@ -107,22 +107,25 @@ void check_distance(const config::Case& parameters, const RasterFile& file) {
 }
 
 Raster read_and_resample(const config::Case& parameters, const RasterFile& file, const Raster& layout,
-                         const Rectangle& area, std::vector<std::string>& notes) {
+                         const Rectangle& area, std::vector<std::string>& warnings) {
   const bool as_it_is = &layout == &file.layout();
   const Raster target = layout_of(layout, points_in(layout, area));
-  Raster raster = told_at(parameters, "terrain.file", [&] { return file.read(as_it_is ? area : needed_for(target)); });
+  Raster raster =
+      with_error_location(parameters, "terrain.file", [&] { return file.read(as_it_is ? area : needed_for(target)); });
   check_elevations(parameters, file, raster);
-  if (const std::string note = pits_note(file.file(), raster); !note.empty()) {
-    notes.push_back(note);
+  if (const std::string warning = pits_warning(file.file(), raster); !warning.empty()) {
+    warnings.push_back(warning);
   }
   if (as_it_is) {
     return raster;
   }
-  told_at(parameters, "terrain.resample", [&] { require_readable(file.file(), target.columns, target.rows); });
+  with_error_location(parameters, "terrain.resample",
+                      [&] { require_readable(file.file(), target.columns, target.rows); });
   return resampled(raster, target);
 }
 
-// Around the polygons of releases and around boxes. Files that cannot be read are reported when the release is loaded.
+// Rectangles around the polygons of releases and around boxes. Unreadable files are reported when the release is
+// loaded.
 std::vector<Rectangle> places_of_bodies(const config::Case& parameters, const std::string& crs) {
   std::vector<Rectangle> places;
   for (const auto& [name, body] : parameters.bodies) {
@@ -142,7 +145,7 @@ std::vector<Rectangle> places_of_bodies(const config::Case& parameters, const st
   return places;
 }
 
-// Points that were interpolated between those of the file have no noise of their own.
+// Points interpolated between those of the file have no noise themselves.
 config::Roughness roughness_of_file(const config::Case& parameters, const RasterFile& file, const Raster& raster,
                                     const std::string& crs) {
   const bool interpolated = raster.cell_x * raster.cell_y < file.layout().cell_x * file.layout().cell_y;
@@ -152,19 +155,19 @@ config::Roughness roughness_of_file(const config::Case& parameters, const Raster
 
 }  // namespace
 
-Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
+Dem load_dem(const config::Case& parameters, std::vector<std::string>& warnings) {
   const config::Terrain& terrain = parameters.terrain;
-  const auto opened =
-      told_at(parameters, "terrain.file", [&] { return std::make_unique<RasterFile>(terrain.file, Quantity::length); });
+  const auto opened = with_error_location(parameters, "terrain.file",
+                                          [&] { return std::make_unique<RasterFile>(terrain.file, Quantity::length); });
   const RasterFile& file = *opened;
-  const std::string system = system_of(parameters, file, notes);
-  add_note(file.conversion().note, notes);
+  const std::string system = system_of(parameters, file, warnings);
+  add_warning(file.conversion().warning, warnings);
   check_distance(parameters, file);
   const Raster made = terrain.resample > 0.0 ? resampled_layout(file.layout(), terrain.resample) : Raster{};
   const Raster& layout = terrain.resample > 0.0 ? made : file.layout();
   if (layout.columns < 2 || layout.rows < 2) {
     fail_at(parameters, terrain.resample > 0.0 ? "terrain.resample" : "terrain.file",
-            fmt::format("{} has {} x {} points {:.6g} m apart; needed: at least 2 x 2. Take a larger terrain model, or "
+            fmt::format("{} has {} x {} points {:.6g} m apart; needed: at least 2 x 2. Take a larger DEM, or "
                         "a smaller distance.",
                         file.file(), layout.columns, layout.rows, layout.cell_x));
   }
@@ -177,7 +180,7 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
   dem.roughness = roughness_of_file(parameters, file, dem.raster, system);
   const double width = dem.roughness.width;
   if (width > 0.0) {
-    // The filter's reach, and the points that a window holds beyond its sides.
+    // Reach of the filter, plus the points that a window includes beyond its sides.
     const double reach = smoothing_reach * width + 2.0 * std::max(layout.cell_x, layout.cell_y);
     dem.before_smoothing = std::move(dem.raster);
     of_reading.clear();
@@ -186,14 +189,14 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes) {
     THAWSLIDE_ASSERT(dem.raster.values.size() == dem.before_smoothing.values.size(), "{} smoothed points of {}",
                      dem.raster.values.size(), dem.before_smoothing.values.size());
   }
-  notes.insert(notes.end(), of_reading.begin(), of_reading.end());
+  warnings.insert(warnings.end(), of_reading.begin(), of_reading.end());
   const std::string name = std::filesystem::path(file.file()).filename().string();
   if (terrain.resample > 0.0) {
-    notes.push_back(fmt::format("{} was taken from points {:g} m x {:g} m apart to points {:g} m apart", name,
-                                file.layout().cell_x, file.layout().cell_y, terrain.resample));
+    warnings.push_back(fmt::format("{} was taken from points {:g} m x {:g} m apart to points {:g} m apart", name,
+                                   file.layout().cell_x, file.layout().cell_y, terrain.resample));
   }
   if (width > 0.0) {
-    notes.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "{} was smoothed with a standard deviation of {:g} m{}", name, width,
         terrain.smooth.is_auto
             ? fmt::format(", as it has noise of {:.2g} m rms and bumps with an rms slope of {:.2g} (terrain.smooth = "

@@ -1,4 +1,4 @@
-// The ground of a case from its terrain model.
+// Ground of a case from its DEM.
 #pragma once
 
 #include <string>
@@ -12,15 +12,16 @@
 namespace thawslide::gis {
 
 struct Dem {
-  Raster raster;            // about the domain, with the system to compute in; NaN in holes
-  Raster before_smoothing;  // at the same points; empty: nothing was smoothed
+  Raster raster;            // around the domain, in the reference system of the computation; NaN in holes
+  Raster before_smoothing;  // at the same points; empty: no smoothing
   config::Roughness roughness;
-  Rectangle span;  // from the first to the last point that the file has room for, where a domain may be
+  Rectangle span;  // from the first to the last possible point of the file: limit of a domain
 
   [[nodiscard]] const Raster& as_measured() const { return before_smoothing.empty() ? raster : before_smoothing; }
 };
 
-// Cropped to the domain and some cells about it, resampled and smoothed as the case asks for it. Adds to the notes.
-[[nodiscard]] Dem load_dem(const config::Case& parameters, std::vector<std::string>& notes);
+// Crops the DEM to the domain with a margin of some cells, and resamples and smooths it as specified by the case.
+// Appends warnings.
+[[nodiscard]] Dem load_dem(const config::Case& parameters, std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

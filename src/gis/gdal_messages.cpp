@@ -26,7 +26,7 @@ void CPL_STDCALL GdalMessages::take(CPLErr severity, CPLErrorNum, const char* te
   self->any_error_ = self->any_error_ || severity >= CE_Failure;
   std::string line(text);
   std::replace(line.begin(), line.end(), '\n', ' ');
-  line.erase(line.find_last_not_of(". ") + 1);  // our sentences end with a full stop of their own
+  line.erase(line.find_last_not_of(". ") + 1);  // our sentences add the full stop
   if (std::find(self->texts_.begin(), self->texts_.end(), line) == self->texts_.end()) {
     self->texts_.push_back(line);
   }

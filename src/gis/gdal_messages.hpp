@@ -1,4 +1,4 @@
-// What GDAL has to say, gathered instead of printed. For the sources of this room: it names GDAL.
+// GDAL messages, collected instead of printed. Only for the sources of this module, because it includes GDAL.
 #pragma once
 
 #include <cpl_error.h>
@@ -8,7 +8,7 @@
 
 namespace thawslide::gis {
 
-// Gathers GDAL's errors and warnings of this thread for as long as it lives. The first one registers GDAL's drivers.
+// Collects GDAL's errors and warnings of this thread during its lifetime. The first instance registers GDAL's drivers.
 class GdalMessages {
  public:
   GdalMessages();
@@ -16,9 +16,9 @@ class GdalMessages {
   GdalMessages(const GdalMessages&) = delete;
   GdalMessages& operator=(const GdalMessages&) = delete;
 
-  // All of them in their order, each once: "; GDAL says: A; B", or nothing where GDAL was silent.
+  // All messages in order, without repetitions: "; GDAL says: A; B"; empty if there are none.
   [[nodiscard]] std::string remark() const;
-  // The rest of the first message after `words`; empty if none holds them.
+  // Rest of the first message that contains `words`, after them; empty if there is none.
   [[nodiscard]] std::string after(const std::string& words) const;
   [[nodiscard]] bool mention(const std::string& words) const;
   [[nodiscard]] bool any_error() const { return any_error_; }

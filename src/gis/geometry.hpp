@@ -1,4 +1,4 @@
-// Polygons and lines as GDAL's objects. For the sources of this room: it names GDAL.
+// Polygons and lines as GDAL objects. Only for the sources of this module, because it includes GDAL.
 #pragma once
 
 #include <ogr_geometry.h>
@@ -13,7 +13,7 @@ namespace thawslide::gis {
 
 [[nodiscard]] Polygon from_geometry(const OGRPolygon& polygon);
 [[nodiscard]] Polyline2 from_geometry(const OGRSimpleCurve& curve);
-// The areas of a geometry of any kind; its lines and points are left out.
+// Areas of a geometry of any kind, without its lines and points.
 [[nodiscard]] Polygons areas_of(const OGRGeometry& geometry);
 
 }  // namespace thawslide::gis

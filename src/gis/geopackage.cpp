@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "gis/atomic_file.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/geometry.hpp"
 #include "gis/spatial_reference.hpp"
-#include "gis/whole_file.hpp"
 
 namespace thawslide::gis {
 
@@ -83,7 +83,7 @@ bool write_layer(GDALDataset& dataset, const MapLayer& layer, OGRSpatialReferenc
   return true;
 }
 
-// The table where QGIS keeps the styles of a GeoPackage's layers, with its own names of columns.
+// Writes the table in which QGIS stores the styles of a GeoPackage's layers; column names are those of QGIS.
 bool write_styles(GDALDataset& dataset, const std::vector<MapLayer>& layers) {
   if (std::all_of(layers.begin(), layers.end(), [](const MapLayer& layer) { return layer.style.empty(); })) {
     return true;
@@ -124,9 +124,9 @@ bool write_styles(GDALDataset& dataset, const std::vector<MapLayer>& layers) {
 }  // namespace
 
 void write_geopackage(const std::string& file, const std::vector<MapLayer>& layers, const std::string& crs) {
-  // The date of the last change, which the format wants, would make files of equal content differ.
+  // A constant date of the last change, which the format requires, keeps files of equal content identical.
   const CPLConfigOptionSetter no_date("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z", false);
-  WholeFile whole(file);
+  AtomicFile whole(file);
   const GdalMessages messages;
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
   THAWSLIDE_ASSERT(driver != nullptr, "GDAL has no driver for GeoPackage");
@@ -144,7 +144,7 @@ void write_geopackage(const std::string& file, const std::vector<MapLayer>& laye
   if (!written || messages.any_error()) {
     whole.fail_with(messages);
   }
-  whole.put_in_place();
+  whole.publish();
 }
 
 }  // namespace thawslide::gis

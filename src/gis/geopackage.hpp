@@ -1,4 +1,4 @@
-// Maps of lines and areas for a GIS: layers of polygons, lines or points with attributes, in a GeoPackage.
+// GeoPackage output of layers of polygons, lines or points with attributes.
 #pragma once
 
 #include <array>
@@ -11,25 +11,25 @@
 
 namespace thawslide::gis {
 
-// A column of the table of a layer: one value a feature, numbers or texts. NaN and empty texts are written as null.
+// Column of a layer's table: one value per feature, numbers or texts. NaN and empty texts are written as null.
 struct Attribute {
   std::string name;
   std::variant<std::vector<double>, std::vector<std::string>> values;
 };
 
-// As many values in each attribute as there are features.
+// Layer with as many values in each attribute as there are features.
 struct MapLayer {
   std::string name;
-  // One feature an element: polygons are areas of any number of parts.
+  // One feature per element; a polygon feature may have any number of parts.
   std::variant<std::vector<Polygons>, std::vector<Polyline2>, std::vector<std::array<double, 2>>> features;
   std::vector<Attribute> attributes;
-  std::string style = {};  // how QGIS draws it, as vector_style says; empty: as it likes
+  std::string style = {};  // QGIS style, from vector_style; empty: default of QGIS
 };
 
-// `crs`: WKT; empty: unknown. Whole or not there: written beside its place and renamed; an older file is replaced.
+// `crs`: WKT; empty: unknown. Replaces an older file atomically.
 void write_geopackage(const std::string& file, const std::vector<MapLayer>& layers, const std::string& crs);
 
-// The cells about the points whose value is neither 0 nor NaN, as areas with holes: cells that share an edge are one.
+// Areas with holes of the cells around points whose value is neither 0 nor NaN; cells that share an edge are joined.
 [[nodiscard]] Polygons areas_of_mask(const Raster& mask);
 
 }  // namespace thawslide::gis

@@ -6,13 +6,13 @@
 #include <cmath>
 
 #include "base/raster_sampling.hpp"
-#include "gis/told_at.hpp"
+#include "gis/error_location.hpp"
 
 namespace thawslide::gis {
 
 namespace {
 
-// To the nearest release, each taken as the rectangle that holds it [m].
+// Distance to the nearest release, each represented by its bounding rectangle [m].
 double distance_to_releases(const config::Site& site, double x, double y) {
   double least = HUGE_VAL;
   for (const auto& [name, release] : site.releases) {
@@ -28,22 +28,22 @@ double distance_to_releases(const config::Site& site, double x, double y) {
 
 std::vector<std::string> probes_in_holes(const config::Site& site) {
   const Raster& ground = *site.ground;
-  std::vector<std::string> notes;
+  std::vector<std::string> warnings;
   for (const auto& [name, corners] : site.probes) {
     const bool is_known = std::any_of(corners.begin(), corners.end(), [&](const auto& corner) {
       return !std::isnan(bilinear(ground, corner[0], corner[1], Missing::unknown));
     });
     if (!is_known) {
-      notes.push_back(fmt::format(
-          "probe.{}: the terrain model has no data there, and the probe reports zeros. Move it to where the terrain is "
+      warnings.push_back(fmt::format(
+          "probe.{}: the DEM has no data there, and the probe reports zeros. Move it to where the terrain is "
           "known.",
           name));
     }
   }
-  return notes;
+  return warnings;
 }
 
-std::string holes_note(const config::Case& parameters, const config::Site& site) {
+std::string holes_warning(const config::Case& parameters, const config::Site& site) {
   const Raster& ground = *site.ground;
   const Rectangle domain = domain_of(parameters);
   std::size_t points = 0, unknown = 0;
@@ -71,7 +71,7 @@ std::string holes_note(const config::Case& parameters, const config::Site& site)
   }
   const std::string from = site.releases.empty() ? "" : fmt::format(", about {:.0f} m from the release", nearest);
   return fmt::format(
-      "{} of {} points of the terrain model within the domain have no data, the nearest at ({:.0f}, {:.0f}){}: a slide "
+      "{} of {} points of the DEM within the domain have no data, the nearest at ({:.0f}, {:.0f}){}: a slide "
       "that gets there {}",
       unknown, points, nearest_x, nearest_y, from,
       parameters.grid.leaving == config::Policy::remove ? "is removed and counted" : "ends the run");

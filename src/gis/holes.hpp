@@ -1,4 +1,4 @@
-// Places of the domain whose terrain is not known.
+// Parts of the domain with unknown terrain.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace thawslide::gis {
 
-// What the user should know of points without data within the domain: how many, the one nearest to a release, and what
-// becomes of a slide that gets there; empty if there are none.
-[[nodiscard]] std::string holes_note(const config::Case& parameters, const config::Site& site);
+// Warning about no-data points within the domain: their number, the one nearest to a release, and the effect on a slide
+// that reaches them; empty if there are none.
+[[nodiscard]] std::string holes_warning(const config::Case& parameters, const config::Site& site);
 
-// A note for each probe whose point, or all of whose corners, have no terrain data.
+// Warning for each probe whose point, or all of whose corners, have no terrain data.
 [[nodiscard]] std::vector<std::string> probes_in_holes(const config::Site& site);
 
 }  // namespace thawslide::gis

@@ -1,23 +1,23 @@
 #include "gis/map_raster.hpp"
 
+#include "gis/error_location.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/reprojection.hpp"
-#include "gis/told_at.hpp"
 
 namespace thawslide::gis {
 
-Raster read_map(const config::Case& parameters, const MapRequest& request, std::vector<std::string>& notes) {
-  return told_at(parameters, request.key, [&] {
+Raster read_map(const config::Case& parameters, const MapRequest& request, std::vector<std::string>& warnings) {
+  return with_error_location(parameters, request.key, [&] {
     const RasterFile file(request.file, request.quantity);
     const LikelySystem system = likely_system(request.file, file.layout().crs, file.extent(), request.crs);
-    add_note(system.note, notes);
-    add_note(file.conversion().note, notes);
+    add_warning(system.warning, warnings);
+    add_warning(file.conversion().warning, warnings);
     const bool same_place = Reprojection(system.wkt, request.crs).changes_nothing();
     if (same_place && request.area && !request.area->touches(span_of_points(file.layout()))) {
       throw UserError(fmt::format(
           "{}: the raster ({}) does not reach {} ({}). Check that both are in the same place and reference "
           "system.",
-          request.file, range_words(span_of_points(file.layout())), request.reason, range_words(*request.area)));
+          request.file, format_range(span_of_points(file.layout())), request.reason, format_range(*request.area)));
     }
     Raster raster = file.read(same_place ? request.area : std::nullopt);
     raster.crs = system.wkt;

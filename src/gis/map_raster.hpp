@@ -1,4 +1,4 @@
-// Rasters beside the terrain model: a thickness, the surface before the slide, a temperature.
+// Rasters other than the DEM: a thickness, the surface before release, a temperature.
 #pragma once
 
 #include <optional>
@@ -13,17 +13,17 @@
 namespace thawslide::gis {
 
 struct MapRequest {
-  std::string key;  // that named the file
+  std::string key;  // key that named the file
   std::string file;
   Quantity quantity;                   // of its values
   std::string crs;                     // of the ground
-  std::optional<Rectangle> area;       // where it is needed, in the ground's coordinates; without one all of it is read
-  std::string reason = "the release";  // what it is needed for there
+  std::optional<Rectangle> area;       // required area in the ground's coordinates; empty: the whole raster
+  std::string reason = "the release";  // purpose in that area
 };
 
-// Its reference system is the one that the file tells, or the ground's where the file tells none, or one that its
-// numbers cannot be in: that is noted. Throws UserError where it does not reach the area at all.
+// The reference system is that of the file. It is that of the ground, with a warning, if the file has none, or one that
+// its coordinates cannot be in. Throws UserError if the raster does not overlap the area.
 [[nodiscard]] Raster read_map(const config::Case& parameters, const MapRequest& request,
-                              std::vector<std::string>& notes);
+                              std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "gis/whole_file.hpp"
+#include "gis/atomic_file.hpp"
 
 namespace thawslide::gis {
 
@@ -107,7 +107,7 @@ void write_raster_style(const std::string& file, const std::vector<ColorStop>& s
     add(stop.value, stop.color, 255);
   }
   const double low = stops.front().value, high = stops.back().value;
-  // QGIS leaves out what `rasterTransparency` names.
+  // QGIS does not draw values listed in `rasterTransparency`.
   const std::string left_out =
       std::isfinite(nothing_below)
           ? fmt::format(

@@ -1,4 +1,4 @@
-// Areas of a mask.
+// Conversion of a mask to polygons.
 #include <gdal_alg.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
@@ -15,7 +15,7 @@ namespace thawslide::gis {
 
 namespace {
 
-// A data set in memory over the mask's bytes, which stay the caller's.
+// In-memory data set over the mask's bytes, which remain owned by the caller.
 GDALDatasetUniquePtr dataset_over(const Raster& mask, std::vector<std::uint8_t>& bytes) {
   GDALDatasetUniquePtr dataset(
       GetGDALDriverManager()->GetDriverByName("MEM")->Create("", mask.columns, mask.rows, 0, GDT_Byte, nullptr));
@@ -42,7 +42,7 @@ Polygons areas_of_mask(const Raster& mask) {
       GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
   OGRLayer* const layer = found->CreateLayer("areas", nullptr, wkbPolygon, nullptr);
   GDALRasterBand* const band = dataset->GetRasterBand(1);
-  // The mask is its own mask: where it is 0 there is no polygon.
+  // The mask serves as its own mask: no polygons where it is 0.
   const CPLErr result = GDALPolygonize(band, band, layer, -1, nullptr, nullptr, nullptr);
   THAWSLIDE_ASSERT(result == CE_None, "no areas of {} x {} points{}", mask.columns, mask.rows, messages.remark());
   Polygons areas;

@@ -17,11 +17,11 @@ namespace {
 constexpr double least_step = 100.0;           // m
 constexpr double steep = 5.67128181961770953;  // tan(80 degrees)
 
-// Points of one value in patches that lie apart from the ground about them.
+// Patches of points with one value, separated by cliffs from the surrounding ground.
 struct Apart {
   std::size_t points = 0;
-  double x = 0.0, y = 0.0;                        // of one of them [m]
-  double lowest = HUGE_VAL, highest = -HUGE_VAL;  // of the ground beside them [m]
+  double x = 0.0, y = 0.0;                        // of one of the points [m]
+  double lowest = HUGE_VAL, highest = -HUGE_VAL;  // of the adjacent ground [m]
 };
 
 class Patches {
@@ -44,11 +44,11 @@ class Patches {
     int column = 0, row = 0;
   };
 
-  // Calls work(column, row, distance) for the points beside one that are known.
+  // Calls work(column, row, distance) for the known neighbours of a point.
   template <class Work>
-  void for_each_beside(const Place& place, const Work& work) const {
-    constexpr std::array<Place, 4> ways{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
-    for (const Place& way : ways) {
+  void for_each_neighbour(const Place& place, const Work& work) const {
+    constexpr std::array<Place, 4> directions{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+    for (const Place& way : directions) {
       const int column = place.column + way.column, row = place.row + way.row;
       const bool inside = column >= 0 && column < ground_.columns && row >= 0 && row < ground_.rows;
       if (inside && !std::isnan(ground_.at(column, row))) {
@@ -61,19 +61,19 @@ class Patches {
     return std::abs(one - other) > std::max(least_step, steep * distance);
   }
 
-  // Only a point at a cliff can be one of a patch that has cliffs all about it.
+  // A patch surrounded by cliffs can begin only at a point next to a cliff.
   [[nodiscard]] bool begins_patch(int column, int row) const {
     const double height = ground_.at(column, row);
     bool at_cliff = false;
     if (seen_[ground_.index(column, row)] == 0 && !std::isnan(height)) {
-      for_each_beside({column, row}, [&](int i, int j, double distance) {
+      for_each_neighbour({column, row}, [&](int i, int j, double distance) {
         at_cliff = at_cliff || is_cliff(height, ground_.at(i, j), distance);
       });
     }
     return at_cliff;
   }
 
-  // All points of the same value that hang together with this one.
+  // Collects all points of the same value connected to this one.
   void take_patch(int first_column, int first_row) {
     const double height = ground_.at(first_column, first_row);
     Apart patch;
@@ -86,7 +86,7 @@ class Patches {
       const Place place = open.back();
       open.pop_back();
       ++patch.points;
-      for_each_beside(place, [&](int column, int row, double distance) {
+      for_each_neighbour(place, [&](int column, int row, double distance) {
         const double other = ground_.at(column, row);
         if (other != height) {
           cliffs_about = cliffs_about && is_cliff(height, other, distance);
@@ -121,7 +121,7 @@ class Patches {
 
 }  // namespace
 
-std::string pits_note(const std::string& file, const Raster& ground) {
+std::string pits_warning(const std::string& file, const Raster& ground) {
   double value = 0.0;
   Apart most;
   for (const auto& [height, apart] : Patches(ground).apart()) {
@@ -135,7 +135,7 @@ std::string pits_note(const std::string& file, const Raster& ground) {
   }
   const std::string path = std::filesystem::path(file).filename().string();
   return fmt::format(
-      "{} point{} of {} {} exactly {:.9g} m amid ground of {:.0f} to {:.0f} m, such as ({:.0f}, {:.0f}): a hole "
+      "{} point{} of {} {} exactly {:.9g} m among heights of {:.0f} to {:.0f} m, such as ({:.0f}, {:.0f}): a hole "
       "without data? Then say so in the file, gdal_edit.py -a_nodata {:.9g} {}, or fill it",
       most.points, most.points == 1 ? "" : "s", path, most.points == 1 ? "is" : "are", value, most.lowest, most.highest,
       most.x, most.y, value, file);

@@ -1,4 +1,4 @@
-// Points of a terrain model that stand for no data although the file does not say so.
+// DEM points with undeclared no-data values.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace thawslide::gis {
 
-// What the user should know of patches of one value, such as 0, amid ground of quite another height; empty if there are
-// none. A patch counts where all ground beside it is more than 100 m higher or lower, and the way there steeper than 80
-// degrees: no lake, and no sea, has such a shore all about it. A single point counts where it is 0.
-[[nodiscard]] std::string pits_note(const std::string& file, const Raster& ground);
+// Warning about patches of one value, such as 0, within ground of a very different height; empty if there are none. A
+// patch counts if all adjacent ground is more than 100 m higher or lower, with a slope steeper than 80 degrees: no lake
+// or sea has such a shore all around. A single point counts if it is 0.
+[[nodiscard]] std::string pits_warning(const std::string& file, const Raster& ground);
 
 }  // namespace thawslide::gis

@@ -10,7 +10,7 @@ namespace thawslide::gis {
 
 namespace {
 
-// A ring needs three corners that do not lie on one line.
+// A ring needs three corners that are not collinear.
 bool has_area(const OGRPolygon& polygon) {
   if (polygon.getExteriorRing()->getNumPoints() < 4) {
     return false;

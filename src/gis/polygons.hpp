@@ -1,4 +1,4 @@
-// Areas of the horizontal plane, bounded by straight lines.
+// Polygonal areas in the horizontal plane.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ namespace thawslide::gis {
 
 using config::Polyline2;
 
-// Rings are closed: the last corner is the first one.
+// Rings are closed: the last corner equals the first.
 struct Polygon {
   Polyline2 outline;
   std::vector<Polyline2> holes;
@@ -20,17 +20,17 @@ using Polygons = std::vector<Polygon>;
 
 [[nodiscard]] Polygon box_polygon(const Rectangle& box);
 
-// Area that a closed ring bounds [m2], by the trapezoid formula (Gauss) from its first corner; positive if it runs
+// Area of a closed ring [m2], by the trapezoid formula (Gauss) relative to its first corner; positive if it is
 // anticlockwise.
 [[nodiscard]] double signed_area(const Polyline2& ring);
-// Outlines less holes [m2].
+// Outlines minus holes [m2].
 [[nodiscard]] double area_of(const Polygons& polygons);
 [[nodiscard]] Rectangle extent_of(const Polygons& polygons);
 [[nodiscard]] Rectangle extent_of(const Polyline2& line);
 
-// Counts what several cover once (GEOS).
+// Union: areas covered several times count once (GEOS).
 [[nodiscard]] Polygons union_of(const Polygons& polygons);
-// What both cover (GEOS).
+// Area covered by both (GEOS).
 [[nodiscard]] Polygons intersection_of(const Polygons& first, const Polygons& second);
 
 }  // namespace thawslide::gis

@@ -10,7 +10,7 @@
 
 #include "base/available_memory.hpp"
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "config/input_limits.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/spatial_reference.hpp"
@@ -22,7 +22,7 @@ struct RasterFile::Handle {
   GDALRasterBand* band = nullptr;
   std::vector<GDALRasterBand*> masks;  // 0 where there is no data
   double scale = 1.0, offset = 0.0;    // of the values stored
-  bool is_single = false;              // 32-bit reals
+  bool is_single = false;              // 32-bit floating point
 };
 
 namespace {
@@ -34,17 +34,17 @@ namespace {
   }
   throw UserError(
       fmt::format("{}: the raster cannot be opened{}. Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is "
-                  "whole and may be read.",
+                  "complete and readable.",
                   file, messages.remark()));
 }
 
-// Of the formats that GDAL knows some name other files, or places in a network, that a case could not.
+// Other GDAL formats are excluded, because they may refer to files or network locations that a case may not name.
 const char* const raster_formats[] = {"GTiff", "AAIGrid", nullptr};
 
 GDALDatasetUniquePtr open_raster(const std::string& file) {
   const GdalMessages messages;
   GDALDriverH driver = GDALIdentifyDriver(file.c_str(), nullptr);
-  // Left alone, the driver of ASCII grids makes floats of reals, and integers of what begins with integers.
+  // By default, the driver of ASCII grids reads floats, and integers if the first value is an integer.
   const bool is_ascii = driver != nullptr && std::string(GDALGetDescription(driver)) == "AAIGrid";
   const char* const as_double[] = {"DATATYPE=Float64", nullptr};
   GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(),
@@ -56,14 +56,15 @@ GDALDatasetUniquePtr open_raster(const std::string& file) {
   return dataset;
 }
 
-// GDAL reports each missing row of an ASCII grid separately, which takes minutes for millions of rows.
+// Detects truncated ASCII grids, because GDAL reports each missing row separately, which takes minutes for millions of
+// rows.
 void require_whole(const std::string& file, GDALDataset& dataset) {
   VSIStatBufL found;
   if (std::string(dataset.GetDriverName()) != "AAIGrid" || VSIStatL(file.c_str(), &found) != 0) {
     return;
   }
   const double points = static_cast<double>(dataset.GetRasterXSize()) * dataset.GetRasterYSize();
-  constexpr double per_point = 2.0;  // bytes: a digit and what separates it from the next
+  constexpr double per_point = 2.0;  // bytes: a digit and a separator
   const double least = per_point * points - 1.0;
   if (static_cast<double>(found.st_size) < least) {
     throw UserError(
@@ -73,13 +74,13 @@ void require_whole(const std::string& file, GDALDataset& dataset) {
   }
 }
 
-// The layout of the points from GDAL's six numbers: corner, columns and rows of the upper left pixel.
+// Layout of the points from GDAL's six coefficients: corner, columns and rows of the upper left pixel.
 Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up) {
   double transform[6];
   if (dataset.GetGeoTransform(transform) != CE_None) {
     throw UserError(
-        fmt::format("{}: the raster is not georeferenced: nothing tells where its corner lies and how large its cells "
-                    "are. Export it again with its place (GeoTIFF tags, or a world file beside it).",
+        fmt::format("{}: the raster is not georeferenced: its corner and the size of its cells are unknown. Export it "
+                    "again with georeferencing (GeoTIFF tags, or a world file next to it).",
                     file));
   }
   const double along = std::abs(transform[1]) + std::abs(transform[5]);
@@ -87,7 +88,7 @@ Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up
     throw UserError(
         fmt::format("{}: the raster is rotated or mirrored (geotransform {:g}); allowed: columns from west to east, "
                     "rows from north to south or back. Straighten it: gdalwarp -r bilinear {} straight.tif",
-                    file, fmt::join(transform, ", "), shell_word(file)));
+                    file, fmt::join(transform, ", "), shell_quote(file)));
   }
   Raster layout;
   layout.columns = dataset.GetRasterXSize();
@@ -122,7 +123,7 @@ double nodata_of(GDALRasterBand& band, bool& has) {
   return value;
 }
 
-// The band with the values; one more may hold the opacity. `alpha`: null without one.
+// Band with the values; a second one may contain the opacity. `alpha`: null without one.
 GDALRasterBand* band_of_values(const std::string& file, GDALDataset& dataset, GDALRasterBand*& alpha) {
   std::vector<GDALRasterBand*> of_values;
   for (GDALRasterBand* band : dataset.GetBands()) {
@@ -140,7 +141,7 @@ GDALRasterBand* band_of_values(const std::string& file, GDALDataset& dataset, GD
   return of_values.front();
 }
 
-// GDAL opens a mask beside a raster whatever its format is.
+// GDAL opens an accompanying mask in any format, which is therefore restricted.
 void require_plain_mask(const std::string& file) {
   const std::string mask = file + ".msk";
   std::error_code ignored;
@@ -157,7 +158,7 @@ void require_plain_mask(const std::string& file) {
 }  // namespace
 
 void require_readable(const std::string& file, double columns, double rows) {
-  constexpr double copies = 2.0;  // while what is read becomes the ground
+  constexpr double copies = 2.0;  // while the raster is converted to the ground
   const double points = columns * rows, bytes = points * sizeof(double) * copies;
   if (points > config::most_raster_points) {
     throw UserError(
@@ -197,13 +198,13 @@ RasterFile::RasterFile(const std::string& file, Quantity quantity) : handle_(std
     throw UserError(fmt::format(
         "{}: the values are stored with a scale of {:g} and an offset of {:g}; allowed: finite numbers, and "
         "a scale other than 0. Correct them: gdal_edit.py -scale 1 -offset 0 {}",
-        file, handle_->scale, handle_->offset, shell_word(file)));
+        file, handle_->scale, handle_->offset, shell_quote(file)));
   }
   const HeightUnit heights = height_unit_of(dataset.GetSpatialRef());
   conversion_ = conversion_from({file, band.GetUnitType(), heights.name, heights.metres}, quantity);
   nodata_ = nodata_of(band, has_nodata_);
   require_plain_mask(file);
-  // GDAL's own mask leaves out bands of opacity that are not whole numbers, and those beside a nodata value.
+  // GDAL's own mask ignores opacity bands that are not integers, and those of rasters with a nodata value.
   const int flags = band.GetMaskFlags();
   if ((flags & GMF_PER_DATASET) != 0 && (flags & GMF_ALPHA) == 0) {
     handle_->masks.push_back(band.GetMaskBand());
@@ -225,7 +226,7 @@ Raster RasterFile::read(const std::optional<Rectangle>& window) const {
   require_readable(file_, part.columns, part.rows);
   Raster raster = layout_of(layout_, part);
   raster.values.resize(static_cast<std::size_t>(part.columns) * static_cast<std::size_t>(part.rows));
-  // GDAL's rows go downwards in a file that is north up: those of the result are filled from the last.
+  // GDAL's rows run downwards in a north-up file, so those of the result are filled from the last.
   const int first_line = north_up_ ? layout_.rows - part.first_row - part.rows : part.first_row;
   const auto line_bytes = static_cast<GSpacing>(part.columns) * static_cast<GSpacing>(sizeof(double));
   double* const first = raster.values.data() + (north_up_ ? raster.index(0, part.rows - 1) : 0);
@@ -255,7 +256,7 @@ Raster RasterFile::read(const std::optional<Rectangle>& window) const {
   return raster;
 }
 
-// Line by line: a mask needs no second raster in memory.
+// Works line by line, because this needs no second raster in memory.
 void RasterFile::remove_masked(const PointWindow& part, Raster& raster) const {
   const GdalMessages messages;
   std::vector<double> mask(static_cast<std::size_t>(part.columns));

@@ -1,14 +1,14 @@
-// Writes rasters as GeoTIFF.
+// GeoTIFF output of rasters.
 #include <gdal_priv.h>
 
 #include <cmath>
 #include <vector>
 
 #include "base/error.hpp"
+#include "gis/atomic_file.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/spatial_reference.hpp"
-#include "gis/whole_file.hpp"
 
 namespace thawslide::gis {
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double written_nodata = -9999.0;
 
-// Rows from north to south, one band of tiles at a time, so that no second raster is in memory.
+// Writes rows from north to south, one row of tiles at a time, so that no second raster is in memory.
 bool write_rows(GDALRasterBand& band, const Raster& raster) {
   constexpr int rows_at_a_time = 256;
   const auto columns = static_cast<std::size_t>(raster.columns);
@@ -43,11 +43,12 @@ void write_geotiff(const std::string& file, const Raster& raster, const BandText
   THAWSLIDE_ASSERT(raster.columns > 0 && raster.rows > 0 &&
                        raster.values.size() == raster.index(raster.columns - 1, raster.rows - 1) + 1,
                    "{} x {} points, {} values", raster.columns, raster.rows, raster.values.size());
-  WholeFile whole(file);
+  AtomicFile whole(file);
   const GdalMessages messages;
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   THAWSLIDE_ASSERT(driver != nullptr, "GDAL has no driver for GeoTIFF");
-  // Predictor 3 is TIFF's for reals. Tiles without data are left out, so that size and time follow the slide.
+  // Predictor 3 is TIFF's for floating-point values. Tiles without data are omitted, so size and time scale with the
+  // slide.
   const char* const options[] = {"TILED=YES",        "COMPRESS=DEFLATE", "PREDICTOR=3",
                                  "BIGTIFF=IF_SAFER", "SPARSE_OK=TRUE",   nullptr};
   GDALDatasetUniquePtr dataset(driver->Create(whole.temporary().c_str(), raster.columns, raster.rows, 1,
@@ -72,7 +73,7 @@ void write_geotiff(const std::string& file, const Raster& raster, const BandText
   if (!written || messages.any_error()) {
     whole.fail_with(messages);
   }
-  whole.put_in_place();
+  whole.publish();
 }
 
 }  // namespace thawslide::gis

@@ -1,4 +1,4 @@
-// A rectangle of the horizontal plane.
+// Rectangle in the horizontal plane.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 namespace thawslide::gis {
 
 struct Rectangle {
-  double min_x = 0.0, min_y = 0.0, max_x = 0.0, max_y = 0.0;  // [m], degrees in a geographic reference system
+  double min_x = 0.0, min_y = 0.0, max_x = 0.0, max_y = 0.0;  // [m], or degrees in a geographic reference system
 
   [[nodiscard]] bool holds(double x, double y) const { return x >= min_x && x <= max_x && y >= min_y && y <= max_y; }
   [[nodiscard]] bool touches(const Rectangle& other) const {

@@ -9,12 +9,12 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "config/input_limits.hpp"
+#include "gis/error_location.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/reprojection.hpp"
 #include "gis/spatial_reference.hpp"
-#include "gis/told_at.hpp"
 
 namespace thawslide::gis {
 
@@ -66,8 +66,8 @@ HeightUnit height_unit_of(const OGRSpatialReference* reference) {
 
 namespace {
 
-// The zone of the Universal Transverse Mercator projection: 6 degrees wide, numbered from 180 degrees west (Snyder
-// 1987, Map projections: a working manual, p. 57).
+// Zone of the Universal Transverse Mercator projection: 6 degrees wide, numbered from 180 degrees west (Snyder 1987,
+// Map projections: a working manual, p. 57).
 int utm_number(double longitude, double latitude) {
   const int zone = std::clamp(static_cast<int>(std::floor((longitude + 180.0) / 6.0)) + 1, 1, 60);
   return (latitude >= 0.0 ? 32600 : 32700) + zone;
@@ -78,7 +78,7 @@ double two_digits(double value) {
   return std::round(value / unit) * unit;
 }
 
-// The command that makes a raster in metres, in the UTM zone of the raster's centre.
+// Command that converts a raster to metres, in the UTM zone of the raster's centre.
 std::string warp_command(const Located& raster, const std::string& source_option, double longitude, double latitude,
                          double metres_per_unit) {
   const int number = utm_number(longitude, latitude);
@@ -86,11 +86,11 @@ std::string warp_command(const Located& raster, const std::string& source_option
   const std::filesystem::path target = file.parent_path() / fmt::format("{}-EPSG{}.tif", file.stem().string(), number);
   const double cell = two_digits(raster.cell_y * metres_per_unit);
   return fmt::format("gdalwarp {}-t_srs EPSG:{} -tr {:g} {:g} -r bilinear {} {}", source_option, number, cell, cell,
-                     shell_word(file.string()), shell_word(target.string()));
+                     shell_quote(file.string()), shell_quote(target.string()));
 }
 
 std::string warp_of_degrees(const Located& raster, const std::string& source_option) {
-  constexpr double metres_per_degree = 111.3e3;  // of latitude, about
+  constexpr double metres_per_degree = 111.3e3;  // of latitude, approximately
   const Rectangle& extent = raster.extent;
   return warp_command(raster, source_option, 0.5 * (extent.min_x + extent.max_x), 0.5 * (extent.min_y + extent.max_y),
                       metres_per_degree);
@@ -98,7 +98,7 @@ std::string warp_of_degrees(const Located& raster, const std::string& source_opt
 
 [[noreturn]] void fail_without_system(const Located& raster) {
   const std::string found =
-      fmt::format("{}: the file names no coordinate reference system ({})", raster.file, range_words(raster.extent));
+      fmt::format("{}: the file names no coordinate reference system ({})", raster.file, format_range(raster.extent));
   if (can_be_degrees(raster.extent)) {
     throw UserError(
         fmt::format("{}. If these are degrees, reproject to metres: {}. If they are metres, set terrain.crs to the "
@@ -111,17 +111,17 @@ std::string warp_of_degrees(const Located& raster, const std::string& source_opt
 
 [[noreturn]] void fail_with_degrees(const Located& raster, const std::string& wkt) {
   if (!can_be_degrees(raster.extent)) {
-    throw UserError(
-        fmt::format("{}: the tag says degrees ({}), the numbers are metric ({}). Set terrain.crs = \"EPSG:...\" to the "
-                    "system the numbers are in; its maker states it.",
-                    raster.file, name_of(wkt), range_words(raster.extent)));
+    throw UserError(fmt::format(
+        "{}: the tag specifies degrees ({}), but the numbers are metric ({}). Set terrain.crs = \"EPSG:...\" to the "
+        "system the numbers are in; its maker states it.",
+        raster.file, name_of(wkt), format_range(raster.extent)));
   }
   throw UserError(
       fmt::format("{}: the coordinates are degrees ({}; {}); allowed: a map projection in metres. Reproject: {}",
-                  raster.file, name_of(wkt), range_words(raster.extent), warp_of_degrees(raster, "")));
+                  raster.file, name_of(wkt), format_range(raster.extent), warp_of_degrees(raster, "")));
 }
 
-// Longitude and latitude of the raster's middle; NaN where it has none.
+// Longitude and latitude of the raster's centre; NaN if undefined.
 std::array<double, 2> middle_in_degrees(const Located& raster, const std::string& wkt) {
   OGRSpatialReference degrees;
   degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
@@ -149,8 +149,8 @@ std::array<double, 2> middle_in_degrees(const Located& raster, const std::string
                   raster.file, unit, name_of(wkt), remedy));
 }
 
-// Its metres are those of the equator: at a latitude they are longer than on the ground by one over its cosine (Snyder
-// 1987, p. 44).
+// Its metres are those of the equator: at a latitude, lengths exceed those on the ground by the factor 1/cos(latitude)
+// (Snyder 1987, p. 44).
 bool is_web_mercator(const OGRSpatialReference& reference) {
   const char* projection = reference.GetAttrValue("PROJECTION");
   const char* authority = reference.GetAuthorityName(nullptr);
@@ -159,12 +159,12 @@ bool is_web_mercator(const OGRSpatialReference& reference) {
                        (std::string(code) == "3857" || std::string(code) == "3785");
   const bool by_method = projection != nullptr && (std::string(projection) == "Popular Visualisation Pseudo Mercator" ||
                                                    std::string(projection) == "Mercator_Auxiliary_Sphere");
-  const char* extension = reference.GetExtension(nullptr, "PROJ4", "");  // how WKT 1 tells it
+  const char* extension = reference.GetExtension(nullptr, "PROJ4", "");  // form in WKT 1
   const std::string proj4 = extension == nullptr ? "" : extension;
   return by_code || by_method || proj4.find("+a=6378137 +b=6378137") != std::string::npos;
 }
 
-// With the factor by which lengths are too long at the middle of the raster.
+// The message contains the factor by which lengths are too long at the centre of the raster.
 [[noreturn]] void fail_with_web_mercator(const Located& raster, const std::string& wkt, bool from_key) {
   if (from_key) {
     throw UserError(
@@ -180,7 +180,7 @@ bool is_web_mercator(const OGRSpatialReference& reference) {
       raster.file, name_of(wkt), latitude, stretch, warp_command(raster, "", longitude, latitude, 1.0 / stretch)));
 }
 
-// The key places a DEM and does not change its values.
+// The key georeferences a DEM and does not change its values.
 void require_metric_heights(const OGRSpatialReference& reference, const std::string& name) {
   const HeightUnit heights = height_unit_of(&reference);
   if (std::abs(heights.metres - 1.0) > 1e-9) {
@@ -192,7 +192,7 @@ void require_metric_heights(const OGRSpatialReference& reference, const std::str
   }
 }
 
-// GDAL leaves out what follows the digits of a number.
+// GDAL ignores characters after the digits of a number.
 bool is_sound_number(const std::string& text) {
   const std::size_t colon = text.find(':');
   const bool is_number_of_epsg = colon == 4 && (text[0] == 'E' || text[0] == 'e');
@@ -259,7 +259,7 @@ bool can_be_degrees(const Rectangle& extent) {
 std::string metric_system(const Located& raster, const std::string& wkt_of_file, const std::string& terrain_crs) {
   const bool from_key = !terrain_crs.empty();
   const std::string wkt = from_key ? reference_system_named(terrain_crs) : wkt_of_file;
-  require_projection_database();  // without it a file's system may not have been understood
+  require_projection_database();  // without it, a file's system may be misread
   if (wkt.empty()) {
     fail_without_system(raster);
   }
@@ -296,7 +296,7 @@ std::string metric_system(const Located& raster, const std::string& wkt_of_file,
   return wkt_from_reference(&reference);
 }
 
-std::string place_note(const Located& raster, const std::string& wkt) {
+std::string place_warning(const Located& raster, const std::string& wkt) {
   constexpr double far = 1000.0, kilometres_per_degree = 111.2;  // [km]; along a meridian
   const GdalMessages messages;
   const OGRSpatialReference given = reference_from_wkt(wkt);
@@ -309,13 +309,13 @@ std::string place_note(const Located& raster, const std::string& wkt) {
                         registered.importFromEPSG(std::atoi(code)) == OGRERR_NONE &&
                         registered.GetAreaOfUse(&west, &south, &east, &north, &area);
   if (!has_area || west > east) {
-    return "";  // none is told, or one across the date line
+    return "";  // no area of use is given, or it crosses the date line
   }
   const auto [longitude, latitude] = middle_in_degrees(raster, wkt);
-  const double beside = std::max({0.0, west - longitude, longitude - east});
+  const double adjacent = std::max({0.0, west - longitude, longitude - east});
   const double along = std::max({0.0, south - latitude, latitude - north});
   const double distance =
-      kilometres_per_degree * std::hypot(beside * std::cos(latitude * std::numbers::pi / 180.0), along);
+      kilometres_per_degree * std::hypot(adjacent * std::cos(latitude * std::numbers::pi / 180.0), along);
   if (distance <= far) {
     return "";
   }

@@ -1,5 +1,5 @@
-// Coordinate reference systems: what a file or the user says, whether the ground can be computed in it, and the way
-// from one to another. All are texts in WKT here.
+// Coordinate reference systems: that of a file or of the user, its suitability for the computation, and names. All
+// systems are WKT texts here.
 #pragma once
 
 #include <string>
@@ -8,34 +8,33 @@
 
 namespace thawslide::gis {
 
-// What the messages about a reference system name.
+// Raster properties used in messages about its reference system.
 struct Located {
   std::string file;
-  Rectangle extent;                   // of its coordinates, in the file's numbers
-  double cell_x = 0.0, cell_y = 0.0;  // of a raster, in the file's numbers
+  Rectangle extent;                   // of its coordinates, in the units of the file
+  double cell_x = 0.0, cell_y = 0.0;  // of a raster, in the units of the file
 };
 
-// Throws UserError where PROJ does not find its database.
+// Throws UserError if PROJ does not find its database.
 void require_projection_database();
 
-// The WKT of a system the user names, such as "EPSG:31254" or a WKT. Throws UserError where it is not known.
+// WKT of a system specified by the user, such as "EPSG:31254" or a WKT. Throws UserError if it is unknown.
 [[nodiscard]] std::string reference_system_named(const std::string& text);
 
-// "EPSG:31254", or the system's title where it has no number; empty for an empty one.
+// "EPSG:31254", or the system's title if it has no number; empty for an empty one.
 [[nodiscard]] std::string name_of(const std::string& wkt);
 
 [[nodiscard]] bool is_geographic(const std::string& wkt);
 
-// Numbers beyond 360 or 90 are no longitude and latitude, whatever the file says.
+// False for values beyond 360 or 90, which cannot be longitude and latitude.
 [[nodiscard]] bool can_be_degrees(const Rectangle& extent);
 
-// The system to compute in: the one that `terrain.crs` names, else the file's. Throws UserError where there is none,
-// and where it is not a map projection in metres; the text says how to mend that.
-// Only its horizontal part is returned.
+// System for the computation: that of `terrain.crs`, otherwise that of the file. Throws UserError, with the remedy, if
+// there is none, or if it is not a map projection in metres. Only its horizontal part is returned.
 [[nodiscard]] std::string metric_system(const Located& raster, const std::string& wkt_of_file,
                                         const std::string& terrain_crs);
 
-// What the user should know of a raster that lies far outside the area its system is made for; empty where it does not.
-[[nodiscard]] std::string place_note(const Located& raster, const std::string& wkt);
+// Warning if a raster lies far outside the area of use of its system; empty otherwise.
+[[nodiscard]] std::string place_warning(const Located& raster, const std::string& wkt);
 
 }  // namespace thawslide::gis

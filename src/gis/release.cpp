@@ -4,19 +4,19 @@
 #include <cmath>
 
 #include "base/raster_sampling.hpp"
+#include "gis/error_location.hpp"
 #include "gis/geopackage.hpp"
 #include "gis/point_window.hpp"
 #include "gis/release_area.hpp"
 #include "gis/release_fields.hpp"
 #include "gis/release_thickness.hpp"
 #include "gis/taper.hpp"
-#include "gis/told_at.hpp"
 
 namespace thawslide::gis {
 
 namespace {
 
-// To the points that have a thickness and one more on each side, as far as the ground reaches.
+// Crops to the points with a thickness and one more on each side, within the extent of the ground.
 Raster cropped(const Raster& thickness, const Raster& ground) {
   PointWindow window{thickness.columns, thickness.rows, 0, 0};
   int last_column = -1, last_row = -1;
@@ -58,13 +58,13 @@ void check_volume(const config::Case& parameters, const std::string& name, const
   }
 }
 
-// A thickness in another unit makes a tower of a release.
-void note_tower(const std::string& name, const config::Release& release, std::vector<std::string>& notes) {
+// A thickness in a wrong unit makes a release implausibly tall.
+void warn_of_tower(const std::string& name, const config::Release& release, std::vector<std::string>& warnings) {
   constexpr double share_of_width = 0.5;
   const double width = std::sqrt(release.area);
   const double most = *std::max_element(release.thickness.values.begin(), release.thickness.values.end());
   if (most > share_of_width * width) {
-    notes.push_back(
+    warnings.push_back(
         fmt::format("the release of the body {} is up to {:.4g} m thick and, by its area, {:.4g} m wide: is the "
                     "thickness in metres?",
                     name, most, width));
@@ -74,21 +74,21 @@ void note_tower(const std::string& name, const config::Release& release, std::ve
 }  // namespace
 
 LoadedRelease load_release(const config::Case& parameters, const std::string& body, const Dem& ground,
-                           std::vector<std::string>& notes) {
-  ReleaseArea area = load_release_area(parameters, body, ground, notes);
-  const Raster thickness = vertical_thickness_of(parameters, body, area, ground, notes);
+                           std::vector<std::string>& warnings) {
+  ReleaseArea area = load_release_area(parameters, body, ground, warnings);
+  const Raster thickness = vertical_thickness_of(parameters, body, area, ground, warnings);
   check_volume(parameters, body, thickness);
   LoadedRelease loaded;
   config::Release& release = loaded.release;
   release.thickness = cropped(thickness, ground.raster);
-  release.fields = fields_of(parameters, body, area, release.thickness, notes);
+  release.fields = fields_of(parameters, body, area, release.thickness, warnings);
   for (const Polygon& polygon : area.polygons) {
     release.outlines.push_back(polygon.outline);
     release.outlines.insert(release.outlines.end(), polygon.holes.begin(), polygon.holes.end());
   }
   loaded.polygons = area.is_raster() ? areas_of_mask(area.share) : std::move(area.polygons);
   release.area = area_of(loaded.polygons);
-  note_tower(body, release, notes);
+  warn_of_tower(body, release, warnings);
   loaded.spread = tapered(area.share, parameters.bodies.at(body).taper);
   loaded.share = std::move(area.share);
   return loaded;

@@ -1,4 +1,4 @@
-// The release of one body: its thickness and what else maps tell of it, at the points of the ground.
+// Release of one body: its thickness and other mapped fields, at the points of the ground.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace thawslide::gis {
 
-// A release, and where it lies.
+// Release and its area.
 struct LoadedRelease {
   config::Release release;
-  Polygons polygons;  // the area it covers; of a raster the cells about its points
-  Raster share;       // of each point's cell that it covers
-  Raster spread;      // the same, handed to the points about it by the taper as the thickness is
+  Polygons polygons;  // covered area; for a raster, the cells around its points
+  Raster share;       // covered fraction of each point's cell
+  Raster spread;      // the same, distributed by the taper like the thickness
 };
 
-// `ground` as the terrain model has it, before anything is cut out of it. Adds to the notes.
+// `ground`: the original DEM, before excavation. Appends warnings.
 [[nodiscard]] LoadedRelease load_release(const config::Case& parameters, const std::string& body, const Dem& ground,
-                                         std::vector<std::string>& notes);
+                                         std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

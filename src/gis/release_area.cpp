@@ -3,22 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "gis/averaging.hpp"
 #include "gis/coverage.hpp"
+#include "gis/error_location.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/reprojection.hpp"
 #include "gis/sampling.hpp"
 #include "gis/taper.hpp"
-#include "gis/told_at.hpp"
 
 namespace thawslide::gis {
 
 namespace {
 
-// The ground's points about an extent, also where they lie beyond those that were read: that there is no ground is told
-// later, of points that need one.
+// Ground points around an extent, including those outside the points that were read: missing ground is reported later,
+// for points that need it.
 Raster points_about(const Rectangle& extent, double taper, const Raster& ground) {
   const auto along = [&](double low, double high, double first, double cell, double& new_first, int& count) {
     const int margin = 2 + taper_reach(taper, cell);
@@ -35,25 +35,25 @@ Raster points_about(const Rectangle& extent, double taper, const Raster& ground)
   return layout;
 }
 
-// `extent`: of all that has a thickness before it is tapered.
+// `extent`: of all positive thickness before tapering.
 void check_place(const config::Case& parameters, const std::string& body, const Rectangle& extent, const Dem& ground) {
   const auto check = [&](const char* what, const Rectangle& outer, const std::string& remedy) {
-    const std::string beyond = words_beyond(extent, outer);
+    const std::string beyond = describe_overhang(extent, outer);
     if (!beyond.empty()) {
       fail_at(parameters, key_of_place(parameters, body),
               fmt::format("{}: the release lies {}outside {}, by {}; found: {}; allowed: {}. {}",
                           file_of_place(parameters, body), extent.touches(outer) ? "partly " : "", what, beyond,
-                          range_words(extent), range_words(outer), remedy));
+                          format_range(extent), format_range(outer), remedy));
     }
   };
-  check("the terrain model", ground.span,
+  check("the DEM", ground.span,
         fmt::format("Check that both have the same place and reference system (the ground's is {}), or take a larger "
-                    "terrain model.",
+                    "DEM.",
                     name_of(ground.raster.crs)));
   check("the domain", domain_of(parameters), "Widen grid.min and grid.max.");
 }
 
-// The widest taper whose points lie within, beyond an extent that does.
+// Widest taper whose points lie within `outer`, around an extent that does.
 double widest_taper(const Rectangle& extent, const Rectangle& outer, const Raster& ground) {
   const auto along = [](double room, double cell) { return 2.0 * (std::floor(room / cell + 1e-9) + 1.0) * cell; };
   return std::min({along(extent.min_x - outer.min_x, ground.cell_x), along(outer.max_x - extent.max_x, ground.cell_x),
@@ -66,7 +66,7 @@ void check_taper(const config::Case& parameters, const std::string& body, const 
   const Rectangle reached = extent.widened(taper_reach(taper, points.cell_x) * points.cell_x,
                                            taper_reach(taper, points.cell_y) * points.cell_y);
   const auto check = [&](const char* what, const Rectangle& outer, const char* remedy) {
-    const std::string beyond = words_beyond(reached, outer);
+    const std::string beyond = describe_overhang(reached, outer);
     if (!beyond.empty()) {
       fail_at(parameters, key_of(body, "taper"),
               fmt::format("a taper of {:g} m spreads the release {:g} m beyond its outline, and outside {} by {}; "
@@ -74,33 +74,33 @@ void check_taper(const config::Case& parameters, const std::string& body, const 
                           taper, 0.5 * taper, what, beyond, widest_taper(extent, outer, points), remedy));
     }
   };
-  check("the terrain model", ground.span, "take a larger terrain model");
+  check("the DEM", ground.span, "take a larger DEM");
   check("the domain", domain_of(parameters), "widen grid.min and grid.max");
 }
 
-// The terrain model's points get their share of a release each: one that is smaller than a cell would become much
-// thinner.
+// A release smaller than a cell would become much thinner, because its volume is distributed over the cells of DEM
+// points.
 void check_size(const config::Case& parameters, const std::string& body, double size, const Raster& ground) {
   const double cell = ground.cell_x * ground.cell_y;
   if (size < cell * (1.0 - 1e-9)) {
     const double finer = 0.25 * std::sqrt(size);
-    fail_at(
-        parameters, key_of(body, "release"),
-        fmt::format("{}: the release has {:.4g} m2, less than one cell of the terrain model, {:.4g} m2: it would be "
-                    "spread over the cell and become as much thinner. Draw it larger, or resample the terrain model "
-                    "(gdalwarp -tr {:.1g} {:.1g} -r bilinear {} finer.tif).",
-                    parameters.bodies.at(body).release, size, cell, finer, finer, shell_word(parameters.terrain.file)));
+    fail_at(parameters, key_of(body, "release"),
+            fmt::format("{}: the release has {:.4g} m2, less than one cell of the DEM, {:.4g} m2: it would be "
+                        "spread over the cell and become as much thinner. Draw it larger, or resample the DEM "
+                        "(gdalwarp -tr {:.1g} {:.1g} -r bilinear {} finer.tif).",
+                        parameters.bodies.at(body).release, size, cell, finer, finer,
+                        shell_quote(parameters.terrain.file)));
   }
 }
 
-void note_narrow(const std::string& body, const Raster& share, std::vector<std::string>& notes) {
+void warn_of_narrow(const std::string& body, const Raster& share, std::vector<std::string>& warnings) {
   const double most = *std::max_element(share.values.begin(), share.values.end());
   if (most < 0.995) {
-    notes.push_back(fmt::format(
-        "the release of the body {} covers no cell of the terrain model, {:g} m x {:g} m, as a whole: it is "
-        "spread over cells that it covers in part, and gets up to {:.0f} % of the thickness given; the "
-        "volume stays. Draw it larger, or resample the terrain model",
-        body, share.cell_x, share.cell_y, 100.0 * most));
+    warnings.push_back(
+        fmt::format("the release of the body {} covers no cell of the DEM, {:g} m x {:g} m, as a whole: it is "
+                    "spread over cells that it covers in part, and gets up to {:.0f} % of the thickness given; the "
+                    "volume stays. Draw it larger, or resample the DEM",
+                    body, share.cell_x, share.cell_y, 100.0 * most));
   }
 }
 
@@ -120,7 +120,7 @@ Rectangle extent_of_positive(const config::Body& body, const Raster& source, con
       throw UserError(fmt::format("{}: the thickness is nowhere above 0: there is no release.", file));
     }
     throw UserError(
-        fmt::format("{}: the surface before the slide lies nowhere more than {:g} m above the terrain model: there is "
+        fmt::format("{}: the surface before the slide lies nowhere more than {:g} m above the DEM: there is "
                     "no release. Are the two files swapped?",
                     file, body.surface_tolerance));
   }
@@ -137,7 +137,8 @@ Rectangle extent_of_positive(const config::Body& body, const Raster& source, con
   return extent;
 }
 
-// Means of what a finer surface has above the ground, over the share of each cell that the surface is known in.
+// Means of the height of a finer surface above the ground, over the fraction of each cell in which the surface is
+// known.
 Raster finer_above(const Raster& surface, const Raster& ground, double tolerance) {
   Raster above = averaged(above_ground(surface, ground), ground, Missing::nothing);
   Raster known = surface;
@@ -151,8 +152,8 @@ Raster finer_above(const Raster& surface, const Raster& ground, double tolerance
   return above;
 }
 
-// What another surface has above the ground's points. Those at its rim take their shares of the heights above ground at
-// its own points: its elevations there are those of other places.
+// Height of another surface above the ground's points. Points at its rim are weighted by the heights above ground at
+// the surface's own points, because its elevations there belong to other positions.
 Raster coarser_above(const Raster& surface, const Raster& ground, double tolerance) {
   Raster above = above_ground(sampled(surface, ground, Missing::unknown), ground);
   const Raster shares = sampled(above_ground(surface, ground), ground, Missing::zero);
@@ -164,34 +165,34 @@ Raster coarser_above(const Raster& surface, const Raster& ground, double toleran
   return above;
 }
 
-// The thickness that a raster tells, or what a surface has above the ground at the ground's points.
+// Thickness from a raster, or height of a surface above the ground, at the ground's points.
 Raster thickness_without_polygons(const config::Case& parameters, const std::string& name, const Dem& ground,
-                                  std::vector<std::string>& notes) {
+                                  std::vector<std::string>& warnings) {
   const config::MapValue& thickness = parameters.bodies.at(name).thickness;
   Raster map = read_map(
       parameters, {key_of_place(parameters, name), thickness.source, Quantity::length, ground.raster.crs, std::nullopt},
-      notes);
+      warnings);
   if (thickness.from == config::MapValue::From::raster) {
     return map;
   }
-  // Not smoothed, as a surface before the slide is not either.
+  // not smoothed, like the surface before release
   const Raster& measured = ground.as_measured();
   const double tolerance = parameters.bodies.at(name).surface_tolerance;
   return is_finer(map, measured) ? finer_above(map, measured, tolerance) : coarser_above(map, measured, tolerance);
 }
 
 ReleaseArea area_of_raster(const config::Case& parameters, const std::string& name, const Dem& ground,
-                           std::vector<std::string>& notes) {
+                           std::vector<std::string>& warnings) {
   const config::Body& body = parameters.bodies.at(name);
   const std::string key = key_of_place(parameters, name);
   ReleaseArea area;
-  area.source = thickness_without_polygons(parameters, name, ground, notes);
+  area.source = thickness_without_polygons(parameters, name, ground, warnings);
   const Rectangle extent =
-      told_at(parameters, key, [&] { return extent_of_positive(body, area.source, ground.raster.crs); });
+      with_error_location(parameters, key, [&] { return extent_of_positive(body, area.source, ground.raster.crs); });
   check_place(parameters, name, extent, ground);
   check_taper(parameters, name, extent, ground);
   const Rectangle reached = extent.widened(area.source.cell_x, area.source.cell_y);
-  area.share = told_at(parameters, key, [&] {
+  area.share = with_error_location(parameters, key, [&] {
     return sampled(area.source, points_about(reached, body.taper, ground.raster), Missing::zero);
   });
   for (double& share : area.share.values) {
@@ -201,14 +202,15 @@ ReleaseArea area_of_raster(const config::Case& parameters, const std::string& na
 }
 
 ReleaseArea area_of_polygons(const config::Case& parameters, const std::string& name, const Dem& ground,
-                             std::vector<std::string>& notes) {
+                             std::vector<std::string>& warnings) {
   const config::Body& body = parameters.bodies.at(name);
   ReleaseArea area;
-  area.layer =
-      told_at(parameters, key_of(name, "release"), [&] { return read_polygons(body.release, ground.raster.crs); });
-  notes.insert(notes.end(), area.layer.notes.begin(), area.layer.notes.end());
-  area.layer.features = told_at(parameters, key_of(name, "polygons"),
-                                [&] { return features_named(area.layer, body.polygons, body.name_attribute); });
+  area.layer = with_error_location(parameters, key_of(name, "release"),
+                                   [&] { return read_polygons(body.release, ground.raster.crs); });
+  warnings.insert(warnings.end(), area.layer.warnings.begin(), area.layer.warnings.end());
+  area.layer.features = with_error_location(parameters, key_of(name, "polygons"), [&] {
+    return features_named(area.layer, body.polygons, body.name_attribute);
+  });
   Polygons all;
   for (const Feature& feature : area.layer.features) {
     all.insert(all.end(), feature.polygons.begin(), feature.polygons.end());
@@ -219,7 +221,7 @@ ReleaseArea area_of_polygons(const config::Case& parameters, const std::string& 
   check_taper(parameters, name, extent, ground);
   check_size(parameters, name, area_of(area.polygons), ground.raster);
   area.share = coverage_of(area.polygons, points_about(extent, body.taper, ground.raster));
-  note_narrow(name, area.share, notes);
+  warn_of_narrow(name, area.share, warnings);
   return area;
 }
 
@@ -237,9 +239,9 @@ const std::string& file_of_place(const config::Case& parameters, const std::stri
 }
 
 ReleaseArea load_release_area(const config::Case& parameters, const std::string& body, const Dem& ground,
-                              std::vector<std::string>& notes) {
-  return parameters.bodies.at(body).release.empty() ? area_of_raster(parameters, body, ground, notes)
-                                                    : area_of_polygons(parameters, body, ground, notes);
+                              std::vector<std::string>& warnings) {
+  return parameters.bodies.at(body).release.empty() ? area_of_raster(parameters, body, ground, warnings)
+                                                    : area_of_polygons(parameters, body, ground, warnings);
 }
 
 }  // namespace thawslide::gis

@@ -6,18 +6,18 @@
 #include "base/nearest_known.hpp"
 #include "gis/averaging.hpp"
 #include "gis/coverage.hpp"
+#include "gis/error_location.hpp"
 #include "gis/geopackage.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/point_window.hpp"
 #include "gis/sampling.hpp"
-#include "gis/told_at.hpp"
 #include "gis/valued_areas.hpp"
 
 namespace thawslide::gis {
 
 namespace {
 
-// The range is that of the key's number: above `low`, up to `high`.
+// Field with the range of the key's number: above `low`, up to `high`.
 struct MappedField {
   const char* key;
   InitialField config::Body::*member;
@@ -33,7 +33,7 @@ constexpr MappedField mapped_fields[] = {
     {"ice_content", &config::Body::ice_content, 0.0, 0.95, "", Quantity::share},
 };
 
-// Means of the polygons' values over each point's cell; NaN where none of them lies.
+// Means of the polygons' values over each point's cell; NaN outside the polygons.
 Raster from_attribute(const ReleaseArea& area, const std::string& attribute, const std::string& key) {
   if (area.is_raster()) {
     throw UserError("a raster gives the release: it has no attributes. Name a raster of the quantity, or a number.");
@@ -53,7 +53,7 @@ Raster from_attribute(const ReleaseArea& area, const std::string& attribute, con
   return sum;
 }
 
-// `missing`: whether a point without data is an error.
+// `missing`: whether a no-data point is an error.
 void check_values(const Raster& field, const Raster& share, const MappedField& what, const std::string& source,
                   bool missing = true) {
   for (int row = 0; row < field.rows; ++row) {
@@ -72,7 +72,7 @@ void check_values(const Raster& field, const Raster& share, const MappedField& w
   }
 }
 
-// Single values of a finer raster are checked too: a mean may hide one that is not allowed.
+// Single values of a finer raster are checked too, because a mean may hide an invalid one.
 Raster from_raster(const ReleaseArea& area, const Raster& map, const MappedField& what, const std::string& source) {
   if (!is_finer(map, area.share)) {
     return sampled(map, area.share, Missing::nothing);
@@ -87,7 +87,7 @@ Raster from_raster(const ReleaseArea& area, const Raster& map, const MappedField
 
 std::map<std::string, Raster> fields_of(const config::Case& parameters, const std::string& body,
                                         const ReleaseArea& area, const Raster& thickness,
-                                        std::vector<std::string>& notes) {
+                                        std::vector<std::string>& warnings) {
   std::map<std::string, Raster> fields;
   for (const MappedField& what : mapped_fields) {
     const InitialField& field = parameters.bodies.at(body).*what.member;
@@ -98,9 +98,9 @@ std::map<std::string, Raster> fields_of(const config::Case& parameters, const st
     const bool is_raster = field.over == InitialField::Over::raster;
     const Raster map =
         is_raster ? read_map(parameters, {key, field.source, what.quantity, area.share.crs, span_of_points(area.share)},
-                             notes)
+                             warnings)
                   : Raster{};
-    fields[what.key] = told_at(parameters, key, [&] {
+    fields[what.key] = with_error_location(parameters, key, [&] {
       Raster made = is_raster ? from_raster(area, map, what, field.source) : from_attribute(area, field.source, key);
       check_values(made, area.share, what, is_raster ? field.source : area.layer.file);
       for (std::size_t k = 0; k < made.values.size(); ++k) {

@@ -1,4 +1,4 @@
-// Initial fields of a release that a map gives: temperature, porosity.
+// Initial fields of a release from maps: temperature, porosity.
 #pragma once
 
 #include <map>
@@ -9,11 +9,11 @@
 
 namespace thawslide::gis {
 
-// By key of the body; at the points of `thickness`, which lie among those of the area's share. Every point has a value:
-// those beyond the release that of the nearest one within. Throws UserError where a value is missing within the release
-// or is out of range. Adds to the notes.
+// Fields by key of the body, at the points of `thickness`, which are among those of the area's `share`. Points outside
+// the release have the value of the nearest one within. Throws UserError if a value within the release is missing or
+// out of range. Appends warnings.
 [[nodiscard]] std::map<std::string, Raster> fields_of(const config::Case& parameters, const std::string& body,
                                                       const ReleaseArea& area, const Raster& thickness,
-                                                      std::vector<std::string>& notes);
+                                                      std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

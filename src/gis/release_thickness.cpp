@@ -2,15 +2,15 @@
 
 #include <cmath>
 
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "gis/averaging.hpp"
 #include "gis/coverage.hpp"
+#include "gis/error_location.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/point_window.hpp"
 #include "gis/sampling.hpp"
 #include "gis/slope.hpp"
 #include "gis/taper.hpp"
-#include "gis/told_at.hpp"
 #include "gis/valued_areas.hpp"
 
 namespace thawslide::gis {
@@ -22,14 +22,14 @@ using config::MapValue;
 class ThicknessMaker {
  public:
   ThicknessMaker(const config::Case& parameters, const std::string& body, const ReleaseArea& area, const Dem& ground,
-                 std::vector<std::string>& notes)
+                 std::vector<std::string>& warnings)
       : case_(parameters),
         name_(body),
         body_(parameters.bodies.at(body)),
         area_(area),
         ground_(ground.raster),
         measured_(ground.as_measured()),
-        notes_(notes) {}
+        warnings_(warnings) {}
 
   Raster make() {
     Raster thickness = area_.is_raster() ? of_release_raster() : of_polygons();
@@ -40,7 +40,7 @@ class ThicknessMaker {
     thickness = tapered(thickness, body_.taper);
     check_ground(thickness, Spread::by_taper);
     if (body_.taper > 0.0 && taper_reach(body_.taper, ground_.cell_x) + taper_reach(body_.taper, ground_.cell_y) == 0) {
-      notes_.push_back(
+      warnings_.push_back(
           fmt::format("the taper of the body {}, {:g} m, is no wider than two cells of the ground, {:g} m x "
                       "{:g} m: it changes nothing",
                       name_, body_.taper, ground_.cell_x, ground_.cell_y));
@@ -55,7 +55,7 @@ class ThicknessMaker {
     fail_at(case_, key_of(name_, key), message);
   }
 
-  // Column and row of a point of the area among the ground's, and whether it has ground.
+  // Indices of a point of the area in the ground raster; false if there is no ground.
   bool has_ground(int column, int row, int& ground_column, int& ground_row) const {
     const Raster& share = area_.share;
     ground_column = column + static_cast<int>(std::lround((share.x - ground_.x) / ground_.cell_x));
@@ -64,7 +64,7 @@ class ThicknessMaker {
            !std::isnan(ground_.at(ground_column, ground_row));
   }
 
-  // Calls body(column, row, value) for the points with a value.
+  // Calls work(column, row, value) for the points with a value.
   template <class Work>
   static void for_each_positive(Raster& raster, const Work& work) {
     for (int row = 0; row < raster.rows; ++row) {
@@ -76,7 +76,7 @@ class ThicknessMaker {
     }
   }
 
-  // `spread`: what brought the release to its points.
+  // `spread`: method that distributed the release to its points.
   void check_ground(Raster& thickness, Spread spread) const {
     int without = 0;
     std::string first;
@@ -88,15 +88,15 @@ class ThicknessMaker {
     });
     if (without > 0 && spread == Spread::by_taper) {
       fail("taper",
-           fmt::format("a taper of {:g} m spreads the release of {} over nodata of the terrain model at {} points, "
+           fmt::format("a taper of {:g} m spreads the release of {} over nodata of the DEM at {} points, "
                        "such as {}. Set a narrower one, or fill the holes (gdal_fillnodata.py {} filled.tif).",
-                       body_.taper, file_of_place(case_, name_), without, first, shell_word(case_.terrain.file)));
+                       body_.taper, file_of_place(case_, name_), without, first, shell_quote(case_.terrain.file)));
     }
     if (without > 0) {
       fail(body_.release.empty() ? "thickness" : "release",
-           fmt::format("{}: the release lies over nodata of the terrain model at {} of its points, such as {}. "
+           fmt::format("{}: the release lies over nodata of the DEM at {} of its points, such as {}. "
                        "Fill the holes (gdal_fillnodata.py {} filled.tif), or move the release.",
-                       file_of_place(case_, name_), without, first, shell_word(case_.terrain.file)));
+                       file_of_place(case_, name_), without, first, shell_quote(case_.terrain.file)));
     }
   }
 
@@ -112,12 +112,12 @@ class ThicknessMaker {
   Raster of_release_raster() {
     const Raster thickness = sampled(area_.source, area_.share, Missing::zero);
     require_not_negative(area_.source, nullptr, "thickness", body_.thickness.source);
-    const double told = volume_of(area_.source), made = volume_of(thickness);
-    if (area_.source.crs == ground_.crs && std::abs(made - told) > 1e-3 * told) {
-      notes_.push_back(
+    const double specified = volume_of(area_.source), made = volume_of(thickness);
+    if (area_.source.crs == ground_.crs && std::abs(made - specified) > 1e-3 * specified) {
+      warnings_.push_back(
           fmt::format("the thickness of the body {} holds {:.6g} m3 at its own points and {:.6g} m3 at "
                       "those of the ground",
-                      name_, told, made));
+                      name_, specified, made));
     }
     return thickness;
   }
@@ -151,7 +151,7 @@ class ThicknessMaker {
     const std::string key = key_of(name_, "thickness");
     Raster thickness = area_.share.filled(0.0);
     for (const ValuedArea& part :
-         told_at(case_, key, [&] { return areas_by_value(area_.layer, body_.thickness.source, key); })) {
+         with_error_location(case_, key, [&] { return areas_by_value(area_.layer, body_.thickness.source, key); })) {
       if (part.value < 0.0) {
         fail("thickness", fmt::format("{}: the attribute '{}' is {:g} m somewhere; allowed: 0 and more.", body_.release,
                                       body_.thickness.source, part.value));
@@ -168,12 +168,12 @@ class ThicknessMaker {
     return read_map(case_,
                     {key_of(name_, "thickness"), body_.thickness.source, Quantity::length, ground_.crs,
                      span_of_points(area_.share)},
-                    notes_);
+                    warnings_);
   }
 
   template <class Work>
   auto at_thickness(const Work& work) const {
-    return told_at(case_, key_of(name_, "thickness"), work);
+    return with_error_location(case_, key_of(name_, "thickness"), work);
   }
 
   Raster of_raster() const {
@@ -186,8 +186,8 @@ class ThicknessMaker {
     return times_share([&](std::size_t k) { return map.values[k]; });
   }
 
-  // Cells of the raster that lie across an outline may share an area with a cell of the ground that lies beyond it:
-  // this volume goes to the others.
+  // Raster cells across an outline may share an area with a ground cell beyond it; this volume is distributed to the
+  // other cells.
   Raster of_finer_raster(const Raster& source) const {
     const CoveredRaster part = at_thickness([&] { return covered_part(source, area_.polygons, ground_.crs); });
     require_not_negative(part.values, &part.share, "thickness", body_.thickness.source);
@@ -217,7 +217,7 @@ class ThicknessMaker {
   Raster of_surface() const {
     if (body_.placement == config::Placement::cut) {
       fail("placement",
-           "a thickness between a surface before the slide and the terrain model takes the terrain model "
+           "a thickness between a surface before the slide and the DEM takes the DEM "
            "for what the slide lay on, so that nothing is to be cut out of it. Set \"on_top\".");
     }
     if (body_.thickness_along == config::ThicknessAlong::normal) {
@@ -228,7 +228,7 @@ class ThicknessMaker {
     for_each_positive(thickness, [&](int column, int row, double& value) {
       int i = 0, j = 0;
       const double difference = above.at(column, row);
-      const auto told = [&](const std::string& what) {
+      const auto specified = [&](const std::string& what) {
         fail("thickness", fmt::format("{}: at {:.10g}, {:.10g}, within the release, {}", body_.thickness.source,
                                       above.x_of(column), above.y_of(row), what));
       };
@@ -236,14 +236,14 @@ class ThicknessMaker {
         return;
       }
       if (std::isnan(difference)) {
-        told("the surface has no data. Fill it, or draw the release smaller.");
+        specified("the surface has no data. Fill it, or draw the release smaller.");
       }
       if (difference < -body_.surface_tolerance) {
-        told(fmt::format(
-            "the surface before the slide lies {:.4g} m below the terrain model; allowed: above it, or below "
-            "by up to {:g} m. Are the two files swapped? Else draw the release smaller, or set "
-            "body.{}.surface_tolerance to the noise of the two.",
-            -difference, body_.surface_tolerance, name_));
+        specified(
+            fmt::format("the surface before the slide lies {:.4g} m below the DEM; allowed: above it, or below "
+                        "by up to {:g} m. Are the two files swapped? Else draw the release smaller, or set "
+                        "body.{}.surface_tolerance to the noise of the two.",
+                        -difference, body_.surface_tolerance, name_));
       }
       value *= difference > body_.surface_tolerance ? difference : 0.0;
     });
@@ -259,7 +259,7 @@ class ThicknessMaker {
     return thickness;
   }
 
-  // `share`: of the same points, those that count; null: all of them.
+  // `share`: at the same points, those that count; null: all of them.
   void require_not_negative(const Raster& raster, const Raster* share, const char* key, const std::string& file) const {
     for (int row = 0; row < raster.rows; ++row) {
       for (int column = 0; column < raster.columns; ++column) {
@@ -276,15 +276,15 @@ class ThicknessMaker {
   const config::Body& body_;
   const ReleaseArea& area_;
   const Raster& ground_;
-  const Raster& measured_;  // not smoothed, as a surface before the slide is not either
-  std::vector<std::string>& notes_;
+  const Raster& measured_;  // not smoothed, like the surface before release
+  std::vector<std::string>& warnings_;
 };
 
 }  // namespace
 
 Raster vertical_thickness_of(const config::Case& parameters, const std::string& body, const ReleaseArea& area,
-                             const Dem& ground, std::vector<std::string>& notes) {
-  return ThicknessMaker(parameters, body, area, ground, notes).make();
+                             const Dem& ground, std::vector<std::string>& warnings) {
+  return ThicknessMaker(parameters, body, area, ground, warnings).make();
 }
 
 }  // namespace thawslide::gis

@@ -1,4 +1,4 @@
-// The vertical thickness of a release at the points of the ground.
+// Vertical thickness of a release at the points of the ground.
 #pragma once
 
 #include <string>
@@ -8,9 +8,10 @@
 
 namespace thawslide::gis {
 
-// [m], at the points of the area's share, with its taper. Throws UserError where it is missing or negative. Adds to the
-// notes.
+// [m], at the points of the area's `share`, with its taper. Throws UserError if it is missing or negative. Appends
+// warnings.
 [[nodiscard]] Raster vertical_thickness_of(const config::Case& parameters, const std::string& body,
-                                           const ReleaseArea& area, const Dem& ground, std::vector<std::string>& notes);
+                                           const ReleaseArea& area, const Dem& ground,
+                                           std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

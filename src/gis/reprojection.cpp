@@ -9,7 +9,7 @@
 
 namespace thawslide::gis {
 
-struct Reprojection::Way {
+struct Reprojection::Transformation {
   std::unique_ptr<OGRCoordinateTransformation> transformation;
 };
 
@@ -18,7 +18,7 @@ Reprojection::Reprojection(const std::string& from_wkt, const std::string& to_wk
     return;
   }
   const GdalMessages messages;
-  // Heights stay what they are: coordinates of the plane alone are taken from one system to the other.
+  // Only horizontal coordinates are transformed; heights remain unchanged.
   OGRSpatialReference from = reference_from_wkt(from_wkt);
   OGRSpatialReference to = reference_from_wkt(to_wkt);
   for (OGRSpatialReference* system : {&from, &to}) {
@@ -29,9 +29,9 @@ Reprojection::Reprojection(const std::string& from_wkt, const std::string& to_wk
   if (from.IsSame(&to, options) != 0) {
     return;
   }
-  way_ = std::make_unique<Way>();
-  way_->transformation.reset(OGRCreateCoordinateTransformation(&from, &to));
-  if (way_->transformation == nullptr) {
+  transformation_ = std::make_unique<Transformation>();
+  transformation_->transformation.reset(OGRCreateCoordinateTransformation(&from, &to));
+  if (transformation_->transformation == nullptr) {
     require_projection_database();
     throw UserError(
         fmt::format("no way is known from the coordinate reference system {} to {}{}. Reproject the file "
@@ -45,12 +45,12 @@ Reprojection::Reprojection(Reprojection&&) noexcept = default;
 Reprojection& Reprojection::operator=(Reprojection&&) noexcept = default;
 
 bool Reprojection::apply(std::vector<double>& x, std::vector<double>& y) const {
-  if (way_ == nullptr) {
+  if (transformation_ == nullptr) {
     return true;
   }
   const GdalMessages messages;
   std::vector<int> success(x.size(), 0);
-  way_->transformation->Transform(static_cast<int>(x.size()), x.data(), y.data(), nullptr, success.data());
+  transformation_->transformation->Transform(static_cast<int>(x.size()), x.data(), y.data(), nullptr, success.data());
   for (const int one : success) {
     if (one == 0) {
       return false;
@@ -59,26 +59,26 @@ bool Reprojection::apply(std::vector<double>& x, std::vector<double>& y) const {
   return true;
 }
 
-LikelySystem likely_system(const std::string& file, const std::string& told, const Rectangle& extent,
+LikelySystem likely_system(const std::string& file, const std::string& specified, const Rectangle& extent,
                            const std::string& ground) {
   const std::string name = std::filesystem::path(file).filename().string();
   if (ground.empty()) {
-    return {told, ""};
+    return {specified, ""};
   }
-  if (told.empty()) {
+  if (specified.empty()) {
     return {ground, fmt::format("{} names no coordinate reference system: taken to be in the ground's, {}", name,
                                 name_of(ground))};
   }
-  if (is_geographic(told) && !can_be_degrees(extent)) {
+  if (is_geographic(specified) && !can_be_degrees(extent)) {
     return {ground,
             fmt::format("{} says that its coordinates are degrees ({}), which {:.10g}, {:.10g} cannot be: taken "
                         "to be in the ground's system, {}",
-                        name, name_of(told), extent.min_x, extent.min_y, name_of(ground))};
+                        name, name_of(specified), extent.min_x, extent.min_y, name_of(ground))};
   }
-  if (Reprojection(told, ground).changes_nothing()) {
+  if (Reprojection(specified, ground).changes_nothing()) {
     return {ground, ""};
   }
-  return {told, fmt::format("{} was taken from {} to {}", name, name_of(told), name_of(ground))};
+  return {specified, fmt::format("{} was taken from {} to {}", name, name_of(specified), name_of(ground))};
 }
 
 }  // namespace thawslide::gis

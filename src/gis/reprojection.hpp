@@ -1,4 +1,4 @@
-// The way from one coordinate reference system to another.
+// Transformation between coordinate reference systems.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,7 @@
 
 namespace thawslide::gis {
 
-// Takes coordinates from one system to another, both in WKT. Where one is empty, and where both are the same, they stay
-// what they are.
+// Transforms coordinates between two systems in WKT. If one is empty, or both are equal, coordinates are unchanged.
 class Reprojection {
  public:
   Reprojection(const std::string& from_wkt, const std::string& to_wkt);
@@ -18,22 +17,22 @@ class Reprojection {
   Reprojection(Reprojection&&) noexcept;
   Reprojection& operator=(Reprojection&&) noexcept;
 
-  [[nodiscard]] bool changes_nothing() const { return way_ == nullptr; }
-  // x, y in place. Returns false where a point has no coordinates in the other system.
+  [[nodiscard]] bool changes_nothing() const { return transformation_ == nullptr; }
+  // Transforms x, y in place. Returns false if a point has no coordinates in the other system.
   [[nodiscard]] bool apply(std::vector<double>& x, std::vector<double>& y) const;
 
  private:
-  struct Way;
-  std::unique_ptr<Way> way_;
+  struct Transformation;
+  std::unique_ptr<Transformation> transformation_;
 };
 
-// The system of a file beside the terrain model: what it tells, or the ground's where it tells nothing and where its
-// numbers cannot be in what it tells. `note`: what the user should know of that; empty: nothing.
+// Reference system of a file other than the DEM: that of the file, or that of the ground if the file has none, or one
+// that its coordinates cannot be in. `warning`: empty if there is none.
 struct LikelySystem {
   std::string wkt;
-  std::string note;
+  std::string warning;
 };
-[[nodiscard]] LikelySystem likely_system(const std::string& file, const std::string& told, const Rectangle& extent,
+[[nodiscard]] LikelySystem likely_system(const std::string& file, const std::string& specified, const Rectangle& extent,
                                          const std::string& ground);
 
 }  // namespace thawslide::gis

@@ -10,13 +10,13 @@ namespace thawslide::gis {
 
 namespace {
 
-// Integral from minus infinity to t of the linear shape function, which is 1 at 0 and falls to 0 at -1 and 1.
+// Integral from minus infinity to t of the linear shape function, which is 1 at 0 and decreases to 0 at -1 and 1.
 double linear_integral(double t) {
   const double s = std::clamp(t, -1.0, 1.0);
   return s < 0.0 ? 0.5 * (1.0 + s) * (1.0 + s) : 1.0 - 0.5 * (1.0 - s) * (1.0 - s);
 }
 
-// One axis: places in units of the old points' distance, from the first old one.
+// Weights along one axis: position in units of the old spacing, relative to the first old point.
 AxisWeights interpolation(double place, int count) {
   const int first = std::clamp(static_cast<int>(std::floor(place)), 0, std::max(count - 2, 0));
   const double share = place - first;

@@ -1,9 +1,9 @@
-// New points for a raster. What is asked for is done at the points of a layout alone, from a part of the
-// file that is large enough, so that cropping does not change a value.
+// Resampling of a raster at new points. Only the requested points are computed, from a sufficiently large part of the
+// file, so cropping does not change a value.
 //
-// Along each axis a value of the new points is a weighted sum of the old ones. Points as near to one another as the old
-// ones or nearer are interpolated linearly. Points farther apart get the mean of the linear interpolation over the
-// distance of the new points, centred on each. Both leave a plane as it is.
+// Along each axis, a value at the new points is a weighted sum of old ones. If the new spacing is at most the old one,
+// values are interpolated linearly. Points with a larger spacing get the mean of the linear interpolation over an
+// interval of the new spacing, centred on each. Both reproduce a plane exactly.
 #pragma once
 
 #include "base/raster.hpp"
@@ -11,15 +11,15 @@
 
 namespace thawslide::gis {
 
-// The points `distance` metres apart that a whole raster has room for: from its first one on where they are
-// interpolated, from half a distance beyond it where they are means. No columns or rows where it has no room.
+// Points `distance` metres apart that fit in a whole raster: from its first point if they are interpolated, from half a
+// distance beyond it if they are means. No columns or rows if none fit.
 [[nodiscard]] Raster resampled_layout(const Raster& layout, double distance);
 
-// Where old points must be known for the new ones.
+// Area in which old points must be known for the new ones.
 [[nodiscard]] Rectangle needed_for(const Raster& new_layout);
 
-// Values at the points of the new layout. NaN where an old point that an interpolation needs has no data, or where half
-// of those that a mean is made of have none.
+// Values at the points of the new layout. NaN if an old point that an interpolation needs has no data, or if half of
+// those in a mean have none.
 [[nodiscard]] Raster resampled(const Raster& raster, const Raster& new_layout);
 
 }  // namespace thawslide::gis

@@ -22,31 +22,32 @@ namespace {
 
 constexpr int tile_size = 16;              // points along each axis
 constexpr double median_of_unit = 0.6745;  // of |x| for a normal distribution of variance 1
-constexpr double rough_share = 0.86;       // of the tiles that are less rough: noise in a seventh of them counts
-constexpr double striped_share = 0.25;     // the same of noise of whole rows or columns, which is that of the survey
-constexpr std::size_t least_of_tile = 16;  // deviations or slopes
+constexpr double rough_share = 0.86;       // quantile of the tiles: noise that a seventh of them exceeds
+constexpr double striped_share = 0.25;     // the same for noise of whole rows or columns, which is due to the survey
+constexpr std::size_t least_of_tile = 16;  // minimum number of deviations or slopes
 
-// What the centre of nine points in a line has beyond their best parabola: weights of the centre and of the neighbours
-// 1 to 4 points away (Savitzky and Golay 1964: 59, 54, 39, 14, -21 over 231 make the parabola's value there).
+// Deviation of the centre of nine points in a line from their best-fit parabola: weights of the centre and of the
+// neighbours 1 to 4 points away (Savitzky and Golay 1964: 59, 54, 39, 14, -21 over 231 give the parabola's value
+// there).
 constexpr std::array<double, 5> deviation_weights{172.0 / 231.0, -54.0 / 231.0, -39.0 / 231.0, -14.0 / 231.0,
                                                   21.0 / 231.0};
 
-// Of white noise with rms 1: the fit at the centre has the weight 59/231, and a least-squares fit leaves 1 less that of
-// the variance.
+// For white noise with rms 1: the fit at the centre has the weight 59/231, and a least-squares fit leaves 1 minus that
+// of the variance.
 const double rms_of_deviation = std::sqrt(deviation_weights[0]);
 
-// Of the Gaussian that parts short waves from long ones, over the distance that resolves them; how often it is taken
-// away: (1 - exp(-2 pi^2 s^2 / L^2))^3 of waves of length L are left.
+// Width of the Gaussian that separates short waves from long ones, relative to the distance that resolves them, and the
+// number of times its result is subtracted. Waves of length L keep the fraction (1 - exp(-2 pi^2 s^2 / L^2))^3.
 constexpr double width_of_short_waves = 2.2;
 constexpr int times_of_short_waves = 3;
-constexpr double length_of_half = 7.8;  // L over the same distance
+constexpr double length_of_half = 7.8;  // L relative to the same distance
 
 double resolving(double spacing, double cell) { return std::max(spacing, 0.5 * cell); }
 
 double spacing_of(const Raster& raster) { return std::sqrt(raster.cell_x * raster.cell_y); }
 
-// What a cell sees of bumps without a filter is as if there were one of this variance: 1/(4 sqrt(pi)) makes the slope
-// of the triangles between the points, 2 rms / spacing, that of noise; 0.0225 follows from the friction that was
+// Variance of a virtual filter that represents the effect of a cell on bumps without a filter. 1/(4 sqrt(pi)) makes the
+// slope of the triangles between the points, 2 rms / spacing, equal to that of noise; 0.0225 follows from the friction
 // measured with points half a cell apart.
 double variance_of_cell(double spacing, double cell) {
   return spacing * spacing / (4.0 * std::sqrt(std::numbers::pi)) + 0.0225 * cell * cell;
@@ -58,7 +59,7 @@ double quantile(std::vector<double>& values, double share) {
   return values[static_cast<std::size_t>(place)];
 }
 
-// The points within the rectangle, and no others.
+// Only the points within the rectangle.
 Raster points_within(const Raster& raster, const Rectangle& rectangle) {
   constexpr double rounding = 1e-9;
   const auto first = [](double low, double start, double cell) {
@@ -80,7 +81,7 @@ struct Step {
 };
 constexpr std::array<Step, 4> directions{Step{1, 0}, Step{0, 1}, Step{1, 1}, Step{1, -1}};
 
-// Where the line of points fits in and is known.
+// Adds the deviation if the line of points lies in the raster and is known.
 void add_deviation(const Raster& raster, int column, int row, const Step& step, std::vector<double>& deviations) {
   constexpr int reach = points_of_fit / 2;
   const auto is_in = [&](int k) {
@@ -91,7 +92,7 @@ void add_deviation(const Raster& raster, int column, int row, const Step& step, 
     return;
   }
   const auto at = [&](int k) { return raster.at(column + k * step.column, row + k * step.row); };
-  // From the centre's height, so that a high plane leaves no rounding.
+  // Computed relative to the centre's height, so that a high plane causes no round-off.
   double deviation = 0.0;
   for (int k = 1; k <= reach; ++k) {
     deviation += deviation_weights[static_cast<std::size_t>(k)] * ((at(k) - at(0)) + (at(-k) - at(0)));
@@ -105,10 +106,10 @@ struct Tile {
   int first_column, end_column, first_row, end_row;
 };
 
-// Where the k-th of `parts` equal parts of so many points begins.
+// Index at which the k-th of `parts` equal parts of `points` begins.
 int edge(int points, int k, int parts) { return static_cast<int>(static_cast<std::int64_t>(points) * k / parts); }
 
-// In the directions in which it is least and second least; NaN where the tile knows too little.
+// Noise in the directions in which it is smallest and second smallest; NaN if the tile has too few known points.
 std::array<double, 2> noise_of_tile(const Raster& raster, const Tile& part) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> found;
@@ -130,9 +131,9 @@ std::array<double, 2> noise_of_tile(const Raster& raster, const Tile& part) {
   return {found[0], found[1]};
 }
 
-// The same of slopes: their rms, from the medians in four directions. The mean of the least and the largest is their
-// geometric one, and the largest counts as twice the least at most: what has little slope along itself, such as a
-// thalweg, a crest or a cliff, is no bump.
+// Rms slope, from the medians in four directions. The mean of the minimum and the maximum is their geometric one, with
+// the maximum limited to twice the minimum. Features with little slope along themselves, such as a thalweg, a crest or
+// a cliff, are not bumps.
 double slope_of_tile(const Raster& raster, const Tile& part) {
   double least = std::numeric_limits<double>::infinity(), largest = 0.0;
   for (const Step step : directions) {
@@ -157,7 +158,7 @@ double slope_of_tile(const Raster& raster, const Tile& part) {
   return std::sqrt(2.0 * least * std::min(largest, most_of_least * least));  // of both components
 }
 
-// Values of the tiles of a raster.
+// Values for the tiles of a raster.
 template <class OfTile>
 auto of_tiles(const Raster& raster, const OfTile& of_tile) {
   const int across = std::max(1, raster.columns / tile_size), along = std::max(1, raster.rows / tile_size);
@@ -171,14 +172,14 @@ auto of_tiles(const Raster& raster, const OfTile& of_tile) {
   return values;
 }
 
-// Quantile of the values that are numbers; 0 if there are none.
+// Quantile of the finite values; 0 if there are none.
 double quantile_of_known(std::vector<double> values, double share) {
   values.erase(std::remove_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }),
                values.end());
   return values.empty() ? 0.0 : quantile(values, share);
 }
 
-// Noise of the tiles in the direction in which it is least (0) or second least (1).
+// Noise of the tiles in the direction in which it is smallest (0) or second smallest (1).
 double noise_of_tiles(const std::vector<std::array<double, 2>>& tiles, std::size_t direction, double share) {
   std::vector<double> values;
   std::transform(tiles.begin(), tiles.end(), std::back_inserter(values),
@@ -186,8 +187,8 @@ double noise_of_tiles(const std::vector<std::array<double, 2>>& tiles, std::size
   return quantile_of_known(std::move(values), share);
 }
 
-// Of noise and bumps, each with its slope. Bumps that noise explains count as noise: the two are measured in different
-// ways, and a thalweg raises the second one a little.
+// Slope due to noise and bumps. Bumps explained by noise count as noise, because the two are measured differently, and
+// a thalweg slightly increases the second one.
 double slope_of(double noise, double bumps) {
   constexpr double explained = 1.25;
   return bumps <= explained * noise ? noise : bumps;
@@ -202,7 +203,7 @@ struct Filtered {
   [[nodiscard]] double slope(double width) const {
     return slope_of(noise_slope(noise, spacing, cell, width), bump_slope(waves, rectangle, cell, width));
   }
-  // The least width from that against the noise on that leaves little of the bumps, or the widest.
+  // Smallest width, from the width against noise upwards, that leaves little of the bumps, or the maximum.
   [[nodiscard]] double fitting_width() const {
     const double width = gis::fitting_width(noise, spacing, cell);
     if (slope(width) <= largest_slope) {
@@ -312,7 +313,7 @@ config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle,
   return found;
 }
 
-std::string roughness_note(const config::Case& parameters, const config::Site& site) {
+std::string roughness_warning(const config::Case& parameters, const config::Site& site) {
   constexpr double much_friction = 0.05;
   const config::Roughness& found = *site.roughness;
   const bool is_auto = parameters.terrain.smooth.is_auto;
@@ -326,9 +327,9 @@ std::string roughness_note(const config::Case& parameters, const config::Site& s
   if (is_auto ? found.slope_left <= largest_slope : found.apparent_friction <= much_friction) {
     return "";
   }
-  const std::string remedy =
-      is_auto ? "That is the widest filter. Use larger cells (grid.cell), or a terrain model with less noise."
-              : "Set terrain.smooth = \"auto\".";
+  const std::string remedy = is_auto
+                                 ? "That is the widest filter. Use larger cells (grid.cell), or a DEM with less noise."
+                                 : "Set terrain.smooth = \"auto\".";
   return fmt::format(
       "terrain.smooth: noise and bumps shorter than {:.2g} m add about {:.2g} % to the friction, with a filter of "
       "{:g} m (rms slope {:.2g}; at most {:g} is intended). {}",

@@ -5,12 +5,12 @@
 
 #include "gis/bed.hpp"
 #include "gis/dem.hpp"
+#include "gis/error_location.hpp"
 #include "gis/point_window.hpp"
 #include "gis/polygons.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/release.hpp"
 #include "gis/substrates.hpp"
-#include "gis/told_at.hpp"
 #include "gis/touching.hpp"
 #include "gis/vector_file.hpp"
 
@@ -18,12 +18,12 @@ namespace thawslide::gis {
 
 namespace {
 
-// The one line of a file, some of which lies in the domain.
+// Reads the only line of a file, a part of which must lie in the domain.
 config::Polyline2 load_line(const config::Case& parameters, const std::string& key, const std::string& file,
-                            const std::string& crs, std::vector<std::string>& notes) {
-  return told_at(parameters, key, [&] {
+                            const std::string& crs, std::vector<std::string>& warnings) {
+  return with_error_location(parameters, key, [&] {
     const VectorLayer layer = read_lines(file, crs);
-    notes.insert(notes.end(), layer.notes.begin(), layer.notes.end());
+    warnings.insert(warnings.end(), layer.warnings.begin(), layer.warnings.end());
     if (layer.features.size() != 1 || layer.features.front().lines.size() != 1) {
       std::size_t lines = 0;
       for (const Feature& feature : layer.features) {
@@ -42,13 +42,13 @@ config::Polyline2 load_line(const config::Case& parameters, const std::string& k
       throw UserError(
           fmt::format("{}: the line ({}) lies outside the domain ({}). Check that both have the same place "
                       "and reference system.",
-                      file, range_words(extent), range_words(domain)));
+                      file, format_range(extent), format_range(domain)));
     }
     return line;
   });
 }
 
-// Bodies that are cut out of the ground leave it lower.
+// Lowers the ground where bodies are excavated.
 Raster less_what_is_cut(const config::Case& parameters, const std::map<std::string, config::Release>& releases,
                         Raster ground) {
   for (const auto& [name, release] : releases) {
@@ -69,12 +69,12 @@ Raster less_what_is_cut(const config::Case& parameters, const std::map<std::stri
   return ground;
 }
 
-// Bodies that come from one file have the same to say of it.
-std::vector<std::string> each_once(const std::vector<std::string>& notes) {
+// Removes repeated warnings, because bodies from one file share them.
+std::vector<std::string> each_once(const std::vector<std::string>& warnings) {
   std::vector<std::string> once;
-  for (const std::string& note : notes) {
-    if (std::find(once.begin(), once.end(), note) == once.end()) {
-      once.push_back(note);
+  for (const std::string& warning : warnings) {
+    if (std::find(once.begin(), once.end(), warning) == once.end()) {
+      once.push_back(warning);
     }
   }
   return once;
@@ -82,12 +82,12 @@ std::vector<std::string> each_once(const std::vector<std::string>& notes) {
 
 }  // namespace
 
-SiteAndNotes load_site(const config::Case& parameters) {
-  SiteAndNotes loaded;
+SiteAndWarnings load_site(const config::Case& parameters) {
+  SiteAndWarnings loaded;
   config::Site& site = loaded.site;
   Dem dem;
   if (parameters.terrain.kind == config::TerrainKind::dem) {
-    dem = load_dem(parameters, loaded.notes);
+    dem = load_dem(parameters, loaded.warnings);
     site.roughness = dem.roughness;
     site.crs = dem.raster.crs;
     site.crs_name = name_of(site.crs);
@@ -99,9 +99,9 @@ SiteAndNotes load_site(const config::Case& parameters) {
     }
     if (dem.raster.empty()) {
       fail_at(parameters, fmt::format("body.{}.shape", name),
-              "a release lies on a terrain model. Set terrain.type = \"dem\" and terrain.file.");
+              "a release lies on a DEM. Set terrain.type = \"dem\" and terrain.file.");
     }
-    releases[name] = load_release(parameters, name, dem, loaded.notes);
+    releases[name] = load_release(parameters, name, dem, loaded.warnings);
   }
   check_overlaps(parameters, releases);
   join_touching(parameters, releases);
@@ -109,20 +109,20 @@ SiteAndNotes load_site(const config::Case& parameters) {
     site.releases[name] = std::move(release.release);
   }
   if (!dem.raster.empty()) {
-    site.substrates = load_substrates(parameters, dem, loaded.notes);
-    site.bed_depth = load_bed_depth(parameters, dem, loaded.notes);
+    site.substrates = load_substrates(parameters, dem, loaded.warnings);
+    site.bed_depth = load_bed_depth(parameters, dem, loaded.warnings);
     site.terrain_model = {{{dem.span.min_x, dem.span.min_y}, {dem.span.max_x, dem.span.max_y}}};
     site.ground = std::make_shared<const Raster>(less_what_is_cut(parameters, site.releases, std::move(dem.raster)));
   }
   if (!parameters.maps.path.empty()) {
-    site.path = load_line(parameters, "maps.path", parameters.maps.path, site.crs, loaded.notes);
+    site.path = load_line(parameters, "maps.path", parameters.maps.path, site.crs, loaded.warnings);
   }
   for (const auto& [name, probe] : parameters.probes) {
     site.probes[name] = probe.line.empty() ? config::Polyline2{{probe.point[0], probe.point[1]}}
                                            : load_line(parameters, fmt::format("probe.{}.line", name), probe.line,
-                                                       site.crs, loaded.notes);
+                                                       site.crs, loaded.warnings);
   }
-  loaded.notes = each_once(loaded.notes);
+  loaded.warnings = each_once(loaded.warnings);
   return loaded;
 }
 

@@ -1,4 +1,4 @@
-// What the map files of a case tell: the ground, the releases, the path and the probes.
+// Map data of a case: ground, releases, path and probes.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace thawslide::gis {
 
-struct SiteAndNotes {
+struct SiteAndWarnings {
   config::Site site;
-  std::vector<std::string> notes;  // what the user should know of the reading: a sentence each, without a full stop
+  std::vector<std::string> warnings;  // from the reading: a sentence each, without a full stop
 };
 
-// Reads and checks all of them. Throws UserError at the place of the key that named a file.
-[[nodiscard]] SiteAndNotes load_site(const config::Case& parameters);
+// Reads and checks all of them. Throws UserError at the location of the key that named a file.
+[[nodiscard]] SiteAndWarnings load_site(const config::Case& parameters);
 
 }  // namespace thawslide::gis

@@ -1,4 +1,4 @@
-// Thickness along the normal of a slope and along the vertical.
+// Conversion of thickness from the slope normal to the vertical.
 //
 // A surface z(x, y) has the normal (-dz/dx, -dz/dy, 1) / sqrt(1 + (dz/dx)^2 + (dz/dy)^2); its last component is the
 // cosine of the slope. A layer of thickness t along the normal of a plane measures t / cos(slope) along the vertical.

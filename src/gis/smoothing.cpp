@@ -11,7 +11,7 @@ namespace thawslide::gis {
 
 namespace {
 
-// exp(-d^2 / (2 s^2)) at 0, 1, ... points from the centre, to the filter's reach or the raster's length.
+// exp(-d^2 / (2 s^2)) at 0, 1, ... points from the centre, up to the filter's reach or the raster's length.
 std::vector<double> weights_of(double standard_deviation, double cell, int count) {
   const double s = standard_deviation / cell;
   const auto reach = static_cast<int>(std::min(std::ceil(smoothing_reach * s), static_cast<double>(count)));
@@ -23,7 +23,7 @@ std::vector<double> weights_of(double standard_deviation, double cell, int count
   return weights;
 }
 
-// Weighted sums along a row about a point: of 1, x, x^2, z and x z, with x from the point in cells.
+// Weighted sums along a row around a point: of 1, x, x^2, z and x z, with x relative to the point in cells.
 struct RowSums {
   double w = 0.0, x = 0.0, xx = 0.0, z = 0.0, xz = 0.0;
 };
@@ -44,7 +44,7 @@ struct PlaneSums {
     yz += weight * at * row.z;
   }
 
-  // z at x = y = 0 of the plane of least weighted squares; of the flattest one where points in one line do not tell it.
+  // z at x = y = 0 of the least-squares plane; of the flattest one if the points are collinear and do not determine it.
   [[nodiscard]] double height() const {
     const double mean_x = x / w, mean_y = y / w, mean_z = z / w;
     const double c_xx = xx / w - mean_x * mean_x, c_xy = xy / w - mean_x * mean_y, c_yy = yy / w - mean_y * mean_y;

@@ -1,4 +1,4 @@
-// Reference systems as GDAL's objects. For the sources of this room: it names GDAL.
+// Reference systems as GDAL objects. Only for the sources of this module, because it includes GDAL.
 #pragma once
 
 #include <ogr_spatialref.h>
@@ -7,12 +7,12 @@
 
 namespace thawslide::gis {
 
-// x is the easting or longitude, y the northing or latitude, whatever order the system's authority has.
+// x is the easting or longitude, y the northing or latitude, regardless of the axis order of the system's authority.
 [[nodiscard]] OGRSpatialReference reference_from_wkt(const std::string& wkt);
 // Empty for null and for a system without content.
 [[nodiscard]] std::string wkt_from_reference(const OGRSpatialReference* reference);
 
-// The unit of the heights of a compound or three-dimensional system; without a name: it has none.
+// Height unit of a compound or three-dimensional system; the name is empty if there is none.
 struct HeightUnit {
   std::string name;
   double metres = 1.0;

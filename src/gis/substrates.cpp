@@ -6,16 +6,17 @@
 #include <set>
 
 #include "gis/code_raster.hpp"
+#include "gis/error_location.hpp"
 #include "gis/geopackage.hpp"
 #include "gis/polygons.hpp"
-#include "gis/told_at.hpp"
 #include "gis/vector_file.hpp"
 
 namespace thawslide::gis {
 
 namespace {
 
-// Of the smaller area: outlines drawn along one another by hand, or taken from another reference system, share slivers.
+// Fraction of the smaller area: adjacent outlines drawn by hand, or transformed from another reference system, overlap
+// in slivers.
 constexpr double overlap_tolerance = 1e-3;
 
 using Areas = std::map<std::string, config::SubstrateArea>;
@@ -25,7 +26,7 @@ std::string key_of(const std::string& substrate, const std::string& key) {
   return fmt::format("substrate.{}.{}", substrate, key);
 }
 
-// The key that says where a substrate lies.
+// Key that specifies the extent of a substrate.
 std::string key_of_place(const std::string& name, const config::Substrate& substrate) {
   return key_of(name, !substrate.raster.empty()        ? "raster"
                       : !substrate.outline.empty()     ? "outline"
@@ -33,16 +34,16 @@ std::string key_of_place(const std::string& name, const config::Substrate& subst
                                                        : "x_max");
 }
 
-// Also fills `inside` with what lies in the domain.
+// Also sets `inside` to the part in the domain.
 config::SubstrateArea area_of_outline(const config::Case& parameters, const std::string& name, const Dem& ground,
-                                      Polygons& inside, std::vector<std::string>& notes) {
+                                      Polygons& inside, std::vector<std::string>& warnings) {
   const config::Substrate& substrate = parameters.substrates.at(name);
   const std::string key = key_of(name, "outline");
   const VectorLayer layer =
-      told_at(parameters, key, [&] { return read_polygons(substrate.outline, ground.raster.crs); });
-  notes.insert(notes.end(), layer.notes.begin(), layer.notes.end());
+      with_error_location(parameters, key, [&] { return read_polygons(substrate.outline, ground.raster.crs); });
+  warnings.insert(warnings.end(), layer.warnings.begin(), layer.warnings.end());
   Polygons all;
-  for (const Feature& feature : told_at(parameters, key_of(name, "polygons"), [&] {
+  for (const Feature& feature : with_error_location(parameters, key_of(name, "polygons"), [&] {
          return features_named(layer, substrate.polygons, substrate.name_attribute);
        })) {
     all.insert(all.end(), feature.polygons.begin(), feature.polygons.end());
@@ -56,7 +57,7 @@ config::SubstrateArea area_of_outline(const config::Case& parameters, const std:
     fail_at(parameters, key,
             fmt::format("{}: the polygons ({}) lie outside the domain ({}). Check that both have the same place and "
                         "reference system.",
-                        substrate.outline, range_words(extent_of(polygons)), range_words(domain)));
+                        substrate.outline, format_range(extent_of(polygons)), format_range(domain)));
   }
   for (const Polygon& polygon : polygons) {
     area.rings.push_back(polygon.outline);
@@ -76,7 +77,7 @@ config::SubstrateArea area_of_code(const config::Case& parameters, const std::st
   if (own == found.by_code.end()) {
     fail_at(parameters, key_of(name, "code"),
             fmt::format("{}: the code {} stands nowhere in the domain; found there: {}.", substrate.raster,
-                        substrate.code, words_of_codes(found)));
+                        substrate.code, format_codes(found)));
   }
   area.area = static_cast<double>(own->second.count) * codes->cell_x * codes->cell_y;
   return area;
@@ -114,8 +115,8 @@ void check_overlap(const config::Case& parameters, const std::string& first, con
                   100.0 * overlap_tolerance));
 }
 
-// Of those that one raster tells no two can overlap; those along x were compared when the case was read. `polygons`: of
-// those with outlines.
+// Substrates of one raster cannot overlap; those along x were compared when the case was read. `polygons`: of those
+// with outlines.
 void check_overlaps(const config::Case& parameters, const Areas& areas, PolygonsOf polygons) {
   const auto polygons_once = [&](const std::string& name) -> const Polygons& {
     const auto found = polygons.find(name);
@@ -135,18 +136,18 @@ void check_overlaps(const config::Case& parameters, const Areas& areas, Polygons
 
 }  // namespace
 
-Areas load_substrates(const config::Case& parameters, const Dem& ground, std::vector<std::string>& notes) {
+Areas load_substrates(const config::Case& parameters, const Dem& ground, std::vector<std::string>& warnings) {
   Areas areas;
   PolygonsOf polygons;
   std::map<std::string, std::shared_ptr<const Raster>> rasters;  // by file
   for (const auto& [name, substrate] : parameters.substrates) {
     if (!substrate.outline.empty()) {
-      areas[name] = area_of_outline(parameters, name, ground, polygons[name], notes);
+      areas[name] = area_of_outline(parameters, name, ground, polygons[name], warnings);
     } else if (!substrate.raster.empty()) {
       auto& codes = rasters[substrate.raster];
       if (codes == nullptr) {
         codes = std::make_shared<const Raster>(
-            read_codes(parameters, key_of(name, "raster"), substrate.raster, ground.raster, notes));
+            read_codes(parameters, key_of(name, "raster"), substrate.raster, ground.raster, warnings));
       }
       areas[name] = area_of_code(parameters, name, codes);
     }
@@ -159,8 +160,8 @@ Areas load_substrates(const config::Case& parameters, const Dem& ground, std::ve
         named.insert(substrate.code);
       }
     }
-    const std::vector<std::string> more = notes_on_codes(domain_of(parameters), file, *codes, named);
-    notes.insert(notes.end(), more.begin(), more.end());
+    const std::vector<std::string> more = warnings_of_codes(domain_of(parameters), file, *codes, named);
+    warnings.insert(warnings.end(), more.begin(), more.end());
   }
   return areas;
 }

@@ -1,4 +1,4 @@
-// Where the substrates of a case lie, from polygons and from rasters of codes.
+// Extent of the substrates of a case, from polygons and from rasters of codes.
 #pragma once
 
 #include <map>
@@ -11,11 +11,11 @@
 
 namespace thawslide::gis {
 
-// By name, those that maps give. Throws UserError for one that lies outside the domain, and where two cover the same
-// place: by more than a thousandth of the smaller one's area, as outlines along one another share slivers. The notes
-// tell codes that belong to no substrate, and what a raster leaves out of the domain.
+// Substrates given by maps, by name. Throws UserError for one outside the domain, and for two that overlap by more than
+// a thousandth of the smaller area, because adjacent outlines share slivers. Warnings report codes that belong to no
+// substrate, and parts of the domain not covered by a raster.
 [[nodiscard]] std::map<std::string, config::SubstrateArea> load_substrates(const config::Case& parameters,
                                                                            const Dem& ground,
-                                                                           std::vector<std::string>& notes);
+                                                                           std::vector<std::string>& warnings);
 
 }  // namespace thawslide::gis

@@ -24,7 +24,7 @@ std::vector<double> weights_of(double width, double cell) {
   return weights;
 }
 
-// Hands the value of each point to those about it along one axis.
+// Distributes the value of each point to its neighbours along one axis.
 Raster spread(const Raster& raster, const std::vector<double>& weights, int along_columns, int along_rows) {
   const int reach = static_cast<int>(weights.size() / 2);
   Raster result = raster.filled(0.0);

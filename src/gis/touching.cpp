@@ -6,11 +6,11 @@
 #include <set>
 
 #include "base/nearest_known.hpp"
+#include "gis/error_location.hpp"
 #include "gis/point_window.hpp"
 #include "gis/release_area.hpp"
 #include "gis/release_thickness.hpp"
 #include "gis/sampling.hpp"
-#include "gis/told_at.hpp"
 
 namespace thawslide::gis {
 
@@ -18,10 +18,11 @@ namespace {
 
 using Releases = std::map<std::string, LoadedRelease>;
 
-// Of the smaller area: outlines drawn along one another by hand, or taken from another reference system, share slivers.
+// Fraction of the smaller area: adjacent outlines drawn by hand, or transformed from another reference system, overlap
+// in slivers.
 constexpr double overlap_tolerance = 1e-3;
 
-// A raster by the indices of another layout of the same grid; 0 beyond it.
+// Raster accessed by the indices of another layout of the same grid; 0 outside it.
 class ByIndicesOf {
  public:
   ByIndicesOf(const Raster& layout, const Raster& raster)
@@ -40,7 +41,7 @@ class ByIndicesOf {
   int column_, row_;
 };
 
-// Whether some place lies within a cell of both.
+// True if the two lie within a cell of a common point.
 bool touch(const LoadedRelease& one, const LoadedRelease& other) {
   const Raster& spread = one.spread;
   const ByIndicesOf there(spread, other.spread);
@@ -79,7 +80,7 @@ std::set<std::string> touching_ones(const config::Case& parameters, const Releas
   return found;
 }
 
-// As many points more on each side as a column of particles reaches over.
+// Layout with additional points on each side, within the reach of a column of particles.
 Raster widened_layout(const config::Case& parameters, const std::string& name, const Raster& thickness) {
   const double reach = 0.5 * parameters.grid.cell / parameters.bodies.at(name).particles_per_axis;
   const int columns = 2 + static_cast<int>(std::ceil(reach / thickness.cell_x));
@@ -89,7 +90,7 @@ Raster widened_layout(const config::Case& parameters, const std::string& name, c
   return layout;
 }
 
-// t_b / w_b, beyond the body that of the nearest point.
+// t_b / w_b; outside the body, that of the nearest point.
 Raster thickness_within(const LoadedRelease& loaded, const Raster& layout) {
   const ByIndicesOf thickness(layout, loaded.release.thickness), spread(layout, loaded.spread);
   Raster within = layout;
@@ -135,7 +136,7 @@ void join(const config::Case& parameters, const std::string& name, const Release
           release.claim.values[k] > 0.0 ? release.standing.values[k] * release.claim.values[k] / of_all : 0.0;
     }
   }
-  // Tapers that end at another body move volume between the two: each keeps its own.
+  // Tapers that end at another body move volume between the two; scaling restores the volume of each.
   const double scale = volume_of(loaded.release.thickness) / volume_of(own);
   for (std::size_t k = 0; k < own.values.size(); ++k) {
     own.values[k] *= scale;

@@ -7,16 +7,16 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "config/input_limits.hpp"
 
 namespace thawslide::gis {
 
 namespace {
 
-constexpr double survey_foot = 1200.0 / 3937.0;  // m, of the United States
+constexpr double survey_foot = 1200.0 / 3937.0;  // m, US survey foot
 
-// Spellings in small letters, without spaces, points, brackets, underscores and hyphens.
+// Spelling in lower case, without spaces, points, brackets, underscores and hyphens.
 struct Spelling {
   const char* word;
   double factor, offset = 0.0;
@@ -105,9 +105,9 @@ constexpr Spelling shares[] = {
 struct UnitsOfQuantity {
   const Spelling* begin;
   const Spelling* end;
-  const char* of;       // what the unit is to be one of
-  const char* allowed;  // a few of them
-  const char* own;      // that the program computes in, for messages
+  const char* of;       // quantity of the unit
+  const char* allowed;  // examples of allowed units
+  const char* own;      // unit of the computation, for messages
   const char* short_own;
 };
 
@@ -136,7 +136,7 @@ std::string simplified(const std::string& unit) {
   return simple;
 }
 
-// A file that says that it does not know says nothing.
+// A unit such as "unknown" counts as not stated.
 bool states_nothing(const std::string& unit) {
   const std::string simple = simplified(unit);
   return simple.empty() || simple == "unknown" || simple == "unspecified" || simple == "none";
@@ -153,24 +153,25 @@ std::optional<Spelling> known_unit(const std::string& unit, const UnitsOfQuantit
   throw UserError(fmt::format(
       "{}: the unit of the values is '{}'; allowed: a unit of {} ({}). Check that it is the right file, or "
       "state the unit that the values have: gdal_edit.py -units {} {}",
-      stated.file, config::shown(stated.band), units.of, units.allowed, units.short_own, shell_word(stated.file)));
+      stated.file, config::shown(stated.band), units.of, units.allowed, units.short_own, shell_quote(stated.file)));
 }
 
 void check_that_both_agree(const StatedUnits& stated, double band_metres) {
-  constexpr double agreement = 1e-5;  // the feet of both kinds differ by less
+  constexpr double agreement = 1e-5;  // relative; the two kinds of feet differ by less
   if (!states_nothing(stated.vertical) && std::abs(band_metres / stated.vertical_metres - 1.0) > agreement) {
     throw UserError(fmt::format(
         "{}: two units are stated for the values: '{}' by the band, '{}' by the heights of the coordinate reference "
         "system; allowed: one. State the right one in both: gdal_edit.py -units m -a_srs EPSG:... {}",
-        stated.file, config::shown(stated.band), config::shown(stated.vertical), shell_word(stated.file)));
+        stated.file, config::shown(stated.band), config::shown(stated.vertical), shell_quote(stated.file)));
   }
 }
 
-UnitConversion with_note(const StatedUnits& stated, const std::string& unit, const Spelling& found, const char* own) {
+UnitConversion with_warning(const StatedUnits& stated, const std::string& unit, const Spelling& found,
+                            const char* own) {
   UnitConversion conversion{found.factor, found.offset, ""};
   if (found.factor != 1.0 || found.offset != 0.0) {
-    conversion.note = fmt::format("{} states the unit '{}': its values were converted to {}",
-                                  std::filesystem::path(stated.file).filename().string(), config::shown(unit), own);
+    conversion.warning = fmt::format("{} states the unit '{}': its values were converted to {}",
+                                     std::filesystem::path(stated.file).filename().string(), config::shown(unit), own);
   }
   return conversion;
 }
@@ -179,7 +180,7 @@ UnitConversion with_note(const StatedUnits& stated, const std::string& unit, con
 
 UnitConversion conversion_from(const StatedUnits& stated, Quantity quantity) {
   const UnitsOfQuantity units = units_of(quantity);
-  // GDAL takes the unit of heights for that of a band without one, whatever the band measures.
+  // GDAL reports the vertical unit for a band without a unit, whatever the band measures.
   const bool is_vertical = states_nothing(stated.band) || stated.band == stated.vertical;
   if (quantity == Quantity::code || (is_vertical && quantity != Quantity::length)) {
     return {};
@@ -187,7 +188,7 @@ UnitConversion conversion_from(const StatedUnits& stated, Quantity quantity) {
   if (is_vertical) {
     return states_nothing(stated.vertical)
                ? UnitConversion{}
-               : with_note(stated, stated.vertical, {"", stated.vertical_metres}, units.own);
+               : with_warning(stated, stated.vertical, {"", stated.vertical_metres}, units.own);
   }
   const std::optional<Spelling> found = known_unit(stated.band, units);
   if (!found) {
@@ -196,7 +197,7 @@ UnitConversion conversion_from(const StatedUnits& stated, Quantity quantity) {
   if (quantity == Quantity::length) {
     check_that_both_agree(stated, found->factor);
   }
-  return with_note(stated, stated.band, *found, units.own);
+  return with_warning(stated, stated.band, *found, units.own);
 }
 
 }  // namespace thawslide::gis

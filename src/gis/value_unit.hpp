@@ -1,31 +1,31 @@
-// The unit of a raster's values, and the conversion to the unit that the program computes in.
+// Unit of a raster's values, and conversion to the unit of the computation.
 #pragma once
 
 #include <string>
 
 namespace thawslide::gis {
 
-// What the values of a raster measure: lengths [m] (elevations, thicknesses, depths of a bed), temperatures [C],
-// shares of a volume [1], or codes, which have no unit.
+// Quantity of the values of a raster: lengths [m] (elevations, thicknesses, depths of a bed), temperatures [C],
+// fractions of a volume [1], or codes, which have no unit.
 enum class Quantity { length, temperature, share, code };
 
-// The units that a file states. Empty: none.
+// Units stated in a file; empty: none.
 struct StatedUnits {
   std::string file;
-  std::string band;              // of its values
+  std::string band;              // of the values
   std::string vertical;          // of the heights of its reference system
-  double vertical_metres = 1.0;  // in one of these
+  double vertical_metres = 1.0;  // length of this unit
 };
 
 // computed = factor * stated + offset
 struct UnitConversion {
   double factor = 1.0, offset = 0.0;
-  std::string note;  // for the user; empty: nothing is converted
+  std::string warning;  // for the user; empty: no conversion
 };
 
-// A band without a unit of its own is in that of the heights of its reference system if it holds lengths. Without
-// either it is in metres, degrees Celsius or shares of 1. Throws UserError for a unit that is not known or is none of
-// the quantity, and for two that contradict one another.
+// A band of lengths without a unit has the vertical unit of its reference system. Without either, values are in metres,
+// degrees Celsius or fractions of 1. Throws UserError for an unknown unit or one of another quantity, and for two
+// contradictory units.
 [[nodiscard]] UnitConversion conversion_from(const StatedUnits& stated, Quantity quantity);
 
 }  // namespace thawslide::gis

@@ -21,7 +21,7 @@ double value_of(const VectorLayer& layer, const Feature& feature, const std::str
                               text == feature.texts.end() ? "empty" : "'" + config::shown(text->second) + "'"));
 }
 
-// What two outlines drawn along one another share by rounding, of the smaller one's area, is no overlap.
+// Fraction of the smaller area: overlap of adjacent outlines due to rounding, which is ignored.
 constexpr double rounding = 1e-6;
 
 void check_apart(const VectorLayer& layer, const std::string& attribute, const Feature& first, const Feature& second) {

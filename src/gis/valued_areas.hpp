@@ -1,4 +1,4 @@
-// Polygons in groups of one value of an attribute.
+// Polygons grouped by the value of an attribute.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ struct ValuedArea {
   Polygons polygons;  // union of those with the value
 };
 
-// The features of a layer in groups, by rising value. Throws UserError where a feature lacks the attribute or has a
-// text there, and where features of different values overlap. `key` asks for the attribute, for the messages.
+// Features of a layer in groups, by increasing value. Throws UserError if a feature lacks the attribute or has a text
+// as its value, and if features of different values overlap. `key`: key that names the attribute, for messages.
 [[nodiscard]] std::vector<ValuedArea> areas_by_value(const VectorLayer& layer, const std::string& attribute,
                                                      const std::string& key);
 

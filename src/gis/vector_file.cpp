@@ -25,7 +25,7 @@ namespace {
 
 enum class Kind { polygons, lines, points };
 
-const char* word_of(Kind kind) {
+const char* name_of_kind(Kind kind) {
   return kind == Kind::polygons ? "polygons" : kind == Kind::lines ? "lines" : "points";
 }
 
@@ -50,13 +50,13 @@ bool holds(OGRwkbGeometryType type, Kind kind) {
   }
 }
 
-// Names within a file may hold anything, also what steers a terminal.
+// Names within a file may contain characters that control a terminal.
 std::vector<std::string> all_shown(std::vector<std::string> names) {
   std::transform(names.begin(), names.end(), names.begin(), config::shown);
   return names;
 }
 
-// Of the formats that GDAL knows some name other files, or places in a network, that a case could not.
+// Other GDAL formats are excluded, because they may refer to files or network locations that a case may not name.
 const char* const vector_formats[] = {"ESRI Shapefile", "GPKG", "GeoJSON", nullptr};
 
 GDALDatasetUniquePtr open_vector(const std::string& file, Kind kind) {
@@ -70,15 +70,15 @@ GDALDatasetUniquePtr open_vector(const std::string& file, Kind kind) {
     }
     if (is_raster_file(file)) {
       throw UserError(fmt::format(
-          "{}: the file is a raster; needed: {}, in a Shapefile, GeoPackage or GeoJSON.{}", file, word_of(kind),
+          "{}: the file is a raster; needed: {}, in a Shapefile, GeoPackage or GeoJSON.{}", file, name_of_kind(kind),
           kind == Kind::polygons ? " A raster of a body's thickness goes to thickness = { raster "
                                    "= \"FILE\" }, which needs no polygons."
                                  : ""));
     }
-    throw UserError(fmt::format(
-        "{}: the file cannot be opened{}. Allowed: Shapefile (with its .shx and .dbf beside it), GeoPackage "
-        "or GeoJSON; check that the file is whole and may be read.",
-        file, messages.remark()));
+    throw UserError(
+        fmt::format("{}: the file cannot be opened{}. Allowed: Shapefile (with its .shx and .dbf), GeoPackage "
+                    "or GeoJSON; check that the file is complete and readable.",
+                    file, messages.remark()));
   }
   return dataset;
 }
@@ -87,7 +87,7 @@ bool layer_holds(OGRLayer& layer, Kind kind) {
   if (wkbFlatten(layer.GetGeomType()) != wkbUnknown) {
     return holds(layer.GetGeomType(), kind);
   }
-  // By its first feature that has a geometry; where none has one, that is told of the first.
+  // Decides by the first feature with a geometry; if none has one, the first feature is reported.
   layer.ResetReading();
   bool any = false;
   for (const auto& feature : layer) {
@@ -122,14 +122,14 @@ OGRLayer& layer_with(const std::string& file, GDALDataset& dataset, Kind kind) {
     throw UserError(
         fmt::format("{}: the file has {} layers of {}: {}; allowed: one. Export the one meant to a file of "
                     "its own.",
-                    file, fitting.size(), word_of(kind), config::list_words(fitting)));
+                    file, fitting.size(), name_of_kind(kind), config::comma_list(fitting)));
   }
   if (features == 0 || chosen != nullptr) {
     throw UserError(fmt::format("{}: the layer is empty; needed: {}. Draw them, or name the file that has them.", file,
-                                word_of(kind)));
+                                name_of_kind(kind)));
   }
-  throw UserError(fmt::format("{}: the file has no {}, but {}. Name the file that has them.", file, word_of(kind),
-                              config::list_words(all)));
+  throw UserError(fmt::format("{}: the file has no {}, but {}. Name the file that has them.", file, name_of_kind(kind),
+                              config::comma_list(all)));
 }
 
 class LayerReader {
@@ -157,7 +157,7 @@ class LayerReader {
     };
     for (const auto& feature : *layer_) {
       require_whole();
-      require_few(result_.features.size() + 1, config::most_features, word_of(kind_));
+      require_few(result_.features.size() + 1, config::most_features, name_of_kind(kind_));
       take(*feature);
     }
     require_whole();
@@ -183,8 +183,8 @@ class LayerReader {
     const Rectangle extent =
         has_extent ? Rectangle{envelope.MinX, envelope.MinY, envelope.MaxX, envelope.MaxY} : Rectangle{};
     const LikelySystem system = likely_system(result_.file, wkt_from_reference(layer_->GetSpatialRef()), extent, crs);
-    if (!system.note.empty()) {
-      result_.notes.push_back(system.note);
+    if (!system.warning.empty()) {
+      result_.warnings.push_back(system.warning);
     }
     reprojection_ = Reprojection(system.wkt, crs);
   }
@@ -194,11 +194,11 @@ class LayerReader {
     feature.title = title_of(source);
     if (source.GetGeometryRef() == nullptr || source.GetGeometryRef()->IsEmpty()) {
       throw UserError(fmt::format("{}: {} has no geometry; needed: {}. Delete it or draw it.", result_.file,
-                                  feature.title, word_of(kind_)));
+                                  feature.title, name_of_kind(kind_)));
     }
     const std::unique_ptr<OGRGeometry> geometry(source.GetGeometryRef()->getLinearGeometry());
     geometry->flattenTo2D();
-    take_geometry(*geometry, feature);
+    read_geometry(*geometry, feature);
     for (int index = 0; index < source.GetFieldCount(); ++index) {
       if (!source.IsFieldSetAndNotNull(index)) {
         continue;
@@ -216,7 +216,7 @@ class LayerReader {
     result_.features.push_back(std::move(feature));
   }
 
-  // Its number, and what an attribute "name" says.
+  // Title with the feature's number and its attribute "name".
   std::string title_of(const OGRFeature& source) const {
     const char* kind = kind_ == Kind::polygons ? "polygon" : kind_ == Kind::lines ? "line" : "point";
     const auto found = std::find(result_.attributes.begin(), result_.attributes.end(), "name");
@@ -228,7 +228,7 @@ class LayerReader {
                        name.empty() ? "" : " (" + config::shown(name) + ")");
   }
 
-  void take_geometry(const OGRGeometry& geometry, Feature& feature) {
+  void read_geometry(const OGRGeometry& geometry, Feature& feature) {
     switch (wkbFlatten(geometry.getGeometryType())) {
       case wkbPolygon:
         if (kind_ == Kind::polygons) {
@@ -261,14 +261,14 @@ class LayerReader {
       case wkbMultiPoint:
       case wkbGeometryCollection:
         for (const OGRGeometry* part : *geometry.toGeometryCollection()) {
-          take_geometry(*part, feature);
+          read_geometry(*part, feature);
         }
         return;
       default:
         break;
     }
     throw UserError(fmt::format("{}: {} is of the kind {}; allowed: {}.", result_.file, feature.title,
-                                geometry.getGeometryName(), word_of(kind_)));
+                                geometry.getGeometryName(), name_of_kind(kind_)));
   }
 
   void reproject(Polyline2& line, const std::string& title) {
@@ -330,7 +330,7 @@ std::string attribute_named(const VectorLayer& layer, const std::string& name, c
     throw UserError(
         fmt::format("{}: several attributes are called like '{}', which {} asks for: {}; allowed: one, or "
                     "one of exactly this name. Write the name as the file does, or rename the others.",
-                    layer.file, name, key, config::list_words(all_shown(alike))));
+                    layer.file, name, key, config::comma_list(all_shown(alike))));
   }
   if (alike.size() == 1) {
     return alike.front();
@@ -338,7 +338,7 @@ std::string attribute_named(const VectorLayer& layer, const std::string& name, c
   const std::vector<std::string> there = all_shown(layer.attributes);
   const std::string hint = config::did_you_mean(name, there);
   throw UserError(fmt::format("{}: there is no attribute '{}', which {} asks for; the file has: {}{}", layer.file, name,
-                              key, there.empty() ? "none" : config::list_words(there),
+                              key, there.empty() ? "none" : config::comma_list(there),
                               hint.empty() ? ". Correct the name, or add the attribute." : hint));
 }
 
@@ -368,7 +368,7 @@ std::vector<Feature> features_named(const VectorLayer& layer, const std::vector<
   for (const std::string& name : names) {
     if (found.count(name) == 0) {
       throw UserError(fmt::format("{}: no polygon has the {} '{}'; the file has: {}{}", layer.file,
-                                  config::shown(attribute), name, there.empty() ? "none" : config::list_words(there),
+                                  config::shown(attribute), name, there.empty() ? "none" : config::comma_list(there),
                                   config::did_you_mean(name, there)));
     }
   }

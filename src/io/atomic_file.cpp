@@ -23,39 +23,38 @@ namespace fs = std::filesystem;
 [[noreturn]] void fail(const fs::path& file, const fs::path& temporary, int reason) {
   std::error_code ignored;
   fs::remove(temporary, ignored);
-  throw WriteError(
-      fmt::format("cannot write {}: {}. Check that the folder exists, may be written to, and that the disk has "
-                  "room.",
-                  file.string(), std::strerror(reason)));
+  throw WriteError(fmt::format(
+      "cannot write {}: {}. Check that the folder exists and is writable, and that the disk has free space.",
+      file.string(), std::strerror(reason)));
 }
 
 constexpr std::string_view unfinished = ".thawslide-part";
 
-// Where a file is written before it takes its place: .NAME.PROCESS.thawslide-part beside it.
-fs::path name_beside(const fs::path& file) {
-  constexpr std::size_t longest_name = 200;  // letters: file systems take 255, of the whole
+// Temporary name of a file until it is complete: .NAME.PROCESS.thawslide-part in the same folder.
+fs::path temporary_name(const fs::path& file) {
+  constexpr std::size_t longest_name = 200;  // characters: file systems allow 255 for the whole name
   return file.parent_path() /
          fmt::format(".{}.{}{}", file.filename().string().substr(0, longest_name), getpid(), unfinished);
 }
 
-// Whatever has that name is of a process that is gone, or a trap: a link, or a pipe that nobody reads.
-int open_anew(const fs::path& file) {
+// A file of that name belongs to a dead process, or could redirect the output: a link, or a pipe without a reader.
+int create_file(const fs::path& file) {
   unlink(file.c_str());
   return open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 
-// That a file has its name must reach the disk too.
+// Synchronizes the directory entry of a new or renamed file to disk.
 bool synchronise_folder(const fs::path& folder) {
   const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
-  const bool done = descriptor >= 0 && (fsync(descriptor) == 0 || errno == EINVAL);  // some file systems have no such
+  const bool done = descriptor >= 0 && (fsync(descriptor) == 0 || errno == EINVAL);  // EINVAL: not supported there
   return (descriptor < 0 || close(descriptor) == 0) && done;
 }
 
-// Appends what is left of a file of about so many bytes. Returns the system's reason where that fails, 0 otherwise.
+// Appends the rest of a file of approximately `bytes`. Returns the system's error number on failure, 0 otherwise.
 int read_to_end(int descriptor, std::size_t bytes, std::string& text) {
-  constexpr std::size_t piece = 65536;
+  constexpr std::size_t segment = 65536;
   std::size_t length = 0;
-  text.resize(bytes + 1);  // so that its end is seen without another piece
+  text.resize(bytes + 1);  // detects the end of the file without another segment
   while (true) {
     const ssize_t got = read(descriptor, text.data() + length, text.size() - length);
     if (got == 0 || (got < 0 && errno != EINTR)) {
@@ -64,7 +63,7 @@ int read_to_end(int descriptor, std::size_t bytes, std::string& text) {
     }
     length += got > 0 ? static_cast<std::size_t>(got) : 0;
     if (length == text.size()) {
-      text.resize(length + std::max(piece, length / 2));
+      text.resize(length + std::max(segment, length / 2));
     }
   }
 }
@@ -72,8 +71,8 @@ int read_to_end(int descriptor, std::size_t bytes, std::string& text) {
 }  // namespace
 
 void write_file_atomically(const fs::path& file, const void* data, std::size_t bytes, const fs::path& previous) {
-  const fs::path temporary = name_beside(file);
-  const int descriptor = open_anew(temporary);
+  const fs::path temporary = temporary_name(file);
+  const int descriptor = create_file(temporary);
   if (descriptor < 0) {
     fail(file, temporary, errno);
   }
@@ -116,7 +115,7 @@ bool is_unfinished(const fs::path& file) {
   if (mark == std::string::npos || mark == 0 || name.front() != '.') {
     return false;
   }
-  // Files of maps keep their own ending behind it, by which they are told: .NAME.123.thawslide-part.tif.
+  // Temporary map files keep their extension, which identifies the format: .NAME.123.thawslide-part.tif.
   const std::size_t end = mark + unfinished.size();
   const std::size_t before_number = name.find_last_not_of("0123456789", mark - 1);
   return (end == name.size() || name[end] == '.') && before_number > 0 && before_number + 1 < mark &&
@@ -157,9 +156,9 @@ void remove_or_throw(const fs::path& file) {
 }
 
 void copy_file_atomically(const fs::path& file, const fs::path& copy, std::string_view content) {
-  const fs::path temporary = name_beside(copy);
+  const fs::path temporary = temporary_name(copy);
   const int from = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  const int to = open_anew(temporary);
+  const int to = create_file(temporary);
   bool is_cloned = from >= 0 && to >= 0 && ioctl(to, FICLONE, from) == 0 && fsync(to) == 0;
   for (const int descriptor : {from, to}) {
     is_cloned = (descriptor < 0 || close(descriptor) == 0) && is_cloned;

@@ -1,4 +1,4 @@
-// Files that are whole or not there: written beside their place, then renamed onto it.
+// Files that are complete or absent: written under a temporary name in the same folder, then renamed.
 #pragma once
 
 #include <cstddef>
@@ -7,40 +7,40 @@
 
 namespace thawslide::io {
 
-// previous: what stood there before is kept under this name. Throws WriteError with the path and the system's reason;
-// nothing is left behind then.
+// previous: name under which an existing file is kept. Throws WriteError with the path and the system's reason, and
+// then leaves no temporary file.
 void write_file_atomically(const std::filesystem::path& file, const void* data, std::size_t bytes,
                            const std::filesystem::path& previous = {});
 void write_file_atomically(const std::filesystem::path& file, std::string_view text,
                            const std::filesystem::path& previous = {});
 
-// Makes a folder where there is none. Throws WriteError with the path and the system's reason.
+// Creates a folder if it does not exist. Throws WriteError with the path and the system's reason.
 void make_folder(const std::filesystem::path& folder);
 
-// A copy of a file, whose content is given; where the file system can share it until one of them changes, it takes no
-// room. Throws as write_file_atomically.
+// Copies a file whose content is given. If the file system can share the blocks until one copy changes, the copy uses
+// no space. Throws as write_file_atomically.
 void copy_file_atomically(const std::filesystem::path& file, const std::filesystem::path& copy,
                           std::string_view content);
 
-// Whether the name is that of a file beside its place, as a process writes it: .NAME.PROCESS.thawslide-part, with the
-// number of that process. No file of a user is called so: copy_inputs refuses it.
+// True for the name of a temporary file: .NAME.PROCESS.thawslide-part, with the number of the process. No file of a
+// user has such a name, because copy_inputs refuses it.
 [[nodiscard]] bool is_unfinished(const std::filesystem::path& file);
 
-// A name beside a damaged file that is free to keep it under: NAME.damaged.EXTENSION, or with a number.
+// Unused name for keeping a damaged file in its folder: NAME.damaged.EXTENSION, or with a number.
 [[nodiscard]] std::filesystem::path name_for_damaged(const std::filesystem::path& file);
 
-// Removes what a process that was killed while it wrote has left beside its files; nothing where there is no
-// folder, or a link to one: what is there is not of this run. Throws WriteError.
+// Removes temporary files of killed processes. Does nothing if the folder does not exist, or is a link, whose contents
+// do not belong to the run. Throws WriteError.
 void remove_unfinished_files(const std::filesystem::path& folder);
 
-// Removes a file, a link or an empty folder, if it is there. Throws WriteError with the path and the system's reason.
+// Removes a file, a link or an empty folder, if it exists. Throws WriteError with the path and the system's reason.
 void remove_or_throw(const std::filesystem::path& file);
 
-// A whole file. Throws UserError if it cannot be read, or is no regular file: a pipe may keep a reader waiting for
-// ever, and a device may have no end.
+// Contents of a file. Throws UserError if it cannot be read, or is not a regular file: a pipe may block forever, and a
+// device may have no end.
 std::string read_file(const std::filesystem::path& file);
 
-// Throws UserError where a folder, a pipe or a device stands; what is not there is no such.
+// Throws UserError for a folder, a pipe or a device; a missing file is accepted.
 void require_regular(const std::filesystem::path& file);
 
 }  // namespace thawslide::io

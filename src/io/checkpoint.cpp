@@ -12,7 +12,7 @@ namespace thawslide::io {
 
 namespace {
 
-constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" in bytes
+constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" as bytes
 constexpr std::uint64_t format_version = 8;
 
 class Writer {
@@ -33,8 +33,8 @@ class Writer {
   std::string text_;
 };
 
-// Takes numbers off the bytes of a checkpoint. A count is held against the bytes that are left before room is made for
-// it: the checksum says that nothing changed since, not who wrote them.
+// Parser of a checkpoint. Counts are compared with the remaining bytes before memory is allocated, because the checksum
+// detects changes but does not authenticate the writer.
 class Reader {
  public:
   Reader(std::string_view text, const std::filesystem::path& file) : left_(text), file_(file) {}
@@ -43,11 +43,11 @@ class Reader {
     get_raw(&value, sizeof value);
     return value;
   }
-  // Of items that take so many bytes each.
+  // Count of items of `item_bytes` each.
   std::size_t count(std::size_t item_bytes, const char* what) {
     const std::uint64_t found = number();
     if (found > left_.size() / item_bytes) {
-      fail(fmt::format("it tells of {} {}, of {} bytes each, where {} bytes are left", found, what, item_bytes,
+      fail(fmt::format("it specifies {} {} of {} bytes each, but {} bytes are left", found, what, item_bytes,
                        left_.size()));
     }
     return found;
@@ -96,7 +96,7 @@ class Reader {
   std::filesystem::path file_;
 };
 
-// Bytes that each field of a checkpoint takes for a particle.
+// Bytes per particle of each field in a checkpoint.
 template <int Dim, class Real>
 std::vector<std::size_t> row_sizes() {
   mpm::Particles<Dim, Real> one;
@@ -110,7 +110,7 @@ std::vector<std::size_t> row_sizes() {
   return sizes;
 }
 
-// What is wrong with a checkpoint's bytes; empty: they are what was written.
+// Description of the damage in a checkpoint's bytes; empty if they are as written.
 std::string damage_of(const std::filesystem::path& file, const std::string& bytes) {
   Digest stored{};
   if (bytes.size() > stored.size()) {
@@ -123,14 +123,13 @@ std::string damage_of(const std::filesystem::path& file, const std::string& byte
   return fmt::format("{} is damaged: its checksum does not fit its {} bytes", file.string(), bytes.size());
 }
 
-// Whether anything has the name, be it a link that leads nowhere.
-bool is_there(const std::filesystem::path& file) {
+// True if the name exists, including a dangling link.
+bool is_present(const std::filesystem::path& file) {
   std::error_code unknown;
   return std::filesystem::exists(std::filesystem::symlink_status(file, unknown));
 }
 
-// Reads a checkpoint. Returns what is wrong with it, empty where it is whole: what cannot be read is as good as
-// damaged.
+// Reads a checkpoint. Returns the problem, empty if the file is intact; an unreadable file counts as damaged.
 std::string fault_of(const std::filesystem::path& file, std::string& bytes) {
   if (const std::string found = config::what_stands_at(file); !found.empty()) {
     return fmt::format("{} is {}, no file", file.string(), found);
@@ -143,7 +142,7 @@ std::string fault_of(const std::filesystem::path& file, std::string& bytes) {
   return damage_of(file, bytes);
 }
 
-// At the case's text.
+// Reader positioned at the case text.
 Reader reader_of(const WholeCheckpoint& checkpoint) {
   Reader reader(std::string_view(checkpoint.bytes).substr(0, checkpoint.bytes.size() - sizeof(Digest)),
                 checkpoint.file);
@@ -170,7 +169,7 @@ void read_field(Reader& reader, const std::filesystem::path& file, std::size_t p
 }  // namespace
 
 bool has_checkpoint(const std::filesystem::path& folder) {
-  return is_there(folder / checkpoint_name) || is_there(folder / previous_checkpoint_name);
+  return is_present(folder / checkpoint_name) || is_present(folder / previous_checkpoint_name);
 }
 
 std::string case_of(const WholeCheckpoint& checkpoint) { return reader_of(checkpoint).text(); }
@@ -178,22 +177,22 @@ std::string case_of(const WholeCheckpoint& checkpoint) { return reader_of(checkp
 WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder) {
   if (!has_checkpoint(folder)) {
     throw UserError(
-        fmt::format("{} holds no {} to go on from. A run writes it before its first step, so this is not a run's "
-                    "folder, or the run was stopped while it set up. Run the case again.",
+        fmt::format("{} holds no {} to continue from. A run writes it before its first step: this is not the folder of "
+                    "a run, or the run was stopped during its setup. Run the case again.",
                     folder.string(), checkpoint_name));
   }
   WholeCheckpoint found;
   for (const char* name : {checkpoint_name, previous_checkpoint_name}) {
     found.file = folder / name;
-    const bool has_name = is_there(found.file);
+    const bool has_name = is_present(found.file);
     const std::string fault = has_name ? fault_of(found.file, found.bytes) : found.file.string() + " is missing";
     if (fault.empty()) {
       return found;
     }
-    found.note += (found.note.empty() ? "" : "; ") + fault;
+    found.warning += (found.warning.empty() ? "" : "; ") + fault;
     found.damaged = has_name ? found.file : std::filesystem::path();
   }
-  throw UserError(found.note + ". Use another copy, or run the case from its start.");
+  throw UserError(found.warning + ". Use another copy, or run the case from its start.");
 }
 
 template <int Dim, class Real>
@@ -236,12 +235,12 @@ NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<D
                              std::vector<double>& scalars) {
   const std::filesystem::path& file = checkpoint.file;
   Reader reader = reader_of(checkpoint);
-  (void)reader.text();  // the case
+  (void)reader.text();  // skips the case
   reader.expect(Dim, "dimension");
   reader.expect(sizeof(Real), "number size");
   reader.expect(particles.size(), "particles at t = 0:");
   const std::vector<std::size_t> record_bytes = row_sizes<Dim, Real>();
-  // Some have left since, or joined.
+  // The number of particles may have changed, by removal or entrainment.
   particles.resize(
       reader.count(std::accumulate(record_bytes.begin(), record_bytes.end(), std::size_t{0}), "particles"));
   scalars = reader.numbers();

@@ -1,5 +1,5 @@
-// checkpoint.bin: everything a run needs to go on, in a container of its own. A SHA-256 over the whole file stands at
-// its end and is verified before anything is parsed. Two generations are kept.
+// checkpoint.bin: complete state for resuming a run, in a dedicated binary format. A SHA-256 of the file at its end is
+// verified before parsing. Two generations are kept.
 #pragma once
 
 #include <filesystem>
@@ -11,42 +11,42 @@
 
 namespace thawslide::io {
 
-// The checkpoint of a run folder, and the one before it.
+// Current and previous checkpoint of a run folder.
 inline constexpr const char* checkpoint_name = "checkpoint.bin";
 inline constexpr const char* previous_checkpoint_name = "checkpoint.previous.bin";
 
-// Writes checkpoint.bin into `folder`; what stood there becomes checkpoint.previous.bin. Rows by id, so that the bytes
-// do not depend on storage order. at_start: how many particles there were at t = 0; blocks: what else the run needs to
-// go on; case_text: the resolved case it runs. Throws WriteError.
+// Writes checkpoint.bin into `folder`; an existing one becomes checkpoint.previous.bin. Rows are sorted by id, so the
+// bytes do not depend on storage order. at_start: number of particles at t = 0; blocks: further state of the run;
+// case_text: its resolved case. Throws WriteError.
 template <int Dim, class Real>
 void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<Dim, Real>& particles,
                       std::size_t at_start, const std::vector<double>& scalars, const NamedNumbers& blocks = {},
                       const std::string& case_text = {});
 
-// What a particle takes of a checkpoint [bytes].
+// Size of a particle in a checkpoint [bytes].
 template <int Dim>
 [[nodiscard]] std::size_t checkpoint_bytes_of_particle();
 
-// A checkpoint as it stands in its file, its checksum verified.
+// Bytes of a checkpoint file with a verified checksum.
 struct WholeCheckpoint {
   std::filesystem::path file;
   std::string bytes;
-  std::string note;  // of one that was passed over because it is damaged, cannot be read or is absent; empty: none
-  std::filesystem::path damaged = {};  // the one that was passed over, if it is there; empty: there is nothing to keep
+  std::string warning;  // about a newer checkpoint that is damaged, unreadable or absent; empty if there is none
+  std::filesystem::path damaged = {};  // that newer checkpoint, if the file exists; empty otherwise
 };
 
-// Whether a run folder holds a checkpoint, whole or not.
+// True if a run folder contains a checkpoint, intact or not.
 [[nodiscard]] bool has_checkpoint(const std::filesystem::path& folder);
 
-// The newest checkpoint of a run folder that is whole and can be read. Throws UserError where there is none.
+// Newest checkpoint of a run folder that is intact and readable. Throws UserError if there is none.
 [[nodiscard]] WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder);
 
-// The resolved case that the run had when it wrote the checkpoint. Throws UserError for one of another program.
+// Resolved case of the run when it wrote the checkpoint. Throws UserError for a checkpoint of another program.
 [[nodiscard]] std::string case_of(const WholeCheckpoint& checkpoint);
 
-// particles: those at t = 0, which the ones of the checkpoint replace. Returns the blocks. Throws UserError for a
-// checkpoint of another kind of run (dimension, number type, fields, particles at t = 0), and for bytes that no run
-// wrote although their checksum fits; it never asks for more memory than particles and numbers of the file's size take.
+// particles: those at t = 0, which are replaced by those of the checkpoint. Returns the blocks. Throws UserError for a
+// checkpoint of another kind of run (dimension, number type, fields, particles at t = 0), and for invalid bytes with a
+// valid checksum. Memory use is limited to that of particles and numbers in a file of this size.
 template <int Dim, class Real>
 NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<Dim, Real>& particles,
                              std::vector<double>& scalars);

@@ -9,7 +9,7 @@ namespace {
 
 void require(herr_t result, const char* what) { THAWSLIDE_ASSERT(result >= 0, "HDF5 failed: {}", what); }
 
-// HDF5 crashes where it gets no memory: what it will take is asked for before, and given back.
+// HDF5 crashes if an allocation fails, so the required memory is allocated and released beforehand.
 void require_memory(std::size_t bytes) {
   void* volatile memory = std::malloc(bytes);
   if (memory == nullptr) {
@@ -19,8 +19,8 @@ void require_memory(std::size_t bytes) {
 }
 
 hid_t memory_access(std::size_t bytes) {
-  constexpr std::size_t copies = 3, bytes_beside = 8'000'000;  // the file as it grows, its image, and all else
-  require_memory(copies * bytes + bytes_beside);
+  constexpr std::size_t copies = 3, other_bytes = 8'000'000;  // the growing file and its image; other memory
+  require_memory(copies * bytes + other_bytes);
   constexpr std::size_t growth = std::size_t{1} << 20;
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   require(H5Pset_fapl_core(access, growth, 0), "memory file");

@@ -1,4 +1,4 @@
-// A thin hold on the HDF5 library: handles that close themselves, files in memory, no times stored, so that the same
+// Wrapper of the HDF5 library: handles with automatic closing, files in memory. No time stamps are stored, so the same
 // content gives the same bytes.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace thawslide::io::hdf5 {
 
-// Closes with the function that belongs to its kind.
+// Handle that is closed with the function of its kind.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t), const char* what) : id_(id), close_(close) {
@@ -33,7 +33,7 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-// While it lives, the library does not print what goes wrong: of a file that may be damaged the caller tells.
+// Suppresses error output of the library during its lifetime; the caller reports damaged files.
 class Silence {
  public:
   Silence() {
@@ -54,10 +54,10 @@ using Shape = std::vector<hsize_t>;
 // A file in memory.
 class MemoryFile {
  public:
-  // bytes: as much is written to it, about. Throws bad_alloc where there is no room for that.
+  // bytes: approximate size of its content. Throws bad_alloc if memory is insufficient.
   explicit MemoryFile(std::size_t bytes = 0);
   [[nodiscard]] hid_t root() const { return file_; }
-  // The file's bytes, as they would stand on disk.
+  // Bytes of the file as on disk.
   [[nodiscard]] std::vector<std::byte> bytes() const;
 
  private:
@@ -70,10 +70,10 @@ void write_dataset(hid_t parent, const std::string& name, const Shape& shape, co
 void write_attribute(hid_t object, const std::string& name, double value);
 void write_attribute(hid_t object, const std::string& name, std::int64_t value);
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::int64_t>& values);
-// A text of fixed length, as VTK asks for.
+// Text of fixed length, as required by VTK.
 void write_attribute(hid_t object, const std::string& name, const std::string& text);
 
-// Creation properties of a dataset that stores no times.
+// Creation properties of a dataset without time stamps.
 Handle dataset_creation();
 
 }  // namespace thawslide::io::hdf5

@@ -26,7 +26,7 @@ int open_or_throw(const std::filesystem::path& file, int flags) {
   return descriptor;
 }
 
-// The first number of a row that has as many as there are columns; nothing of a damaged one.
+// First number of a row with `columns` numbers; empty for a damaged row.
 std::optional<double> time_of(std::string_view row, std::size_t columns) {
   std::optional<double> time;
   for (std::size_t k = 0; k < columns; ++k) {
@@ -42,7 +42,7 @@ std::optional<double> time_of(std::string_view row, std::size_t columns) {
   return time;
 }
 
-// The whole rows of a file up to a time, in ascending order, and where others are not there.
+// Complete rows of a file up to a time, in ascending order, and gaps between them.
 class KeptRows {
  public:
   KeptRows(std::string_view file, const std::string& header, double last_time)
@@ -73,11 +73,12 @@ class KeptRows {
     return {times_.size(), text_.size(), times_.empty() ? 0.0 : times_.back()};
   }
   [[nodiscard]] bool lacks_any(const HistoryExtent& then) const { return times_.size() < then.rows; }
-  // What is to be told of the file where it is not what the run wrote; empty: it is.
-  [[nodiscard]] std::string note(const std::filesystem::path& file, bool is_there, const HistoryExtent& then) const {
+  // Warning if the file differs from what the run wrote; empty otherwise.
+  [[nodiscard]] std::string warning(const std::filesystem::path& file, bool is_present,
+                                    const HistoryExtent& then) const {
     const std::string name = file.filename().string();
-    if (!is_there) {
-      return fmt::format("{} was missing: it begins anew, without the {} rows up to t = {:g} s", name, then.rows,
+    if (!is_present) {
+      return fmt::format("{} was missing: it starts again, without the {} rows up to t = {:g} s", name, then.rows,
                          then.last_time);
     }
     if (lacks_any(then)) {
@@ -90,7 +91,7 @@ class KeptRows {
   }
 
  private:
-  // ": between t = 1 and 2 s, 4 and 5 s". Of whole lines that somebody took out only the wider step of time tells.
+  // Text such as ": between t = 1 and 2 s, 4 and 5 s". Removed lines are detected only by the larger time step.
   [[nodiscard]] std::string spans() const {
     auto gaps = gaps_;
     if (gaps.empty() && times_.size() > 2) {
@@ -112,10 +113,10 @@ class KeptRows {
     return gaps.size() > most_named ? fmt::format("{} and {} more", words, gaps.size() - most_named) : words;
   }
 
-  std::string text_;  // with the header
+  std::string text_;  // including the header
   bool has_header_;
   std::vector<double> times_;
-  std::vector<std::pair<double, double>> gaps_;  // from the last whole row to the next, or to the end
+  std::vector<std::pair<double, double>> gaps_;  // from the last complete row to the next, or to the end
 };
 
 }  // namespace
@@ -149,7 +150,7 @@ std::optional<double> last_time_in_history(const std::filesystem::path& file) {
   }
   const std::size_t before = text.rfind('\n', end - 1);
   if (before == std::string::npos) {
-    return std::nullopt;  // the header alone
+    return std::nullopt;  // only the header
   }
   double time = 0.0;
   const auto parsed = std::from_chars(text.data() + before + 1, text.data() + end, time);
@@ -168,17 +169,17 @@ HistoryWriter HistoryWriter::start_in_run(const std::filesystem::path& file) {
 }
 
 HistoryWriter HistoryWriter::continue_after(const std::filesystem::path& file, const std::string& header,
-                                            const HistoryExtent& then, std::vector<std::string>& notes) {
-  const bool is_there = std::filesystem::exists(file);
-  const std::string text = is_there ? read_file(file) : "";
+                                            const HistoryExtent& then, std::vector<std::string>& warnings) {
+  const bool is_present = std::filesystem::exists(file);
+  const std::string text = is_present ? read_file(file) : "";
   const KeptRows kept(text, header, then.last_time);
-  if (std::string note = kept.note(file, is_there, then); !note.empty()) {
-    if (is_there && kept.lacks_any(then)) {
+  if (std::string warning = kept.warning(file, is_present, then); !warning.empty()) {
+    if (is_present && kept.lacks_any(then)) {
       const std::filesystem::path aside = name_for_damaged(file);
       write_file_atomically(aside, text);
-      note += fmt::format("; what there was is kept as {}", aside.filename().string());
+      warning += fmt::format("; what there was is kept as {}", aside.filename().string());
     }
-    notes.push_back(std::move(note));
+    warnings.push_back(std::move(warning));
   }
   write_file_atomically(file, kept.text());
   HistoryWriter writer(file, open_or_throw(file, O_NOFOLLOW), header);
@@ -215,7 +216,7 @@ void HistoryWriter::add(const Row& row) {
 }
 
 void HistoryWriter::synchronise() const {
-  if (fsync(descriptor_) != 0 && errno != EINVAL) {  // EINVAL: what is no file, such as a terminal
+  if (fsync(descriptor_) != 0 && errno != EINVAL) {  // EINVAL: not a file, such as a terminal
     throw WriteError(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
   }
 }

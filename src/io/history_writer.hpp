@@ -1,4 +1,4 @@
-// history.csv: one row a moment, appended with one write each, so that a killed run keeps whole rows.
+// history.csv: one row per output time, appended with a single write, so that a killed run leaves complete rows.
 #pragma once
 
 #include <cstddef>
@@ -10,34 +10,33 @@
 
 namespace thawslide::io {
 
-// How much a history held at a moment.
+// Extent of a history at a given time.
 struct HistoryExtent {
-  std::size_t rows = 0, bytes = 0;  // bytes: with the header
-  double last_time = 0.0;           // of its last row [s]
+  std::size_t rows = 0, bytes = 0;  // bytes: including the header
+  double last_time = 0.0;           // of the last row [s]
 };
 
 class HistoryWriter {
  public:
   using Row = std::vector<std::pair<std::string, double>>;  // column, value
 
-  // Starts the file anew, which a user has named: a link is followed, and it may be a terminal. Throws WriteError if it
-  // cannot be written.
+  // Creates a file specified by the user: a link is followed, and it may be a terminal. Throws WriteError if it cannot
+  // be written.
   explicit HistoryWriter(const std::filesystem::path& file);
-  // The same for a file of a run: what stands in its place, be it a link or a pipe, is replaced, and what a link leads
-  // to stays.
+  // Creates a file in a run folder: an existing file, link or pipe is replaced, and the target of a link is kept.
   static HistoryWriter start_in_run(const std::filesystem::path& file);
-  // Goes on with a file that once held `then`, with these columns: keeps whole rows up to there and appends. Where some
-  // of them are not there any more the file is kept beside, and a note says which.
+  // Continues a file that once had the extent `then`, with these columns: keeps complete rows up to there and appends.
+  // If some of them are missing, the file is kept under another name, and a warning lists the gaps.
   static HistoryWriter continue_after(const std::filesystem::path& file, const std::string& header,
-                                      const HistoryExtent& then, std::vector<std::string>& notes);
+                                      const HistoryExtent& then, std::vector<std::string>& warnings);
 
   HistoryWriter(HistoryWriter&& other) noexcept;
   HistoryWriter& operator=(HistoryWriter&&) = delete;
   ~HistoryWriter();
 
-  // The first row brings the header; all rows must have its columns.
+  // Adds a row; the first row defines the header, and all rows must have its columns.
   void add(const Row& row);
-  // Returns when all rows are on the disk. Throws WriteError.
+  // Returns after all rows have reached the disk. Throws WriteError.
   void synchronise() const;
   [[nodiscard]] const HistoryExtent& extent() const { return extent_; }
 
@@ -51,13 +50,13 @@ class HistoryWriter {
   HistoryExtent extent_;
 };
 
-// Its columns, as the first line of the file names them.
+// Header line with the columns of a row.
 std::string header_of(const HistoryWriter::Row& row);
 
-// The time of the last whole row of a file; nothing before there is one. Throws UserError if it cannot be read.
+// Time of the last complete row of a file; empty if there is none. Throws UserError if it cannot be read.
 std::optional<double> last_time_in_history(const std::filesystem::path& file);
 
-// The shortest decimal text that reads back as the same number.
+// Shortest decimal text that reads back to the same number.
 std::string shortest(double value);
 
 }  // namespace thawslide::io

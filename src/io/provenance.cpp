@@ -10,7 +10,7 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/shell_quote.hpp"
 #include "io/atomic_file.hpp"
 #include "io/sha256.hpp"
 #include "version.hpp"
@@ -70,7 +70,7 @@ Json json_of(const RunPart& part) {
   json["started"] = part.started;
   json["from_s"] = part.from_time;
   json["changes"] = part.changes;
-  json["notes"] = part.notes;
+  json["warnings"] = part.warnings;
   json["case_sha256"] = part.case_sha256;
   json["wall_s"] = part.wall_seconds;
   json["particle_steps"] = part.particle_steps;
@@ -89,14 +89,14 @@ RunPart part_of(const Json& json) {
   part.started = json.at("started");
   part.from_time = json.at("from_s");
   part.changes = json.at("changes").get<std::vector<std::string>>();
-  part.notes = json.value("notes", std::vector<std::string>{});
+  part.warnings = json.value("warnings", std::vector<std::string>{});
   part.case_sha256 = json.at("case_sha256");
   part.wall_seconds = json.at("wall_s");
   part.particle_steps = json.at("particle_steps");
   return part;
 }
 
-// Of what is told on terminals, which control letters would steer.
+// Removes control characters from text for terminals.
 std::string without_control_letters(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; }, '?');
@@ -104,10 +104,10 @@ std::string without_control_letters(std::string text) {
 }
 
 [[noreturn]] void fail_as_damaged(const fs::path& file, const std::string& what) {
-  throw UserError(
-      fmt::format("{} is damaged: {}. Without it a run cannot go on: put back a copy of it, or run the case anew into "
-                  "another folder: thawslide run {} --output OTHER.",
-                  file.string(), what, shell_word(file.parent_path().string())));
+  throw UserError(fmt::format(
+      "{} is damaged: {}. Without it, the run cannot continue. Put back a copy of it, or run the case again into "
+      "another folder: thawslide run {} --output OTHER.",
+      file.string(), what, shell_quote(file.parent_path().string())));
 }
 
 }  // namespace
@@ -156,7 +156,7 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   json["particle_steps_per_second"] = wall > 0.0 ? particle_steps / wall : 0.0;
   json["parts"] = std::move(parts);
   json["seconds_per_stage"] = p.seconds_per_stage;
-  json["seconds_beside"] = p.seconds_beside;
+  json["writer_seconds"] = p.writer_seconds;
   json["origin_m"] = p.origin;
   json["gravity_m_s2"] = p.gravity;
   json["crs"] = p.crs.empty() ? Json() : Json(p.crs);
@@ -220,8 +220,9 @@ Provenance read_provenance(const fs::path& folder) {
   } catch (const Json::parse_error& error) {
     fail_as_damaged(file, text.empty() ? "it is empty" : fmt::format("it is no JSON from byte {} on", error.byte));
   } catch (const Json::exception& error) {
-    const std::string told = error.what();
-    fail_as_damaged(file, told.substr(std::min(told.size(), told.find("] ") + 2)));  // without the library's number
+    const std::string specified = error.what();
+    fail_as_damaged(
+        file, specified.substr(std::min(specified.size(), specified.find("] ") + 2)));  // without the library's number
   }
   if (provenance.parts.empty()) {
     fail_as_damaged(file, "it lists no parts of the run");

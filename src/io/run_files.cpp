@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::json;
 using IsOwn = std::function<bool(const fs::path& file)>;
 
-// But for run.json.
+// Except run.json.
 constexpr std::string_view files_of_a_run[] = {
     "history.csv",      "probes.csv",    "case.toml",   "terrain.csv",
     "particles.vtkhdf", checkpoint_name, "report.html", previous_checkpoint_name};
@@ -30,7 +30,7 @@ constexpr std::string_view files_of_a_run[] = {
 constexpr std::string_view maps_of_a_run[] = {
     "terrain",      "release",      "max_thickness",    "final_thickness",       "max_speed", "max_momentum_flux",
     "max_pressure", "arrival_time", "elevation_change", "max_basal_temperature", "max_melt",  "max_pore_pressure"};
-// In figures/, as images or films (python/thawslide/figures/__init__.py).
+// In figures/, as images or videos (python/thawslide/figures/__init__.py).
 constexpr std::string_view figures_of_a_run[] = {"extent_maps",
                                                  "animation",
                                                  "slide_speed",
@@ -59,7 +59,7 @@ bool is_among(const std::string& name, const List& names) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-// What a resume keeps beside a file that it found damaged, by name_for_damaged: history.damaged.csv,
+// Files that a resume kept under another name because of damage (name_for_damaged): history.damaged.csv,
 // history.damaged.2.csv.
 bool is_damaged_one(const fs::path& file) {
   const fs::path number = file.stem().extension();  // or ".damaged" itself
@@ -80,7 +80,7 @@ bool is_snapshot(const fs::path& file) {
          number.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// With what a GIS has gathered from a map: it is not true of the next run's.
+// Includes statistics that a GIS stored for a map, because they do not apply to the next run.
 bool is_map(const fs::path& file) {
   const std::string name = file.filename().string(), kind = name.substr(0, name.find('.'));
   const std::string ending = name.substr(kind.size());
@@ -92,13 +92,13 @@ bool is_figure(const fs::path& file) {
   return is_among(file.stem().string(), figures_of_a_run) && (file.extension() == ".png" || file.extension() == ".mp4");
 }
 
-// What run.json tells; discarded: it is no JSON.
-Json told_of(const fs::path& folder) {
+// Contents of run.json; discarded if it is not JSON.
+Json run_json(const fs::path& folder) {
   const fs::path file = folder / "run.json";
   return fs::exists(file) ? Json::parse(read_file(file), nullptr, false) : Json(Json::value_t::discarded);
 }
 
-// The names of the copies in inputs/.
+// Names of the copies in inputs/.
 std::set<std::string> inputs_of(const Json& facts) {
   std::set<std::string> names;
   if (!facts.is_object() || !facts.contains("inputs") || !facts["inputs"].is_array()) {
@@ -136,7 +136,7 @@ void remove_own_of(const fs::path& folder, const IsOwn& is_own) {
 }  // namespace
 
 bool holds_a_run(const fs::path& folder) {
-  const Json facts = told_of(folder);
+  const Json facts = run_json(folder);
   return facts.is_object() && facts.contains("program") && facts["program"] == "thawslide";
 }
 
@@ -157,7 +157,7 @@ bool holds_no_more_than_a_start(const fs::path& folder) {
 }
 
 void remove_files_of_run(const fs::path& folder) {
-  const std::set<std::string> inputs = inputs_of(told_of(folder));
+  const std::set<std::string> inputs = inputs_of(run_json(folder));
   const auto is_input = [&inputs](const fs::path& file) { return inputs.count(file.filename().string()) > 0; };
   const std::pair<const char*, IsOwn> places[] = {
       {"snapshots", is_snapshot}, {"inputs", is_input}, {"figures", is_figure}, {"maps", is_map}};

@@ -13,13 +13,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Throws UserError where the folder holds what is not to be replaced.
+// Throws UserError if the folder contains anything that must not be replaced.
 void require_replaceable(const fs::path& folder, bool overwrite) {
   if (!holds_a_run(folder)) {
     throw UserError(
         fs::exists(folder / "run.json")
-            ? fmt::format("the output folder {} cannot be told for that of a run: its run.json is damaged, or of "
-                          "another program. Give another --output, or remove yourself what is there.",
+            ? fmt::format("cannot determine whether {} is the folder of a run: its run.json is damaged, or was written "
+                          "by another program. Give another --output, or remove yourself what is there.",
                           folder.string())
             : fmt::format("the output folder {} holds other files and no run. Give another --output.",
                           folder.string()));

@@ -1,4 +1,4 @@
-// The folder of a run: made new, never over another's results by accident.
+// Creation of a run folder without accidentally replacing other results.
 #pragma once
 
 #include <filesystem>
@@ -9,21 +9,21 @@
 
 namespace thawslide::io {
 
-// The deepest part of the path that exists: where folders would be made.
+// Deepest existing part of the path, in which folders would be created.
 [[nodiscard]] std::filesystem::path existing_part(const std::filesystem::path& folder);
 
-// Throws UserError where a name of the path is longer than file systems take: before anything asks for it.
+// Throws UserError if a component of the path is longer than file systems allow; call before any access to it.
 void require_possible_names(const std::filesystem::path& folder);
 
-// Throws UserError where a run cannot go: a file of that name, a folder that holds another run (unless `overwrite`), a
-// folder with other things in it, a place that cannot be written.
+// Throws UserError if a run cannot be written there: a file of that name, a folder that contains another run (unless
+// `overwrite`) or other files, or a location without write permission.
 void require_usable(const std::filesystem::path& folder, bool overwrite);
 
-// Throws UserError where a link stands in the place of one of these folders of a run.
+// Throws UserError if one of these folders of a run is a link.
 void require_own_folders(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
-// Makes the folder and its parents, and takes its lock; with `overwrite` removes the files of the run it holds, and
-// nothing else: not what others have put into it, or into snapshots/, inputs/, figures/ and maps/.
+// Creates the folder and its parents, and acquires its lock. With `overwrite`, removes the files of the run in it, but
+// no files of others there or in snapshots/, inputs/, figures/ and maps/.
 RunLock make_run_folder(const std::filesystem::path& folder, bool overwrite);
 
 }  // namespace thawslide::io

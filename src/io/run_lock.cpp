@@ -23,7 +23,7 @@ namespace {
 
 enum class Lock { ours, of_another, unknown };
 
-// A file system may have no locks.
+// The file system may not support locks.
 Lock ask(int descriptor, int kind) {
   if (flock(descriptor, kind | LOCK_NB) == 0) {
     return Lock::ours;
@@ -31,7 +31,7 @@ Lock ask(int descriptor, int kind) {
   return errno == EWOULDBLOCK ? Lock::of_another : Lock::unknown;
 }
 
-// Who only asks holds the lock for a moment, so one refusal tells nothing.
+// A process that only tests the lock holds it briefly, so a single refusal is not conclusive.
 Lock take(int descriptor) {
   constexpr int attempts = 20;
   constexpr useconds_t pause = 5000;  // microseconds
@@ -43,14 +43,14 @@ Lock take(int descriptor) {
   return lock;
 }
 
-// What stands in the place of a lock and is no file of its folder; empty: a file, or nothing.
+// Kind of a path at the place of the lock that is not a regular file; empty for a file, or nothing.
 std::string what_is_no_lock(const fs::path& file) {
   std::error_code unknown;
   return fs::is_symlink(fs::symlink_status(file, unknown)) ? "a link" : config::what_stands_at(file);
 }
 
-// Returns -1 and leaves the reason in errno where it cannot be opened. A link could lead to a file that is not the
-// run's, and be written over; a pipe would wait for ever.
+// Returns -1, with the reason in errno, if the file cannot be opened. A link could cause another file to be
+// overwritten, and a pipe could block forever.
 int open_lock(const fs::path& file, int flags) {
   const int descriptor = open(file.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666);
   const int reason = errno;
@@ -63,14 +63,14 @@ int open_lock(const fs::path& file, int flags) {
   }
   if (const std::string found = what_is_no_lock(file); !found.empty()) {
     throw UserError(
-        fmt::format("{} is {}, where a run keeps its lock, a regular file. Remove it once no run is at work in {}.",
+        fmt::format("{} is {}, but must be a regular file: the lock of a run. Remove it once no run is at work in {}.",
                     file.string(), found, file.parent_path().string()));
   }
   errno = reason;
   return -1;
 }
 
-// Whether the file is still that of the name: whoever gives the lock back removes it.
+// True if the name still refers to the open file, because the holder of the lock removes it on release.
 bool is_of_name(int descriptor, const fs::path& file) {
   struct stat opened {};
   struct stat named {};
@@ -78,7 +78,7 @@ bool is_of_name(int descriptor, const fs::path& file) {
          opened.st_dev == named.st_dev;
 }
 
-// What the holder has written into the file, which it may have taken out since.
+// Text written by the holder of the lock, which may have been removed since.
 std::string line_in(int descriptor) {
   char text[512];
   const ssize_t length = pread(descriptor, text, sizeof text, 0);
@@ -95,19 +95,20 @@ std::string host_name() {
   return host;
 }
 
-std::string words_of_process(pid_t number) { return fmt::format("process {} on {}", number, host_name()); }
+std::string format_process(pid_t number) { return fmt::format("process {} on {}", number, host_name()); }
 
-// The number in "process 123 on HOST" where HOST is this machine; 0: it is another, or this is no such line.
+// Number in "process 123 on HOST" if HOST is this machine; 0 for another machine or another text.
 pid_t process_of_this_machine(const std::string& line) {
   constexpr std::string_view begin = "process ";
   pid_t number = 0;
   if (line.rfind(begin, 0) == 0) {
     std::from_chars(line.data() + begin.size(), line.data() + line.size(), number);
   }
-  return number > 0 && line == config::shown(words_of_process(number)) ? number : 0;
+  return number > 0 && line == config::shown(format_process(number)) ? number : 0;
 }
 
-// Who is at work by what the file says, where there are no locks. A process with our own number has left it behind.
+// Process at work according to the file, on file systems without locks. An entry with our own number was left by an
+// earlier process.
 AtWork at_work_by(const std::string& line) {
   const pid_t number = process_of_this_machine(line);
   if (number == 0) {
@@ -129,8 +130,8 @@ std::string refusal(const fs::path& file, const AtWork& at_work, Lock lock) {
   const std::string folder = file.parent_path().string();
   if (!at_work.is_known) {
     return fmt::format(
-        "{} may be being written by {}: its file system has no locks, and from this machine it cannot be told whether "
-        "that lives. If it has surely ended, remove {}.",
+        "{} may be being written by {}: its file system has no locks, and this machine cannot determine whether that "
+        "process exists. If it has surely ended, remove {}.",
         folder, at_work.process, file.string());
   }
   const std::string without_locks =
@@ -141,8 +142,8 @@ std::string refusal(const fs::path& file, const AtWork& at_work, Lock lock) {
                      without_locks);
 }
 
-// Returns a descriptor that holds the lock, or -1 where the file that was opened has lost its name since.
-int take_lock(const fs::path& file) {
+// Returns a descriptor that holds the lock, or -1 if the file was unlinked after opening.
+int acquire_lock(const fs::path& file) {
   const int descriptor = open_lock(file, O_RDWR | O_CREAT);
   if (descriptor < 0) {
     throw WriteError(fmt::format("cannot write {}: {}", file.string(), std::strerror(errno)));
@@ -164,9 +165,9 @@ int take_lock(const fs::path& file) {
 
 RunLock::RunLock(const fs::path& folder) : file_(folder / lock_name), descriptor_(-1) {
   while (descriptor_ < 0) {
-    descriptor_ = take_lock(file_);
+    descriptor_ = acquire_lock(file_);
   }
-  const std::string text = words_of_process(getpid()) + "\n";
+  const std::string text = format_process(getpid()) + "\n";
   if (ftruncate(descriptor_, 0) != 0 || write(descriptor_, text.data(), text.size()) < 0) {
     const int reason = errno;
     close(descriptor_);
@@ -180,7 +181,7 @@ RunLock::RunLock(RunLock&& other) noexcept
 RunLock::~RunLock() {
   if (descriptor_ >= 0) {
     std::error_code ignored;
-    (void)!ftruncate(descriptor_, 0);  // without locks the name alone would keep others out
+    (void)!ftruncate(descriptor_, 0);  // without locks, the entry alone would exclude others
     if (fs::exists(file_.parent_path() / "run.json", ignored) && is_of_name(descriptor_, file_)) {
       fs::remove(file_, ignored);
     }
@@ -196,7 +197,7 @@ OwnFolder::OwnFolder(const fs::path& folder) : lock_(folder / lock_name) {
   }
 }
 
-// A file system may give a file another number in the course of time: then what it says decides.
+// A file system may change the file number over time; the contents then decide.
 bool OwnFolder::is_own() const {
   struct stat facts {};
   if (lstat(lock_.c_str(), &facts) != 0) {
@@ -206,7 +207,7 @@ bool OwnFolder::is_own() const {
     return true;
   }
   const int descriptor = open(lock_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  const bool is_own = descriptor >= 0 && line_in(descriptor) == config::shown(words_of_process(getpid()));
+  const bool is_own = descriptor >= 0 && line_in(descriptor) == config::shown(format_process(getpid()));
   if (descriptor >= 0) {
     close(descriptor);
   }
@@ -217,8 +218,8 @@ void OwnFolder::require() const {
   if (!is_own()) {
     throw WriteError(fmt::format(
         "{} is not the folder any more that this run began in: that was moved or removed, its {} was, or another run "
-        "has taken its place. Nothing more is written there. From where the folder is now, `thawslide resume` goes on "
-        "from the last checkpoint.",
+        "has taken its place. Nothing more is written there. From where the folder is now, `thawslide resume` "
+        "continues from the last checkpoint.",
         lock_.parent_path().string(), lock_name));
   }
 }
@@ -228,7 +229,7 @@ AtWork process_at_work(const fs::path& folder) {
   const int descriptor = open_lock(file, O_RDONLY);
   if (descriptor < 0) {
     if (errno != ENOENT && errno != ENOTDIR) {
-      throw UserError(fmt::format("cannot read {}: {}. It tells whether a run is at work there.", file.string(),
+      throw UserError(fmt::format("cannot read {}: {}. It shows whether a run is active there.", file.string(),
                                   std::strerror(errno)));
     }
     return {};

@@ -1,6 +1,6 @@
-// Who writes a run's folder: a process holds the lock as long as it lives, however it ends. On a file system without
-// locks its name in the file decides: of a process of this machine it is known whether it lives, one of another machine
-// is taken to. A process that ends by itself takes its name out.
+// Lock of a run folder: a process holds it until it ends, for any reason. On a file system without locks, the process
+// name in the file decides. A process on this machine is tested; one on another machine counts as running. A process
+// that ends normally removes its entry.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ inline constexpr const char* lock_name = "run.lock";
 
 class RunLock {
  public:
-  // Throws UserError where another process holds the folder's lock, or may, and where what stands in its place is a
-  // link or no regular file; WriteError where the file cannot be made.
+  // Throws UserError if another process holds the folder's lock, or may hold it, and if the lock file is a link or not
+  // a regular file; WriteError if the file cannot be created.
   explicit RunLock(const std::filesystem::path& folder);
   RunLock(RunLock&& other) noexcept;
   RunLock& operator=(RunLock&&) = delete;
-  // Gives the folder free and removes the file; where the run has not come to its run.json the file stays, as a sign
-  // that the folder holds no more than a start.
+  // Releases the folder and removes the file. If the run has not written run.json, the file is kept to mark a folder
+  // without results.
   ~RunLock();
 
  private:
@@ -27,12 +27,12 @@ class RunLock {
   int descriptor_;
 };
 
-// The folder of a run whose lock this process holds. It may be moved or removed meanwhile, and another run begin under
-// its name, where this one then must not write.
+// Run folder whose lock this process holds. If the folder was moved or removed and another run started under its name,
+// this run must not write there.
 class OwnFolder {
  public:
   explicit OwnFolder(const std::filesystem::path& folder);
-  // Throws WriteError where it is not its own any more.
+  // Throws WriteError if the folder no longer belongs to this run.
   void require() const;
 
  private:
@@ -43,10 +43,10 @@ class OwnFolder {
 };
 
 struct AtWork {
-  bool is_known = true;  // false: there is a lock file, its file system has no locks, and what it says does not tell
-  std::string process;   // "process 123 on HOST" that is at work in the folder, or that may be; empty: none is known to
+  bool is_known = true;  // false: there is a lock file without file-system locks, and its contents are inconclusive
+  std::string process;   // "process 123 on HOST" that works in the folder, or may; empty: no known process
 };
-// Throws UserError where a link, or no regular file, stands in the place of the lock, or it cannot be read.
+// Throws UserError if the lock is a link or not a regular file, or cannot be read.
 [[nodiscard]] AtWork process_at_work(const std::filesystem::path& folder);
 
 }  // namespace thawslide::io

@@ -1,4 +1,4 @@
-// SHA-256, of inputs for provenance and of checkpoints against damage.
+// SHA-256, for provenance of inputs and for integrity of checkpoints.
 #pragma once
 
 #include <array>

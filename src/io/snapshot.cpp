@@ -10,12 +10,12 @@ namespace thawslide::io {
 
 namespace {
 
-// Components as written: vectors three, tensors six.
+// Number of components in the file: three for vectors, six for tensors.
 std::size_t written_components(mpm::FieldShape shape) {
   return shape == mpm::FieldShape::scalar ? 1 : shape == mpm::FieldShape::vector ? 3 : 6;
 }
 
-SnapshotField take_field(const mpm::FieldBase& field, const std::vector<std::size_t>& order) {
+SnapshotField copy_field(const mpm::FieldBase& field, const std::vector<std::size_t>& order) {
   SnapshotField taken{
       field.info().name, field.info().unit, written_components(field.info().shape), field.is_integer(), {}, {}};
   std::vector<double> values;
@@ -28,15 +28,15 @@ SnapshotField take_field(const mpm::FieldBase& field, const std::vector<std::siz
   return taken;
 }
 
-// The group "base": a dataset a column, its unit told by the end of its name.
+// Group "base": one dataset per column, whose name ends with the unit.
 void write_base(hid_t file, const NamedNumbers& base) {
   if (base.empty()) {
     return;
   }
   const hdf5::Handle group = hdf5::make_group(file, "base");
-  const std::size_t pieces = base.at("position_m").size() / 3;
+  const std::size_t segments = base.at("position_m").size() / 3;
   for (const auto& [name, numbers] : base) {
-    const hdf5::Shape shape = numbers.size() == pieces ? hdf5::Shape{pieces} : hdf5::Shape{pieces, 3};
+    const hdf5::Shape shape = numbers.size() == segments ? hdf5::Shape{segments} : hdf5::Shape{segments, 3};
     hdf5::write_dataset(group, name, shape, numbers.data());
   }
 }
@@ -66,7 +66,7 @@ Snapshot take_snapshot(const mpm::Particles<Dim, Real>& particles, const Vector<
   }
   for (const mpm::FieldBase* field : particles.fields.all()) {
     if (field->info().in_snapshot) {
-      snapshot.fields.push_back(take_field(*field, order));
+      snapshot.fields.push_back(copy_field(*field, order));
     }
   }
   return snapshot;
@@ -74,7 +74,7 @@ Snapshot take_snapshot(const mpm::Particles<Dim, Real>& particles, const Vector<
 
 std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot) {
   const std::size_t count = snapshot.particles();
-  std::size_t numbers = (3 + 2) * count;  // places, and two numbers of each vertex
+  std::size_t numbers = (3 + 2) * count;  // coordinates, and two numbers per vertex
   for (const SnapshotField& field : snapshot.fields) {
     numbers += field.components * count;
   }
@@ -114,7 +114,7 @@ std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot) {
 template <int Dim>
 std::size_t snapshot_bytes_of_particle() {
   const mpm::Particles<Dim, double> particles;
-  std::size_t numbers = 3 + 2;  // its place, and two numbers of its vertex
+  std::size_t numbers = 3 + 2;  // coordinates, and two numbers of the vertex
   for (const mpm::FieldBase* field : particles.fields.all()) {
     numbers += field->info().in_snapshot ? written_components(field->info().shape) : 0;
   }

@@ -1,5 +1,5 @@
-// One state of the particles as a VTKHDF file: PolyData with one vertex a particle, readable by ParaView, PyVista,
-// h5py. What else there is of the base stands beside it, in a group of its own.
+// Particle state as a VTKHDF file: PolyData with one vertex per particle, readable by ParaView, PyVista, h5py. A
+// separate group contains the table of the base.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ struct SnapshotField {
   std::string name, unit;
   std::size_t components;
   bool integer;
-  std::vector<double> numbers;  // one of these two is filled, particle by particle
+  std::vector<double> numbers;  // one of these two is filled, in particle order
   std::vector<std::int64_t> integers;
 };
 
@@ -25,25 +25,25 @@ struct Snapshot {
   std::int64_t step;
   std::vector<double> points;  // x y z of each particle [m]
   std::vector<SnapshotField> fields;
-  NamedNumbers base;  // pieces of base: a row each of position_m (x y z) and of what else there is; empty: none
+  NamedNumbers base;  // basal segments: one row each of position_m (x y z) and of the other columns; empty: none
 
   [[nodiscard]] std::size_t particles() const { return points.size() / 3; }
 };
 
-// Fields marked for snapshots, rows by id, the local origin added back, three components in 2D (z = 0), tensors as
-// xx yy zz xy yz xz.
+// Fields marked for snapshots, with rows by id, the local origin added, three components in 2D (z = 0), tensors as xx
+// yy zz xy yz xz.
 template <int Dim, class Real>
 Snapshot take_snapshot(const mpm::Particles<Dim, Real>& particles, const Vector<double, Dim>& origin, double time,
                        std::int64_t step);
 
-// The file's bytes; the same snapshot gives the same bytes.
+// Bytes of the file; the same snapshot gives the same bytes.
 std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot);
 
-// What a particle takes of the file, which has some kilobytes beside them [bytes].
+// Size of a particle in the file, which has a few kilobytes in addition [bytes].
 template <int Dim>
 std::size_t snapshot_bytes_of_particle();
 
-// Storage places of the particles in order of id.
+// Memory indices of the particles in order of id.
 template <int Dim, class Real>
 std::vector<std::size_t> order_by_id(const mpm::Particles<Dim, Real>& particles);
 

@@ -11,7 +11,7 @@
 
 #include "config/input_limits.hpp"
 #include "io/atomic_file.hpp"
-#include "io/tried_in_child.hpp"
+#include "io/probe_in_subprocess.hpp"
 #include "io/vtkhdf.hpp"
 
 namespace thawslide::io {
@@ -24,8 +24,7 @@ constexpr double seconds_between_indices = 5.0;
 
 std::string file_name(std::size_t number) { return fmt::format("snapshots/{:06d}.vtkhdf", number); }
 
-// The type of a dataset or attribute of one value. What is asked of the file must fit into the room made for it: the
-// library writes as much as the file says.
+// Type of an attribute, which must be scalar: the library writes as many values as the file specifies.
 hdf5::Handle type_of_one_value(hid_t attribute, const char* name) {
   const hdf5::Handle space(H5Aget_space(attribute), H5Sclose, name);
   THAWSLIDE_ASSERT(H5Sget_simple_extent_type(space) == H5S_SCALAR, "attribute {} is not one value", name);
@@ -46,7 +45,7 @@ std::string read_unit(hid_t dataset) {
   constexpr std::size_t longest = 64;
   const hdf5::Handle attribute(H5Aopen(dataset, "unit", H5P_DEFAULT), H5Aclose, "unit");
   const hdf5::Handle type = type_of_one_value(attribute, "unit");
-  // Of a text of variable length the library hands out a pointer.
+  // The library returns a pointer for a text of variable length.
   THAWSLIDE_ASSERT(H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0,
                    "attribute unit is no plain text");
   const std::size_t size = H5Tget_size(type);
@@ -56,7 +55,8 @@ std::string read_unit(hid_t dataset) {
   return text;
 }
 
-// What a group of a snapshot holds itself: a link could lead into any other file, or to a pipe.
+// Requires that an object is stored in the group of the snapshot itself: a link could refer to any other file, or to a
+// pipe.
 void require_own(hid_t group, const std::string& name) {
   H5L_info_t link{};
   THAWSLIDE_ASSERT(H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT) >= 0 && link.type == H5L_TYPE_HARD,
@@ -68,8 +68,8 @@ hdf5::Handle own_group(hid_t parent, const char* name) {
   return {H5Gopen2(parent, name, H5P_DEFAULT), H5Gclose, name};
 }
 
-// Of the link with this number. Fields are called by plain words; other signs mean something in the names of virtual
-// datasets.
+// Name of the link with this number. Field names contain only letters, digits and underscores, because other characters
+// have a meaning in virtual datasets.
 std::string name_of_field(hid_t group, hsize_t number) {
   char name[256] = "";
   const ssize_t length =
@@ -85,7 +85,7 @@ struct FieldShape {
   hsize_t rows, components;
 };
 
-// As it stands in the file, which holds all of it: so that no sum of rows runs over.
+// Shape of a dataset, which must fit in the file, so that sums of rows cannot overflow.
 FieldShape shape_of(hid_t dataset, std::uintmax_t file_bytes) {
   const hdf5::Handle space(H5Dget_space(dataset), H5Sclose, "space");
   hsize_t shape[2] = {0, 1};
@@ -98,7 +98,7 @@ FieldShape shape_of(hid_t dataset, std::uintmax_t file_bytes) {
   return {shape[0], shape[1]};
 }
 
-// Files NNNNNN.vtkhdf by their number.
+// Files NNNNNN.vtkhdf by number.
 std::map<std::size_t, fs::path> numbered_files(const fs::path& folder) {
   std::map<std::size_t, fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -132,7 +132,7 @@ SnapshotSeries::SnapshotSeries(const fs::path& folder) : folder_(folder), indexe
 }
 
 SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, std::size_t count,
-                                              std::vector<std::string>& notes) {
+                                              std::vector<std::string>& warnings) {
   SnapshotSeries series(folder);
   series.next_ = count;
   std::string lost;
@@ -152,8 +152,8 @@ SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, std::size_
     }
   }
   // HDF5 crashes on some damaged files.
-  const std::vector<bool> can_be_read =
-      tried_in_child(earlier.size(), [&](std::size_t k) { return series.take(earlier[k].first, earlier[k].second); });
+  const std::vector<bool> can_be_read = probe_in_subprocess(
+      earlier.size(), [&](std::size_t k) { return series.take(earlier[k].first, earlier[k].second); });
   for (std::size_t k = 0; k < earlier.size(); ++k) {
     if (can_be_read[k] && series.take(earlier[k].first, earlier[k].second)) {
       note_lost_before(earlier[k].first);
@@ -162,7 +162,7 @@ SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, std::size_
   }
   note_lost_before(count);
   if (!lost.empty()) {
-    notes.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "of the {} snapshots up to here these are missing or cannot be read: {}; particles.vtkhdf leaves them out",
         count, lost));
   }
@@ -197,7 +197,7 @@ bool SnapshotSeries::take(std::size_t number, const fs::path& file) {
     }
     entries_.push_back(entry);
     columns_ = std::move(columns);
-  } catch (const InternalError&) {  // what no run has written
+  } catch (const InternalError&) {  // not written by a run
     return false;
   }
   return true;
@@ -205,7 +205,7 @@ bool SnapshotSeries::take(std::size_t number, const fs::path& file) {
 
 void SnapshotSeries::finish_writing() {
   if (writing_.valid()) {
-    seconds_beside_ += writing_.get();
+    writer_seconds_ += writing_.get();
   }
 }
 
@@ -232,7 +232,7 @@ void SnapshotSeries::add(Snapshot snapshot) {
   entries_.push_back(entry);
 }
 
-// One dataset of the index: the rows of all snapshots, one after another. extra_rows: rows beyond the particle count.
+// Writes one dataset of the index: the concatenated rows of all snapshots. extra_rows: rows beyond the particle count.
 void SnapshotSeries::write_virtual(std::int64_t parent, const std::string& name, const std::string& source,
                                    std::size_t components, std::size_t extra_rows, bool integer) const {
   hsize_t rows = 0;

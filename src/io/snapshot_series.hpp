@@ -1,4 +1,4 @@
-// The snapshots of a run: a file each, and an index that lets readers open them as one series.
+// Snapshots of a run: one file each, and an index with which readers open them as a series.
 #pragma once
 
 #include <chrono>
@@ -11,31 +11,32 @@
 
 namespace thawslide::io {
 
-// What is missing among the snapshots of a run that has ended, by their numbers; empty: nothing that these tell.
+// Numbers of missing snapshots of a finished run, as text; empty if the existing ones show no gap.
 [[nodiscard]] std::string gap_in_snapshots(const std::filesystem::path& folder);
 
 class SnapshotSeries {
  public:
-  // Starts with no snapshots; makes folder/snapshots.
+  // Starts with no snapshots; creates folder/snapshots.
   explicit SnapshotSeries(const std::filesystem::path& folder);
-  // Goes on with the series after its first `count` snapshots: later ones are removed. A note says which of the earlier
-  // ones are missing or cannot be read; the index leaves these out.
+  // Continues the series after its first `count` snapshots and removes later ones. A warning lists earlier ones that
+  // are missing or unreadable; the index omits these.
   static SnapshotSeries continue_after(const std::filesystem::path& folder, std::size_t count,
-                                       std::vector<std::string>& notes);
+                                       std::vector<std::string>& warnings);
 
-  // Writes folder/snapshots/NNNNNN.vtkhdf while the caller goes on, and before that, when it was not written for some
-  // seconds, the index of the snapshots so far. Throws WriteError if this snapshot or the one before it could not be
+  // Writes folder/snapshots/NNNNNN.vtkhdf in parallel with the caller. Before that, writes the index of the snapshots
+  // so far if it is more than some seconds old. Throws WriteError if this snapshot or the previous one could not be
   // written.
   void add(Snapshot snapshot);
-  // Waits until the last snapshot is on the disk; throws as add does.
+  // Waits until the last snapshot has reached the disk; throws as add does.
   void finish_writing();
-  // Writes folder/particles.vtkhdf: virtual datasets over all snapshots so far, with their times. None: there is none.
+  // Writes folder/particles.vtkhdf: virtual datasets over all snapshots so far, with their times. Does nothing without
+  // snapshots.
   void write_index();
 
-  // How many were written, whatever has become of them.
+  // Number of snapshots written, whether or not they still exist.
   [[nodiscard]] std::size_t size() const { return next_; }
-  // Processor time that snapshots took while the caller went on [s], but for the last one if it is still being written.
-  [[nodiscard]] double seconds_beside() const { return seconds_beside_; }
+  // CPU time of writing snapshots in parallel with the caller [s], without the last one while it is being written.
+  [[nodiscard]] double writer_seconds() const { return writer_seconds_; }
 
  private:
   struct Entry {
@@ -55,12 +56,12 @@ class SnapshotSeries {
                      std::size_t extra_rows, bool integer) const;
 
   std::filesystem::path folder_;
-  std::vector<Entry> entries_;  // of those that can be read
+  std::vector<Entry> entries_;  // readable snapshots
   std::size_t next_ = 0;        // number of the next one
   std::vector<Column> columns_;
   std::chrono::steady_clock::time_point indexed_;
-  std::future<double> writing_;  // the last snapshot; HDF5 is in one thread's hands at a time
-  double seconds_beside_ = 0.0;
+  std::future<double> writing_;  // the last snapshot; HDF5 is used by one thread at a time
+  double writer_seconds_ = 0.0;
 };
 
 }  // namespace thawslide::io

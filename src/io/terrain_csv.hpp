@@ -1,4 +1,4 @@
-// Profiles as CSV files: terrain.csv, the ground a run slid on, for figures; and those that cases read.
+// Profiles as CSV files: terrain.csv, the ground of a run, for figures; and input profiles of cases.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace thawslide::io {
 
-// Columns distance_m, terrain_elevation_m, and surface_elevation_m where the profile has it; below the comments, a line
-// each.
+// Columns distance_m, terrain_elevation_m, and surface_elevation_m if the profile has it; preceded by the comments, one
+// per line.
 void write_profile_csv(const std::filesystem::path& file, const config::ProfileTable& profile,
                        const std::vector<std::string>& comments = {});
 

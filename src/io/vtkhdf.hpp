@@ -1,4 +1,4 @@
-// What snapshots and their index share of the VTKHDF format (version 2, PolyData).
+// VTKHDF format (version 2, PolyData): parts shared by snapshots and their index.
 #pragma once
 
 #include "io/hdf5_file.hpp"

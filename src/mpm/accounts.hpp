@@ -1,4 +1,4 @@
-// What kernels sum over particles: energies, and the particle that is in a bad state.
+// Sums of kernels over particles: energies, and invalid particles.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct StressWork {
   Real total = 0;    // of the constitutive stress on the strain
   Real plastic = 0;  // dissipated in plastic strain
   Real viscous = 0;  // dissipated by viscosity
-  Real pore = 0;     // of the pore pressure on the volume, where it acts inside the body
+  Real pore = 0;     // of the pore pressure on the volume, if it acts inside the body
 
   THAWSLIDE_HD StressWork& operator+=(const StressWork& part) {
     total += part.total;
@@ -24,8 +24,8 @@ struct StressWork {
   }
 };
 
-// What can be wrong with a particle.
-// As wide as the id beside it below: sums have no gaps, which nothing writes, between their numbers.
+// Reason why a particle is invalid. The underlying type has the width of the adjacent id, to avoid uninitialized
+// padding in sums.
 enum class Fault : std::int64_t {
   none,
   volume_not_finite,
@@ -37,19 +37,19 @@ enum class Fault : std::int64_t {
   left_map
 };
 
-// A particle found in a bad state, the one of smallest id; id < 0 if all are well.
-struct BadParticle {
+// Invalid particle with the smallest id; id < 0 if all are valid.
+struct InvalidParticle {
   std::int64_t id = -1;
   Fault fault = Fault::none;
 
-  THAWSLIDE_HD void note(std::int64_t other, Fault found) {
+  THAWSLIDE_HD void record(std::int64_t other, Fault found) {
     if (other >= 0 && (id < 0 || other < id)) {
       id = other;
       fault = found;
     }
   }
-  THAWSLIDE_HD BadParticle& operator+=(const BadParticle& part) {
-    note(part.id, part.fault);
+  THAWSLIDE_HD InvalidParticle& operator+=(const InvalidParticle& part) {
+    record(part.id, part.fault);
     return *this;
   }
 };

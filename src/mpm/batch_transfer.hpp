@@ -1,4 +1,4 @@
-// Transfers of a batch of particles: their nodes and weights lane by lane, what they read of the nodes, what they add.
+// Transfers of a particle batch: nodes and weights by SIMD lane, gather from nodes and contributions to nodes.
 #pragma once
 
 #include <cstring>
@@ -8,14 +8,14 @@
 
 namespace thawslide::mpm {
 
-// The nodes and their weights. Made in one piece: g++ copies an array of registers by a call.
+// Nodes and their weights. Constructed as an aggregate, because g++ copies an array of registers by a call.
 template <int Dim, class Real, std::size_t Width = 3>
 struct BatchStencil {
   BatchNodes<Real> nodes;
-  std::array<AxisWeights<Lanes<Real>, Width>, Dim> axis;
+  std::array<AxisWeights<Simd<Real>, Width>, Dim> axis;
 };
 
-// An array of what make(axis) gives.
+// Array of the results of make(axis).
 template <int Dim, class Make>
 THAWSLIDE_ALWAYS_INLINE auto for_axes(const Make& make) {
   using Item = decltype(make(0));
@@ -26,10 +26,10 @@ THAWSLIDE_ALWAYS_INLINE auto for_axes(const Make& make) {
   }
 }
 
-// Where the particles of a batch stand: their nearest nodes and their offsets from them, in cells.
+// Positions of the particles of a batch: nearest nodes, and offsets from them in cells.
 template <int Dim, class Real>
 struct BatchPlace {
-  Vector<Lanes<Real>, Dim> node, offset;
+  Vector<Simd<Real>, Dim> node, offset;
 };
 
 template <int Dim, class Real>
@@ -38,7 +38,7 @@ THAWSLIDE_ALWAYS_INLINE BatchPlace<Dim, Real> place_of(const SparseGrid<Dim, Rea
                                                        const TileBatch<Dim, Real>& batch) {
   BatchPlace<Dim, Real> place;
   for (int a = 0; a < Dim; ++a) {
-    place.node[a] = Lanes<Real>::load_whole(batch.nearest[static_cast<std::size_t>(a)].data());
+    place.node[a] = Simd<Real>::load_whole(batch.nearest[static_cast<std::size_t>(a)].data());
     place.offset[a] = particles.position.load(batch, a) * grid.inverse_cell() - place.node[a];
   }
   return place;
@@ -46,53 +46,53 @@ THAWSLIDE_ALWAYS_INLINE BatchPlace<Dim, Real> place_of(const SparseGrid<Dim, Rea
 
 // Lanes at a side of the domain that prescribes velocity.
 template <int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE LaneMask<Real> at_side(const HeldSides<Dim>& sides, int axis, Lanes<Real> node) {
+THAWSLIDE_ALWAYS_INLINE SimdMask<Real> at_side(const HeldSides<Dim>& sides, int axis, Simd<Real> node) {
   const auto a = static_cast<std::size_t>(axis);
   return (node == static_cast<Real>(sides.lower[a])) | (node == static_cast<Real>(sides.upper[a]));
 }
 
-// For shape functions Shape (Ugimp, Linear, Quadratic); size: of the particles, in cells.
+// Stencil for shape functions Shape (Ugimp, Linear, Quadratic). size: of the particles, in cells.
 template <class Shape, int Dim, class Real>
 THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> make_stencil(const SparseGrid<Dim, Real>& grid,
                                                              const TileBatch<Dim, Real>& batch,
                                                              const BatchPlace<Dim, Real>& place,
-                                                             const HalfSize<Lanes<Real>>& size,
+                                                             const HalfSize<Simd<Real>>& size,
                                                              const HeldSides<Dim>& sides) {
   return {batch.nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
             return Shape::weights(place.offset[a], size, at_side(sides, a, place.node[a]), grid.inverse_cell());
           })};
 }
 
-// The corners of the cells of nodes that particles lie in: as places in the patch, and among the 3^Dim nodes about the
-// nearest one.
+// Corners of the grid cells that particles lie in, as places in the patch and among the 3^Dim nodes around the nearest
+// node.
 template <int Dim, class Real>
 struct CornerStencil : BatchStencil<Dim, Real, 2> {
-  std::array<std::int32_t, lane_count<Real>> first_in_cell;  // of the lowest one, by lane
+  std::array<std::int32_t, simd_width<Real>> first_in_cell;  // of the lowest corner, by lane
 };
 
-// The linear shape functions of a batch's cells: at their corners, to which particles add, and at all nodes about their
-// nearest ones, of which they read, since neighbours share these more often than corners.
+// Linear shape functions of a batch. Scatter uses the corners of the particles' cells. Gather uses all nodes around the
+// nearest ones, because neighbours share these more often than corners.
 template <int Dim, class Real>
 struct LinearStencil {
-  Vector<Lanes<Real>, Dim> offset;  // from the nearest node, in cells
+  Vector<Simd<Real>, Dim> offset;  // from the nearest node, in cells
   const BatchNodes<Real>& nodes;
   Real inverse_cell;
 
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE CornerStencil<Dim, Real> corners() const {
-    const Lanes<Real> zero = Real(0), one = Real(1), slope = inverse_cell;
-    Lanes<Real> place = Lanes<Real>::load_whole(nodes.first.data()), in_cell = zero;
+    const Simd<Real> zero = Real(0), one = Real(1), slope = inverse_cell;
+    Simd<Real> place = Simd<Real>::load_whole(nodes.first.data()), in_cell = zero;
     for (int a = 0; a < Dim; ++a) {
       const auto right = offset[a] >= zero;
-      place += select(right, Lanes<Real>(Real(power(Tile<Dim>::patch_edge, a))), zero);
-      in_cell += select(right, Lanes<Real>(Real(power(3, a))), zero);
+      place += select(right, Simd<Real>(Real(power(Tile<Dim>::patch_edge, a))), zero);
+      in_cell += select(right, Simd<Real>(Real(power(3, a))), zero);
     }
     BatchNodes<Real> corner_nodes;
     place.store_whole(corner_nodes.first.data());
-    corner_nodes.runs = BatchNodes<Real>::many_runs;
+    corner_nodes.runs = BatchNodes<Real>::irregular;
     CornerStencil<Dim, Real> corners{{corner_nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
-                                        const Lanes<Real> along = select(offset[a] >= zero, offset[a], one + offset[a]);
-                                        const Lanes<Real> back = select(offset[a] >= zero, one - offset[a], -offset[a]);
-                                        return AxisWeights<Lanes<Real>, 2>{{back, along}, {-slope, slope}};
+                                        const Simd<Real> along = select(offset[a] >= zero, offset[a], one + offset[a]);
+                                        const Simd<Real> back = select(offset[a] >= zero, one - offset[a], -offset[a]);
+                                        return AxisWeights<Simd<Real>, 2>{{back, along}, {-slope, slope}};
                                       })},
                                      {}};
     in_cell.store_whole(corners.first_in_cell.data());
@@ -111,12 +111,12 @@ THAWSLIDE_ALWAYS_INLINE LinearStencil<Dim, Real> linear_stencil(const SparseGrid
   return {place_of(grid, particles, batch).offset, batch.nodes, grid.inverse_cell()};
 }
 
-// The same nodes and weights for APIC: in place of the gradient G_i stands S_i (x_i - x_p)/D, with which node
-// velocities make the affine velocity C. moment: the second moments D [m2] along each axis.
+// Same nodes and weights for APIC: S_i (x_i - x_p)/D replaces the gradient G_i, so that node velocities give the affine
+// velocity C. moment: second moments D [m2] along each axis.
 template <int Dim, class Real>
 struct AffineBatch {
   BatchStencil<Dim, Real> nodes;
-  Vector<Lanes<Real>, Dim> moment;
+  Vector<Simd<Real>, Dim> moment;
 };
 
 template <class Shape, int Dim, class Real>
@@ -136,14 +136,14 @@ THAWSLIDE_ALWAYS_INLINE AffineBatch<Dim, Real> make_affine(const SparseGrid<Dim,
   return affine;
 }
 
-// Fetch(place, component) for read_nodes: one number for all lanes where they see the same nodes, two where there are
-// two runs of such lanes, else one by one.
+// Fetch(place, component) for read_nodes: one number for all lanes if they have the same nodes, two for two runs of
+// such lanes, otherwise a gather.
 template <int Dim, class Real, int Components>
 struct SharedNodes {
   const Patch<Dim, Real, Components>& patch;
   std::size_t first;
 
-  THAWSLIDE_ALWAYS_INLINE Lanes<Real> operator()(std::size_t offset, std::size_t component) const {
+  THAWSLIDE_ALWAYS_INLINE Simd<Real> operator()(std::size_t offset, std::size_t component) const {
     return patch.records[first + offset][component];
   }
 };
@@ -151,28 +151,28 @@ template <int Dim, class Real, int Components>
 struct NodesOfTwoRuns {
   const Patch<Dim, Real, Components>& patch;
   std::size_t first, second;
-  LaneMask<Real> in_first;
+  SimdMask<Real> in_first;
 
-  THAWSLIDE_ALWAYS_INLINE Lanes<Real> operator()(std::size_t offset, std::size_t component) const {
-    return select(in_first, Lanes<Real>(patch.records[first + offset][component]),
-                  Lanes<Real>(patch.records[second + offset][component]));
+  THAWSLIDE_ALWAYS_INLINE Simd<Real> operator()(std::size_t offset, std::size_t component) const {
+    return select(in_first, Simd<Real>(patch.records[first + offset][component]),
+                  Simd<Real>(patch.records[second + offset][component]));
   }
 };
 template <int Dim, class Real, int Components>
 struct OwnNodes {
   const Patch<Dim, Real, Components>& patch;
-  typename Lanes<Real>::Whole first;  // places of numbers
+  typename Simd<Real>::Whole first;  // index of the first number, by lane
 
   OwnNodes(const Patch<Dim, Real, Components>& from, const BatchNodes<Real>& nodes)
       : patch(from),
         first(whole_lanes<Real>(nodes.first.data()) * static_cast<std::int32_t>(record_size(Components))) {}
 
-  THAWSLIDE_ALWAYS_INLINE Lanes<Real> operator()(std::size_t offset, std::size_t component) const {
-    return Lanes<Real>::gather(&patch.records[offset][component], first);
+  THAWSLIDE_ALWAYS_INLINE Simd<Real> operator()(std::size_t offset, std::size_t component) const {
+    return Simd<Real>::gather(&patch.records[offset][component], first);
   }
 };
 
-// Calls read(fetch) with the fetch that fits the nodes of a batch.
+// Calls read(fetch) with the fetch that matches the nodes of a batch.
 template <int Dim, class Real, int Components, class Read>
 THAWSLIDE_ALWAYS_INLINE auto with_fetch(const BatchNodes<Real>& nodes, const Patch<Dim, Real, Components>& patch,
                                         const Read& read) {
@@ -181,33 +181,34 @@ THAWSLIDE_ALWAYS_INLINE auto with_fetch(const BatchNodes<Real>& nodes, const Pat
     return read(SharedNodes<Dim, Real, Components>{patch, first});
   }
   if (nodes.runs == 2) {
-    const auto second = static_cast<std::size_t>(nodes.first[lane_count<Real> - 1]);
-    return read(NodesOfTwoRuns<Dim, Real, Components>{patch, first, second, lanes_before<Real>(nodes.second_run)});
+    const auto second = static_cast<std::size_t>(nodes.first[simd_width<Real> - 1]);
+    return read(
+        NodesOfTwoRuns<Dim, Real, Components>{patch, first, second, lanes_before<Real>(nodes.second_run_begin)});
   }
   return read(OwnNodes<Dim, Real, Components>(patch, nodes));
 }
 
-// What the particles read of `Count` numbers of the records about them.
+// Interpolates `Count` components of the surrounding records to the particles.
 template <std::size_t Count, int Dim, class Real, std::size_t Width, int Components>
-THAWSLIDE_ALWAYS_INLINE Reading<Dim, Lanes<Real>, Count> read_nodes(const BatchStencil<Dim, Real, Width>& stencil,
-                                                                    const Patch<Dim, Real, Components>& patch,
-                                                                    std::size_t first_component = 0) {
+THAWSLIDE_ALWAYS_INLINE Reading<Dim, Simd<Real>, Count> read_nodes(const BatchStencil<Dim, Real, Width>& stencil,
+                                                                   const Patch<Dim, Real, Components>& patch,
+                                                                   std::size_t first_component = 0) {
   return with_fetch(stencil.nodes, patch, [&](const auto& fetch) THAWSLIDE_INLINE_LAMBDA {
     return read_along_axes<Count>(stencil.axis, fetch, first_component);
   });
 }
 template <std::size_t Count, int Dim, class Real, int Components>
-THAWSLIDE_ALWAYS_INLINE Reading<Dim, Lanes<Real>, Count> read_nodes(const LinearStencil<Dim, Real>& linear,
-                                                                    const Patch<Dim, Real, Components>& patch,
-                                                                    std::size_t first_component = 0) {
-  if (linear.nodes.runs == BatchNodes<Real>::many_runs) {
+THAWSLIDE_ALWAYS_INLINE Reading<Dim, Simd<Real>, Count> read_nodes(const LinearStencil<Dim, Real>& linear,
+                                                                   const Patch<Dim, Real, Components>& patch,
+                                                                   std::size_t first_component = 0) {
+  if (linear.nodes.runs == BatchNodes<Real>::irregular) {
     const auto corners = linear.corners();
     return read_along_axes<Count>(corners.axis, OwnNodes<Dim, Real, Components>(patch, corners.nodes), first_component);
   }
   return read_nodes<Count>(linear.about(), patch, first_component);
 }
 
-// One particle's weights, each in all lanes of a record's register.
+// Weights of one particle, each broadcast to a record register.
 template <int Dim, class Register, std::size_t Width>
 struct SpreadWeights {
   Register weight[Dim][Width];
@@ -220,7 +221,7 @@ struct SpreadWeights {
   }
 };
 
-// What one particle reads of one register of every record about it.
+// Interpolates one register of the surrounding records to one particle.
 template <int Axis, int Dim, class Register, std::size_t Width, class Real>
 THAWSLIDE_ALWAYS_INLINE Register sum_along_axes(const SpreadWeights<Dim, Register, Width>& spread,
                                                 std::size_t record_size, const Real* records) {
@@ -237,15 +238,15 @@ THAWSLIDE_ALWAYS_INLINE Register sum_along_axes(const SpreadWeights<Dim, Registe
   return sum;
 }
 
-// The values, without gradients, of all components of the records about a batch. Where it sees many nodes, particle by
-// particle, a register of components at a time.
+// Interpolates all components of the surrounding records, without gradients, to a batch. For irregular nodes, the loop
+// runs over particles with a register of components at a time.
 template <int Dim, class Real, std::size_t Width, int Components>
-THAWSLIDE_ALWAYS_INLINE std::array<Lanes<Real>, record_size(Components)> read_values(
+THAWSLIDE_ALWAYS_INLINE std::array<Simd<Real>, record_size(Components)> read_values(
     const BatchStencil<Dim, Real, Width>& stencil, const Patch<Dim, Real, Components>& patch) {
   using Register = RecordRegister<Real, Components>;
-  constexpr std::size_t lanes = lane_count<Real>, size = record_size(Components), width = Register::count;
-  std::array<Lanes<Real>, size> values;
-  if (stencil.nodes.runs != BatchNodes<Real>::many_runs) {
+  constexpr std::size_t lanes = simd_width<Real>, size = record_size(Components), width = Register::count;
+  std::array<Simd<Real>, size> values;
+  if (stencil.nodes.runs != BatchNodes<Real>::irregular) {
     const auto seen = read_nodes<static_cast<std::size_t>(Components)>(stencil, patch);
     unrolled<static_cast<std::size_t>(Components)>([&](auto c) THAWSLIDE_INLINE_LAMBDA { values[c] = seen.value[c]; });
     return values;
@@ -258,20 +259,20 @@ THAWSLIDE_ALWAYS_INLINE std::array<Lanes<Real>, record_size(Components)> read_va
       of_lane[g][lane] = sum_along_axes<Dim - 1>(spread, size, records + g * width);
     });
   }
-  unrolled<size / width>([&](auto g) THAWSLIDE_INLINE_LAMBDA { by_quantity(of_lane[g], &values[g * width]); });
+  unrolled<size / width>([&](auto g) THAWSLIDE_INLINE_LAMBDA { transpose_to_columns(of_lane[g], &values[g * width]); });
   return values;
 }
 
-// What a batch adds to the records about it: weight * value, and in the components of one register also
-// gradient . flux.
+// Contribution of a batch to the surrounding records: weight * value, plus gradient . flux in the components of one
+// register.
 template <int Dim, class Real, std::size_t Components>
 struct Contribution {
   using Register = RecordRegister<Real, static_cast<int>(Components)>;
-  static constexpr std::size_t width = Register::count;  // components of a register
+  static constexpr std::size_t width = Register::count;  // components per register
   static constexpr std::size_t groups = record_size(static_cast<int>(Components)) / width;
 
-  Lanes<Real> value[groups * width];
-  Lanes<Real> flux[Dim][width];  // by axis
+  Simd<Real> value[groups * width];
+  Simd<Real> flux[Dim][width];  // by axis
 
   Contribution() {
     unrolled<groups * width>([&](auto c) THAWSLIDE_INLINE_LAMBDA { value[c] = Real(0); });

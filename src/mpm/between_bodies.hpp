@@ -1,4 +1,4 @@
-// Which bodies share nodes, and what acts between those that do not (mpm/body_contact.hpp).
+// Bodies that share nodes, and interaction between bodies that do not (mpm/body_contact.hpp).
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace thawslide::mpm {
 
 template <class Real>
 struct BetweenBodies {
-  std::vector<std::uint8_t> layer_of_body;  // by number; empty: all share nodes
+  std::vector<std::uint8_t> layer_of_body;  // by body number; empty: all share nodes
   std::size_t layers = 1;
   std::vector<Real> friction;  // coefficient, by layer * layers + other layer
 

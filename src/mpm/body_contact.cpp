@@ -7,20 +7,20 @@
 
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
-#include "mpm/one.hpp"
+#include "mpm/scalar_index.hpp"
 #include "physics/body_contact.hpp"
 
 namespace thawslide::mpm {
 
 namespace {
 
-// The nodes of a block and so many about it along each axis.
+// Nodes of a block with a margin along each axis.
 template <int Dim, int Margin>
 struct About {
   static constexpr int edge = Tile<Dim>::edge + 2 * Margin;
   static constexpr auto count = static_cast<std::size_t>(power(edge, Dim));
 
-  // From the node's numbers relative to the block's first node.
+  // relative: node indices relative to the block's first node.
   static std::size_t at(const typename Tile<Dim>::Index& relative) {
     int place = 0;
     for (int a = Dim - 1; a >= 0; --a) {
@@ -44,7 +44,7 @@ typename Tile<Dim>::Index shifted(typename Tile<Dim>::Index index, std::size_t a
   return index;
 }
 
-// Volumes [m3] at the nodes of a block and two more on each side; 0 where there is no block.
+// Volumes [m3] at the nodes of a block and two more on each side; 0 if there is no block.
 template <int Dim, class Real>
 std::array<Real, About<Dim, 2>::count> volumes_about(const SparseGrid<Dim, Real>& grid, const Nodes<Dim, Real>& nodes,
                                                      std::size_t block) {
@@ -66,7 +66,7 @@ std::array<Real, About<Dim, 2>::count> volumes_about(const SparseGrid<Dim, Real>
   return volumes;
 }
 
-// The change of a quantity over two cells about a node, along each axis.
+// Change of a quantity over two cells around a node, along each axis.
 template <int Dim, class Real>
 Vector<Real, Dim> change_about(const std::array<Real, About<Dim, 2>::count>& quantity,
                                const typename Tile<Dim>::Index& node) {
@@ -79,11 +79,11 @@ Vector<Real, Dim> change_about(const std::array<Real, About<Dim, 2>::count>& qua
   return change;
 }
 
-// A particle that nodes of a block may see.
+// Particle that may reach nodes of a block.
 template <int Dim, class Real>
 struct ParticleAbout {
   Vector<Real, Dim> place;            // [m]
-  Real half;                          // of its box [m]
+  Real half;                          // half size of its box [m]
   typename Tile<Dim>::Index nearest;  // node, relative to the block's first one
 };
 
@@ -103,7 +103,7 @@ std::vector<ParticleAbout<Dim, Real>> particles_about(const SparseGrid<Dim, Real
     for (std::uint32_t k = tile.first; k < tile.last; ++k) {
       const std::uint32_t p = grid.order()[k];
       ParticleAbout<Dim, Real> one;
-      one.place = particles.position.template load_vector<Dim>(One<Real>{p});
+      one.place = particles.position.template load_vector<Dim>(ScalarIndex<Real>{p});
       one.half = sizes.half(static_cast<std::size_t>(particles.body(p))) * grid.cell();
       bool reaches = true;
       for (std::size_t a = 0; a < Dim; ++a) {
@@ -119,15 +119,14 @@ std::vector<ParticleAbout<Dim, Real>> particles_about(const SparseGrid<Dim, Real
   return about;
 }
 
-// How far a particle's box reaches along a normal [m]. Boxes stretch as contact with the ground has them
-// (terrain::set_contact_offset).
+// Extent of a particle's box along a normal [m], as in contact with the ground (terrain::set_contact_offset).
 template <int Dim, class Real>
 struct Edge {
   Real along;
   const ParticleAbout<Dim, Real>* of;
 };
 
-// Of those, the particles that a node sees.
+// Selects the particles that reach a node.
 template <int Dim, class Real>
 void find_seen(const std::vector<ParticleAbout<Dim, Real>>& about, std::size_t node,
                std::vector<Edge<Dim, Real>>& seen) {
@@ -144,7 +143,7 @@ void find_seen(const std::vector<ParticleAbout<Dim, Real>>& about, std::size_t n
   }
 }
 
-// Their edges on the side that a sign gives; returns the foremost one.
+// Computes the edges of particles on the side given by a sign; returns the foremost one.
 template <int Dim, class Real>
 Real set_edges(const Vector<Real, Dim>& normal, Real sign, std::vector<Edge<Dim, Real>>& seen) {
   const Real stretch = sign * normal.cwiseAbs().maxCoeff();
@@ -156,8 +155,8 @@ Real set_edges(const Vector<Real, Dim>& normal, Real sign, std::vector<Edge<Dim,
   return sign * foremost;
 }
 
-// The gap along a normal between two bodies: the smallest one of particles that face one another across it, beyond all
-// bounds where none do. The edges come with the foremost first.
+// Gap along a normal between two bodies: the smallest one between particles that face each other across it, or the
+// largest number if there are none. Edges are sorted with the foremost first.
 template <int Dim, class Real>
 Real gap_between(const std::vector<Edge<Dim, Real>>& first, const std::vector<Edge<Dim, Real>>& second,
                  const Vector<Real, Dim>& normal) {
@@ -205,7 +204,7 @@ void BodyContact<Dim, Real>::find_pairs(const SparseGrid<Dim, Real>& grid, const
   first_of_place_.push_back(pairs_.size());
 }
 
-// The nodes where both bodies have mass; false where there is none.
+// Finds the nodes at which both bodies have mass; returns false if there are none.
 template <int Dim, class Real>
 bool BodyContact<Dim, Real>::find_meetings(const Nodes<Dim, Real>& nodes, Pair& pair) {
   constexpr std::size_t mass = MomentumLayout<Dim>::mass;
@@ -218,9 +217,9 @@ bool BodyContact<Dim, Real>::find_meetings(const Nodes<Dim, Real>& nodes, Pair& 
   return any;
 }
 
-// By volumes V_1 and V_2 at nodes, averaged over the nodes about: V_1 grad V_2 - V_2 grad V_1, which lies along the
-// gradient of ln(V_2 / V_1), so that what cuts off both bodies alike, as the ground does, does not turn it; -grad V_1;
-// grad V_2. Zero where there is none.
+// Normals from the nodal volumes V_1 and V_2, averaged over the surrounding nodes. The first, V_1 grad V_2 - V_2 grad
+// V_1, is along the gradient of ln(V_2 / V_1); a cut through both bodies, as by the ground, does not rotate it. The
+// others are -grad V_1 and grad V_2. Zero if undefined.
 template <int Dim, class Real>
 auto BodyContact<Dim, Real>::find_normals(const SparseGrid<Dim, Real>& grid, const Nodes<Dim, Real>& nodes,
                                           const Pair& pair) -> std::array<Normals, block_nodes> {
@@ -253,8 +252,8 @@ auto BodyContact<Dim, Real>::find_normals(const SparseGrid<Dim, Real>& grid, con
   return normals;
 }
 
-// Of a node's normals the one across which the bodies lie furthest apart: at a corner of one body the other's is right,
-// and theirs together is turned. Along it the gap.
+// Selects the normal of a node along which the bodies are furthest apart, and computes the gap along it. At a corner of
+// one body, the normal of the other is correct, and the combined one is rotated.
 template <int Dim, class Real>
 void BodyContact<Dim, Real>::find_gaps(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
                                        const BodySizes<Real>& sizes, const std::array<Normals, block_nodes>& normals,
@@ -272,7 +271,7 @@ void BodyContact<Dim, Real>::find_gaps(const SparseGrid<Dim, Real>& grid, const 
     Real furthest = -std::numeric_limits<Real>::max();
     for (const Vec& normal : normals[k]) {
       const Real apart = set_edges<Dim>(normal, Real(-1), other_edges) - set_edges<Dim>(normal, Real(1), edges);
-      const Real by_rounding = Real(1e-9) * grid.cell();  // the first one holds
+      const Real by_rounding = Real(1e-9) * grid.cell();  // tolerance for ties: the first one is kept
       if (normal != Vec::Zero() && apart > furthest + by_rounding) {
         furthest = apart;
         meeting.normal = normal;
@@ -328,7 +327,7 @@ void BodyContact<Dim, Real>::add_forces(const SparseGrid<Dim, Real>& grid, const
                                         Real mass_damping, Real dt, Nodes<Dim, Real>& nodes) {
   find_pairs(grid, between);
   parallel_for(first_of_place_.size() - 1, [&](std::size_t place) {
-    // One after another: three bodies that meet at a node share its momentum in turn.
+    // Serial: three bodies that meet at a node exchange its momentum in turn.
     for (std::size_t k = first_of_place_[place]; k < first_of_place_[place + 1]; ++k) {
       if (find_meetings(nodes, pairs_[k])) {
         find_gaps(grid, particles, sizes, find_normals(grid, nodes, pairs_[k]), pairs_[k]);

@@ -1,6 +1,5 @@
-// Contact between bodies that do not share nodes: each has blocks of its own (a layer of the grid), and where two have
-// mass at a place they exchange momentum there, only as they approach and once the gap between their particles is
-// closed.
+// Contact between bodies that do not share nodes. Each body has separate blocks (a layer of the grid). At nodes where
+// two bodies have mass, they exchange momentum if they approach and the gap between their particles is closed.
 #pragma once
 
 #include <array>
@@ -15,11 +14,11 @@
 
 namespace thawslide::mpm {
 
-// What contact between bodies leaves in the balances [J].
+// Contribution of contact between bodies to the energy budget [J].
 template <class Real>
 struct BodyContactWork {
-  Real loss = 0;       // taken by impact and friction
-  Real numerical = 0;  // by which map_back, which counts contact among internal forces, is to be corrected
+  Real loss = 0;       // dissipated by impact and friction
+  Real numerical = 0;  // correction of map_back, which counts contact among internal forces
 
   BodyContactWork& operator+=(const BodyContactWork& part) {
     loss += part.loss;
@@ -31,11 +30,11 @@ struct BodyContactWork {
 template <int Dim, class Real>
 class BodyContact {
  public:
-  // To the force of nodes.momentum what the bodies exert on one another in this step.
+  // Adds the contact forces between bodies in this step to nodes.momentum.
   void add_forces(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
                   const BetweenBodies<Real>& between, const BodySizes<Real>& sizes, Real mass_damping, Real dt,
                   Nodes<Dim, Real>& nodes);
-  // Of the mapped-back velocities what brings bodies in contact together any more is taken, without friction.
+  // Removes the approach of bodies in contact from the mapped-back velocities, without friction.
   [[nodiscard]] BodyContactWork<Real> constrain_mapped_back(const Vector<Real, Dim>& gravity, Real dt,
                                                             Nodes<Dim, Real>& nodes) const;
 
@@ -44,16 +43,16 @@ class BodyContact {
   using Vec = Vector<Real, Dim>;
   static constexpr auto block_nodes = static_cast<std::size_t>(T::nodes);
 
-  // Of a node where two bodies meet: the impulse on the second one [N s], and on the first its opposite.
+  // Contact of two bodies at a node. impulse: on the second one [N s]; opposite on the first.
   struct Meeting {
     bool in_contact = false;
     Vec normal = Vec::Zero();  // from the first body to the second
     Vec impulse = Vec::Zero();
     Real gap = 0;  // [m]
   };
-  // What the normal of a node may be: by both bodies, by the first, by the second.
+  // Candidate normals of a node: from both bodies, the first, the second.
   using Normals = std::array<Vec, 3>;
-  // Blocks of different layers at one place.
+  // Blocks of two layers at the same place.
   struct Pair {
     std::uint64_t place;
     std::size_t block, other;
@@ -70,7 +69,7 @@ class BodyContact {
   static void exchange(Real mass_damping, Real dt, Nodes<Dim, Real>& nodes, Pair& pair);
 
   std::vector<Pair> pairs_;                  // by place, then by block
-  std::vector<std::size_t> first_of_place_;  // and the end
+  std::vector<std::size_t> first_of_place_;  // with the end appended
 };
 
 }  // namespace thawslide::mpm

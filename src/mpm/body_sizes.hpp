@@ -1,4 +1,4 @@
-// Half sizes of particles, which those of a body have in common.
+// Half sizes of particles, uniform within a body.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace thawslide::mpm {
 
-// Body by body, as kernels see them.
+// Half sizes by body, as used by kernels.
 template <class Real>
 struct SizesOfBodies {
   const Real *half, *inverse;

@@ -1,5 +1,5 @@
-// What particles add to the records of a patch, in canonical order: particle after particle to the nodes of a cell,
-// which is the particles of one nearest node, cell after cell to the patch. So no sum depends on where batches begin.
+// Sums of particle contributions to a patch in canonical order: over the particles of a cell (those with the same
+// nearest node), then over cells. The sums are therefore independent of batch boundaries.
 #pragma once
 
 #include <algorithm>
@@ -10,27 +10,26 @@
 
 namespace thawslide::mpm {
 
-// The nodes that the particles of a cell see, 3 an axis.
+// Nodes in reach of the particles of a cell, 3 per axis.
 template <int Dim>
 struct CellNodes {
   static constexpr std::size_t count = static_cast<std::size_t>(power(3, Dim));
-  // In the patch, from the lowest one.
+  // Place in the patch relative to the lowest node.
   static constexpr std::size_t place(std::size_t node) {
     constexpr auto edge = static_cast<std::size_t>(Tile<Dim>::patch_edge);
     return (node / 9 * edge + node / 3 % 3) * edge + node % 3;
   }
 };
 
-// What particles add to the records of a patch: cell by cell, a cell being the particles of one nearest node. Within a
-// cell particle after particle from zero on, in registers, a register of components at a time; the sum of a cell goes
-// to the patch as one. So no sum depends on where batches begin. From component `First` on; FluxGroup: number of the
-// register, from there, to which the flux adds.
+// Cell-wise sums in a patch. Contributions of a cell's particles are accumulated from zero in registers, a register of
+// components at a time, and added to the patch at once. The sums are therefore independent of batch boundaries. First:
+// first component. FluxGroup: number of the register, from there, to which the flux adds.
 template <int FluxGroup, std::size_t First, std::size_t Carried, int Dim, class Real, int Components>
 class CellSums {
-  using Added = Contribution<Dim, Real, Carried>;
-  using Register = typename Added::Register;
-  static constexpr std::size_t lanes = lane_count<Real>, size = record_size(Components);
-  static constexpr std::size_t groups = Added::groups, width = Added::width, nodes_per_axis = 3;
+  using Scatter = Contribution<Dim, Real, Carried>;
+  using Register = typename Scatter::Register;
+  static constexpr std::size_t lanes = simd_width<Real>, size = record_size(Components);
+  static constexpr std::size_t groups = Scatter::groups, width = Scatter::width, nodes_per_axis = 3;
   static constexpr std::size_t layers = Dim == 3 ? nodes_per_axis : 1, layer_nodes = nodes_per_axis * nodes_per_axis;
   static_assert(size % width == 0 && First % width == 0 && First + groups * width <= size);
 
@@ -39,15 +38,15 @@ class CellSums {
   CellSums(const CellSums&) = delete;
   CellSums& operator=(const CellSums&) = delete;
 
-  // Instead of `add`, where what a batch adds is not asked for: what is left of its first cell is not, either.
+  // Skips a batch instead of `add`; the rest of its first cell is then skipped too.
   void skip() { is_open_ = false; }
 
-  // The next `count` particles in canonical order.
-  THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim, Real>& stencil, std::size_t count, const Added& carried) {
+  // Adds the next `count` particles in canonical order.
+  THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim, Real>& stencil, std::size_t count, const Scatter& carried) {
     Register value[groups][lanes], flux[Dim][lanes];
-    unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA { by_particle(&carried.value[g * width], value[g]); });
-    unrolled<static_cast<std::size_t>(Dim)>([&](auto a)
-                                                THAWSLIDE_INLINE_LAMBDA { by_particle(carried.flux[a], flux[a]); });
+    unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA { transpose_to_rows(&carried.value[g * width], value[g]); });
+    unrolled<static_cast<std::size_t>(Dim)>(
+        [&](auto a) THAWSLIDE_INLINE_LAMBDA { transpose_to_rows(carried.flux[a], flux[a]); });
     const auto& nodes = stencil.nodes.first;
     for (std::size_t first = 0, last = 0; first < count; first = last) {
       while (last < count && nodes[last] == nodes[first]) {
@@ -64,8 +63,8 @@ class CellSums {
   }
 
  private:
-  // The particles first ... last-1 of a batch, of one cell, a layer of nodes at a time. Axis by axis, the last one
-  // first: fewer products than node by node. value, flux: a row a particle.
+  // Adds particles first .. last-1 of a batch, all of one cell, by layers of nodes. Loops over axes, the last one
+  // first, need fewer products than loops over nodes. value, flux: one row per particle.
   template <bool HasFlux>
   THAWSLIDE_ALWAYS_INLINE static void add_particles(const BatchStencil<Dim, Real>& stencil, std::size_t first,
                                                     std::size_t last, const Register (&value)[lanes],
@@ -117,35 +116,35 @@ class CellSums {
   }
 
   Patch<Dim, Real, Components>& patch_;
-  bool is_open_ = false;                           // the last batch's last cell goes on
+  bool is_open_ = false;                           // the last cell of the last batch continues
   Register sums_[groups][layers * layer_nodes]{};  // of that cell
 };
 
-// The same for the linear shape functions, whose particles see the corners of the cell of nodes they lie in, not the
-// same ones for all particles of a nearest node.
+// The same for the linear shape functions. Particles reach the corners of the grid cell that they lie in, which can
+// differ between particles with the same nearest node.
 template <bool HasFlux, std::size_t First, std::size_t Carried, int Dim, class Real, int Components>
 class LinearCellSums {
-  using Added = Contribution<Dim, Real, Carried>;
-  using Register = typename Added::Register;
-  static constexpr std::size_t lanes = lane_count<Real>, size = record_size(Components), width = Added::width;
+  using Scatter = Contribution<Dim, Real, Carried>;
+  using Register = typename Scatter::Register;
+  static constexpr std::size_t lanes = simd_width<Real>, size = record_size(Components), width = Scatter::width;
   static constexpr std::size_t nodes = CellNodes<Dim>::count;
-  static_assert(Added::groups == 1 && First % width == 0 && First + width <= size);
+  static_assert(Scatter::groups == 1 && First % width == 0 && First + width <= size);
 
  public:
   explicit LinearCellSums(Patch<Dim, Real, Components>& patch, std::uint64_t /*rows*/ = 0) : patch_(patch) {}
   LinearCellSums(const LinearCellSums&) = delete;
   LinearCellSums& operator=(const LinearCellSums&) = delete;
 
-  // Instead of `add`, where what a batch adds is not asked for: what is left of its first cell is not, either.
+  // Skips a batch instead of `add`; the rest of its first cell is then skipped too.
   void skip() { is_open_ = false; }
 
-  // The next `count` particles in canonical order.
-  THAWSLIDE_ALWAYS_INLINE void add(const LinearStencil<Dim, Real>& linear, std::size_t count, const Added& carried) {
+  // Adds the next `count` particles in canonical order.
+  THAWSLIDE_ALWAYS_INLINE void add(const LinearStencil<Dim, Real>& linear, std::size_t count, const Scatter& carried) {
     Register value[lanes], flux[Dim][lanes];
-    by_particle(carried.value, value);
+    transpose_to_rows(carried.value, value);
     if constexpr (HasFlux) {
-      unrolled<static_cast<std::size_t>(Dim)>([&](auto a)
-                                                  THAWSLIDE_INLINE_LAMBDA { by_particle(carried.flux[a], flux[a]); });
+      unrolled<static_cast<std::size_t>(Dim)>(
+          [&](auto a) THAWSLIDE_INLINE_LAMBDA { transpose_to_rows(carried.flux[a], flux[a]); });
     }
     const auto corners = linear.corners();
     const auto& cells = linear.nodes.first;
@@ -162,7 +161,7 @@ class LinearCellSums {
   }
 
  private:
-  // Axis by axis, the last one first.
+  // Loops over axes, the last one first.
   THAWSLIDE_ALWAYS_INLINE static void add_particle(const CornerStencil<Dim, Real>& corners, std::size_t lane,
                                                    const Register& value, const Register (&flux)[Dim][lanes],
                                                    Register* sums) {
@@ -209,22 +208,22 @@ class LinearCellSums {
   }
 
   Patch<Dim, Real, Components>& patch_;
-  bool is_open_ = false;                // the last batch's last cell goes on
-  std::array<Register, nodes> sums_{};  // of the cell at hand
+  bool is_open_ = false;                // the last cell of the last batch continues
+  std::array<Register, nodes> sums_{};  // of the current cell
 };
 
-// What a batch brings to components that it lowers.
+// Contribution of a batch to min-reduced components.
 template <int Dim, class Real>
-using GapsOfBatch = GapsToPlanes<Lanes<Real>, Dim, const Patch<Dim, Real, components_of<Planes, Dim>>*>;
+using GapsOfBatch = GapsToPlanes<Simd<Real>, Dim, const Patch<Dim, Real, components_of<Planes, Dim>>*>;
 
-// What particles lower component `Component` of the records of a patch to: the smallest gap to its node's plane of the
-// particles that the node sees, in whatever order.
+// Minimum of component `Component` over a patch: the smallest gap between a node's plane and the particles that reach
+// the node. Independent of the order.
 template <std::size_t Component, int Dim, class Real, int Components>
 class PatchMinima {
   static constexpr Real largest = std::numeric_limits<Real>::max();
 
  public:
-  // rows: those in which the particles have nodes (Tile::rows_from).
+  // rows: rows in which the particles have nodes (Tile::rows_from).
   PatchMinima(Patch<Dim, Real, Components>& patch, std::uint64_t rows) : patch_(patch) {
     patch.for_rows(rows, [](auto* row) {
       std::for_each_n(row, Tile<Dim>::patch_edge, [](auto& record) { record[Component] = largest; });
@@ -233,31 +232,31 @@ class PatchMinima {
   PatchMinima(const PatchMinima&) = delete;
   PatchMinima& operator=(const PatchMinima&) = delete;
 
-  // Instead of `add`: no cell is left open.
+  // Skips a batch instead of `add`; no state to reset.
   void skip() {}
 
-  // The next `count` particles.
+  // Adds the next `count` particles.
   THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim, Real>& stencil, std::size_t count,
                                    const GapsOfBatch<Dim, Real>& gaps) {
     const BatchNodes<Real>& nodes = stencil.nodes;
-    const auto in_first = lanes_before<Real>(nodes.runs == 1 ? lane_count<Real> : nodes.second_run);
+    const auto in_first = lanes_before<Real>(nodes.runs == 1 ? simd_width<Real> : nodes.second_run_begin);
     with_fetch(nodes, *gaps.planes, [&](const auto& fetch) {
       for_each_node<Dim>(
-          stencil.axis, 0, [&](std::size_t offset, Lanes<Real> weight, const Vector<Lanes<Real>, Dim>& /*slope*/) {
-            const Lanes<Real> gap = gap_to_plane<Dim>(gaps.place, gaps.reach,
-                                                      [&](std::size_t component)
-                                                          THAWSLIDE_INLINE_LAMBDA { return fetch(offset, component); });
-            // A box that ends at the edge of a node's support overlaps it by round-off, or not.
-            const Lanes<Real> seen = select(weight > round_off<Real>, gap, Lanes<Real>(largest));
-            if (nodes.runs == BatchNodes<Real>::many_runs) {
+          stencil.axis, 0, [&](std::size_t offset, Simd<Real> weight, const Vector<Simd<Real>, Dim>& /*slope*/) {
+            const Simd<Real> gap = gap_to_plane<Dim>(gaps.place, gaps.reach,
+                                                     [&](std::size_t component)
+                                                         THAWSLIDE_INLINE_LAMBDA { return fetch(offset, component); });
+            // Round-off decides whether a box that ends at the edge of a node's support overlaps it.
+            const Simd<Real> seen = select(weight > round_off<Real>, gap, Simd<Real>(largest));
+            if (nodes.runs == BatchNodes<Real>::irregular) {
               for (std::size_t lane = 0; lane < count; ++lane) {
                 lower(nodes.first[lane], offset, seen[lane]);
               }
               return;
             }
-            lower(nodes.first[0], offset, smallest(select(in_first, seen, Lanes<Real>(largest))));
+            lower(nodes.first[0], offset, smallest(select(in_first, seen, Simd<Real>(largest))));
             if (nodes.runs == 2) {
-              lower(nodes.first[lane_count<Real> - 1], offset, smallest(select(in_first, Lanes<Real>(largest), seen)));
+              lower(nodes.first[simd_width<Real> - 1], offset, smallest(select(in_first, Simd<Real>(largest), seen)));
             }
           });
     });

@@ -1,4 +1,4 @@
-// Prescribed motion at nodes: boundaries of the domain (fixed, roller, open) and rigid frames that move (Sec. 3.2).
+// Prescribed motion at nodes: boundaries of the domain (fixed, roller, open) and moving rigid frames (Sec. 3.2).
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace thawslide::mpm {
 
-// A box that moves with a velocity along one axis and prescribes that component of velocity at the nodes within.
+// Box that moves along one axis and prescribes that component of velocity at the nodes inside.
 template <int Dim, class Real>
 struct RigidFrame {
   Vector<Real, Dim> lower, upper;  // at t = 0 [m], relative to the domain's lower corner
@@ -27,7 +27,7 @@ template <int Dim, class Real>
 struct Constraints : DomainFaces<Dim, Real> {
   std::vector<RigidFrame<Dim, Real>> frames;
 
-  // Sets the prescribed components of a node's momentum; true if any was set by a frame.
+  // Sets the prescribed components of a node's momentum; true if a frame has set one.
   bool apply(const Vector<Real, Dim>& position, Real mass, Real time, Vector<Real, Dim>& momentum) const {
     this->apply_faces(position, momentum);
     bool in_frame = false;
@@ -41,7 +41,7 @@ struct Constraints : DomainFaces<Dim, Real> {
     return in_frame;
   }
 
-  // Whether apply might set anything at positions between two corners.
+  // True if apply may set a component at positions between two corners.
   [[nodiscard]] bool may_apply(const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper, Real time) const {
     for (int a = 0; a < Dim; ++a) {
       if ((this->at_lower(lower[a], a) && this->faces[2 * a] != FaceKind::open) ||
@@ -57,7 +57,7 @@ struct Constraints : DomainFaces<Dim, Real> {
   }
 };
 
-// The constraints on the nodes of one block: on most blocks, none.
+// Constraints on the nodes of one block; most blocks have none.
 template <int Dim, class Real>
 class BlockConstraints {
  public:
@@ -71,7 +71,7 @@ class BlockConstraints {
                                    node_position(grid, block, static_cast<std::size_t>(Tile<Dim>::nodes) - 1), time)) {}
 
   [[nodiscard]] bool any() const { return any_; }
-  // Constraints::apply at a node of the block.
+  // Applies Constraints::apply at a node of the block.
   bool apply(std::size_t node, Real mass, Vector<Real, Dim>& momentum) const {
     return any_ && constraints_->apply(node_position(*grid_, block_, node), mass, time_, momentum);
   }
@@ -84,7 +84,7 @@ class BlockConstraints {
   bool any_;
 };
 
-// At one of its nodes.
+// Constraints at one node of a block.
 template <int Dim, class Real>
 struct NodeConstraints {
   const BlockConstraints<Dim, Real>& of_block;

@@ -1,4 +1,4 @@
-// The faces of the domain and what they prescribe at nodes (Sec. 3.2). For host and device.
+// Faces of the domain and their boundary conditions at nodes (Sec. 3.2). For host and device.
 #pragma once
 
 #include "base/linear.hpp"

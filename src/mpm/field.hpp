@@ -1,5 +1,5 @@
-// One particle quantity, declared once: name, unit, shape, where it is written. Re-ordering, snapshots and checkpoints
-// walk the list of fields that FieldList keeps.
+// Particle field, declared once with name, unit, shape and output flags. Reordering, snapshots and checkpoints iterate
+// over the fields in FieldList.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 #include "base/linear.hpp"
 #include "base/portability.hpp"
 #include "base/reorder.hpp"
-#include "mpm/batch.hpp"
 #include "mpm/field_view.hpp"
+#include "mpm/simd_batch.hpp"
 
 namespace thawslide::mpm {
 
@@ -42,16 +42,16 @@ class FieldBase {
   [[nodiscard]] const FieldInfo& info() const { return info_; }
   [[nodiscard]] virtual std::size_t components() const = 0;
   [[nodiscard]] virtual bool is_integer() const = 0;
-  // Appends the first `components` components (0 beyond the field's own) of the particles order[0], order[1], ..., one
-  // particle after another.
+  // Appends the first `components` components (0 beyond those of the field) of particles order[0], order[1], ...,
+  // particle by particle.
   virtual void append_values(const std::vector<std::size_t>& order, std::size_t components,
                              std::vector<double>& to) const = 0;
   virtual void resize(std::size_t particles) = 0;
-  // More or fewer particles: the first ones keep their values, new ones have 0.
+  // Changes the number of particles: existing values are kept, new particles have 0.
   virtual void set_size(std::size_t particles) = 0;
-  // The particle at `to` becomes the one at `from`.
+  // Copies the particle at `from` to `to`.
   virtual void copy(std::size_t from, std::size_t to) = 0;
-  // Particle k becomes the one that stood at order[k], for as many as `order` has.
+  // Moves the particle at order[k] to place k, for all k of `order`.
   virtual void reorder(const std::vector<std::uint32_t>& order, ReorderBuffer& buffer) = 0;
   [[nodiscard]] virtual std::vector<std::byte> bytes() const = 0;
   virtual void set_bytes(const std::vector<std::byte>& bytes) = 0;
@@ -74,10 +74,11 @@ template <class T, int Components>
 class Field final : public FieldBase {
  public:
   static constexpr std::size_t lanes = particles_of_block;
-  // Reading a batch asks the memory for the block this many further on, which a loop will read some batches later.
+  // Loading a batch prefetches the block this many blocks ahead, which a loop reads some batches later.
   static constexpr std::size_t prefetched_blocks = 4;
-  static constexpr std::size_t most_numbers = std::numeric_limits<std::int32_t>::max();  // as far as places() count
-  static_assert(lanes % lane_count<double> == 0 && lanes % lane_count<float> == 0);
+  // range of the indices in places()
+  static constexpr std::size_t most_numbers = std::numeric_limits<std::int32_t>::max();
+  static_assert(lanes % simd_width<double> == 0 && lanes % simd_width<float> == 0);
 
   Field(FieldList& list, const FieldInfo& info) : FieldBase(info) { list.add(this); }
 
@@ -86,7 +87,7 @@ class Field final : public FieldBase {
     return data_[position(particle, component)];
   }
 
-  // As kernels see it on a device. Holds until there are more or fewer particles.
+  // View for kernels on a device. Valid until the number of particles changes.
   [[nodiscard]] FieldView<T, Components> view() { return {kept_ ? data_.data() : nullptr}; }
 
   // The first components, as many as the vector has.
@@ -106,47 +107,47 @@ class Field final : public FieldBase {
     }
   }
 
-  // The values of a batch, lane by lane.
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<T> load(const Batch<T>& batch, int component = 0) const {
+  // Values of a batch, by lane.
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Simd<T> load(const SimdBatch<T>& batch, int component = 0) const {
     if (batch.contiguous) {
       const T* numbers = &(*this)(batch.particle[0], component);
       prefetch(numbers, prefetched_blocks * lanes * Components * sizeof(T));
-      return Lanes<T>::load(numbers);
+      return Simd<T>::load(numbers);
     }
-    return Lanes<T>::gather(&data_[position(0, component)], places(batch));
+    return Simd<T>::gather(&data_[position(0, component)], places(batch));
   }
-  THAWSLIDE_ALWAYS_INLINE void store(const Batch<T>& batch, const Lanes<T>& values, int component = 0) {
+  THAWSLIDE_ALWAYS_INLINE void store(const SimdBatch<T>& batch, const Simd<T>& values, int component = 0) {
     if (batch.contiguous) {
       values.store(&(*this)(batch.particle[0], component));
       return;
     }
     values.scatter(&data_[position(0, component)], places(batch), batch.count);
   }
-  // The value of one particle.
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE T load(const One<T>& one, int component = 0) const {
+  // Value of one particle.
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE T load(const ScalarIndex<T>& one, int component = 0) const {
     return (*this)(one.particle[0], component);
   }
-  THAWSLIDE_ALWAYS_INLINE void store(const One<T>& one, T value, int component = 0) {
+  THAWSLIDE_ALWAYS_INLINE void store(const ScalarIndex<T>& one, T value, int component = 0) {
     (*this)(one.particle[0], component) = value;
   }
-  // Whole numbers, from and to a real type.
+  // Integers, converted from and to a real type.
   template <class Real>
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Real load_whole(const One<Real>& one) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Real load_whole(const ScalarIndex<Real>& one) const {
     return static_cast<Real>((*this)(one.particle[0]));
   }
   template <class Real>
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Lanes<Real> load_whole(const Batch<Real>& batch) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Simd<Real> load_whole(const SimdBatch<Real>& batch) const {
     if (batch.contiguous) {
-      return Lanes<Real>::load_whole(&(*this)(batch.particle[0]));
+      return Simd<Real>::load_whole(&(*this)(batch.particle[0]));
     }
-    return Lanes<Real>::of([&](std::size_t lane) { return (*this)(batch.particle[lane]); });
+    return Simd<Real>::of([&](std::size_t lane) { return (*this)(batch.particle[lane]); });
   }
   template <class Real>
-  THAWSLIDE_ALWAYS_INLINE void store_whole(const One<Real>& one, Real value) {
+  THAWSLIDE_ALWAYS_INLINE void store_whole(const ScalarIndex<Real>& one, Real value) {
     (*this)(one.particle[0]) = static_cast<T>(value);
   }
   template <class Real>
-  THAWSLIDE_ALWAYS_INLINE void store_whole(const Batch<Real>& batch, const Lanes<Real>& values) {
+  THAWSLIDE_ALWAYS_INLINE void store_whole(const SimdBatch<Real>& batch, const Simd<Real>& values) {
     if (batch.contiguous) {
       values.store_whole(&(*this)(batch.particle[0]));
       return;
@@ -155,7 +156,7 @@ class Field final : public FieldBase {
       (*this)(batch.particle[lane]) = static_cast<T>(values[lane]);
     }
   }
-  // Whole vectors and tensors.
+  // All components of vectors and tensors.
   template <int Size, class At>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Vector<typename At::Value, Size> load_vector(const At& at) const {
     Vector<typename At::Value, Size> v;
@@ -186,21 +187,22 @@ class Field final : public FieldBase {
     }
   }
 
-  // Whether the field is stored at all, from the next resize on. One that is not must not be touched; to the list of
-  // fields it is 0.
+  // Selects whether the field is stored, from the next resize on. A field that is not stored must not be accessed;
+  // FieldList reads it as 0.
   void keep(bool kept) { kept_ = kept; }
   [[nodiscard]] bool is_kept() const { return kept_; }
 
   void resize(std::size_t particles) override {
-    expect_room(particles);
+    expect_capacity(particles);
     particles_ = particles;
     data_.assign(kept_ ? (particles + lanes - 1) / lanes * lanes * Components : 0, T{});
     data_.shrink_to_fit();
   }
 
-  // What a block holds beyond the last particle is nobody's: whole blocks come back from a device.
+  // Clears all entries from the first new particle to the end of its block, because whole blocks are copied back from a
+  // device.
   void set_size(std::size_t particles) override {
-    expect_room(particles);
+    expect_capacity(particles);
     const std::size_t known = std::min(particles_, particles);
     particles_ = particles;
     if (kept_) {
@@ -245,7 +247,7 @@ class Field final : public FieldBase {
   }
 
  private:
-  void expect_room(std::size_t particles) const {
+  void expect_capacity(std::size_t particles) const {
     THAWSLIDE_ASSERT(particles <= most_numbers / Components, "field {}: {} particles of {} numbers are too many",
                      info().name, particles, Components);
   }
@@ -253,7 +255,7 @@ class Field final : public FieldBase {
     return place_in_field<Components>(particle, component);
   }
   // position(particle, 0), by lane.
-  THAWSLIDE_ALWAYS_INLINE static typename Lanes<T>::Whole places(const Batch<T>& batch) {
+  THAWSLIDE_ALWAYS_INLINE static typename Simd<T>::Whole places(const SimdBatch<T>& batch) {
     constexpr auto within = static_cast<std::int32_t>(lanes) - 1;
     const auto particle = whole_lanes<T>(batch.particle.data());
     return particle + (particle & ~within) * (Components - 1);

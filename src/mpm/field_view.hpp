@@ -1,5 +1,4 @@
-// The numbers of a particle field in memory, and what kernels need of one: where its numbers stand. For host and
-// device.
+// View of a particle field's memory for kernels. For host and device.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +6,11 @@
 
 #include "base/linear.hpp"
 #include "base/select.hpp"
-#include "mpm/one.hpp"
+#include "mpm/scalar_index.hpp"
 
 namespace thawslide::mpm {
 
-// Fields stand in blocks of so many particles: the values of one component lie in one cache line, components follow one
-// another.
+// Particles per block. Within a block, the values of one component share a cache line, and components are consecutive.
 inline constexpr std::size_t particles_of_block = 8;
 
 template <int Components>
@@ -23,30 +21,30 @@ THAWSLIDE_HD constexpr std::size_t place_in_field(std::size_t particle, int comp
 
 template <class T, int Components>
 struct FieldView {
-  T* numbers;  // none where the field is not kept
+  T* numbers;  // null if the field is not stored
 
   [[nodiscard]] THAWSLIDE_HD bool is_kept() const { return numbers != nullptr; }
   [[nodiscard]] THAWSLIDE_HD T& operator()(std::size_t particle, int component = 0) const {
     return numbers[place_in_field<Components>(particle, component)];
   }
-  [[nodiscard]] THAWSLIDE_HD T load(const One<T>& one, int component = 0) const {
+  [[nodiscard]] THAWSLIDE_HD T load(const ScalarIndex<T>& one, int component = 0) const {
     return (*this)(one.particle[0], component);
   }
-  THAWSLIDE_HD void store(const One<T>& one, T value, int component = 0) const {
+  THAWSLIDE_HD void store(const ScalarIndex<T>& one, T value, int component = 0) const {
     (*this)(one.particle[0], component) = value;
   }
-  // Whole numbers, from and to a real type.
+  // Integers, converted from and to a real type.
   template <class Real>
-  [[nodiscard]] THAWSLIDE_HD Real load_whole(const One<Real>& one) const {
+  [[nodiscard]] THAWSLIDE_HD Real load_whole(const ScalarIndex<Real>& one) const {
     return static_cast<Real>((*this)(one.particle[0]));
   }
   template <class Real>
-  THAWSLIDE_HD void store_whole(const One<Real>& one, Real value) const {
+  THAWSLIDE_HD void store_whole(const ScalarIndex<Real>& one, Real value) const {
     (*this)(one.particle[0]) = static_cast<T>(value);
   }
-  // Whole vectors and tensors.
+  // All components of vectors and tensors.
   template <int Size>
-  [[nodiscard]] THAWSLIDE_HD Vector<T, Size> load_vector(const One<T>& one) const {
+  [[nodiscard]] THAWSLIDE_HD Vector<T, Size> load_vector(const ScalarIndex<T>& one) const {
     Vector<T, Size> v;
     unrolled<static_cast<std::size_t>(Size)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
       constexpr int c = static_cast<int>(k());
@@ -55,7 +53,7 @@ struct FieldView {
     return v;
   }
   template <class Values>
-  THAWSLIDE_HD void store_vector(const One<T>& one, const Values& values) const {
+  THAWSLIDE_HD void store_vector(const ScalarIndex<T>& one, const Values& values) const {
     unrolled<static_cast<std::size_t>(Components)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
       constexpr int c = static_cast<int>(k());
       store(one, values[c], c);

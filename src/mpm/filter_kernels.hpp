@@ -1,4 +1,4 @@
-// What a particle does in filter_velocities: kernels (mpm/kernel.hpp).
+// Particle kernels (mpm/kernel.hpp) of filter_velocities.
 #pragma once
 
 #include "base/linear.hpp"
@@ -9,24 +9,24 @@
 
 namespace thawslide::mpm {
 
-// Numbers to a register, from number `First` of what a particle carries.
+// Stores numbers in a particle's contribution, from number `First` on.
 template <std::size_t First, class Numbers, class Carried>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void carry(const Numbers& numbers, Carried& carried) {
   unrolled<static_cast<std::size_t>(Numbers::SizeAtCompileTime)>(
       [&](auto k) THAWSLIDE_INLINE_LAMBDA { carried.value[First + k] = numbers[static_cast<int>(k)]; });
 }
 
-// m v and m x x v of a velocity v at the place of a particle, to FilterMomentum.
-template <int Dim, class Value, class Added>
+// Adds m v and m x x v, of a velocity v at the particle position x, to FilterMomentum.
+template <int Dim, class Value, class Scatter>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void carry_momentum(Value mass, const Vector<Value, Dim>& place,
-                                                         const Vector<Value, Dim>& velocity, Added& added) {
+                                                         const Vector<Value, Dim>& velocity, Scatter& added) {
   auto& carried = added.template of<FilterMomentum>();
   const Vector<Value, Dim> momentum = mass * velocity;
   carry<0>(momentum, carried);
   carry<static_cast<std::size_t>(Dim)>(physics::moment_of<Dim>(place, momentum), carried);
 }
 
-// The velocity at the place of a particle of the rigid motions about it, which a record holds.
+// Velocity at the particle position of the surrounding nodes' rigid motions, given by a record.
 template <class Name, int Dim, class Value, class Seen>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, Dim> rigid_velocity(const Seen& seen,
                                                                        const Vector<Value, Dim>& place) {
@@ -40,16 +40,16 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, Dim> rigid_velocity(const See
   return velocity + physics::turned<Dim>(rotation, place);
 }
 
-// Where the mass about the nodes lies.
+// First and second moments of mass around the nodes.
 template <int Dim, class Real>
 struct AddFilterMoments {
   using Reads = RecordList<>;
   using Adds = RecordList<FilterMoments>;
   using Account = NoAccount;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const Value mass = particles.mass.load(at);
     const Vector<Value, Dim> place = particles.position.template load_vector<Dim>(at);
@@ -60,49 +60,49 @@ struct AddFilterMoments {
   }
 };
 
-// Momentum and moment of the particles' velocities.
+// Momentum and angular momentum of the particles' velocities.
 template <int Dim, class Real>
 struct AddFilterMomentum {
   using Reads = RecordList<>;
   using Adds = RecordList<FilterMomentum>;
   using Account = NoAccount;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     using Value = typename At::Value;
     carry_momentum<Dim>(particles.mass.load(at), Vector<Value, Dim>(particles.position.template load_vector<Dim>(at)),
                         Vector<Value, Dim>(particles.velocity.template load_vector<Dim>(at)), added);
   }
 };
 
-// A sweep: the same of the velocities that the nodes' last increments give the particles.
+// Sweep: the same for the velocities that the last nodal increments give at the particles.
 template <int Dim, class Real>
 struct SweepFilter {
   using Reads = RecordList<FilterIncrement>;
   using Adds = RecordList<FilterMomentum>;
   using Account = NoAccount;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     using Value = typename At::Value;
     const Vector<Value, Dim> place = particles.position.template load_vector<Dim>(at);
     carry_momentum<Dim>(particles.mass.load(at), place, rigid_velocity<FilterIncrement, Dim>(seen, place), added);
   }
 };
 
-// The velocities that the nodes' motions give, in place of the particles' own; their momentum back to the nodes (MUSL).
-// Sums the kinetic energy that is gained [J].
+// Replaces particle velocities by those of the nodes' rigid motions, and maps their momentum back to the nodes (MUSL).
+// Sums the kinetic energy gained [J].
 template <int Dim, class Real>
-struct TakeFiltered {
+struct ApplyFiltered {
   using Reads = RecordList<FilterTotal>;
   using Adds = RecordList<Velocity>;
   using Account = Real;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& gained) const {
+                                                       Scatter& added, Account& gained) const {
     using Value = typename At::Value;
     const Vector<Value, Dim> place = particles.position.template load_vector<Dim>(at);
     const Vector<Value, Dim> old = particles.velocity.template load_vector<Dim>(at);

@@ -1,4 +1,4 @@
-// What a node does in filter_velocities, in the numbers of one node. For host and device.
+// Nodal part of filter_velocities, for one node. For host and device.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@
 
 namespace thawslide::mpm {
 
-// Mean square distance [m2] of masses from an axis below which they do not turn about it. cell: mesh size [m].
+// Mean square distance [m2] of mass from an axis below which rotation around it is ignored. cell: mesh size [m].
 template <class Real>
 THAWSLIDE_HD Real least_square_of(Real cell) {
   constexpr Real least = static_cast<Real>(1e-8);  // in cells squared
   return least * cell * cell;
 }
 
-// The next increment of a node's rigid motion from what particles have brought: the fit itself, or what the last
-// increment is short of. Records: of Momentum, FilterMoments, FilterMomentum, FilterIncrement and FilterTotal.
+// Next increment of a node's rigid motion from the particle sums: the fit itself, or the last increment minus the fit.
+// Records: of Momentum, FilterMoments, FilterMomentum, FilterIncrement and FilterTotal.
 template <int Dim, class Real, class MassRecord, class Moments, class Brought, class Increment, class Total>
 THAWSLIDE_HD void make_increment(bool first, Real least_square, const MassRecord& mass, const Moments& moments,
                                  const Brought& brought, Increment& increment, Total& total) {

@@ -1,4 +1,4 @@
-// The front of a slide: how far all but the foremost 0.5 % of its mass has come. For host and device.
+// Front of the sliding mass: travel distance exceeded by only the foremost 0.5 % of the mass. For host and device.
 #pragma once
 
 #include <cstdint>
@@ -7,21 +7,21 @@
 
 namespace thawslide::mpm {
 
-// A particle on the way that the front is measured on.
-struct OnWay {
+// Particle position along the path of the front.
+struct PathSample {
   double along = 0.0, mass = 0.0;  // [m, kg]
-  Place2 place{};                  // [m]; in 2D x alone
+  Place2 place{};                  // [m]; only x in 2D
 };
 
-// Along a line, or, where that has no segments, along the x axis.
+// Path along a line, or along the x axis if the line has no segments.
 template <int Dim>
-struct Way {
+struct Transformation {
   LineView line;
   Place2 origin{};  // of positions [m]
 
   template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD OnWay of(const Particles& particles, std::uint32_t p) const {
-    OnWay found;
+  [[nodiscard]] THAWSLIDE_HD PathSample of(const Particles& particles, std::uint32_t p) const {
+    PathSample found;
     found.mass = static_cast<double>(particles.mass(p));
     for (int a = 0; a < Dim - 1; ++a) {
       const auto axis = static_cast<std::size_t>(a);
@@ -32,12 +32,12 @@ struct Way {
   }
 };
 
-// Goes from the foremost particle back, of a slide of some mass [kg].
+// Search from the foremost particle backwards, in a body of a given mass [kg].
 class FrontSearch {
  public:
   explicit FrontSearch(double mass) : mass_(mass) {}
 
-  // Whether the front is at the next particle: what lies behind it is less than the share.
+  // True if the front is at the next particle: the mass behind it is below the fraction `share`.
   [[nodiscard]] bool is_at(double mass_of_next) {
     ahead_ += mass_of_next;
     return mass_ - ahead_ < share * mass_;

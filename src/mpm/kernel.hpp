@@ -1,11 +1,11 @@
-// What kernels are: the pure functions of one particle's numbers that make up the stages of a step, and what they say
-// of themselves. A kernel is an object with
-//   Reads, Adds   lists of the node records that it reads and that it adds to, or lowers (mpm/nodes.hpp)
-//   Account       what it sums over all particles
+// Kernels: pure functions of one particle that make up the stages of a step, with declarations of their data. A kernel
+// is an object with
+//   Reads, Adds   lists of the nodal records that it reads and that it adds to or reduces by minimum (mpm/nodes.hpp)
+//   Account       its sum over all particles
 //   operator()(particles, at, seen, added, account)
-// `at` names one particle, or a batch of them (mpm/batch.hpp): particles.FIELD.load(at) gives its numbers. What it
-// reads of the nodes about it is seen.read<Record, Count>(), what it adds to them goes to added.of<Record>(). A kernel
-// has no loops, batches or patches in it; mpm/particle_pass.hpp runs it over all particles, or over some tiles'.
+// `at` is the index of one particle, or a batch of them (mpm/simd_batch.hpp): particles.FIELD.load(at) loads its
+// numbers, seen.read<Record, Count>() interpolates nodal records, and contributions to nodes are stored in
+// added.of<Record>(). A kernel has no loops, batches or patches; mpm/particle_pass.hpp runs it over all or some tiles.
 #pragma once
 
 #include <cstddef>
@@ -15,21 +15,21 @@
 
 namespace thawslide::mpm {
 
-// The shape functions that tie a record to particles: those of momentum, which the run chooses, or the linear ones.
+// Shape functions of a record: those of momentum, which the run selects, or the linear ones.
 struct MomentumFunctions {};
 struct LinearFunctions {};
-// Those of momentum with S (x_i - x_p)/D in place of their gradients (APIC).
+// Shape functions of momentum with S (x_i - x_p)/D in place of their gradients (APIC).
 struct AffineFunctions {};
 
-// Of a record to which no kernel adds a flux.
+// For records to which no kernel adds a flux.
 inline constexpr int no_flux = -1;
 
-// Of a kernel that sums nothing over particles.
+// For kernels without sums over particles.
 struct NoAccount {
   THAWSLIDE_HD NoAccount& operator+=(const NoAccount& /*part*/) { return *this; }
 };
 
-// The width, for kernels, of a section that is equally wide everywhere (mpm/section_width.hpp).
+// Section width for kernels if it is uniform (mpm/section_width.hpp).
 struct EvenWidth {
   static constexpr bool varies = false;
 };
@@ -42,7 +42,7 @@ inline constexpr bool holds = false;
 template <class Name, class... Names>
 inline constexpr bool holds<Name, RecordList<Names...>> = (std::is_same_v<Name, Names> || ...);
 
-// A name may be another way to see the record of its owner.
+// A name can be an alias of its owner's record.
 template <class Name>
 struct OwnerOf {
   using Type = Name;
@@ -57,21 +57,21 @@ struct OwnerOf<Name> {
 struct RecordPart {
   std::size_t from, count;
 };
-// Those that particles add to under a name: all of the record where it names none.
+// Components that particles add to under a name; all of the record by default.
 template <class Name, int Dim>
 inline constexpr RecordPart part_of{0, static_cast<std::size_t>(Name::template size<Dim>)};
 template <class Name, int Dim>
 requires requires { Name::template part<Dim>; }
 inline constexpr RecordPart part_of<Name, Dim> = Name::template part<Dim>;
 
-// Whether particles lower the components of a name, each to the smallest number that one brings, instead of adding.
+// True if the components of a name are reduced by minimum instead of sum.
 template <class Name>
-concept IsLowered = requires {
-  requires Name::lowered;
+concept IsMinReduced = requires {
+  requires Name::min_reduced;
 };
 
-// Whether two names add to components of their own, and whether all of a list do. The order in which two would add to
-// the same ones depends on where batches begin.
+// True if two names, or all names of a list, add to different components. Otherwise, the order of additions would
+// depend on batch boundaries.
 template <class First, class Second, int Dim>
 inline constexpr bool are_apart =
     std::is_same_v<First, Second> || !std::is_same_v<typename OwnerOf<First>::Type, typename OwnerOf<Second>::Type> ||
@@ -86,21 +86,21 @@ inline constexpr bool all_apart = false;
 template <class... Names, int Dim>
 inline constexpr bool all_apart<RecordList<Names...>, Dim> = (is_apart_from<Names, RecordList<Names...>, Dim> && ...);
 
-// Whether the names of a list are of one record.
+// True if all names of a list belong to one record.
 template <class List>
 inline constexpr bool one_record = true;
 template <class Name, class... Names>
 inline constexpr bool one_record<RecordList<Name, Names...>> =
     (std::is_same_v<typename OwnerOf<Name>::Type, typename OwnerOf<Names>::Type> && ...);
 
-// Whether two lists have no record in common, whatever it is called.
+// True if two lists have no record in common under any name.
 template <class First, class Second>
 inline constexpr bool are_disjoint = false;
 template <class... Names, class... Others>
 inline constexpr bool are_disjoint<RecordList<Names...>, RecordList<Others...>> =
     (!holds<typename OwnerOf<Names>::Type, RecordList<typename OwnerOf<Others>::Type...>> && ...);
 
-// All records of some lists, each once.
+// Union of the records of several lists.
 template <class List, class... Lists>
 struct Joined {
   using Type = List;
@@ -114,11 +114,11 @@ struct Joined<RecordList<Names...>, RecordList<>, Lists...> : Joined<RecordList<
 template <class... Lists>
 using AllOf = typename Joined<RecordList<>, Lists...>::Type;
 
-// Numbers of a record.
+// Components of a record.
 template <class Name, int Dim>
 inline constexpr int components_of = Name::template size<Dim>;
 
-// One item a record of a list, found by the record's name.
+// One item per record of a list, accessed by the record's name.
 template <class Name, class Item>
 struct Named {
   Item item;

@@ -1,5 +1,5 @@
-// What a slide in space brings to the cells of a map below it: sums over the parts of particles' boxes that lie above
-// each (sim/flow_maps.hpp).
+// Sums of the sliding mass over the cells of a map: particle boxes are distributed over the cells below them
+// (sim/flow_maps.hpp). 3D only.
 #pragma once
 
 #include <cmath>
@@ -11,25 +11,25 @@
 
 namespace thawslide::mpm {
 
-// The cells of a map, in the frame of the particles' positions.
+// Cells of a map, in the coordinates of particle positions.
 struct MapCells {
   double corner_x = 0.0, corner_y = 0.0;              // lower left corner of the map [m]
   double cell_x = 1.0, cell_y = 1.0;                  // [m]
   double inverse_cell_x = 1.0, inverse_cell_y = 1.0;  // [1/m]
   int columns = 0, rows = 0;
-  double largest_half = 0.0;  // of a particle's width [m]
+  double largest_half = 0.0;  // largest half width of a particle [m]
 
   [[nodiscard]] bool operator==(const MapCells& other) const = default;
 };
 
-// A cell as a number.
+// Key of a cell.
 [[nodiscard]] THAWSLIDE_HD inline std::uint64_t map_cell_key(int column, int row) {
   return static_cast<std::uint64_t>(row) << 32 | static_cast<std::uint64_t>(column);
 }
 [[nodiscard]] inline int column_of_key(std::uint64_t key) { return static_cast<int>(key & 0xffffffffU); }
 [[nodiscard]] inline int row_of_key(std::uint64_t key) { return static_cast<int>(key >> 32); }
 
-// The cells along one axis that a box overlaps, and its shares in them, which sum to 1.
+// Cells along one axis that a box overlaps, and its fractions in them, which sum to 1.
 struct CellRange {
   int first, last;
   double first_share, inner_share, last_share;
@@ -39,20 +39,20 @@ struct CellRange {
   }
 };
 
-// The same of several boxes, one a lane, or of one.
+// The same for several boxes, one per lane, or for one.
 template <class Value>
 struct CellSpans {
   Value first, last, first_share, inner_share, last_share;
 
   [[nodiscard]] THAWSLIDE_HD CellRange of_lane(std::size_t lane) const {
-    return {static_cast<int>(in_lane(first, lane)), static_cast<int>(in_lane(last, lane)), in_lane(first_share, lane),
-            in_lane(inner_share, lane), in_lane(last_share, lane)};
+    return {static_cast<int>(extract(first, lane)), static_cast<int>(extract(last, lane)), extract(first_share, lane),
+            extract(inner_share, lane), extract(last_share, lane)};
   }
 };
 
-// Of boxes from middle - half to middle + half, in cells, on an axis of `cells` cells. A box that ends on a border, but
-// for round-off, does not reach into the next cell. What lies beyond the grid counts to its last cell. inverse_width:
-// 1/(2 half).
+// Spans of boxes from middle - half to middle + half, in cells, on an axis of `cells` cells. A box that ends on a cell
+// border within round-off does not extend into the next cell. Parts outside the map count towards its outermost cell.
+// inverse_width: 1/(2 half).
 template <class Value>
 [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE CellSpans<Value> cell_spans(Value middle, Value half,
                                                                                Value inverse_width, int cells) {
@@ -68,9 +68,8 @@ template <class Value>
   return spans;
 }
 
-// The cells along an axis, first and last, that particles may reach which stood about the nodes of a tile when the step
-// began: they move by less than a cell of the grid, no step is as long as that. first_node: of the tile, in cells of
-// the grid [m].
+// First and last map cell along an axis that particles of a tile can reach after a step; a step moves them by less than
+// a grid cell. first_node: of the tile, as a grid index. grid_cell: mesh size [m].
 struct MapWindow {
   int first, last;
 };
@@ -84,12 +83,12 @@ struct MapWindow {
           static_cast<int>(max(0.0, min(floor(to * inverse_cell), last_cell)))};
 }
 
-// Of a cell, over all boxes above it.
+// Sums of a cell over all boxes above it.
 struct ColumnSums {
   double volume = 0.0;                                          // [m3]
   double mass = 0.0;                                            // [kg]
   double momentum_x = 0.0, momentum_y = 0.0, momentum_z = 0.0;  // [kg m/s]
-  double water = 0.0;  // volume of liquid water [m3], of the band as thick as it is
+  double water = 0.0;  // volume of liquid water [m3], with the actual thickness of the band
 
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add(double share, const ColumnSums& box) {
     volume += share * box.volume;
@@ -101,7 +100,7 @@ struct ColumnSums {
   }
 };
 
-// Over the boxes in the band.
+// Sums over the boxes in the band.
 struct BandSums {
   double volume = 0.0;              // V [m3]
   double volume_temperature = 0.0;  // V T [m3 C]
@@ -114,13 +113,13 @@ struct BandSums {
   }
 };
 
-// What the box of a particle brings as a whole.
+// Contribution of a whole particle box.
 template <class Particles>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE ColumnSums column_sums_of(const Particles& particles, std::size_t p) {
   const double volume = particles.volume(p), mass = particles.mass(p);
   return {volume, mass, mass * particles.velocity(p, 0), mass * particles.velocity(p, 1),
           mass * particles.velocity(p, 2),
-          // Cells of metres stand for a band of centimetres: its matter counts as for heat.
+          // Cells of metres represent a band of centimetres: its material is scaled as for heat.
           volume * particles.porosity(p) * particles.liquid_saturation(p) / particles.thermal_scaling(p)};
 }
 template <class Particles>
@@ -129,7 +128,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE BandSums band_sums_of(const Particles& part
   return {volume, volume * particles.temperature(p), volume * particles.pore_pressure(p)};
 }
 
-// Both, of a cell.
+// All sums of a cell.
 struct MapSums {
   ColumnSums column;
   BandSums band;
@@ -141,7 +140,7 @@ struct MapSums {
   }
 };
 
-// Of the whole slide, about the origin of the particles' positions.
+// Mass of the sliding mass and its first moments, around the origin of particle positions.
 struct MassMoments {
   double mass = 0.0, mass_x = 0.0, mass_y = 0.0;  // [kg, kg m]
 

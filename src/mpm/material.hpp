@@ -1,4 +1,4 @@
-// What a material's particles share.
+// Parameters of a material.
 #pragma once
 
 #include "physics/elasticity.hpp"

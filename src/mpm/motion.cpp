@@ -10,8 +10,7 @@ namespace thawslide::mpm {
 
 namespace {
 
-// Calls work(weights) with what ties particles to nodes: the run's shape functions, with APIC's weights where it asks
-// for them.
+// Calls work(weights) with the shape functions of the run, and the weights of APIC if it uses them.
 template <int Dim, class Real, class Work>
 void with_weights(const MotionModel<Dim, Real>& model, const Work& work) {
   const auto with = [&](auto shape) {
@@ -82,19 +81,19 @@ MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, 
 }
 
 template <int Dim, class Real>
-void take_new_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper,
-                        BadParticle& bad) {
-  bad += for_particles_in_memory(particles, TakePosition<Dim, Real>{lower, upper});
+void update_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper,
+                      InvalidParticle& invalid) {
+  invalid += for_particles_in_memory(particles, UpdatePosition<Dim, Real>{lower, upper});
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                     \
-  template void split_total_stress<Dim, Real>(Particles<Dim, Real>&, std::size_t);                           \
-  template Real momentum_to_grid<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&,             \
-                                            const MotionModel<Dim, Real>&, Nodes<Dim, Real>&);               \
-  template MoveWork<Real> move_particles<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&,     \
-                                                    const MotionModel<Dim, Real>&, Real, Nodes<Dim, Real>&); \
-  template void take_new_positions<Dim, Real>(Particles<Dim, Real>&, const Vector<Real, Dim>&,               \
-                                              const Vector<Real, Dim>&, BadParticle&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                               \
+  template void split_total_stress<Dim, Real>(Particles<Dim, Real>&, std::size_t);                                     \
+  template Real momentum_to_grid<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&,                       \
+                                            const MotionModel<Dim, Real>&, Nodes<Dim, Real>&);                         \
+  template MoveWork<Real> move_particles<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&,               \
+                                                    const MotionModel<Dim, Real>&, Real, Nodes<Dim, Real>&);           \
+  template void update_positions<Dim, Real>(Particles<Dim, Real>&, const Vector<Real, Dim>&, const Vector<Real, Dim>&, \
+                                            InvalidParticle&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -1,4 +1,4 @@
-// What a particle does to move: kernels (mpm/kernel.hpp).
+// Particle kernels (mpm/kernel.hpp) of motion.
 #pragma once
 
 #include <type_traits>
@@ -11,7 +11,7 @@
 
 namespace thawslide::mpm {
 
-// Mass, momentum, force (Eq. 12) and volume to the nodes. Sums the force of the walls along x where the width varies.
+// Mass, momentum, force (Eq. 12) and volume to the nodes. Sums the force of the walls along x if the width varies.
 template <int Dim, class Real, class Width = EvenWidth>
 struct AddMomentum {
   using Reads = RecordList<>;
@@ -19,16 +19,16 @@ struct AddMomentum {
   using Account = std::conditional_t<Width::varies, Real, NoAccount>;
 
   Vector<Real, Dim> gravity;  // [m/s2]
-  bool effective_stress;      // the pore pressure acts inside the body too
-  bool viscous;               // some material is
+  bool effective_stress;      // pore pressure also acts inside the body
+  bool viscous;               // at least one material is viscous
   Width width{};
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& added, [[maybe_unused]] Account& of_walls) const {
+                                                       Scatter& added, [[maybe_unused]] Account& of_walls) const {
     using Layout = MomentumLayout<Dim>;
     using Value = typename At::Value;
-    constexpr int row[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // of a symmetric tensor
+    constexpr int row[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // component indices of a symmetric tensor
     auto& momentum = added.template of<Momentum>();
     const Value mass = particles.mass.load(at);
     const SymmetricTensor<Value> stress = stress_on_nodes(particles, at);
@@ -49,7 +49,7 @@ struct AddMomentum {
   }
 
  private:
-  // V sigma [J] that Eq. 12 sees.
+  // V sigma [J] in Eq. 12.
   template <class Particles, class At>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<typename At::Value> stress_on_nodes(const Particles& particles,
                                                                                            const At& at) const {
@@ -68,7 +68,7 @@ struct AddMomentum {
   }
 };
 
-// The affine velocity C [1/s] of APIC, by columns.
+// Affine velocity C [1/s] of APIC, by columns.
 template <int Dim, class Particles, class At>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Matrix<typename At::Value, Dim> affine_velocity(const Particles& particles,
                                                                                      const At& at) {
@@ -79,10 +79,10 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Matrix<typename At::Value, Dim> affine_velo
   return matrix;
 }
 
-// S m C (x_i - x_p), the momentum of the velocity about the particles, to the momentum of To: of Momentum, or Velocity.
-template <class To, int Dim, class Particles, class At, class Seen, class Added>
+// Adds S m C (x_i - x_p), the momentum of the affine velocity, to the momentum of To: Momentum or Velocity.
+template <class To, int Dim, class Particles, class At, class Seen, class Scatter>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add_affine_momentum(const Particles& particles, const At& at,
-                                                              const Seen& seen, Added& added) {
+                                                              const Seen& seen, Scatter& added) {
   using Value = typename At::Value;
   const Value mass = particles.mass.load(at);
   const Matrix<Value, Dim> moment =
@@ -100,15 +100,15 @@ struct AddAffineMomentum {
   using Adds = RecordList<AffineMomentum>;
   using Account = NoAccount;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     add_affine_momentum<AffineMomentum, Dim>(particles, at, seen, added);
   }
 };
 
-// New velocities (Eq. 13, or another transfer) and the displacements to come (Eq. 14, with the sum sign it lost); then
-// the moved particles' momentum back to the nodes (MUSL). Sums the kinetic energy of MoveWork.
+// New velocities (Eq. 13, or another transfer) and displacements (Eq. 14, with its missing summation sign); then the
+// particles' momentum back to the nodes (MUSL). Sums the kinetic energy of MoveWork.
 template <int Dim, class Real>
 struct Move {
   using Reads = RecordList<Motion>;
@@ -117,9 +117,9 @@ struct Move {
 
   Real pic_share, dt;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& kinetic) const {
+                                                       Scatter& added, Account& kinetic) const {
     using Layout = MotionLayout<Dim>;
     using Value = typename At::Value;
     using VectorOfValues = Vector<Value, Dim>;
@@ -146,7 +146,8 @@ struct Move {
   }
 };
 
-// The new affine velocities of APIC, after Move; of the kinetic energy the part that was the old ones' goes.
+// New affine velocities of APIC, after Move. Subtracts the contribution of the old affine velocities from the kinetic
+// energy.
 template <int Dim, class Real>
 struct MoveAffine {
   using Reads = RecordList<AffineMotion>;
@@ -155,9 +156,9 @@ struct MoveAffine {
 
   Real dt;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& kinetic) const {
+                                                       Scatter& added, Account& kinetic) const {
     using Layout = MotionLayout<Dim>;
     using Value = typename At::Value;
     using Square = Matrix<Value, Dim>;

@@ -1,34 +1,35 @@
-// One visit to all nodes: a block's sums of what particles added come first, then a function of each node's numbers.
+// Pass over all nodes: sums of particle contributions per block, then a function of each node.
 #pragma once
 
 #include "mpm/nodes.hpp"
 
 namespace thawslide::mpm {
 
-// Sums the contributions of particles to a block's records, from the tiles for which takes(t) is true. Returns the rows
-// of the block in which particles have nodes, one bit per row. Records of other rows have no meaning.
-template <class Name, int Dim, class Real, class Takes>
+// Sums particle contributions to a block's records, from the tiles for which accepts(t) is true. Returns the rows of
+// the block in which particles have nodes, one bit per row. Records of other rows are undefined.
+template <class Name, int Dim, class Real, class TileFilter>
 std::uint32_t sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes,
-                        const Takes& takes) {
+                        const TileFilter& accepts) {
   auto& records = nodes.template of<Name>();
-  return sum_patches_in_block(grid, block, records.patches(grid.tiles().size()), records.of_block(block), takes);
+  return sum_patches_in_block(grid, block, records.patches(grid.tiles().size()), records.of_block(block), accepts);
 }
 template <class Name, int Dim, class Real>
 std::uint32_t sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes) {
   return sum_block<Name>(grid, block, nodes, every_tile);
 }
-// For a name reduced by minimum: the smallest numbers. Call it after summing the record of the name.
-template <IsLowered Name, int Dim, class Real, class Takes>
-void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes, const Takes& takes) {
+// The same for min-reduced names. Call after summing the record of their owner.
+template <IsMinReduced Name, int Dim, class Real, class TileFilter>
+void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes,
+               const TileFilter& accepts) {
   auto& records = nodes.template of<Name>();
   unrolled<part_of<Name, Dim>.count>([&](auto c) {
     take_smallest_in_block<part_of<Name, Dim>.from + c>(grid, block, records.patches(grid.tiles().size()),
-                                                        records.of_block(block), takes);
+                                                        records.of_block(block), accepts);
   });
 }
 
-// For each block, calls begin(block), which returns the rows of nodes to visit, one bit per row, and then
-// of_node(node, account) for their nodes. Returns the sum of the accounts.
+// For each block, calls begin(block), which returns the rows of nodes to visit, one bit per row, and then of_node(node,
+// account) for their nodes. Returns the sum of the accounts.
 template <class Account, int Dim, class Real, class Begin, class OfNode>
 Account node_pass(const SparseGrid<Dim, Real>& grid, const Begin& begin, const OfNode& of_node) {
   constexpr std::size_t edge = static_cast<std::size_t>(Tile<Dim>::edge);

@@ -1,4 +1,4 @@
-// The nodes of the grid and what they hold during a step.
+// Nodal records of the grid during a step.
 #pragma once
 
 #include "mpm/records.hpp"
@@ -14,7 +14,7 @@ using RecordsOf = NodeRecords<Dim, Real, components_of<Name, Dim>>;
 template <class Name, int Dim, class Real>
 using SparseRecordsOf = SparseRecords<Dim, Real, components_of<Name, Dim>>;
 
-// Where temperatures change and water seeps: tiles with such particles, and blocks whose nodes these see.
+// Marks of temperature changes and seepage: tiles with such particles, and the blocks in their reach.
 struct ActivityMarks {
   std::vector<std::uint8_t> changing_tiles, changing_blocks;
   std::vector<std::uint8_t> seeping_tiles, seeping_blocks;
@@ -22,27 +22,27 @@ struct ActivityMarks {
 
 template <int Dim, class Real>
 struct Nodes {
-  std::shared_ptr<PatchRoom> room = std::make_shared<PatchRoom>();
+  std::shared_ptr<PatchPool> room = std::make_shared<PatchPool>();
   RecordsOf<Momentum, Dim, Real> momentum{room};
   RecordsOf<Motion, Dim, Real> motion;
   RecordsOf<Velocity, Dim, Real> velocity{room};
   RecordsOf<Averages, Dim, Real> averages{room};
   RecordsOf<NodalState, Dim, Real> state;
   RecordsOf<HeatRates, Dim, Real> heat_rates{room};
-  // In the steps that filter velocities.
+  // In steps that filter velocities.
   RecordsOf<FilterMoments, Dim, Real> filter_moments{room};
   RecordsOf<FilterMomentum, Dim, Real> filter_momentum{room};
   RecordsOf<FilterIncrement, Dim, Real> filter_increment;
   RecordsOf<FilterTotal, Dim, Real> filter_total;
-  // Of blocks with candidate nodes.
+  // In blocks with candidate nodes.
   SparseRecords<Dim, Real, BaseLayout::size> base;
   SparseRecordsOf<Contact, Dim, Real> contact;
   SparseRecordsOf<NearGround, Dim, Real> near_ground{room};
-  SparseRecords<Dim, Real, BedLayout<Dim>::size> bed;  // where the ground is erodible
-  SparseRecordsOf<OrphanHeat, Dim, Real> orphan_heat;
-  SparseRecordsOf<BaseState, Dim, Real> base_state;    // where band columns lie under the slide
-  SparseRecordsOf<HeatRates, Dim, Real> secant_rates;  // with the secant capacity, of blocks where temperatures change
-  SparseRecordsOf<Seepage, Dim, Real> seepage{room};   // of blocks to whose nodes water seeps
+  SparseRecords<Dim, Real, BedLayout<Dim>::size> bed;  // with an erodible bed
+  SparseRecordsOf<UnreachedHeat, Dim, Real> unreached_heat;
+  SparseRecordsOf<BaseState, Dim, Real> base_state;    // with band columns
+  SparseRecordsOf<HeatRates, Dim, Real> secant_rates;  // with the secant capacity, in blocks with temperature changes
+  SparseRecordsOf<Seepage, Dim, Real> seepage{room};   // in blocks that water can seep to
   SparseRecordsOf<SeepingWater, Dim, Real> seeping_water{room};
   ActivityMarks marks;
 

@@ -1,5 +1,5 @@
-// What a thread with one particle does in a pass: the particle's weights, what it reads by them, what it adds. On the
-// processor and on devices alike (device/particle_pass.hpp).
+// Transfers of one particle per thread: weights, gather and contributions. For host and device
+// (device/particle_pass.hpp).
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 #include "base/linear.hpp"
 #include "base/select.hpp"
-#include "mpm/one.hpp"
 #include "mpm/reading.hpp"
 #include "mpm/records.hpp"
+#include "mpm/scalar_index.hpp"
 
 namespace thawslide::mpm {
 
-// What one particle carries to a record: weight * value, and in its first numbers also gradient . flux.
+// Contribution of one particle to a record: weight * value, plus gradient . flux in the first `record_step` components.
 template <class Real, int Dim, bool HasFlux>
 struct OneFlux {};
 template <class Real, int Dim>
@@ -29,17 +29,17 @@ struct OneContribution : OneFlux<Real, Dim, HasFlux> {
   Real value[size] = {};
 };
 
-// The same of what it lowers; the planes: records of the tile's patch, one after another.
+// Contribution to min-reduced components. planes: consecutive records of the tile's patch.
 template <class Real, int Dim>
 using OneGaps = GapsToPlanes<Real, Dim, const Real*>;
 
-// What one particle carries to a record of some name.
+// Contribution of one particle to a record, by name.
 template <class Name, int Dim, class Real>
-using CarriedByOne = std::conditional_t<IsLowered<Name>, OneGaps<Real, Dim>,
-                                        OneContribution<Real, Dim, carried_numbers<Name, Dim>, Name::flux != no_flux>>;
+using CarriedByOne = std::conditional_t<IsMinReduced<Name>, OneGaps<Real, Dim>,
+                                        OneContribution<Real, Dim, scatter_size<Name, Dim>, Name::flux != no_flux>>;
 
-// Where a particle stands: from its nearest node, in cells; the lowest node that it sees, by its place in the tile's
-// patch; whether the nearest node lies, along each axis, on a side of the domain that prescribes velocity.
+// Position of a particle: offset from its nearest node, in cells; place in the tile's patch of the lowest node in
+// reach; and, along each axis, whether the nearest node lies on a side of the domain that prescribes velocity.
 template <int Dim, class Real>
 struct OnePlace {
   Vector<Real, Dim> offset;
@@ -47,15 +47,16 @@ struct OnePlace {
   std::array<bool, static_cast<std::size_t>(Dim)> at_side;
 };
 
-// Weights by axis, and the place in the patch of the lowest of the nodes.
+// Weights by axis, and place in the patch of the lowest node.
 template <class Real, int Dim, std::size_t Width>
 struct OneStencil {
   std::array<AxisWeights<Real, Width>, static_cast<std::size_t>(Dim)> axis;
   std::uint32_t first = 0;
-  std::array<std::uint8_t, static_cast<std::size_t>(Dim)> in_cell{};  // of that node among the 3 an axis of its cell
+  // index of that node along each axis, among the 3 nodes of the cell
+  std::array<std::uint8_t, static_cast<std::size_t>(Dim)> in_cell{};
 };
 
-// The weights of one particle; those of momentum and of APIC where the pass has them.
+// Weights of one particle; those of momentum and APIC if the pass has them.
 template <int Dim, class Real>
 struct OneWeights {
   static constexpr int dimensions = Dim;
@@ -64,7 +65,7 @@ struct OneWeights {
   OneStencil<Real, Dim, 3> momentum, affine;
   Vector<Real, Dim> moment;
 
-  // At the corners of the cell of nodes in which the particle lies.
+  // Weights at the corners of the grid cell that contains the particle.
   THAWSLIDE_HD void set_linear(const OnePlace<Dim, Real>& place, Real inverse_cell) {
     linear.first = static_cast<std::uint32_t>(place.first_node);
     for (std::size_t a = 0; a < Dim; ++a) {
@@ -83,7 +84,7 @@ struct OneWeights {
       momentum.axis[a] = Shape::weights(place.offset[static_cast<int>(a)], size, place.at_side[a], inverse_cell);
     }
   }
-  // After set_momentum.
+  // Call after set_momentum.
   template <class Shape>
   THAWSLIDE_HD void set_affine(const OnePlace<Dim, Real>& place, Real cell, Real inverse_cell) {
     affine = momentum;
@@ -107,9 +108,9 @@ struct OneWeights {
   [[nodiscard]] THAWSLIDE_HD const Vector<Real, Dim>& second_moment() const { return moment; }
 };
 
-// What one particle sees of the records about it.
+// Gather of one particle from the surrounding records.
 template <class Weights, class Patches>
-struct SeenByOne {
+struct ScalarGather {
   const Weights& weights;
   const Patches& patches;
 
@@ -134,22 +135,22 @@ struct SeenByOne {
   }
 };
 
-// What a particle has at a node: weights and slopes along each axis, none where it does not see it; the node's place in
-// the tile's patch.
+// Weights and slopes of a particle at a node along each axis, and the node's place in the tile's patch. is_seen: the
+// node is in reach.
 template <int Dim, class Real>
 struct OneAtNode {
   bool is_seen = true;
   std::size_t place = 0;
   Real weight[Dim], slope[Dim];
 };
-// node: of the particle's cell, numbered along each axis.
+// node: index along each axis in the particle's cell.
 template <int Dim, class Real, std::size_t Width>
 THAWSLIDE_HD OneAtNode<Dim, Real> at_node(const OneStencil<Real, Dim, Width>& stencil,
                                           const std::array<std::size_t, 3>& node) {
   OneAtNode<Dim, Real> at;
   at.place = stencil.first;
   for (std::size_t a = 0; a < Dim; ++a) {
-    const std::size_t k = node[a] - stencil.in_cell[a];  // beyond all where it would be below 0
+    const std::size_t k = node[a] - stencil.in_cell[a];  // wraps to a large number if it would be negative
     at.is_seen = at.is_seen && k < Width;
     at.weight[a] = stencil.axis[a].weight[k < Width ? k : 0];
     at.slope[a] = stencil.axis[a].slope[k < Width ? k : 0];
@@ -158,7 +159,7 @@ THAWSLIDE_HD OneAtNode<Dim, Real> at_node(const OneStencil<Real, Dim, Width>& st
   return at;
 }
 
-// Component c of a node after a particle that sees it, `sum` before it.
+// Component c of a node after adding a particle in reach. sum: value before.
 template <int Dim, class Real, std::size_t Components, bool HasFlux>
 THAWSLIDE_HD Real add_particle(const OneAtNode<Dim, Real>& at,
                                const OneContribution<Real, Dim, Components, HasFlux>& carried, std::size_t c,

@@ -1,5 +1,5 @@
-// One visit to all particles: kernels that need nothing of one another's sums run particle by particle, on weights made
-// once, records fetched once and sums added once.
+// Pass over all particles: kernels that are independent of each other's sums share the weights, the loaded records and
+// the scatter of each batch.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,16 @@
 
 namespace thawslide::mpm {
 
-// What ties particles to the nodes in a pass: the shape functions of momentum, with what they depend on.
+// Shape functions of momentum with their parameters.
 template <class Shape, int Dim, class Real>
 struct MomentumWeights {
   const BodySizes<Real>& sizes;  // of particles, in cells
   const HeldSides<Dim>& sides;
 };
-// A pass all of whose records go by the linear shape functions.
+// Linear shape functions for all records of a pass.
 struct LinearWeights {};
 
-// The weights of a batch.
+// Weights of a batch.
 template <class Weights, int Dim, class Real>
 struct BatchWeights;
 template <int Dim, class Real>
@@ -64,7 +64,7 @@ struct BatchWeights<MomentumWeights<Shape, Dim, Real>, Dim, Real> {
         linear{place.offset, batch.nodes, grid.inverse_cell()} {}
 };
 
-// The same with the weights of APIC.
+// Weights of momentum with those of APIC.
 template <class Shape, int Dim, class Real>
 struct AffineWeights : MomentumWeights<Shape, Dim, Real> {};
 template <class Shape, int Dim, class Real>
@@ -89,35 +89,35 @@ struct BatchWeights<AffineWeights<Shape, Dim, Real>, Dim, Real>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE const auto& second_moment() const { return affine.moment; }
 };
 
-// What a batch sees of the records about it.
+// Gather of a batch from the surrounding records.
 template <class Weights, class Patches>
-struct SeenByBatch {
+struct BatchGather {
   const Weights& weights;
   const Patches& patches;
 
-  // `Count` numbers of a record from `first` on: their values at the particles' places and their gradients.
+  // `Count` components of a record from `first` on: interpolated values and gradients.
   template <class Name, std::size_t Count>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE auto read(std::size_t first = 0) const {
     return read_nodes<Count>(weights.template of<typename Name::Functions>(), patches.template of<Name>(), first);
   }
-  // The records of Planes, for what the particles bring to nodes that they lower.
+  // Records of Planes, for contributions to min-reduced components.
   template <class Name>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE auto planes() const {
     return &patches.template of<Name>();
   }
-  // The values of all numbers of a record, without their gradients.
+  // Values of all components of a record, without gradients.
   template <class Name>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE auto values() const {
     return read_values(weights.template of<typename Name::Functions>(), patches.template of<Name>());
   }
 };
 
-// What batches add to a record, and a tile's sums of it.
+// Contributions of batches to a record, and their sums in a tile.
 template <class Name, int Dim, class Real>
-struct Adding {
+struct PartialSums {
   static constexpr int size = components_of<Name, Dim>;
   static constexpr std::size_t first = first_in_register<Name, Dim>;
-  static constexpr std::size_t carried = carried_numbers<Name, Dim>;
+  static constexpr std::size_t carried = scatter_size<Name, Dim>;
   static constexpr bool has_flux = Name::flux != no_flux;
   static_assert(first == 0 || carried <= record_step);
   using Carried = Contribution<Dim, Real, carried>;
@@ -125,43 +125,43 @@ struct Adding {
                                   LinearCellSums<has_flux, first, carried, Dim, Real, size>,
                                   CellSums<Name::flux, first, carried, Dim, Real, size>>;
 };
-template <IsLowered Name, int Dim, class Real>
-struct Adding<Name, Dim, Real> {
+template <IsMinReduced Name, int Dim, class Real>
+struct PartialSums<Name, Dim, Real> {
   static_assert(part_of<Name, Dim>.count == 1);
   using Carried = GapsOfBatch<Dim, Real>;
   using Sums = PatchMinima<part_of<Name, Dim>.from, Dim, Real, components_of<Name, Dim>>;
 };
 template <class Name, int Dim, class Real>
-using SumsOf = typename Adding<Name, Dim, Real>::Sums;
+using SumsOf = typename PartialSums<Name, Dim, Real>::Sums;
 
-// A tile at work: what its particles read and add to.
+// Gather and scatter of a tile's particles.
 template <class Reads, class Adds, int Dim, class Real>
-class TileWork;
+class TileScatter;
 template <class... Reads, class... Adds, int Dim, class Real>
-class TileWork<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
+class TileScatter<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
   using Patches = ByName<Named<Reads, PatchOf<Reads, Dim, Real>>...>;
 
  public:
   template <class Records>
-  TileWork([[maybe_unused]] const SparseGrid<Dim, Real>& grid, [[maybe_unused]] std::size_t tile,
-           [[maybe_unused]] Records& records)
+  TileScatter([[maybe_unused]] const SparseGrid<Dim, Real>& grid, [[maybe_unused]] std::size_t tile,
+              [[maybe_unused]] Records& records)
       : sums_{{SumsOf<Adds, Dim, Real>(cleared<Adds>(records, grid, tile), grid.rows_seen(tile))}...} {
     (load_patch(grid, tile, records.template of<Reads>(), patches_.template of<Reads>()), ...);
   }
 
   template <class Weights>
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE SeenByBatch<Weights, Patches> seen(const Weights& weights) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE BatchGather<Weights, Patches> seen(const Weights& weights) const {
     return {weights, patches_};
   }
 
-  using Added = ByName<Named<Adds, typename Adding<Adds, Dim, Real>::Carried>...>;
+  using Scatter = ByName<Named<Adds, typename PartialSums<Adds, Dim, Real>::Carried>...>;
   template <class Weights>
   THAWSLIDE_ALWAYS_INLINE void add([[maybe_unused]] const Weights& weights, [[maybe_unused]] std::size_t count,
-                                   [[maybe_unused]] const Added& added) {
+                                   [[maybe_unused]] const Scatter& added) {
     (sums_.template of<Adds>().add(weights.template of<typename Adds::Functions>(), count, added.template of<Adds>()),
      ...);
   }
-  // Instead, for a batch that is passed over.
+  // Skips a batch.
   THAWSLIDE_ALWAYS_INLINE void skip() { (sums_.template of<Adds>().skip(), ...); }
 
  private:
@@ -178,7 +178,7 @@ class TileWork<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
   ByName<Named<Adds, SumsOf<Adds, Dim, Real>>...> sums_;
 };
 
-// What kernels sum over particles, kernel by kernel.
+// Sums over particles, by kernel.
 template <class... Kernels>
 struct Accounts : std::tuple<typename Kernels::Account...> {
   Accounts& operator+=(const Accounts& part) {
@@ -188,7 +188,7 @@ struct Accounts : std::tuple<typename Kernels::Account...> {
   }
 };
 
-// The kernel for one tile, where that differs from tile to tile.
+// Kernel of a tile; kernels that depend on the tile provide in_tile(tile).
 template <class Kernel>
 THAWSLIDE_ALWAYS_INLINE decltype(auto) in_tile(const Kernel& kernel, std::size_t tile) {
   if constexpr (requires { kernel.in_tile(tile); }) {
@@ -198,56 +198,56 @@ THAWSLIDE_ALWAYS_INLINE decltype(auto) in_tile(const Kernel& kernel, std::size_t
   }
 }
 
-// Whether a pass takes what sees these nodes of a tile that it takes: a batch, or a particle with the lowest node's
-// place in the patch. All where takes(tile, nodes) says nothing of them.
-template <class Takes, class Nodes>
-THAWSLIDE_ALWAYS_INLINE bool takes_nodes(const Takes& takes, std::size_t tile, const Nodes& nodes) {
-  if constexpr (std::is_invocable_v<const Takes&, std::size_t, const Nodes&>) {
-    return takes(tile, nodes);
+// True if a pass accepts a batch or particle with these nodes in an accepted tile. nodes: of a batch, or the place of a
+// particle's lowest node. Filters without accepts(tile, nodes) accept all.
+template <class TileFilter, class Nodes>
+THAWSLIDE_ALWAYS_INLINE bool accepts_nodes(const TileFilter& accepts, std::size_t tile, const Nodes& nodes) {
+  if constexpr (std::is_invocable_v<const TileFilter&, std::size_t, const Nodes&>) {
+    return accepts(tile, nodes);
   } else {
     return true;
   }
 }
 
-// Room for the patches of records.
+// Allocates the patches of records.
 template <class... Names, class Records>
 void take_patches(RecordList<Names...> /*names*/, [[maybe_unused]] std::size_t tiles,
                   [[maybe_unused]] Records& records) {
   (static_cast<void>(records.template of<Names>().patches(tiles)), ...);
 }
 
-// What is wrong with the records of a pass does not compile.
+// Compile-time check of a pass's records.
 template <class Reads, class Adds, int Dim>
 constexpr void check_records() {
   static_assert(all_apart<Adds, Dim>, "particles add to these components of a record in different ways");
-  static_assert(one_record<Adds>, "the patches of two records would lie in the same room");
+  static_assert(one_record<Adds>, "the patches of two records would share memory");
   static_assert(are_disjoint<Reads, Adds>, "no record is read in the pass that adds to it: it has no sums yet");
 }
 
-// Runs kernels over the particles of the tiles that takes(t) names, those of takes(t, nodes) where it tells them apart,
-// one kernel after the other for each batch; what they add is in the patches then, to be summed by a node_pass.
-// Records: of Nodes.
-template <class Weights, int Dim, class Real, class Records, class Takes, class... Kernels>
+// Runs kernels over the particles of the tiles that accepts(t) selects, restricted by accepts(t, nodes) if defined.
+// Each batch is passed to all kernels in turn. Contributions are left in the patches, for a node_pass to sum. Records:
+// of Nodes.
+template <class Weights, int Dim, class Real, class Records, class TileFilter, class... Kernels>
 Accounts<Kernels...> particle_pass(const SparseGrid<Dim, Real>& grid, const Weights& weights,
-                                   Particles<Dim, Real>& particles, Records& records, const Takes& takes,
+                                   Particles<Dim, Real>& particles, Records& records, const TileFilter& accepts,
                                    const Kernels&... kernels) {
   using Reads = AllOf<typename Kernels::Reads...>;
   using Adds = AllOf<typename Kernels::Adds...>;
   check_records<Reads, Adds, Dim>();
   take_patches(Adds{}, grid.tiles().size(), records);
   return parallel_sum<Accounts<Kernels...>>(grid.tiles().size(), [&](std::size_t t, Accounts<Kernels...>& accounts) {
-    if (!takes(t)) {
+    if (!accepts(t)) {
       return;
     }
-    TileWork<Reads, Adds, Dim, Real> work(grid, t, records);
+    TileScatter<Reads, Adds, Dim, Real> work(grid, t, records);
     const auto run = [&]<std::size_t... K>(std::index_sequence<K...> /*kernels*/, const auto&... of_tile) {
       for (const TileBatch<Dim, Real>& batch : grid.batches(t)) {
-        if (!takes_nodes(takes, t, batch.nodes)) {
+        if (!accepts_nodes(accepts, t, batch.nodes)) {
           work.skip();
           continue;
         }
         const BatchWeights<Weights, Dim, Real> of_batch(weights, grid, particles, batch);
-        typename TileWork<Reads, Adds, Dim, Real>::Added added;
+        typename TileScatter<Reads, Adds, Dim, Real>::Scatter added;
         (of_tile(particles, batch, work.seen(of_batch), added, std::get<K>(accounts)), ...);
         work.add(of_batch, batch.count, added);
       }
@@ -256,8 +256,8 @@ Accounts<Kernels...> particle_pass(const SparseGrid<Dim, Real>& grid, const Weig
   });
 }
 
-// Runs a kernel that neither reads nor adds to nodes over all particles as they stand in memory; returns its account.
-// A batch may be of several tiles and materials.
+// Runs a kernel that neither reads nor adds to nodes over all particles in memory order; returns its account. A batch
+// can contain particles of several tiles and materials.
 template <int Dim, class Real, class Kernel>
 typename Kernel::Account for_particles_in_memory(Particles<Dim, Real>& particles, const Kernel& kernel) {
   static_assert(std::is_same_v<typename Kernel::Reads, RecordList<>> &&
@@ -269,7 +269,7 @@ typename Kernel::Account for_particles_in_memory(Particles<Dim, Real>& particles
     const ByName<> seen{};
     ByName<> added{};
     const std::size_t last = std::min(particles.size(), (task + 1) * chunk);
-    for (std::size_t p = task * chunk; p < last; p += Batch<Real>::most) {
+    for (std::size_t p = task * chunk; p < last; p += SimdBatch<Real>::most) {
       kernel(particles, batch_in_memory<Real>(p, last), seen, added, account);
     }
   });

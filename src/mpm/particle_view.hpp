@@ -1,4 +1,4 @@
-// All fields of the particles as kernels on a device see them.
+// View of all particle fields for kernels on a device.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,7 @@
 
 namespace thawslide::mpm {
 
-// Members, their units and their order: as in mpm/particles.hpp. Numbers of fields that are not kept must not be
-// touched.
+// Members, units and order as in mpm/particles.hpp. Fields that are not stored must not be accessed.
 template <int Dim, class Real>
 struct ParticleView {
   using Scalar = FieldView<Real, 1>;
@@ -77,7 +76,7 @@ void for_fields_of(A& a, B& b, const Visit& visit) {
   visit(a.load_change, b.load_change);
 }
 
-// Holds until there are more or fewer particles.
+// Valid until the number of particles changes.
 template <int Dim, class Real, template <int, class> class Particles>
 ParticleView<Dim, Real> view_of(Particles<Dim, Real>& particles) {
   ParticleView<Dim, Real> view{};

@@ -1,4 +1,4 @@
-// The material points: every quantity a particle carries, declared once.
+// Material points: all particle fields, declared once.
 #pragma once
 
 #include <cstdint>
@@ -29,16 +29,16 @@ class Particles {
   Scalar initial_volume{fields, {"initial_volume", "m3"}};
   VectorField position{fields, {"position", "m", FieldShape::vector}};  // relative to the domain's lower corner
   VectorField velocity{fields, {"velocity", "m/s", FieldShape::vector, true}};
-  // C of APIC: the velocity about the particle is v + C (x - x_p); by columns
+  // C of APIC: the velocity around the particle is v + C (x - x_p); by columns
   Field<Real, Dim * Dim> affine_velocity{fields, {"affine_velocity", "1/s", FieldShape::matrix}};
   VectorField displacement{fields, {"displacement", "m", FieldShape::vector, true}};
   Scalar path_length{fields, {"path_length", "m", FieldShape::scalar, true}};
   TensorField stress{fields, {"stress", "Pa", FieldShape::tensor, true}};
   TensorField viscous_stress{fields, {"viscous_stress", "Pa", FieldShape::tensor}};
   Scalar plastic_strain{fields, {"plastic_strain", "1", FieldShape::scalar, true}};
-  Scalar gap{fields, {"gap", "1", FieldShape::scalar, true}};  // volumetric strain torn open, to close again
+  Scalar gap{fields, {"gap", "1", FieldShape::scalar, true}};  // volumetric strain of opened gaps, to be closed again
   Scalar temperature{fields, {"temperature", "C", FieldShape::scalar, true}};
-  Scalar heat_content{fields, {"heat_content", "J/m3"}};        // per initial volume, 0 for frozen matter at Tref
+  Scalar heat_content{fields, {"heat_content", "J/m3"}};     // per initial volume, 0 for frozen material at Tref
   Scalar initial_heat_content{fields, {"initial_heat_content", "J/m3"}};
   Scalar liquid_saturation{fields, {"liquid_saturation", "1", FieldShape::scalar, true}};
   Scalar porosity{fields, {"porosity", "1", FieldShape::scalar, true}};
@@ -47,16 +47,16 @@ class Particles {
   Scalar ice_pressure{fields, {"ice_pressure", "Pa", FieldShape::scalar, true}};
   Scalar liquid_pressure{fields, {"liquid_pressure", "Pa", FieldShape::scalar, true}};
   Scalar pore_pressure{fields, {"pore_pressure", "Pa", FieldShape::scalar, true}};
-  Scalar pore_void{fields, {"pore_void", "1"}};  // that the water leaves when all of it is melted, share of the volume
-  Scalar normal_load{fields, {"normal_load", "Pa"}};            // N of the column above
-  Scalar seeped_water{fields, {"seeped_water", "kg"}};          // that seepage brought, less what it took
-  Scalar flow_depth{fields, {"flow_depth", "m"}};               // H of P_I = rho_I g H
-  Scalar thermal_scaling{fields, {"thermal_scaling", "1"}};     // xi in force
-  Scalar contact_offset{fields, {"contact_offset", "m"}};  // distance from the ground at which it touches
+  Scalar pore_void{fields, {"pore_void", "1"}};              // left by the water after melting, fraction of volume
+  Scalar normal_load{fields, {"normal_load", "Pa"}};         // N of the column above
+  Scalar seeped_water{fields, {"seeped_water", "kg"}};       // net water gained by seepage
+  Scalar flow_depth{fields, {"flow_depth", "m"}};            // H of P_I = rho_I g H
+  Scalar thermal_scaling{fields, {"thermal_scaling", "1"}};  // current xi
+  Scalar contact_offset{fields, {"contact_offset", "m"}};    // distance from the ground at which it touches
   Scalar slip{fields, {"slip", "m", FieldShape::scalar, true}};
   Field<std::int32_t, 1> in_band{fields, {"in_band", "1", FieldShape::scalar, true}};
-  // Within a step only: the displacement to come, its volumetric strain, the temperature before it, the capacity along
-  // it, what conduction and seepage within the cell bring, and the change of N.
+  // Within a step only: displacement and its volumetric strain, temperature before the step, secant capacity, changes
+  // by conduction and seepage within the cell, and change of N.
   VectorField step_displacement{fields, {"step_displacement", "m", FieldShape::vector, false, false}};
   Scalar volume_strain{fields, {"volume_strain", "1", FieldShape::scalar, false, false}};
   Scalar previous_temperature{fields, {"previous_temperature", "C", FieldShape::scalar, false, false}};
@@ -81,7 +81,7 @@ class Particles {
 
   static constexpr std::uint32_t nowhere = ~std::uint32_t{0};
 
-  // Takes the marked particles away; the last ones in memory take their places. Returns where each now stands.
+  // Removes the marked particles; the last ones in memory fill their places. Returns the new place of each particle.
   std::vector<std::uint32_t> remove(const std::vector<std::uint8_t>& marked) {
     THAWSLIDE_ASSERT(marked.size() == size_, "{} marks for {} particles", marked.size(), size_);
     std::vector<std::uint32_t> now_at(size_);
@@ -103,8 +103,8 @@ class Particles {
     return now_at;
   }
 
-  // Room for more particles, all of whose values are 0; returns the first one's place. Who appends gives them ids that
-  // no other particle of the run has had.
+  // Appends particles with all values 0; returns the place of the first one. The caller must assign ids that were never
+  // used in the run.
   std::size_t append(std::size_t count) {
     const std::size_t first = size_;
     set_size(size_ + count);
@@ -126,10 +126,10 @@ class Particles {
   }
 
   std::size_t size_ = 0;
-  ReorderBuffer reorder_buffer_;  // kept: a step allocates nothing
+  ReorderBuffer reorder_buffer_;  // persistent, to avoid allocation in each step
 };
 
-// A particle tensor field as a full six-component tensor; plane strain keeps zz and has no yz, xz.
+// Particle tensor as a full six-component tensor; plane strain has zz but no yz, xz.
 template <int Dim, class Real>
 SymmetricTensor<Real> full_tensor(const typename Particles<Dim, Real>::TensorField& field, std::size_t particle) {
   SymmetricTensor<Real> s = SymmetricTensor<Real>::Zero();

@@ -1,4 +1,4 @@
-// What a particle does in take_new_positions: a kernel (mpm/kernel.hpp).
+// Particle kernel (mpm/kernel.hpp) of update_positions.
 #pragma once
 
 #include <cmath>
@@ -11,32 +11,32 @@
 
 namespace thawslide::mpm {
 
-// The displacement of the step takes effect, but for a particle that is not finite or would leave [lower, upper]. Sums
-// those.
+// Applies the displacement of the step, except to particles that are not finite or would leave [lower, upper]; records
+// these.
 template <int Dim, class Real>
-struct TakePosition {
+struct UpdatePosition {
   using Reads = RecordList<>;
   using Adds = RecordList<>;
-  using Account = BadParticle;
+  using Account = InvalidParticle;
 
   Vector<Real, Dim> lower, upper;  // [m]
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& /*added*/, Account& bad) const {
+                                                       Scatter& /*added*/, Account& invalid) const {
     using std::abs, std::sqrt, thawslide::select;
     using Value = typename At::Value;
     using VectorOfValues = Vector<Value, Dim>;
     VectorOfValues step = particles.step_displacement.template load_vector<Dim>(at);
     const VectorOfValues old = particles.position.template load_vector<Dim>(at);
-    // Not a number is in no range.
+    // NaN fails all comparisons.
     const Value state = particles.temperature.load(at) + particles.pore_pressure.load(at) + particles.stress.load(at);
     auto well = abs(state) <= Value(std::numeric_limits<Real>::max());
     for (int a = 0; a < Dim; ++a) {
       well = well & (old[a] + step[a] >= lower[a]) & (old[a] + step[a] <= upper[a]);
     }
     if (any(!well)) {
-      for_each_lane(!well, [&](std::size_t lane) { note_fault(particles, at.particle[lane], bad); });
+      for_each_lane(!well, [&](std::size_t lane) { record_fault(particles, at.particle[lane], invalid); });
       for (int a = 0; a < Dim; ++a) {
         step[a] = select(well, step[a], Value(Real(0)));
       }
@@ -48,15 +48,15 @@ struct TakePosition {
   }
 
  private:
-  // Of a particle that is not well.
+  // Records the fault of an invalid particle.
   template <class Particles>
-  THAWSLIDE_HD static void note_fault(const Particles& particles, std::uint32_t p, BadParticle& bad) {
+  THAWSLIDE_HD static void record_fault(const Particles& particles, std::uint32_t p, InvalidParticle& invalid) {
     bool finite = std::isfinite(particles.temperature(p)) && std::isfinite(particles.pore_pressure(p)) &&
                   std::isfinite(particles.stress(p, 0));
     for (int a = 0; a < Dim; ++a) {
       finite = finite && std::isfinite(particles.position(p, a) + particles.step_displacement(p, a));
     }
-    bad.note(particles.id(p), finite ? Fault::left_domain : Fault::state_not_finite);
+    invalid.record(particles.id(p), finite ? Fault::left_domain : Fault::state_not_finite);
   }
 };
 

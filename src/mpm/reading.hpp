@@ -1,4 +1,4 @@
-// What particles read of the records about them, by their weights.
+// Interpolation of nodal records to particles.
 #pragma once
 
 #include <array>
@@ -11,15 +11,15 @@
 
 namespace thawslide::mpm {
 
-// What a particle reads of `Count` numbers of the records about it: their values at its place and their gradients
-// [per m]. Axis by axis, rows first: fewer products than node by node.
+// Interpolated values of `Count` components and their gradients [per m]. Loops over axes, rows first, need fewer
+// products than loops over nodes.
 template <int Dim, class Value, std::size_t Count>
 struct Reading {
   std::array<Value, Count> value;
   std::array<std::array<Value, Count>, Dim> gradient;
 };
 
-// fetch(place, component): the number at a place relative to the lowest node.
+// fetch(place, component): number at a place relative to the lowest node.
 template <std::size_t Count, std::size_t Dim, class Value, std::size_t Width, class Fetch>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Reading<static_cast<int>(Dim), Value, Count> read_along_axes(
     const std::array<AxisWeights<Value, Width>, Dim>& axis, const Fetch& fetch, std::size_t first_component) {
@@ -60,7 +60,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Reading<static_cast<int>(Dim), Value, Count
   return reading;
 }
 
-// The gradient of component c, and that of the vector of the first Dim components: d v_a / d x_b.
+// Gradient of component c, and of the vector of the first Dim components: d v_a / d x_b.
 template <int Dim, class Real, std::size_t Count>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Real, Dim> gradient_of(const Reading<Dim, Real, Count>& reading,
                                                                    std::size_t c) {

@@ -1,6 +1,7 @@
-// The width b(x) of a 2D section over that which results are per metre of: linear between places, constant beyond the
-// ends. Volumes and masses of particles, areas of the ground and forces are those of the section so wide, over the
-// latter. Smooth upright walls bound it, as planes of constant angle do in axial symmetry, where b is 2 pi r:
+// Width b(x) of a 2D section relative to the reference width, per metre of which results are given: linear between
+// places, constant beyond the ends. Volumes and masses of particles, areas of the ground and forces are those of the
+// section divided by the reference width. Smooth vertical walls bound the section, like planes of constant angle in
+// axial symmetry, where b is 2 pi r:
 //   strain rate across   D_zz = u_x b'/b
 //   force of the walls   -V sigma_zz b'/b along x       (with Eq. 12)
 #pragma once
@@ -18,9 +19,9 @@ namespace thawslide::mpm {
 template <class Real>
 class SectionWidth {
  public:
-  SectionWidth() = default;  // the same everywhere
-  // table: of widths > 0 [m] over strictly increasing x [m]; results are per metre of the first. origin: x from which
-  // the places below count [m].
+  SectionWidth() = default;  // uniform
+  // table: widths > 0 [m] over strictly increasing x [m]; results are per metre of the first width. origin: x of the
+  // origin of positions [m].
   SectionWidth(const Table& table, double origin) {
     for (std::size_t k = 0; k < table.abscissa.size(); ++k) {
       place_.push_back(static_cast<Real>(table.abscissa[k] - origin));
@@ -30,7 +31,7 @@ class SectionWidth {
 
   [[nodiscard]] bool varies() const { return !place_.empty(); }
 
-  // b over that which results are per metre of.
+  // Relative width: b over the reference width.
   [[nodiscard]] Real at(Real x) const {
     const std::size_t k = after(x);
     return k == 0 ? Real(1) : k == place_.size() ? relative_.back() : relative_[k - 1] + slope(k) * (x - place_[k - 1]);
@@ -42,7 +43,7 @@ class SectionWidth {
   }
 
  private:
-  // The first place beyond x.
+  // Index of the first place beyond x.
   [[nodiscard]] std::size_t after(Real x) const {
     return static_cast<std::size_t>(std::upper_bound(place_.begin(), place_.end(), x) - place_.begin());
   }
@@ -53,7 +54,7 @@ class SectionWidth {
   std::vector<Real> place_, relative_;
 };
 
-// The width that kernels use; EvenWidth if it is the same everywhere (mpm/kernel.hpp).
+// Width for kernels; EvenWidth if uniform (mpm/kernel.hpp).
 template <class Real>
 struct UnevenWidth {
   static constexpr bool varies = true;
@@ -61,15 +62,15 @@ struct UnevenWidth {
 
   template <class Value>
   [[nodiscard]] Value at(const Value& x) const {
-    return each_lane(x, [&](Real one) { return width.at(one); });
+    return map_lanes(x, [&](Real one) { return width.at(one); });
   }
   template <class Value>
   [[nodiscard]] Value widening(const Value& x) const {
-    return each_lane(x, [&](Real one) { return width.widening(one); });
+    return map_lanes(x, [&](Real one) { return width.widening(one); });
   }
 };
 
-// Calls work(width) with the width that kernels use; only sections have one.
+// Calls work(width) with the width for kernels; only 2D sections have one.
 template <int Dim, class Real, class Work>
 decltype(auto) with_width(const SectionWidth<Real>& width, const Work& work) {
   if constexpr (Dim == 2) {

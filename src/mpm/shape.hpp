@@ -1,5 +1,5 @@
-// Shape functions: those of momentum act on the 3 nodes of each axis about the node nearest to the particle, the linear
-// ones of heat and pore pressure on the 2 nodes of the particle's cell.
+// Shape functions. Those of momentum use the 3 nodes per axis around the node nearest to the particle; the linear ones
+// of heat and pore pressure use the 2 nodes per axis of the particle's cell.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace thawslide::mpm {
 
-// Weights and their derivatives [1/m] of neighbouring nodes along one axis, lowest first: nearest-1, nearest,
-// nearest+1, or with a width of 2 the two ends of the particle's cell. Value: one number, or Lanes for a batch.
+// Weights and their derivatives [1/m] at adjacent nodes along one axis, lowest first: nearest-1, nearest, nearest+1,
+// or, with a width of 2, the two ends of the particle's cell. Value: one number, or Simd for a batch.
 template <class Value, std::size_t Width = 3>
 struct AxisWeights {
   Value weight[Width];
@@ -30,7 +30,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> linear_weights(Value off
           {select(right, zero, -slope), select(right, -slope, slope), select(right, slope, zero)}};
 }
 
-// Half size of a particle, and what formulas divide by it.
+// Half size of a particle and its inverse.
 template <class Value>
 struct HalfSize {
   Value half, inverse;  // inverse: 1/half
@@ -40,7 +40,7 @@ struct HalfSize {
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE HalfSize(Value size, Value inverse_size) : half(size), inverse(inverse_size) {}
 };
 
-// uGIMP (Bardenhagen and Kober 2004): the linear shape function averaged over the undeformed particle. size: in cells.
+// uGIMP (Bardenhagen and Kober 2004): linear shape function averaged over the undeformed particle. size: in cells.
 template <class Value, class Real>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> ugimp_weights(Value offset,
                                                                       const std::type_identity_t<HalfSize<Value>>& size,
@@ -69,15 +69,15 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> quadratic_weights(Value 
           {-left * inverse_cell, -Real(2) * offset * inverse_cell, right * inverse_cell}};
 }
 
-// Second moment of the weights about the particle, in cells^2: sum w_k (x_k - x_p)^2.
+// Second moment of the weights around the particle, in cells^2: sum w_k (x_k - x_p)^2.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value second_moment(const AxisWeights<Value>& axis, Value offset) {
   return axis.weight[0] + axis.weight[2] - offset * offset;
 }
 
-// The weights with which node velocities make the affine velocity of APIC, in place of the slopes: w_k (x_k - x_p)/D
-// with the second moment D. Linear shape functions have no such weights: their D is 0 at nodes, and a node without
-// weight, and without mass, would have a full say.
+// Weights of APIC, which give the affine velocity from node velocities and replace the slopes: w_k (x_k - x_p)/D with
+// the second moment D. They do not exist for linear shape functions: D is 0 at nodes, and a node without weight, and
+// hence without mass, would contribute fully.
 template <class Value, class Real>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> by_second_moment(const AxisWeights<Value>& axis, Value offset,
                                                                          Real inverse_cell) {
@@ -89,7 +89,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> by_second_moment(const A
   return affine;
 }
 
-// One or the other set of weights, lane by lane.
+// Selects one of two sets of weights, by lane.
 template <class Condition, class Value, std::size_t Width>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value, Width> select(const Condition& condition,
                                                                       const AxisWeights<Value, Width>& a,
@@ -103,8 +103,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value, Width> select(const Cond
   return chosen;
 }
 
-// The shape functions a run may use for momentum; heat and pore pressure always use the linear ones. size: of the
-// particle, in cells. at_side: the nearest node lies on a side of the domain that prescribes velocity.
+// Shape functions available for momentum; heat and pore pressure always use the linear ones. size: of the particle, in
+// cells. at_side: the nearest node lies on a side of the domain that prescribes velocity.
 enum class ShapeKind { ugimp, linear, quadratic };
 
 template <class Real>
@@ -131,8 +131,8 @@ struct Linear {
   }
 };
 
-// In the half cell at a side the spline would need a node beyond it. What the two nodes within say of that one, going
-// on in a straight line, leaves the linear shape functions, which join the spline with one slope.
+// In the half cell at a side, the spline would need a node outside the domain. Linear extrapolation from the two nodes
+// inside gives the linear shape functions, which join the spline with a continuous slope.
 template <class Real>
 struct Quadratic {
   template <class Value, class Condition>
@@ -140,7 +140,7 @@ struct Quadratic {
       Value offset, const std::type_identity_t<HalfSize<Value>>& /*size*/, Condition at_side, Real inverse_cell) {
     return select(at_side, linear_weights(offset, inverse_cell), quadratic_weights(offset, inverse_cell));
   }
-  // D is 1/4; by linear shape functions, w_k (x_k - x_p)/D is the slope.
+  // D is 1/4; with linear shape functions, w_k (x_k - x_p)/D equals the slope.
   template <class Value, class Condition>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> affine(const AxisWeights<Value>& axis, Value offset,
                                                                         Condition at_side, Real inverse_cell) {
@@ -148,7 +148,7 @@ struct Quadratic {
   }
 };
 
-// Calls work(shape) with the shape functions of a kind: once per batch, outside the loop over particles.
+// Calls work(shape) with the shape functions of a kind. Dispatch is outside the loop over particles.
 template <class Real, class Work>
 void with_shape(ShapeKind kind, const Work& work) {
   switch (kind) {

@@ -1,4 +1,4 @@
-// Nodes that the patch of a tile shares with the blocks around it, row by row along the first axis. The particles of a
+// Nodes that the patch of a tile shares with the surrounding blocks, by rows along the first axis. The particles of a
 // tile have nodes in few rows of its patch; only these rows are cleared, summed, read and visited.
 #pragma once
 
@@ -17,14 +17,14 @@ THAWSLIDE_ALWAYS_INLINE void for_each_direction(const Body& body) {
   unrolled<static_cast<std::size_t>(Tile<Dim>::stencil)>(body);
 }
 
-// From a tile in direction d of a block, the block is in the opposite direction.
+// Opposite direction: from a tile in direction d of a block, the block is in this direction.
 template <int Dim>
 constexpr std::size_t opposite(std::size_t direction) {
   return static_cast<std::size_t>(Tile<Dim>::stencil) - 1 - direction;
 }
 
-// The nodes that a patch shares with the block in some direction from its tile: first and last in the block along each
-// axis, and the patch's number of the block's node 0.
+// Nodes that a patch shares with the block in a direction from its tile: first and last in the block along each axis,
+// and place in the patch of the block's node 0.
 struct SharedNodeBox {
   std::array<int, 3> first{}, last{1, 1, 1}, shift{};
 };
@@ -43,7 +43,7 @@ constexpr SharedNodeBox shared_node_box(std::size_t direction) {
   return box;
 }
 
-// Calls visit(block_place, patch_place, count) for each row of nodes that block and patch share.
+// Calls visit(block_place, patch_place, count) for each row of nodes shared by block and patch.
 template <int Dim, std::size_t Direction, class Visit>
 THAWSLIDE_ALWAYS_INLINE void for_shared_rows(const Visit& visit) {
   using T = Tile<Dim>;
@@ -58,13 +58,13 @@ THAWSLIDE_ALWAYS_INLINE void for_shared_rows(const Visit& visit) {
   }
 }
 
-// Returns whether the row of a node of the patch is among `rows`, one bit per row (Tile::rows_from).
+// True if the row of a node of the patch is among `rows`, one bit per row (Tile::rows_from).
 template <int Dim>
 constexpr bool holds_row(std::uint64_t rows, std::size_t in_patch) {
   return (rows >> in_patch / static_cast<std::size_t>(Tile<Dim>::patch_edge) & 1) != 0;
 }
 
-// The rows of a patch that it shares with the block in some direction.
+// Rows of a patch that it shares with the block in a direction.
 template <int Dim, std::size_t Direction>
 constexpr std::uint64_t shared_rows() {
   std::uint64_t rows = 0;
@@ -88,8 +88,7 @@ THAWSLIDE_ALWAYS_INLINE void for_seen_rows(std::uint64_t rows, const Visit& visi
                                       });
 }
 
-// Calls visit(block_place, patch_place) for each node that block and patch share, only for rows among `rows` if these
-// are specified.
+// Calls visit(block_place, patch_place) for each node shared by block and patch, restricted to `rows` if specified.
 template <int Dim, std::size_t Direction, class Visit>
 THAWSLIDE_ALWAYS_INLINE void for_shared_nodes(const Visit& visit, std::uint64_t rows = ~std::uint64_t{0}) {
   for_seen_rows<Dim, Direction>(rows, [&](std::size_t in_block, std::size_t in_patch, std::size_t count) {

@@ -14,16 +14,16 @@ namespace thawslide::mpm {
 namespace {
 
 constexpr std::size_t keys_per_task = 1024;
-// Sorting takes about as long as this many steps lose with all particles out of order.
+// Sorting takes about as long as the slowdown of this number of steps with all particles out of order.
 constexpr double most_scattered = 4;
 constexpr std::size_t none = ~std::size_t{0};
 
-// Places of nodes in the patch of a tile, from their numbers along the axes.
+// Places of nodes in the patch of a tile, from their indices along the axes.
 template <int Dim, class Real>
-BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Lanes<Real>, Dim>& lowest) {
+BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Simd<Real>, Dim>& lowest) {
   using T = Tile<Dim>;
   const typename T::Index tile = T::index(tile_key);
-  Lanes<Real> place = Real(0);
+  Simd<Real> place = Real(0);
   for (int a = Dim - 1; a >= 0; --a) {
     const auto before = static_cast<Real>(tile[static_cast<std::size_t>(a)] * T::edge - 1);
     place = place * Real(T::patch_edge) + (lowest[a] - before);
@@ -31,11 +31,11 @@ BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Lanes<Real>, Di
   BatchNodes<Real> nodes;
   place.store_whole(nodes.first.data());
   nodes.runs = 1;
-  nodes.second_run = 0;
-  for (std::uint8_t lane = 1; lane < lane_count<Real>; ++lane) {
+  nodes.second_run_begin = 0;
+  for (std::uint8_t lane = 1; lane < simd_width<Real>; ++lane) {
     if (nodes.first[lane] != nodes.first[lane - 1u]) {
-      nodes.second_run = nodes.runs == 1 ? lane : nodes.second_run;
-      nodes.runs = nodes.runs == 1 ? 2 : BatchNodes<Real>::many_runs;
+      nodes.second_run_begin = nodes.runs == 1 ? lane : nodes.second_run_begin;
+      nodes.runs = nodes.runs == 1 ? 2 : BatchNodes<Real>::irregular;
     }
   }
   return nodes;
@@ -49,45 +49,45 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
   THAWSLIDE_ASSERT(particles.size() >= keys_.size(), "{} particles are left of {}, and which is not known",
                    particles.size(), keys_.size());
   if (particles.size() > keys_.size()) {
-    note_appended(particles);
+    add_appended(particles);
   }
   blocks_changed_ = false;
   stale_.assign(tiles_.size(), 0);
   if (compute_keys(particles)) {
     merge_moved(particles);
   }
-  if (first_call) {  // never again do all particles move
-    task_movers_ = std::vector<std::vector<Mover>>();
-    movers_ = std::vector<Mover>();
+  if (first_call) {  // later steps move only few particles
+    task_movers_ = std::vector<std::vector<CellChange>>();
+    movers_ = std::vector<CellChange>();
   }
-  const bool sorts = first_call || (interval > 0 && (++calls_ >= interval || scattered_ >= most_scattered));
+  const bool sorts = first_call || (interval > 0 && (++calls_ >= interval || disorder_ >= most_scattered));
   if (sorts) {
     reorder(particles);
   }
   batches_.resize(tiles_.size());
   made_.resize(tiles_.size());
   make_stale_batches(particles);
-  note_order(sorts);
+  update_sort_heuristic(sorts);
 }
 
-// How much the order in memory costs: batches that are not contiguous, beyond those that never are, over the steps
+// Cost of the order in memory: batches that are not contiguous, minus those right after sorting, summed over the steps
 // since the last sorting.
 template <int Dim, class Real>
-void SparseGrid<Dim, Real>::note_order(bool sorted) {
+void SparseGrid<Dim, Real>::update_sort_heuristic(bool sorted) {
   const std::size_t broken =
       std::accumulate(made_.begin(), made_.end(), std::size_t{0},
                       [](std::size_t sum, const MadeBatches& of_tile) { return sum + of_tile.broken; });
   if (sorted) {
     calls_ = 0;
-    scattered_ = 0;
+    disorder_ = 0;
     fewest_broken_ = broken;
   } else if (broken > fewest_broken_) {
-    const std::size_t contiguous = order_.size() / Batch<Real>::most + 1;
-    scattered_ += static_cast<double>(broken - fewest_broken_) / static_cast<double>(contiguous);
+    const std::size_t contiguous = order_.size() / SimdBatch<Real>::most + 1;
+    disorder_ += static_cast<double>(broken - fewest_broken_) / static_cast<double>(contiguous);
   }
 }
 
-// Particles move in memory to stand in canonical order.
+// Sorts particles in memory into canonical order.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::reorder(Particles<Dim, Real>& particles) {
   particles.reorder(order_);
@@ -101,14 +101,14 @@ void SparseGrid<Dim, Real>::reorder(Particles<Dim, Real>& particles) {
   std::fill(stale_.begin(), stale_.end(), std::uint8_t{1});
 }
 
-// Most particles have the nearest node that they had before, and nothing to do.
+// Most particles keep their nearest node and need no update.
 template <int Dim, class Real>
 bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) {
   const std::size_t count = particles.size();
   const std::size_t tasks = (count + keys_per_task - 1) / keys_per_task;
   task_movers_.resize(tasks);
   parallel_for(tasks, [&](std::size_t task) {
-    constexpr std::size_t most = Batch<Real>::most;
+    constexpr std::size_t most = SimdBatch<Real>::most;
     const std::size_t last = std::min(count, (task + 1) * keys_per_task);
     task_movers_[task].clear();
     for (std::size_t first = task * keys_per_task; first < last; first += most) {
@@ -121,18 +121,18 @@ bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) 
       std::fill_n(&moved_[first], most, std::uint8_t{0});
       if (std::memcmp(nearest, &nearest_[first * Dim], sizeof nearest) != 0) {
         std::copy_n(nearest, Dim * most, &nearest_[first * Dim]);
-        note_movers(particles, first, batch.count, task_movers_[task]);
+        add_cell_changes(particles, first, batch.count, task_movers_[task]);
       }
     }
   });
   movers_.clear();
-  for (const std::vector<Mover>& movers : task_movers_) {
+  for (const std::vector<CellChange>& movers : task_movers_) {
     movers_.insert(movers_.end(), movers.begin(), movers.end());
   }
   return !movers_.empty();
 }
 
-// The key of a particle, from its nearest node and the layer of its body.
+// Key of a particle, from its nearest node and the layer of its body.
 template <int Dim, class Real>
 std::uint64_t SparseGrid<Dim, Real>::key_of(const Particles<Dim, Real>& particles, std::size_t particle) const {
   Index node{}, tile{};
@@ -146,10 +146,10 @@ std::uint64_t SparseGrid<Dim, Real>::key_of(const Particles<Dim, Real>& particle
   return (T::in_layer(T::key(tile), layer) << T::node_bits) | static_cast<std::uint64_t>(local);
 }
 
-// The keys of `count` particles from `first` on, from their nearest nodes.
+// Updates the keys of `count` particles from `first` on, from their nearest nodes.
 template <int Dim, class Real>
-void SparseGrid<Dim, Real>::note_movers(const Particles<Dim, Real>& particles, std::size_t first, std::size_t count,
-                                        std::vector<Mover>& movers) {
+void SparseGrid<Dim, Real>::add_cell_changes(const Particles<Dim, Real>& particles, std::size_t first,
+                                             std::size_t count, std::vector<CellChange>& movers) {
   for (std::size_t p = first; p < first + count; ++p) {
     const std::uint64_t key = key_of(particles, p);
     if (key != keys_[p]) {
@@ -160,14 +160,14 @@ void SparseGrid<Dim, Real>::note_movers(const Particles<Dim, Real>& particles, s
   }
 }
 
-// Those that stayed are still in order; those that moved are sorted and merged in.
+// Sorts the particles that changed cell and merges them with the others, which are still in order.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::merge_moved(const Particles<Dim, Real>& particles) {
   const auto before = [&](std::uint32_t a, std::uint32_t b) {
     return keys_[a] != keys_[b] ? keys_[a] < keys_[b] : particles.id(a) < particles.id(b);
   };
   std::sort(movers_.begin(), movers_.end(),
-            [&](const Mover& a, const Mover& b) { return before(a.particle, b.particle); });
+            [&](const CellChange& a, const CellChange& b) { return before(a.particle, b.particle); });
   count_leaving();
   list_tiles();
   former_order_.swap(order_);
@@ -175,7 +175,7 @@ void SparseGrid<Dim, Real>::merge_moved(const Particles<Dim, Real>& particles) {
   parallel_for(tiles_.size(), [&](std::size_t t) { merge_tile(t, before); });
 }
 
-// The order of one tile's particles, from those that stayed in it and those that moved into or within it.
+// Order of one tile's particles, from those that stayed in their cell and those that changed cell or tile.
 template <int Dim, class Real>
 template <class Before>
 void SparseGrid<Dim, Real>::merge_tile(std::size_t t, const Before& before) {
@@ -206,7 +206,7 @@ void SparseGrid<Dim, Real>::merge_tile(std::size_t t, const Before& before) {
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::count_leaving() {
   leaving_.assign(tiles_.size(), 0);
-  for (const Mover& mover : movers_) {
+  for (const CellChange& mover : movers_) {
     if (mover.former_tile != no_key) {
       const auto tile = std::lower_bound(tiles_.begin(), tiles_.end(), mover.former_tile,
                                          [](const OccupiedTile& a, std::uint64_t key) { return a.key < key; });
@@ -215,7 +215,7 @@ void SparseGrid<Dim, Real>::count_leaving() {
   }
 }
 
-// The tiles that hold particles now, from those that did and what the movers left and entered.
+// Lists the occupied tiles, from the former ones and the particles that left or entered.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::list_tiles() {
   former_tiles_.swap(tiles_);
@@ -224,7 +224,7 @@ void SparseGrid<Dim, Real>::list_tiles() {
   bool same = true;
   std::uint32_t placed = 0;
   std::size_t former = 0, mover = 0;
-  const auto tile_of = [&](const Mover& one) { return keys_[one.particle] >> T::node_bits; };
+  const auto tile_of = [&](const CellChange& one) { return keys_[one.particle] >> T::node_bits; };
   while (former < former_tiles_.size() || mover < movers_.size()) {
     const std::uint64_t key = std::min(former < former_tiles_.size() ? former_tiles_[former].key : no_key,
                                        mover < movers_.size() ? tile_of(movers_[mover]) : no_key);
@@ -278,10 +278,11 @@ void SparseGrid<Dim, Real>::make_stale_batches(const Particles<Dim, Real>& parti
   });
 }
 
-// Particles, as many as lanes, that stand side by side in memory go together, the others fill up batches.
+// Forms batches of particles that are consecutive in memory, as many as lanes; the remaining particles fill other
+// batches.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, std::size_t t) {
-  constexpr std::size_t most = Batch<Real>::most;
+  constexpr std::size_t most = SimdBatch<Real>::most;
   const OccupiedTile& tile = tiles_[t];
   const auto material = [&](std::uint32_t k) { return one_material_ ? 0 : particles.material(order_[k]); };
   const auto side_by_side = [&](std::uint32_t k) {
@@ -294,7 +295,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
   auto& batches = batches_[t];
   batches.clear();
   const std::size_t contiguous = (tile.last - tile.first + most - 1) / most;
-  batches.reserve(contiguous + contiguous / 8 + 2);  // some are broken
+  batches.reserve(contiguous + contiguous / 8 + 2);  // some batches are not contiguous
   made_[t] = {};
   for (std::uint32_t k = tile.first; k < tile.last;) {
     TileBatch<Dim, Real> batch;
@@ -308,7 +309,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
     for (std::size_t lane = batch.count; lane < most; ++lane) {
       batch.particle[lane] = batch.particle[batch.count - 1];
     }
-    Vector<Lanes<Real>, Dim> before_nearest;
+    Vector<Simd<Real>, Dim> before_nearest;
     for (int a = 0; a < Dim; ++a) {
       auto& nearest = batch.nearest[static_cast<std::size_t>(a)];
       if (batch.contiguous) {
@@ -317,7 +318,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
       for (std::size_t lane = 0; !batch.contiguous && lane < most; ++lane) {
         nearest[lane] = nearest_[in_nearest(batch.particle[lane], static_cast<std::size_t>(a))];
       }
-      before_nearest[a] = Lanes<Real>::load_whole(nearest.data()) - Real(1);
+      before_nearest[a] = Simd<Real>::load_whole(nearest.data()) - Real(1);
     }
     batch.nodes = nodes_from<Dim, Real>(tile.key, before_nearest);
     batch.nodes.goes_on = false;

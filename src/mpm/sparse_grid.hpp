@@ -1,5 +1,5 @@
-// The background grid, where particles are: which tiles hold particles, in which order particles are visited, and which
-// blocks of nodes they touch. Its cost follows occupied cells, never the bounding box.
+// Sparse background grid: occupied tiles, canonical particle order, and active blocks of nodes. Its cost scales with
+// the number of occupied cells, not with the bounding box.
 #pragma once
 
 #include <algorithm>
@@ -32,44 +32,44 @@ class SparseGrid {
   [[nodiscard]] Real cell() const { return cell_; }
   [[nodiscard]] Real inverse_cell() const { return inverse_cell_; }
 
-  // Brings order, tiles, batches and blocks up to date with the particles' positions. Particles may have been appended
-  // since; which were removed `remove` must have been told. Particles stand by nearest node,
-  // then by id, whatever their place in memory. When many no longer stand in memory in this order, and every `interval`
-  // calls, they are moved to do so; with an interval of 0 at the first call only.
+  // Updates order, tiles, batches and blocks to the particle positions. Appended particles are added; removed ones must
+  // have been passed to `remove`. The canonical order is by nearest node, then by id, independent of the order in
+  // memory. Particles are sorted in memory if many are out of order and every `interval` calls; with an interval of 0,
+  // at the first call only.
   void update(Particles<Dim, Real>& particles, int interval);
 
-  // Follows Particles::remove, with what that returned.
+  // Follows Particles::remove. now_at: its result.
   void remove(const Particles<Dim, Real>& particles, const std::vector<std::uint32_t>& now_at);
 
-  // Of a grid that no particles come to: its active blocks, by ascending key.
+  // Sets the active blocks of a grid without particles, by ascending key.
   void set_blocks(std::vector<std::uint64_t> keys);
 
   // Particle indices in canonical order.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
   [[nodiscard]] const std::vector<OccupiedTile>& tiles() const { return tiles_; }
-  // The particles of tile t in batches, in canonical order.
+  // Batches of tile t, in canonical order.
   [[nodiscard]] const std::vector<TileBatch<Dim, Real>>& batches(std::size_t t) const { return batches_[t]; }
   // Rows of tile t's patch (Tile::rows_from) in which its particles have nodes.
   [[nodiscard]] std::uint64_t rows_seen(std::size_t t) const { return made_[t].rows_seen; }
   // Keys of the active blocks: occupied tiles and their neighbours, ascending.
   [[nodiscard]] const std::vector<std::uint64_t>& blocks() const { return blocks_; }
-  // The number of the active block with a key, or KeyIndex::absent.
+  // Number of the active block with a key, or KeyIndex::absent.
   [[nodiscard]] std::int32_t block_at(std::uint64_t key) const { return block_number_.find(key); }
-  // True if the last update changed the set of blocks (block numbers then changed too).
+  // True if the last update changed the set of blocks, and hence the block numbers.
   [[nodiscard]] bool blocks_changed() const { return blocks_changed_; }
-  // For the 3^Dim neighbours of block b in order: the number of the occupied tile there, or KeyIndex::absent.
+  // For the 3^Dim neighbours of block b in order: number of the occupied tile there, or KeyIndex::absent.
   [[nodiscard]] const std::int32_t* tiles_about_block(std::size_t b) const { return &tiles_about_block_[b * stencil]; }
-  // For the 3^Dim neighbours of tile t in order: the number of the block there.
+  // For the 3^Dim neighbours of tile t in order: number of the block there.
   [[nodiscard]] const std::int32_t* blocks_about_tile(std::size_t t) const { return &blocks_about_tile_[t * stencil]; }
 
-  // For the 3^Dim neighbours of block b in order: the number of the active block there, or KeyIndex::absent.
+  // For the 3^Dim neighbours of block b in order: number of the active block there, or KeyIndex::absent.
   [[nodiscard]] const std::int32_t* blocks_about_block(std::size_t b) const {
     return &blocks_about_block_[b * stencil];
   }
 
-  // Marks the blocks about marked tiles, all whose nodes particles of these tiles may see.
+  // Marks the blocks around marked tiles, which contain all nodes in reach of their particles.
   void mark_blocks_about(const std::vector<std::uint8_t>& tiles, std::vector<std::uint8_t>& blocks) const;
-  // Whether a block about tile t is marked.
+  // True if a block around tile t is marked.
   [[nodiscard]] bool any_about_tile(std::size_t t, const std::vector<std::uint8_t>& blocks) const {
     const std::int32_t* about = blocks_about_tile(t);
     return std::any_of(about, about + stencil,
@@ -78,19 +78,19 @@ class SparseGrid {
 
  private:
   static constexpr std::size_t stencil = static_cast<std::size_t>(T::stencil);
-  // Of a particle that no step has seen yet: the number of its nearest node, and its key.
+  // Nearest node and key of a new particle.
   static constexpr std::int32_t never = std::numeric_limits<std::int32_t>::min();
   static constexpr std::uint64_t no_key = ~std::uint64_t{0};
 
-  // A particle that has another nearest node than at the last call, and the tile that it was in then.
-  struct Mover {
+  // Particle whose nearest node has changed since the last call, and its former tile.
+  struct CellChange {
     std::uint32_t particle;
     std::uint64_t former_tile;
   };
-  // What becomes of a tile: its former number, or none, and the movers it gets.
+  // Change of a tile: its former number, or none, and the particles that moved into or within it.
   struct TileChange {
     std::size_t former, first_mover, last_mover;
-    bool changed;  // some of its particles came, left or moved within
+    bool changed;  // a particle entered, left or moved within
   };
 
   // Properties of a tile's batches.
@@ -99,44 +99,44 @@ class SparseGrid {
     std::uint32_t broken;  // batches that are not contiguous
   };
 
-  void note_appended(const Particles<Dim, Real>& particles);
+  void add_appended(const Particles<Dim, Real>& particles);
   void drop_from_tiles(const std::vector<std::uint32_t>& now_at);
   bool compute_keys(const Particles<Dim, Real>& particles);
   [[nodiscard]] std::uint64_t key_of(const Particles<Dim, Real>& particles, std::size_t particle) const;
-  void note_movers(const Particles<Dim, Real>& particles, std::size_t first, std::size_t count,
-                   std::vector<Mover>& movers);
+  void add_cell_changes(const Particles<Dim, Real>& particles, std::size_t first, std::size_t count,
+                        std::vector<CellChange>& movers);
   void merge_moved(const Particles<Dim, Real>& particles);
   template <class Before>
   void merge_tile(std::size_t t, const Before& before);
   void count_leaving();
   void list_tiles();
   void reorder(Particles<Dim, Real>& particles);
-  void note_order(bool sorted);
+  void update_sort_heuristic(bool sorted);
   void list_blocks();
   void connect_blocks();
   void make_stale_batches(const Particles<Dim, Real>& particles);
   void make_batches(const Particles<Dim, Real>& particles, std::size_t t);
-  // Place in nearest_ of a particle's number along an axis: as many particles as lanes side by side, axis after axis.
+  // Place in nearest_ of a particle's index along an axis: groups of as many particles as lanes, axis by axis.
   static std::size_t in_nearest(std::size_t particle, std::size_t axis) {
-    constexpr std::size_t most = Batch<Real>::most;
+    constexpr std::size_t most = SimdBatch<Real>::most;
     return (particle / most * Dim + axis) * most + particle % most;
   }
 
   Real cell_, inverse_cell_;
   std::vector<std::uint8_t> layer_of_body_;
   std::vector<std::uint64_t> keys_;    // by particle: tile key, then place in the tile
-  std::vector<std::int32_t> nearest_;  // by batch in memory, axis and lane: the nearest node
+  std::vector<std::int32_t> nearest_;  // by batch in memory, axis and lane: nearest node
   bool one_material_ = true;
   std::vector<std::uint8_t> moved_;
   ReorderBuffer reorder_buffer_;
-  std::vector<std::vector<Mover>> task_movers_;
-  std::vector<Mover> movers_;
+  std::vector<std::vector<CellChange>> task_movers_;
+  std::vector<CellChange> movers_;
   std::vector<std::uint32_t> order_, former_order_;
   std::vector<OccupiedTile> tiles_, former_tiles_;
-  std::vector<std::uint32_t> leaving_;                      // movers by former tile
+  std::vector<std::uint32_t> leaving_;                      // particles that left, by former tile
   std::vector<TileChange> changes_;                         // by tile
   std::vector<std::vector<TileBatch<Dim, Real>>> batches_;  // by tile
-  std::vector<std::uint8_t> stale_;                         // by tile: its batches are to be made anew
+  std::vector<std::uint8_t> stale_;                         // by tile: its batches must be rebuilt
   std::vector<std::uint64_t> blocks_;
   KeyIndex tile_number_, block_number_;
   std::vector<std::int32_t> tiles_about_block_, blocks_about_tile_, blocks_about_block_;
@@ -144,7 +144,7 @@ class SparseGrid {
   int calls_ = 0;                  // since particles were sorted in memory
   std::vector<MadeBatches> made_;  // by tile
   std::size_t fewest_broken_ = 0;  // right after the last sorting
-  double scattered_ = 0;           // cost of the order since then: see note_order
+  double disorder_ = 0;            // cost of the order since then: see update_sort_heuristic
 };
 
 }  // namespace thawslide::mpm

@@ -1,4 +1,4 @@
-// The active blocks of nodes, and what lies about them.
+// Active blocks of nodes and their neighbours.
 #include <utility>
 
 #include "base/instances.hpp"
@@ -9,7 +9,7 @@ namespace thawslide::mpm {
 
 namespace {
 
-// The key of the tile next to one in a direction, in the same layer.
+// Key of the adjacent tile in a direction, in the same layer.
 template <int Dim>
 std::uint64_t neighbour(std::uint64_t key, int direction) {
   typename Tile<Dim>::Index other = Tile<Dim>::index(key);
@@ -20,7 +20,7 @@ std::uint64_t neighbour(std::uint64_t key, int direction) {
   return Tile<Dim>::in_layer(Tile<Dim>::key(other), Tile<Dim>::layer(key));
 }
 
-// By neighbour of each of the tiles or blocks, in order: its number among others, or KeyIndex::absent.
+// For each neighbour of each tile or block, in order: its number among `others`, or KeyIndex::absent.
 template <int Dim, class KeyOf>
 void find_about(std::size_t count, const KeyOf& key_of, const KeyIndex& others, std::vector<std::int32_t>& about) {
   using T = Tile<Dim>;

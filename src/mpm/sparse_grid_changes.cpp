@@ -1,16 +1,16 @@
-// Particles that come and go between two steps.
+// Particles added and removed between two steps.
 #include "base/instances.hpp"
 #include "mpm/sparse_grid.hpp"
 
 namespace thawslide::mpm {
 
-// Particles beyond those known have no nearest node yet.
+// New particles have no nearest node yet.
 template <int Dim, class Real>
-void SparseGrid<Dim, Real>::note_appended(const Particles<Dim, Real>& particles) {
+void SparseGrid<Dim, Real>::add_appended(const Particles<Dim, Real>& particles) {
   const std::size_t before = keys_.size(), count = particles.size();
   keys_.resize(count, no_key);
-  moved_.resize(count + Batch<Real>::most, 0);
-  nearest_.resize((count + Batch<Real>::most) * Dim, never);
+  moved_.resize(count + SimdBatch<Real>::most, 0);
+  nearest_.resize((count + SimdBatch<Real>::most) * Dim, never);
   for (std::size_t p = before; p < count; ++p) {
     for (std::size_t a = 0; a < Dim; ++a) {
       nearest_[in_nearest(p, a)] = never;
@@ -31,15 +31,14 @@ void SparseGrid<Dim, Real>::remove(const Particles<Dim, Real>& particles, const 
     }
   }
   keys_.resize(count);
-  moved_.resize(count + Batch<Real>::most);
-  nearest_.resize((count + Batch<Real>::most) * Dim);
+  moved_.resize(count + SimdBatch<Real>::most);
+  nearest_.resize((count + SimdBatch<Real>::most) * Dim);
   drop_from_tiles(now_at);
   order_.resize(count);
   make_stale_batches(particles);
 }
 
-// Order and tiles without the particles that are nowhere now; stale are the tiles whose particles are others or stand
-// elsewhere in memory.
+// Drops removed particles from order and tiles. Tiles are stale if their particles changed or moved in memory.
 template <int Dim, class Real>
 void SparseGrid<Dim, Real>::drop_from_tiles(const std::vector<std::uint32_t>& now_at) {
   std::uint32_t placed = 0;
@@ -74,8 +73,8 @@ void SparseGrid<Dim, Real>::drop_from_tiles(const std::vector<std::uint32_t>& no
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                           \
-  template void SparseGrid<Dim, Real>::note_appended(const Particles<Dim, Real>&); \
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                          \
+  template void SparseGrid<Dim, Real>::add_appended(const Particles<Dim, Real>&); \
   template void SparseGrid<Dim, Real>::remove(const Particles<Dim, Real>&, const std::vector<std::uint32_t>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

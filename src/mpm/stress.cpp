@@ -9,7 +9,7 @@ namespace thawslide::mpm {
 template <int Dim, class Real>
 StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
                                             const MotionModel<Dim, Real>& model, Real dt, Nodes<Dim, Real>& nodes,
-                                            BadParticle& bad) {
+                                            InvalidParticle& invalid) {
   StressWork<Real> work;
   with_shape<Real>(model.shape, [&](auto shape) {
     const MomentumWeights<decltype(shape), Dim, Real> weights{model.sizes, model.sides};
@@ -19,7 +19,7 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
       return std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, update));
     });
     work = deformed.work;
-    bad += deformed.bad;
+    invalid += deformed.invalid;
   });
   return work;
 }
@@ -27,7 +27,7 @@ StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, P
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                               \
   template StressWork<Real> update_stress_and_porosity<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&, \
                                                                   const MotionModel<Dim, Real>&, Real,                 \
-                                                                  Nodes<Dim, Real>&, BadParticle&);
+                                                                  Nodes<Dim, Real>&, InvalidParticle&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -1,4 +1,4 @@
-// What a particle does in update_stress_and_porosity: kernels (mpm/kernel.hpp).
+// Particle kernels (mpm/kernel.hpp) of update_stress_and_porosity.
 #pragma once
 
 #include <cmath>
@@ -22,20 +22,20 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value double_contraction(const SymmetricTen
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + Value(2) * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
-// What comes of the particles' strain: energies, and the bad particle of smallest id.
+// Results of straining: energies, and the invalid particle of smallest id.
 template <class Real>
 struct Deformed {
   StressWork<Real> work;
-  BadParticle bad;
+  InvalidParticle invalid;
 
   THAWSLIDE_HD Deformed& operator+=(const Deformed& part) {
     work += part.work;
-    bad += part.bad;
+    invalid += part.invalid;
     return *this;
   }
 };
 
-// Strain, rotation, stress, volume and porosity (Eqs. 6, 11) from the mapped-back velocities, of particles of one
+// Strain, rotation, stress, volume and porosity (Eqs. 6, 11) from the mapped-back velocities, for particles of one
 // material with the constitutive law Law.
 template <int Dim, class Real, class Law, class Width = EvenWidth>
 struct Deform {
@@ -48,13 +48,13 @@ struct Deform {
   const physics::Phases<Real>& phases;
   bool gaps_close_first;  // physics/tension_gap.hpp
   Real viscosity_time;    // Kelvin-Voigt [s]
-  bool effective_stress;  // the pore pressure acts inside the body too
+  bool effective_stress;  // pore pressure also acts inside the body
   Real dt;
   Width width{};
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& /*added*/, Account& account) const {
+                                                       Scatter& /*added*/, Account& account) const {
     using Value = typename At::Value;
     using Tensor = SymmetricTensor<Value>;
     const auto velocity = seen.template read<Velocity, Dim>();
@@ -96,12 +96,12 @@ struct Deform {
     }
     particles.porosity.store(
         at, physics::updated_porosity(phases, particles.porosity.load(at), volume_strain, Value(Real(0))));
-    note_bad_volumes(particles, at, account.bad);
+    record_inverted(particles, at, account.invalid);
   }
 
  private:
-  // The strain across, as the others on the middle configuration, follows the velocity whose work the force of the
-  // walls does; the volume follows the displacement, so that volume over width is the area of the section.
+  // The strain across the section, like the others on the middle configuration, uses the velocity conjugate to the wall
+  // force. The volume uses the displacement; volume over width is then the area in the section.
   template <class Particles, class At, class Value, class Increment>
   THAWSLIDE_ALWAYS_INLINE void stretch_across(const Particles& particles, const At& at, const Value& velocity,
                                               Increment& increment) const {
@@ -112,7 +112,7 @@ struct Deform {
         increment.volume_ratio * width.at(Value(x + particles.step_displacement.load(at, 0))) / width.at(x);
   }
 
-  // The stress that follows from an elastic trial stress.
+  // Maps an elastic trial stress to the admissible stress.
   template <class Particles, class At, class Tensor, class Value>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void admit(Particles& particles, const At& at, Tensor& stress,
                                                   Value& plastic_work_density, Value& opening) const {
@@ -130,22 +130,21 @@ struct Deform {
   }
 
   template <class Particles, class At>
-  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static void note_bad_volumes(const Particles& particles, const At& at,
-                                                                    BadParticle& bad) {
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static void record_inverted(const Particles& particles, const At& at,
+                                                                   InvalidParticle& invalid) {
     if (!any(!(particles.volume.load(at) > Real(0)))) {
       return;
     }
     at.for_each([&](std::uint32_t p) {
       if (!(particles.volume(p) > Real(0))) {
-        bad.note(particles.id(p),
-                 std::isnan(particles.volume(p)) ? Fault::volume_not_finite : Fault::volume_not_positive);
+        invalid.record(particles.id(p),
+                       std::isnan(particles.volume(p)) ? Fault::volume_not_finite : Fault::volume_not_positive);
       }
     });
   }
 };
 
-// The same for particles of any material: the processor chooses the law, batch by batch, since a batch is of one
-// material.
+// The same for particles of any material. The CPU selects the law per batch, because a batch has one material.
 template <int Dim, class Real, class Width = EvenWidth>
 struct UpdateStress {
   using Reads = RecordList<Velocity>;
@@ -158,8 +157,8 @@ struct UpdateStress {
   Real dt;
   Width width{};
 
-  template <class Particles, class At, class Seen, class Added>
-  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Added& added,
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
                                           Account& account) const {
     const MaterialModel<Real>& material = materials[static_cast<std::size_t>(particles.material(at.particle[0]))];
     const auto deform = [&]<class Law>(const Law& law) {

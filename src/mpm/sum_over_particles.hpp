@@ -1,4 +1,4 @@
-// Sums over all particles, in an order that does not depend on how many threads there are.
+// Sums over all particles in an order independent of the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace thawslide::mpm {
 
-// of_particle(p): what particle p brings. In canonical order tile by tile, and then tiles as base/sum_order.hpp has it:
-// as a device sums.
+// of_particle(p): contribution of particle p. The order is canonical within tiles, and that of base/sum_order.hpp over
+// tiles, as on a device.
 template <class Sum, int Dim, class Real, class OfParticle>
 [[nodiscard]] Sum sum_over_particles(const SparseGrid<Dim, Real>& grid, const OfParticle& of_particle) {
   return parallel_sum<Sum>(grid.tiles().size(), [&](std::size_t t, Sum& sum) {

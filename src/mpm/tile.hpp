@@ -1,5 +1,5 @@
-// Tiles: squares (2D) or cubes (3D) of 4 nodes a side. Tiles with particles own a patch, one node wider on each side,
-// to which their particles alone add; sums over patches go in fixed order, so results do not depend on the thread
+// Tiles: squares (2D) or cubes (3D) of 4 nodes per side. Each occupied tile has a patch, one node wider on each side,
+// to which only its particles add. Patches are summed in a fixed order; results are therefore independent of the thread
 // count.
 #pragma once
 
@@ -31,12 +31,12 @@ struct Tile {
 
   using Index = std::array<int, Dim>;
 
-  // Tiles hold up to 2^18 per axis, offset so that indices down to -2^17 are valid.
+  // Tiles have up to 2^18 indices per axis, offset so that indices down to -2^17 are valid.
   static constexpr int axis_bits = 18;
   static constexpr int axis_offset = 1 << (axis_bits - 1);
 
-  // Bodies that do not share nodes have tiles of their own at the same place: their keys differ in the layer, above the
-  // bits of the axes. One layer less than the bits can hold, so that no key has all bits set.
+  // Bodies that do not share nodes have separate tiles at the same place. Their keys differ in the layer, above the
+  // bits of the axes. One layer less than the bits allow, so that no key has all bits set.
   static constexpr int layer_shift = Dim * axis_bits;
   static constexpr std::size_t most_layers = 15;
   THAWSLIDE_HD static std::uint64_t layer(std::uint64_t key) { return key >> layer_shift; }
@@ -70,12 +70,12 @@ struct Tile {
       local = local * edge + (i & (edge - 1));
     }
   }
-  // The node `shift` nodes further along an axis from the local node of a tile, |shift| < edge: the tile it lies in, by
-  // its direction from this one, and its place there.
-  struct Beside {
+  // Node `shift` nodes further along an axis from a local node of a tile, |shift| < edge: direction of its tile from
+  // this one, and place in that tile.
+  struct Adjacent {
     int direction, local;
   };
-  THAWSLIDE_HD static Beside beside(int local, int axis, int shift) {
+  THAWSLIDE_HD static Adjacent adjacent(int local, int axis, int shift) {
     const int along = ((local >> (axis * edge_bits)) & (edge - 1)) + shift;
     const int tile = along >> edge_bits;  // rounds down
     return {stencil / 2 + tile * power(3, axis), local + (shift - tile * edge) * power(edge, axis)};
@@ -107,7 +107,7 @@ struct Tile {
   }
 };
 
-// Node numbers along each axis of the sides of the domain that prescribe velocity.
+// Node indices along each axis of the sides of the domain that prescribe velocity.
 template <int Dim>
 struct HeldSides {
   static constexpr int none = std::numeric_limits<int>::min();

@@ -1,5 +1,5 @@
-// Moving numbers between particles and nodes: what a tile's particles add to, its patch; what nodes hold; what a tile's
-// particles read. A record is the `Components` numbers a node holds for one purpose, side by side.
+// Transfer between particles and nodes: patches, to which the particles of a tile add and from which they read, and
+// nodal records. A record is the `Components` consecutive numbers of a node for one purpose.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 #include "base/aligned.hpp"
 #include "base/error.hpp"
-#include "base/lanes.hpp"
 #include "base/parallel.hpp"
+#include "base/simd.hpp"
 #include "mpm/reading.hpp"
 #include "mpm/records.hpp"
 #include "mpm/shared_rows.hpp"
@@ -24,11 +24,11 @@
 
 namespace thawslide::mpm {
 
-// The widest register that records fill.
+// Widest register that divides a record.
 template <class Real, int Components>
-using RecordRegister = Lanes<Real, record_size(Components) % lane_count<Real> == 0 ? lane_count<Real> : record_step>;
+using RecordRegister = Simd<Real, record_size(Components) % simd_width<Real> == 0 ? simd_width<Real> : record_step>;
 
-// The records about one tile, with a margin of one node.
+// Records around one tile, with a margin of one node.
 template <int Dim, class Real, int Components>
 struct Patch {
   using Record = std::array<Real, record_size(Components)>;
@@ -58,8 +58,8 @@ struct Patch {
   }
 };
 
-// Room for the patches of one stage at a time: what a stage has summed into its nodes, the next one overwrites.
-class PatchRoom {
+// Memory for the patches of one stage at a time; the next stage overwrites them after they have been summed.
+class PatchPool {
  public:
   template <class AnyPatch>
   [[nodiscard]] std::span<AnyPatch> take(std::size_t tiles) {
@@ -73,21 +73,21 @@ class PatchRoom {
   AlignedVector<std::byte> bytes_;
 };
 
-// A node of the grid: its block, and its place there.
+// Node of the grid: its block, and its place there.
 struct NodeAt {
   std::size_t block, node;
 };
 
-// One record a node of every active block, and the patches that are summed into it.
+// One record per node of every active block, and the patches that are summed into it.
 template <int Dim, class Real, int Components>
 class NodeRecords {
  public:
   using Record = std::array<Real, record_size(Components)>;
   static constexpr std::size_t nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
 
-  // Without room for patches: what nodes work out for themselves, or sum from the patches of others.
+  // Without memory for patches: for records that nodes compute, or sum from the patches of others.
   NodeRecords() = default;
-  explicit NodeRecords(std::shared_ptr<PatchRoom> room) : room_(std::move(room)) {}
+  explicit NodeRecords(std::shared_ptr<PatchPool> room) : room_(std::move(room)) {}
 
   [[nodiscard]] Record& operator()(std::size_t block, std::size_t node) { return records_[block * nodes + node]; }
   [[nodiscard]] const Record& operator()(std::size_t block, std::size_t node) const {
@@ -98,19 +98,19 @@ class NodeRecords {
   [[nodiscard]] Record* of_block(std::size_t block) { return &records_[block * nodes]; }
   void resize(std::size_t blocks) { resize_sparingly(records_, blocks * nodes); }
 
-  // Patches for the tiles, to be cleared and filled by whoever works on a tile, and to be summed before other records
-  // of the same room ask for theirs.
+  // Patches of the tiles. The caller must clear and fill them, and sum them before other records with the same memory
+  // request theirs.
   [[nodiscard]] std::span<Patch<Dim, Real, Components>> patches(std::size_t tiles) {
-    THAWSLIDE_ASSERT(room_ != nullptr, "{} components without room for patches", Components);
+    THAWSLIDE_ASSERT(room_ != nullptr, "{} components without memory for patches", Components);
     return room_->take<Patch<Dim, Real, Components>>(tiles);
   }
 
  private:
   AlignedVector<Record> records_;
-  std::shared_ptr<PatchRoom> room_;
+  std::shared_ptr<PatchPool> room_;
 };
 
-// One record a node of the active blocks that are asked for; those of other blocks read as zeros.
+// One record per node of selected active blocks; those of other blocks read as zeros.
 template <int Dim, class Real, int Components>
 class SparseRecords {
  public:
@@ -118,9 +118,9 @@ class SparseRecords {
   static constexpr std::size_t nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
 
   SparseRecords() = default;
-  explicit SparseRecords(std::shared_ptr<PatchRoom> room) : records_(std::move(room)) {}
+  explicit SparseRecords(std::shared_ptr<PatchPool> room) : records_(std::move(room)) {}
 
-  // Holds the blocks, of so many, for which holds(block) is true; what is in them then is any numbers.
+  // Selects the blocks for which holds(block) is true; their contents are undefined. blocks: number of active blocks.
   template <class Holds>
   void hold(std::size_t blocks, const Holds& holds) {
     resize_sparingly(place_, blocks);
@@ -145,7 +145,7 @@ class SparseRecords {
   [[nodiscard]] std::span<Patch<Dim, Real, Components>> patches(std::size_t tiles) { return records_.patches(tiles); }
 
  private:
-  NodeRecords<Dim, Real, Components> records_;  // zeros, then the blocks that are held
+  NodeRecords<Dim, Real, Components> records_;  // zeros, then the selected blocks
   std::vector<std::uint32_t> place_;            // by block
 };
 
@@ -163,13 +163,13 @@ std::uint32_t rows_seen_in_block(const SparseGrid<Dim, Real>& grid, std::size_t 
   return seen;
 }
 
-// Sums patches at the nodes of one block, from the tiles for which takes(t) is true, always in the same order: the
-// block's own tile, then those around it. Only rows in which a patch's own particles have nodes are added. Returns the
-// rows of the block in which particles of any tile have nodes, one bit per row; other records are not computed.
-template <int Dim, class Real, int Components, class Takes>
+// Sums patches at the nodes of one block, from the tiles for which accepts(t) is true, in a fixed order: the block's
+// own tile, then those around it. Only rows in which a patch's own particles have nodes are added. Returns the rows of
+// the block in which particles of any tile have nodes, one bit per row; other records are not computed.
+template <int Dim, class Real, int Components, class TileFilter>
 std::uint32_t sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
                                    std::span<Patch<Dim, Real, Components>> patches,
-                                   typename Patch<Dim, Real, Components>::Record* records, const Takes& takes) {
+                                   typename Patch<Dim, Real, Components>::Record* records, const TileFilter& accepts) {
   using Record = typename Patch<Dim, Real, Components>::Record;
   using Register = RecordRegister<Real, Components>;
   constexpr std::size_t size = std::tuple_size_v<Record>, edge = static_cast<std::size_t>(Tile<Dim>::edge);
@@ -185,7 +185,7 @@ std::uint32_t sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_
     if ((rows & shared_rows<Dim, opposite<Dim>(d)>()) == 0) {
       return;
     }
-    if (!takes(tile)) {
+    if (!accepts(tile)) {
       seen |= rows_in_block<Dim, d>(rows);
       return;
     }
@@ -228,7 +228,7 @@ std::uint32_t sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_
   return seen;
 }
 
-// Same at the nodes of all blocks, with 0 in rows without nodes of particles. Calls then(block) after each sum.
+// The same at the nodes of all blocks, with 0 in rows without nodes of particles. Calls then(block) after each sum.
 template <int Dim, class Real, int Components, class Then>
 void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Components>& nodes, const Then& then) {
   constexpr std::size_t edge = static_cast<std::size_t>(Tile<Dim>::edge);
@@ -249,18 +249,18 @@ void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Compo
   sum_patches(grid, nodes, [](std::size_t /*block*/) {});
 }
 
-// Of one component at the nodes of one block: the smallest number that the patches hold of the tiles that
-// takes(t) names, or the largest there is.
-template <std::size_t Component, int Dim, class Real, int Components, class Takes>
+// Minimum of one component at the nodes of one block, over the patches of the tiles for which accepts(t) is true; the
+// largest number if there are none.
+template <std::size_t Component, int Dim, class Real, int Components, class TileFilter>
 void take_smallest_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
                             std::span<Patch<Dim, Real, Components>> patches,
-                            typename Patch<Dim, Real, Components>::Record* records, const Takes& takes) {
+                            typename Patch<Dim, Real, Components>::Record* records, const TileFilter& accepts) {
   for (std::size_t k = 0; k < NodeRecords<Dim, Real, Components>::nodes; ++k) {
     records[k][Component] = std::numeric_limits<Real>::max();
   }
   const std::int32_t* tiles = grid.tiles_about_block(block);
   for_each_direction<Dim>([&](auto d) {
-    if (tiles[d] != KeyIndex::absent && takes(static_cast<std::size_t>(tiles[d]))) {
+    if (tiles[d] != KeyIndex::absent && accepts(static_cast<std::size_t>(tiles[d]))) {
       const auto& patch = patches[static_cast<std::size_t>(tiles[d])];
       for_shared_nodes<Dim, opposite<Dim>(d)>(
           [&](std::size_t in_block, std::size_t in_patch) {
@@ -292,7 +292,7 @@ void load_patch(const SparseGrid<Dim, Real>& grid, std::size_t t, const Records<
   });
 }
 
-// Calls visit(place, weight, gradient) for each of the Width^Dim nodes, `first` being the place of the lowest.
+// Calls visit(place, weight, gradient) for each of the Width^Dim nodes. first: place of the lowest node.
 template <int Dim, class Value, std::size_t Width, class Visit>
 THAWSLIDE_ALWAYS_INLINE void for_each_node(
     const std::array<AxisWeights<Value, Width>, static_cast<std::size_t>(Dim)>& axis, std::size_t first,

@@ -1,5 +1,5 @@
-// Vectors in the records of nodes. They go in and out whole, never component by component: a vector put together in
-// memory stalls its next use.
+// Vectors in nodal records. They are loaded and stored as a whole: assembling a vector from components in memory stalls
+// its next use.
 #pragma once
 
 #include <cstddef>

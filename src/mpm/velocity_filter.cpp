@@ -9,7 +9,8 @@ namespace thawslide::mpm {
 
 namespace {
 
-// Sums what particles brought, and makes the next increments of it: the fit itself, or what the last ones are short of.
+// Sums the particle contributions, and computes the next increments: the fit itself, or the last increment minus the
+// fit.
 template <int Dim, class Real>
 void make_increments(const SparseGrid<Dim, Real>& grid, bool first, Nodes<Dim, Real>& nodes) {
   const Real least = least_square_of<Real>(grid.cell());
@@ -42,7 +43,7 @@ Real filter_velocities(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& 
       pass(SweepFilter<Dim, Real>{});
       make_increments(grid, false, nodes);
     }
-    gained = pass(TakeFiltered<Dim, Real>{});
+    gained = pass(ApplyFiltered<Dim, Real>{});
   });
   return gained;
 }

@@ -1,18 +1,20 @@
-// A column through the base of a slide: ground, shear band and the body above it, per area of the base. It belongs to a
-// piece of the base and moves with it. Its cells lie along the normal; those of the band share its true thickness e,
-// those above and below grow with the distance from it: above by a ratio that keeps the column within the slide.
-//   heat      d(A H)/dt = A (eta tau v over e - div q_T) + what comes in,   q_T = -k grad T
-//   water     d(A w)/dt = -A div (rho_L q) + what comes in - steam,         q = -(k_L/gamma_w) grad P
+// Column through the base of the sliding mass: ground, shear band and the body above, per area of the base. It belongs
+// to a basal segment and moves with it. Its cells are stacked along the normal. Those of the band divide its true
+// thickness e; the heights of those above and below grow with the distance from it, above by a ratio that keeps the
+// column within the sliding mass.
+//   heat      d(A H)/dt = A (eta tau v over e - div q_T) + inflow,         q_T = -k grad T
+//   water     d(A w)/dt = -A div (rho_L q) + inflow - steam,               q = -(k_L/gamma_w) grad P
 //   surplus   theta = v (1 + integral of beta_L dT) - n + (1 - n) beta_S (T - Tref) + m_v (N - N_thaw) + S_s P_thaw,
 //             v = w/(rho_L dz) the volume of water, integrals from Tref on
 //   pressure  P = theta/S_s within P_steam <= P <= N,   S_s = n/K_L + m_v
-// H is the enthalpy [J/m2] and w the ice and water [kg/m2] of a cell, A the area of the piece. Water that needs more
-// room than there is at P = N lifts the slide (opening); water that does not fill its pores leaves a void. Both follow
-// from w, so that no water is lost. Melting makes a void: n (1 - rho_I/rho_L) of the volume. A void holds steam at the
-// pressure P_steam at which the water boils, less that of the air, and none below 100 C; steam that carries the load
-// escapes. Frozen matter has P = 0 and lets no water through; on thawing P is P_thaw = max(0, N - s0) less what the
-// void takes (Morgenstern and Nixon 1971). As the piece stretches or the band grows, the cells take in what lies above
-// them, and the body gives the rest; shear mixes the band. In place of Eqs. 19 and 23; docs/theory, chapter 16.
+// H is the enthalpy [J/m2] and w the ice and water [kg/m2] of a cell, A the area of the segment. Water that exceeds the
+// pore space at P = N lifts the sliding mass (opening); water that does not fill its pores leaves a void. Both follow
+// from w, which conserves water. Melting creates a void: n (1 - rho_I/rho_L) of the volume. A void contains steam at
+// the pressure P_steam at which the water boils, relative to the atmosphere, and none below 100 C; steam that carries
+// the load escapes. Frozen material has P = 0 and is impermeable; on thawing, P is P_thaw = max(0, N - s0) minus the
+// part relieved by the void (Morgenstern and Nixon 1971). As the segment stretches or the band grows, the cells take in
+// the material above them, and the body supplies the rest; shear mixes the band. Replaces Eqs. 19 and 23; docs/theory,
+// chapter 16.
 #pragma once
 
 #include "physics/boiling.hpp"
@@ -29,9 +31,9 @@ struct ColumnCells {
   static constexpr int all = ground + slide;
 };
 
-// What the water of melted cells meets at frozen ones, and at the top of the column.
+// Boundary condition for water of melted cells at frozen cells, and at the top of the column.
 enum class EndOfWater {
-  sealed,  // nothing passes
+  sealed,  // impermeable
   vented   // air, at P = 0
 };
 
@@ -45,7 +47,7 @@ struct ColumnModel {
   Real skeleton_compressibility = 0;  // m_v [1/Pa]
   Real residual_stress = 0;           // s0 [Pa]; at N or above: no excess pressure on thawing
   EndOfWater at_frozen = EndOfWater::sealed, at_top = EndOfWater::vented;
-  Real water_to_steam_viscosity = 0;  // ratio; 0: steam does not seep
+  Real water_to_steam_viscosity = 0;  // ratio; 0: no seepage of steam
   bool latent = true, conduction = true, seepage = true, pressurization = true, steam = true;
   Real ground_conductivity = 0;  // [W/m/K]
   Real ground_capacity = 0;      // [J/m3/K]
@@ -57,16 +59,16 @@ struct ColumnModel {
 template <class Real>
 struct BandColumn {
   Real thickness;                      // of the band, e [m]
-  Real cell_growth;                    // r: height of a cell above the band over that of the one below it
+  Real cell_growth;                    // r: height ratio of a cell above the band to the one below it
   Real heat[ColumnCells::all];         // H [J/m2]
-  Real temperature[ColumnCells::all];  // [C], that of H
+  Real temperature[ColumnCells::all];  // [C], from H
   Real water[ColumnCells::slide];      // w [kg/m2]
-  Real thawing[ColumnCells::slide];    // S_s P_thaw - m_v N_thaw; of frozen cells what it would be now
+  Real thawing[ColumnCells::slide];    // S_s P_thaw - m_v N_thaw; for frozen cells, the value on thawing now
   Real surplus[ColumnCells::slide];    // theta
   Real pressure[ColumnCells::slide];   // P [Pa]
 };
 
-// What a step does to a column.
+// Input of a column's time step.
 template <class Real>
 struct ColumnDrive {
   Real dt;               // [s]
@@ -75,35 +77,35 @@ struct ColumnDrive {
   Real stretching;       // dA/dt / A [1/s]
   Real thickness;        // of the band at the end of the step [m]
   Real cell_growth;      // r at the end of the step
-  Real mixed;            // share of the band that shear mixes in the step, 0 to 1
-  Real body_heat;        // enthalpy of what the body gives at the top [J/m3]
+  Real mixed;            // fraction of the band that shear mixes in the step, 0 to 1
+  Real body_heat;        // enthalpy of material from the body at the top [J/m3]
   Real body_water;       // its ice and water [kg/m3]
 };
 
-// What a column got and gave, per area at the end of the step.
+// Budget of a column, per area at the end of the step.
 template <class Real>
 struct ColumnAccount {
   Real friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0;  // [J/m2]
   Real body_water = 0, vented_water = 0, steam = 0;                                         // [kg/m2]
 };
 
-// Ice and water [kg/m3] of matter at temperature [C] whose pores are full.
+// Ice and water [kg/m3] of material with full pores at a temperature [C].
 template <class Real, class Curve>
 THAWSLIDE_HD Real water_of_full_pores(const ColumnModel<Real, Curve>& model, Real temperature) {
   const Real saturation = model.curve.saturation(temperature);
   return model.porosity * (saturation * model.phases.water_density + (Real(1) - saturation) * model.phases.ice_density);
 }
 
-// The ratio r with which the column's top is at the depth of the slide above its base [m]:
+// Ratio r at which the top of the column is at the depth of the sliding mass above its base [m]:
 //   e + (e/8) sum of r^j, j = 1 to 12 = depth,   within 1 <= r <= full.
-// Below a slide as deep as the column of ratio `full`, or deeper, r is exactly that. Below one of less than 2.5 e it is
-// 1: all cells are of one height, and the column is taller than the slide. The sum is convex in r: Newton's iteration
-// comes down from `full` to the root and does not pass it.
+// For depths at least that of the column of ratio `full`, r is exactly `full`. For depths below 2.5 e, r is 1: all
+// cells have the same height, and the column is higher than the sliding mass. The sum is convex in r; Newton's
+// iteration therefore descends from `full` to the root without passing it.
 template <class Real>
 THAWSLIDE_HD Real cell_growth_below(Real depth, Real thickness, Real full) {
   constexpr int most_iterations = 50;
   constexpr Real close = by_precision<Real>(1e-15, 1e-7);
-  const Real cells = ColumnCells::band * (depth / thickness - Real(1));  // the sum that is wanted
+  const Real cells = ColumnCells::band * (depth / thickness - Real(1));  // required value of the sum
   Real growth = full;
   THAWSLIDE_ROLLED for (int iteration = 0; iteration < most_iterations; ++iteration) {
     Real sum = 0, slope = 0;
@@ -125,8 +127,8 @@ THAWSLIDE_HD Real cell_growth_below(Real depth, Real thickness, Real full) {
   return growth;
 }
 
-// The heights of a column's cells, with a band of thickness e, above which they grow by r and in the ground by their
-// own ratio. Face f of the slide is the lower one of its cell f; face 0 is the base.
+// Cell heights of a column with a band of thickness e. Heights increase by the ratio r above the band, and by a
+// separate ratio in the ground. Face f of the sliding mass is the lower one of its cell f; face 0 is the base.
 template <class Real>
 class ColumnGrid {
  public:
@@ -148,7 +150,7 @@ class ColumnGrid {
       height_[ColumnCells::ground + k] = face_[k + 1] - face_[k];
     }
   }
-  [[nodiscard]] THAWSLIDE_HD Real face(int f) const { return face_[f]; }            // of the slide, over the base [m]
+  [[nodiscard]] THAWSLIDE_HD Real face(int f) const { return face_[f]; }  // of the sliding mass, above the base [m]
   [[nodiscard]] THAWSLIDE_HD Real height(int cell) const { return height_[cell]; }  // of any cell [m]
   [[nodiscard]] THAWSLIDE_HD Real slide_height(int cell) const { return height_[ColumnCells::ground + cell]; }
 

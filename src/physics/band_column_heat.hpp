@@ -1,4 +1,4 @@
-// Heat of a column (band_column.hpp): conduction, friction heat, boiling (docs/theory, chapter 16).
+// Heat of a column (band_column.hpp): conduction, friction heat, boiling (docs/theory/band-columns.md).
 #pragma once
 
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace thawslide::physics {
 
-// Capacities and latent heat of a cell of the slide, per area: rock of its volume, ice and water by their mass [kg/m2].
+// Capacities and latent heat of a cell of the sliding mass, per area: rock by volume, ice and water by mass [kg/m2].
 template <class Real, class Curve>
 THAWSLIDE_HD EnthalpyCoefficients<Real> slide_coefficients(const ColumnModel<Real, Curve>& model, Real height,
                                                            Real water) {
@@ -27,20 +27,21 @@ THAWSLIDE_HD EnthalpyCoefficients<Real> cell_coefficients(const ColumnModel<Real
   return slide_coefficients(model, grid.height(cell), column.water[cell - ColumnCells::ground]);
 }
 
-// Enthalpy of melted water [J/kg], that of ice at Tref being 0.
+// Enthalpy of melted water [J/kg], relative to ice at Tref.
 template <class Real, class Curve>
 THAWSLIDE_HD Real water_enthalpy(const ColumnModel<Real, Curve>& model, Real temperature) {
   return (model.latent ? model.phases.latent_heat : Real(0)) +
          model.phases.water_heat_capacity * (temperature - model.curve.reference_temperature);
 }
 
-// Whether the last ice of a cell of the slide has melted.
+// True if the last ice of a cell of the sliding mass has melted.
 template <class Real, class Curve>
 THAWSLIDE_HD bool is_melted(const ColumnModel<Real, Curve>& model, const BandColumn<Real>& column, int cell) {
   return column.temperature[ColumnCells::ground + cell] >= model.curve.reference_temperature;
 }
 
-// The temperature [C] at which a cell has this enthalpy [J/m2], from a guess near it. In the ground nothing freezes.
+// Temperature [C] of a cell with this enthalpy [J/m2]. guess: initial value of the iteration. The ground does not
+// freeze.
 template <class Real, class Curve>
 THAWSLIDE_HD Real cell_temperature(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
                                    const BandColumn<Real>& column, int cell, Real heat, Real guess) {
@@ -57,7 +58,7 @@ THAWSLIDE_HD void temperatures_from_heat(const ColumnModel<Real, Curve>& model, 
   }
 }
 
-// The heat that neighbours exchange per kelvin and area [W/m2/K], between cells k and k + 1.
+// Heat conductance [W/m2/K] between cells k and k + 1.
 template <class Real, class Curve>
 struct ColumnConductance {
   Real between[ColumnCells::all - 1];
@@ -73,7 +74,7 @@ struct ColumnConductance {
   }
 
  private:
-  // Pores conduct as far as they are full of ice and water; steam and air do not.
+  // Only the fraction of the pores filled with ice and water conducts; steam and air do not.
   THAWSLIDE_HD static Real of_slide(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
                                     const BandColumn<Real>& column, int k) {
     const Real saturation = model.curve.saturation(column.temperature[k]);
@@ -91,7 +92,7 @@ struct ColumnConductance {
   }
 };
 
-// Solves a tridiagonal system in place, the solution going to `right`; below[k] and above[k] couple k to its
+// Solves a tridiagonal system in place; the solution replaces `right`. below[k] and above[k] couple k to its
 // neighbours.
 template <int Count, class Real>
 THAWSLIDE_HD void solve_tridiagonal(const Real* below, Real* diagonal, const Real* above, Real* right) {
@@ -107,9 +108,9 @@ THAWSLIDE_HD void solve_tridiagonal(const Real* below, Real* diagonal, const Rea
   }
 }
 
-// One step of conduction, implicit in temperature (Newton's iteration on enthalpies, since latent heat bends H(T)).
-// What flows between cells leaves one and enters the other. `column.heat` holds the enthalpies with the heat of the
-// step.
+// One step of conduction, implicit in temperature (Newton's iteration on enthalpies, because latent heat makes H(T)
+// nonlinear). Conservative: the heat that leaves a cell enters its neighbour. `column.heat` holds the enthalpies
+// including the friction heat of the step.
 template <class Real, class Curve>
 THAWSLIDE_HD void conduct_in_column(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real dt,
                                     BandColumn<Real>& column) {
@@ -149,7 +150,7 @@ THAWSLIDE_HD void conduct_in_column(const ColumnModel<Real, Curve>& model, const
   THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { column.heat[k] += flow[k] - flow[k + 1]; }
 }
 
-// Gives a cell's water off as steam, with its heat [kg/m2].
+// Removes water from a cell as steam, with its heat. steam [kg/m2].
 template <class Real, class Curve>
 THAWSLIDE_HD void give_off_steam(const ColumnModel<Real, Curve>& model, Real steam, int cell, BandColumn<Real>& column,
                                  ColumnAccount<Real>& account) {
@@ -161,12 +162,12 @@ THAWSLIDE_HD void give_off_steam(const ColumnModel<Real, Curve>& model, Real ste
   account.steam_heat += heat;
 }
 
-// Water boils where its steam lifts the load: what heat there is above that temperature turns it to steam, which
-// escapes from under the slide, until there is none. Dry matter goes on heating.
+// Boils water at the temperature at which its steam pressure reaches the load. Heat above that temperature converts
+// water to steam, which escapes from below the sliding mass, until no water is left. Dry material is heated further.
 template <class Real, class Curve>
 THAWSLIDE_HD void boil(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real normal_pressure,
                        BandColumn<Real>& column, ColumnAccount<Real>& account) {
-  Real boiling = 0;  // [C], 0: not known yet
+  Real boiling = 0;  // [C], 0: not computed yet
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     Real& temperature = column.temperature[ColumnCells::ground + k];
     if (!(temperature > Steam<Real>::boiling_at_atmosphere) || !(column.water[k] > Real(0))) {
@@ -185,7 +186,7 @@ THAWSLIDE_HD void boil(const ColumnModel<Real, Curve>& model, const ColumnGrid<R
   }
 }
 
-// The pressure that steam keeps up in a cell with water [Pa], over that of the air: 0 below 100 C.
+// Steam pressure in a cell with water [Pa], above atmospheric pressure: 0 below 100 C.
 template <class Real, class Curve>
 THAWSLIDE_HD Real steam_pressure(const ColumnModel<Real, Curve>& model, const BandColumn<Real>& column, int cell) {
   const Real temperature = column.temperature[ColumnCells::ground + cell];

@@ -1,5 +1,5 @@
-// Intake of a column (band_column.hpp): material that changes cells, or comes from the body and goes back to it, as the
-// faces of cells move (docs/theory, chapter 16).
+// Advection between the cells of a column (band_column.hpp), and exchange with the body, as cell faces move
+// (docs/theory, chapter 16).
 #pragma once
 
 #include <cmath>
@@ -8,11 +8,11 @@
 
 namespace thawslide::physics {
 
-// The largest fraction of a cell's content that leaves it for its neighbours, or the body, as faces move from one grid
-// to another while material spreads: `left` is the old area over the new. Up to 1 no cell gives more than it has.
+// Largest fraction of a cell's content that moves to its neighbours or the body when faces move from one grid to
+// another while material spreads. left: old area over new area. Up to 1, no cell loses more than its content.
 template <class Real>
 THAWSLIDE_HD Real largest_share_given(const ColumnGrid<Real>& before, const ColumnGrid<Real>& after, Real left) {
-  Real largest = 0, below = 0;  // below: what the cell's lower face sweeps [m]
+  Real largest = 0, below = 0;  // below: height swept by the cell's lower face [m]
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     const Real above = after.face(k + 1) - left * before.face(k + 1);
     const Real given = max(below, Real(0)) + max(-above, Real(0));
@@ -22,14 +22,14 @@ THAWSLIDE_HD Real largest_share_given(const ColumnGrid<Real>& before, const Colu
   return largest;
 }
 
-// How the faces of a column move in a step.
+// Motion of a column's faces in a step.
 template <class Real>
 struct ColumnChange {
-  Real stretch;                        // logarithm of the new area over the old
+  Real stretch;                        // logarithm of new area over old area
   Real thickness, next_thickness;      // of the band, before and after [m]
   Real cell_growth, next_cell_growth;  // r
 
-  // After so many of equal parts of the step.
+  // After `part` of `parts` equal parts of the step.
   [[nodiscard]] THAWSLIDE_HD Real thickness_after(int part, int parts) const {
     return thickness + (next_thickness - thickness) * static_cast<Real>(part) / static_cast<Real>(parts);
   }
@@ -38,8 +38,8 @@ struct ColumnChange {
   }
 };
 
-// In how many parts a column takes a change: a piece stretches by at most a tenth in each, and no cell gives more than
-// it has. The second matters where cells are thin against their height above the base.
+// Number of substeps of a change: in each, a segment stretches by at most a tenth, and no cell loses more than its
+// content. The second condition matters if cells are thin compared with their height above the base.
 template <class Real, class Curve>
 THAWSLIDE_HD int parts_of(const ColumnModel<Real, Curve>& model, const ColumnChange<Real>& change) {
   constexpr Real most_stretch = static_cast<Real>(0.1);
@@ -60,16 +60,15 @@ THAWSLIDE_HD int parts_of(const ColumnModel<Real, Curve>& model, const ColumnCha
   }
 }
 
-// The faces of a column's cells move: with the band's thickness and the ratio of the cells above it, and against
-// material that spreads as the piece stretches. The volume that they sweep changes cells; at the top the body gives it,
-// or takes it.
+// Moves the faces of a column's cells, by changes of band thickness and cell growth and by the spreading of a
+// stretching segment. The swept volume moves between cells; at the top, it is exchanged with the body.
 template <class Real, class Curve>
 THAWSLIDE_HD void take_in(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& before,
                           const ColumnGrid<Real>& after, const ColumnDrive<Real>& drive, BandColumn<Real>& column,
                           ColumnAccount<Real>& account) {
   constexpr int count = ColumnCells::slide;
-  const Real left = Real(1) / (Real(1) + drive.stretching * drive.dt);        // old area over new
-  Real heat[count + 1] = {}, water[count + 1] = {}, thawing[count + 1] = {};  // that go down through each lower face
+  const Real left = Real(1) / (Real(1) + drive.stretching * drive.dt);        // old area over new area
+  Real heat[count + 1] = {}, water[count + 1] = {}, thawing[count + 1] = {};  // downward through each lower face
   THAWSLIDE_ROLLED for (int f = 1; f <= count; ++f) {
     const Real swept = after.face(f) - left * before.face(f);  // [m]
     if (swept > Real(0) && f == count) {
@@ -92,7 +91,7 @@ THAWSLIDE_HD void take_in(const ColumnModel<Real, Curve>& model, const ColumnGri
         (left * before.slide_height(k) * column.thawing[k] + thawing[k + 1] - thawing[k]) / after.slide_height(k);
   }
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::ground;
-                        ++k) {  // the ground that the piece comes to cover is as warm as its own
+                        ++k) {  // newly covered ground has the temperature of the segment's ground
     account.ground_heat += (Real(1) - left) * column.heat[k];
   }
   column.thickness = drive.thickness;
@@ -102,8 +101,7 @@ THAWSLIDE_HD void take_in(const ColumnModel<Real, Curve>& model, const ColumnGri
   temperatures_from_heat(model, after, column);
 }
 
-// Brings a column to another ratio of its cells, with what the body gives at the top [J/m3, kg/m3] or gets back.
-// Pressures are those of before.
+// Changes the cell growth of a column, with exchange with the body at the top [J/m3, kg/m3]. Pressures are not updated.
 template <class Real, class Curve>
 THAWSLIDE_HD ColumnAccount<Real> take_cell_growth(const ColumnModel<Real, Curve>& model, Real cell_growth,
                                                   Real body_heat, Real body_water, BandColumn<Real>& column) {

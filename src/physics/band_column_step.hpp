@@ -1,4 +1,4 @@
-// One step of a column (band_column.hpp), and how it begins (docs/theory, chapter 16).
+// Time step of a column (band_column.hpp), and its initial state (docs/theory, chapter 16).
 #pragma once
 
 #include "physics/band_column_intake.hpp"
@@ -6,20 +6,20 @@
 
 namespace thawslide::physics {
 
-// What the friction of the base sees of a column: means over the band. P is at most the load as it is now: the load may
-// fall between two steps of the column, and what water then has no room for is opening.
+// Means over the band, used by basal friction. P is limited to the current load, because the load may decrease between
+// two steps of the column; excess water volume then counts as opening.
 template <class Real>
 struct BandMeans {
   Real temperature, pore_pressure, saturation, solid_fraction;  // [C], [Pa], S, n_e of Eq. 2
 };
 
-// Volumes of a whole column per area [m]: the opening by which water lifts the slide, and the voids.
+// Volumes of a whole column per area [m]: opening, by which water lifts the sliding mass, and voids.
 template <class Real>
 struct ColumnVolumes {
   Real opening, gas_void;
 };
 
-// Shear mixes a share of the band: its cells, all of one height, come nearer to their mean.
+// Mixes the band by shear: its cells, all of one height, approach their mean by the fraction `share`.
 template <class Real, class Curve>
 THAWSLIDE_HD void mix_band(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real share,
                            BandColumn<Real>& column) {
@@ -31,8 +31,8 @@ THAWSLIDE_HD void mix_band(const ColumnModel<Real, Curve>& model, const ColumnGr
   temperatures_from_heat(model, grid, column);
 }
 
-// Advances a column by drive.dt. The friction heat spreads over the band; then heat is conducted, water boils and
-// seeps.
+// Advances a column by drive.dt. Friction heat is distributed over the band; then heat is conducted, and water boils
+// and seeps.
 template <class Real, class Curve>
 THAWSLIDE_HD ColumnAccount<Real> step_column(const ColumnModel<Real, Curve>& model, const ColumnDrive<Real>& drive,
                                              BandColumn<Real>& column) {
@@ -83,7 +83,7 @@ THAWSLIDE_HD Real water_of(const BandColumn<Real>& column) {
   return sum;
 }
 
-// A column in matter of one temperature [C], its pores full of ice and water.
+// Column in material of uniform temperature [C], with pores full of ice and water.
 template <class Real, class Curve>
 THAWSLIDE_HD BandColumn<Real> start_column(const ColumnModel<Real, Curve>& model, Real thickness, Real cell_growth,
                                            Real temperature, Real ground_temperature, Real normal_pressure) {
@@ -102,7 +102,7 @@ THAWSLIDE_HD BandColumn<Real> start_column(const ColumnModel<Real, Curve>& model
   const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
   const Real full = thawing_surplus(storage, normal_pressure, model.residual_stress, Real(0));
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
-    if (is_melted(model, column, k)) {  // warmth that was there from the start presses on nothing
+    if (is_melted(model, column, k)) {  // initially melted cells have no thermal pressure
       column.thawing[k] += full - column.surplus[k];
       column.surplus[k] = full;
     }
@@ -111,14 +111,14 @@ THAWSLIDE_HD BandColumn<Real> start_column(const ColumnModel<Real, Curve>& model
   return column;
 }
 
-// Enthalpy [J/m3] of the body's matter at temperature [C], with full pores.
+// Enthalpy [J/m3] of the body's material at a temperature [C], with full pores.
 template <class Real, class Curve>
 THAWSLIDE_HD Real body_enthalpy(const ColumnModel<Real, Curve>& model, Real temperature) {
   return enthalpy(model.curve, slide_coefficients(model, Real(1), water_of_full_pores(model, temperature)),
                   temperature);
 }
 
-// Mean pore pressure [Pa] of the band under a load N [Pa], above which none rises.
+// Mean pore pressure [Pa] of the band, limited in each cell to the load N [Pa].
 template <class Real>
 THAWSLIDE_HD Real band_pressure(Real normal_pressure, const BandColumn<Real>& column) {
   Real mean = 0;
@@ -171,8 +171,8 @@ THAWSLIDE_HD Real liquid_volume(const ColumnModel<Real, Curve>& model, const Ban
   return volume;
 }
 
-// One column of two that hold `share` and the rest of its area, and whose cells grow by the same ratio: with their
-// heat, their water and their rock, since the heights of cells go with the band's thickness.
+// Merges two columns of the same cell growth, with area fractions `share` and 1 - share. Heat, water and rock are
+// conserved, because cell heights are proportional to the band thickness.
 template <class Real, class Curve>
 THAWSLIDE_HD BandColumn<Real> joined_columns(const ColumnModel<Real, Curve>& model, Real share,
                                              const BandColumn<Real>& first, const BandColumn<Real>& second,

@@ -1,4 +1,4 @@
-// Water of a column (band_column.hpp): how full its pores are, and what seeps (docs/theory, chapter 16).
+// Water of a column (band_column.hpp): pore filling and seepage (docs/theory, chapter 16).
 #pragma once
 
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace thawslide::physics {
 
-// The surplus theta of each cell. A cell that has just thawed takes over what the ice carried of the load.
+// Surplus theta of each cell. In a newly thawed cell, water takes over the part of the load that the ice carried.
 template <class Real, class Curve>
 THAWSLIDE_HD void fill_pores(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real normal_pressure,
                              const bool* was_melted, BandColumn<Real>& column) {
@@ -31,8 +31,8 @@ THAWSLIDE_HD void fill_pores(const ColumnModel<Real, Curve>& model, const Column
   }
 }
 
-// Where water passes, per pressure and area [m/s/Pa]: between cells k - 1 and k, and from cells into air. Water takes
-// the share of the pores that it fills, steam the rest.
+// Water mobility per pressure and area [m/s/Pa]: between cells k - 1 and k, and from cells into air. Water flows
+// through the fraction of the pores that it fills, steam through the rest.
 template <class Real>
 struct ColumnMobility {
   Real between[ColumnCells::slide + 1];
@@ -70,7 +70,7 @@ THAWSLIDE_HD ColumnMobility<Real> mobilities(const ColumnModel<Real, Curve>& mod
   return result;
 }
 
-// Between which pressures that of each cell follows its surplus [Pa]: steam keeps up the lower one in a void.
+// Bounds within which the pressure of each cell follows its surplus [Pa]. Steam maintains the lower bound in a void.
 template <class Real>
 struct PressureBounds {
   Real lower[ColumnCells::slide], upper;
@@ -95,8 +95,8 @@ THAWSLIDE_HD void set_pressures(const ColumnModel<Real, Curve>& model, const Pre
   }
 }
 
-// Moves water by what seeps upward through the lower face of each cell, and into the air, per area [m]; of a cell that
-// would give more than it has, all shares of it less. It takes its heat along.
+// Moves water, with its heat, upward through the lower face of each cell and into the air. flow, to_air: volumes per
+// area [m]. All outflows of a cell are reduced by the same factor if they exceed its water.
 template <class Real, class Curve>
 THAWSLIDE_HD void carry_water(const ColumnModel<Real, Curve>& model, const Real* flow, const Real* to_air,
                               BandColumn<Real>& column, ColumnAccount<Real>& account) {
@@ -105,7 +105,7 @@ THAWSLIDE_HD void carry_water(const ColumnModel<Real, Curve>& model, const Real*
   Real share[count], water[count + 1] = {}, heat[count + 1] = {};
   THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
     const Real out = density * (max(flow[k + 1], Real(0)) + max(-flow[k], Real(0)) + to_air[k]);
-    const Real held = max(column.water[k], Real(0));  // round-off may leave less than nothing
+    const Real held = max(column.water[k], Real(0));  // round-off may leave a negative value
     share[k] = out > held ? held / out : Real(1);
   }
   const auto enthalpy_in = [&](int k) { return water_enthalpy(model, column.temperature[ColumnCells::ground + k]); };
@@ -126,7 +126,7 @@ THAWSLIDE_HD void carry_water(const ColumnModel<Real, Curve>& model, const Real*
   }
 }
 
-// Steam that seeps into the air, by Darcy's law with the steam's density and viscosity.
+// Seepage of steam into the air, by Darcy's law with the density and viscosity of steam.
 template <class Real, class Curve>
 THAWSLIDE_HD void vent_steam(const ColumnModel<Real, Curve>& model, const ColumnMobility<Real>& mobility, Real dt,
                              BandColumn<Real>& column, ColumnAccount<Real>& account) {
@@ -141,8 +141,8 @@ THAWSLIDE_HD void vent_steam(const ColumnModel<Real, Curve>& model, const Column
   }
 }
 
-// One step of seepage, implicit: the surplus after it sets the pressures that drive it. Where P is at one of its bounds
-// it does not follow the surplus; Newton's iteration finds where that is.
+// One step of seepage, implicit: pressures follow from the surplus at the end of the step. At a bound, P is independent
+// of the surplus; Newton's iteration finds the cells at a bound.
 template <class Real, class Curve>
 THAWSLIDE_HD void seep_in_column(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real dt,
                                  Real normal_pressure, BandColumn<Real>& column, ColumnAccount<Real>& account) {

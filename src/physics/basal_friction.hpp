@@ -1,7 +1,7 @@
-// Strength of the base, from friction coefficient, pore pressure and cohesion (their laws: basal/laws.hpp).
+// Basal strength from friction coefficient, pore pressure and cohesion (their laws: basal/laws.hpp).
 //   S_slide = mu_e (N - P) + c_S, never negative                                                             (Eq. 17)
-// The pore pressure can pass the normal pressure, so where Eq. 17 is kept from going negative decides much:
-// FrictionClamp.
+// The pore pressure can exceed the normal pressure; results depend strongly on how Eq. 17 is limited to non-negative
+// values: FrictionClamp.
 #pragma once
 
 #include "base/portability.hpp"
@@ -9,11 +9,11 @@
 namespace thawslide::physics {
 
 enum class FrictionClamp {
-  keep_cohesion,  // mu max(0, N - P) + c_S: pressure takes friction away, cohesion stays (default)
-  joint           // max(0, mu (N - P) + c_S): excess pressure cancels cohesion as well
+  keep_cohesion,  // mu max(0, N - P) + c_S: pressure reduces friction but not cohesion (default)
+  joint           // max(0, mu (N - P) + c_S): excess pressure also reduces cohesion
 };
 
-// S_slide of Eq. 17 [Pa]. Pressures [Pa]; cap_pressure: P counts as N at most.
+// S_slide of Eq. 17 [Pa]. Pressures [Pa]. cap_pressure: P is limited to N.
 template <class Real>
 THAWSLIDE_HD Real sliding_strength(Real friction_coefficient, Real normal_pressure, Real pore_pressure, Real cohesion,
                                    FrictionClamp clamp, bool cap_pressure) {

@@ -1,6 +1,6 @@
-// A slice of a slide on a bent path: Eq. 12 across the path, whose normal turns by kappa per length of way.
-//   N A = m (g.n + v^2 kappa), never below 0: where the ground falls away faster than the slice, it bears nothing
-// kappa: curvature of the path, positive where the ground is hollow; g.n: gravity into the ground. Not in the paper.
+// Slice of a sliding mass on a curved path: Eq. 12 normal to the path, whose normal rotates by kappa per path length.
+//   N A = m (g.n + v^2 kappa), at least 0: no load if the ground drops away faster than the slice falls
+// kappa: curvature of the path, positive for concave ground; g.n: gravity into the ground. Not in the paper.
 #pragma once
 
 #include "base/select.hpp"

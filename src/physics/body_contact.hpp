@@ -1,5 +1,4 @@
-// Contact of two bodies at a node that both have mass at (Bardenhagen et al. 2000; Nairn 2013): what one takes from the
-// other.
+// Contact of two bodies at a node where both have mass (Bardenhagen et al. 2000; Nairn 2013): impulse between them.
 #pragma once
 
 #include "base/portability.hpp"
@@ -7,14 +6,13 @@
 
 namespace thawslide::physics {
 
-// Momentum [kg m/s]: that keeps the bodies apart, and that friction passes on along the slip.
+// Impulse [kg m/s]: normal, which keeps the bodies apart, and tangential, by friction along the slip.
 template <class Real>
 struct BodyImpulse {
   Real normal, tangential;
 };
 
-// Closing speed with which one body runs into another in a step, less what closes the gap [m] between them first; 0
-// where they part.
+// Closing speed of two bodies in a step, minus the part that closes the gap [m] between them; 0 if they separate.
 template <class Real>
 THAWSLIDE_HD Real closing_speed_beyond_gap(Real closing_speed, Real gap, Real dt) {
   return max(Real(0), closing_speed - max(Real(0), gap) / dt);

@@ -1,8 +1,8 @@
-// Boiling of pore water at its absolute pressure P + P_atm (docs/theory, chapter 16).
+// Boiling of pore water at its absolute pressure P + P_atm (docs/theory/band-columns.md).
 //   L_v(T) = 2.5e6 - 2360 T                                             [J/kg], T in C
 //   dP_abs/dT = L_v P_abs/(R_v T^2)                                     Clausius and Clapeyron, steam as an ideal gas
 //   ln(P_abs/P_atm) = [A (1/T_b - 1/T) - 2360 ln(T/T_b)]/R_v            its integral, T in K; A = 2.5e6 + 2360 * 273.15
-// T_b = 373.15 K is where water boils at P_atm, R_v = R/M its gas constant.
+// T_b = 373.15 K is the boiling temperature at P_atm, R_v = R/M the gas constant of water.
 #pragma once
 
 #include <cmath>
@@ -38,7 +38,7 @@ THAWSLIDE_HD Real saturation_pressure(Real temperature) {
   return Water::atmosphere * std::exp(exponent / Water::gas_constant);
 }
 
-// T_sat [C]: where water boils under a pore pressure [Pa] above that of the air.
+// T_sat [C]: boiling temperature at a pore pressure [Pa] above atmospheric pressure.
 template <class Real>
 THAWSLIDE_HD Real boiling_temperature(Real pore_pressure) {
   using Water = Steam<Real>;
@@ -46,7 +46,7 @@ THAWSLIDE_HD Real boiling_temperature(Real pore_pressure) {
   Real temperature = Water::boiling_at_atmosphere;
   constexpr int most_iterations = 20;
   constexpr Real close = by_precision<Real>(1e-9, 1e-3);
-  for (int k = 0; k < most_iterations; ++k) {  // Newton's: ln P is concave in T
+  for (int k = 0; k < most_iterations; ++k) {  // Newton's iteration: ln P is concave in T
     const Real absolute = temperature + celsius_to_kelvin<Real>;
     const Real excess = wanted - std::log(saturation_pressure(temperature) / Water::atmosphere);
     const Real change = excess * Water::gas_constant * absolute * absolute / heat_of_vaporization(temperature);

@@ -1,9 +1,9 @@
 // Pressures of ice, water and pore while ice and water coexist (Eqs. 4 and 21).
-//   P_I = rho_I g H                                        ice carries the overburden, H along the terrain's normal
-//   P_L = P_I/r + rho_L L_f ln(T/Tref),  r = rho_I/rho_L   generalised Clapeyron equation, absolute temperatures  (Eq.
-//   4) P_pore = S P_L + (1 - S) P_I                                                                            (Eq. 21)
-// The paper prints a minus sign in Eq. 4. With it the pore pressure rises while the band thaws; with the plus it falls
-// and then recovers, which is what the paper describes. Plus is the default, the printed sign a switch.
+//   P_I = rho_I g H                                        ice carries the overburden, H normal to the terrain
+//   P_L = P_I/r + rho_L L_f ln(T/Tref),  r = rho_I/rho_L   generalized Clapeyron equation, T absolute        (Eq. 4)
+//   P_pore = S P_L + (1 - S) P_I                                                                            (Eq. 21)
+// Eq. 4 is published with a minus sign. With it, the pore pressure rises while the band thaws; with a plus sign, it
+// falls and then recovers, as the paper describes. Plus is the default; the published sign is an option.
 #pragma once
 
 #include <cmath>
@@ -18,8 +18,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value ice_pressure(const Phases<Real>& phas
   return phases.ice_density * gravity * depth;
 }
 
-// P_L of Eq. 4 [Pa]; temperatures [C]; sign +1, or -1 as the paper prints it. Meaningful only as weighted in Eq. 21:
-// far below 0 C it is some -12 MPa times a saturation of 1e-5.
+// P_L of Eq. 4 [Pa]; temperatures [C]; sign +1, or -1 as published. Only meaningful with the weights of Eq. 21: far
+// below 0 C it is about -12 MPa times a saturation of 1e-5.
 template <class Real, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value liquid_pressure_clapeyron(const Phases<Real>& phases, Value ice_pressure,
                                                                      Value temperature, Real reference_temperature,

@@ -1,15 +1,15 @@
 // Contact of a node with the rigid terrain (Eqs. 15 and 16; Nairn 2013).
-//   N = p.n/(A dt),  S_stick = |p.t|/(A dt),  with p the trial momentum, n the unit normal from slide into rock
-// The node sticks if S_stick <= S_slide; else the terrain takes S_slide A dt of tangential momentum. The correction is
-// made once, from the trial momentum: correcting the old momentum and the force by the same amount, as Eq. 15 reads,
-// counts contact twice. The tangent points along the slip (Eq. 16 leaves its sign open).
+//   N = p.n/(A dt),  S_stick = |p.t|/(A dt),  with p the trial momentum, n the unit normal into the terrain
+// The node sticks if S_stick <= S_slide; otherwise the terrain removes S_slide A dt of tangential momentum. The
+// correction is made once, from the trial momentum: correcting both the old momentum and the force, as Eq. 15 reads,
+// would count contact twice. The tangent points along the slip (Eq. 16 leaves its sign open).
 #pragma once
 
 #include "base/portability.hpp"
 
 namespace thawslide::physics {
 
-// Momentum that the terrain takes from a node [kg m/s] along n and along the slip.
+// Momentum transferred from a node to the terrain [kg m/s], along n and along the slip.
 template <class Real>
 struct ContactImpulse {
   Real normal;

@@ -20,7 +20,7 @@ struct Elastic {
             youngs_modulus / (Real(2) * (Real(1) + poisson_ratio))};
   }
 
-  // lambda + 2 G [Pa]: stiffness against compression with no lateral strain; sets the wave speed.
+  // lambda + 2 G [Pa]: stiffness in uniaxial compression without lateral strain; determines the wave speed.
   [[nodiscard]] THAWSLIDE_HD Real p_wave_modulus() const { return lame_lambda + Real(2) * shear_modulus; }
 };
 
@@ -36,7 +36,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Value> stress_increment(con
   return stress;
 }
 
-// Energy that a stress [Pa] holds [J/m3].
+// Elastic energy density [J/m3] of a stress [Pa].
 template <class Real>
 Real elastic_energy_density(const Elastic<Real>& elastic, const SymmetricTensor<Real>& stress) {
   const Real trace = stress[0] + stress[1] + stress[2];

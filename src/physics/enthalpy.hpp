@@ -1,8 +1,8 @@
-// Enthalpy of matter that freezes along a curve (Eq. 9), whatever it is counted per: volume, or area of the base.
-//   H(T) = C_f (T - Tref) + C_r integral of S dT from Tref + L S(T)       0 for frozen matter at Tref
+// Enthalpy of material with a freezing curve (Eq. 9), per volume or per area of the base.
+//   H(T) = C_f (T - Tref) + C_r integral of S dT from Tref + L S(T)       0 for frozen material at Tref
 //   dH/dT = C_f + C_r S + L dS/dT
-// C_f: capacity of frozen matter; C_r: what melting adds to it; L: what melting takes. H rises strictly with T and is
-// convex below Tref, linear above.
+// C_f: capacity of frozen material; C_r: its increase by melting; L: latent heat. H increases strictly with T, and is
+// convex below Tref and linear above.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace thawslide::physics {
 
-// Capacities per kelvin and latent heat, of one volume or one area.
+// Capacities per kelvin and latent heat, per volume or per area.
 template <class Value>
 struct EnthalpyCoefficients {
   Value frozen, rise, melting;
@@ -26,7 +26,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value enthalpy(const Curve& curve, const En
          of.melting * values.saturation;
 }
 
-// dH/dT, at Tref the one of the frozen side.
+// dH/dT, at Tref that of the frozen side.
 template <class Curve, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value apparent_capacity(const Curve& curve, const EnthalpyCoefficients<Value>& of,
                                                              Value temperature) {
@@ -34,8 +34,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value apparent_capacity(const Curve& curve,
   return of.frozen + of.rise * values.saturation + of.melting * values.derivative;
 }
 
-// The temperature [C] at which the enthalpy is `heat`, from a guess near it: closed above Tref, Newton's iteration
-// below, where convexity makes it converge from any start.
+// Temperature [C] at an enthalpy. guess: initial value. Closed form above Tref; Newton's iteration below, where
+// convexity guarantees convergence from any start.
 template <class Curve, class Value>
 THAWSLIDE_HD Value temperature_of_enthalpy(const Curve& curve, const EnthalpyCoefficients<Value>& of, Value heat,
                                            Value guess) {

@@ -1,4 +1,4 @@
-// Free open gaps (physics/tension_gap.hpp): elastic stress does not change with strain (theory, chapter 9).
+// Free open gaps (physics/tension_gap.hpp): elastic stress is independent of strain (theory, chapter 9).
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,8 @@ namespace thawslide::physics {
 
 // Returns whether material with an open gap stays at its apex c/tan(phi). Dilation would compress it in shear, and a
 // cut-off leaves strength across the gap. Softening reduces c and sin(phi) by the same fraction of their ranges. If the
-// apex moves outwards in any of 100 parts of it, the material can bear tension. Strength: Mohr-Coulomb parameters.
+// apex moves outwards in any of 100 steps of softening, the material can bear tension. Strength: Mohr-Coulomb
+// parameters.
 template <class Strength>
 [[nodiscard]] bool gap_is_free(const Strength& strength) {
   constexpr int shares = 100;
@@ -29,8 +30,8 @@ template <class Strength>
   return strength.dilation_angle == 0 && std::isinf(strength.tension_cutoff) && !moves_out;
 }
 
-// The density once the gap is closed, at which elastic stiffness acts again [kg/m3]. A gap sums the volumetric strains
-// of steps, each of which is the change of the logarithm of the volume.
+// Density after closing the gap, at which elastic stiffness acts again [kg/m3]. A gap sums the volumetric strains of
+// steps, each of which is the change of the logarithm of the volume.
 template <class Real>
 [[nodiscard]] THAWSLIDE_HD Real density_with_gap_closed(Real density, Real gap) {
   using std::exp;

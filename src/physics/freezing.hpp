@@ -1,9 +1,9 @@
-// Freezing curves: the liquid saturation S of the pore as a function of temperature T [C].
+// Freezing curves: liquid saturation S of the pore as a function of temperature T [C].
 //   power law  S = (1 - (T - Tref))^-m below Tref, 1 above                                         (Eq. 24, m = 5)
 //   linear     S = 1 + m (T - Tref), between 0 and 1                                               (Sec. 3.1)
-// A curve gives S, dS/dT [1/K] (at Tref the one of the frozen side: Sec. 3.1 starts exactly there) and the integral of
-// S from Tref to T [K], which the heat content needs. A new curve needs the same members and its line in HeatContent's
-// list of curves (band/any_heat_content.hpp).
+// A curve provides S, dS/dT [1/K] (at Tref that of the frozen side, because Sec. 3.1 starts exactly there) and the
+// integral of S from Tref to T [K], for the heat content. A new curve needs the same members and its line in the list
+// of curves of HeatContent (band/any_heat_content.hpp).
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ struct CurveValues {
   Value saturation, derivative, integral;
 };
 
-// A whole exponent up to 16, the usual ones, else -1.
+// The exponent as an integer if it is one between 0 and 16, otherwise -1.
 template <class Real>
 THAWSLIDE_HD int whole_exponent(Real exponent) {
   constexpr Real largest = 16;
@@ -26,11 +26,11 @@ THAWSLIDE_HD int whole_exponent(Real exponent) {
   return whole ? static_cast<int>(exponent) : -1;
 }
 
-// base^exponent; by multiplication unless `whole`, the exponent's whole_exponent, is -1.
+// base^exponent, by multiplication unless `whole`, the exponent's whole_exponent, is -1.
 template <class Value, class Real>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent, int whole) {
   if (whole < 0) {
-    return rarely(base, [&](Real number) { return std::pow(number, exponent); });
+    return cold_call(base, [&](Real number) { return std::pow(number, exponent); });
   }
   constexpr int usual = 5;  // Eq. 24
   if (whole == usual) {
@@ -56,7 +56,7 @@ template <class Real>
 struct PowerLawCurve {
   Real reference_temperature;            // Tref [C]
   Real exponent;                         // m
-  int whole = whole_exponent(exponent);  // follows from m
+  int whole = whole_exponent(exponent);  // derived from m
 
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE CurveValues<Value> at(Value temperature) const {
@@ -64,7 +64,7 @@ struct PowerLawCurve {
     const Value base = Real(1) - min(above, Value(0));
     const Value inverse = Real(1) / base;
     const Value s = power(inverse, exponent, whole);
-    const Value frozen_integral = exponent == Real(1) ? -each_lane(base, [](Real number) { return std::log(number); })
+    const Value frozen_integral = exponent == Real(1) ? -map_lanes(base, [](Real number) { return std::log(number); })
                                                       : (base * s - Real(1)) / (exponent - Real(1));
     return {s, select(above > Real(0), Value(0), exponent * s * inverse),
             select(above > Real(0), above, frozen_integral)};
@@ -73,7 +73,7 @@ struct PowerLawCurve {
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value saturation(Value temperature) const {
     return Real(1) / power(Real(1) - min(temperature - reference_temperature, Value(0)), exponent, whole);
   }
-  // The temperature [C] at which the saturation is S, 0 < S <= 1: the lowest where S = 1.
+  // Temperature [C] at a saturation S, 0 < S <= 1; the lowest one for S = 1.
   [[nodiscard]] THAWSLIDE_HD Real temperature(Real saturation) const {
     return reference_temperature + Real(1) - std::pow(saturation, -Real(1) / exponent);
   }
@@ -99,7 +99,7 @@ struct LinearCurve {
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value saturation(Value temperature) const {
     return at(temperature).saturation;
   }
-  // The temperature [C] at which the saturation is S, 0 <= S <= 1: the highest where S = 0, the lowest where S = 1.
+  // Temperature [C] at a saturation S, 0 <= S <= 1; the highest one for S = 0, the lowest one for S = 1.
   [[nodiscard]] THAWSLIDE_HD Real temperature(Real saturation) const {
     return reference_temperature + (saturation - Real(1)) / slope;
   }

@@ -1,7 +1,7 @@
 // Heat content of the mixture and its inverse: the enthalpy form of Eq. 9.
-//   H(T) = integral of C dT from Tref + rho_I n L_f S(T)    [J/m3], 0 for frozen matter at Tref
+//   H(T) = integral of C dT from Tref + rho_I n L_f S(T)    [J/m3], 0 for frozen material at Tref
 //   dH/dT = C + rho_I n L_f dS/dT                            apparent capacity [J/m3/K]
-// L_f is per kilogram (Table 1 prints J/m3).
+// L_f is per kilogram (Table 1 has J/m3, an erratum).
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ template <class Real, class Curve>
 struct HeatContent {
   Phases<Real> phases;
   Curve curve;
-  bool latent;  // off: melting takes no heat (Sec. 3.2's 5 s need that)
+  bool latent;  // off: melting consumes no heat (required by the 5 s of Sec. 3.2)
 
   // H [J/m3] at temperature [C].
   template <class Value>
@@ -23,13 +23,13 @@ struct HeatContent {
     return enthalpy(curve, coefficients(porosity), temperature);
   }
 
-  // dH/dT [J/m3/K], at Tref the one of the frozen side.
+  // dH/dT [J/m3/K], at Tref that of the frozen side.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value apparent_capacity(Value temperature, Value porosity) const {
     return physics::apparent_capacity(curve, coefficients(porosity), temperature);
   }
 
-  // Whether a change of temperature [K] is too small to show in the content's digits.
+  // True if a change of temperature [K] is too small to affect the digits of the content.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto is_negligible(Value change) const {
     using std::abs;
@@ -37,7 +37,7 @@ struct HeatContent {
     return abs(change) < smallest_change;
   }
 
-  // (H(T + change) - H(T)) / change [J/m3/K]; the apparent capacity where the change is negligible.
+  // (H(T + change) - H(T)) / change [J/m3/K]; the apparent capacity if the change is negligible.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value secant_capacity(Value temperature, Value change,
                                                                            Value porosity) const {
@@ -46,13 +46,13 @@ struct HeatContent {
     return select(negligible, apparent_capacity(temperature, porosity), rise / select(negligible, Value(1), change));
   }
 
-  // The temperature [C] at which the content is H, from a guess near it.
+  // Temperature [C] at a content H. guess: initial value.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD Value temperature(Value heat, Value porosity, Value guess) const {
     return temperature_of_enthalpy(curve, coefficients(porosity), heat, guess);
   }
 
-  // Per volume [J/m3/K] and [J/m3]; rho_I n L_f is what melting takes.
+  // Per volume [J/m3/K] and [J/m3]; rho_I n L_f is the latent heat of melting.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE EnthalpyCoefficients<Value> coefficients(Value porosity) const {
     return {

@@ -1,7 +1,7 @@
-// Strain and rotation of a step, objectively (Hughes and Winget 1980). With G the gradient of the step's displacement
-// on the old configuration, the gradient on the middle one is
+// Objective strain and rotation of a step (Hughes and Winget 1980). With G the gradient of the step's displacement on
+// the old configuration, the gradient on the middle configuration is
 //   H = G (I + G/2)^-1,  strain = (H + H^T)/2,  spin W = (H - H^T)/2,  rotation Q = (I - W/2)^-1 (I + W/2)
-// A rigid rotation gives no strain and an exactly orthogonal Q; the volume grows by det(I + G).
+// A rigid rotation gives zero strain and an exactly orthogonal Q; the volume changes by det(I + G).
 #pragma once
 
 #include "base/linear.hpp"
@@ -13,7 +13,7 @@ template <class Real, int Dim>
 struct StrainIncrement {
   SymmetricTensor<Real> strain;
   Matrix<Real, Dim> rotation;
-  Real volume_ratio;  // new volume over old
+  Real volume_ratio;  // new volume over old volume
 };
 
 template <class Real, int Dim>
@@ -39,7 +39,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE StrainIncrement<Real, Dim> strain_increment
   return increment;
 }
 
-// Q s Q^T; in the plane zz stays.
+// Q s Q^T; in 2D, zz is unchanged.
 template <class Real, int Dim>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Real> rotate(const SymmetricTensor<Real>& tensor,
                                                                   const Matrix<Real, Dim>& rotation) {

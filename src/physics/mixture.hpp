@@ -1,10 +1,10 @@
-// The mixture of rock grains, water and ice that fills a particle (Sec. 2.1).
-//   n porosity, S liquid saturation (share of the pore), n_S = 1 - n, n_L = n S, n_I = n (1 - S)           (Eq. 1)
+// Mixture of rock grains, water and ice in a particle (Sec. 2.1).
+//   n porosity, S liquid saturation (fraction of the pore), n_S = 1 - n, n_L = n S, n_I = n (1 - S)        (Eq. 1)
 //   n_e = n_S + n_I rho_I/rho_S   effective solid fraction                                                   (Eq. 2)
 //   dn/dt = (1 - n) div v - (1 - n) beta_S dT/dt                                                             (Eq. 6)
 //   C = sum n_a rho_a C_a [J/m3/K],  k = sum n_a k_a [W/m/K]                                                 (Eq. 9)
 //   beta_m = (1-n) [S + (1-S) r] beta_S + n S beta_L + n (1-S) r beta_I,  r = rho_I/rho_L                    (Eq. 8)
-// Intrinsic densities stay at their reference: Eq. 3 acts only through the expansion coefficients and K_L.
+// Intrinsic densities are constant: Eq. 3 acts only through the expansion coefficients and K_L.
 #pragma once
 
 #include <cmath>
@@ -14,8 +14,8 @@
 
 namespace thawslide::physics {
 
-// Properties of the three phases (Table 1). The paper rounds rho_I/rho_S of Eq. 2 to 1/3; the ratio is a parameter of
-// its own because the limits of Eq. 25 were chosen with the rounded one.
+// Properties of the three phases (Table 1). The paper rounds rho_I/rho_S of Eq. 2 to 1/3; the ratio is a separate
+// parameter because the limits of Eq. 25 were chosen with the rounded value.
 template <class Real>
 struct Phases {
   Real rock_density, ice_density, water_density;                    // rho [kg/m3]
@@ -28,7 +28,7 @@ struct Phases {
   Real ice_to_rock_density_ratio;                                   // of Eq. 2
 };
 
-// Porosity stays between these: a particle keeps some rock and some pore.
+// Bounds of the porosity: a particle always contains some rock and some pore.
 template <class Real>
 inline constexpr Real smallest_porosity = static_cast<Real>(1e-6);
 template <class Real>
@@ -48,7 +48,7 @@ THAWSLIDE_HD Value mixture_density(const Phases<Real>& phases, Value porosity, V
          porosity * (saturation * phases.water_density + (Real(1) - saturation) * phases.ice_density);
 }
 
-// C of Eq. 9 [J/m3/K]: follows the saturation.
+// C of Eq. 9 [J/m3/K], depending on saturation.
 template <class Real, class Value>
 THAWSLIDE_HD Value heat_capacity(const Phases<Real>& phases, Value porosity, Value saturation) {
   return (Real(1) - porosity) * phases.rock_density * phases.rock_heat_capacity +
@@ -56,14 +56,15 @@ THAWSLIDE_HD Value heat_capacity(const Phases<Real>& phases, Value porosity, Val
                      (Real(1) - saturation) * phases.ice_density * phases.ice_heat_capacity);
 }
 
-// k of Eq. 9 [W/m/K]: follows the saturation.
+// k of Eq. 9 [W/m/K], depending on saturation.
 template <class Real, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value conductivity(const Phases<Real>& phases, Value porosity, Value saturation) {
   return (Real(1) - porosity) * phases.rock_conductivity +
          porosity * (saturation * phases.water_conductivity + (Real(1) - saturation) * phases.ice_conductivity);
 }
 
-// beta_m of Eq. 8 [1/K], with r = rho_I/rho_L (the paper prints rho_L/rho_L); water's expansion [1/K] as it is there.
+// beta_m of Eq. 8 [1/K], with r = rho_I/rho_L (the paper has rho_L/rho_L, an erratum). water_expansion [1/K]: at the
+// current temperature.
 template <class Real, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value expansion(const Phases<Real>& phases, Value porosity, Value saturation,
                                                      Value water_expansion) {
@@ -78,13 +79,13 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value expansion(const Phases<Real>& phases,
   return expansion(phases, porosity, saturation, Value(phases.water_expansion));
 }
 
-// A quantity per volume of two matters mixed by volume, of which `share` is of the first.
+// Quantity per volume of a mixture by volume. share: fraction of the first material.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value mixed(Value first, Value second, Value share) {
   return share * first + (Value(1) - share) * second;
 }
 
-// exp(x) - 1; for the small arguments of a step by its series, which is exact to round-off there and much faster.
+// exp(x) - 1. Small arguments, as in a step, use the series, which is exact to round-off and much faster.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value exponential_minus_one(Value x) {
   using std::abs;
@@ -96,18 +97,18 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value exponential_minus_one(Value x) {
   if (!any(!is_small)) {
     return series;
   }
-  return select(is_small, series, rarely(x, [](auto number) { return std::expm1(number); }));
+  return select(is_small, series, cold_call(x, [](auto number) { return std::expm1(number); }));
 }
 
-// log(a/b); for ratios near 1, as those of absolute temperatures are, by its series 2 artanh((a - b)/(a + b)), which is
-// exact to round-off there and much faster.
+// log(a/b). Ratios near 1, as of absolute temperatures, use the series 2 artanh((a - b)/(a + b)), which is exact to
+// round-off and much faster.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value log_of_ratio(Value a, Value b) {
   using std::abs;
   using Real = typename NumberOf<Value>::Type;
   constexpr int terms = 9;
   const Value argument = (a - b) / (a + b);
-  const auto is_small = abs(argument) < static_cast<Real>(0.112);  // the term left out is below 1e-17
+  const auto is_small = abs(argument) < static_cast<Real>(0.112);  // the first omitted term is below 1e-17
   const Value square = argument * argument;
   Value series = 0;
   for (int k = terms - 1; k >= 0; --k) {
@@ -117,12 +118,12 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value log_of_ratio(Value a, Value b) {
   if (!any(!is_small)) {
     return series;
   }
-  return select(is_small, series, rarely(a / b, [](auto number) { return std::log(number); }));
+  return select(is_small, series, cold_call(a / b, [](auto number) { return std::log(number); }));
 }
 
-// Eq. 6 integrated over a step: the grains keep their mass, so 1 - n falls with the volume and grows with their thermal
-// expansion. volume_strain: change of the logarithm of the volume, for which a step's
-// mid-point strain stands (third order in it); temperature_change [K].
+// Eq. 6 integrated over a step: the grains conserve mass; 1 - n therefore decreases with the volume and increases with
+// their thermal expansion. volume_strain: change of the logarithm of the volume, approximated by the mid-point strain
+// of a step (error of third order). temperature_change [K].
 template <class Real, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value updated_porosity(const Phases<Real>& phases, Value porosity,
                                                             Value volume_strain, Value temperature_change) {

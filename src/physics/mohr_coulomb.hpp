@@ -1,15 +1,15 @@
 // Linear elasticity with Mohr-Coulomb plasticity and an optional tension cut-off. Tension positive, s1 >= s2 >= s3.
-//   F = (s1 - s3)/2 + (s1 + s3)/2 sin(phi) - c cos(phi) = 0           (Eq. 11, whose c and one sign the paper's print
-//   lost) in the form used here  k s1 - s3 = 2 c sqrt(k),  k = (1 + sin phi)/(1 - sin phi);  cut-off  s1 = sigma_t
-//   flow: m s1 - s3 with m from the dilation angle (the paper gives none; default 0); cut-off: associated
-//   softening, with w = exp(-eps/eps_c), eps the sum of sqrt(2/3 de_p:de_p); c and phi are held within a step
-//     c = c_f + (c_0 - c_f) w              (the paper's, whose eps_c is 1)
+//   F = (s1 - s3)/2 + (s1 + s3)/2 sin(phi) - c cos(phi) = 0     (Eq. 11, published without c and one sign), used as
+//   k s1 - s3 = 2 c sqrt(k),  k = (1 + sin phi)/(1 - sin phi);  cut-off  s1 = sigma_t
+//   flow: m s1 - s3 with m from the dilation angle (not given in the paper; default 0); cut-off: associated
+//   softening, with w = exp(-eps/eps_c), eps the sum of sqrt(2/3 de_p:de_p); c and phi are constant within a step
+//     c = c_f + (c_0 - c_f) w                                      (as in the paper, where eps_c is 1)
 //     sin phi = sin phi_f + (sin phi_0 - sin phi_f) w              (not in the paper)
 //     eps_c of a slip: physics/softening.hpp
-// Return to faces, edges and apex in principal space: among the sets of at most three active planes, the one whose
-// multipliers are not negative and whose stress is admissible (Koiter's flow rule; Clausen, Damkilde and Andersen 2006
-// and de Souza Neto, Peric and Owen 2008, ch. 8, name the same regions). Where no set answers, the apex does: without
-// dilation the flow cannot reach it, and, as in Clausen et al., the stress is put there.
+// Return to faces, edges and apex in principal space: the set of at most three active planes with non-negative
+// multipliers and an admissible stress (Koiter's flow rule; regions as in Clausen, Damkilde and Andersen 2006 and de
+// Souza Neto, Peric and Owen 2008, ch. 8). If none exists, the apex (as in Clausen et al.), which the flow cannot reach
+// without dilation.
 #pragma once
 
 #include <cmath>
@@ -33,7 +33,7 @@ struct Strength {
   Real residual_friction_angle = friction_angle;  // phi_f, at least the dilation angle
 };
 
-// friction_falls: the friction angle softens too. Where it does not, what depends on it alone is known once for all.
+// friction_falls: the friction angle softens too. Otherwise, quantities that depend only on it are precomputed.
 template <class Real, bool friction_falls = false>
 class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifier-naming): clang copying its arrays
  public:
@@ -65,7 +65,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return law;
   }
 
-  // c [Pa] after an equivalent plastic strain.
+  // c [Pa] at an equivalent plastic strain.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD Value cohesion(Value plastic_strain) const {
     const auto has_yielded = plastic_strain != Value(0);
@@ -76,8 +76,8 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
                   Value(cohesion_));
   }
 
-  // Whether an elastic trial stress [Pa] may be beyond the yield surface: yes only if it is, to round-off, for intact
-  // matter in plane strain, whose principal stresses cost no more than the bound that stands for them in space.
+  // True if an elastic trial stress [Pa] may be outside the yield surface. Exact to round-off for intact material in
+  // plane strain, where principal stresses cost no more than the bound used in 3D.
   static constexpr bool yields = true;
   template <int Dim, class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto may_yield(const SymmetricTensor<Value>& trial,
@@ -88,14 +88,15 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
         min(cohesion_, residual_cohesion_) + max(cohesion_ - residual_cohesion_, Real(0)) * lowest_share;
     const Surface<Value> of_intact_angle{ratio_, Real(2) * root_of_ratio_ * lowest_cohesion};
     if constexpr (friction_falls) {
-      // Over phi, F falls and then rises: a stress within the surface at both ends is so in between.
+      // As a function of phi, F decreases and then increases: a stress inside the surface at both ends is inside in
+      // between.
       return is_beyond<Dim>(trial, of_intact_angle) | is_beyond<Dim>(trial, surface_of(lowest_share, lowest_cohesion));
     } else {
       return is_beyond<Dim>(trial, of_intact_angle);
     }
   }
 
-  // The admissible stress that follows from an elastic trial [Pa]; Dim 2: of plane strain.
+  // Maps an elastic trial stress [Pa] to the admissible stress. Dim 2: plane strain.
   template <int Dim = 3, class Value>
   [[nodiscard]] THAWSLIDE_HD ReturnResult<Value> update(const SymmetricTensor<Value>& trial,
                                                         Value plastic_strain) const {
@@ -129,8 +130,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   }
 
  private:
-  // Planes in the space of ordered principal stresses: Mohr-Coulomb of (s1, s3), (s1, s2), (s2, s3); cut-off of s1, s2,
-  // s3.
+  // Planes for ordered principal stresses: Mohr-Coulomb of (s1, s3), (s1, s2), (s2, s3); cut-off of s1, s2, s3.
   static constexpr int planes = 6;
   static constexpr Real round_off = by_precision<Real>(1e-12, 1e-6);
 
@@ -145,7 +145,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     int count;
     int plane[3];
   };
-  // Face, cut-off face, edges, corners: from the likely to the rare.
+  // Face, cut-off face, edges, corners, in order of decreasing likelihood.
   static constexpr int set_count = 12;
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static const ActiveSet& active_set(int number) {
     // A static array of the class would not exist on a device.
@@ -155,13 +155,13 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return sets[number];
   }
 
-  // w: the share of the strength that softens which is left.
+  // w: remaining fraction of the softening strength.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value share_left(Value plastic_strain) const {
-    return each_lane(softening_rate_ * plastic_strain, [](Real strains) { return std::exp(-strains); });
+    return map_lanes(softening_rate_ * plastic_strain, [](Real strains) { return std::exp(-strains); });
   }
 
-  // Of a share of the friction's sine and of a cohesion [Pa].
+  // Surface for a fraction of the softening sine and a cohesion [Pa].
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Surface<Value> surface_of(Value share, Value cohesion) const {
     using std::sqrt;
@@ -179,7 +179,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     }
   }
 
-  // Of the largest and the smallest principal stress, or of bounds on them.
+  // True within the surface. largest, smallest: principal stresses, or bounds on them.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto is_elastic(Value largest, Value smallest,
                                                                      const Surface<Value>& surface,
@@ -188,7 +188,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
            (largest <= tension_cutoff_ + tolerance);
   }
 
-  // No only if the stress is within the surface; in plane strain yes only if it is beyond.
+  // False only if the stress is within the surface; in plane strain, true only if it is outside.
   template <int Dim, class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto is_beyond(const SymmetricTensor<Value>& trial,
                                                                     const Surface<Value>& surface) const {
@@ -202,8 +202,8 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     }
   }
 
-  // Whether the stress is within the surface whatever its Lode angle: no principal stress lies further from the mean m
-  // than r = 2 sqrt(J2/3). Spares most particles their principal stresses.
+  // True if the stress is within the surface at any Lode angle: principal stresses differ from the mean m by at most r
+  // = 2 sqrt(J2/3). Avoids computing principal stresses for most particles.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto surely_elastic(const SymmetricTensor<Value>& s,
                                                                          const Surface<Value>& surface) const {
@@ -236,7 +236,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     }
   }
 
-  // Principal stresses on the yield surface for those that yielded; torn: 1 at the apex or on the cut-off, else 0.
+  // Principal stresses on the yield surface for lanes that yielded. torn: 1 at the apex or on the cut-off, otherwise 0.
   template <class Value, class Condition>
   [[nodiscard]] THAWSLIDE_HD Vector<Value, 3> returned(const Vector<Value, 3>& trial, const Surface<Value>& surface,
                                                        Value tolerance, const Condition& yielded, Value& torn) const {
@@ -254,7 +254,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return values;
   }
 
-  // Tries the sets beyond the face in order for all lanes; lanes that no set fits return to the apex.
+  // Tries the sets beyond the face in order for all lanes; lanes without a valid set return to the apex.
   template <class Value, class Condition>
   THAWSLIDE_HD [[gnu::noinline]] void return_to_edge_or_apex(const Vector<Value, 3>& trial,
                                                              const Surface<Value>& surface, int planes_here,
@@ -284,7 +284,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     torn = select(left, Value(1), torn);
   }
 
-  // How far a stress is beyond a plane [Pa].
+  // Distance of a stress beyond a plane [Pa].
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value beyond(int plane, const Vector<Value, 3>& values,
                                                                   const Surface<Value>& surface) const {
@@ -293,7 +293,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return normal[0] * values[0] + normal[1] * values[1] + normal[2] * values[2] - limit;
   }
 
-  // Whether a stress is within the planes from `first` on.
+  // True if a stress is within the planes from `first` on.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD auto is_admissible(const Vector<Value, 3>& values, const Surface<Value>& surface,
                                                 int first, int planes_here, Value tolerance) const {
@@ -304,7 +304,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return furthest <= tolerance;
   }
 
-  // Takes an active set's plastic strain off the trial stress. Returns where no multiplier is negative.
+  // Subtracts the elastic stress of an active set's plastic flow. True for lanes without a negative multiplier.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD auto relax(int number, const Surface<Value>& surface, Vector<Value, 3>& values) const {
     const ActiveSet& set = active_set(number);
@@ -324,7 +324,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return flows;
   }
 
-  // The elastic strain of a principal stress.
+  // Elastic strain of a principal stress.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD Vector<Value, 3> elastic_strain(const Vector<Value, 3>& stress) const {
     const Real two_shear = Real(2) * elastic_.shear_modulus;
@@ -333,7 +333,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return compliance * (stress - Vector<Value, 3>::Constant(mean));
   }
 
-  // Of the planes of a set: normal . relaxation; 1 on the diagonal of what is no plane.
+  // normal . relaxation for the planes of a set; unused rows have 1 on the diagonal.
   template <class Ratio>
   [[nodiscard]] THAWSLIDE_HD Matrix<Ratio, 3> coupling(int number, Ratio ratio) const {
     const ActiveSet& set = active_set(number);
@@ -348,7 +348,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return coupling;
   }
 
-  // Of the face of s1 and s3.
+  // For the face of s1 and s3.
   template <class Ratio>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Ratio inverse_coupling_of_face(Ratio ratio) const {
     if constexpr (friction_falls) {
@@ -376,7 +376,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     }
   }
 
-  // What follows from a friction angle that stays.
+  // Quantities derived from a constant friction angle.
   struct OfAngle {  // NOLINT(bugprone-reserved-identifier,readability-identifier-naming): of the copy by clang
     Vector<Real, 3> normal[planes];
     Matrix<Real, 3> inverse_coupling[set_count];
@@ -392,7 +392,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   std::conditional_t<friction_falls, Nothing, OfAngle> of_angle_;
 };
 
-// Chosen once per run of particles of one material, never per particle.
+// Dispatched once per batch of particles of one material, never per particle.
 template <class Real>
 using ConstitutiveLaw = std::variant<LinearElastic<Real>, MohrCoulomb<Real>, MohrCoulomb<Real, true>>;
 

@@ -1,13 +1,14 @@
-// The balance of the water in a melted pore: what fills it, and the pressure that comes of it.
+// Water balance of a melted pore: filling and resulting pressure.
 //   (n/K_L + m_v) dP = beta_m(T) dT - n (1 - r) dS - div q dt + m_v dN,   0 <= P <= N
 //   beta_m = (1-n) [S + (1-S) r] beta_S + n S beta_L(T) + n (1-S) r beta_I                                  (Eq. 8)
-// r = rho_I/rho_L. Eq. 8 with two things it leaves out: the skeleton gives under effective stress, by m_v [1/Pa], and
-// water's expansion follows the temperature. With m_v = 0 and a constant beta_L it is Eq. 8 with a rigid pore. Melt
-// fills r of the pore that its ice filled: what is left, n (1 - r) dS, is filled before a pressure rises.
+// r = rho_I/rho_L. This is Eq. 8 with two additions: the skeleton is compressible under effective stress, by m_v
+// [1/Pa], and the expansion of water depends on temperature. With m_v = 0 and a constant beta_L, it is Eq. 8 with a
+// rigid pore. Melt fills the fraction r of the pore that its ice filled; the remaining void n (1 - r) dS is filled
+// before the pressure rises.
 //   beta_L(T): -0.7e-4 at 0 C, 2.1e-4 at 20, 4.6e-4 at 50, 7.5e-4 1/K at 100, linear between and beyond (source of the
 //   four values: not checked)
-// One number says how full a pore is: the surplus w, the volume of water beyond what fills the pore at P = 0, per
-// volume of mixture. Below 0 it is a gas void; up to (n/K_L + m_v) N it is under pressure; what is more opens the base.
+// The state of a pore is given by the surplus w, the volume of water beyond the filling at P = 0, per volume of
+// mixture. Below 0, it is a gas void; up to (n/K_L + m_v) N, it is under pressure; the excess opens the base.
 #pragma once
 
 #include "base/portability.hpp"
@@ -21,13 +22,13 @@ enum class WaterExpansionLaw {
   by_temperature  // through the four values above
 };
 
-// Water's volumetric expansion beta_L [1/K].
+// Volumetric expansion of water beta_L [1/K].
 template <class Real>
 struct WaterExpansion {
   WaterExpansionLaw law = WaterExpansionLaw::constant;
   Real constant = 0;  // [1/K]
 
-  // At a temperature [C].
+  // beta_L at a temperature [C].
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value at(Value temperature) const {
     if (law == WaterExpansionLaw::constant) {
@@ -38,7 +39,7 @@ struct WaterExpansion {
     return select(temperature < Value(lower_end<2>()), expansion, on_line<2>(temperature));
   }
 
-  // Its integral between two temperatures [C]: the share by which water swells [1]. Exact, line by line.
+  // Integral between two temperatures [C]: relative swelling of water [1]. Exact, evaluated per line.
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value swelling(Value from, Value to) const {
     if (law == WaterExpansionLaw::constant) {
@@ -66,7 +67,7 @@ struct WaterExpansion {
   THAWSLIDE_HD static constexpr Real lower_end() {
     return point<Line>().temperature;
   }
-  // The line through two neighbouring points.
+  // Line through two adjacent points.
   template <int Line, class Value>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static Value on_line(Value temperature) {
     constexpr Point low = point<Line>(), high = point<Line + 1>();
@@ -79,8 +80,8 @@ struct WaterExpansion {
   }
 };
 
-// Integral of beta_m dT of melted matter (S = 1) between two temperatures [C]: the share of the volume by which grains
-// and water swell [1].
+// Integral of beta_m dT of melted material (S = 1) between two temperatures [C]: swelling of grains and water as a
+// fraction of the volume [1].
 template <class Real, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value melted_swelling(const Phases<Real>& phases,
                                                            const WaterExpansion<Real>& water, Value porosity,
@@ -88,58 +89,57 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value melted_swelling(const Phases<Real>& p
   return (Real(1) - porosity) * phases.rock_expansion * (to - from) + porosity * water.swelling(from, to);
 }
 
-// n/K_L + m_v [1/Pa]: the volume of water that a rise of pressure stores, per volume of mixture. Compressibility m_v of
-// the skeleton [1/Pa]; 0: a rigid pore.
+// n/K_L + m_v [1/Pa]: volume of water stored per rise of pressure and volume of mixture. skeleton_compressibility: m_v
+// [1/Pa]; 0: rigid pore.
 template <class Real, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_storage(const Phases<Real>& phases, Value porosity,
                                                         Real skeleton_compressibility) {
   return porosity / phases.water_bulk_modulus + skeleton_compressibility;
 }
 
-// n + K_L m_v [1]: what a rigid pore's porosity would have to be to store as much; n of Eqs. 8 and 23 where they divide
-// by it.
+// n + K_L m_v [1]: porosity of a rigid pore with the same storage; replaces n in the denominators of Eqs. 8 and 23.
 template <class Real, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value storing_porosity(const Phases<Real>& phases, Value porosity,
                                                             Real skeleton_compressibility) {
   return porosity + phases.water_bulk_modulus * skeleton_compressibility;
 }
 
-// n (1 - r) dS: the void that melting leaves, per volume of mixture [1]; melted: dS, share of the pore.
+// n (1 - r) dS: void left by melting, per volume of mixture [1]. melted: dS, fraction of the pore.
 template <class Real, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value melting_void(const Phases<Real>& phases, Value porosity, Value melted) {
   return porosity * (Real(1) - phases.ice_density / phases.water_density) * melted;
 }
 
-// dP = m_v dN/(n/K_L + m_v) [Pa]: what a change of the normal load [Pa] brings to a full pore that does not drain. In a
-// rigid pore nothing.
+// dP = m_v dN/(n/K_L + m_v) [Pa]: pressure change of a full, undrained pore by a change of the normal load [Pa]; 0 for
+// a rigid pore.
 template <class Real, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value undrained_loading(const Phases<Real>& phases, Value porosity,
                                                              Real skeleton_compressibility, Value load_change) {
   return skeleton_compressibility / pore_storage(phases, porosity, skeleton_compressibility) * load_change;
 }
 
-// P within 0 <= P <= N [Pa]; a load below 0 counts as none.
+// P limited to 0 <= P <= N [Pa]; a negative load counts as 0.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value bounded_pore_pressure(Value pressure, Value normal_load) {
   return max(min(pressure, normal_load), Value(0));
 }
 
-// What the water of a pore does with its surplus w [1]; of the three at most one of void and pressure is not 0, and the
-// base opens only where P = N.
+// State of pore water with a surplus w [1]. At most one of void and pressure is nonzero, and the base opens only at P =
+// N.
 template <class Value>
 struct PoreFilling {
   Value pressure;  // P [Pa]
   Value gas_void;  // per volume of mixture [1]
-  Value opening;   // volume of water that parts the base, per volume of mixture [1]
+  Value opening;   // volume of water that opens the base, per volume of mixture [1]
 };
 
-// storage n/K_L + m_v [1/Pa], above 0. Of a pore that nothing opens: P may pass any load.
+// For a pore without opening: P may exceed any load. storage: n/K_L + m_v [1/Pa], above 0.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE PoreFilling<Value> pore_filling(Value surplus, Value storage) {
   const Value none = 0;
   return {max(surplus / storage, none), max(-surplus, none), none};
 }
-// The same below a normal load N [Pa], at which the base opens.
+// The same under a normal load N [Pa], at which the base opens.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE PoreFilling<Value> pore_filling(Value surplus, Value storage, Value normal_load) {
   const Value none = 0;
@@ -147,20 +147,20 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE PoreFilling<Value> pore_filling(Value surpl
           max(surplus - storage * max(normal_load, none), none)};
 }
 
-// w [1] of a pore that is so filled; the inverse of pore_filling.
+// w [1] of a pore in a given state; inverse of pore_filling.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_surplus(const PoreFilling<Value>& filling, Value storage) {
   return storage * filling.pressure + filling.opening - filling.gas_void;
 }
 
-// P [Pa] when the last ice of a pore melts, while no void takes of it: N - s0, since the water takes over what the ice
-// carried of the load N, but not the residual effective stress s0 [Pa]. s0 at N or above: no excess pressure.
+// P [Pa] when the last ice of a pore melts, without a void: N - s0, because the water takes over the part of the load N
+// that the ice carried, but not the residual effective stress s0 [Pa]. s0 at N or above: no excess pressure.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value thawing_pressure(Value normal_load, Value residual_stress) {
   return max(normal_load - residual_stress, Value(0));
 }
 
-// w [1] then, less what the void takes that melting left.
+// w [1] on thawing, minus the void left by melting.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value thawing_surplus(Value storage, Value normal_load, Value residual_stress,
                                                            Value gas_void) {

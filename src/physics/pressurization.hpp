@@ -1,6 +1,6 @@
 // Thermal pressurization and seepage of the melted pore (Eqs. 8, 22, 23 at S = 1).
 //   dP_L/dt = K_L/(n S) [beta_m dT/dt - div q_L],  q_L = -(k_L/gamma_w) grad P_L
-// and, by switch, Eq. 8's - [S + (1-S) r] div v within the bracket, which Eq. 23 drops.
+// and, as an option, Eq. 8's - [S + (1-S) r] div v within the bracket, which Eq. 23 drops.
 #pragma once
 
 #include <cmath>
@@ -16,8 +16,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value undrained_pressure_coefficient(const 
   return phases.water_bulk_modulus * expansion(phases, porosity, saturation) / (porosity * saturation);
 }
 
-// K_L/(n S) [Pa]: pressure per volumetric compression of a pore that does not drain (Eq. 8, r = rho_I/rho_L, times
-// S + (1 - S) r, which is 1 once melted).
+// K_L/(n S) [Pa]: pressure per volumetric compression of an undrained pore (Eq. 8, r = rho_I/rho_L, times S + (1 - S)
+// r, which is 1 once melted).
 template <class Real, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_stiffness(const Phases<Real>& phases, Value porosity,
                                                           Value saturation) {
@@ -25,11 +25,11 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_stiffness(const Phases<Real>& ph
   return phases.water_bulk_modulus * (saturation + (Real(1) - saturation) * ratio) / (porosity * saturation);
 }
 
-// What the pore space is divided by when flow is multiplied by xi: xi, as Eq. 19 divides the capacity, or, as Eq. 23
-// is printed, nothing.
+// Divisor of the pore space when flow is multiplied by xi: xi, as Eq. 19 divides the capacity, or 1, as in Eq. 23 as
+// published.
 template <class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_space_scaling(Value scaling, bool as_printed) {
-  return as_printed ? Value(1) : scaling;
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_space_scaling(Value scaling, bool as_published) {
+  return as_published ? Value(1) : scaling;
 }
 
 // D = K_L k_L/(n S gamma_w) [m2/s]; hydraulic conductivity k_L [m/s].
@@ -39,10 +39,10 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value hydraulic_diffusivity(const Phases<Re
   return phases.water_bulk_modulus * hydraulic_conductivity / (porosity * saturation * phases.water_unit_weight);
 }
 
-// Share of the difference between a particle's pressure and the one nodes see at its place that subgrid diffusion takes
-// away within a step: 1 - exp(-dt D sum_a 2/h_a^2), h the mesh size that D is meant for (Gerya and Yuen 2003, Eq. 23).
-// inverse_mesh_size: 1/h [1/m]. Nodes do not see differences within a cell, and diffusion between nodes would leave
-// them standing for ever.
+// Fraction of the difference between the value of a particle and that interpolated from nodes that subgrid diffusion
+// removes in a step: 1 - exp(-dt D sum_a 2/h_a^2), where h is the mesh size to which D applies (Gerya and Yuen 2003,
+// Eq. 23). Nodes do not resolve differences within a cell; diffusion between nodes alone would preserve them.
+// inverse_mesh_size: 1/h [1/m].
 template <class Real, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value share_of_subgrid_diffusion(Value diffusivity, Value inverse_mesh_size,
                                                                       int dimension, Real dt) {

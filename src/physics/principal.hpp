@@ -1,6 +1,6 @@
-// Principal values and axes of a symmetric tensor, of one or, lane by lane, of several. In space the value that lies
-// furthest from the other two comes from the cubic; its axis leaves a plane problem for the others (Eberly 2014), which
-// keeps all digits where values meet.
+// Principal values and axes of a symmetric tensor, for one number or for SIMD lanes. In 3D, the value furthest from the
+// other two follows from the cubic; its axis leaves a plane problem for the others (Eberly 2014), which is accurate for
+// nearly equal values.
 #pragma once
 
 #include <cmath>
@@ -41,7 +41,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void sort_descending(Principal<Value>& prin
   order(0, 1);
 }
 
-// The cosine and sine of the axis of the larger value of [xx xy; xy yy], and how far the values lie from their mean.
+// Cosine and sine of the axis of the larger value of [xx xy; xy yy]. radius: distance of the values from their mean.
 template <class Value>
 struct PlaneAxis {
   Value cosine, sine, radius;
@@ -53,7 +53,7 @@ struct PlaneAxis {
     radius = sqrt(half_difference * half_difference + xy * xy);
     const auto distinct = radius > Value(0);
     const Value divisor = select(distinct, radius, Value(1));
-    // The larger of the two half-angle forms keeps its digits.
+    // The larger of the two half-angle forms is free of cancellation.
     const Value cosine2 = select(distinct, half_difference / divisor, Value(1));
     const Value larger = sqrt(Real(0.5) * (Real(1) + abs(cosine2)));
     const Value smaller = Real(0.5) * xy / (divisor * larger);
@@ -63,8 +63,8 @@ struct PlaneAxis {
   }
 };
 
-// The root x of x^3 - 3x = 2h that lies furthest from the other two, h within [-1, 1]: 2 cos(acos(h)/3) for h >= 0.
-// Newton's iteration: the start is within 0.003, and the slope there is 6 at least.
+// Root x of x^3 - 3x = 2h furthest from the other two, h within [-1, 1]: 2 cos(acos(h)/3) for h >= 0. Newton's
+// iteration: the initial error is below 0.003, and the slope there is at least 6.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value isolated_root(Value h) {
   using std::abs;
@@ -78,7 +78,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value isolated_root(Value h) {
   return select(h < Value(0), -x, x);
 }
 
-// The axis of the value that lies furthest from the other two; some axis where all meet.
+// Axis of the value furthest from the other two; an arbitrary axis if all are equal.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, 3> isolated_axis(const Matrix<Value, 3>& deviator) {
   using std::sqrt;
@@ -87,7 +87,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, 3> isolated_axis(const Matrix
   const Value inverse = Real(1) / select(size > Value(0), size, Value(1));
   const Matrix<Value, 3> scaled = inverse * deviator;
   const Value value = isolated_root(Value(max(min(Real(0.5) * scaled.determinant(), Value(1)), Value(-1))));
-  // Of the rows (or columns) of scaled - value I, which span the plane across the axis, the two that say most.
+  // The rows (or columns) of scaled - value I span the plane normal to the axis. The pair with the largest cross
+  // product is used.
   const Matrix<Value, 3> rows = scaled - value * Matrix<Value, 3>::Identity();
   Vector<Value, 3> axis = rows.col(0).cross(rows.col(1));
   Value most = axis.squaredNorm();
@@ -99,13 +100,13 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, 3> isolated_axis(const Matrix
       axis[row] = select(says_more, other[row], axis[row]);
     }
   }
-  // Where round-off is all that is left of the deviator, its trace is not 0 and all products may vanish.
+  // If the deviator consists of round-off, its trace is not 0 and all products may vanish.
   const auto some = most > Value(0);
   axis[0] = select(some, axis[0], Value(1));
   return axis / sqrt(select(some, most, Value(1)));
 }
 
-// A unit vector across an axis.
+// Unit vector normal to an axis.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, 3> across(const Vector<Value, 3>& axis) {
   using std::abs, std::sqrt;
@@ -118,7 +119,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, 3> across(const Vector<Value,
 
 }  // namespace detail
 
-// Of a tensor xx yy zz xy yz xz; Dim 2: plane strain, yz and xz being 0.
+// tensor: xx yy zz xy yz xz. Dim 2: plane strain, with yz = xz = 0.
 template <int Dim = 3, class Value>
 THAWSLIDE_HD Principal<Value> principal(const SymmetricTensor<Value>& tensor) {
   using Real = typename NumberOf<Value>::Type;
@@ -147,7 +148,7 @@ THAWSLIDE_HD Principal<Value> principal(const SymmetricTensor<Value>& tensor) {
   return result;
 }
 
-// The tensor with given principal values on given axes.
+// Tensor with given principal values and axes.
 template <class Value>
 THAWSLIDE_HD SymmetricTensor<Value> from_principal(const Principal<Value>& principal) {
   SymmetricTensor<Value> tensor = SymmetricTensor<Value>::Zero();

@@ -1,4 +1,4 @@
-// What a constitutive law (Eq. 11) makes of an elastic trial stress, and the law that leaves it as it is (Eq. 10).
+// Result of mapping an elastic trial stress by a constitutive law (Eq. 11), and the linear elastic law (Eq. 10).
 #pragma once
 
 #include "base/linear.hpp"
@@ -13,7 +13,7 @@ struct ReturnResult {
   SymmetricTensor<Value> stress;                  // [Pa]
   Value equivalent_plastic_strain_increment = 0;  // sqrt(2/3 de_p:de_p)
   Value plastic_work_density = 0;                 // stress : de_p [J/m3]
-  Value opening = 0;  // volumetric plastic strain at the apex or the cut-off: a gap torn open
+  Value opening = 0;  // volumetric plastic strain at the apex or the cut-off: opening of a gap
   Condition yielded = Value(0) < Value(0);
 };
 

@@ -1,8 +1,8 @@
-// The rigid motion nearest to velocities v_k at places x_k with masses m_k, in least squares (a chapter on rigid bodies
-// of any textbook of mechanics): that of a rigid body with their momentum and their angular momentum.
+// Least-squares fit of a rigid motion to velocities v_k at positions x_k with masses m_k (a chapter on rigid bodies of
+// any textbook of mechanics): the motion of a rigid body with the same momentum and angular momentum.
 //   v(x) = u + w x (x - c),  m = sum m_k,  m c = sum m_k x_k,  m u = sum m_k v_k
 //   I w = sum m_k x_k x v_k - m c x u,  I = sum m_k [|x_k - c|^2 1 - (x_k - c)(x_k - c)^T]
-// In the plane rotation, moment and I are one number each. Places are told from the origin that all share.
+// In 2D, rotation, moment and I are one number each. All positions are relative to a common origin.
 #pragma once
 
 #include "base/linear.hpp"
@@ -11,7 +11,8 @@
 
 namespace thawslide::physics {
 
-// Numbers of a rotation or a moment, and of the products of a place with itself: |x|^2, or x x^T (xx yy zz xy yz xz).
+// Components of a rotation or moment, and of the products of a position with itself: |x|^2, or x x^T (xx yy zz xy yz
+// xz).
 template <int Dim>
 inline constexpr int rotations = Dim == 2 ? 1 : 3;
 template <int Dim>
@@ -32,7 +33,7 @@ template <int Dim, class Value>
   return moment;
 }
 
-// w x x: what a rotation w [1/s] gives a place [m/s].
+// w x x: velocity [m/s] at a position by a rotation w [1/s].
 template <int Dim, class Value>
 [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, Dim> turned(
     const Vector<Value, rotations<Dim>>& rotation, const Vector<Value, Dim>& place) {
@@ -46,7 +47,7 @@ template <int Dim, class Value>
   return velocity;
 }
 
-// The products of a place with itself [m2].
+// Products of a position with itself [m2].
 template <int Dim, class Value>
 [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, squares<Dim>> squares_of(
     const Vector<Value, Dim>& place) {
@@ -80,8 +81,8 @@ struct RigidMotion {
   Vector<Real, rotations<Dim>> rotation = Vector<Real, rotations<Dim>>::Zero();  // w [1/s]
 };
 
-// Where points lie so close to one another that they have next to no moment of inertia about an axis, at most mass
-// times least_square [m2], there is no rotation about it.
+// Rotation around an axis is ignored if the moment of inertia is at most mass times least_square [m2], for points too
+// close to the axis.
 template <int Dim, class Real>
 [[nodiscard]] THAWSLIDE_HD RigidMotion<Dim, Real> nearest_rigid_motion(const MassPoints<Dim, Real>& points,
                                                                        Real least_square) {

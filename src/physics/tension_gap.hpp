@@ -1,7 +1,7 @@
-// Gaps that tension tears open. A return to the apex or to the tension cut-off gives plastic volume: matter comes apart
-// and bears nothing. Classical plasticity lets it bear again at once when it is pressed together, however wide apart it
-// is: loose particles swell without limit and, light as they are for their size, are then thrown about. Here, where the
-// material asks for it, the gap closes first (after the volume correction of Tampubolon et al. 2017, Sec. 4.3.4).
+// Gaps opened by tension. A return to the apex or to the tension cut-off creates plastic volume: material separates and
+// bears no stress. In classical plasticity, it bears stress immediately on compression, regardless of the gap; loose
+// particles then expand without limit and, with their low density, gain excessive speeds. If the material selects it,
+// gaps close first (after the volume correction of Tampubolon et al. 2017, Sec. 4.3.4).
 #pragma once
 
 #include "base/linear.hpp"
@@ -10,13 +10,13 @@
 
 namespace thawslide::physics {
 
-// Of a volumetric strain increment, what closes a gap and so bears no stress: 0 to the gap's volumetric strain.
+// Part of a volumetric strain increment that closes a gap and bears no stress: from 0 to the gap's volumetric strain.
 template <class Real>
 [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real closing_strain(Real gap, Real volume_strain) {
   return min(gap, max(Real(0), -volume_strain));
 }
 
-// The strain increment that stress answers: the rest of it, the closing being equal in all directions.
+// Strain increment that causes stress: the remainder, with an isotropic closing part.
 template <class Real>
 [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Real> borne_strain(
     const SymmetricTensor<Real>& strain, Real closing) {

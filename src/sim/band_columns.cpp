@@ -1,4 +1,4 @@
-// The band columns of a simulation: how they begin, and their part in a step.
+// Band columns of a simulation: initialization and update in a time step.
 #include <algorithm>
 #include <cmath>
 
@@ -12,42 +12,42 @@ namespace thawslide::sim {
 
 namespace {
 
-// Of the particles in the band, by volume; all of one material.
+// Volume averages over the particles in the band, which must all be of one material.
 template <int Dim, class Real>
-ColumnMatter matter_of_base(const config::Case& parameters, const Model<Dim, Real>& model,
-                            const mpm::Particles<Dim, Real>& particles) {
-  ColumnMatter matter{};
+ColumnMaterial material_of_base(const config::Case& parameters, const Model<Dim, Real>& model,
+                                const mpm::Particles<Dim, Real>& particles) {
+  ColumnMaterial material{};
   double volume = 0.0;
-  std::int32_t material = -1;
+  std::int32_t index = -1;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     if (particles.in_band(p) == 0) {
       continue;
     }
-    if (material >= 0 && particles.material(p) != material) {
+    if (index >= 0 && particles.material(p) != index) {
       throw UserError(
           fmt::format("{}: bodies of different materials stand on the ground, and band columns are of one. Give all "
                       "bodies the same material, or set band.model = \"scaled\".",
                       config::place_of(parameters, "band.model")));
     }
-    material = particles.material(p);
+    index = particles.material(p);
     const auto of_particle = static_cast<double>(particles.initial_volume(p));
     volume += of_particle;
-    matter.depth += of_particle * static_cast<double>(particles.flow_depth(p));
-    matter.temperature += of_particle * static_cast<double>(particles.temperature(p));
-    matter.porosity += of_particle * static_cast<double>(particles.initial_porosity(p));
+    material.depth += of_particle * static_cast<double>(particles.flow_depth(p));
+    material.temperature += of_particle * static_cast<double>(particles.temperature(p));
+    material.porosity += of_particle * static_cast<double>(particles.initial_porosity(p));
   }
-  if (material < 0) {
+  if (index < 0) {
     throw UserError(
         fmt::format("{}: no particle stands on the ground, where band columns begin. Let the body begin on "
                     "the ground, or set band.model = \"scaled\".",
                     config::place_of(parameters, "band.model")));
   }
-  matter.depth /= volume;
-  matter.temperature /= volume;
-  matter.porosity /= volume;
-  matter.hydraulic_conductivity =
-      static_cast<double>(model.motion.materials[static_cast<std::size_t>(material)].hydraulic_conductivity);
-  return matter;
+  material.depth /= volume;
+  material.temperature /= volume;
+  material.porosity /= volume;
+  material.hydraulic_conductivity =
+      static_cast<double>(model.motion.materials[static_cast<std::size_t>(index)].hydraulic_conductivity);
+  return material;
 }
 
 }  // namespace
@@ -55,11 +55,11 @@ ColumnMatter matter_of_base(const config::Case& parameters, const Model<Dim, Rea
 template <int Dim, class Real>
 void Simulation<Dim, Real>::restore_band_columns(const std::vector<double>& state) {
   band_columns_->restore(state);
-  // Pieces go with the slide, whose cells reach beyond the domain.
+  // Segments move with the slide, whose cells extend beyond the domain.
   const Real margin = Real(8) * static_cast<Real>(parameters_.grid.cell);
-  for (const auto& piece : band_columns_->pieces()) {
-    if (!is_about_domain<Dim, Real>(piece.position, model_.constraints.extent, margin)) {
-      StateNumbers(state, "band columns").fail(fmt::format("the piece {} lies far beyond the domain", piece.id));
+  for (const auto& segment : band_columns_->segments()) {
+    if (!is_about_domain<Dim, Real>(segment.position, model_.constraints.extent, margin)) {
+      StateNumbers(state, "band columns").fail(fmt::format("segment {} lies far beyond the domain", segment.id));
     }
   }
 }
@@ -69,15 +69,15 @@ void Simulation<Dim, Real>::start_band_columns() {
   if (!model_.contact.band_columns) {
     return;
   }
-  const ColumnMatter matter = matter_of_base(parameters_, model_, particles_);
+  const ColumnMaterial material = material_of_base(parameters_, model_, particles_);
   const double thickest =
       *std::max_element(parameters_.band.thickness.value.begin(), parameters_.band.thickness.value.end());
-  if (thickest >= matter.depth) {
+  if (thickest >= material.depth) {
     throw UserError(
         fmt::format("{}: the band is up to {} m thick, and the slide above it {:.4g} m on average. Use a thinner band.",
-                    config::place_of(parameters_, "band.thickness"), thickest, matter.depth));
+                    config::place_of(parameters_, "band.thickness"), thickest, material.depth));
   }
-  band_columns_.emplace(make_columns_model(parameters_, model_, matter), model_.motion.gravity);
+  band_columns_.emplace(make_columns_model(parameters_, model_, material), model_.motion.gravity);
   column_time_ = 0.0;
 }
 
@@ -90,14 +90,14 @@ void Simulation<Dim, Real>::band_columns_follow(const mpm::SparseGrid<Dim, Real>
   }
   const double cell = parameters_.grid.cell;
   const terrain::Surface<Dim>& surface = *model_.ground;
-  const typename band::BaseColumns<Dim, Real>::Ground ground{
+  const typename band::BasalSegments<Dim, Real>::Ground ground{
       [&](const auto& place) { return static_cast<Real>(surface.height(place.template cast<double>())); },
       [&](const auto& place) -> Vector<Real, Dim> {
         return surface.normal_below(place.template cast<double>(), cell).template cast<Real>();
       },
       [&](const auto& place) { return model_.motion.width.at(place[0]); }};
   const auto node_ground = [&](std::size_t b, std::size_t k) {
-    using NodeGround = typename band::BaseColumns<Dim, Real>::NodeGround;
+    using NodeGround = typename band::BasalSegments<Dim, Real>::NodeGround;
     if (!ground_on_grid.any_candidate(b) || !ground_on_grid.block(b)[k].candidate) {
       return NodeGround{nullptr, Real(0)};
     }

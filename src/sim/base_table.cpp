@@ -14,23 +14,23 @@ NamedNumbers base_table(const Simulation<Dim, Real>& simulation) {
     return table;
   }
   const auto add = [&](const char* name, Real number) { table[name].push_back(static_cast<double>(number)); };
-  for (const band::BasePiece<Dim, Real>& piece : columns->pieces()) {
-    const physics::BandMeans<Real> means = columns->means_now(piece);
-    const Real* slide = piece.column.temperature + physics::ColumnCells::ground;
+  for (const band::BasalSegment<Dim, Real>& segment : columns->segments()) {
+    const physics::BandMeans<Real> means = columns->means_now(segment);
+    const Real* slide = segment.column.temperature + physics::ColumnCells::ground;
     for (int a = 0; a < 3; ++a) {
       table["position_m"].push_back(
-          a < Dim ? static_cast<double>(piece.position[a]) + simulation.model().origin[std::min(a, Dim - 1)] : 0.0);
+          a < Dim ? static_cast<double>(segment.position[a]) + simulation.model().origin[std::min(a, Dim - 1)] : 0.0);
     }
-    add("area_m2", piece.area);
-    add("thickness_m", piece.column.thickness);
-    add("normal_pressure_Pa", piece.load);
+    add("area_m2", segment.area);
+    add("thickness_m", segment.column.thickness);
+    add("normal_pressure_Pa", segment.load);
     add("pore_pressure_Pa", means.pore_pressure);
     add("temperature_C", means.temperature);
     add("hottest_C", *std::max_element(slide, slide + physics::ColumnCells::slide));
     add("liquid_saturation", means.saturation);
-    add("opening_m", columns->volumes_of(piece).opening);
-    add("slip_m", piece.slip);
-    add("slip_speed_m_s", piece.speed);
+    add("opening_m", columns->volumes_of(segment).opening);
+    add("slip_m", segment.slip);
+    add("slip_speed_m_s", segment.speed);
   }
   return table;
 }

@@ -1,4 +1,4 @@
-// The base of a slide at one time, a row for each piece that carries a band column: for snapshots.
+// Table of the basal segments for snapshots: one row per segment at one time.
 #pragma once
 
 #include "base/named_numbers.hpp"
@@ -6,8 +6,9 @@
 
 namespace thawslide::sim {
 
-// Columns by name, each with its unit; `position_m` has x, y, z of each piece (z = 0 in 2D). Empty where the band is
-// not of columns. P, T and S are means over the band; `hottest_C` is of the column's hottest cell above the ground.
+// Columns by name with unit; `position_m` holds x, y, z of each segment (z = 0 in 2D). The table is empty unless the
+// band consists of columns. P, T and S are means over the band; `hottest_C` is the maximum of the column's cells above
+// the ground.
 template <int Dim, class Real>
 NamedNumbers base_table(const Simulation<Dim, Real>& simulation);
 

@@ -1,4 +1,4 @@
-// The erodible bed below a slide whose steps a device takes: it stays with the processor.
+// Erodible bed of a simulation on a device: the bed itself is computed on the CPU.
 #include "sim/bed_of_device.hpp"
 
 #include "base/instances.hpp"
@@ -8,13 +8,13 @@
 namespace thawslide::sim {
 
 template <int Dim, class Real>
-device::BedOnProcessor<Dim, Real> Simulation<Dim, Real>::bed_on_processor() {
+device::HostBed<Dim, Real> Simulation<Dim, Real>::host_bed() {
   if (bed_in_reach() == nullptr) {
     return {};
   }
-  using Columns = typename device::BedOnProcessor<Dim, Real>::Columns;
+  using Columns = typename device::HostBed<Dim, Real>::Columns;
   bed_of_device_ = std::make_unique<BedOfDevice<Dim, Real>>();
-  return {bed_->matter(),
+  return {bed_->material(),
           [this](const Columns& of_blocks, const Columns& of_candidates) {
             bed_of_device_->columns.clear();
             for (const auto& column : of_blocks) {
@@ -35,7 +35,7 @@ device::BedOnProcessor<Dim, Real> Simulation<Dim, Real>::bed_on_processor() {
             for (std::size_t n = 0; n < loads.size(); ++n) {
               below.nodes[n].load = loads[n];
             }
-            bed_->share_out(below.nodes);
+            bed_->distribute(below.nodes);
             below.available.clear();
             for (const auto& node : below.nodes) {
               below.available.push_back(node.available);
@@ -49,13 +49,12 @@ device::BedOnProcessor<Dim, Real> Simulation<Dim, Real>::bed_on_processor() {
               if (record[mpm::BedLayout<Dim>::taken] > Real(0)) {
                 bed_->collect(node.column, record, record[mpm::BedLayout<Dim>::size]);
               }
-              record += device::bed_told<Dim>;
+              record += device::bed_record_size<Dim>;
             }
           }};
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) \
-  template device::BedOnProcessor<Dim, Real> Simulation<Dim, Real>::bed_on_processor();
+#define THAWSLIDE_INSTANTIATE(Dim, Real) template device::HostBed<Dim, Real> Simulation<Dim, Real>::host_bed();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -1,4 +1,4 @@
-// What the processor keeps of an erodible bed below a slide whose steps a device takes.
+// CPU data of the erodible bed in a simulation on a device.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,9 @@ namespace thawslide::sim {
 
 template <int Dim, class Real>
 struct BedOfDevice {
-  std::vector<std::size_t> columns;  // that the active blocks stand over, by their numbers in the bed
+  std::vector<std::size_t> columns;                               // below the active blocks: column numbers in the bed
   std::vector<typename terrain::Bed<Dim, Real>::Pressing> nodes;  // that may touch the ground
-  std::vector<Real> available;                                    // to these [kg]
+  std::vector<Real> available;                                    // mass available to these nodes [kg]
 };
 
 }  // namespace thawslide::sim

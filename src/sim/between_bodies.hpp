@@ -1,4 +1,4 @@
-// From the case to contact between bodies as the step has it.
+// Builds the parameters of contact between bodies from the case.
 #pragma once
 
 #include <cmath>

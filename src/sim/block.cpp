@@ -21,7 +21,7 @@ namespace thawslide::sim {
 
 namespace {
 
-// Path length along the ground and back; coordinates relative to the domain's lower corner [m].
+// Conversion between x and path length along the ground; coordinates relative to the domain's lower corner [m].
 class Path {
  public:
   explicit Path(const terrain::Polyline& line) : line_(&line) {
@@ -33,7 +33,7 @@ class Path {
   }
   [[nodiscard]] double length_at(double x) const { return map(line_->x(), length_, x); }
   [[nodiscard]] double x_at(double length) const { return map(length_, line_->x(), length); }
-  // Mean over a span of the way [1/m], positive where the ground is hollow.
+  // Mean curvature over a span of the path [1/m], positive where the ground is concave.
   [[nodiscard]] double curvature(double length, double span) const {
     const auto angle = [&](double at) { return std::atan(line_->gradient(x_at(at))); };
     return (angle(length + 0.5 * span) - angle(length - 0.5 * span)) / span;
@@ -60,14 +60,14 @@ struct Slice {
 struct Slices {
   std::vector<Slice> all;
   double mass = 0, base = 0;
-  double thickness = 0;  // mean, along the normal [m]
-  double middle_x = 0;   // absolute
+  double thickness = 0;  // mean, normal to the ground [m]
+  double middle_x = 0;   // absolute coordinate
 };
 
 Slices make_slices(const config::Case& parameters, const Model<2, double>& model, const Path& path,
                    const mpm::Particles<2, double>& particles) {
   const double cell = parameters.grid.cell;
-  std::map<long, std::pair<double, double>> columns;  // cell number: mass, volume
+  std::map<long, std::pair<double, double>> columns;  // by cell number: mass, volume
   for (std::size_t p = 0; p < particles.size(); ++p) {
     auto& column = columns[static_cast<long>(std::floor(particles.position(p, 0) / cell))];
     column.first += particles.mass(p);
@@ -94,10 +94,10 @@ Vector<double, 2> normal_below(const Model<2, double>& model, double x) {
 }
 
 struct Forces {
-  double along = 0, normal = 0;  // of gravity downhill, and into the ground [N per m of width]
+  double along = 0, normal = 0;  // forces along the ground towards +x, and into the ground [N per m of width]
 };
 
-// speed: with which the slices follow the bends of the ground [m/s].
+// speed: of the slices along the curved ground [m/s].
 Forces forces_on_slices(const Model<2, double>& model, const Path& path, const Slices& slices, double displacement,
                         double speed) {
   Forces forces;
@@ -106,7 +106,8 @@ Forces forces_on_slices(const Model<2, double>& model, const Path& path, const S
     const Vector<double, 2> normal = normal_below(model, path.x_at(place));
     const Vector<double, 2> tangent(-normal[1], normal[0]);  // towards +x
     forces.along += slice.mass * model.motion.gravity.dot(tangent);
-    // A slide bridges bends shorter than it is thick; over less than a slice its neighbours would miss some of a kink.
+    // Averages curvature over at least the thickness, because the slide bridges shorter bends. Spans shorter than a
+    // slice would miss part of a kink.
     const double span = std::max(slice.base, slices.thickness);
     forces.normal +=
         physics::load_in_bend(slice.mass, model.motion.gravity.dot(normal), speed, path.curvature(place, span));
@@ -114,7 +115,7 @@ Forces forces_on_slices(const Model<2, double>& model, const Path& path, const S
   return forces;
 }
 
-// The slices on their column: one step after another.
+// Rigid block of slices with its column, advanced step by step.
 class Block {
  public:
   Block(const config::Case& parameters, Table valley_factor, const Model<2, double>& model,
@@ -191,8 +192,9 @@ class Block {
     const double saturation =
         model_.band.with_heat_content([&](const auto& content) { return content.curve.saturation(temperature); });
     const double conductivity = model_.band.hydraulic_conductivity[static_cast<std::size_t>(material)];
-    const ColumnMatter matter{temperature, rows.porosity(rows.thickness, saturation), conductivity, rows.thickness};
-    return AnyColumn(std::in_place_type<BlockBandColumn>, make_columns_model(parameters_, model_, matter),
+    const ColumnMaterial of_column{temperature, rows.porosity(rows.thickness, saturation), conductivity,
+                                   rows.thickness};
+    return AnyColumn(std::in_place_type<BlockBandColumn>, make_columns_model(parameters_, model_, of_column),
                      band_thickness(), rows.normal_pressure, parameters_.band.column_step);
   }
 
@@ -212,7 +214,8 @@ class Block {
             }};
   }
 
-  // The law's view of the base now, averaged over what the slices stand on; returns the forces on the slices.
+  // Evaluates the basal law for the current state, averaged over the ground below the slices; returns the forces on
+  // them.
   Forces evaluate_base() {
     const double speed_in_bends = parameters_.block.bends ? velocity_ : 0.0;
     const Forces forces = forces_on_slices(model_, path_, slices_, displacement_, speed_in_bends);
@@ -244,7 +247,7 @@ class Block {
     return forces;
   }
 
-  // By number of the substrate: the share of the mass whose slices stand on it.
+  // Fraction of the mass on each substrate, by substrate number.
   [[nodiscard]] std::vector<double> mass_on_substrates() const {
     if (!model_.substrates) {
       return {1.0};
@@ -266,11 +269,11 @@ class Block {
   Table valley_factor_;  // over absolute x
   Slices slices_;
   double time_ = 0, velocity_ = 0, displacement_ = 0, slip_ = 0;  // along the ground, towards +x
-  double direction_ = 1;                                          // 1 or -1: towards +x or -x, in which rows count
+  double direction_ = 1;  // +1 or -1: direction along x in which output is positive
   AnyColumn column_;
   terrain::BasalNodes<double> basal_;
-  double base_area_ = 0;                // that the slices stand on, valley factor and all [m2 per m of width]
-  double strength_ = 0, friction_ = 0;  // of the base now: [Pa]; mu_e
+  double base_area_ = 0;                // ground below the slices, including the valley factor [m2 per m of width]
+  double strength_ = 0, friction_ = 0;  // current basal strength [Pa]; mu_e
   double friction_work_ = 0, friction_heat_ = 0, heat_gain_ = 0;
 };
 
@@ -291,7 +294,7 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
                     parameters.file));
   }
   if (parameters.bed.law != config::BedLaw::none) {
-    throw UserError(fmt::format("{}: the block model takes up no bed. Remove [bed], or use `thawslide run`.",
+    throw UserError(fmt::format("{}: the block model does not entrain a bed. Remove [bed], or use `thawslide run`.",
                                 config::place_of(parameters, "bed.law")));
   }
   if (parameters.general.width.varies()) {
@@ -316,7 +319,7 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
   const double interval = std::max(parameters.time.history_interval, dt);
   const auto steps = static_cast<long>(std::ceil(parameters.time.end / dt * (1.0 - 1e-12)));
   const long every = std::max(1L, std::lround(interval / dt));
-  const LoneThread alone;  // waking others for a column takes longer than its step
+  const SingleThreadScope alone;  // waking other threads for one column takes longer than its step
   std::vector<HistoryRow> rows{block.row()};
   for (long k = 1; k <= steps; ++k) {
     block.step(dt);

@@ -1,8 +1,7 @@
-// The band under the rigid block as one band column (band/piece_step.hpp): a piece of base of 1 m2 that does not
-// stretch.
+// Band below the rigid block as one band column (band/segment_step.hpp): a basal segment of 1 m2 that does not stretch.
 #pragma once
 
-#include "band/piece_step.hpp"
+#include "band/segment_step.hpp"
 #include "sim/block_column.hpp"
 #include "sim/columns_model.hpp"
 
@@ -10,19 +9,19 @@ namespace thawslide::sim {
 
 class BlockBandColumn {
  public:
-  // load: normal pressure at the start [Pa]; column_step: largest time step of the column [s].
+  // load: initial normal pressure [Pa]; column_step: maximum time step of the column [s].
   BlockBandColumn(const band::ColumnsModel<double>& model, double thickness, double load, double column_step);
 
-  // Returns the heat that the column gained [J/m2], with what waits for its next step.
+  // Returns the heat gained by the column [J/m2], including heat that is pending until its next step.
   double step(const BlockDrive& drive);
-  // What the law of the base sees under a normal pressure [Pa].
+  // Basal state for the basal law under a normal pressure [Pa].
   [[nodiscard]] BlockBase base(double normal_pressure) const;
   [[nodiscard]] BlockBand band() const;
-  [[nodiscard]] const band::BasePiece<2, double>& piece() const { return piece_; }
+  [[nodiscard]] const band::BasalSegment<2, double>& segment() const { return segment_; }
 
  private:
   band::ColumnsModel<double> model_;
-  band::BasePiece<2, double> piece_;
+  band::BasalSegment<2, double> segment_;
   double column_step_, waiting_ = 0.0;
 };
 

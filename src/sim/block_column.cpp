@@ -14,7 +14,7 @@ namespace thawslide::sim {
 
 namespace {
 
-// Nothing comes in through the sides of the case's domain, and the depth is that of a body which keeps its shape.
+// The sides of the domain exchange no heat, and the flow depth is constant because the body keeps its shape.
 band::BandModel<2, double> of_a_rigid_body(band::BandModel<2, double> model) {
   std::fill(std::begin(model.at_faces.faces), std::end(model.at_faces.faces), band::HeatFace<double>{});
   model.thickness_each_step = false;
@@ -52,7 +52,7 @@ BlockColumn::BlockColumn(const band::BandModel<2, double>& model, const Initial&
 }
 
 void BlockColumn::find_base_nodes() {
-  nodes_.momentum.resize(grid_.blocks().size());  // asked for its mass where heat is no longer a number
+  nodes_.momentum.resize(grid_.blocks().size());  // its size is read when heat becomes non-finite
   std::vector<std::uint8_t> is_base(grid_.blocks().size(), 0);
   for (std::size_t b = 0; b < grid_.blocks().size(); ++b) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<2>::nodes); ++k) {
@@ -115,7 +115,7 @@ BlockBase BlockColumn::base(double /*normal_pressure*/) const {
     base.temperature += weight * rows_.temperature(p);
     base.saturation += weight * rows_.liquid_saturation(p);
     base.solid_fraction +=
-        weight * terrain::basal_solid_fraction(model_.phases, model_.lubrication, rows_, mpm::One<double>{{p}});
+        weight * terrain::basal_solid_fraction(model_.phases, model_.lubrication, rows_, mpm::ScalarIndex<double>{{p}});
   }
   return {base.pore_pressure / weights, base.saturation / weights, base.solid_fraction / weights,
           base.temperature / weights};

@@ -1,6 +1,6 @@
-// The band under the rigid block: a column of particles, one a row, that stand still on a grid of their own while the
-// stages of the step conduct their heat and drain their pore pressure. Each lies in the middle between the two nodes of
-// its cell's floor and those of its ceiling, so that both of a pair hold the same and nothing flows sideways.
+// Band below the rigid block: a column of particles, one per row, at rest on a separate grid. The stages of the MPM
+// step conduct their heat and drain their pore pressure. Each particle lies midway between the two lower and the two
+// upper nodes of its cell. Both nodes of a pair therefore hold the same values, and no lateral flux occurs.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace thawslide::sim {
 
-// What the contact law sees at the base nodes, interpolated as the MPM does.
+// Basal state for the contact law, interpolated to the base nodes as in the MPM.
 struct BlockBase {
   double pore_pressure, saturation, solid_fraction, temperature;
 };
@@ -20,36 +20,36 @@ struct BlockBase {
 struct BlockBand {
   double temperature, saturation, pore_pressure;
 };
-// What one step does to the base: heat flux into it [W/m2], normal pressure on it [Pa], speed of slip [m/s], slip [m],
-// thickness of the band as the case has it [m], 0: no band.
+// Input of one step at the base: heat flux into it [W/m2], normal pressure on it [Pa], slip speed [m/s], slip [m], band
+// thickness specified by the case [m] (0: no band).
 struct BlockDrive {
   double heat_flux, normal_pressure, speed, slip, band_thickness, dt;
 };
 
 class BlockColumn {
  public:
-  // Rows of an initially uniform body of given normal thickness [m]; fields of depth come in through `initial`.
+  // Initial state of a body of uniform normal thickness [m]; fields over depth are specified as functions in `Initial`.
   struct Initial {
     double thickness, cell;
     double normal_pressure;  // on the base [Pa]
     int rows_per_cell;
     std::int32_t material;                                            // number, as in Model
     std::function<double(double depth)> temperature;                  // [C]
-    std::function<double(double depth, double saturation)> porosity;  // saturation: of the pores with water
+    std::function<double(double depth, double saturation)> porosity;  // saturation: water fraction of the pores
   };
   BlockColumn(const band::BandModel<2, double>& model, const Initial& initial);
 
-  // Returns the heat that rows gained per base area [J/m2].
+  // Returns the heat gained by the rows per base area [J/m2].
   double step(const BlockDrive& drive);
 
-  // Per base area; heights above the base, in the MPM's unscaled cells.
+  // Quantities per base area; heights are above the base, in the unscaled cells of the MPM.
   [[nodiscard]] const mpm::Particles<2, double>& rows() const { return rows_; }
   [[nodiscard]] BlockBase base(double normal_pressure) const;
   [[nodiscard]] BlockBand band() const;
 
  private:
   void find_base_nodes();
-  // The load on rows, in proportion to what lies above them.
+  // Sets the load on each row in proportion to the mass above it.
   void set_normal_load(double normal_pressure);
   [[nodiscard]] double heat() const;
 

@@ -15,7 +15,7 @@ namespace thawslide::sim {
 
 namespace {
 
-// Particles stand at the centres of the cells' equal parts.
+// Places particles at the centres of equal parts of the cells.
 template <int Dim>
 void seed_body(const config::Case& parameters, const config::Body& body, const BodyShape<Dim>& shape, int number,
                std::vector<Seed<Dim>>& seeds) {
@@ -53,13 +53,14 @@ void seed_body(const config::Case& parameters, const config::Body& body, const B
   }
 }
 
-// How far the volume of the particles may be from the body's: more, and the spacing is too coarse for its shape.
+// Tolerance of the particle volume relative to the body's volume. A larger deviation means that the spacing is too
+// coarse for the shape.
 constexpr double volume_tolerance = 0.15;
-// Of a release: the share of its volume that columns at its rim cannot hold, and all its particles take over, so that
-// the volume is kept. Upright sides that lie badly on the lattice cost a body 8 columns wide 2 %.
+// Maximum fraction of a release's volume that columns at its rim cannot represent; all particles are scaled to conserve
+// the volume. Upright sides that are poorly aligned with the lattice change the volume of a body 8 columns wide by 2 %.
 constexpr double release_tolerance = 0.05;
 
-// seeds: from number `first` on those of the body.
+// seeds: those of the body begin at index `first`.
 template <int Dim>
 void require_volume(const config::Case& parameters, const std::string& name, const config::Body& body,
                     const BodyShape<Dim>& shape, std::size_t first, std::vector<Seed<Dim>>& seeds) {
@@ -86,13 +87,13 @@ void require_volume(const config::Case& parameters, const std::string& name, con
         config::place_of(parameters, "body." + name), name, shape.volume(), Dim == 2 ? "m3 per m" : "m3",
         seeds.size() - first, spacing, seeded, 100.0 * volume_tolerance));
   }
-  // A release keeps its volume to the last digit: its edges are not on the lattice.
+  // Scales the release to its exact volume, because its edges are not aligned with the lattice.
   for (std::size_t p = first; shape.release() && p < seeds.size(); ++p) {
     seeds[p].volume *= share;
   }
 }
 
-// No place may be filled twice.
+// Requires that no two bodies fill the same place.
 template <int Dim>
 void require_apart(const config::Case& parameters, const std::vector<std::string>& names,
                    const std::vector<BodyShape<Dim>>& shapes, const std::vector<Seed<Dim>>& seeds) {
@@ -110,8 +111,8 @@ void require_apart(const config::Case& parameters, const std::vector<std::string
   }
 }
 
-// Geostatic normal stress and K0 in the axes of the ground below (of gravity where there is no ground); with slope
-// shear if asked for, which balances an infinite slope.
+// Geostatic normal stress and K0 in the axes of the ground below (of gravity if there is no ground). With slope shear,
+// if requested, the stress balances an infinite slope.
 template <int Dim, class Real>
 SymmetricTensor<Real> initial_stress(const config::Case& parameters, const Model<Dim, Real>& model,
                                      const Seed<Dim>& seed, double density, double poisson_ratio) {
@@ -164,7 +165,7 @@ std::optional<ReleaseBody> release_of(const config::Site& site, const Model<Dim,
   return std::nullopt;
 }
 
-// On a DEM; on other ground the case was checked when it was read.
+// Checks bodies on a DEM; on other terrain, the case was checked when it was read.
 template <int Dim, class Real>
 void require_above_ground(const config::Case& parameters, const Model<Dim, Real>& model, const std::string& name,
                           std::size_t first, const std::vector<Seed<Dim>>& seeds) {
@@ -185,7 +186,7 @@ void require_above_ground(const config::Case& parameters, const Model<Dim, Real>
   }
 }
 
-// A release: what other bodies reach to was checked when the case was read.
+// Checks releases; the extent of other bodies was checked when the case was read.
 template <int Dim>
 void require_within_domain(const config::Case& parameters, const std::string& name, std::size_t first,
                            const std::vector<Seed<Dim>>& seeds) {
@@ -205,8 +206,8 @@ void require_within_domain(const config::Case& parameters, const std::string& na
   }
 }
 
-// The place a seed is displaced to, with initial.noise; its regular place where it would leave its body or the space
-// above the ground. All else of a particle is that of its regular place.
+// Position of a seed displaced by initial.noise, or its regular position if the displacement would move it out of its
+// body or below the ground. All other properties of the particle follow from the regular position.
 template <int Dim, class Real>
 Vector<double, Dim> starting_place(const config::Case& parameters, const Model<Dim, Real>& model,
                                    const config::Body& body, const BodyShape<Dim>& shape, const Seed<Dim>& seed) {

@@ -1,4 +1,4 @@
-// Particles at t = 0: where they are, what they are made of, what stress they carry.
+// Initial particles: position, material and stress at t = 0.
 #pragma once
 
 #include "config/case.hpp"
@@ -7,8 +7,8 @@
 
 namespace thawslide::sim {
 
-// Fills the particles of all bodies: ids 0, 1, ... body by body, in lattice order. Throws UserError for a body without
-// particles.
+// Fills in the particles of all bodies. Ids 0, 1, ... are assigned body by body, in lattice order. Throws UserError for
+// a body without particles.
 template <int Dim, class Real>
 void fill_bodies(const config::Case& parameters, const config::Site& site, const Model<Dim, Real>& model,
                  mpm::Particles<Dim, Real>& particles);

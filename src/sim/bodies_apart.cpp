@@ -14,11 +14,11 @@ namespace thawslide::sim {
 namespace {
 
 template <int Dim>
-using Place = std::array<int, static_cast<std::size_t>(Dim)>;  // of a cube that holds all that may touch in those about
+using Place = std::array<int, static_cast<std::size_t>(Dim)>;  // of a cube; touching particles: in it or next to it
 
 constexpr double cube = 2.0;  // cells
 
-// Particles touch whose boxes are less than half a spacing apart along each axis.
+// Particles touch if their boxes are less than half a spacing apart along each axis.
 template <int Dim>
 bool do_touch(const mpm::Particles<Dim, double>& particles, std::size_t p, std::size_t other, double half,
               double other_half) {
@@ -30,7 +30,7 @@ bool do_touch(const mpm::Particles<Dim, double>& particles, std::size_t p, std::
   return touches;
 }
 
-// Particles by body in each cube that holds some.
+// Particles by body in each occupied cube.
 template <int Dim>
 using Cubes = std::map<Place<Dim>, std::map<std::size_t, std::vector<std::size_t>>>;
 
@@ -49,7 +49,7 @@ Cubes<Dim> cubes_of(const Simulation<Dim, double>& simulation) {
   return cubes;
 }
 
-// By body, the lowest number of those that it touches, one by way of others too.
+// For each body, the lowest number in its group of bodies that touch directly or through others.
 template <int Dim>
 std::vector<std::size_t> groups_of_touching(const Simulation<Dim, double>& simulation) {
   const auto& particles = simulation.particles();
@@ -90,7 +90,7 @@ std::vector<std::size_t> groups_of_touching(const Simulation<Dim, double>& simul
 }  // namespace
 
 template <int Dim>
-std::string doubt_of_bodies_apart(const Simulation<Dim, double>& simulation) {
+std::string warning_of_bodies_apart(const Simulation<Dim, double>& simulation) {
   const config::Case& parameters = simulation.parameters();
   if (!parameters.mechanics.enabled || parameters.bodies.size() < 2 ||
       config::was_given(parameters, "contact.between_bodies")) {
@@ -115,7 +115,7 @@ std::string doubt_of_bodies_apart(const Simulation<Dim, double>& simulation) {
   return "";
 }
 
-template std::string doubt_of_bodies_apart<2>(const Simulation<2, double>&);
-template std::string doubt_of_bodies_apart<3>(const Simulation<3, double>&);
+template std::string warning_of_bodies_apart<2>(const Simulation<2, double>&);
+template std::string warning_of_bodies_apart<3>(const Simulation<3, double>&);
 
 }  // namespace thawslide::sim

@@ -1,4 +1,4 @@
-// Bodies that stand apart at t = 0 and share nodes all the same, which is most likely not meant.
+// Warns of bodies that are separate at t = 0 but share nodes, which is probably unintended.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace thawslide::sim {
 
-// For a simulation that has not taken a step. Empty: nothing is to be said, as where the case names
-// contact.between_bodies.
+// Requires a simulation before its first step. Returns an empty string if there is nothing to report, also if the case
+// specifies contact.between_bodies.
 template <int Dim>
-[[nodiscard]] std::string doubt_of_bodies_apart(const Simulation<Dim, double>& simulation);
+[[nodiscard]] std::string warning_of_bodies_apart(const Simulation<Dim, double>& simulation);
 
 }  // namespace thawslide::sim

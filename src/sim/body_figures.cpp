@@ -16,12 +16,12 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <int Dim>
-using Place = std::array<int, static_cast<std::size_t>(Dim)>;  // of a cubic cell, from the domain's lower corner on
+using Place = std::array<int, static_cast<std::size_t>(Dim)>;  // of a cubic cell, relative to the domain's lower corner
 
-// Particles of one body above one another.
+// Column of particles of one body.
 struct Column {
   double volume = 0.0;
-  double underside = infinity;  // of the lowest [m], from the domain's lower corner on
+  double underside = infinity;  // of the lowest particle [m], relative to the domain's lower corner
   std::size_t lowest = 0;
 };
 
@@ -103,7 +103,7 @@ class Bodies {
     return sum;
   }
 
-  // A release and what has no shape have that of their particles, `seeded`.
+  // Volume of the shape. A release or a body without a shape has the volume of its particles, `seeded`.
   [[nodiscard]] double shape_volume(const BodyFigures& figures, double seeded) const {
     const auto body = parameters().bodies.find(figures.name);
     if (body == parameters().bodies.end() || body->second.shape == config::BodyShape::release) {
@@ -129,7 +129,7 @@ class Bodies {
 
   void measure_columns(std::size_t number, BodyFigures& figures) const {
     const double width = std::pow(figures.spacing, Dim - 1);
-    Raster thickness;  // column by column
+    Raster thickness;  // by column
     double standing = 0.0;
     figures.clearance = infinity;
     const auto first = columns_.lower_bound({static_cast<std::int32_t>(number), lowest_place()});
@@ -147,7 +147,7 @@ class Bodies {
     figures.largest_thickness = *std::max_element(thickness.values.begin(), thickness.values.end());
   }
 
-  // A release is told by its map: particles along its edge share what is there.
+  // Measures a release on its map, because particles along its edge share the volume there.
   static void measure_release(const config::Release& release, BodyFigures& figures) {
     const Raster& thickness = release.thickness;
     double covered = 0.0, largest = 0.0;
@@ -155,7 +155,7 @@ class Bodies {
       covered += value > 0.0 ? 1.0 : 0.0;
       largest = std::max(largest, std::isnan(value) ? 0.0 : value);
     }
-    // A raster of thickness has no outline.
+    // A thickness raster has no outline; its area is that of the covered cells.
     figures.area = release.area > 0.0 ? release.area : covered * thickness.cell_x * thickness.cell_y;
     figures.median_thickness = config::median_thickness(thickness);
     figures.largest_thickness = largest;
@@ -167,7 +167,7 @@ class Bodies {
     return place;
   }
 
-  // Of a column's underside above the ground, a side of the domain that holds, or another body [m].
+  // Clearance between a column's underside and the ground, a holding side of the domain, or another body [m].
   [[nodiscard]] double clearance_of(const Column& column) const {
     double below = -infinity;
     if (const auto& ground = simulation_.model().ground) {
@@ -183,7 +183,8 @@ class Bodies {
     return std::min(column.underside - below, clearance_over_bodies(column));
   }
 
-  // Above the nearest particle of another body in the cells about the lowest one; infinite where there is none.
+  // Clearance above the nearest particle of another body in the cells around the lowest particle; infinite if there is
+  // none.
   [[nodiscard]] double clearance_over_bodies(const Column& column) const {
     double clearance = infinity;
     if (by_cell_.empty()) {
@@ -222,8 +223,8 @@ class Bodies {
 
   const Simulation<Dim, double>& simulation_;
   std::vector<double> spacing_;                             // by body [m]
-  std::map<OfBody, Column> columns_;                        // on a lattice of the body's spacing
-  std::map<Place<Dim>, std::vector<std::size_t>> by_cell_;  // particles; empty for one body
+  std::map<OfBody, Column> columns_;                        // on a lattice with the body's spacing
+  std::map<Place<Dim>, std::vector<std::size_t>> by_cell_;  // particle indices; empty for one body
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The space a body fills at t = 0.
+// Shape of a body at t = 0.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@
 
 namespace thawslide::sim {
 
-// The space a body fills: where it is, and where its top lies above a place.
+// Space filled by a body: point membership and elevation of its top.
 template <int Dim>
 class BodyShape {
  public:
-  // release: of a body of that shape.
+  // release: for a body of that shape.
   BodyShape(const config::Case& parameters, const config::Site& site, const config::Body& body,
             std::optional<ReleaseBody> release)
       : body_(&body), tie_(1e-9 * parameters.grid.cell), release_(std::move(release)) {
@@ -58,7 +58,7 @@ class BodyShape {
         return false;
       }
     }
-    // A centre that lies on a slanting side to round-off is inside if the body is above that side.
+    // A centre on an inclined side, to within round-off, is inside if the body lies above that side.
     const double height = place[Dim - 1] + tie_;
     switch (body_->shape) {
       case config::BodyShape::box:
@@ -72,7 +72,7 @@ class BodyShape {
     return height > profile_at(profile_.terrain, place[0]) && height < top(place[0], place[Dim - 1]);
   }
 
-  // Area of the section [m2], times the width in 3D [m3].
+  // Area of the section [m2]; in 3D, times the width [m3].
   [[nodiscard]] double volume() const {
     const double width = Dim == 2 ? 1.0 : upper_[1] - lower_[1];
     double area = 0.0;
@@ -100,7 +100,7 @@ class BodyShape {
     return width * area;
   }
 
-  // Elevation of the body's top above a place within it.
+  // Elevation of the body's top above a point in it.
   [[nodiscard]] double top(double x, double height) const {
     switch (body_->shape) {
       case config::BodyShape::box:

@@ -1,4 +1,4 @@
-// Sums over the particles of a run: energies, masses, momentum, and what rows of the history tell the means of.
+// Sums over the particles of a run: energies, masses, momentum, and sums for the means in the history.
 #include "base/instances.hpp"
 #include "mpm/sum_over_particles.hpp"
 #include "sim/simulation.hpp"
@@ -7,21 +7,21 @@ namespace thawslide::sim {
 
 template <int Dim, class Real>
 BodySums<Dim, Real> Simulation<Dim, Real>::sum_over_body() const {
-  if (!device_step_) {
+  if (!device_solver_) {
     return sum_over_particles(nullptr);
   }
   BodySums<Dim, Real> sums;
-  on_device([&] { sums = device_step_->sum_over_body(sums_of_particle()); });
+  on_device([&] { sums = device_solver_->sum_over_body(sums_of_particle()); });
   return sums;
 }
 
 template <int Dim, class Real>
 BodySums<Dim, Real> Simulation<Dim, Real>::sum_over_marked(const std::vector<std::uint8_t>& marked) const {
-  bring_particles_back();
+  sync_to_host();
   return sum_over_particles(marked.data());
 }
 
-// marked: by particle; null: all are.
+// marked: by particle; null selects all particles.
 template <int Dim, class Real>
 BodySums<Dim, Real> Simulation<Dim, Real>::sum_over_particles(const std::uint8_t* marked) const {
   using Sums = BodySums<Dim, Real>;

@@ -11,7 +11,7 @@ namespace {
 
 template <class Real, class Curve>
 physics::ColumnModel<Real, Curve> column_model(const config::Case& parameters, const physics::Phases<Real>& phases,
-                                               const Curve& curve, const ColumnMatter& matter) {
+                                               const Curve& curve, const ColumnMaterial& material) {
   const config::Pressure& pressure = parameters.pressure;
   const Table& thickness = parameters.band.thickness;
   physics::ColumnModel<Real, Curve> column;
@@ -21,8 +21,8 @@ physics::ColumnModel<Real, Curve> column_model(const config::Case& parameters, c
                                 ? physics::WaterExpansionLaw::constant
                                 : physics::WaterExpansionLaw::by_temperature,
                             phases.water_expansion};
-  column.porosity = static_cast<Real>(matter.porosity);
-  column.hydraulic_conductivity = static_cast<Real>(matter.hydraulic_conductivity);
+  column.porosity = static_cast<Real>(material.porosity);
+  column.hydraulic_conductivity = static_cast<Real>(material.hydraulic_conductivity);
   column.skeleton_compressibility = static_cast<Real>(pressure.skeleton_compressibility);
   column.residual_stress = static_cast<Real>(pressure.residual_stress);
   column.at_frozen =
@@ -58,17 +58,17 @@ band::BandGrowth growth_of(config::BandGrowth growth) {
 
 template <int Dim, class Real>
 band::ColumnsModel<Real> make_columns_model(const config::Case& parameters, const Model<Dim, Real>& model,
-                                            const ColumnMatter& matter) {
+                                            const ColumnMaterial& material) {
   const config::Band& band = parameters.band;
   band::ColumnsModel<Real> columns;
   columns.column = model.band.with_heat_content([&](const auto& content) -> band::AnyColumnModel<Real> {
-    return column_model(parameters, model.motion.phases, content.curve, matter);
+    return column_model(parameters, model.motion.phases, content.curve, material);
   });
-  columns.body_temperature = static_cast<Real>(matter.temperature);
+  columns.body_temperature = static_cast<Real>(material.temperature);
   columns.ground_temperature =
-      static_cast<Real>(std::isnan(band.ground_temperature) ? matter.temperature : band.ground_temperature);
+      static_cast<Real>(std::isnan(band.ground_temperature) ? material.temperature : band.ground_temperature);
   columns.density = model.band.with_heat_content([&](const auto& content) {
-    return physics::mixture_density(model.motion.phases, static_cast<Real>(matter.porosity),
+    return physics::mixture_density(model.motion.phases, static_cast<Real>(material.porosity),
                                     content.curve.saturation(columns.body_temperature));
   });
   columns.load_time = static_cast<Real>(band.load_time);
@@ -78,13 +78,13 @@ band::ColumnsModel<Real> make_columns_model(const config::Case& parameters, cons
   columns.growth_per_slip = static_cast<Real>(band.growth_per_slip);
   columns.mixing_slip = static_cast<Real>(band.mixing_slip);
   columns.rock_density = model.motion.phases.rock_density;
-  columns.largest_thickness = static_cast<Real>(matter.depth);
+  columns.largest_thickness = static_cast<Real>(material.depth);
   return columns;
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                        \
   template band::ColumnsModel<Real> make_columns_model<Dim, Real>(const config::Case&, const Model<Dim, Real>&, \
-                                                                  const ColumnMatter&);
+                                                                  const ColumnMaterial&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

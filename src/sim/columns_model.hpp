@@ -1,20 +1,20 @@
-// From the case to the model of band columns.
+// Builds the model of band columns from the case.
 #pragma once
 
-#include "band/base_columns.hpp"
+#include "band/basal_segments.hpp"
 #include "config/case.hpp"
 #include "sim/model.hpp"
 
 namespace thawslide::sim {
 
-// What columns are made of, and where: temperature of the body's base [C], its porosity and hydraulic conductivity
-// [m/s], its largest thickness [m].
-struct ColumnMatter {
+// Material of the columns at the body's base: temperature [C], porosity, hydraulic conductivity [m/s], and maximum flow
+// depth [m].
+struct ColumnMaterial {
   double temperature, porosity, hydraulic_conductivity, depth;
 };
 
 template <int Dim, class Real>
 band::ColumnsModel<Real> make_columns_model(const config::Case& parameters, const Model<Dim, Real>& model,
-                                            const ColumnMatter& matter);
+                                            const ColumnMaterial& material);
 
 }  // namespace thawslide::sim

@@ -1,4 +1,4 @@
-// The band columns under a slide whose steps a device takes: they stay with the processor.
+// Band columns of a simulation on a device: the columns are computed on the CPU.
 #include <algorithm>
 
 #include "base/instances.hpp"
@@ -11,9 +11,10 @@ namespace {
 
 using mpm::BaseState, mpm::Contact;
 
-// The blocks change. Pieces of base see nodes in blocks with candidate nodes and in those about them.
+// Updates the active blocks. Basal segments read nodes in blocks with candidate nodes and in adjacent blocks.
 template <int Dim, class Real>
-void take_blocks(const Model<Dim, Real>& model, const std::vector<std::uint64_t>& keys, GridOfDevice<Dim, Real>& base) {
+void update_blocks(const Model<Dim, Real>& model, const std::vector<std::uint64_t>& keys,
+                   GridOfDevice<Dim, Real>& base) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   const auto near = [&](std::size_t b) { return base.ground.any_candidate(b); };
   base.grid.set_blocks(keys);
@@ -36,7 +37,7 @@ void take_blocks(const Model<Dim, Real>& model, const std::vector<std::uint64_t>
 }
 
 template <int Dim, class Real>
-void list_states(band::BaseColumns<Dim, Real>& columns, GridOfDevice<Dim, Real>& base) {
+void list_states(band::BasalSegments<Dim, Real>& columns, GridOfDevice<Dim, Real>& base) {
   columns.to_nodes(base.grid, base.nodes);
   base.states.clear();
   for (std::size_t b = 0; b < base.grid.blocks().size(); ++b) {
@@ -59,7 +60,7 @@ void take_nodes(const std::vector<Real>& numbers, GridOfDevice<Dim, Real>& base)
   constexpr auto of_contact = static_cast<std::size_t>(Contact::size<Dim>);
   const Real* record = numbers.data();
   for (const std::size_t b : base.asked) {
-    for (std::size_t k = 0; k < block_nodes; ++k, record += device::columns_read<Dim>) {
+    for (std::size_t k = 0; k < block_nodes; ++k, record += device::column_record_size<Dim>) {
       if (base.nodes.contact.holds(b)) {
         std::copy_n(record, of_contact, base.nodes.contact.of_block(b)[k].begin());
       }
@@ -73,13 +74,13 @@ void take_nodes(const std::vector<Real>& numbers, GridOfDevice<Dim, Real>& base)
 }  // namespace
 
 template <int Dim, class Real>
-device::ColumnsOnProcessor<Real> Simulation<Dim, Real>::columns_on_processor() {
+device::HostColumns<Real> Simulation<Dim, Real>::host_columns() {
   if (!band_columns_) {
     return {};
   }
   grid_of_device_ = std::make_unique<GridOfDevice<Dim, Real>>(grid_.cell());
   return {[this](const std::vector<std::uint64_t>& blocks) {
-            take_blocks(model_, blocks, *grid_of_device_);
+            update_blocks(model_, blocks, *grid_of_device_);
             return grid_of_device_->asked;
           },
           [this]() -> const std::vector<Real>& {
@@ -92,8 +93,7 @@ device::ColumnsOnProcessor<Real> Simulation<Dim, Real>::columns_on_processor() {
           }};
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) \
-  template device::ColumnsOnProcessor<Real> Simulation<Dim, Real>::columns_on_processor();
+#define THAWSLIDE_INSTANTIATE(Dim, Real) template device::HostColumns<Real> Simulation<Dim, Real>::host_columns();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

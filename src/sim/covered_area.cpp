@@ -14,11 +14,11 @@ namespace thawslide::sim {
 namespace {
 
 constexpr double most_parts = 1.6e7;  // of a mask: 128 MB
-constexpr double noticed_rise = 0.1;  // of the thickness at the start: a body settles by less
+constexpr double noticed_rise = 0.1;  // of the initial thickness: settling changes it by less
 constexpr std::array<std::array<int, 2>, 8> directions{
     {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
-// 0 where there is none.
+// Returns 0 outside the raster.
 double thickness_at(const Raster& thickness, int column, int row) {
   if (column < 0 || row < 0 || column >= thickness.columns || row >= thickness.rows) {
     return 0.0;
@@ -27,7 +27,7 @@ double thickness_at(const Raster& thickness, int column, int row) {
   return h > 0.0 ? h : 0.0;
 }
 
-// So many parts of a cell, from the side where the slide is thicker on.
+// Selects `count` parts of a cell, beginning at the side on which the slide is thicker.
 CellParts inner_parts(const Raster& thickness, int column, int row, long count) {
   if (count <= 0 || count >= parts_of_cell) {
     return count <= 0 ? CellParts{0} : static_cast<CellParts>(~CellParts{0});
@@ -58,7 +58,7 @@ CellParts parts_for_share(const Raster& thickness, int column, int row, double s
   return inner_parts(thickness, column, row, std::lround(share * parts_of_cell));
 }
 
-// Where rings cross a line to the east at y, from west to east.
+// Intersections of the rings with the horizontal line at y, from west to east.
 std::vector<double> crossings(const std::vector<config::Polyline2>& rings, double y) {
   std::vector<double> places;
   for (const config::Polyline2& ring : rings) {
@@ -74,7 +74,7 @@ std::vector<double> crossings(const std::vector<config::Polyline2>& rings, doubl
   return places;
 }
 
-using Ends = std::array<double, 4>;  // the west, south, east and north one [m]
+using Ends = std::array<double, 4>;  // west, south, east and north extremes [m]
 
 Ends ends_of(const config::Release& release) {
   const Raster& t = release.thickness;
@@ -88,7 +88,7 @@ bool has_thickness(const Raster& raster, double x, double y) {
                       static_cast<int>(std::lround((y - raster.y) / raster.cell_y))) > 0.0;
 }
 
-// A narrower taper than two cells of the ground reaches none of its points.
+// A taper narrower than two cells of the ground reaches none of its points.
 bool spreads_by_taper(const config::Body& body, const Raster& thickness) {
   return body.taper > 2.0 * std::min(thickness.cell_x, thickness.cell_y);
 }

@@ -1,4 +1,4 @@
-// Which way along a line bodies leave: by their momentum at the start, and by gravity along the ground below them.
+// Direction along a line in which bodies leave, from their initial momentum and from gravity along the ground below.
 #pragma once
 
 #include <algorithm>
@@ -6,9 +6,9 @@
 
 namespace thawslide::sim {
 
-inline constexpr double least_share = 1e-6;  // of the largest momentum or force: less is round-off
+inline constexpr double least_share = 1e-6;  // of the maximum momentum or force: smaller values are round-off
 
-// Momentum and force along a direction, and how large they would be if all of it were along it.
+// Momentum and force along a direction, with their magnitudes if fully aligned with it.
 class Departure {
  public:
   void add_momentum(double mass, double along, double speed) {
@@ -21,7 +21,7 @@ class Departure {
     force_ += mass * (g_e - g_z * slope) / std::hypot(1.0, slope);
     most_force_ += mass * std::hypot(g_e, g_z);
   }
-  // 0: neither way. length: of the bodies together, along the direction [m].
+  // Returns 0 if there is no direction. length: of all bodies together, along the direction [m].
   [[nodiscard]] int direction(double length) const {
     const int moving = sign_of(momentum_, most_momentum_), pulled = sign_of(force_, most_force_);
     const bool turns_back = moving * pulled < 0 && momentum_ * momentum_ <= mass_ * std::abs(force_) * length;
@@ -34,7 +34,7 @@ class Departure {
   double mass_ = 0.0, momentum_ = 0.0, most_momentum_ = 0.0, force_ = 0.0, most_force_ = 0.0;
 };
 
-// From the least to the greatest place of bodies [m].
+// Extent of the bodies along an axis [m].
 class Extent {
  public:
   void add(double place, double half) {

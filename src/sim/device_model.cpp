@@ -56,19 +56,19 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   device.effective_stress = model.motion.effective_stress;
   device.lubrication = model.motion.lubrication;
   device.faces = static_cast<const mpm::DomainFaces<Dim, Real>&>(model.constraints);
-  // Particles that are to be removed may be on their way out of the domain until the end of the step.
+  // Particles that will be removed may leave the domain before the end of the step.
   const Real margin = parameters.grid.leaving == config::Policy::remove ? device.cell : Real(0);
   const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
   device.lower = -beyond;
   device.upper = model.constraints.extent + beyond;
-  device.tells_extremes = parameters.time.stepping == config::Stepping::adaptive;
-  device.tells_strays =
+  device.finds_extremes = parameters.time.stepping == config::Stepping::adaptive;
+  device.counts_escaped =
       parameters.grid.leaving == config::Policy::remove || parameters.terrain.kind == config::TerrainKind::dem;
   device.base = model.contact.law;
   device.base_holds = model.contact.base_holds;
   device.pore_pressure = model.contact.pore_pressure;
   device.distance_check = model.contact.distance_check;
-  const bool has_columns = model.contact.band_columns;  // which have all heat and pore pressure of the base
+  const bool has_columns = model.contact.band_columns;  // columns carry all heat and pore pressure of the base
   device.pressure_changes = model.band.pressure && !has_columns;
   device.heat = model.band.heat && !has_columns;
   device.starts = starts;
@@ -85,12 +85,12 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
 }
 
 template <int Dim, class Real>
-device::AskProcessor<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, double cell) {
-  device::AskProcessor<Dim, Real> ask;
+device::HostCallbacks<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, double cell) {
+  device::HostCallbacks<Dim, Real> ask;
   if (model.ground) {
     ask.ground = [&model, cell](std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
       std::array<terrain::GroundAtNode<Dim, double>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> found;
-      terrain::ask_ground<Dim>(*model.ground, model.substrates.get(), block, cell, found.data());
+      terrain::query_ground<Dim>(*model.ground, model.substrates.get(), block, cell, found.data());
       std::transform(found.begin(), found.end(), nodes, [](const auto& node) {
         return terrain::GroundAtNode<Dim, Real>{node.candidate,
                                                 node.substrate,
@@ -116,7 +116,7 @@ device::AskProcessor<Dim, Real> terrain_for_device(const Model<Dim, Real>& model
   template std::string not_on_devices<Dim, Real>(const config::Case&, const Model<Dim, Real>&);                  \
   template device::StepModel<Dim, Real> device_model_of<Dim, Real>(const config::Case&, const Model<Dim, Real>&, \
                                                                    bool);                                        \
-  template device::AskProcessor<Dim, Real> terrain_for_device<Dim, Real>(const Model<Dim, Real>&, double);
+  template device::HostCallbacks<Dim, Real> terrain_for_device<Dim, Real>(const Model<Dim, Real>&, double);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -1,4 +1,4 @@
-// What the step on a device (src/device) needs to know of a run, and what of runs it does not do yet.
+// Input of the device solver (src/device), and features that devices do not support.
 #pragma once
 
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace thawslide::sim {
 
-// In words, with its key, what of a case no device does yet; empty: it does all of it.
+// Feature of the case, with its key, that no device supports; empty if all are supported.
 template <int Dim, class Real>
 std::string not_on_devices(const config::Case& parameters, const Model<Dim, Real>& model);
 
-// starts: no step has been taken yet.
+// starts: true before the first step.
 template <int Dim, class Real>
 device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, const Model<Dim, Real>& model,
                                              bool starts);
 
-// What is asked of the model's terrain, which must outlive it.
+// Queries of the model's terrain; the model must outlive the result.
 template <int Dim, class Real>
-device::AskProcessor<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, double cell);
+device::HostCallbacks<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, double cell);
 
 }  // namespace thawslide::sim

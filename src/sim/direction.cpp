@@ -14,11 +14,11 @@ namespace thawslide::sim {
 
 namespace {
 
-// A part of a body at t = 0, over the horizontal plane [m].
+// Part of a body at t = 0 in the horizontal plane [m].
 struct Part {
   Place2 place;
-  Place2 half;    // of its sides [m]
-  double volume;  // [m3], or a share of it that is the same for all parts of a body
+  Place2 half;    // half side lengths
+  double volume;  // [m3], or a fraction of it that is equal for all parts of a body
   const config::Body* body;
 };
 
@@ -52,14 +52,14 @@ std::vector<Part> parts_of_bodies(const config::Case& parameters, const config::
   return parts;
 }
 
-// The direction of the line, from half a length before a distance to half a length beyond it [m].
+// Direction of the line, from half a length before a distance to half a length after it [m].
 Place2 direction_at(const PathLine& line, double along, double length) {
   const Place2 from = line.point_at(along - 0.5 * length), to = line.point_at(along + 0.5 * length);
   const double x = to[0] - from[0], y = to[1] - from[1], distance = std::hypot(x, y);
-  return distance > 0.0 ? Place2{x / distance, y / distance} : Place2{0.0, 0.0};  // a line that turns back there
+  return distance > 0.0 ? Place2{x / distance, y / distance} : Place2{0.0, 0.0};  // the line turns back there
 }
 
-// Of the bodies together, along a mean of directions.
+// Length of all bodies together along a mean of directions.
 double length_along(const Place2& e, const std::vector<Part>& parts) {
   const double norm = std::hypot(e[0], e[1]);
   Extent extent;
@@ -106,12 +106,12 @@ bool path_is_to_be_reversed(const config::Case& parameters, const config::Site& 
   return height(line.corners().front()) < height(line.corners().back());
 }
 
-// a x b, of vectors from one place to another.
+// Cross product a x b of two vectors, each given by its end points.
 double cross(const Place2& a_from, const Place2& a_to, const Place2& b_from, const Place2& b_to) {
   return (a_to[0] - a_from[0]) * (b_to[1] - b_from[1]) - (a_to[1] - a_from[1]) * (b_to[0] - b_from[0]);
 }
 
-// The first crossing of the line by the path: 1 from left to right, -1 from right to left; 0: it does not cross.
+// First crossing of the line by the path: 1 from left to right, -1 from right to left, 0 if it does not cross.
 int crossing(const config::Polyline2& path, const config::Polyline2& line) {
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
     double earliest = HUGE_VAL;
@@ -170,12 +170,12 @@ std::string orient_lines(const config::Case& parameters, config::Site& site) {
                      : "";
 }
 
-std::string doubt_of_path(const config::Case& parameters, const config::Site& site) {
+std::string warning_of_path(const config::Case& parameters, const config::Site& site) {
   const PathLine line(site.path);
   if (line.empty() || !site.ground) {
     return "";
   }
-  double least = HUGE_VAL;  // from the path to a part of a body, less half of its side
+  double least = HUGE_VAL;  // from the path to a part of a body, minus half of its side
   for (const Part& part : parts_of_bodies(parameters, site)) {
     const Place2 nearest = line.point_at(line.project(part.place).along);
     least = std::min(least, std::hypot(part.place[0] - nearest[0], part.place[1] - nearest[1]) -

@@ -1,4 +1,4 @@
-// Which way a slide leaves, by its particles, and how far its front is along x: for each precision of the step.
+// Direction of the slide and position of its front along x, instantiated for each precision of the step.
 
 #include <cmath>
 

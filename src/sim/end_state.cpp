@@ -65,7 +65,7 @@ std::vector<std::string> warnings_of(const EndState& state, bool is_over) {
     const double mass = state.left_mass - state.guarded_mass;
     warnings.push_back(fmt::format(
         "{} particles have left the domain or the known terrain and were removed: {:.3g} kg, {:.3g} % of the "
-        "mass. The results lack them. Use a larger domain or terrain model.",
+        "mass. The results lack them. Use a larger domain or DEM.",
         state.left_particles, mass, 100.0 * mass / state.whole_mass));
   }
   return warnings;

@@ -1,8 +1,8 @@
-// The state that a run has come to: whether the slide is at rest, how far dilation has changed its volume, and how much
-// of its mass has left; and the warnings that follow, for the terminal, run.json and the report alike.
-//   dilation = (sum of V - sum of V0) / sum of V0
-// V: volume of a particle; V0: at t = 0 or, of material that the slide has entrained, when it joined. So entrainment
-// and removal do not count.
+// Final state of a run: rest, change of volume by dilation, mass lost, and the resulting warnings for the terminal,
+// run.json and the report.
+//    dilation = (sum of V - sum of V0) / sum of V0
+// V: volume of a particle; V0: at t = 0 or, for entrained material, when it joined. Entrainment and removal therefore
+// do not count.
 #pragma once
 
 #include <string>
@@ -13,23 +13,22 @@
 
 namespace thawslide::sim {
 
-// The change of volume by dilation from which on it is reported as a warning, as a share. Release volumes from
-// differences of terrain models are known to about as much, so a smaller change is within the uncertainty of the input;
-// a larger one makes thicknesses, areas and volumes of the result wrong by more than that.
+// Relative change of volume by dilation above which a warning is given. Release volumes from differences of DEMs have a
+// similar uncertainty. A larger change exceeds it and affects thicknesses, areas and volumes of the result.
 inline constexpr double noticed_dilation = 0.05;
 
 struct EndState {
-  double time = 0.0;           // [s]
-  bool is_known = false;       // of the motion: no, if nothing of the slide is left, a device failed, or nothing moves
-  bool at_rest = false;        // Simulation::is_at_rest
-  double rest_since = 0.0;     // [s]; NaN while it is not at rest
-  std::string rest_rule;       // what at rest means, in words
-  double mean_velocity = 0.0;  // magnitude of the mean, as in the history [m/s]
-  double dilation_volume = 0.0;  // [m3]; in 2D per metre of width, times case.width if that is given
-  double dilation_share = 0.0;   // of the initial volume
-  double left_mass = 0.0;        // of removed particles, by guards too, as in the history [kg], as dilation_volume
-  double guarded_mass = 0.0;     // of that, by guards [kg]
-  double whole_mass = 0.0;       // of all particles that there ever were [kg]
+  double time = 0.0;             // [s]
+  bool is_known = false;         // of the motion; false if no slide is left, a device failed, or nothing moves
+  bool at_rest = false;          // Simulation::is_at_rest
+  double rest_since = 0.0;       // [s]; NaN while moving
+  std::string rest_rule;         // criterion of rest as text
+  double mean_velocity = 0.0;    // magnitude of the mean velocity, as in the history [m/s]
+  double dilation_volume = 0.0;  // [m3]; in 2D per metre of width, times case.width if specified
+  double dilation_share = 0.0;   // fraction of the initial volume
+  double left_mass = 0.0;     // of removed particles, guards included, as in the history [kg]; in 2D as dilation_volume
+  double guarded_mass = 0.0;  // part of left_mass removed by guards [kg]
+  double whole_mass = 0.0;    // of all particles, including removed ones [kg]
   std::int64_t left_particles = 0;
 };
 
@@ -37,13 +36,13 @@ struct EndState {
 template <int Dim>
 [[nodiscard]] EndState end_state(const Simulation<Dim, double>& simulation, bool slide_left);
 
-// By name and unit, for run.json.
+// Name with unit and value, for run.json.
 [[nodiscard]] std::vector<std::pair<std::string, double>> named(const EndState& state);
 
-// "at 60 s, at rest" or "at 60 s, not at rest": what the last state is called in names of maps.
+// Label of the last state in map names: "at 60 s, at rest" or "at 60 s, not at rest".
 [[nodiscard]] std::string when_text(const EndState& state);
 
-// Whole sentences; empty: there is nothing to warn of. is_over: the run goes on no more by itself.
+// Complete sentences; empty if there is no warning. is_over: the run has ended.
 [[nodiscard]] std::vector<std::string> warnings_of(const EndState& state, bool is_over);
 
 }  // namespace thawslide::sim

@@ -14,13 +14,13 @@ namespace thawslide::sim {
 
 namespace {
 
-// Less of a particle than this share of a whole one waits: particles almost without mass are of no use.
+// Minimum fraction of a full particle; smaller volumes wait, because particles with almost no mass are useless.
 constexpr double least_share = 0.01;
-// Steps from one joining to the next: each makes the grid anew about those that join.
+// Steps between two additions; each addition rebuilds the grid around the new particles.
 constexpr std::int64_t joining_interval = 8;
 
-// Volume of bed below the nodes of a column [m3]: in the part of the domain that is nearest to them. The depth is
-// looked up at as many places along each axis.
+// Volume of bed below the nodes of a column [m3], over the part of the domain nearest to them. The depth is sampled at
+// the same number of points along each axis.
 template <int Dim>
 double volume_below(const config::Case& parameters, const config::Site& site,
                     const typename terrain::Bed<Dim, double>::Column& column) {
@@ -48,7 +48,7 @@ double volume_below(const config::Case& parameters, const config::Site& site,
 }
 
 template <class Real>
-terrain::BedMatter<Real> make_matter(const config::Bed& bed, Real density) {
+terrain::BedMaterial<Real> make_bed_material(const config::Bed& bed, Real density) {
   return {bed.law == config::BedLaw::strength ? terrain::BedLaw::strength : terrain::BedLaw::momentum,
           static_cast<Real>(bed.strength), static_cast<Real>(std::tan(bed.friction_angle * pi<double> / 180.0)),
           static_cast<Real>(bed.depth_per_slip), density};
@@ -76,12 +76,12 @@ std::optional<terrain::Bed<Dim, Real>> make_bed(const config::Case& parameters, 
       at[a] = 0;
     }
   }
-  return terrain::Bed<Dim, Real>(make_matter(parameters.bed, model.bed_density), columns, std::move(mass));
+  return terrain::Bed<Dim, Real>(make_bed_material(parameters.bed, model.bed_density), columns, std::move(mass));
 }
 
-// Places below the slide where what was taken off columns may join, relative to the domain's lower corner: under the
-// lowest of the particles over each. Ahead of these or beside them it would carry the slide to bed that it has not
-// reached. A column that none is over keeps its middle.
+// Positions below the slide at which material removed from columns may join, relative to the domain's lower corner:
+// below the lowest particle over each column. Particles farther ahead or to the side would carry the slide to bed that
+// it has not reached. A column without particles above it uses its centre.
 template <int Dim, class Real>
 std::vector<Vector<double, Dim - 1>> Simulation<Dim, Real>::places_below_slide(
     const std::vector<typename terrain::Bed<Dim, Real>::Column>& columns) const {
@@ -117,18 +117,18 @@ std::vector<Vector<double, Dim - 1>> Simulation<Dim, Real>::places_below_slide(
   return places;
 }
 
-// A particle of bed matter lies on the ground, somewhere in the stretch of a particle's length behind a place below the
-// slide: numbers one after the other fill it evenly (multiples of the golden section). It bears nothing at first, so
-// that the forces on nodes are what they were.
+// Creates a bed particle on the ground, within one particle length behind a position below the slide. Consecutive
+// numbers fill this length evenly (multiples of the golden ratio). The particle carries no stress at first, so nodal
+// forces do not change.
 template <int Dim, class Real>
 NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(Vector<double, Dim - 1> place,
-                                                              const terrain::LooseMatter<Dim, Real>& matter,
+                                                              const terrain::LooseMaterial<Dim, Real>& material,
                                                               std::int64_t number) const {
   const double cell = parameters_.grid.cell;
   const auto body = static_cast<std::int32_t>(model_.body_names.size() - 1);
   const double half = static_cast<double>(model_.motion.sizes.half(static_cast<std::size_t>(body))) * cell;
   const double turn = 0.6180339887498949 * static_cast<double>(number);
-  const Vector<double, Dim - 1> along = matter.momentum.template head<Dim - 1>().template cast<double>();
+  const Vector<double, Dim - 1> along = material.momentum.template head<Dim - 1>().template cast<double>();
   if (along.norm() > 0.0) {
     place -= 2.0 * half * (turn - std::floor(turn)) * along.normalized();
   }
@@ -146,17 +146,17 @@ NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(Vector<double, Dim
     one.position[a] = static_cast<Real>(place[a]);
   }
   one.position[Dim - 1] = static_cast<Real>(height);
-  one.velocity = matter.momentum / matter.mass;
-  one.volume = matter.mass / model_.bed_density;
+  one.velocity = material.momentum / material.mass;
+  one.volume = material.mass / model_.bed_density;
   one.temperature = static_cast<Real>(parameters_.bed.temperature);
   one.porosity = static_cast<Real>(parameters_.bed.porosity);
   const Real weight = model_.bed_density * model_.motion.gravity.norm() * static_cast<Real>(std::abs(normal[Dim - 1]));
-  one.flow_depth = weight > Real(0) ? matter.normal_pressure / weight : Real(0);
-  one.heat = matter.work - Real(0.5) * matter.momentum.squaredNorm() / matter.mass;
+  one.flow_depth = weight > Real(0) ? material.normal_pressure / weight : Real(0);
+  one.heat = material.work - Real(0.5) * material.momentum.squaredNorm() / material.mass;
   return one;
 }
 
-// The bed as the slide meets it in this step; null as bed_in_reach.
+// Bed in contact with the slide in this step; null like bed_in_reach.
 template <int Dim, class Real>
 const terrain::Bed<Dim, Real>* Simulation<Dim, Real>::bed_to_meet() {
   if (bed_in_reach() != nullptr) {
@@ -165,7 +165,7 @@ const terrain::Bed<Dim, Real>* Simulation<Dim, Real>::bed_to_meet() {
   return bed_in_reach();
 }
 
-// What contact nodes have taken in this step.
+// Collects the mass that contact nodes entrained in this step.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::collect_bed() {
   if (bed_in_reach() != nullptr) {
@@ -173,25 +173,25 @@ void Simulation<Dim, Real>::collect_bed() {
   }
 }
 
-// What is loose joins as soon as it makes a particle; as a smaller one where nothing is left of the bed, or where the
-// slide has gone on by a cell.
+// Adds loose material as soon as it suffices for a particle. Smaller particles are added if the bed is exhausted, or if
+// the slide has moved on by a cell.
 template <int Dim, class Real>
-void Simulation<Dim, Real>::take_up_bed() {
+void Simulation<Dim, Real>::entrain_bed() {
   if (step_number_ % joining_interval != 0) {
     return;
   }
   const Real whole =
       model_.bed_density * static_cast<Real>(std::pow(parameters_.grid.cell / parameters_.bed.particles_per_axis, Dim));
   std::vector<typename terrain::Bed<Dim, Real>::Column> columns;
-  std::vector<terrain::LooseMatter<Dim, Real>> parts;
-  bed_->release([&](const auto& column, const terrain::LooseMatter<Dim, Real>& matter) {
-    const bool has_passed = matter.idle * matter.momentum.norm() > grid_.cell() * matter.mass;
+  std::vector<terrain::LooseMaterial<Dim, Real>> parts;
+  bed_->release([&](const auto& column, const terrain::LooseMaterial<Dim, Real>& material) {
+    const bool has_passed = material.idle * material.momentum.norm() > grid_.cell() * material.mass;
     const bool is_last = bed_->is_exhausted(column) || has_passed;
-    if (!(matter.mass >= whole || (is_last && matter.mass >= static_cast<Real>(least_share) * whole))) {
+    if (!(material.mass >= whole || (is_last && material.mass >= static_cast<Real>(least_share) * whole))) {
       return false;
     }
-    const auto count = static_cast<std::size_t>(std::max(Real(1), std::floor(matter.mass / whole)));
-    terrain::LooseMatter<Dim, Real> part = matter;
+    const auto count = static_cast<std::size_t>(std::max(Real(1), std::floor(material.mass / whole)));
+    terrain::LooseMaterial<Dim, Real> part = material;
     part.mass /= static_cast<Real>(count);
     part.momentum /= static_cast<Real>(count);
     part.work /= static_cast<Real>(count);
@@ -202,7 +202,7 @@ void Simulation<Dim, Real>::take_up_bed() {
   if (columns.empty()) {
     return;
   }
-  bring_particles_back();
+  sync_to_host();
   const auto places = places_below_slide(columns);
   std::vector<NewParticle<Dim, Real>> joining;
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -220,10 +220,10 @@ void Simulation<Dim, Real>::take_up_bed() {
   template std::vector<Vector<double, Dim - 1>> Simulation<Dim, Real>::places_below_slide(                      \
       const std::vector<typename terrain::Bed<Dim, Real>::Column>&) const;                                      \
   template NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(                                       \
-      Vector<double, Dim - 1>, const terrain::LooseMatter<Dim, Real>&, std::int64_t) const;                     \
+      Vector<double, Dim - 1>, const terrain::LooseMaterial<Dim, Real>&, std::int64_t) const;                   \
   template const terrain::Bed<Dim, Real>* Simulation<Dim, Real>::bed_to_meet();                                 \
   template void Simulation<Dim, Real>::collect_bed();                                                           \
-  template void Simulation<Dim, Real>::take_up_bed();
+  template void Simulation<Dim, Real>::entrain_bed();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -1,4 +1,4 @@
-// The erodible bed of a case.
+// Erodible bed of a case.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace thawslide::sim {
 
-// Nothing where the case has none.
+// Empty if the case has no bed.
 template <int Dim, class Real>
 std::optional<terrain::Bed<Dim, Real>> make_bed(const config::Case& parameters, const config::Site& site,
                                                 const Model<Dim, Real>& model);

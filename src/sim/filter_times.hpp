@@ -1,4 +1,4 @@
-// When velocities are filtered (mpm/velocity_filter.hpp).
+// Times at which velocities are filtered (mpm/velocity_filter.hpp).
 #pragma once
 
 #include <cmath>
@@ -7,7 +7,8 @@
 
 namespace thawslide::sim {
 
-// In a step of dt from a time on [s] that reaches or passes a multiple of the interval; never by round-off of the time.
+// True if the step of dt from `time` [s] reaches or passes a multiple of the interval. Round-off of the time has no
+// effect.
 [[nodiscard]] inline bool filters_in_step(const config::Case& parameters, double time, double dt) {
   const double interval = parameters.mechanics.fmpm_interval;
   const auto intervals = [&](double until) { return std::floor(until / interval * (1.0 + 1e-12)); };

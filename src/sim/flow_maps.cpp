@@ -17,7 +17,7 @@ const MapKind thickness_at_start{"", "m", "", [](const MapCell& cell) { return c
 const MapKind thickness_now{"", "m", "", [](const MapCell& cell) { return cell.thickness; }};
 const MapKind largest_thickness{"", "m", "", [](const MapCell& cell) { return cell.max_thickness; }};
 
-// The remainder in [0, divisor), also of negative numbers.
+// Remainder in [0, divisor), also for negative numbers.
 std::uint64_t modulo(int number, int divisor) {
   return static_cast<std::uint64_t>((number % divisor + divisor) % divisor);
 }
@@ -62,10 +62,10 @@ FlowMaps::MapTile& FlowMaps::touch(int tile_x, int tile_y) {
   return *tiles_[number];
 }
 
-// Sorts the background grid's tiles into stacks and these by colour: stacks of a colour stand so far apart that boxes
-// of different ones never share a map cell, so that their sums may be made at the same time.
+// Sorts the background grid's tiles into stacks, and the stacks by colour. Stacks of a colour are so far apart that no
+// two share a map cell, so their sums can be computed in parallel.
 void FlowMaps::place_tiles(const Grid& grid) {
-  const double reach = cells_.largest_half + grid.cell();  // as mpm::map_window has it
+  const double reach = cells_.largest_half + grid.cell();  // as in mpm::map_window
   const double tile_width = grid.cell() * mpm::Tile<3>::edge;
   const double widest_cell = std::max(map_grid_.cell_x, map_grid_.cell_y);
   const int colours = 1 + static_cast<int>(std::ceil((widest_cell + 2.0 * reach) / tile_width));  // along each axis
@@ -86,7 +86,7 @@ void FlowMaps::place_tiles(const Grid& grid) {
 void FlowMaps::set_window(const Grid& grid, Stack& stack) {
   using T = mpm::Tile<3>;
   const auto index = T::index(places_[stack.first].stack);
-  // The tiles of the map, first and last, along an axis.
+  // First and last map tile along an axis.
   const auto tiles_along = [&](std::size_t a, double corner, double inverse_cell, int cells) {
     const mpm::MapWindow window =
         mpm::map_window(T::edge * index[a], T::edge, grid.cell(), cells_.largest_half, corner, inverse_cell, cells);
@@ -106,7 +106,7 @@ void FlowMaps::set_window(const Grid& grid, Stack& stack) {
   }
 }
 
-// The tiles in windows; in those that no particle reaches any more nothing lies now.
+// Updates the active tiles, those in the windows. Tiles that no particle reaches any more become empty.
 void FlowMaps::note_active() {
   std::swap(active_, formerly_active_);
   for (MapTile* tile : formerly_active_) {
@@ -192,18 +192,19 @@ void FlowMaps::add_stack(const Grid& grid, const Particles& particles, const Sta
   }
 }
 
-// Its heat and pressure count to the cells that the slide may reach, by the share of its width over each.
-void FlowMaps::add_piece(const PieceBelow& piece) {
-  using One = Lanes<double>;
-  const mpm::CellRange x = mpm::cell_spans(One((piece.x - cells_.corner_x) * cells_.inverse_cell_x),
-                                           One(piece.half_x * cells_.inverse_cell_x),
-                                           One(0.5 * map_grid_.cell_x / piece.half_x), map_grid_.columns)
+// Adds heat and pressure of the segment to the cells that the slide may reach, weighted by the fraction of its width
+// over each.
+void FlowMaps::add_segment(const SegmentBelow& segment) {
+  using ScalarIndex = Simd<double>;
+  const mpm::CellRange x = mpm::cell_spans(ScalarIndex((segment.x - cells_.corner_x) * cells_.inverse_cell_x),
+                                           ScalarIndex(segment.half_x * cells_.inverse_cell_x),
+                                           ScalarIndex(0.5 * map_grid_.cell_x / segment.half_x), map_grid_.columns)
                                .of_lane(0);
-  const mpm::CellRange y = mpm::cell_spans(One((piece.y - cells_.corner_y) * cells_.inverse_cell_y),
-                                           One(piece.half_y * cells_.inverse_cell_y),
-                                           One(0.5 * map_grid_.cell_y / piece.half_y), map_grid_.rows)
+  const mpm::CellRange y = mpm::cell_spans(ScalarIndex((segment.y - cells_.corner_y) * cells_.inverse_cell_y),
+                                           ScalarIndex(segment.half_y * cells_.inverse_cell_y),
+                                           ScalarIndex(0.5 * map_grid_.cell_y / segment.half_y), map_grid_.rows)
                                .of_lane(0);
-  const mpm::BandSums band{piece.area, piece.area * piece.temperature, piece.area * piece.pressure};
+  const mpm::BandSums band{segment.area, segment.area * segment.temperature, segment.area * segment.pressure};
   for (int row = y.first; row <= y.last; ++row) {
     for (int column = x.first; column <= x.last; ++column) {
       const std::int32_t number = tile_index_.find(tile_key(column >> edge_bits, row >> edge_bits));
@@ -214,14 +215,14 @@ void FlowMaps::add_piece(const PieceBelow& piece) {
       const std::size_t place = place_in_tile(column, row);
       const double share = y.share(row) * x.share(column);
       below.band[place].add(share, band);
-      below.sums[place].water += share * piece.area * piece.liquid;
+      below.sums[place].water += share * segment.area * segment.liquid;
     }
   }
 }
 
 void FlowMaps::gather(const Grid& grid, const Particles& particles, double time,
-                      const std::vector<PieceBelow>* pieces) {
-  band_is_of_particles_ = pieces == nullptr;
+                      const std::vector<SegmentBelow>* segments) {
+  band_is_of_particles_ = segments == nullptr;
   const bool same_tiles = std::equal(seen_.begin(), seen_.end(), grid.tiles().begin(), grid.tiles().end(),
                                      [](std::uint64_t key, const auto& tile) { return key == tile.key; });
   if (!same_tiles) {
@@ -231,14 +232,14 @@ void FlowMaps::gather(const Grid& grid, const Particles& particles, double time,
     const std::size_t first = colours_[c];
     parallel_for(colours_[c + 1] - first, [&](std::size_t k) { add_stack(grid, particles, stacks_[first + k]); });
   }
-  if (pieces != nullptr) {
-    std::for_each(pieces->begin(), pieces->end(), [&](const PieceBelow& piece) { add_piece(piece); });
+  if (segments != nullptr) {
+    std::for_each(segments->begin(), segments->end(), [&](const SegmentBelow& segment) { add_segment(segment); });
   }
   take_sums(time);
 }
 
 void FlowMaps::gather(const std::vector<std::uint64_t>& keys, const std::vector<mpm::MapSums>& sums, double time,
-                      const std::vector<PieceBelow>* pieces) {
+                      const std::vector<SegmentBelow>* segments) {
   seen_.clear();
   window_tiles_.clear();
   for (std::size_t k = 0; k < keys.size(); ++k) {
@@ -246,17 +247,17 @@ void FlowMaps::gather(const std::vector<std::uint64_t>& keys, const std::vector<
     MapTile& tile = touch(column >> edge_bits, row >> edge_bits);
     const std::size_t place = place_in_tile(column, row);
     tile.sums[place] = sums[k].column;
-    tile.band[place] = pieces == nullptr ? sums[k].band : mpm::BandSums{};
+    tile.band[place] = segments == nullptr ? sums[k].band : mpm::BandSums{};
     window_tiles_.push_back(&tile);
   }
   note_active();
-  if (pieces != nullptr) {
-    std::for_each(pieces->begin(), pieces->end(), [&](const PieceBelow& piece) { add_piece(piece); });
+  if (segments != nullptr) {
+    std::for_each(segments->begin(), segments->end(), [&](const SegmentBelow& segment) { add_segment(segment); });
   }
   take_sums(time);
 }
 
-// What has been summed over the active tiles, which are then ready for the next sums.
+// Records the sums of the active tiles and resets them.
 void FlowMaps::take_sums(double time) {
   parallel_for(active_.size(), [&](std::size_t k) {
     MapTile& tile = *active_[k];
@@ -364,7 +365,7 @@ void FlowMaps::restore(const std::vector<double>& numbers) {
   StateNumbers state(numbers, "maps");
   const double columns = state.next(), rows = state.next();
   if (columns != map_grid_.columns || rows != map_grid_.rows) {
-    state.fail(fmt::format("it has {} x {} cells where the case has {} x {}", columns, rows, map_grid_.columns,
+    state.fail(fmt::format("it has {} x {} cells, but the case has {} x {}", columns, rows, map_grid_.columns,
                            map_grid_.rows));
   }
   tile_index_.clear();
@@ -381,7 +382,7 @@ void FlowMaps::restore(const std::vector<double>& numbers) {
     }
     touch(column >> edge_bits, row >> edge_bits).cells[place_in_tile(column, row)] = map_cell_of(values);
   }
-  // Any of them may hold what lies on it now.
+  // Any tile may be occupied.
   for (const std::unique_ptr<MapTile>& tile : tiles_) {
     active_.push_back(tile.get());
   }

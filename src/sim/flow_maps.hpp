@@ -1,4 +1,4 @@
-// Maps of a slide in space: its thickness, speed and more over the cells of a regular grid, gathered every step.
+// Maps of a 3D slide on a regular grid: thickness, speed and other fields, updated every step.
 #pragma once
 
 #include <array>
@@ -21,63 +21,64 @@ namespace thawslide::sim {
 
 enum class MapExtent { whole_grid, slide };
 
-// A piece of base with a band column, in the particles' frame.
-struct PieceBelow {
-  double x, y, half_x, half_y;           // its middle and half of its width [m]
+// Basal segment with a band column, in the particles' frame.
+struct SegmentBelow {
+  double x, y, half_x, half_y;           // centre and half widths [m]
   double area;                           // [m2]
-  double temperature, pressure, liquid;  // means over the band [C], [Pa]; volume of water over the area [m]
+  double temperature, pressure, liquid;  // means over the band [C], [Pa]; volume of water per area [m]
 };
 
-// A particle's volume, mass and momentum count to the cells below its box, by the share of the box over each. The sum
-// of thickness times cell area is the particles' volume: of a box that pokes out of the grid all counts to the cells at
-// its edge. Sums go by stack of the background grid's tiles, in an order that follows from the tiles, so that results
-// depend neither on threads nor on the particles' places in memory. Memory and work follow the slide.
+// Accumulates particle volume, mass and momentum in the cells below each box, weighted by the fraction of the box over
+// each cell. The sum of thickness times cell area equals the particles' volume: a box that extends beyond the grid
+// counts entirely to the cells at its edge. Sums are formed by stacks of the background grid's tiles, in an order
+// defined by the tiles. Results therefore depend neither on threads nor on the particles' places in memory. Memory and
+// work scale with the slide's extent.
 class FlowMaps {
  public:
   using Grid = mpm::SparseGrid<3, double>;
   using Particles = mpm::Particles<3, double>;
 
-  // origin: of the particles' positions [m]; half_sizes: of particles by body [m]; arrival_thickness: maps' [m].
-  // Particle centres lie over the map grid. drawn: the releases; not known: the covered area at the start follows from
-  // the thickness there.
+  // origin: of the particles' positions [m]; half_sizes: of particles by body [m]; arrival_thickness: of the maps [m].
+  // Particle centres must lie over the map grid. drawn: the releases; if unknown, the initially covered area follows
+  // from the thickness there.
   FlowMaps(const MapGrid& map_grid, std::array<double, 2> origin, const std::vector<double>& half_sizes,
            double arrival_thickness, DrawnArea drawn = {});
 
-  // Takes the particles as they are at a time [s], with the tiles and the order of the step that brought them there.
-  // pieces: of the base, where the band is of columns, which then tell its heat and pressure in place of the particles.
+  // Samples the particles at a time [s], with the tiles and the order of the step that moved them. segments: of the
+  // base if the band consists of columns; they then supply heat and pressure in place of the particles.
   void gather(const Grid& grid, const Particles& particles, double time,
-              const std::vector<PieceBelow>* pieces = nullptr);
-  // The same from sums over cells by key (mpm::map_cell_key): what a device made of the particles.
+              const std::vector<SegmentBelow>* segments = nullptr);
+  // The same from sums over cells by key (mpm::map_cell_key) computed on a device.
   void gather(const std::vector<std::uint64_t>& keys, const std::vector<mpm::MapSums>& sums, double time,
-              const std::vector<PieceBelow>* pieces = nullptr);
-  // At t = 0: what changes of elevation count from.
+              const std::vector<SegmentBelow>* segments = nullptr);
+  // Sets the reference state at t = 0 for changes of elevation.
   void start(const Grid& grid, const Particles& particles);
 
-  // Nothing of the slide is there any more; what was largest stays.
+  // Empties the current maps when no slide is left; maxima remain.
   void slide_left();
 
-  // What cells take in memory that the slide ever was near; and one of them.
+  // Memory of all cells that the slide has approached, and of one cell.
   [[nodiscard]] std::size_t bytes() const { return tiles_.size() * sizeof(MapTile); }
   [[nodiscard]] static constexpr std::size_t bytes_of_cell() { return sizeof(MapTile) / tile_cells; }
 
   [[nodiscard]] const MapGrid& map_grid() const { return map_grid_; }
   [[nodiscard]] const mpm::MapCells& cells() const { return cells_; }
   [[nodiscard]] double arrival_thickness() const { return arrival_thickness_; }
-  // The cell at a column and row of the map grid; a cell like new where the slide never was near.
+  // Cell at a column and row of the map grid; an initial cell if the slide never approached it.
   [[nodiscard]] const MapCell& cell(int column, int row) const;
-  // Calls visit(column, row, cell) for every cell that the slide ever was in, south to north by tiles of the map.
+  // Calls visit(column, row, cell) for every cell that the slide ever covered, south to north by tiles of the map.
   template <class Visit>
   void for_cells(const Visit& visit) const;
 
-  // One map. Over the slide: the smallest raster with every cell it ever was in, empty if there is none.
+  // One map. Extent over the slide: the smallest raster with every cell it ever covered, empty if there is none.
   [[nodiscard]] Raster raster(const MapKind& kind, MapExtent extent) const;
-  // Volume of all that is thicker than the arrival thickness now [m3].
+  // Current volume of all cells thicker than the arrival thickness [m3].
   [[nodiscard]] double covered_volume() const;
-  // The ground that the slide covers now, and that it ever covered, by the arrival thickness (sim/covered_area.hpp).
+  // Ground that the slide covers now, and that it ever covered, by the arrival thickness (sim/covered_area.hpp).
   [[nodiscard]] CoveredCells covered_cells() const;
   [[nodiscard]] CoveredCells affected_cells() const;
 
-  // All that gathering goes on from, as numbers; and its way back.
+  // State for checkpoints, as numbers; restore() is its inverse.
   [[nodiscard]] std::vector<double> state() const;
   void restore(const std::vector<double>& numbers);
 
@@ -87,20 +88,20 @@ class FlowMaps {
   static constexpr auto tile_cells = static_cast<std::size_t>(edge) * edge;
 
   struct MapTile {
-    int column = 0, row = 0;  // of its first cell
+    int column = 0, row = 0;  // of the first cell
     bool active = false;
     std::array<mpm::ColumnSums, tile_cells> sums;
     std::array<mpm::BandSums, tile_cells> band;
     std::array<MapCell, tile_cells> cells;
   };
-  // Tiles of the background grid above one another, and the map tiles that their particles may reach.
+  // Vertical stack of tiles of the background grid, with the map tiles that its particles may reach.
   struct Stack {
     std::uint32_t first, last;   // places_[first .. last-1]
-    int tile_x, tile_y, across;  // the window of map tiles: its first one, its width
-    int deep;                    // and its height
-    std::size_t window;          // its first one in window_tiles_
+    int tile_x, tile_y, across;  // window of map tiles: first tile, width
+    int deep;                    // height of the window
+    std::size_t window;          // first tile of the window in window_tiles_
   };
-  // Where a tile of the background grid stands among the stacks.
+  // Position of a tile of the background grid in the stacks.
   struct TilePlace {
     std::uint64_t colour, stack;
     std::uint32_t tile;
@@ -115,7 +116,7 @@ class FlowMaps {
   void note_active();
   void take_sums(double time);
   void add_stack(const Grid& grid, const Particles& particles, const Stack& stack);
-  void add_piece(const PieceBelow& piece);
+  void add_segment(const SegmentBelow& segment);
   void add_box(const Particles& particles, std::size_t particle, const mpm::CellRange& x, const mpm::CellRange& y,
                const Stack& stack);
   [[nodiscard]] std::vector<const MapTile*> tiles_in_order() const;
@@ -128,12 +129,12 @@ class FlowMaps {
   DrawnArea drawn_;
   bool band_is_of_particles_ = true;
   KeyIndex tile_index_;
-  std::vector<std::unique_ptr<MapTile>> tiles_;     // in the order in which the slide came
-  std::vector<MapTile*> active_, formerly_active_;  // those that particles may reach
-  std::vector<std::uint64_t> seen_;                 // keys of the background grid's tiles that all below is of
-  std::vector<TilePlace> places_;                   // by colour, then by stack, then upwards
+  std::vector<std::unique_ptr<MapTile>> tiles_;     // in the order in which the slide reached them
+  std::vector<MapTile*> active_, formerly_active_;  // within reach of particles
+  std::vector<std::uint64_t> seen_;  // keys of the background grid's tiles for which the members below are valid
+  std::vector<TilePlace> places_;    // by colour, then by stack, then upwards
   std::vector<Stack> stacks_;
-  std::vector<std::size_t> colours_;  // first stack of each, and the end; stacks of a colour share no map cell
+  std::vector<std::size_t> colours_;  // first stack of each colour, and the end; stacks of a colour share no map cell
   std::vector<MapTile*> window_tiles_;
 };
 

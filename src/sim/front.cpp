@@ -10,28 +10,28 @@
 namespace thawslide::sim {
 
 template <int Dim, class Real>
-mpm::OnWay Simulation<Dim, Real>::front(const LineView& line) const {
+mpm::PathSample Simulation<Dim, Real>::front(const LineView& line) const {
   THAWSLIDE_ASSERT(particle_count() > 0, "the front of {} particles", particle_count());
-  mpm::Way<Dim> way{line};
+  mpm::Transformation<Dim> way{line};
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     way.origin[a] = model_.origin[static_cast<int>(a)];
   }
   const auto mass = static_cast<double>(sum_over_body().mass);
-  if (device_step_) {
-    mpm::OnWay found;
-    on_device([&] { found = device_step_->front(way, mass); });
+  if (device_solver_) {
+    mpm::PathSample found;
+    on_device([&] { found = device_solver_->front(way, mass); });
     return found;
   }
   const std::vector<std::uint32_t>& order = grid_.order();
-  std::vector<MassOnWay> masses(order.size());
+  std::vector<MassOnPath> masses(order.size());
   parallel_for(order.size(), [&](std::size_t rank) {
-    const mpm::OnWay one = way.of(particles_, order[rank]);
+    const mpm::PathSample one = way.of(particles_, order[rank]);
     masses[rank] = {one.along, one.mass, rank};
   });
   return way.of(particles_, order[front_of(masses, mass).rank]);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) template mpm::OnWay Simulation<Dim, Real>::front(const LineView&) const;
+#define THAWSLIDE_INSTANTIATE(Dim, Real) template mpm::PathSample Simulation<Dim, Real>::front(const LineView&) const;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

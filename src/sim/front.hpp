@@ -1,4 +1,4 @@
-// The front of a slide (mpm/front.hpp) among particles in the processor's memory.
+// Front of a slide (mpm/front.hpp) from particles in host memory.
 #pragma once
 
 #include <algorithm>
@@ -10,19 +10,19 @@
 
 namespace thawslide::sim {
 
-// A particle on the way that the front is measured on.
-struct MassOnWay {
+// Particle on the path along which the front is measured.
+struct MassOnPath {
   double along, mass;  // [m, kg]
-  std::size_t rank;    // in canonical order; of particles equally far the one of the higher rank counts as further
+  std::size_t rank;    // in canonical order; ties in distance are broken by the higher rank
 
-  [[nodiscard]] bool operator<(const MassOnWay& other) const {
+  [[nodiscard]] bool operator<(const MassOnPath& other) const {
     return along < other.along || (along == other.along && rank < other.rank);
   }
 };
 
-// The particle up to which 99.5 % of the mass [kg] has come, which is that of all together. Changes the order of
-// `masses`, which are not empty.
-[[nodiscard]] inline MassOnWay front_of(std::vector<MassOnWay>& masses, double mass) {
+// Particle that has 99.5 % of the mass [kg] behind it; mass: of all particles. Reorders `masses`, which must not be
+// empty.
+[[nodiscard]] inline MassOnPath front_of(std::vector<MassOnPath>& masses, double mass) {
   THAWSLIDE_ASSERT(!masses.empty(), "the front of {} particles", masses.size());
   mpm::FrontSearch search(mass);
   std::make_heap(masses.begin(), masses.end());

@@ -1,5 +1,5 @@
-// The grid of a device as the processor keeps it, where it has a part in the step: no particles, and of the nodes what
-// band columns read.
+// Host copy of a device's grid without particles, for the parts of the step on the CPU: the nodal values that band
+// columns read.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct GridOfDevice {
   mpm::SparseGrid<Dim, Real> grid;
   terrain::GroundOnGrid<Dim, Real> ground;
   mpm::Nodes<Dim, Real> nodes;
-  std::vector<std::uint32_t> asked;  // blocks whose nodes the device tells of
+  std::vector<std::uint32_t> asked;  // blocks whose nodes the device transfers
   std::vector<Real> states;          // records of BaseState of candidate nodes
 };
 

@@ -8,7 +8,7 @@ namespace thawslide::sim {
 
 namespace {
 
-// What the band's figures are: means over its particles, or over the base where it is of columns.
+// Adds the means of the band, over its particles or, if the band consists of columns, over the base.
 template <int Dim, class Real>
 void add_band(const Simulation<Dim, Real>& simulation, const BodySums<Dim, Real>& sums, HistoryRow& row) {
   const auto add = [&](const char* name, double value) { row.emplace_back(name, value); };
@@ -32,7 +32,7 @@ void add_band(const Simulation<Dim, Real>& simulation, const BodySums<Dim, Real>
   add("band_pore_pressure_Pa", static_cast<double>(sums.band_pore_pressure) / mass);
 }
 
-// The balances of heat and water in band columns; returns the heat that columns hold less what they got.
+// Adds the heat and water balances of band columns; returns the heat held by the columns minus the heat supplied.
 template <int Dim, class Real, class Add>
 Real add_columns(const Simulation<Dim, Real>& simulation, const Add& add) {
   const auto* columns = simulation.band_columns();
@@ -41,9 +41,9 @@ Real add_columns(const Simulation<Dim, Real>& simulation, const Add& add) {
   }
   const band::ColumnSums<Real> sums = columns->sums();
   const band::ColumnLedger<Real>& ledger = columns->ledger();
-  const Real heat_in = ledger.laid_heat + ledger.body_heat + ledger.ground_heat;
+  const Real heat_in = ledger.created_heat + ledger.body_heat + ledger.ground_heat;
   const Real heat_out = ledger.vented_heat + ledger.steam_heat + ledger.left_heat;
-  const Real water_in = ledger.laid_water + ledger.body_water;
+  const Real water_in = ledger.created_water + ledger.body_water;
   const Real water_out = ledger.vented_water + ledger.steam + ledger.left_water;
   add("base_area_m2", sums.area);
   add("column_heat_J", sums.heat);
@@ -62,8 +62,8 @@ Real add_columns(const Simulation<Dim, Real>& simulation, const Add& add) {
   return sums.heat + heat_out - heat_in;
 }
 
-// What the slide has taken up of an erodible bed, what is left of that, and the balances of both. `add` takes the name
-// and a number per metre of width.
+// Adds the entrained mass, the remaining bed, and the balances of both. `add` takes the name and a number per metre of
+// width.
 template <int Dim, class Real, class Add>
 void add_bed(const Simulation<Dim, Real>& simulation, const Add& add) {
   const auto* bed = simulation.bed();
@@ -74,7 +74,7 @@ void add_bed(const Simulation<Dim, Real>& simulation, const Add& add) {
   const Ledger<Dim, Real>& ledger = simulation.ledger();
   const Real taken = sums.loose + ledger.bed_joined_mass;
   add("entrained_mass_kg", taken);
-  add("entrained_volume_m3", taken / bed->matter().density);
+  add("entrained_volume_m3", taken / bed->material().density);
   add("entrained_work_J", ledger.bed_work);
   add("entrained_heat_J", ledger.bed_heat);
   add("loose_mass_kg", sums.loose);
@@ -193,7 +193,7 @@ HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow
   row.emplace_back("dilation_volume_m3", width * static_cast<double>(sums.volume_change));
   row.emplace_back("dilation_share", static_cast<double>(sums.volume_change / sums.initial_volume));
   const char* axes = Dim == 2 ? "xy" : "xyz";
-  // Before the first step no force is known.
+  // No force is known before the first step.
   const double known = simulation.step_number() > 0 ? width : std::nan("");
   for (int a = 0; a < Dim; ++a) {
     row.emplace_back(fmt::format("basal_force_{}_N", axes[a]), known * static_cast<double>(contact.force[a]));

@@ -1,4 +1,4 @@
-// One row of history.csv: what a run reports through time (ARCHITECTURE.md defines each column).
+// One row of history.csv (ARCHITECTURE.md defines each column).
 #pragma once
 
 #include <string>
@@ -11,19 +11,19 @@ namespace thawslide::sim {
 
 using HistoryRow = std::vector<std::pair<std::string, double>>;  // name, value
 
-// What a row tells of the front [m].
+// Front of a row [m].
 struct FrontInRow {
   double position, runout;
 };
 
-// The state after the last step. The front is measured along x, or is the one handed over. Extensive values are per
-// metre of width in 2D, times case.width if that is given.
+// State after the last step. The front is measured along x, or given by the caller. In 2D, extensive values are per
+// metre of width, times case.width if specified.
 template <int Dim, class Real>
 HistoryRow history_row(const Simulation<Dim, Real>& simulation);
 template <int Dim, class Real>
 HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow& front);
 
-// x up to which 99.5 % of the mass has come, in the direction in which the slide left [m].
+// x coordinate of the front (99.5 % of the mass), in the direction in which the slide left [m].
 template <int Dim, class Real>
 double front_position(const Simulation<Dim, Real>& simulation);
 

@@ -1,4 +1,4 @@
-// Temperature and porosity at t = 0, from what the case gives of them.
+// Temperature and porosity at t = 0, from the fields of the case.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace thawslide::sim {
 
-// Of a field where a seed stands: from the case, or from a map at the release.
+// Value of a field at a seed, from the case or from a map of the release.
 template <int Dim>
 double initial_value(const InitialField& field, const config::Release* release, const std::string& key,
                      const Seed<Dim>& seed) {
@@ -27,11 +27,11 @@ double initial_value(const InitialField& field, const config::Release* release, 
   if (std::isfinite(value)) {
     return value;
   }
-  // At the edge some of the points about the place have none: the nearest of them that has.
+  // At the edge, some surrounding points have no value; use the nearest one that has.
   return nearest_value(map, seed.place[0], seed.place[1]);
 }
 
-// [C]; given, or that of the saturation by the freezing curve.
+// [C]; given, or computed from the saturation by the freezing curve.
 template <int Dim, class Real>
 double initial_temperature(const Model<Dim, Real>& model, const config::Body& body, const config::Release* release,
                            const Seed<Dim>& seed) {
@@ -43,7 +43,7 @@ double initial_temperature(const Model<Dim, Real>& model, const config::Body& bo
       model.band.with_heat_content([&](const auto& content) { return content.curve.temperature(saturation); }));
 }
 
-// Ice fills the pores but for what is liquid.
+// Ice fills the pores except for the liquid fraction.
 template <int Dim>
 double initial_porosity(const config::Body& body, const config::Release* release, const Seed<Dim>& seed,
                         double saturation) {

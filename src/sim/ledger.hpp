@@ -1,4 +1,4 @@
-// Where energy and momentum went: what each step adds to each account, since t = 0. Energies in [J].
+// Energy and momentum budget: terms accumulated over all steps since t = 0. Energies in [J].
 #pragma once
 
 #include "base/linear.hpp"
@@ -10,35 +10,36 @@ struct Ledger {
   // Mechanical: stress work by kind, work of contact and constraints.
   Real stress_work = 0, plastic = 0, viscous = 0, damping = 0, pore_work = 0;
   Real friction_work = 0, contact_loss = 0, frame_work = 0;
-  // What the transfers make or lose, computed and not left over: the kinetic energy that FLIP gives particles less what
-  // nodes gained, sum m_p |dv_p|^2/2 - sum m_i |dv_i|^2/2; and the work of internal forces at the nodes' mid-step
-  // velocity less that at the mapped-back (MUSL) velocity, which is what the stress work books.
+  // Energy gained or lost by the transfers, computed directly and not as a residual. It is the kinetic energy that FLIP
+  // adds to particles minus the gain at the nodes, sum m_p |dv_p|^2/2 - sum m_i |dv_i|^2/2. To this is added the work
+  // of internal forces at the nodes' mid-step velocity minus that at the mapped-back (MUSL) velocity, which defines the
+  // stress work.
   Real numerical = 0;
   // Thermal.
   Real friction_heat = 0, converted = 0, boundary_heat = 0, band_rescale = 0, advection = 0, capacity_heat = 0,
        porosity_heat = 0, drained_heat = 0;
-  // Water that seepage took [kg]: at the surface, to frozen pores, and what particles that left had gained by it.
+  // Water lost by seepage [kg]: at the surface, to frozen pores, and as gained by particles that left.
   Real drained_water = 0, vented_water = 0, left_seeped = 0;
-  // Impulses on the slide [N s]: of gravity, of the ground, of walls, frames and mass damping.
+  // Impulses on the slide [N s]: gravity, ground, and constraints (walls, frames and mass damping).
   Vector<Real, Dim> gravity_impulse = Vector<Real, Dim>::Zero();
   Vector<Real, Dim> ground_impulse = Vector<Real, Dim>::Zero();
   Vector<Real, Dim> constraint_impulse = Vector<Real, Dim>::Zero();
   // At t = 0; mass [kg], momentum [kg m/s].
   Real initial_mechanical = 0, initial_thermal = 0, initial_mass = 0;
   Vector<Real, Dim> initial_momentum = Vector<Real, Dim>::Zero();
-  // Brought in by particles that were appended.
+  // Contributed by appended particles.
   Real joined_mechanical = 0, joined_thermal = 0, joined_mass = 0;
   Vector<Real, Dim> joined_momentum = Vector<Real, Dim>::Zero();
-  // Taken from an erodible bed: work that the slide lost to what it took up, what of it became heat of particles that
-  // joined, and the impulse.
+  // Entrainment from an erodible bed: work lost by the slide, the part of it that became heat of joining particles, and
+  // the impulse.
   Real bed_work = 0, bed_heat = 0, bed_joined_mass = 0, bed_joined_kinetic = 0;
   Vector<Real, Dim> bed_impulse = Vector<Real, Dim>::Zero();
-  // Carried away by particles that left and were removed.
+  // Carried away by particles that left or were removed.
   Real left_mechanical = 0, left_thermal = 0, left_mass = 0;
-  Real removed_mass = 0;  // of left_mass, by guards
+  Real removed_mass = 0;  // part of left_mass removed by guards
   Vector<Real, Dim> left_momentum = Vector<Real, Dim>::Zero();
 
-  // Calls visit(number) with each of the numbers above, in order.
+  // Calls visit(number) for each number above, in order.
   template <class Visit>
   void for_each(const Visit& visit) {
     for (Real* account : {&stress_work,        &plastic,         &viscous,           &damping,

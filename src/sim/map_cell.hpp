@@ -1,7 +1,7 @@
-// What a map cell holds: the sums over the boxes above it in one step, and the records of the run.
-//   h = V/A,  v = p/m,  rho = m/V     averages over the column (Savage and Hutter 1989)
-//   h v2                              flux of momentum through a metre across the flow, over the density
-//   rho v2                            pressure on a wide wall that stops the flow (balance of momentum)
+// Map cell: sums over the boxes above it in one step, and the maxima of the run.
+//    h = V/A,  v = p/m,  rho = m/V     averages over the column (Savage and Hutter 1989)
+//    h v2                              momentum flux per metre of width across the flow, divided by density
+//    rho v2                            pressure on a wide wall that stops the flow (balance of momentum)
 // V, m, p: volume [m3], mass [kg] and momentum [kg m/s] of the slide over the cell; A: the cell's area [m2].
 #pragma once
 
@@ -15,35 +15,35 @@
 
 namespace thawslide::sim {
 
-// h [m] of a volume V [m3] over a cell of area A [m2].
+// Thickness h [m] of a volume V [m3] over a cell of area A [m2].
 [[nodiscard]] inline double thickness_of(double volume, double area) { return volume / area; }
 // h v2 [m3/s2].
 [[nodiscard]] inline double momentum_flux(double thickness, double speed) { return thickness * speed * speed; }
 // rho v2 [Pa].
 [[nodiscard]] inline double dynamic_pressure(double density, double speed) { return density * speed * speed; }
 
-// A cell in a run. The largest values are NaN until there is one.
+// Map cell during a run. Maxima are NaN until first recorded.
 struct MapCell {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   double thickness_at_start = 0.0;                              // [m]
-  double thickness = 0.0;                                       // now [m]
-  double velocity_x = 0.0, velocity_y = 0.0, velocity_z = 0.0;  // now, depth-averaged [m/s]
-  double max_thickness = 0.0;                                   // [m]; 0: the slide never was here
+  double thickness = 0.0;                                       // current [m]
+  double velocity_x = 0.0, velocity_y = 0.0, velocity_z = 0.0;  // current, depth-averaged [m/s]
+  double max_thickness = 0.0;                                   // [m]; 0: the slide never reached the cell
   double max_speed = none;                                      // [m/s]
   double max_momentum_flux = none;                              // [m3/s2]
   double max_pressure = none;                                   // [Pa]
   double arrival_time = none;                                   // [s]
   double max_basal_temperature = none;                          // [C]
-  double max_melt = 0.0;                                        // of water [m]
+  double max_melt = 0.0;                                        // depth of water [m]
   double max_pore_pressure = none;                              // [Pa]
 
   [[nodiscard]] double speed() const {
     return std::sqrt(velocity_x * velocity_x + velocity_y * velocity_y + velocity_z * velocity_z);
   }
 
-  // Takes the state at a time [s]. area: of the cell [m2]; arrival_thickness [m]: where the slide is not thicker, its
-  // speed and pressure are those of single particles and no record.
+  // Records the state at a time [s]. area: of the cell [m2]; arrival_thickness [m]: thinner flow is not recorded,
+  // because its speed and pressure are those of single particles.
   void take(const mpm::ColumnSums& sums, const mpm::BandSums& band, double area, double arrival_thickness,
             double time) {
     if (!(sums.volume > 0.0)) {
@@ -80,7 +80,7 @@ struct MapCell {
   }
 };
 
-// A cell as plain numbers, for a checkpoint.
+// Map cell as plain numbers, for a checkpoint.
 constexpr std::size_t map_cell_numbers = sizeof(MapCell) / sizeof(double);
 using MapCellNumbers = std::array<double, map_cell_numbers>;
 [[nodiscard]] inline MapCellNumbers numbers_of(const MapCell& cell) { return std::bit_cast<MapCellNumbers>(cell); }

@@ -12,31 +12,31 @@ namespace {
 
 // Cells along one axis.
 struct MapAxis {
-  double first, cell;  // the first point; distance of points [m]
+  double first, cell;  // first point; point spacing [m]
   double cells;
 };
 
-// An axis of cells that begin at `corner` or whole cells before it, over all from `from` to `to` [m].
+// Axis of cells aligned with `corner`, covering the range from `from` to `to` [m].
 MapAxis axis_over(double corner, double cell, double from, double to) {
-  // An end that is a border but for round-off is one.
-  const double sliver = 1e-6;  // of a cell
+  // Ends that coincide with a cell border to within round-off add no cell.
+  const double sliver = 1e-6;  // fraction of a cell
   const double before = std::ceil((corner - from) / cell - sliver), after = std::ceil((to - corner) / cell - sliver);
   return {corner + (0.5 - before) * cell, cell, before + after};
 }
 
-// The smallest size of two digits at which so many cells cover what these do [m].
+// Smallest cell size with two digits at which `most_cells` cells cover both axes [m].
 double cell_for(const MapAxis& x, const MapAxis& y, double most_cells) {
-  const double margin = 1.01;  // cells are whole and reach beyond the ends
+  const double margin = 1.01;  // cells are whole and extend beyond the ends
   const double least = margin * std::sqrt(x.cells * x.cell * y.cells * y.cell / most_cells);
   const double digit = std::pow(10.0, std::floor(std::log10(least)) - 1.0);
   return std::ceil(least / digit) * digit;
 }
 
-// In fewer a cell holds one or two columns of particles, and what is largest in it is what a single one had: 53 and
-// 48 m/s at one and two of a slide that 3 and 4 gave 36 and 35 m/s.
-constexpr double least_distances = 3.0;  // of particles, in a cell
+// In narrower cells, with one or two columns of particles, maxima are those of a single particle. Example: a slide gave
+// 53 and 48 m/s with one and two columns, and 36 and 35 m/s with 3 and 4.
+constexpr double least_distances = 3.0;  // particle spacings per cell
 
-// The side that cells are to have at least [m].
+// Minimum side of cells [m].
 double least_side(const config::Case& parameters) {
   double least = parameters.grid.cell;
   for (const auto& [name, body] : parameters.bodies) {
@@ -45,18 +45,18 @@ double least_side(const config::Case& parameters) {
   return least;
 }
 
-// The sides of the cells of maps that are not asked for [m].
+// Default cell sides of maps [m].
 std::array<double, 2> usual_cell(const config::Case& parameters, const config::Site& site) {
   if (!site.ground) {
     return {parameters.grid.cell, parameters.grid.cell};
   }
   const double least = least_side(parameters);
-  const double sliver = 1e-6;  // of a cell
+  const double sliver = 1e-6;  // fraction of a cell
   const auto whole = [&](double distance) { return std::max(1.0, std::ceil(least / distance - sliver)) * distance; };
   return {whole(site.ground->cell_x), whole(site.ground->cell_y)};
 }
 
-// "5 m", or both sides where they differ.
+// Text such as "5 m", or both sides if they differ.
 std::string size_text(const std::array<double, 2>& cell) {
   return cell[0] == cell[1] ? fmt::format("{:g} m", cell[0]) : fmt::format("{:g} x {:g} m", cell[0], cell[1]);
 }
@@ -105,7 +105,7 @@ std::string reason_for_map_cell(const config::Case& parameters, const config::Si
                            least > parameters.grid.cell ? "three particle distances" : "grid.cell");
 }
 
-std::string note_on_map_cell(const config::Case& parameters, const config::Site& site) {
+std::string warning_of_map_cell(const config::Case& parameters, const config::Site& site) {
   const double asked = parameters.maps.cell;
   if (asked <= 0.0 || asked >= parameters.grid.cell) {
     return "";

@@ -10,7 +10,7 @@ const std::vector<MapKind>& map_kinds() {
       {"max_speed", "m/s",
        "largest depth-averaged speed, all three components, while the slide was thicker than maps.arrival_thickness",
        [](const MapCell& c) { return c.max_speed; }},
-      {"max_momentum_flux", "m3/s2", "largest thickness times depth-averaged speed squared",
+      {"max_momentum_flux", "m3/s2", "maximum of thickness times depth-averaged speed squared",
        [](const MapCell& c) { return c.max_momentum_flux; }},
       {"max_pressure", "Pa",
        "largest density of the column times depth-averaged speed squared, while the slide was thicker than "
@@ -23,7 +23,7 @@ const std::vector<MapKind>& map_kinds() {
        "the ground too: what it left is lower by the thickness that was cut",
        [](const MapCell& c) { return c.thickness - c.thickness_at_start; }, true},
       {"max_basal_temperature", "C",
-       "largest temperature of the band, averaged by volume of its particles, or by area of its columns",
+       "maximum temperature of the band, averaged by volume of its particles, or by area of its columns",
        [](const MapCell& c) { return c.max_basal_temperature; }},
       {"max_melt", "m", "largest volume of liquid water in the column over the cell's area, that of the band over xi",
        [](const MapCell& c) { return c.max_melt; }},

@@ -1,4 +1,4 @@
-// The maps that a run in space writes, each a value of a cell.
+// Maps written by a 3D run, each with one value per cell.
 #pragma once
 
 #include <vector>
@@ -13,10 +13,10 @@ struct MapKind {
   const char* unit;
   const char* description;
   double (*value)(const MapCell&);
-  bool of_last_state = false;  // of the moment that it is written at, and not of the whole run
+  bool of_last_state = false;  // of the state when it is written, not of the whole run
 };
 
-// All maps, in the order in which they are told of. A cell that the slide never was in has no data in any of them.
+// All maps, in output order. A cell that the slide never covered has no data in any of them.
 [[nodiscard]] const std::vector<MapKind>& map_kinds();
 
 }  // namespace thawslide::sim

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "band/base_piece.hpp"
+#include "band/basal_segment.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "config/fitting_cell.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double gigabyte = 1e9;
 
-// Horizontal area of what is thicker than nothing [m2].
+// Horizontal area of positive thickness [m2].
 double covered_area(const Raster& thickness) {
   const auto covered =
       std::count_if(thickness.values.begin(), thickness.values.end(), [](double value) { return value > 0.0; });
@@ -59,7 +59,8 @@ std::string parts_of(const MemoryNeed& need) {
   return text;
 }
 
-// No cell helps, as what does not depend on cells takes too much by itself: what takes most is blamed.
+// Refuses a case that no cell size can make fit, because its cell-independent memory is too large. The message names
+// the largest contribution.
 [[noreturn]] void refuse_whatever_the_cell(const config::Case& parameters, const BodiesAtStart& bodies,
                                            const MemoryNeed& need, const std::string& amounts) {
   const double fixed = bytes_of_program + need.maps + need.ground;
@@ -78,7 +79,7 @@ std::string parts_of(const MemoryNeed& need) {
                                 config::place_of(parameters, "maps.cell"), amounts));
   }
   throw UserError(
-      fmt::format("{}: terrain.file: {}. Make the domain smaller (grid.min, grid.max), or take the terrain model to "
+      fmt::format("{}: terrain.file: {}. Make the domain smaller (grid.min, grid.max), or take the DEM to "
                   "points farther apart with terrain.resample.",
                   config::place_of(parameters, "terrain.file"), amounts));
 }
@@ -115,8 +116,8 @@ template <int Dim>
 MemoryNeed memory_need(const config::Case& parameters, const config::Site& site, const BodiesAtStart& bodies) {
   MemoryNeed need = memory_of_particles<Dim>(bodies.particles);
   if (config::has_band_columns(parameters)) {
-    const double pieces = usual_spread * bodies.area / std::pow(parameters.grid.cell, Dim - 1);
-    need.columns = pieces * sizeof(band::BasePiece<Dim, double>);
+    const double segments = usual_spread * bodies.area / std::pow(parameters.grid.cell, Dim - 1);
+    need.columns = segments * sizeof(band::BasalSegment<Dim, double>);
   }
   if (parameters.bed.law != config::BedLaw::none) {
     need.bed = bytes_of_bed<Dim>(parameters.grid);
@@ -137,7 +138,7 @@ double smallest_cell(const MemoryNeed& need, double cell, double bytes) {
   if (!(fixed < bytes)) {
     return 0.0;
   }
-  // The need falls as cells grow: bisection of the factor that they grow by.
+  // Memory decreases as cells grow: bisection of the growth factor.
   const auto fits = [&](double factor) {
     return fixed + by_volume / std::pow(factor, Dim) + by_area / std::pow(factor, Dim - 1) <= bytes;
   };

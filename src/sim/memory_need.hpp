@@ -1,4 +1,4 @@
-// How much memory a run will take, told before anything of it is made.
+// Estimate of the memory of a run, made before any allocation.
 #pragma once
 
 #include <cstddef>
@@ -9,51 +9,51 @@
 
 namespace thawslide::sim {
 
-// Heap in use over particles after a run of 100,000, with grid and nodes [bytes]; measured by benchmarks/speed
-// (docs/performance.md). Thin slides take more a particle, compact ones less.
+// Heap memory divided by particles after a run of 100,000, with grid and nodes [bytes]; measured by benchmarks/speed
+// (docs/performance.md). Thin slides need more per particle, compact ones less.
 template <int Dim>
 inline constexpr double bytes_of_particle = Dim == 3 ? 655.0 : 631.0;
 
-// What a particle takes besides while a snapshot or a checkpoint of it is put together [bytes]: measured as the peak of
-// runs of 340,000 (2D) and 420,000 (3D), less the above.
+// Additional memory per particle while a snapshot or a checkpoint is assembled [bytes]: peak of runs of 340,000 (2D)
+// and 420,000 (3D) particles, minus the value above.
 template <int Dim>
 inline constexpr double bytes_of_output = Dim == 3 ? 930.0 : 800.0;
 
-// A point of the ground's raster, in the site and in the surface [bytes]: measured over 45 million.
+// Memory per point of the ground raster, in the site and in the surface [bytes]: measured for 45 million points.
 inline constexpr double bytes_of_ground_point = 16.0;
 
-// The program and its libraries, and what those take that read and write maps [bytes]: measured as the peak of small
-// runs, less the above.
+// Memory of the program and its libraries, and of reading and writing maps [bytes]: peak of small runs, minus the
+// values above.
 inline constexpr double bytes_of_program = 60e6, bytes_of_map_files = 100e6;
 
-// A slide on its way covers, and has been on, more ground than it starts from: an allowance.
+// Ratio of the area that a moving slide covers, now and before, to its initial area: an allowance.
 inline constexpr double usual_spread = 5.0;
 
-// As far as a field's places can be counted: an affine velocity has nine numbers.
+// Limit of index arithmetic: an affine velocity has nine numbers per particle.
 inline constexpr double most_particles = 2.3e8;
 
-// [bytes]
+// Memory in bytes.
 struct MemoryNeed {
-  double particles = 0.0;  // with the grid about them
+  double particles = 0.0;  // with the surrounding grid
   double output = 0.0;     // while a snapshot or a checkpoint is written
-  double columns = 0.0;    // below the base
-  double bed = 0.0;        // that is erodible
-  double maps = 0.0;       // what the slide passes of them, and one that is written
-  double ground = 0.0;     // of a terrain model
+  double columns = 0.0;    // of the band
+  double bed = 0.0;        // erodible
+  double maps = 0.0;       // cells that the slide passes, and one map being written
+  double ground = 0.0;     // of a DEM
 
   [[nodiscard]] double total() const { return bytes_of_program + particles + output + columns + bed + maps + ground; }
 };
 
-// What the bodies fill at the start.
+// Initial extent of the bodies.
 struct BodiesAtStart {
-  double particles = 0.0;  // about as many
+  double particles = 0.0;  // approximate number
   double area = 0.0;       // horizontal [m2], per metre of width in 2D
 };
 
 template <int Dim>
 [[nodiscard]] BodiesAtStart bodies_at_start(const config::Case& parameters, const config::Site& site);
 
-// Of particles alone, wherever they are.
+// Memory of particles alone, independent of their positions.
 template <int Dim>
 [[nodiscard]] MemoryNeed memory_of_particles(double particles);
 
@@ -61,12 +61,12 @@ template <int Dim>
 [[nodiscard]] MemoryNeed memory_need(const config::Case& parameters, const config::Site& site,
                                      const BodiesAtStart& bodies);
 
-// The smallest grid.cell [m], in two digits, with which a run fits into so many bytes that needs this with cells of
-// `cell` [m]; 0 where none does, as maps and ground alone take more.
+// Smallest grid.cell [m], with two digits, for which a run fits into `bytes`; need: with cells of `cell` [m]. Returns 0
+// if there is none, because maps and ground alone exceed the limit.
 template <int Dim>
 [[nodiscard]] double smallest_cell(const MemoryNeed& need, double cell, double bytes);
 
-// Throws UserError where a run needs more than is available, or has more particles than can be counted; returns the
+// Throws UserError if a run needs more memory than available, or has more particles than the index limit; returns the
 // case.
 template <int Dim>
 const config::Case& require_memory(const config::Case& parameters, const config::Site& site,

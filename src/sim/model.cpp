@@ -51,7 +51,7 @@ physics::Strength<Real> strength_of(const config::Material& material, double cel
                                    .residual_cohesion = static_cast<Real>(material.residual_cohesion),
                                    .tension_cutoff = static_cast<Real>(material.tension_cutoff),
                                    .residual_friction_angle = static_cast<Real>(material.residual_friction_angle)};
-  if (softening_strain > 0.0) {  // else nothing softens
+  if (softening_strain > 0.0) {  // otherwise nothing softens
     strength.softening_strain = static_cast<Real>(softening_strain);
   }
   return strength;
@@ -210,7 +210,7 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
   band.thermal_pressurization = parameters.pressure.thermal_pressurization;
   band.volumetric_term = parameters.pressure.volumetric_term;
   band.seepage = parameters.pressure.seepage;
-  band.seepage_as_printed = parameters.pressure.seepage_scaling == config::SeepageScaling::printed;
+  band.published_seepage = parameters.pressure.seepage_scaling == config::SeepageScaling::printed;
   band.clapeyron_sign = parameters.pressure.clapeyron == config::ClapeyronSign::usual ? Real(1) : Real(-1);
   band.normal_thickness = parameters.pressure.thickness_direction == config::ThicknessDirection::normal;
   band.thickness_each_step = parameters.pressure.thickness_update == config::ThicknessUpdate::each_step;
@@ -226,7 +226,7 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
   return band;
 }
 
-// The ground as a line over x, relative to the domain's lower corner; nothing where it is none.
+// Ground as a line over x, relative to the domain's lower corner; empty if it is not a line.
 template <int Dim>
 std::optional<terrain::Polyline> make_profile(const config::Case& parameters, const config::Site& site,
                                               const Vector<double, Dim>& origin) {
@@ -238,7 +238,7 @@ std::optional<terrain::Polyline> make_profile(const config::Case& parameters, co
       return std::nullopt;
     case config::TerrainKind::flat:
     case config::TerrainKind::plane: {
-      // Two points a kilometre apart; the line goes on with its gradient.
+      // Two points a kilometre apart; the line is extrapolated with its gradient.
       const double fall = terrain.kind == config::TerrainKind::plane ? std::tan(radians(terrain.slope)) : 0.0;
       const double left = terrain.elevation - fall * origin[0] - base;
       return terrain::Polyline({0.0, 1000.0}, {left, left - fall * 1000.0});
@@ -284,8 +284,7 @@ std::shared_ptr<const terrain::Surface<Dim>> make_ground(const config::Case& par
   return std::make_shared<terrain::ProfileSurface<Dim>>(*profile, width);
 }
 
-// The thickness of the cells that make up the band, where it follows the ground; and its largest value where bodies
-// start.
+// Sets the thickness of the cells that form the band if it follows the ground, and its maximum at the initial bodies.
 template <int Dim, class Real>
 void set_layer_thickness(const config::Case& parameters, const config::Site& site, Model<Dim, Real>& model) {
   using Layer = terrain::LayerThickness<Dim>;
@@ -349,7 +348,7 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
     model.body_names.push_back(name);
     model.motion.sizes.add(Real(1) / static_cast<Real>(2 * body.particles_per_axis));
   }
-  if (parameters.bed.law != config::BedLaw::none) {  // what is taken up is a body of its own
+  if (parameters.bed.law != config::BedLaw::none) {  // entrained material is a separate body
     model.body_names.emplace_back("bed");
     model.motion.sizes.add(Real(1) / static_cast<Real>(2 * parameters.bed.particles_per_axis));
   }
@@ -369,7 +368,7 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
         physics::mixture_density(model.band.phases, static_cast<Real>(parameters.bed.porosity), saturation);
   }
   model.profile = make_profile<Dim>(parameters, site, model.origin);
-  // The ground is in double precision whatever the step is in.
+  // The ground uses double precision, whatever the precision of the step.
   const auto width = parameters.general.width.varies()
                          ? mpm::SectionWidth<double>(parameters.general.width.table, model.origin[0])
                          : mpm::SectionWidth<double>();

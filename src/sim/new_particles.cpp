@@ -1,4 +1,4 @@
-// Particles that join a run between two steps.
+// Particles appended to a run between two steps.
 #include <algorithm>
 
 #include "base/error.hpp"
@@ -8,7 +8,7 @@
 
 namespace thawslide::sim {
 
-// Fills the particles from `first` on, as many as there are new ones; ids count from `next_id` on.
+// Fills in the new particles at the end of the arrays, from `first` on; ids count from `next_id`.
 template <int Dim, class Real>
 void fill_new(const std::vector<NewParticle<Dim, Real>>& joining, std::size_t first, std::int64_t& next_id,
               const Model<Dim, Real>& model, mpm::Particles<Dim, Real>& particles) {
@@ -39,7 +39,7 @@ void Simulation<Dim, Real>::append(const std::vector<NewParticle<Dim, Real>>& jo
   if (joining.empty()) {
     return;
   }
-  leave_device();
+  release_device();
   const std::size_t first = particles_.append(joining.size());
   fill_new(joining, first, next_id_, model_, particles_);
   band::set_heat_content(model_.band, particles_, first);
@@ -47,7 +47,7 @@ void Simulation<Dim, Real>::append(const std::vector<NewParticle<Dim, Real>>& jo
     particles_.mass(p) = particles_.volume(p) * physics::mixture_density(model_.motion.phases, particles_.porosity(p),
                                                                          particles_.liquid_saturation(p));
   }
-  grid_.update(particles_, 0);  // with no sorting: the new ones still stand last
+  grid_.update(particles_, 0);  // without sorting, so the new particles stay last
   update_ground();
   if (model_.band.pressure && model_.band.needs_normal_load()) {
     update_columns();

@@ -1,4 +1,4 @@
-// The step to take next, and what is said of one too short to go on with.
+// Size of the next step, and the message if it is too small.
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +10,9 @@ namespace thawslide::sim {
 
 namespace {
 
-constexpr double round_off = 1e-9;  // of summed times, as a fraction of a step
+constexpr double round_off = 1e-9;  // of accumulated times, as a fraction of a step
 
-// What to do about a limit that has become a small part of what it was.
+// Advice on a limit that has fallen to a small fraction of its initial value.
 std::string advice_on(LimitKind kind) {
   switch (kind) {
     case LimitKind::wave:
@@ -20,14 +20,15 @@ std::string advice_on(LimitKind kind) {
              "with guards.volume = \"remove\" and a guards.largest_volume.";
     case LimitKind::viscosity:
       return "Try a smaller viscosity_time in the material: its limit falls with the square of the wave speed, which "
-             "grows as matter is torn apart; or take such particles out with guards.volume = \"remove\" and a "
+             "grows in separated material; or remove such particles with guards.volume = \"remove\" and a "
              "guards.largest_volume.";
     case LimitKind::particle_speed:
       return "The particle came loose, or the run has become unstable: try half of time.safety, or viscosity_time in "
              "the material.";
     case LimitKind::conduction:
     case LimitKind::seepage:
-      return "The band has become thin, or its matter conducts well: try a larger band.thickness, or band.model = "
+      return "The band has become thin, or its hydraulic conductivity is large: try a larger band.thickness, or "
+             "band.model = "
              "\"columns\", whose steps have no such limit.";
     case LimitKind::none:
       break;
@@ -39,7 +40,7 @@ std::string advice_on(LimitKind kind) {
 
 template <int Dim, class Real>
 band::StepExtremes Simulation<Dim, Real>::extremes() const {
-  const bool are_told = device_step_ && parameters_.time.stepping == config::Stepping::adaptive;
+  const bool are_told = device_solver_ && parameters_.time.stepping == config::Stepping::adaptive;
   return are_told ? device_sums_.extremes : extremes_of(model_, particles());
 }
 
@@ -63,7 +64,7 @@ double Simulation<Dim, Real>::next_step(double until) const {
   const double dt = adaptive_step();
   stop_if_step_collapses(dt);
   const double left = until - time_;
-  const double steps = std::ceil(left / dt * (1.0 - round_off));  // else a rounding remainder takes one more step
+  const double steps = std::ceil(left / dt * (1.0 - round_off));  // otherwise round-off adds one more step
   return left / std::max(1.0, steps);
 }
 
@@ -72,9 +73,9 @@ void Simulation<Dim, Real>::stop_if_step_collapses(double dt) const {
   const config::Guards& guards = parameters_.guards;
   const double steps = (parameters_.time.end - time_) / dt;
   std::string why;
-  if (dt < guards.smallest_step * watch_.first_step) {
+  if (dt < guards.smallest_step * monitor_.first_step) {
     why = fmt::format("{:.2g} of the first one, {:.4g} s, where guards.smallest_step allows {:g}",
-                      dt / watch_.first_step, watch_.first_step, guards.smallest_step);
+                      dt / monitor_.first_step, monitor_.first_step, guards.smallest_step);
   } else if (steps > guards.most_steps) {
     why = fmt::format("and {:.2g} of them would be left to time.end, where guards.most_steps allows {:g}", steps,
                       guards.most_steps);
@@ -84,7 +85,7 @@ void Simulation<Dim, Real>::stop_if_step_collapses(double dt) const {
   const StepLimit limit = step_limit();
   std::string where;
   if (limit.particle >= 0) {
-    bring_particles_back();
+    sync_to_host();
     const std::size_t p = place_in_memory(limit.particle);
     where = fmt::format(", of {}, whose volume is {:.3g} of that at t = 0", particle_text(p),
                         static_cast<double>(particles_.volume(p) / particles_.initial_volume(p)));

@@ -1,11 +1,11 @@
-// The normal load N on particles: what the column above presses on the ground with.
+// Normal load N on particles: weight of the column above, normal to the ground.
 #include "base/instances.hpp"
 #include "sim/simulation.hpp"
 #include "sim/terrain_at_columns.hpp"
 
 namespace thawslide::sim {
 
-// Of the particles that stand in memory from `first` on.
+// Updates particles from memory index `first` on.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::update_normal_load(std::size_t first) {
   if (!model_.band.pressure || !model_.band.needs_normal_load()) {

@@ -73,8 +73,8 @@ Place2 PathLine::point_at(double along) const {
           corners_[k][1] + share * (corners_[k + 1][1] - corners_[k][1])};
 }
 
-void CentreWay::note(const Place2& centre) {
-  constexpr double first_sight = 0.01;  // of the spacing: enough to tell the direction
+void CentrePath::add_position(const Place2& centre) {
+  constexpr double first_sight = 0.01;  // fraction of the spacing that suffices to determine the direction
   if (end_moves()) {
     line_.remove_last();
   }
@@ -89,7 +89,7 @@ void CentreWay::note(const Place2& centre) {
   }
 }
 
-std::vector<double> CentreWay::state() const {
+std::vector<double> CentrePath::state() const {
   std::vector<double> numbers;
   for (const Place2& corner : line_.corners()) {
     numbers.insert(numbers.end(), corner.begin(), corner.end());
@@ -97,10 +97,10 @@ std::vector<double> CentreWay::state() const {
   return numbers;
 }
 
-void CentreWay::restore(const std::vector<double>& numbers) {
+void CentrePath::restore(const std::vector<double>& numbers) {
   line_ = PathLine();
   line_.reserve(usual_corners);
-  StateNumbers state(numbers, "way of the centre of mass");
+  StateNumbers state(numbers, "path of the centre of mass");
   while (state.left() > 0) {
     const double x = state.next_finite(), y = state.next_finite();
     line_.add({x, y});

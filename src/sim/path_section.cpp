@@ -19,10 +19,10 @@ namespace thawslide::sim {
 
 namespace {
 
-constexpr double margin_cells = 4.0;  // of the domain about ground and release
-constexpr double step_width = 1e-6;   // of a cell: over which the thickness rises at the release's ends
+constexpr double margin_cells = 4.0;  // of the domain around ground and release
+constexpr double step_width = 1e-6;   // fraction of a cell over which the thickness rises at the release's ends
 
-// Calls visit(x, y, thickness) where there is a thickness.
+// Calls visit(x, y, thickness) for points of positive thickness.
 template <class Visit>
 void for_points(const Raster& thickness, const Visit& visit) {
   for (int row = 0; row < thickness.rows; ++row) {
@@ -34,18 +34,18 @@ void for_points(const Raster& thickness, const Visit& visit) {
   }
 }
 
-// The release seen from the path.
+// Release projected onto the path.
 struct ReleaseOnPath {
   double from = HUGE_VAL, to = -HUGE_VAL;  // distances along the path [m]
   double nearest = HUGE_VAL;               // of its points to the path [m]
-  double middle = 0.0;                     // of its volume, along the path [m]
-  double width = 0.0, cross_area = 0.0;    // across the path, on average [m, m2]
+  double middle = 0.0;                     // of the volume, along the path [m]
+  double width = 0.0, cross_area = 0.0;    // mean values across the path [m, m2]
   Table thickness;                         // mean across the path [m], over the distance
 
   [[nodiscard]] double at(double along) const { return along < from || along > to ? 0.0 : thickness.at(along); }
 };
 
-// length: over which thicknesses are averaged [m].
+// length: averaging length of thicknesses [m].
 ReleaseOnPath release_on_path(const PathLine& line, const config::Release& release, double length) {
   struct Point {
     double along, thickness;
@@ -78,7 +78,7 @@ ReleaseOnPath release_on_path(const PathLine& line, const config::Release& relea
     thickness[k] += point.thickness;
     number[k] += 1.0;
   }
-  // Points on the outline stand for less than a cell each: with this share their areas sum to the release's.
+  // Points on the outline represent less than a cell each. This factor makes the areas sum to the release's area.
   const double share =
       release.area / (static_cast<double>(points.size()) * release.thickness.cell_x * release.thickness.cell_y);
   std::vector<double> middles;
@@ -90,7 +90,7 @@ ReleaseOnPath release_on_path(const PathLine& line, const config::Release& relea
   return found;
 }
 
-// What the block takes of a field: a number, or a table over depth.
+// Reduces a field to the block's form: a number, or a table over depth.
 void make_plain(InitialField& field, const std::string& key, const config::Release& release) {
   double volume = 0.0, sum = 0.0, east = 0.0;
   for_points(release.thickness, [&](double x, double y, double thickness) {
@@ -132,7 +132,7 @@ Place2 centre_of(const config::Release& release) {
   return {centre[0] / sum, centre[1] / sum};
 }
 
-// The way straight down from the release's centre.
+// Line of steepest descent from the release's centre.
 Descent descent_from(const config::Case& parameters, const config::Release& release, const Raster& ground) {
   const Place2 centre = centre_of(release);
   const double width = std::max(parameters.grid.cell, 2.0 * std::max(ground.cell_x, ground.cell_y));
@@ -148,13 +148,13 @@ Descent descent_from(const config::Case& parameters, const config::Release& rele
   return descent;
 }
 
-// Stations of the path, and the ends of the release with its full thickness.
+// Stations of the path, and the ends of the full release thickness.
 std::vector<double> stations_about(const PathLine& line, const ReleaseOnPath& release, double cell, double spacing) {
   const double begin = std::floor(release.from / cell - margin_cells) * cell;
   const double end = std::max(line.length(), release.to + margin_cells * cell);
   std::vector<double> stations = stations_along(line, begin, end, spacing);
   const double step = step_width * cell;
-  // Stations nearer to the release's ends than its steps are would coincide with them in other coordinates.
+  // Stations closer to the release's ends than the step width would coincide with them after a change of coordinates.
   const auto at_an_end = [&](double station) {
     return std::min(std::abs(station - release.from), std::abs(station - release.to)) < 2.0 * step;
   };
@@ -164,7 +164,7 @@ std::vector<double> stations_about(const PathLine& line, const ReleaseOnPath& re
   return stations;
 }
 
-// What lies below the path, from the middle between two stations to the next.
+// Substrate stretches below the path, from one midpoint between stations to the next.
 std::vector<config::SubstrateStretch> stretches_along(const config::Case& parameters, const config::Site& site,
                                                       const PathLine& line, const std::vector<double>& stations) {
   std::vector<config::SubstrateStretch> stretches;
@@ -200,7 +200,7 @@ void set_domain(config::Grid& grid, const config::ProfileTable& profile) {
   grid.boundary = {};
 }
 
-// Between a path and the steepest descent at a place along it [degrees]; 0 on level ground and where it is not known.
+// Angle between the path and the steepest descent at a distance along it [degrees]; 0 on level or unknown ground.
 double off_steepest(const PathLine& line, double along, const Raster& ground, double width) {
   const Place2 place = line.point_at(along), before = line.point_at(along - 0.5 * width),
                after = line.point_at(along + 0.5 * width);

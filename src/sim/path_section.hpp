@@ -1,13 +1,13 @@
-// The section of a 3D case on a DEM along its path: the 2D case that the rigid block slides. A case without a path gets
-// the way of steepest descent from the centre of its release.
+// Section of a 3D case on a DEM along its path: the 2D case for the rigid block. If the case specifies no path, the
+// line of steepest descent from the centre of its release is used.
 //
-// The terrain is the ground below the path from the release on, which goes on straight where the release reaches beyond
-// its ends; it ends with the path, or where this leaves the terrain model below the release. The release stands on it
-// as thick as it is on average across the path: its points are counted at the nearest place of the path, over lengths
-// of a cell of the grid, or two of the DEM where these are longer; volume over area is the thickness. Initial fields
-// from maps become their mean over the release's volume, those over x their value at its centre; the velocity becomes
-// its parts along the path and upwards. Substrates become stretches of the path, to a quarter of the distance of the
-// DEM's points. Sides and frames are left out: the block never meets them.
+// The terrain is the ground below the path, beginning at the release, and extended straight if the release reaches
+// beyond its ends. It ends with the path, or where the path leaves the DEM below the release. The release has the mean
+// thickness across the path. Its points are assigned to the nearest point of the path, in bins of one grid cell, or of
+// two DEM cells if these are longer; thickness is volume over area. Initial fields from maps become their mean over the
+// release's volume, fields over x their value at its centre. The velocity becomes its components along the path and
+// upwards. Substrates become stretches of the path, resolved to a quarter of the DEM spacing. Sides and frames are
+// omitted, because the block never reaches them.
 #pragma once
 
 #include <optional>
@@ -21,12 +21,13 @@ namespace thawslide::sim {
 
 struct PathSection {
   config::Case parameters;  // 2D: x is the distance along the path [m], y the elevation [m]
-  config::Site site;        // its profile
+  config::Site site;        // contains the profile
   Table valley_factor;      // over the distance (valley_factor.hpp)
-  bool path_given = true;   // or found by steepest descent
+  bool path_given = true;   // false: found by steepest descent
   double off_steepest = 0;  // angle between the path and the steepest descent at the release's middle [degrees]
 
-  // That the way of steepest descent ends in: where, along it [m] and in space. What lies beyond is no way down.
+  // Closed depression in which the line of steepest descent ends: distance along it [m] and position. Nothing beyond it
+  // leads down.
   struct Pit {
     double along;
     Place2 place;
@@ -34,8 +35,8 @@ struct PathSection {
   std::optional<Pit> pit;
 };
 
-// Of a case with one body. Throws UserError for a path without a length, that passes the release by or has no ground
-// there, for a release from which no way leads down, for a body that is no release, and for tilted gravity.
+// Requires a case with one body. Throws UserError for a path without length, a path that misses the release or has no
+// ground there, a release without a downhill path, a body that is not a release, and tilted gravity.
 [[nodiscard]] PathSection section_along_path(const config::Case& parameters, const config::Site& site);
 
 }  // namespace thawslide::sim

@@ -10,7 +10,7 @@ namespace thawslide::sim {
 
 namespace {
 
-// Adds the shares of the way from one number to another at which it passes a whole one.
+// Adds the fractions of the interval between two numbers at which it crosses an integer.
 void add_crossings(double from, double to, std::vector<double>& shares) {
   const double lower = std::min(from, to), upper = std::max(from, to);
   const auto last = static_cast<std::int64_t>(std::ceil(upper));
@@ -68,7 +68,7 @@ Probes::Probes(const config::Case& parameters, const std::map<std::string, confi
     for (const auto& corner : corners) {
       if (!map_grid.contains(corner[0], corner[1])) {
         throw UserError(fmt::format(
-            "{}: probe '{}' has a point at x = {:.10g} m, y = {:.10g} m, beside the maps; allowed: x from {:.10g} to "
+            "{}: probe '{}' has a point at x = {:.10g} m, y = {:.10g} m, outside the maps; allowed: x from {:.10g} to "
             "{:.10g} m, y from {:.10g} to {:.10g} m. Move it, or make the domain larger.",
             config::place_of(parameters, "probe." + name), name, corner[0], corner[1],
             map_grid.x - 0.5 * map_grid.cell_x, map_grid.x + (map_grid.columns - 0.5) * map_grid.cell_x,

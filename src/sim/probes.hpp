@@ -1,4 +1,4 @@
-// Probes: what passes given points and cross sections through time, from the maps.
+// Probes: time series at given points and cross sections, sampled from the maps.
 #pragma once
 
 #include <cmath>
@@ -12,25 +12,24 @@
 
 namespace thawslide::sim {
 
-// A part of a cross section within one map cell.
+// Part of a cross section in one map cell.
 struct SectionPart {
   int column, row;
   double length;              // [m]
   double normal_x, normal_y;  // unit vector across the section, to the right of its direction
 };
 
-// What stands in a cross section.
+// Flow through a cross section.
 struct SectionFlow {
   double area = 0.0;           // sum of thickness times length [m2]
-  double discharge = 0.0;      // sum of thickness times length times velocity across, positive to the right [m3/s]
+  double discharge = 0.0;      // sum of thickness times length times normal velocity, positive to the right [m3/s]
   double max_thickness = 0.0;  // [m]
 
-  // Size of the mean velocity across the section, |Q|/A of a discharge Q through a flow area A (continuity) [m/s];
-  // 0 where nothing flows.
+  // Mean speed across the section, |Q|/A of a discharge Q through a flow area A (continuity) [m/s]; 0 without flow.
   [[nodiscard]] double mean_speed() const { return area > 0.0 ? std::abs(discharge) / area : 0.0; }
 };
 
-// The parts of a line in the cells of a map grid, in order. The line lies over the grid.
+// Parts of a line in the cells of a map grid, in order. The line must lie over the grid.
 [[nodiscard]] std::vector<SectionPart> parts_of_section(const config::Polyline2& line, const MapGrid& map_grid);
 
 [[nodiscard]] SectionFlow flow_through(const std::vector<SectionPart>& section, const FlowMaps& maps);
@@ -38,12 +37,12 @@ struct SectionFlow {
 class Probes {
  public:
   Probes() = default;
-  // Of the site, by name. Throws UserError for one that does not lie over the map grid.
+  // Probes of the site, by name. Throws UserError for a probe outside the map grid.
   Probes(const config::Case& parameters, const std::map<std::string, config::Polyline2>& probes,
          const MapGrid& map_grid);
 
   [[nodiscard]] bool empty() const { return points_.empty() && sections_.empty(); }
-  // One row of probes.csv, as the maps stand at a time [s]: time_s, then for each point, by name, NAME_thickness_m and
+  // One row of probes.csv from the maps at a time [s]: time_s, then for each point, by name, NAME_thickness_m and
   // NAME_speed_m_s of the map cell there, then for each cross section NAME_flow_area_m2, NAME_discharge_m3_s,
   // NAME_mean_speed_m_s and NAME_max_thickness_m.
   [[nodiscard]] std::vector<std::pair<std::string, double>> row(const FlowMaps& maps, double time) const;

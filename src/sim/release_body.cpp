@@ -9,9 +9,9 @@ namespace thawslide::sim {
 
 namespace {
 
-constexpr double thinnest = 0.1;  // of a particle's height over the distance of particles
+constexpr double thinnest = 0.1;  // particle height relative to the particle spacing
 
-// By the parity of the sides that a ray to the east crosses.
+// Even-odd rule: parity of the ring sides crossed by a ray to the east.
 bool is_within(const std::vector<config::Polyline2>& rings, double x, double y) {
   bool within = false;
   for (const config::Polyline2& ring : rings) {
@@ -26,7 +26,7 @@ bool is_within(const std::vector<config::Polyline2>& rings, double x, double y) 
   return within;
 }
 
-// Of a place near the body: its outline goes before every share.
+// Claim of a release to a place near it: its outline takes precedence over every fraction.
 double claim_of(const config::Release& release, double x, double y) {
   constexpr double within_outline = 2.0;
   return is_within(release.outlines, x, y) ? within_outline : bilinear(release.claim, x, y, Missing::zero);
@@ -72,7 +72,7 @@ bool ReleaseBody::owns(double x, double y) const {
     return true;
   }
   const double claim = claim_of(*release_, x, y);
-  bool is_later = false;  // of bodies that claim the same the first one has it
+  bool is_later = false;  // if claims are equal, the first body takes the place
   for (const auto& [name, other] : *releases_) {
     is_later = is_later || &other == release_;
     if (&other == release_ || other.claim.empty() || bilinear(other.claim, x, y, Missing::zero) == 0.0) {
@@ -86,7 +86,7 @@ bool ReleaseBody::owns(double x, double y) const {
   return claim > 0.0;
 }
 
-// By the midpoint rule, finer than the raster's points.
+// Midpoint rule, finer than the raster spacing.
 double ReleaseBody::mean_thickness(double x, double y, double width) const {
   const Raster& t = thickness();
   const double finest = std::min(t.cell_x, t.cell_y);
@@ -116,7 +116,7 @@ void ReleaseBody::seed(const Vector<double, 3>& corner, double spacing, int body
       }
       const double thickness = mean_thickness(x, y, spacing);
       const long fitting = std::lround(thickness / spacing);
-      // Thin where the release is thin, not where it only reaches into the column.
+      // True if the release itself is thin, not if it only extends into the column.
       const bool is_thin = fitting == 0 && thickness >= thinnest * spacing && bilinear(t, x, y, Missing::zero) > 0.0;
       const long count = is_thin ? 1 : fitting;
       const double low = count > 0 ? bottom(x, y) : 0.0;

@@ -1,5 +1,5 @@
-// Particles that are bad, or have left the domain or the part of the terrain that is known: they end the run, or are
-// removed and counted, as the case has it.
+// Handling of particles that are invalid, or have left the domain or the known terrain: they end the run, or are
+// removed and counted, as specified by the case.
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +13,8 @@ namespace thawslide::sim {
 
 namespace {
 
-// Why a particle is removed.
-enum Mark : std::uint8_t { stays, has_left, is_not_finite, has_bad_volume };
+// Reason for removal of a particle.
+enum Mark : std::uint8_t { stays, has_left, is_not_finite, has_inverted };
 
 Mark mark_of(mpm::Fault fault, const config::Guards& guards) {
   switch (fault) {
@@ -24,7 +24,7 @@ Mark mark_of(mpm::Fault fault, const config::Guards& guards) {
     case mpm::Fault::volume_not_positive:
     case mpm::Fault::volume_too_small:
     case mpm::Fault::volume_too_large:
-      return guards.volume == config::Policy::remove ? has_bad_volume : stays;
+      return guards.volume == config::Policy::remove ? has_inverted : stays;
     case mpm::Fault::left_domain:
     case mpm::Fault::left_map:
     case mpm::Fault::none:
@@ -33,7 +33,7 @@ Mark mark_of(mpm::Fault fault, const config::Guards& guards) {
   return stays;
 }
 
-// What is wrong with a particle by itself, after a step.
+// Fault of a single particle after a step.
 template <int Dim, class Real>
 mpm::Fault fault_of(const mpm::Particles<Dim, Real>& particles, std::size_t p, const config::Guards& guards) {
   const Real volume = particles.volume(p);
@@ -57,7 +57,7 @@ mpm::Fault fault_of(const mpm::Particles<Dim, Real>& particles, std::size_t p, c
   return ratio > guards.largest_volume ? mpm::Fault::volume_too_large : mpm::Fault::none;
 }
 
-// Marks the particles beyond the sides of the domain.
+// Marks particles outside the domain.
 template <int Dim, class Real>
 void mark_left_domain(const mpm::Particles<Dim, Real>& particles, const Vector<Real, Dim>& extent,
                       std::vector<std::uint8_t>& marks) {
@@ -79,21 +79,21 @@ std::int64_t count_of(const std::vector<std::uint8_t>& marks, Mark mark) {
 
 }  // namespace
 
-// Leaves in bad_ what has to end the run.
+// Sets invalid_ to the fault that must end the run.
 template <int Dim, class Real>
-void Simulation<Dim, Real>::mark_bad_particles() {
+void Simulation<Dim, Real>::mark_invalid_particles() {
   const config::Guards& guards = parameters_.guards;
   marks_.clear();
-  if (bad_.id < 0 || mark_of(bad_.fault, guards) == stays) {
+  if (invalid_.id < 0 || mark_of(invalid_.fault, guards) == stays) {
     return;
   }
-  bad_ = {};
+  invalid_ = {};
   marks_.assign(particles_.size(), stays);
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     const mpm::Fault fault = fault_of(particles_, p, guards);
     marks_[p] = mark_of(fault, guards);
     if (fault != mpm::Fault::none && marks_[p] == stays) {
-      bad_.note(particles_.id(p), fault);
+      invalid_.record(particles_.id(p), fault);
     }
   }
 }
@@ -106,11 +106,11 @@ void Simulation<Dim, Real>::mark_left_particles() {
     mark_left_domain<Dim, Real>(particles_, model_.constraints.extent, marks_);
   }
   const std::size_t tiles = model_.ground ? grid_.tiles().size() : 0;
-  bad_ += parallel_sum<mpm::BadParticle>(tiles, [&](std::size_t t, mpm::BadParticle& bad) {
-    // The tile's own block stands in the middle of those about it; its ground is looked at a cell further.
-    // After steps of a device tiles may be those of long ago: all particles are looked at.
+  invalid_ += parallel_sum<mpm::InvalidParticle>(tiles, [&](std::size_t t, mpm::InvalidParticle& invalid) {
+    // The tile's own block is the middle one of its stencil, and its ground is checked one cell beyond its edge. After
+    // device steps the tiles may be outdated, so all particles are checked.
     const auto own = static_cast<std::size_t>(grid_.blocks_about_tile(t)[mpm::Tile<Dim>::stencil / 2]);
-    if (!device_step_ && !ground_.partly_unknown(own)) {
+    if (!device_solver_ && !ground_.partly_unknown(own)) {
       return;
     }
     for (std::uint32_t k = grid_.tiles()[t].first; k < grid_.tiles()[t].last; ++k) {
@@ -122,16 +122,16 @@ void Simulation<Dim, Real>::mark_left_particles() {
       if (removes) {
         marks_[p] = has_left;
       } else {
-        bad.note(particles_.id(p), mpm::Fault::left_map);
+        invalid.record(particles_.id(p), mpm::Fault::left_map);
       }
     }
   });
 }
 
-// What the marked particles take along. Of one that is not finite mass and place are known, and no more: the residuals
-// of the other accounts show what it had.
+// Adds the budget terms of the marked particles. For a non-finite particle, only mass and position are known; the
+// residuals of the other terms show its content.
 template <int Dim, class Real>
-void Simulation<Dim, Real>::book_marked_particles() {
+void Simulation<Dim, Real>::add_removed_particles() {
   std::vector<std::uint8_t> known = marks_;
   for (const std::uint32_t p : grid_.order()) {
     if (marks_[p] == is_not_finite) {
@@ -139,7 +139,7 @@ void Simulation<Dim, Real>::book_marked_particles() {
       ledger_.left_mass += particles_.mass(p);
       ledger_.left_mechanical -= particles_.mass(p) * model_.motion.gravity.dot(place_of(p).template cast<Real>());
     }
-    ledger_.removed_mass += marks_[p] == is_not_finite || marks_[p] == has_bad_volume ? particles_.mass(p) : Real(0);
+    ledger_.removed_mass += marks_[p] == is_not_finite || marks_[p] == has_inverted ? particles_.mass(p) : Real(0);
   }
   const BodySums<Dim, Real> sums = sum_over_marked(known);
   ledger_.left_mass += sums.mass;
@@ -149,9 +149,9 @@ void Simulation<Dim, Real>::book_marked_particles() {
   ledger_.left_seeped += sums.seeped;
 }
 
-// What a step with a particle that is not finite did is not known either: its accounts stay as they were.
+// The effect of a step with a non-finite particle is unknown as well, so its budget terms stay unchanged.
 template <int Dim, class Real>
-void Simulation<Dim, Real>::mend_ledger() {
+void Simulation<Dim, Real>::correct_energy_for_removal() {
   std::vector<Real> before;
   ledger_before_.for_each([&](const Real& account) { before.push_back(account); });
   std::size_t k = 0;
@@ -161,15 +161,15 @@ void Simulation<Dim, Real>::mend_ledger() {
   });
 }
 
-// Names of the bad particles that were marked last the one of smallest id.
+// Reports the particle with the smallest id among those marked last as invalid.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::stop_for_removed_mass(double share) {
   for (std::size_t p = 0; p < particles_.size(); ++p) {
-    if (marks_[p] == is_not_finite || marks_[p] == has_bad_volume) {
-      bad_.note(particles_.id(p), fault_of(particles_, p, parameters_.guards));
+    if (marks_[p] == is_not_finite || marks_[p] == has_inverted) {
+      invalid_.record(particles_.id(p), fault_of(particles_, p, parameters_.guards));
     }
   }
-  const std::size_t last = place_in_memory(bad_.id);
+  const std::size_t last = place_in_memory(invalid_.id);
   throw RunError(
       fmt::format("the run failed at t = {:.6g} s (step {}): [guards] has removed {}, {:.3g} % of all mass, where "
                   "guards.removed_mass allows {:g} %; among the last: {}: {}. {}",
@@ -179,7 +179,7 @@ void Simulation<Dim, Real>::stop_for_removed_mass(double share) {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::remove_marked_particles() {
-  const Removed now{count_of(marks_, has_left), count_of(marks_, is_not_finite), count_of(marks_, has_bad_volume)};
+  const Removed now{count_of(marks_, has_left), count_of(marks_, is_not_finite), count_of(marks_, has_inverted)};
   if (now.left + now.by_guards() == 0) {
     return;
   }
@@ -192,9 +192,9 @@ void Simulation<Dim, Real>::remove_marked_particles() {
         time_, step_number_, static_cast<double>(sum_over_body().mass), Dim == 2 ? " per m of width" : ""));
   }
   if (now.not_finite > 0) {
-    mend_ledger();
+    correct_energy_for_removal();
   }
-  book_marked_particles();
+  add_removed_particles();
   removed_.left += now.left;
   removed_.not_finite += now.not_finite;
   removed_.volume += now.volume;
@@ -203,16 +203,16 @@ void Simulation<Dim, Real>::remove_marked_particles() {
   if (none_stays || share > parameters_.guards.removed_mass) {
     stop_for_removed_mass(share);
   }
-  leave_device();
+  release_device();
   grid_.remove(particles_, particles_.remove(marks_));
   update_ground();
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                              \
-  template void Simulation<Dim, Real>::mark_bad_particles();          \
+  template void Simulation<Dim, Real>::mark_invalid_particles();      \
   template void Simulation<Dim, Real>::mark_left_particles();         \
-  template void Simulation<Dim, Real>::book_marked_particles();       \
-  template void Simulation<Dim, Real>::mend_ledger();                 \
+  template void Simulation<Dim, Real>::add_removed_particles();       \
+  template void Simulation<Dim, Real>::correct_energy_for_removal();  \
   template void Simulation<Dim, Real>::stop_for_removed_mass(double); \
   template void Simulation<Dim, Real>::remove_marked_particles();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)

@@ -1,4 +1,4 @@
-// What must hold of a state that a checkpoint gave back before anything is computed with it.
+// Validation of a state restored from a checkpoint, before it is used.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,7 @@
 
 namespace thawslide::sim {
 
-// Whether a place [m] lies in the domain, or not farther beyond it than `margin` [m]. extent: the domain's upper
-// corner.
+// True if a position [m] lies in the domain or within `margin` [m] of it. extent: the domain's upper corner.
 template <int Dim, class Real>
 bool is_about_domain(const Vector<Real, Dim>& place, const Vector<Real, Dim>& extent, Real margin) {
   for (int a = 0; a < Dim; ++a) {
@@ -22,8 +21,8 @@ bool is_about_domain(const Vector<Real, Dim>& place, const Vector<Real, Dim>& ex
   return true;
 }
 
-// All of the state's numbers have been taken; particles have a place in the domain, mass and volume, a body and a
-// material of the case, and an id of their own below next_id.
+// Checks that all numbers of the state were read, and that each particle has a position in the domain, mass and volume,
+// a body and a material of the case, and a unique id below next_id.
 template <int Dim, class Real>
 void require_sound(const mpm::Particles<Dim, Real>& particles, const Model<Dim, Real>& model, std::int64_t next_id,
                    const StateNumbers& state) {
@@ -31,7 +30,7 @@ void require_sound(const mpm::Particles<Dim, Real>& particles, const Model<Dim, 
   const auto is_number_of = [](std::int32_t number, const std::vector<std::string>& names) {
     return number >= 0 && static_cast<std::size_t>(number) < names.size();
   };
-  std::int64_t before = -1;  // rows stand by id
+  std::int64_t before = -1;  // rows are sorted by id
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const std::int64_t id = particles.id(p);
     if (!(id > before && id < next_id)) {

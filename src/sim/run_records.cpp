@@ -42,25 +42,25 @@ double highest_point(const Simulation<3, double>& simulation) {
   return highest + simulation.model().origin[2];
 }
 
-// The pieces of base as maps take them; none where the band is not of columns.
-std::vector<PieceBelow> pieces_below(const Simulation<3, double>& simulation) {
-  std::vector<PieceBelow> pieces;
+// Basal segments in the form that maps need; empty unless the band consists of columns.
+std::vector<SegmentBelow> segments_below(const Simulation<3, double>& simulation) {
+  std::vector<SegmentBelow> segments;
   const auto* columns = simulation.band_columns();
   if (columns == nullptr) {
-    return pieces;
+    return segments;
   }
-  pieces.resize(columns->pieces().size());
-  parallel_for(pieces.size(), [&](std::size_t p) {
-    const auto& piece = columns->pieces()[p];
-    const auto means = columns->means_now(piece);
-    const Vector<double, 3> half = 0.5 * piece.sides.cwiseAbs().rowwise().sum();
-    pieces[p] = {piece.position[0], piece.position[1],   half[0],     half[1], piece.area,
-                 means.temperature, means.pore_pressure, piece.liquid};
+  segments.resize(columns->segments().size());
+  parallel_for(segments.size(), [&](std::size_t p) {
+    const auto& segment = columns->segments()[p];
+    const auto means = columns->means_now(segment);
+    const Vector<double, 3> half = 0.5 * segment.sides.cwiseAbs().rowwise().sum();
+    segments[p] = {segment.position[0], segment.position[1], half[0],       half[1], segment.area,
+                   means.temperature,   means.pore_pressure, segment.liquid};
   });
-  return pieces;
+  return segments;
 }
 
-// Corners of the cell about a point of a raster.
+// Adds the corners of the cell around a raster point.
 void add_cell(const Raster& raster, int column, int row, config::Polyline2& corners) {
   for (const double i : {-0.5, 0.5}) {
     for (const double j : {-0.5, 0.5}) {
@@ -69,8 +69,7 @@ void add_cell(const Raster& raster, int column, int row, config::Polyline2& corn
   }
 }
 
-// Between which all bodies lie at the start: those of the outlines of releases, of the cells of their rasters, of
-// boxes.
+// Corners that bound all bodies at the start: release outlines, raster cells of releases, and boxes.
 config::Polyline2 corners_at_start(const config::Case& parameters,
                                    const std::map<std::string, config::Release>& releases) {
   config::Polyline2 corners;
@@ -103,7 +102,7 @@ config::Polyline2 corners_at_start(const config::Case& parameters,
 
 template <int Dim>
 RunRecords<Dim>::RunRecords(const Simulation& simulation, const config::Site& site)
-    : way_(simulation.parameters().grid.cell) {
+    : centre_path_(simulation.parameters().grid.cell) {
   if constexpr (Dim == 3) {
     given_ = PathLine(site.path);
     path_given_ = !site.path.empty();
@@ -125,7 +124,7 @@ template <int Dim>
 void RunRecords<Dim>::start(const Simulation& simulation) {
   if constexpr (Dim == 3) {
     maps_->start(simulation.grid(), simulation.particles());
-    note_way(simulation, mass_moments(simulation));
+    add_to_path(simulation, mass_moments(simulation));
     release_top_ = highest_point(simulation);
   }
 }
@@ -133,20 +132,20 @@ void RunRecords<Dim>::start(const Simulation& simulation) {
 template <int Dim>
 void RunRecords<Dim>::after_step(const Simulation& simulation) {
   if constexpr (Dim == 3) {
-    const std::vector<PieceBelow> pieces = pieces_below(simulation);
-    const std::vector<PieceBelow>* below = simulation.band_columns() != nullptr ? &pieces : nullptr;
-    if (const device::MapLook* look = simulation.look_at_map(maps_->cells())) {
+    const std::vector<SegmentBelow> segments = segments_below(simulation);
+    const std::vector<SegmentBelow>* below = simulation.band_columns() != nullptr ? &segments : nullptr;
+    if (const device::MapSample* look = simulation.sample_map(maps_->cells())) {
       const double mass = std::accumulate(look->sums.begin(), look->sums.end(), 0.0,
                                           [](double sum, const mpm::MapSums& cell) { return sum + cell.column.mass; });
       THAWSLIDE_ASSERT(std::abs(mass - look->moments.mass) <= round_off<double> * look->moments.mass,
                        "{} kg of {} kg lie over map cells that particles may reach", mass, look->moments.mass);
       maps_->gather(look->keys, look->sums, simulation.time(), below);
-      note_way(simulation, look->moments);
+      add_to_path(simulation, look->moments);
       return;
     }
     maps_->gather(simulation.grid(), simulation.particles(), simulation.time(), below);
     if (!path_given_) {
-      note_way(simulation, mass_moments(simulation));
+      add_to_path(simulation, mass_moments(simulation));
     }
   }
 }
@@ -158,12 +157,12 @@ void RunRecords<Dim>::slide_left() {
   }
 }
 
-// The centre of mass over the horizontal plane.
+// Adds the centre of mass in the horizontal plane.
 template <int Dim>
-void RunRecords<Dim>::note_way(const Simulation& simulation, const mpm::MassMoments& sums) {
+void RunRecords<Dim>::add_to_path(const Simulation& simulation, const mpm::MassMoments& sums) {
   if (!path_given_) {
     const auto& origin = simulation.model().origin;
-    way_.note({sums.mass_x / sums.mass + origin[0], sums.mass_y / sums.mass + origin[1]});
+    centre_path_.add_position({sums.mass_x / sums.mass + origin[0], sums.mass_y / sums.mass + origin[1]});
   }
 }
 
@@ -172,14 +171,14 @@ NamedNumbers RunRecords<Dim>::state() const {
   if (!maps_) {
     return {};
   }
-  return {{"maps", maps_->state()}, {"centre_way", way_.state()}, {"release_top", {release_top_}}};
+  return {{"maps", maps_->state()}, {"centre_way", centre_path_.state()}, {"release_top", {release_top_}}};
 }
 
 template <int Dim>
 void RunRecords<Dim>::restore(const NamedNumbers& blocks) {
   if (maps_) {
     maps_->restore(block_of(blocks, "maps"));
-    way_.restore(block_of(blocks, "centre_way"));
+    centre_path_.restore(block_of(blocks, "centre_way"));
     release_top_ = StateNumbers(block_of(blocks, "release_top"), "release's top").next();
   }
 }
@@ -189,7 +188,7 @@ std::optional<Front> RunRecords<Dim>::front(const Simulation& simulation) const 
   if (path().empty() || simulation.particle_count() == 0 || simulation.device_has_failed()) {
     return {};
   }
-  const mpm::OnWay foremost = simulation.front(path().view());
+  const mpm::PathSample foremost = simulation.front(path().view());
   return Front{foremost.along, foremost.place};
 }
 

@@ -1,4 +1,4 @@
-// The numbers of a run that checkpoints keep beside its particles, and how it goes on from them.
+// State of a run stored in checkpoints in addition to its particles, and its restoration.
 #include "base/instances.hpp"
 #include "base/state_numbers.hpp"
 #include "sim/restored_state.hpp"
@@ -14,12 +14,12 @@ std::vector<double> Simulation<Dim, Real>::scalars() const {
                               static_cast<double>(step_number_),
                               static_cast<double>(next_id_),
                               column_time_,
-                              even_steps_.step,
-                              even_steps_.from_time,
-                              static_cast<double>(even_steps_.from_number)};
+                              fixed_step_clock_.step,
+                              fixed_step_clock_.from_time,
+                              static_cast<double>(fixed_step_clock_.from_number)};
   Ledger<Dim, Real> ledger = ledger_;
   ledger.for_each([&](const Real& account) { numbers.push_back(static_cast<double>(account)); });
-  Watch watch = watch_;
+  RunMonitor watch = monitor_;
   watch.for_each([&](double number) { numbers.push_back(number); });
   for (const std::int64_t count : {removed_.left, removed_.not_finite, removed_.volume}) {
     numbers.push_back(static_cast<double>(count));
@@ -36,23 +36,23 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
   step_number_ = state.whole(largest_whole);
   next_id_ = state.whole(largest_whole);
   column_time_ = state.next_finite();
-  even_steps_.step = state.next_finite();
-  even_steps_.from_time = state.next_finite();
-  even_steps_.from_number = state.whole(step_number_);
+  fixed_step_clock_.step = state.next_finite();
+  fixed_step_clock_.from_time = state.next_finite();
+  fixed_step_clock_.from_number = state.whole(step_number_);
   ledger_.for_each([&](Real& account) { account = static_cast<Real>(state.next()); });
-  watch_.for_each([&](double& number) { number = state.next(); });
+  monitor_.for_each([&](double& number) { number = state.next(); });
   for (std::int64_t* count : {&removed_.left, &removed_.not_finite, &removed_.volume}) {
     *count = state.whole(largest_whole);
   }
   require_sound(particles_, model_, next_id_, state);
-  // Rows came back in order of id: nothing of the former order may be trusted.
+  // Rows are sorted by id after a restart, so the former order is invalid.
   grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell), model_.between_bodies.layer_of_body);
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     particles_.previous_temperature(p) = particles_.temperature(p);
   }
   find_particles_cells();
-  if (parameters_.time.stepping == config::Stepping::adaptive && watch_.first_step == 0.0) {
-    watch_.first_step = adaptive_step();  // steps were fixed so far
+  if (parameters_.time.stepping == config::Stepping::adaptive && monitor_.first_step == 0.0) {
+    monitor_.first_step = adaptive_step();  // steps were fixed so far
   }
 }
 

@@ -19,13 +19,13 @@ bool reaches(const Raster& raster, const Place2& place) {
       fmt::format("{:.6g} m from its beginning, at x = {:.10g}, y = {:.10g}", along, place[0], place[1]);
   if (!reaches(ground, place)) {
     throw UserError(
-        fmt::format("{}: the line is outside the terrain model {}; its points reach from x = {:.10g} to {:.10g} and "
-                    "from y = {:.10g} to {:.10g}. Draw the line within them, or take a larger terrain model.",
+        fmt::format("{}: the line is outside the DEM {}; its points reach from x = {:.10g} to {:.10g} and "
+                    "from y = {:.10g} to {:.10g}. Draw the line within them, or take a larger DEM.",
                     source, where, ground.x, ground.x_end(), ground.y, ground.y_end()));
   }
   throw UserError(
-      fmt::format("{}: the line crosses a place without data {}; needed: an elevation all along it. Fill the terrain "
-                  "model there (gdal_fillnodata.py), or draw the line around it.",
+      fmt::format("{}: the line crosses a place without data {}; needed: an elevation all along it. Fill the DEM there "
+                  "(gdal_fillnodata.py), or draw the line around it.",
                   source, where));
 }
 
@@ -33,7 +33,7 @@ bool reaches(const Raster& raster, const Place2& place) {
 
 std::vector<double> stations_along(const PathLine& line, double from, double to, double spacing) {
   THAWSLIDE_ASSERT(from < to && spacing > 0.0, "from {} to {} m, {} m apart", from, to, spacing);
-  constexpr double least_share = 1e-4;  // of the spacing: corners nearer to one another count as one
+  constexpr double least_share = 1e-4;  // fraction of the spacing: closer corners count as one
   std::vector<double> fixed{from};
   for (const double corner : line.distances()) {
     if (corner > fixed.back() + least_share * spacing && corner < to - least_share * spacing) {

@@ -1,4 +1,4 @@
-// Gravity is switched on before t = 0, with damping and on a base that holds.
+// Settling: gravity is applied before t = 0, with damping and on a fixed base.
 #include <cmath>
 #include <utility>
 
@@ -20,7 +20,7 @@ bool Simulation<Dim, Real>::settle(const std::function<bool()>& goes_on) {
   }
   THAWSLIDE_ASSERT(particles_.size() == static_cast<std::size_t>(next_id_), "{} particles joined before the settling",
                    static_cast<std::size_t>(next_id_) - particles_at_start_);
-  leave_device();
+  release_device();
   const Model<Dim, Real> model = model_;
   model_.band.heat = model_.band.pressure = false;
   model_.constraints.frames.clear();
@@ -28,7 +28,8 @@ bool Simulation<Dim, Real>::settle(const std::function<bool()>& goes_on) {
   model_.contact.band_columns = false;
   band_columns_.reset();
   model_.contact.mass_damping = static_cast<Real>(parameters_.mechanics.settle_damping);
-  const config::Policy leaving = std::exchange(parameters_.grid.leaving, config::Policy::stop);  // nothing may go
+  // No particle may leave.
+  const config::Policy leaving = std::exchange(parameters_.grid.leaving, config::Policy::stop);
   const config::Guards guards = parameters_.guards;
   parameters_.guards.not_finite = parameters_.guards.volume = config::Policy::stop;
   const double dt = parameters_.time.stepping == config::Stepping::fixed ? parameters_.time.step
@@ -36,7 +37,7 @@ bool Simulation<Dim, Real>::settle(const std::function<bool()>& goes_on) {
   const auto steps = static_cast<std::int64_t>(std::ceil(parameters_.mechanics.settle_time / dt));
   for (std::int64_t k = 0; k < steps; ++k) {
     if (!goes_on()) {
-      time_ = 0.0;  // of the run nothing has been simulated
+      time_ = 0.0;  // no time of the run itself has been simulated
       step_number_ = 0;
       return false;
     }
@@ -44,8 +45,8 @@ bool Simulation<Dim, Real>::settle(const std::function<bool()>& goes_on) {
   }
   parameters_.grid.leaving = leaving;
   parameters_.guards = guards;
-  leave_device();
-  // The settled stress goes to particles as they were seeded, so that nothing else of the settling stays.
+  release_device();
+  // Assigns the settled stress to the particles as seeded, so nothing else of the settling remains.
   std::vector<SymmetricTensor<Real>> settled(particles_.size());
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     settled[static_cast<std::size_t>(particles_.id(p))] = mpm::full_tensor<Dim, Real>(particles_.stress, p);

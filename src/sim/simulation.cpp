@@ -21,12 +21,11 @@
 
 namespace thawslide::sim {
 
-// The discrete step, Section 2.3 of the paper; all stages use the shape functions at the positions the step begins
-// with.
+// Discrete step, Section 2.3 of the paper; all stages use the shape functions at the initial positions of the step.
 //   m_i = sum S m,  p_i = sum S m v,  f_i = sum S m b - V sigma.G                              Eq. 12
-//   P_i, S_i, n_i: averages with the linear shape functions; under band columns only where some node presses on ground
+//   P_i, S_i, n_i: averages with the linear shape functions; with band columns, only if a node presses on ground
 //   without a column                                                                         Eq. 21
-//   f_i of bodies that do not share nodes: with what they exert on one another               mpm/body_contact.hpp
+//   f_i of bodies that do not share nodes: including the forces between them                 mpm/body_contact.hpp
 //   p_i + f_i dt corrected by contact: N = p.n/(A dt), S_slide = mu_e (N - P) + c_S            Eqs. 15-17, 25
 //   v_p += sum S a dt,  x_p += sum S (v_i + a_i dt/2) dt                                       Eqs. 13, 14
 //   stress and porosity from the mapped-back velocities                                        Eqs. 11, 6
@@ -38,35 +37,35 @@ void Simulation<Dim, Real>::step(double dt) {
   dt_ = static_cast<Real>(dt);
   ledger_before_ = ledger_;
   if (step_number_ == 0) {
-    start_watch();  // once more: who set the run up may have changed the state
+    start_monitor();  // again, because the caller may have changed the state
   }
-  if (make_step_) {
-    stopwatch_.time("step_on_device", [&] { take_step_on_device(); });
+  if (make_solver_) {
+    stopwatch_.time("step_on_device", [&] { advance_on_device(); });
   } else {
-    take_step_here();
+    step_on_cpu();
   }
   ++step_number_;
   time_ = time_after(dt);
   last_step_ = dt;
-  look_after_step();
+  post_step();
 }
 
-// The time at the end of the step that was taken. No round-off gathers in that of fixed steps, which are counted from
-// where there first was one of their size.
+// Time at the end of the step. Fixed steps are counted from the first step of their size, so round-off does not
+// accumulate.
 template <int Dim, class Real>
 double Simulation<Dim, Real>::time_after(double dt) {
   if (parameters_.time.stepping != config::Stepping::fixed || dt != parameters_.time.step) {
-    even_steps_ = {};
+    fixed_step_clock_ = {};
     return time_ + dt;
   }
-  if (dt != even_steps_.step) {
-    even_steps_ = {dt, time_, step_number_ - 1};
+  if (dt != fixed_step_clock_.step) {
+    fixed_step_clock_ = {dt, time_, step_number_ - 1};
   }
-  return even_steps_.from_time + static_cast<double>(step_number_ - even_steps_.from_number) * dt;
+  return fixed_step_clock_.from_time + static_cast<double>(step_number_ - fixed_step_clock_.from_number) * dt;
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::take_step_here() {
+void Simulation<Dim, Real>::step_on_cpu() {
   stopwatch_.time("find_cells", [&] { find_particles_cells(); });
   stopwatch_.time("average_band_on_grid", [&] { average_band_on_grid(); });
   if (parameters_.mechanics.enabled) {
@@ -77,31 +76,31 @@ void Simulation<Dim, Real>::take_step_here() {
   }
   stopwatch_.time("conduct_heat", [&] { conduct_heat(); });
   stopwatch_.time("drain_pore_pressure", [&] { drain_pore_pressure(); });
-  stopwatch_.time("take_new_positions", [&] { take_new_positions(); });
+  stopwatch_.time("update_positions", [&] { update_positions(); });
 }
 
-// What ends a run, or takes particles out of it, or brings new ones.
+// Ends the run, or removes or adds particles, if necessary.
 template <int Dim, class Real>
-void Simulation<Dim, Real>::look_after_step() {
+void Simulation<Dim, Real>::post_step() {
   watch();
-  if (!nothing_befell_on_device()) {
-    bring_particles_back();
+  if (!needs_no_host_check()) {
+    sync_to_host();
     stop_for_or_remove_particles();
   }
   if (bed_in_reach() != nullptr) {
-    stopwatch_.time("take_up_bed", [&] { take_up_bed(); });
+    stopwatch_.time("take_up_bed", [&] { entrain_bed(); });
   }
 }
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::stop_for_or_remove_particles() {
-  mark_bad_particles();
-  stop_if_bad();
+  mark_invalid_particles();
+  stop_if_invalid();
   mark_left_particles();
-  if (bad_.id >= 0) {
-    watch();  // what an explosion throws off the known ground is not told to get a larger one
+  if (invalid_.id >= 0) {
+    watch();  // reports an instability before an out-of-DEM error, so that the user is not advised to enlarge the DEM
   }
-  stop_if_bad();
+  stop_if_invalid();
   remove_marked_particles();
 }
 
@@ -110,7 +109,7 @@ void Simulation<Dim, Real>::find_particles_cells() {
   grid_.update(particles_, sorting_interval_);
   update_ground();
   if (grid_.blocks_changed() && !parameters_.mechanics.enabled) {
-    terrain::start_contact(grid_, ground(), nodes_);  // there is none, and no step resolves it
+    terrain::start_contact(grid_, ground(), nodes_);  // there is no contact, and no step resolves it
   }
 }
 
@@ -124,7 +123,7 @@ void Simulation<Dim, Real>::update_ground() const {
 template <int Dim, class Real>
 void Simulation<Dim, Real>::average_band_on_grid() {
   if (model_.band.rescaling_mixes) {
-    rescale_band();  // which changes temperatures
+    rescale_band();  // changes temperatures
   }
   if (!band_columns_ && (model_.ground || model_.band.heat || model_.band.pressure)) {
     band::average_on_grid(grid_, model_.band, particles_, nodes_);
@@ -136,7 +135,7 @@ void Simulation<Dim, Real>::momentum_to_grid() {
   force_of_walls_ = mpm::momentum_to_grid(grid_, particles_, model_.motion, nodes_);
 }
 
-// Nodes within reach of band columns get the state of the base from these. Only other nodes need that of the particles.
+// Nodes within reach of band columns take the state of the base from these. Only the other nodes need the particles.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::press_on_ground() {
   if (!model_.ground) {
@@ -166,8 +165,8 @@ void Simulation<Dim, Real>::resolve_contact() {
                                       dt_, nodes_, bed_to_meet());
   contact_.force[0] -= force_of_walls_;  // the walls are part of the ground
   collect_bed();
-  book_contact();
-  book_bed();
+  add_contact_energy();
+  add_bed_energy();
   if (model_.ground) {
     terrain::mark_band_and_slip(grid_, ground_, dt_, nodes_, particles_);
   }
@@ -192,7 +191,7 @@ void Simulation<Dim, Real>::move_particles() {
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::update_stress_and_porosity() {
-  book_stress_work(mpm::update_stress_and_porosity(grid_, particles_, model_.motion, dt_, nodes_, bad_));
+  add_stress_work(mpm::update_stress_and_porosity(grid_, particles_, model_.motion, dt_, nodes_, invalid_));
 }
 
 template <int Dim, class Real>
@@ -202,9 +201,9 @@ void Simulation<Dim, Real>::rescale_band() {
   }
   Real added = 0;
   const bool depends_on_place = model_.band.region != band::ScaledRegion::all || model_.layer_thickness;
-  if (depends_on_place || band_thickness() != thickness_in_force_) {
-    thickness_in_force_ = band_thickness();
-    added = band::rescale_band(grid_, model_.band, static_cast<Real>(thickness_in_force_), model_.layer_thickness,
+  if (depends_on_place || band_thickness() != current_band_thickness_) {
+    current_band_thickness_ = band_thickness();
+    added = band::rescale_band(grid_, model_.band, static_cast<Real>(current_band_thickness_), model_.layer_thickness,
                                particles_);
   }
   ledger_.band_rescale += model_.band.heat ? added : Real(0);
@@ -215,7 +214,7 @@ void Simulation<Dim, Real>::conduct_heat() {
   if (!model_.band.rescaling_mixes) {
     rescale_band();
   }
-  if (band_columns_) {  // the body keeps its temperature
+  if (band_columns_) {  // the body's temperature is constant
     ledger_.friction_heat += contact_.friction_work - contact_.converted;
     return;
   }
@@ -223,7 +222,7 @@ void Simulation<Dim, Real>::conduct_heat() {
   if (!model_.band.heat) {
     return;
   }
-  book_heat(band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, particles_));
+  add_heat_gain(band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, particles_));
 }
 
 template <int Dim, class Real>
@@ -240,28 +239,28 @@ void Simulation<Dim, Real>::drain_pore_pressure() {
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::take_new_positions() {
+void Simulation<Dim, Real>::update_positions() {
   if (parameters_.mechanics.enabled) {
-    // Those that are to be removed may be on their way out of the domain until the end of the step.
+    // Particles that will be removed may leave the domain before the end of the step.
     const Real margin = parameters_.grid.leaving == config::Policy::remove ? grid_.cell() : Real(0);
     const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
-    mpm::take_new_positions(particles_, Vector<Real, Dim>(-beyond),
-                            Vector<Real, Dim>(model_.constraints.extent + beyond), bad_);
+    mpm::update_positions(particles_, Vector<Real, Dim>(-beyond), Vector<Real, Dim>(model_.constraints.extent + beyond),
+                          invalid_);
     return;
   }
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     if (!std::isfinite(particles_.temperature(p)) || !std::isfinite(particles_.pore_pressure(p))) {
-      bad_.note(particles_.id(p), mpm::Fault::state_not_finite);
+      invalid_.record(particles_.id(p), mpm::Fault::state_not_finite);
     }
   }
 }
 
 namespace {
 
-// What makes a wave fast, which may be a slip of the pen; empty for other limits.
+// Material parameter behind a fast wave, possibly a typing error in the case; empty for other limits.
 template <int Dim, class Real>
-std::string matter_text(const config::Case& parameters, const Model<Dim, Real>& model,
-                        const mpm::Particles<Dim, Real>& particles, const StepLimit& limit) {
+std::string material_text(const config::Case& parameters, const Model<Dim, Real>& model,
+                          const mpm::Particles<Dim, Real>& particles, const StepLimit& limit) {
   if (limit.kind != LimitKind::wave && limit.kind != LimitKind::viscosity) {
     return "";
   }
@@ -278,7 +277,7 @@ std::string matter_text(const config::Case& parameters, const Model<Dim, Real>& 
 
 template <int Dim, class Real>
 Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::Site& site)
-    : parameters_(require_memory<Dim>(parameters, site)),  // before anything is made
+    : parameters_(require_memory<Dim>(parameters, site)),  // checked before any allocation
       site_(site),
       model_(make_model<Dim, Real>(parameters, site)),
       grid_(static_cast<Real>(parameters.grid.cell), model_.between_bodies.layer_of_body),
@@ -295,7 +294,7 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::
           fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}{}. Use a smaller time.step, or "
                       "time.stepping = \"adaptive\".",
                       config::place_of(parameters_, "time.step"), parameters_.time.step, rounded_down(limit.step, 4),
-                      limit.what, matter_text(parameters_, model_, particles_, limit)));
+                      limit.what, material_text(parameters_, model_, particles_, limit)));
     }
   }
   begin();
@@ -304,7 +303,7 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::
   }
 }
 
-// Here, and not wherever a run ends: half of what such a source took to compile.
+// Defined here, because instantiation wherever a run ends took half of the compile time of those sources.
 template <int Dim, class Real>
 Simulation<Dim, Real>::~Simulation() = default;
 
@@ -312,7 +311,7 @@ template <int Dim, class Real>
 void Simulation<Dim, Real>::begin() {
   time_ = last_step_ = 0.0;
   step_number_ = 0;
-  even_steps_ = {};
+  fixed_step_clock_ = {};
   contact_ = {};
   find_particles_cells();
   if (model_.ground) {
@@ -328,7 +327,7 @@ void Simulation<Dim, Real>::begin() {
   band::set_pore_pressure(model_.band, particles_);
   start_band_columns();
   start_ledger();
-  start_watch();
+  start_monitor();
 }
 
 template <int Dim, class Real>
@@ -346,7 +345,7 @@ void Simulation<Dim, Real>::seed() {
   grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell), model_.between_bodies.layer_of_body);
 }
 
-// Which particles are in the band before anything has moved.
+// Marks the particles in the band before anything has moved.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::mark_band() {
   terrain::start_contact(grid_, ground(), nodes_);

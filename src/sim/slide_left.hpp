@@ -1,12 +1,12 @@
-// How a run ends whose whole slide has left the domain or the known ground, where the case removes what leaves.
+// End of a run whose slide has entirely left the domain or the known ground, if the case removes leaving particles.
 #pragma once
 
 #include "base/error.hpp"
 
 namespace thawslide::sim {
 
-// Thrown by a step after which no particle is left to go on with. The state then is that of this step, with the
-// particles that left last still in it; they count in no column left_* of the history.
+// Thrown by a step that leaves no particle. The state is that of this step and still contains the particles that left
+// last; they count in no left_* column of the history.
 class SlideLeft : public RunError {
  public:
   using RunError::RunError;

@@ -1,4 +1,4 @@
-// Where particles stand at t = 0 when they are displaced from their regular places at random.
+// Random displacement of particles from their regular positions at t = 0.
 #pragma once
 
 #include "base/counter_random.hpp"
@@ -7,8 +7,8 @@
 
 namespace thawslide::sim {
 
-// Displacement of a particle [m], within initial.noise times `spacing` [m] either way along each axis. It follows from
-// initial.seed, the body and the particle's place in that body's lattice.
+// Displacement of a particle [m], at most initial.noise times `spacing` [m] in either direction along each axis. It
+// depends on initial.seed, the body and the particle's place in that body's lattice.
 template <int Dim>
 Vector<double, Dim> starting_displacement(const config::Initial& initial, double spacing, const Seed<Dim>& seed) {
   const auto words = random_words({seed.lattice[0], seed.lattice[1], seed.lattice[2], 0},

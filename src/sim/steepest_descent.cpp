@@ -9,11 +9,11 @@ namespace thawslide::sim {
 
 namespace {
 
-constexpr double step_share = 0.1;         // of the width
-constexpr std::size_t patient_steps = 40;  // without getting lower: four widths
-constexpr double least_fall = 1e-6;        // of a step: what counts as lower, and as a slope
+constexpr double step_share = 0.1;         // fraction of the width
+constexpr std::size_t patient_steps = 40;  // without descending: four widths
+constexpr double least_fall = 1e-6;        // fraction of a step: minimum descent, and minimum slope
 
-// Places a width or more apart, and the last one.
+// Points a width or more apart, and the last one.
 PathLine thinned(const std::vector<Place2>& places, double width) {
   PathLine line;
   line.add(places.front());

@@ -1,7 +1,7 @@
-// The way straight down a terrain model from a place.
-//   dx/ds = -grad z/|grad z|
-// with the gradient averaged over a square about the place, so that furrows of a point's width do not lead it; in steps
-// of a tenth of the square's side (Euler's method).
+// Line of steepest descent on a DEM from a point.
+//    dx/ds = -grad z/|grad z|
+// The gradient is averaged over a square around the point, so that narrow furrows do not divert the line. The step is a
+// tenth of the square's side (Euler's method).
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@
 namespace thawslide::sim {
 
 struct Descent {
-  PathLine line;              // corners a width apart, its end among them; empty where nothing is lower than the start
-  std::optional<Place2> pit;  // in which it ends: all ways that lead on rise
+  PathLine line;              // corners a width apart, and the end; empty if nothing is lower than the start
+  std::optional<Place2> pit;  // closed depression in which the line ends: the ground rises in all directions
 };
 
-// width: of the square [m]. Ends where the square reaches beyond what is known of the ground, or in a pit: where four
-// widths bring it no lower.
+// width: of the square [m]. The line ends where the square reaches beyond the known ground, or in a closed depression,
+// where it descends no further within four widths.
 [[nodiscard]] Descent steepest_descent(const Raster& ground, const Place2& start, double width);
 
 }  // namespace thawslide::sim

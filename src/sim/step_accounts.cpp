@@ -1,12 +1,12 @@
-// What a step did goes to the accounts, wherever it was taken.
+// Budget terms of a step, on the CPU or on a device.
 #include "base/instances.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
 
-// Contact and everything that acts on the slide as a whole.
+// Adds contact and all terms that act on the slide as a whole.
 template <int Dim, class Real>
-void Simulation<Dim, Real>::book_contact() {
+void Simulation<Dim, Real>::add_contact_energy() {
   ledger_.friction_work += contact_.friction_work;
   ledger_.converted += model_.band.heat ? contact_.converted : contact_.friction_work;
   ledger_.contact_loss += contact_.loss;
@@ -19,7 +19,7 @@ void Simulation<Dim, Real>::book_contact() {
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::book_bed() {
+void Simulation<Dim, Real>::add_bed_energy() {
   if (bed_in_reach() != nullptr) {
     ledger_.bed_work += contact_.bed_work;
     ledger_.bed_impulse += contact_.bed_impulse;
@@ -27,7 +27,7 @@ void Simulation<Dim, Real>::book_bed() {
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::book_stress_work(const mpm::StressWork<Real>& work) {
+void Simulation<Dim, Real>::add_stress_work(const mpm::StressWork<Real>& work) {
   ledger_.stress_work += work.total;
   ledger_.plastic += work.plastic;
   ledger_.viscous += work.viscous;
@@ -35,7 +35,7 @@ void Simulation<Dim, Real>::book_stress_work(const mpm::StressWork<Real>& work) 
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::book_heat(const band::HeatGain<Real>& gain) {
+void Simulation<Dim, Real>::add_heat_gain(const band::HeatGain<Real>& gain) {
   ledger_.friction_heat += gain.friction;
   ledger_.boundary_heat += gain.boundary;
   ledger_.advection += gain.advection;
@@ -43,11 +43,11 @@ void Simulation<Dim, Real>::book_heat(const band::HeatGain<Real>& gain) {
   ledger_.porosity_heat += gain.porosity;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                               \
-  template void Simulation<Dim, Real>::book_contact();                                 \
-  template void Simulation<Dim, Real>::book_bed();                                     \
-  template void Simulation<Dim, Real>::book_stress_work(const mpm::StressWork<Real>&); \
-  template void Simulation<Dim, Real>::book_heat(const band::HeatGain<Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                              \
+  template void Simulation<Dim, Real>::add_contact_energy();                          \
+  template void Simulation<Dim, Real>::add_bed_energy();                              \
+  template void Simulation<Dim, Real>::add_stress_work(const mpm::StressWork<Real>&); \
+  template void Simulation<Dim, Real>::add_heat_gain(const band::HeatGain<Real>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -1,4 +1,4 @@
-// Steps that a device takes (src/device), and how its particles come back.
+// Steps on a device (src/device), and synchronization of its particles.
 #include <algorithm>
 
 #include "base/error.hpp"
@@ -10,82 +10,82 @@
 namespace thawslide::sim {
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::take_steps_on(const std::string& device, device::MakeStep<Dim, Real> make) {
+void Simulation<Dim, Real>::use_device(const std::string& device, device::SolverFactory<Dim, Real> make) {
   const std::string missing = not_on_devices(parameters_, model_);
   if (!missing.empty()) {
-    throw UserError(fmt::format("{}: no step on {} does {} yet. Run it on the processor: --device cpu",
-                                parameters_.name, device, missing));
+    throw UserError(fmt::format("{}: {} is not supported on {}. Run the case on the CPU: --device cpu",
+                                parameters_.name, missing, device));
   }
-  leave_device();
+  release_device();
   device_name_ = device;
-  make_step_ = std::move(make);
+  make_solver_ = std::move(make);
 }
 
-// Work that the device does for the step. Of particles that stood on one that failed only what was brought back last is
-// left, or a mixture, where it failed as they were brought back.
+// Runs work on the device. If the device fails, the host keeps the particles of the last synchronization, or a mixture
+// if it fails during one.
 template <int Dim, class Real>
 void Simulation<Dim, Real>::on_device(const std::function<void()>& work) const {
   try {
     work();
   } catch (const device::Failure& error) {
-    particles_are_here_ = grid_is_here_ = device_has_failed_ = true;
-    device_step_.reset();
+    host_particles_valid_ = host_grid_valid_ = device_has_failed_ = true;
+    device_solver_.reset();
     throw DeviceError(fmt::format("{} failed at step {}: {}", device_name_, step_number_, error.what()));
   }
 }
 
 template <int Dim, class Real>
 device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device() {
-  if (!device_step_) {
-    device::AskProcessor<Dim, Real> ask = terrain_for_device(model_, parameters_.grid.cell);
-    ask.columns = columns_on_processor();
-    ask.bed = bed_on_processor();
-    device_step_ = make_step_(device_model_of(parameters_, model_, step_number_ == 0), mpm::view_of(particles_),
-                              particles_.size(), std::move(ask));
+  if (!device_solver_) {
+    device::HostCallbacks<Dim, Real> ask = terrain_for_device(model_, parameters_.grid.cell);
+    ask.columns = host_columns();
+    ask.bed = host_bed();
+    device_solver_ = make_solver_(device_model_of(parameters_, model_, step_number_ == 0), mpm::view_of(particles_),
+                                  particles_.size(), std::move(ask));
   }
   if (sorting_interval_ > 0 && step_number_ % sorting_interval_ == 0) {
-    device_step_->sort_in_memory();
+    device_solver_->sort_in_memory();
   }
-  particles_are_here_ = grid_is_here_ = false;
-  return device_step_->step(static_cast<Real>(time_), dt_);
+  host_particles_valid_ = host_grid_valid_ = false;
+  return device_solver_->step(static_cast<Real>(time_), dt_);
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::take_step_on_device() {
+void Simulation<Dim, Real>::advance_on_device() {
   on_device([&] { device_sums_ = step_on_device(); });
   const device::StepSums<Dim, Real>& sums = device_sums_;
   if (parameters_.mechanics.enabled) {
     contact_ = sums.contact;
-    book_contact();
-    book_bed();
+    add_contact_energy();
+    add_bed_energy();
   }
   ledger_.numerical += sums.particle_kinetic - contact_.node_kinetic;
   ledger_.numerical += sums.filtered;
   ledger_.numerical += sums.mapped_back;
-  book_stress_work(sums.deformed.work);
+  add_stress_work(sums.deformed.work);
   ledger_.band_rescale += model_.band.heat ? sums.band_rescale : Real(0);
-  if (band_columns_) {  // the body keeps its temperature
+  if (band_columns_) {  // the body's temperature is constant
     ledger_.friction_heat += contact_.friction_work - contact_.converted;
   } else {
-    book_heat(sums.heat);
+    add_heat_gain(sums.heat);
   }
   ledger_.drained_water += sums.drained.mass;
   ledger_.drained_heat += sums.drained.heat;
   ledger_.vented_water += sums.vented;
-  bad_ += sums.deformed.bad;
-  bad_ += sums.bad;
+  invalid_ += sums.deformed.invalid;
+  invalid_ += sums.invalid;
 }
 
 template <int Dim, class Real>
-bool Simulation<Dim, Real>::nothing_befell_on_device() const {
-  if (!device_step_ || bad_.id >= 0) {
+bool Simulation<Dim, Real>::needs_no_host_check() const {
+  if (!device_solver_ || invalid_.id >= 0) {
     return false;
   }
-  std::vector<Vector<Real, Dim>> strays;
-  if (device_sums_.strays > 0) {
-    on_device([&] { strays = device_step_->places_of_strays(); });
+  std::vector<Vector<Real, Dim>> escapes;
+  if (device_sums_.escapes > 0) {
+    on_device([&] { escapes = device_solver_->escaped_positions(); });
   }
-  return !any_has_left(strays);
+  return !any_has_left(escapes);
 }
 
 template <int Dim, class Real>
@@ -106,51 +106,51 @@ bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>& p
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::copy_particles_back() const {
-  if (!particles_are_here_) {
-    on_device([&] { device_step_->copy_to(mpm::view_of(particles_)); });
-    particles_are_here_ = true;
+  if (!host_particles_valid_) {
+    on_device([&] { device_solver_->copy_to(mpm::view_of(particles_)); });
+    host_particles_valid_ = true;
   }
 }
 
-// The grid becomes that of where they stand: what is summed in its order does not depend on when they came.
+// Rebuilds the grid from the particles' positions: sums in its order then do not depend on the time of synchronization.
 template <int Dim, class Real>
-void Simulation<Dim, Real>::bring_particles_back() const {
+void Simulation<Dim, Real>::sync_to_host() const {
   copy_particles_back();
-  if (!grid_is_here_) {
+  if (!host_grid_valid_) {
     grid_.update(particles_, 0);
     update_ground();
-    grid_is_here_ = true;
+    host_grid_valid_ = true;
   }
 }
 
 template <int Dim, class Real>
-const device::MapLook* Simulation<Dim, Real>::look_at_map(const mpm::MapCells& cells) const {
-  if (!device_step_) {
+const device::MapSample* Simulation<Dim, Real>::sample_map(const mpm::MapCells& cells) const {
+  if (!device_solver_) {
     return nullptr;
   }
-  on_device([&] { device_step_->look_at_map(cells, map_look_); });
-  return &map_look_;
+  on_device([&] { device_solver_->sample_map(cells, map_sample_); });
+  return &map_sample_;
 }
 
 template <int Dim, class Real>
-void Simulation<Dim, Real>::leave_device() {
-  bring_particles_back();
-  device_step_.reset();
+void Simulation<Dim, Real>::release_device() {
+  sync_to_host();
+  device_solver_.reset();
   grid_of_device_.reset();
   bed_of_device_.reset();
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                               \
-  template void Simulation<Dim, Real>::take_steps_on(const std::string&, device::MakeStep<Dim, Real>); \
-  template void Simulation<Dim, Real>::on_device(const std::function<void()>&) const;                  \
-  template device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device();                        \
-  template void Simulation<Dim, Real>::take_step_on_device();                                          \
-  template bool Simulation<Dim, Real>::nothing_befell_on_device() const;                               \
-  template bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>&) const;      \
-  template void Simulation<Dim, Real>::copy_particles_back() const;                                    \
-  template void Simulation<Dim, Real>::bring_particles_back() const;                                   \
-  template const device::MapLook* Simulation<Dim, Real>::look_at_map(const mpm::MapCells&) const;      \
-  template void Simulation<Dim, Real>::leave_device();
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                 \
+  template void Simulation<Dim, Real>::use_device(const std::string&, device::SolverFactory<Dim, Real>); \
+  template void Simulation<Dim, Real>::on_device(const std::function<void()>&) const;                    \
+  template device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device();                          \
+  template void Simulation<Dim, Real>::advance_on_device();                                              \
+  template bool Simulation<Dim, Real>::needs_no_host_check() const;                                      \
+  template bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>&) const;        \
+  template void Simulation<Dim, Real>::copy_particles_back() const;                                      \
+  template void Simulation<Dim, Real>::sync_to_host() const;                                             \
+  template const device::MapSample* Simulation<Dim, Real>::sample_map(const mpm::MapCells&) const;       \
+  template void Simulation<Dim, Real>::release_device();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

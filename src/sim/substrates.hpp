@@ -1,4 +1,4 @@
-// The substrates of a case where they lie.
+// Substrates of a case and their extent.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace thawslide::sim {
 
-// By number in the alphabetical order of their names, from 1, relative to the domain's lower corner. Null where the
-// case has none.
+// Numbered from 1 in the alphabetical order of their names, relative to the domain's lower corner. Null if the case has
+// none.
 [[nodiscard]] std::shared_ptr<const terrain::Substrates> make_substrates(const config::Case& parameters,
                                                                          const config::Site& site);
 

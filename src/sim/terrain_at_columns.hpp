@@ -1,4 +1,5 @@
-// What the columns of the slide (band/flow_depth.hpp) ask of a run's terrain. The functions refer to the model.
+// Terrain functions for the columns of the slide (band/flow_depth.hpp). They refer to the model, which must outlive
+// them.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 
 namespace thawslide::sim {
 
-// Empty where there is no ground. cell: mesh size [m].
+// Empty without ground. cell: mesh size [m].
 template <int Dim, class Real>
 band::OfPlace<Dim, Real> slope_cosine_of(const Model<Dim, Real>& model, double cell) {
   if (!model.ground) {

@@ -30,7 +30,7 @@ Wall highest_on_profile(const config::ProfileTable& profile, double from, double
   return highest;
 }
 
-// Along the axes and the diagonals. Points more than half a cell apart make no wall that thin.
+// Searches along the axes and the diagonals. Points more than half a cell apart cannot form so thin a wall.
 Wall highest_on_raster(const Raster& ground, const config::Grid& grid) {
   Wall highest;
   for (const std::array<int, 2> way : {std::array{1, 0}, std::array{0, 1}, std::array{1, 1}, std::array{1, -1}}) {
@@ -53,7 +53,7 @@ Wall highest_on_raster(const Raster& ground, const config::Grid& grid) {
 
 }  // namespace
 
-std::string doubt_of_thin_walls(const config::Case& parameters, const config::Site& site) {
+std::string warning_of_thin_walls(const config::Case& parameters, const config::Site& site) {
   const double cell = parameters.grid.cell;
   Wall wall;
   if (parameters.terrain.kind == config::TerrainKind::profile) {

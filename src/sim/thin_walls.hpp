@@ -1,4 +1,4 @@
-// Walls of the terrain that are thinner than a cell: contact does not part the matter on their two sides.
+// Walls of the terrain that are thinner than a cell: contact does not separate the material on their two sides.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace thawslide::sim {
 
-// Of a profile or a DEM within the domain. A wall is higher than a cell above the ground half a cell away on both
-// sides. Empty: there is none.
-[[nodiscard]] std::string doubt_of_thin_walls(const config::Case& parameters, const config::Site& site);
+// Checks a profile or a DEM within the domain. A wall is more than one cell higher than the ground half a cell away on
+// both sides. Returns an empty string if there is none.
+[[nodiscard]] std::string warning_of_thin_walls(const config::Case& parameters, const config::Site& site);
 
 }  // namespace thawslide::sim

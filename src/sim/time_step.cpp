@@ -10,32 +10,33 @@ namespace thawslide::sim {
 
 namespace {
 
-// Shares of the limits named beside each (docs/theory.md, "Stability limits"). The wave's was measured on resting and
-// sliding blocks with 2 particles a cell and axis; diffusion at 0.99 of the textbook limit was seen to be stable.
+// Safety factors of the limits named next to each (docs/theory.md, "Stability limits"). The factor of the wave limit
+// was measured on resting and sliding blocks with 2 particles per cell and axis. Diffusion was stable at 0.99 of the
+// textbook limit.
 constexpr double wave_share = 1.0;       // of cell / P-wave speed, with viscosity as in wave_limit
-constexpr double particle_share = 0.5;   // of cell / particle speed: a particle may not pass a node unseen
+constexpr double particle_share = 0.5;   // of cell / particle speed: a particle may not skip a node
 constexpr double diffusion_share = 1.0;  // of length^2 / (2 Dim diffusivity)
 
-// Wave speeds [m/s]: elastic with the stiffness that acts; viscous for viscosity, which also acts on opened material.
+// Wave speeds [m/s]: elastic, from the current stiffness; viscous, from viscosity, which also acts on opened material.
 struct WaveSpeeds {
   double elastic, viscous;
 };
 
-// The step at which a wave of speed c is resolved on cells h. Kelvin-Voigt viscosity of time tau adds damping that an
-// explicit step must resolve too: dt^2 c^2/h^2 + dt tau c_v^2/h^2 <= 1, as measured (the textbook has twice the second
-// term and would refuse steps that run without trouble).
+// Maximum step that resolves a wave of speed c on cells h. Kelvin-Voigt viscosity of time tau adds damping that an
+// explicit step must resolve too: dt^2 c^2/h^2 + dt tau c_v^2/h^2 <= 1, as measured. The textbook formula has twice the
+// second term and would refuse stable steps.
 double wave_limit(double cell, const WaveSpeeds& speeds, double viscosity_time) {
   const double frequency = speeds.elastic / cell;
   const double damping = viscosity_time * (speeds.viscous / cell) * (speeds.viscous / speeds.elastic);
   return (std::sqrt(1.0 + damping * damping / 4.0) - damping / 2.0) / frequency;
 }
 
-// Whether that step is less than half of what it would be without viscosity.
+// True if that step is less than half of the step without viscosity.
 bool viscosity_rules(double cell, const WaveSpeeds& speeds, double viscosity_time) {
   return wave_limit(cell, speeds, viscosity_time) < 0.5 * wave_limit(cell, speeds, 0.0);
 }
 
-// What sets the limit by a material's wave, in words.
+// Text on the cause of a material's wave limit.
 std::string wave_text(const std::string& material, double cell, const WaveSpeeds& speeds, double viscosity_time) {
   if (viscosity_rules(cell, speeds, viscosity_time)) {
     return fmt::format(
@@ -47,7 +48,7 @@ std::string wave_text(const std::string& material, double cell, const WaveSpeeds
                      viscosity, cell);
 }
 
-// Calls take(step [s], kind, id of the particle that sets it, text) for every limit; text() says what it is.
+// Calls take(step [s], kind, id of the limiting particle, text) for every limit; text() describes it.
 template <int Dim, class Real, class Take>
 void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
                 const band::StepExtremes& found, const Take& take) {
@@ -58,7 +59,7 @@ void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, d
       lightest.lower({static_cast<double>(model.bed_density)});
       stiffest.lower({static_cast<double>(model.bed_density)});
     }
-    // Pore pressure and viscosity act across open gaps, elastic stiffness does not.
+    // Pore pressure and viscosity act across open gaps; elastic stiffness does not.
     const bool pores_push_back = model.motion.effective_stress && model.band.volumetric_term;
     const double of_pores = pores_push_back ? found.pore_stiffness / lightest.value : 0.0;
     for (std::size_t m = 0; m < model.motion.materials.size(); ++m) {
@@ -80,7 +81,7 @@ void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, d
   if (model.contact.band_columns) {
     return;  // columns are implicit, and particles neither conduct nor seep
   }
-  // Heat and pore pressure see the finer grid of the band.
+  // Heat and pore pressure are resolved on the finer grid of the band.
   const double scaled = thickness * (cell / static_cast<double>(model.largest_layer));
   const double length = thickness > 0.0 ? std::min(cell, scaled) : cell;
   if (parameters.heat.enabled && parameters.heat.conduction && found.diffusivity.value > 0.0) {
@@ -88,7 +89,7 @@ void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, d
          found.diffusivity.particle, [&] { return fmt::format("heat conduction over {:.4g} m", length); });
   }
   if (parameters.pressure.enabled && parameters.pressure.seepage && found.seepage.value > 0.0) {
-    const double pore_length = model.band.seepage_as_printed ? std::sqrt(cell * length) : length;
+    const double pore_length = model.band.published_seepage ? std::sqrt(cell * length) : length;
     take(diffusion_share * pore_length * pore_length / (2.0 * Dim * found.seepage.value), LimitKind::seepage,
          found.seepage.particle, [&] { return fmt::format("seepage over {:.4g} m", pore_length); });
   }

@@ -1,4 +1,4 @@
-// How long a step may be.
+// Stability limits of the time step.
 #pragma once
 
 #include <algorithm>
@@ -11,33 +11,33 @@
 
 namespace thawslide::sim {
 
-// What sets a limit on the step.
+// Causes of a limit on the step.
 enum class LimitKind { none, wave, viscosity, particle_speed, conduction, seepage };
 
-// One limit on the step [s], and what sets it.
+// Limit on the step [s] and its cause.
 struct StepLimit {
   double step;
   std::string what;
   LimitKind kind = LimitKind::none;
-  std::int64_t particle = -1;  // id of the one that sets it; negative: none does
+  std::int64_t particle = -1;  // id of the limiting particle; negative if there is none
 };
 
-// The band's smallest thickness over time [m]; 0 without a band.
+// Minimum band thickness over time [m]; 0 without a band.
 inline double smallest_thickness(const config::Case& parameters) {
   const auto& thickness = parameters.band.thickness.value;
   return thickness.empty() ? 0.0 : *std::min_element(thickness.begin(), thickness.end());
 }
 
-// What of the particles sets limits. It allocates nothing: adaptive steps ask for it every time.
+// Extremes over particles that set limits. Allocates nothing, because adaptive steps call it every time.
 template <int Dim, class Real>
 band::StepExtremes extremes_of(const Model<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles);
 
-// The smallest of the limits by wave speed (with viscosity), particle speed, heat conduction and seepage [s].
+// Minimum of the limits by wave speed (with viscosity), particle speed, heat conduction and seepage [s].
 template <int Dim, class Real>
 double largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
                            const band::StepExtremes& extremes);
 
-// The same, and what sets it.
+// The same, with its cause.
 template <int Dim, class Real>
 StepLimit step_limit(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
                      const band::StepExtremes& extremes);

@@ -11,16 +11,16 @@ namespace {
 
 using Place = Vector<double, 2>;
 
-// A part of the ground across the path.
+// Part of the ground across the path.
 struct Strip {
-  double height;         // of its middle [m]
+  double height;         // at its centre [m]
   double along, across;  // slopes
 };
 
-// The level up to which a fill of this area stands over strips of this width [m].
+// Level of a fill of this area over strips of this width [m].
 double level_of(std::vector<double> heights, double width, double area) {
   std::sort(heights.begin(), heights.end());
-  double filled = 0.0;  // up to the height of strip k
+  double filled = 0.0;  // area filled up to the height of strip k
   std::size_t k = 1;
   for (; k < heights.size(); ++k) {
     const double more = static_cast<double>(k) * width * (heights[k] - heights[k - 1]);
@@ -41,7 +41,7 @@ double factor_of(const std::vector<Strip>& strips, double width, double area) {
   const auto depth = [level](const Strip& strip) { return std::max(0.0, level - strip.height); };
   const double mean = area / (width * static_cast<double>(strips.size()));
   if (0.5 * (depth(strips.front()) + depth(strips.back())) >= mean) {
-    return 1.0;  // a ridge, which the slide leaves on both sides
+    return 1.0;  // a ridge: the slide leaves it on both sides
   }
   double base = 0.0, along = 0.0, across = 0.0, up = 0.0;
   for (const Strip& strip : strips) {

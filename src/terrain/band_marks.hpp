@@ -1,4 +1,4 @@
-// Which particles are in the shear band, and how far they have slipped.
+// Marks of particles in the shear band, and their slip.
 #pragma once
 
 #include "mpm/nodes.hpp"
@@ -7,8 +7,7 @@
 
 namespace thawslide::terrain {
 
-// Marks particles in a cell with a candidate corner as band particles, and adds the slip of the contact nodes to
-// theirs.
+// Marks particles in a cell with a candidate corner as band particles, and adds the slip of contact nodes to particles.
 template <int Dim, class Real>
 void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground, Real dt,
                         mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles);

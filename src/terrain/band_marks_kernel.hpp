@@ -1,4 +1,4 @@
-// What a particle does in mark_band_and_slip: kernels (mpm/kernel.hpp).
+// Particle kernels (mpm/kernel.hpp) of mark_band_and_slip.
 #pragma once
 
 #include "base/select.hpp"
@@ -7,21 +7,22 @@
 
 namespace thawslide::terrain {
 
-// Where no candidate node is near, none is in the band.
+// Resets the band mark: particles without a candidate node nearby are outside the band.
 template <int Dim, class Real>
 struct LeaveBand {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
   using Account = mpm::NoAccount;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Added& /*added*/, Account& /*account*/) const {
+                                                       Scatter& /*added*/, Account& /*account*/) const {
     particles.in_band.store_whole(at, typename At::Value(Real(0)));
   }
 };
 
-// Particles in a cell with a candidate corner are in the band; those in one with a contact node slip as these do.
+// Marks particles in a cell with a candidate corner as band particles; adds nodal slip to particles in a cell with a
+// contact node.
 template <int Dim, class Real>
 struct MarkBand {
   using Reads = mpm::RecordList<mpm::Contact>;
@@ -30,9 +31,9 @@ struct MarkBand {
 
   Real dt;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Added& /*added*/, Account& /*account*/) const {
+                                                       Scatter& /*added*/, Account& /*account*/) const {
     using mpm::Contact;
     using Value = typename At::Value;
     const auto contact = seen.template read<Contact, 3>().value;

@@ -1,4 +1,4 @@
-// The strength of the base, evaluated over arrays of contact nodes (Eqs. 17, 25 and the cohesion laws).
+// Basal strength, evaluated over arrays of contact nodes (Eqs. 17, 25 and the cohesion laws).
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace thawslide::terrain {
 
-// The laws of one kind of ground.
+// Laws of one substrate.
 template <class Real>
 struct GroundLaw {
   physics::basal::FrictionLaw<Real> friction;
@@ -22,15 +22,15 @@ struct GroundLaw {
 
 template <class Real>
 struct BasalLaw {
-  // By number of the substrate; the first holds where none lies.
+  // By substrate number; entry 0 applies outside all substrates.
   std::vector<GroundLaw<Real>> grounds{1};
   physics::FrictionClamp clamp = physics::FrictionClamp::keep_cohesion;
   bool cap_pressure = false;  // P at most N
-  Real heat_fraction = 1;     // share of the friction work that becomes heat (conversion coefficient)
+  Real heat_fraction = 1;     // fraction of the friction work converted to heat (conversion coefficient)
   Real gravity = 0;           // [m/s2]
 };
 
-// State and strength of up to `capacity` contact nodes, one array a quantity.
+// State and strength of up to `capacity` contact nodes, one array per quantity.
 template <class Real>
 struct BasalNodes {
   static constexpr std::size_t capacity = static_cast<std::size_t>(mpm::Tile<3>::nodes);
@@ -38,11 +38,13 @@ struct BasalNodes {
   using Column = std::array<T, capacity>;
 
   std::size_t count = 0;
-  // In: number of the substrate, normal pressure N [Pa], pore pressure P [Pa], temperature T [C], liquid saturation S,
-  // effective solid fraction n_e (Eq. 2), slip [m], slip speed v [m/s] and unit weight rho g of the slide [N/m3].
+  // Input: substrate number, normal pressure N [Pa], pore pressure P [Pa], temperature T [C], liquid saturation S,
+  // effective solid fraction n_e (Eq. 2), slip [m], slip speed v [m/s] and unit weight rho g of the sliding mass
+  // [N/m3].
   Column<int> substrate;
   Column<Real> normal_pressure, pore_pressure, temperature, saturation, solid_fraction, slip, speed, unit_weight;
-  // Out: friction coefficient mu_e, the pore pressure that relieves it, drag, cohesion c_S and sliding strength [Pa].
+  // Output: friction coefficient mu_e, pore pressure that reduces friction, drag, cohesion c_S and sliding strength
+  // [Pa].
   Column<Real> friction, relief, drag, cohesion, strength;
 
   [[nodiscard]] physics::basal::ContactNode<Real> node(std::size_t k, Real time) const {
@@ -52,8 +54,8 @@ struct BasalNodes {
   }
 };
 
-// Friction, its relief, drag and cohesion of the nodes on one substrate. Each law is chosen once, outside the loop over
-// nodes.
+// Computes friction, relief, drag and cohesion of the nodes on one substrate. The laws are dispatched once, outside the
+// loop over nodes.
 template <class Real>
 void evaluate_ground_law(const GroundLaw<Real>& law, int substrate, Real time, BasalNodes<Real>& nodes) {
   std::visit(
@@ -63,7 +65,7 @@ void evaluate_ground_law(const GroundLaw<Real>& law, int substrate, Real time, B
             const auto node = nodes.node(k, time);
             nodes.friction[k] = friction.coefficient(node);
             nodes.drag[k] = physics::basal::drag_of(friction, node);
-            nodes.relief[k] = Friction::feels_pore_pressure ? nodes.pore_pressure[k] : Real(0);
+            nodes.relief[k] = Friction::depends_on_pore_pressure ? nodes.pore_pressure[k] : Real(0);
           }
         }
       },
@@ -79,7 +81,7 @@ void evaluate_ground_law(const GroundLaw<Real>& law, int substrate, Real time, B
       law.cohesion);
 }
 
-// Fills friction, cohesion and strength of all nodes. time [s].
+// Computes friction, cohesion and strength of all nodes. time [s].
 template <class Real>
 void evaluate_basal_law(const BasalLaw<Real>& law, Real time, BasalNodes<Real>& nodes) {
   const auto end = nodes.substrate.begin() + static_cast<std::ptrdiff_t>(nodes.count);

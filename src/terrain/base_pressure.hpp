@@ -1,5 +1,4 @@
-// How hard the slide presses on the ground: the normal pressure of Eq. 16 at contact nodes, and the area each stands
-// for.
+// Normal pressure on the ground at contact nodes (Eq. 16), which also determines their contact areas.
 #pragma once
 
 #include "mpm/nodes.hpp"
@@ -7,12 +6,12 @@
 
 namespace thawslide::terrain {
 
-// Normal pressure [Pa] at the nodes of block b from nodes.base: load over dt and covered area, summed over a node and
-// its neighbours with the weights 1/4, 1/2, 1/4 along the ground, and all of them across it: the rows that carry the
-// load need not be those that have the area; 0 at nodes that do not press. Where a slope cuts through cells, a node's
-// own load and its own area have little to do with each other; their local sums do. Exact where a deep slide ends on a
-// grid line; the covered area is too small where it is thinner than a cell. Nodes no ground is near get a pressure as
-// if `smallest_area` [m2] carried them.
+// Normal pressure [Pa] at the nodes of block b from nodes.base; 0 at nodes without load. Load over dt and covered area
+// are summed over a node and its neighbours. The weights are 1/4, 1/2, 1/4 along the ground and 1 across it, because
+// the rows that carry the load can differ from those that have the area. If a slope cuts through cells, the load and
+// the area of a single node are unrelated, but their local sums are consistent. Exact if a deep body ends on a grid
+// line; the covered area is too small if the body is thinner than a cell. Without ground nearby, the area is
+// `smallest_area` [m2].
 template <int Dim, class Real>
 std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(const mpm::SparseGrid<Dim, Real>& grid,
                                                                                 const GroundOnGrid<Dim, Real>& ground,

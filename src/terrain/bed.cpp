@@ -55,7 +55,7 @@ void Bed<Dim, Real>::cover_part(const Column& part) {
   }
 }
 
-// A part is covered where the box of a particle near the ground reaches its middle.
+// A part is covered if the box of a particle near the ground reaches its centre.
 template <int Dim, class Real>
 void Bed<Dim, Real>::cover(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                            const mpm::BodySizes<Real>& sizes, const mpm::Particles<Dim, Real>& particles) {
@@ -87,7 +87,7 @@ void Bed<Dim, Real>::cover(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
 }
 
 template <int Dim, class Real>
-void Bed<Dim, Real>::share_out(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const {
+void Bed<Dim, Real>::distribute(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const {
   nodes.bed.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.base.holds(b); });
   struct Place {
     std::size_t block, node;
@@ -103,18 +103,18 @@ void Bed<Dim, Real>::share_out(const mpm::SparseGrid<Dim, Real>& grid, mpm::Node
       }
     }
   }
-  share_out(pressing);
+  distribute(pressing);
   for (std::size_t n = 0; n < places.size(); ++n) {
     nodes.bed.of_block(places[n].block)[places[n].node][Layout::available] = pressing[n].available;
   }
 }
 
 template <int Dim, class Real>
-void Bed<Dim, Real>::share_out(std::vector<Pressing>& nodes) const {
+void Bed<Dim, Real>::distribute(std::vector<Pressing>& nodes) const {
   const auto has_bed = [&](const Pressing& node) {
     return node.load > Real(0) && node.column != outside && left_[node.column] > Real(0);
   };
-  std::map<std::size_t, Real> load;  // by column where some of the bed is left [kg m/s]
+  std::map<std::size_t, Real> load;  // by column with remaining bed [kg m/s]
   for (const Pressing& node : nodes) {
     if (has_bed(node)) {
       load[node.column] += node.load;
@@ -147,25 +147,25 @@ void Bed<Dim, Real>::collect(const mpm::SparseGrid<Dim, Real>& grid, const mpm::
 
 template <int Dim, class Real>
 void Bed<Dim, Real>::age(Real dt) {
-  for (auto& [column, matter] : loose_) {
-    matter.idle += dt;
+  for (auto& [column, material] : loose_) {
+    material.idle += dt;
   }
 }
 
 template <int Dim, class Real>
 void Bed<Dim, Real>::collect(std::size_t column, const Real* record, Real normal_pressure) {
   const Real taken = record[Layout::taken];
-  LooseMatter<Dim, Real>& matter = loose_[column];
-  left_[column] = std::max(left_[column] - taken, Real(0));  // of shares that sum to it but for rounding
-  matter.mass += taken;
-  matter.momentum += mpm::vector_at<Dim, Real>(record, Layout::impulse);
-  matter.work += record[Layout::work];
-  matter.normal_pressure = normal_pressure;
-  matter.idle = Real(0);
+  LooseMaterial<Dim, Real>& material = loose_[column];
+  left_[column] = std::max(left_[column] - taken, Real(0));  // the shares sum to it up to round-off
+  material.mass += taken;
+  material.momentum += mpm::vector_at<Dim, Real>(record, Layout::impulse);
+  material.work += record[Layout::work];
+  material.normal_pressure = normal_pressure;
+  material.idle = Real(0);
 }
 
 template <int Dim, class Real>
-void Bed<Dim, Real>::release(const std::function<bool(const Column&, const LooseMatter<Dim, Real>&)>& join) {
+void Bed<Dim, Real>::release(const std::function<bool(const Column&, const LooseMaterial<Dim, Real>&)>& join) {
   for (auto at = loose_.begin(); at != loose_.end();) {
     at = join(column_at(at->first), at->second) ? loose_.erase(at) : std::next(at);
   }
@@ -178,14 +178,15 @@ typename Bed<Dim, Real>::Sums Bed<Dim, Real>::sums() const {
     sums.initial += initial_[c];
     sums.left += left_[c];
   }
-  for (const auto& [column, matter] : loose_) {
-    sums.loose += matter.mass;
-    sums.loose_work += matter.work;
+  for (const auto& [column, material] : loose_) {
+    sums.loose += material.mass;
+    sums.loose_work += material.work;
   }
   return sums;
 }
 
-// Columns that the slide has covered or taken from, as number, what is left and parts; then what is loose.
+// Checkpoint state: number, remaining mass and covered parts of the columns that have been covered or entrained; then
+// the loose material.
 template <int Dim, class Real>
 std::vector<double> Bed<Dim, Real>::state() const {
   std::vector<double> numbers{0.0};
@@ -196,13 +197,13 @@ std::vector<double> Bed<Dim, Real>::state() const {
       ++numbers[0];
     }
   }
-  for (const auto& [column, matter] : loose_) {
+  for (const auto& [column, material] : loose_) {
     numbers.push_back(static_cast<double>(column));
-    for (const Real number : {matter.mass, matter.work, matter.normal_pressure, matter.idle}) {
+    for (const Real number : {material.mass, material.work, material.normal_pressure, material.idle}) {
       numbers.push_back(static_cast<double>(number));
     }
     for (int a = 0; a < Dim; ++a) {
-      numbers.push_back(static_cast<double>(matter.momentum[a]));
+      numbers.push_back(static_cast<double>(material.momentum[a]));
     }
   }
   return numbers;
@@ -218,7 +219,7 @@ void Bed<Dim, Real>::restore(const std::vector<double>& numbers) {
   const auto next_column = [&] {
     return static_cast<std::size_t>(state.whole(static_cast<std::int64_t>(left_.size()) - 1));
   };
-  constexpr std::size_t of_column = 3;  // numbers: which it is, what is left, the parts of it that are covered
+  constexpr std::size_t of_column = 3;  // numbers per column: column number, remaining mass, covered parts
   const std::size_t changed = state.count(of_column);
   for (std::size_t c = 0; c < changed; ++c) {
     const std::size_t column = next_column();
@@ -226,12 +227,12 @@ void Bed<Dim, Real>::restore(const std::vector<double>& numbers) {
     covered_[column] = static_cast<std::uint16_t>(state.whole(std::numeric_limits<std::uint16_t>::max()));
   }
   while (state.left() > 0) {
-    LooseMatter<Dim, Real>& matter = loose_[next_column()];
-    for (Real* number : {&matter.mass, &matter.work, &matter.normal_pressure, &matter.idle}) {
+    LooseMaterial<Dim, Real>& material = loose_[next_column()];
+    for (Real* number : {&material.mass, &material.work, &material.normal_pressure, &material.idle}) {
       *number = next();
     }
     for (int a = 0; a < Dim; ++a) {
-      matter.momentum[a] = next();
+      material.momentum[a] = next();
     }
   }
 }

@@ -1,5 +1,5 @@
-// An erodible bed on the ground: how much of it is left below each column of nodes, what contact nodes take of it, and
-// what of that has not joined the slide yet.
+// Erodible bed on the ground: remaining mass below each column of nodes, entrainment by contact nodes, and entrained
+// material that has not yet joined the sliding mass.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@
 
 namespace thawslide::terrain {
 
-// Bed matter that has been taken up and waits to join the slide as a particle.
+// Entrained bed material that has not yet joined the sliding mass as a particle.
 template <int Dim, class Real>
-struct LooseMatter {
+struct LooseMaterial {
   Real mass = 0;                                           // [kg]
   Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();  // [kg m/s]
-  Real work = 0;                                           // that the slide has lost to it [J]
-  Real normal_pressure = 0;                                // on the bed when it was last taken from [Pa]
-  Real idle = 0;                                           // since then [s]
+  Real work = 0;                                           // work done on it by the sliding mass [J]
+  Real normal_pressure = 0;                                // on the bed at the last entrainment [Pa]
+  Real idle = 0;                                           // time since then [s]
 };
 
 template <int Dim, class Real>
@@ -31,53 +31,57 @@ class Bed {
   using Column = std::array<int, Dim - 1>;  // nodes with the same indices along the horizontal axes
   using Layout = mpm::BedLayout<Dim>;
 
-  // columns: how many along each axis, the first at the domain's lower corner; mass: of the bed below each [kg], x
+  // columns: number along each axis, the first at the domain's lower corner. mass: of the bed below each column [kg], x
   // fastest.
-  Bed(const BedMatter<Real>& matter, const Column& columns, std::vector<Real> mass)
-      : matter_(matter), columns_(columns), initial_(std::move(mass)), left_(initial_), covered_(initial_.size(), 0) {}
+  Bed(const BedMaterial<Real>& material, const Column& columns, std::vector<Real> mass)
+      : material_(material),
+        columns_(columns),
+        initial_(std::move(mass)),
+        left_(initial_),
+        covered_(initial_.size(), 0) {}
 
-  // Number of a column, x fastest; `outside` for one beyond the domain.
+  // Number of a column, x fastest; `outside` if it is outside the domain.
   static constexpr std::size_t outside = ~std::size_t{0};
   [[nodiscard]] std::size_t number_of(const Column& column) const;
 
-  // Notes which parts of the bed the slide has come to cover: bed_parts along each axis for a column of nodes.
+  // Marks the parts of the bed that the sliding mass covers, with bed_parts along each axis of a column of nodes.
   void cover(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
              const mpm::BodySizes<Real>& sizes, const mpm::Particles<Dim, Real>& particles);
-  // The same of one column; parts: a bit for each.
+  // Marks parts of one column, given as a bit mask.
   void cover(std::size_t column, std::uint32_t parts) { covered_[column] |= static_cast<std::uint16_t>(parts); }
 
-  // Shares out what is left below each column among its nodes, by how they press on the ground (nodes.base): none takes
-  // what another one does, and none where the slide has never been. Fills nodes.bed.
-  void share_out(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
-  // The same among nodes of a list, of any columns.
+  // Distributes the remaining bed below each column over its nodes, in proportion to their loads (nodes.base). Nodes
+  // therefore cannot entrain the same mass twice, nor bed that was never covered. Fills nodes.bed.
+  void distribute(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
+  // The same for a list of nodes of any columns.
   struct Pressing {
     std::size_t column = outside;
-    Real load = 0;       // as BaseLayout has it
+    Real load = 0;       // as in BaseLayout
     Real available = 0;  // of the bed [kg]
   };
-  void share_out(std::vector<Pressing>& nodes) const;
+  void distribute(std::vector<Pressing>& nodes) const;
 
-  // What nodes took in a step of dt goes from the bed to what is loose.
+  // Transfers the mass entrained by nodes in a step of dt from the bed to the loose material.
   void collect(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes, Real dt);
   // The same node by node, after age(dt). record: of BedLayout.
   void age(Real dt);
   void collect(std::size_t column, const Real* record, Real normal_pressure);
 
-  // Loose matter that is to join: join(column, matter) says whether it does, and it is loose no more.
-  void release(const std::function<bool(const Column&, const LooseMatter<Dim, Real>&)>& join);
+  // Passes loose material to join(column, material) and removes it if the result is true.
+  void release(const std::function<bool(const Column&, const LooseMaterial<Dim, Real>&)>& join);
 
-  [[nodiscard]] const BedMatter<Real>& matter() const { return matter_; }
+  [[nodiscard]] const BedMaterial<Real>& material() const { return material_; }
   [[nodiscard]] bool is_exhausted(const Column& column) const { return !(left_[number_of(column)] > Real(0)); }
   [[nodiscard]] const std::vector<Real>& left() const { return left_; }  // [kg], by column
   [[nodiscard]] const Column& columns() const { return columns_; }
 
-  // Over all columns [kg, J].
+  // Sums over all columns [kg, J].
   struct Sums {
     Real initial = 0, left = 0, loose = 0, loose_work = 0;
   };
   [[nodiscard]] Sums sums() const;
 
-  // Everything a checkpoint must hold, and its way back.
+  // Checkpoint state.
   [[nodiscard]] std::vector<double> state() const;
   void restore(const std::vector<double>& numbers);
 
@@ -86,11 +90,11 @@ class Bed {
   [[nodiscard]] Column column_of(const mpm::SparseGrid<Dim, Real>& grid, std::size_t block, std::size_t node) const;
   [[nodiscard]] Column column_at(std::size_t number) const;
 
-  BedMatter<Real> matter_;
+  BedMaterial<Real> material_;
   Column columns_;
-  std::vector<Real> initial_, left_;                     // [kg], by column
-  std::vector<std::uint16_t> covered_;                   // by column: a bit for each of its parts
-  std::map<std::size_t, LooseMatter<Dim, Real>> loose_;  // by number of the column
+  std::vector<Real> initial_, left_;                       // [kg], by column
+  std::vector<std::uint16_t> covered_;                     // by column: one bit per part
+  std::map<std::size_t, LooseMaterial<Dim, Real>> loose_;  // by column number
 };
 
 }  // namespace thawslide::terrain

@@ -1,4 +1,4 @@
-// What one node does with the erodible bed below it, and which parts of the bed a particle covers. For host and device.
+// Entrainment of the bed by one node, and bed parts covered by a particle. For host and device.
 #pragma once
 
 #include <cmath>
@@ -15,18 +15,18 @@ namespace thawslide::terrain {
 enum class BedLaw { strength, momentum };
 
 template <class Real>
-struct BedMatter {
+struct BedMaterial {
   BedLaw law = BedLaw::momentum;
-  Real cohesion = 0, tangent = 0;  // of what it withstands: c_b [Pa], tan(phi_b)
+  Real cohesion = 0, tangent = 0;  // of the bed strength: c_b [Pa], tan(phi_b)
   Real depth_per_slip = 0;         // [1]
   Real density = 0;                // [kg/m3]
 };
 
-// Of a column of nodes: so many parts along each axis, which the slide covers one by one.
+// Parts of a column of nodes along each axis, covered individually.
 inline constexpr int bed_parts = 4;
 
-// Along one axis the parts whose middles the box of a particle reaches, counted from the domain's lower corner, where
-// the first of column 0 begins half a column below it. half: of the box, in cells.
+// Parts, along one axis, whose centres the box of a particle reaches. They are counted from the domain's lower corner;
+// the first part of column 0 begins half a column below it. half: of the box, in cells.
 struct PartsCovered {
   int first, last;
 };
@@ -38,45 +38,47 @@ THAWSLIDE_HD PartsCovered parts_covered(Real position, Real half, Real cell) {
   return {static_cast<int>(ceil(middle - reach)), static_cast<int>(floor(middle + reach))};
 }
 
-// What a node of so much mass [kg] takes of the bed that slides at `speed` > 0 [m/s] after friction of the strength
-// `shear` [Pa]. available: to it of the bed [kg].
+// Entrainment by a node of a mass [kg] that slides at `speed` > 0 [m/s] after friction with the strength `shear` [Pa].
+// available: bed mass available to it [kg].
 template <class Real>
-THAWSLIDE_HD Bite<Real> bite_of(const BedMatter<Real>& matter, Real available, Real mass, Real speed, Real shear,
-                                Real normal_pressure, Real area, Real dt) {
-  const Real strength = physics::bed_strength(matter.cohesion, matter.tangent, normal_pressure);
-  const Real rate = matter.law == BedLaw::strength
-                        ? physics::erosion_by_strength(shear, strength, speed, matter.depth_per_slip)
-                        : physics::erosion_by_momentum(shear, strength, matter.density, speed, matter.depth_per_slip);
-  const Real taken = min(available, matter.density * rate * area * dt);
-  if (matter.law == BedLaw::momentum) {
+THAWSLIDE_HD EntrainmentImpulse<Real> entrainment_of(const BedMaterial<Real>& material, Real available, Real mass,
+                                                     Real speed, Real shear, Real normal_pressure, Real area, Real dt) {
+  const Real strength = physics::bed_strength(material.cohesion, material.tangent, normal_pressure);
+  const Real rate =
+      material.law == BedLaw::strength
+          ? physics::erosion_by_strength(shear, strength, speed, material.depth_per_slip)
+          : physics::erosion_by_momentum(shear, strength, material.density, speed, material.depth_per_slip);
+  const Real taken = min(available, material.density * rate * area * dt);
+  if (material.law == BedLaw::momentum) {
     return {taken, taken * speed, taken * speed};
   }
   return {taken, taken * physics::speed_with_taken(mass, speed, taken), Real(0)};
 }
 
-// What a sliding node takes of the bed, whose record of BedLayout it fills; its momentum along the slip is still that
-// after friction. matter: null where there is no bed.
+// Entrainment by a sliding node. Fills its record of BedLayout; the momentum along the slip is that after friction.
+// material: null if there is no bed.
 template <int Dim, class Real>
 struct BedBelowNode {
-  const BedMatter<Real>* matter;
+  const BedMaterial<Real>* material;
   Real* record;
   Real area, strength, dt, mass;
 
   template <int>
-  [[nodiscard]] THAWSLIDE_HD Bite<Real> bite(const physics::ContactImpulse<Real>& impulse, Real normal_pressure,
-                                             const Vector<Real, Dim>& along, Real tangential_size) const {
+  [[nodiscard]] THAWSLIDE_HD EntrainmentImpulse<Real> entrain(const physics::ContactImpulse<Real>& impulse,
+                                                              Real normal_pressure, const Vector<Real, Dim>& along,
+                                                              Real tangential_size) const {
     using Layout = mpm::BedLayout<Dim>;
-    if (matter == nullptr || !impulse.slides || !(record[Layout::available] > Real(0))) {
+    if (material == nullptr || !impulse.slides || !(record[Layout::available] > Real(0))) {
       return {};
     }
     const Real speed = (tangential_size - impulse.tangential) / mass;
-    const Bite<Real> bite =
-        bite_of(*matter, record[Layout::available], mass, speed, strength, normal_pressure, area, dt);
-    record[Layout::taken] = bite.taken;
+    const EntrainmentImpulse<Real> entrain =
+        entrainment_of(*material, record[Layout::available], mass, speed, strength, normal_pressure, area, dt);
+    record[Layout::taken] = entrain.taken;
     for (std::size_t a = 0; a < Dim; ++a) {
-      record[Layout::impulse + a] = bite.impulse * along[static_cast<int>(a)];
+      record[Layout::impulse + a] = entrain.impulse * along[static_cast<int>(a)];
     }
-    return bite;
+    return entrain;
   }
   THAWSLIDE_HD void note_work(Real work) const { record[mpm::BedLayout<Dim>::work] = work; }
 };

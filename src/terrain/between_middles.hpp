@@ -1,4 +1,4 @@
-// Between what is known at the middles of columns of cells. For host and device.
+// Interpolation between the middles of columns of cells. For host and device.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace thawslide::terrain {
 
-// Linear, along one axis after the other. share: of the way from the middle of a column to the next one, along each
-// axis; at_middle(steps): of the column so many steps on, 0 or 1 along each.
+// Linear interpolation along each axis. share: fraction of the distance from the middle of a column to the next one.
+// at_middle(steps): value at the column offset by 0 or 1 along each axis.
 template <std::size_t Axes, class AtMiddle>
 THAWSLIDE_HD double between_middles(const std::array<double, Axes>& share, const AtMiddle& at_middle) {
   const auto along_x = [&](std::array<int, Axes> steps) {

@@ -18,7 +18,7 @@ using mpm::BaseLayout;
 using mpm::MomentumLayout;
 using mpm::NearGround;
 
-// The contact nodes of one block, with what the basal law needs of them.
+// Contact nodes of one block, with the input of the basal law.
 template <int Dim, class Real>
 struct BlockContact {
   template <class T>
@@ -45,7 +45,7 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   BasalNodes<Real>& basal = contact.basal;
   const std::size_t c = basal.count++;
   const Real load = nodes.base(b, k)[BaseLayout::load];
-  const Real area = load / (pressure * dt);  // the base is shared among nodes by the load they carry
+  const Real area = load / (pressure * dt);  // the basal area is divided among nodes in proportion to their loads
   contact.node[c] = k;
   contact.area[c] = area;
   contact.state[c] = state;
@@ -60,7 +60,7 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
   basal.unit_weight[c] = unit_weight_of<Dim>(nodes.momentum(b, k), model.law.gravity);
 }
 
-// How much of the space that belongs to a node the slide fills, 0 to 1.
+// Filled fraction of a node's space, 0 to 1.
 template <int Dim, class Real>
 Real filled_share_at(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                      const mpm::SectionWidth<Real>& width, const mpm::Nodes<Dim, Real>& nodes, std::size_t b,
@@ -73,7 +73,7 @@ Real filled_share_at(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
   return filled_share(nodes.momentum(b, k)[MomentumLayout<Dim>::volume], space);
 }
 
-// The share of its ground that a slide over a node covers.
+// Covered fraction of the ground below a node.
 template <int Dim, class Real>
 Real covered_share_at(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                       const mpm::SectionWidth<Real>& width, const mpm::Nodes<Dim, Real>& nodes, std::size_t b,
@@ -86,7 +86,7 @@ Real covered_share_at(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid
   });
 }
 
-// No node of a block is in contact; `known`: its nodes' ground.
+// Initializes a block without contact. known: ground at its nodes.
 template <int Dim, class Real>
 void start_block(const typename GroundOnGrid<Dim, Real>::Block& known, std::size_t b, mpm::Nodes<Dim, Real>& nodes) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
@@ -94,15 +94,15 @@ void start_block(const typename GroundOnGrid<Dim, Real>::Block& known, std::size
   }
 }
 
-// What the nodes of a block know of the ground; null where none is a candidate.
+// Ground at the nodes of a block; null if it has no candidate node.
 template <int Dim, class Real>
 const typename GroundOnGrid<Dim, Real>::Block* candidates_of(const GroundOnGrid<Dim, Real>* ground, std::size_t b) {
   return ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
 }
 
 template <int Dim, class Real>
-void hold_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
-                  mpm::Nodes<Dim, Real>& nodes) {
+void apply_contact_conditions(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
+                              mpm::Nodes<Dim, Real>& nodes) {
   nodes.contact.hold(grid.blocks().size(), [&](std::size_t b) { return candidates_of(ground, b) != nullptr; });
 }
 
@@ -113,9 +113,10 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
                      const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model, Real time,
                      Real dt, mpm::Nodes<Dim, Real>& nodes) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
-  thread_local std::vector<std::uint8_t> room;  // by block: 1 if a node is loaded; kept: a step allocates nothing
+  // by block: 1 if a node is loaded; persistent, to avoid allocation in each step
+  thread_local std::vector<std::uint8_t> room;
   room.assign(grid.blocks().size(), 0);
-  auto& loaded = room;  // of the calling thread, shared by all threads
+  auto& loaded = room;  // the buffer of the calling thread, shared by all threads
   nodes.base.hold(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (!ground.any_candidate(b)) {
@@ -139,8 +140,7 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
       }
     }
   });
-  // The covered ground is also needed at nodes that a hovering slide does not reach. Only loaded nodes use that of the
-  // nodes around them.
+  // Covered ground is also needed at nodes that a hovering mass does not reach, but only by adjacent loaded nodes.
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     const std::int32_t* about = grid.blocks_about_block(b);
     if (!ground.any_candidate(b) || std::none_of(about, about + mpm::Tile<Dim>::stencil, [&](std::int32_t other) {
@@ -161,7 +161,7 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
 template <int Dim, class Real>
 void start_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
                    mpm::Nodes<Dim, Real>& nodes) {
-  hold_contact(grid, ground, nodes);
+  apply_contact_conditions(grid, ground, nodes);
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (nodes.contact.holds(b)) {
       start_block(ground->block(b), b, nodes);
@@ -188,10 +188,10 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
                                        mpm::Nodes<Dim, Real>& nodes, const Bed<Dim, Real>* bed) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   nodes.motion.resize(grid.blocks().size());
-  hold_contact(grid, ground, nodes);
+  apply_contact_conditions(grid, ground, nodes);
   const Real smallest = static_cast<Real>(smallest_area) * (Dim == 2 ? grid.cell() : grid.cell() * grid.cell());
   if (bed != nullptr) {
-    bed->share_out(grid, nodes);
+    bed->distribute(grid, nodes);
   }
   using Work = ContactWork<Dim, Real>;
   return parallel_sum<Work>(grid.blocks().size(), [&](std::size_t b, Work& work) {
@@ -223,15 +223,15 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
     for (std::size_t c = 0; c < contact.basal.count; ++c) {
       const std::size_t k = contact.node[c];
       const Real strength = model.base_holds ? std::numeric_limits<Real>::infinity() : contact.basal.strength[c];
-      const BedBelowNode<Dim, Real> below{bed != nullptr ? &bed->matter() : nullptr,
+      const BedBelowNode<Dim, Real> below{bed != nullptr ? &bed->material() : nullptr,
                                           bed != nullptr ? nodes.bed.of_block(b)[k].data() : nullptr,
                                           contact.area[c],
                                           strength,
                                           dt,
                                           contact.state[c].mass};
-      const HoldOnNode<Dim, Real> hold{(*known)[k].normal, nodes.base(b, k)[BaseLayout::load],
-                                       (*known)[k].bend,   contact.area[c],
-                                       strength,           contact.basal.friction[c]};
+      const ContactConditions<Dim, Real> hold{(*known)[k].normal, nodes.base(b, k)[BaseLayout::load],
+                                              (*known)[k].bend,   contact.area[c],
+                                              strength,           contact.basal.friction[c]};
       apply_contact(mpm::NodeConstraints<Dim, Real>{on_block, k}, hold, model.law.heat_fraction, dt, below,
                     contact.state[c], work, nodes.contact.of_block(b)[k]);
       finish(contact.state[c], k);

@@ -1,6 +1,6 @@
-// What a node does in contact with the ground (Eqs. 15-17, 20; Nairn 2013; Nairn et al. 2018): from its trial momentum
-// to its motion, in the numbers of one node. For host and device. Walls: what constrains the node's momentum, with
-// any(), whether anything might, and apply(mass, momentum), which tells whether a rigid frame did.
+// Contact of one node with the ground (Eqs. 15-17, 20; Nairn 2013; Nairn et al. 2018), from trial momentum to motion.
+// For host and device. Walls: constraints on the node's momentum, with any(), true if a constraint may act, and
+// apply(mass, momentum), true if a rigid frame acted.
 #pragma once
 
 #include "base/linear.hpp"
@@ -15,10 +15,10 @@
 
 namespace thawslide::terrain {
 
-// The smallest contact area, as a share of a cell's face: keeps N = p.n / (A dt) finite where no ground is near.
+// Smallest contact area, as a fraction of a cell's face: keeps N = p.n / (A dt) finite without ground nearby.
 inline constexpr double smallest_area = 1e-6;
 
-// One node on its way from trial to final momentum.
+// State of one node between trial and final momentum.
 template <int Dim, class Real>
 struct NodeState {
   Real mass;
@@ -36,7 +36,7 @@ THAWSLIDE_HD void constrain(const Walls& walls, NodeState<Dim, Real>& state) {
   }
 }
 
-// record: of MomentumLayout.
+// Trial momentum: old momentum with forces, damping and constraints. record: of MomentumLayout.
 template <int Dim, class Real, class Walls, class Record>
 THAWSLIDE_HD NodeState<Dim, Real> trial_state(const Walls& walls, Real dt, Real damping, const Record& record) {
   using Layout = mpm::MomentumLayout<Dim>;
@@ -51,22 +51,22 @@ THAWSLIDE_HD NodeState<Dim, Real> trial_state(const Walls& walls, Real dt, Real 
   return state;
 }
 
-// Momentum with which a node runs into the ground in this step, less what closes the clearance [m] before it.
+// Momentum of a node into the ground in this step, minus the part that closes the clearance [m].
 template <class Real>
 THAWSLIDE_HD Real approach(bool distance_check, Real clearance, Real dt, Real mass, Real inward_momentum) {
   const Real left = max(Real(0), clearance);
   return max(Real(0), distance_check ? inward_momentum - mass * (left / dt) : inward_momentum);
 }
 
-// How much of the space [m3] that belongs to a node the slide fills, 0 to 1.
+// Filled fraction of a node's space [m3], 0 to 1.
 template <class Real>
 THAWSLIDE_HD Real filled_share(Real volume, Real space) {
   return volume < space ? volume / space : Real(1);
 }
 
-// The share of its ground that a slide over a node of a block covers: as much as it fills of the node's space or of
-// those of the two nodes further from the ground, since contact is felt before the gap below the slide is closed.
-// filled(direction, node): the share of a node of the block in that direction; 0 where there is none.
+// Covered fraction of the ground below a node of a block: the largest filled fraction of the node's space and of the
+// spaces of the next two nodes away from the ground, because contact acts before the gap below the mass is closed.
+// filled(direction, node): filled fraction at a node of the block in that direction; 0 if there is none.
 template <int Dim, class Real, class Filled>
 THAWSLIDE_HD Real covered_share(std::size_t node, const Vector<Real, Dim>& into_ground, const Filled& filled) {
   using T = mpm::Tile<Dim>;
@@ -74,14 +74,14 @@ THAWSLIDE_HD Real covered_share(std::size_t node, const Vector<Real, Dim>& into_
   const int outward = into_ground[axis] > Real(0) ? -1 : 1;
   Real share = filled(T::stencil / 2, static_cast<int>(node));
   for (int step = 1; step <= 2 && share < Real(1); ++step) {
-    const typename T::Beside further = T::beside(static_cast<int>(node), axis, step * outward);
+    const typename T::Adjacent further = T::adjacent(static_cast<int>(node), axis, step * outward);
     share = max(share, filled(further.direction, further.local));
   }
   return share;
 }
 
-// Normal pressure [Pa] of a node on the ground (terrain/base_pressure.hpp). base(k): the record of BaseLayout of its
-// neighbour k of 3^Dim, itself among them, x fastest.
+// Normal pressure [Pa] of a node on the ground (terrain/base_pressure.hpp). base(k): record of BaseLayout of neighbour
+// k of 3^Dim, including the node itself, x fastest.
 template <int Dim, class Real, class Base>
 THAWSLIDE_HD Real base_pressure_of_node(const Vector<Real, Dim>& into_ground, Real dt, Real smallest_area,
                                         const Base& base) {
@@ -102,7 +102,7 @@ THAWSLIDE_HD Real base_pressure_of_node(const Vector<Real, Dim>& into_ground, Re
   return load / (dt * max(covered, smallest_area));
 }
 
-// A contact node with its normal pressure [Pa] and the speed of its slip; all else is 0.
+// Contact node with normal pressure [Pa] and slip speed; all other members are 0.
 template <int Dim, class Real>
 THAWSLIDE_HD physics::basal::ContactNode<Real> loaded_node(Real pressure, const Vector<Real, Dim>& into_ground,
                                                            const NodeState<Dim, Real>& state) {
@@ -112,15 +112,15 @@ THAWSLIDE_HD physics::basal::ContactNode<Real> loaded_node(Real pressure, const 
   return node;
 }
 
-// What the laws of the base may ask of a node. state: its record of NodalState; volume: sum S V of the linear shape
-// functions; near_ground: its record of NearGround; pore_pressure: whether there is any.
+// Input of the basal laws at a node. known: record of NodalState. volume: sum S V of the linear shape functions.
+// near_ground: record of NearGround. pore_pressure: off means P = 0.
 template <int Dim, class Real, class StateRecord, class NearGroundRecord>
 THAWSLIDE_HD physics::basal::ContactNode<Real> contact_node_of(const StateRecord& known, Real volume,
                                                                const NearGroundRecord& near_ground, Real pressure,
                                                                bool pore_pressure, const Vector<Real, Dim>& into_ground,
                                                                const NodeState<Dim, Real>& state) {
   using mpm::NearGround, mpm::NodalState;
-  // A node may have GIMP mass but no linear weight: then its averages are by mass.
+  // A node can have GIMP mass without linear weight; its averages are then weighted by mass.
   const auto average = [&](Real by_linear, std::size_t by_mass) {
     return volume > Real(0) ? by_linear : near_ground[by_mass] / state.mass;
   };
@@ -133,15 +133,15 @@ THAWSLIDE_HD physics::basal::ContactNode<Real> contact_node_of(const StateRecord
   return node;
 }
 
-// Unit weight rho g [N/m3] of the slide at a node. record: of MomentumLayout.
+// Unit weight rho g [N/m3] of the sliding mass at a node. record: of MomentumLayout.
 template <int Dim, class Real, class Record>
 THAWSLIDE_HD Real unit_weight_of(const Record& record, Real gravity) {
   using Layout = mpm::MomentumLayout<Dim>;
   return gravity * record[Layout::mass] / record[Layout::volume];
 }
 
-// Where band columns lie under the slide, the base is as they have it; where none has been laid yet, as the body is,
-// without pore pressure. state: the node's record of BaseState.
+// Replaces the basal state by that of the band columns. Without columns yet, the state is that of the body, with zero
+// pore pressure. state: record of BaseState.
 template <class Record, class Real>
 THAWSLIDE_HD void take_columns_state(const Record& state, bool pore_pressure, physics::basal::ContactNode<Real>& node) {
   using mpm::BaseState;
@@ -157,42 +157,43 @@ THAWSLIDE_HD void take_columns_state(const Record& state, bool pore_pressure, ph
   node.slip = state[BaseState::slip] / area;
 }
 
-// What a contact node gives to the bed's matter in a step.
+// Transfer from a contact node to the bed material in a step.
 template <class Real>
-struct Bite {
+struct EntrainmentImpulse {
   Real taken = 0;        // [kg]
   Real impulse = 0;      // along the slip [N s]
-  Real of_friction = 0;  // what of it friction had taken already [N s]
+  Real of_friction = 0;  // part of it already removed by friction [N s]
 };
 
-// Where there is no bed.
+// Used when there is no bed.
 struct NoBed {
   template <int Dim, class Real>
-  THAWSLIDE_HD Bite<Real> bite(const physics::ContactImpulse<Real>& /*impulse*/, Real /*normal_pressure*/,
-                               const Vector<Real, Dim>& /*along*/, Real /*tangential_size*/) const {
+  THAWSLIDE_HD EntrainmentImpulse<Real> entrain(const physics::ContactImpulse<Real>& /*impulse*/,
+                                                Real /*normal_pressure*/, const Vector<Real, Dim>& /*along*/,
+                                                Real /*tangential_size*/) const {
     return {};
   }
   template <class Real>
   THAWSLIDE_HD void note_work(Real /*work*/) const {}
 };
 
-// The ground below a contact node, and how it holds the slide. In a bend of the ground the normal pressures on its
-// parts oppose one another in part: what they add up to, the normal impulse, is smaller by `bend` than the load that
-// they bring to the ground, which friction, cohesion and entrainment go by (GroundAtNode::bend; a V channel of half
-// angle a has 1/sin(a)). The paper has one contact normal a node and flat ground.
+// Ground and strength at a contact node. In a bend of the ground, the normal pressures on its parts partly cancel:
+// their resultant, the normal impulse, is smaller by `bend` than the load on the ground. Friction, cohesion and
+// entrainment use the load (GroundAtNode::bend; a V-shaped channel of half angle a has 1/sin(a)). The paper has one
+// contact normal per node and flat ground.
 template <int Dim, class Real>
-struct HoldOnNode {
+struct ContactConditions {
   const Vector<Real, Dim>& normal;  // into the ground
   Real load;                        // normal impulse times bend [kg m/s]
   Real bend;
   Real area, strength, friction;  // [m2], of the base [Pa], coefficient
 };
 
-// Applies the contact impulse of one node and adds its work. state.momentum goes from trial to final. left: the node's
-// record of Contact.
+// Applies the contact impulse of one node and adds its work. Updates state.momentum from trial to final. left: record
+// of Contact.
 template <int Dim, class Real, class Walls, class FromBed, class Record>
-THAWSLIDE_HD void apply_contact(const Walls& walls, const HoldOnNode<Dim, Real>& hold, Real heat_fraction, Real dt,
-                                const FromBed& bed, NodeState<Dim, Real>& state, ContactWork<Dim, Real>& work,
+THAWSLIDE_HD void apply_contact(const Walls& walls, const ContactConditions<Dim, Real>& hold, Real heat_fraction,
+                                Real dt, const FromBed& bed, NodeState<Dim, Real>& state, ContactWork<Dim, Real>& work,
                                 Record& left) {
   using mpm::Contact;
   const Vector<Real, Dim>& normal = hold.normal;
@@ -203,16 +204,17 @@ THAWSLIDE_HD void apply_contact(const Walls& walls, const HoldOnNode<Dim, Real>&
   if (tangential_size > Real(0)) {
     along = tangential / tangential_size;
   }
-  const Bite<Real> bite = bed.template bite<Dim>(impulse, hold.load / (hold.area * dt), along, tangential_size);
-  impulse.tangential -= bite.of_friction;
+  const EntrainmentImpulse<Real> entrain =
+      bed.template entrain<Dim>(impulse, hold.load / (hold.area * dt), along, tangential_size);
+  impulse.tangential -= entrain.of_friction;
   const Vector<Real, Dim> total = -impulse.normal * normal - impulse.tangential * along;
-  const Vector<Real, Dim> to_bed = bite.impulse * along;
+  const Vector<Real, Dim> to_bed = entrain.impulse * along;
   state.momentum += total - to_bed;
-  constrain(walls, state);  // walls and frames outrank the ground
+  constrain(walls, state);  // walls and frames take precedence over the ground
   const Vector<Real, Dim> middle = (state.old_momentum + state.momentum) / (Real(2) * state.mass);
   const Real slip_speed = max(Real(0), Real(middle.dot(along)));
   const Real friction_work = impulse.slides ? impulse.tangential * slip_speed : Real(0);
-  if (bite.taken > Real(0)) {
+  if (entrain.taken > Real(0)) {
     bed.note_work(to_bed.dot(middle));
     work.bed_work += to_bed.dot(middle);
     work.bed_impulse += to_bed;
@@ -231,8 +233,8 @@ THAWSLIDE_HD void apply_contact(const Walls& walls, const HoldOnNode<Dim, Real>&
   left[Contact::area] = hold.area;
 }
 
-// Records the motion of a node and the energies that constraints, damping and FLIP take. constrained: walls or frames
-// may have acted. motion: its record of MotionLayout.
+// Stores the motion of a node, and sums the energy dissipated by constraints, damping and FLIP. constrained: walls or
+// frames may have acted. motion: record of MotionLayout.
 template <int Dim, class Real, class Record>
 THAWSLIDE_HD void finish_node(const NodeState<Dim, Real>& state, bool constrained, Real damping, Real dt,
                               ContactWork<Dim, Real>& work, Record& motion) {
@@ -255,7 +257,7 @@ THAWSLIDE_HD void finish_node(const NodeState<Dim, Real>& state, bool constraine
   }
 }
 
-// The ground below a node whose velocity is mapped back; not touching: it is not asked for.
+// Ground below a node whose velocity is mapped back; only used if touching.
 template <int Dim, class Real>
 struct GroundOfMappedBack {
   bool touching, distance_check;
@@ -263,8 +265,9 @@ struct GroundOfMappedBack {
   Real clearance;
 };
 
-// From the momentum that particles map back to a node (MUSL), in its record of Velocity, to its velocity, by the same
-// conditions as in the step. Returns the work of internal forces [J] at the mid-step velocity less that at this one.
+// Velocity of a node from the momentum that particles map back (MUSL), in its record of Velocity, with the same
+// conditions as in the step. Returns the work of internal forces [J] at the mid-step velocity minus that at the
+// mapped-back velocity.
 template <int Dim, class Real, class Walls, class MomentumRecord, class MotionRecord, class VelocityRecord>
 THAWSLIDE_HD Real map_back(const Walls& walls, const GroundOfMappedBack<Dim, Real>& ground,
                            const Vector<Real, Dim>& gravity, Real dt, const MomentumRecord& record,

@@ -1,4 +1,4 @@
-// What contact leaves in the balances. For host and device.
+// Contribution of contact to the energy and momentum budgets. For host and device.
 #pragma once
 
 #include "base/linear.hpp"
@@ -6,23 +6,23 @@
 
 namespace thawslide::terrain {
 
-// What contact and constraints did in one step. Energies [J], forces [N], areas [m2].
+// Sums over contact and constraints in one step. Energies [J], forces [N], areas [m2].
 template <int Dim, class Real>
 struct ContactWork {
   Real friction_work = 0;                               // dissipated by sliding
-  Real loss = 0;                                        // taken by impact on ground and walls, and by sticking
-  Real frame_work = 0;                                  // done by rigid frames on the slide
-  Real converted = 0;                                   // friction work that does not become heat
-  Real damping = 0;                                     // taken by mass damping
+  Real loss = 0;                                        // dissipated by impact on ground and walls, and by sticking
+  Real frame_work = 0;                                  // done by rigid frames on the sliding mass
+  Real converted = 0;                                   // friction work not converted to heat
+  Real damping = 0;                                     // dissipated by mass damping
   Real node_kinetic = 0;                                // sum m |a dt|^2 / 2 over nodes
   Real area = 0;                                        // in contact
   Real friction_area = 0;                               // sum mu_e A
-  Real shear_force = 0;                                 // of the ground on the slide, whichever way
-  Real bed_work = 0;                                    // that the slide loses to bed matter that it takes up
+  Real shear_force = 0;                                 // of the ground on the sliding mass, in any direction
+  Real bed_work = 0;                                    // lost to entrained bed material
   Vector<Real, Dim> force = Vector<Real, Dim>::Zero();  // on the ground
-  // On the slide, of walls, frames and mass damping [N s].
+  // On the sliding mass, from walls, frames and mass damping [N s].
   Vector<Real, Dim> constraint_impulse = Vector<Real, Dim>::Zero();
-  Vector<Real, Dim> bed_impulse = Vector<Real, Dim>::Zero();  // of the slide on bed matter that it takes up [N s]
+  Vector<Real, Dim> bed_impulse = Vector<Real, Dim>::Zero();  // on entrained bed material [N s]
 
   THAWSLIDE_HD ContactWork& operator+=(const ContactWork& part) {
     friction_work += part.friction_work;

@@ -1,4 +1,5 @@
-// Convex polygons in space with few corners, held in place, and how a plane across an axis cuts them.
+// Convex polygons in space with few corners, stored without allocation, and their intersection with planes normal to an
+// axis.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace thawslide::terrain {
 
 class ConvexPolygon {
  public:
-  // A triangle that is cut by two planes across each axis has nine corners at most.
+  // A triangle cut by two planes across each axis has at most nine corners.
   static constexpr int capacity = 12;
 
   ConvexPolygon() = default;
@@ -20,7 +21,7 @@ class ConvexPolygon {
     std::copy(triangle.begin(), triangle.end(), corner_.begin());
   }
 
-  // Only the corners there are.
+  // Copies only the used corners.
   ConvexPolygon(const ConvexPolygon& other) : size_(other.size_) {
     std::copy_n(other.corner_.begin(), size_, corner_.begin());
   }
@@ -53,7 +54,7 @@ class ConvexPolygon {
     return extent;
   }
 
-  // Area of what is below the polygon in the horizontal plane, positive for corners counter-clockwise from above.
+  // Area of the projection on the horizontal plane, positive for corners counter-clockwise from above.
   [[nodiscard]] double plan_area() const {
     double twice = 0.0;
     for (int k = 1; k + 1 < size_; ++k) {
@@ -63,7 +64,7 @@ class ConvexPolygon {
     return 0.5 * twice;
   }
 
-  // The part over the rectangle between two places, its sides included.
+  // Part over the rectangle between two corners, including its sides.
   [[nodiscard]] ConvexPolygon over(const Vector<double, 2>& from, const Vector<double, 2>& to) const {
     ConvexPolygon first, second, outside;
     split(0, from[0], outside, first);
@@ -73,7 +74,7 @@ class ConvexPolygon {
     return second;
   }
 
-  // The parts on both sides of the plane where the coordinate along `axis` is `at`; both hold what lies in the plane.
+  // Parts on both sides of the plane where the coordinate along `axis` is `at`; both contain corners in the plane.
   void split(int axis, double at, ConvexPolygon& below, ConvexPolygon& above) const {
     below.clear();
     above.clear();

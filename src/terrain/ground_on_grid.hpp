@@ -1,4 +1,4 @@
-// The ground at the nodes of the active blocks: computed when a block is first seen, kept while the slide is about.
+// Ground at the nodes of active blocks, computed once per block and cached near the sliding mass.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace thawslide::terrain {
 
-// Of a block by its key.
+// First node of a block, by its key.
 template <int Dim>
 typename mpm::Tile<Dim>::Index first_node_of(std::uint64_t block) {
   auto first = mpm::Tile<Dim>::index(block);
@@ -22,7 +22,7 @@ typename mpm::Tile<Dim>::Index first_node_of(std::uint64_t block) {
   return first;
 }
 
-// Whether the ground below a block, and a cell about it, is known everywhere.
+// True if the ground is known everywhere below a block and within one cell around it.
 template <int Dim>
 bool is_ground_known(const Surface<Dim>& surface, std::uint64_t block, double cell) {
   const auto first = first_node_of<Dim>(block);
@@ -34,10 +34,10 @@ bool is_ground_known(const Surface<Dim>& surface, std::uint64_t block, double ce
   return surface.is_known(from, to);
 }
 
-// What the nodes of a block learn of the ground. `substrates`: null where it is all of one kind.
+// Ground at the nodes of a block. substrates: null if there is only one.
 template <int Dim>
-void ask_ground(const Surface<Dim>& surface, const Substrates* substrates, std::uint64_t block, double cell,
-                GroundAtNode<Dim, double>* nodes) {
+void query_ground(const Surface<Dim>& surface, const Substrates* substrates, std::uint64_t block, double cell,
+                  GroundAtNode<Dim, double>* nodes) {
   using T = mpm::Tile<Dim>;
   const typename T::Index first = first_node_of<Dim>(block);
   surface.at_block(first, cell, T::edge, nodes);
@@ -55,8 +55,8 @@ class GroundOnGrid {
  public:
   using Block = std::array<GroundAtNode<Dim, Real>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)>;
 
-  // Brings blocks and tiles up to date; to be called after the grid's blocks changed. What blocks know is kept for a
-  // while after the slide has left them. `substrates`: null where the ground is all of one kind.
+  // Updates blocks and tiles; call after the grid's blocks have changed. Blocks that the sliding mass has left are kept
+  // for a while. substrates: null if there is only one.
   void update(const Surface<Dim>& surface, const mpm::SparseGrid<Dim, Real>& grid,
               const Substrates* substrates = nullptr) {
     forget_left_blocks(grid);
@@ -85,37 +85,37 @@ class GroundOnGrid {
     });
   }
 
-  // Whether particles of tile t see a candidate node, with any shape functions.
+  // True if particles of tile t reach a candidate node with any shape function.
   [[nodiscard]] bool any_near(std::size_t t) const { return near_of(t).any; }
-  // The same for one with the lowest node that it sees at a place of the tile's patch, and for those of a batch.
+  // The same for one particle, by the place of its lowest node in the tile's patch, and for a batch.
   [[nodiscard]] bool any_near(std::size_t t, std::size_t lowest) const { return near_of(t).from[lowest] != 0; }
   [[nodiscard]] bool any_near(std::size_t t, const mpm::BatchNodes<Real>& nodes) const {
     const auto is_near = [&](std::int32_t lowest) { return any_near(t, static_cast<std::size_t>(lowest)); };
     return nodes.runs == 1 ? is_near(nodes.first[0]) : std::any_of(nodes.first.begin(), nodes.first.end(), is_near);
   }
 
-  // What the nodes of active block b know.
+  // Ground at the nodes of active block b.
   [[nodiscard]] const Block& block(std::size_t b) const { return blocks_[static_cast<std::size_t>(number_[b])]; }
   [[nodiscard]] bool any_candidate(std::size_t b) const {
     return any_candidate_[static_cast<std::size_t>(number_[b])] != 0;
   }
-  // Whether the ground below active block b, and a cell about it, is not known everywhere.
+  // True if the ground below active block b, or within one cell around it, has no-data parts.
   [[nodiscard]] bool partly_unknown(std::size_t b) const {
     return partly_unknown_[static_cast<std::size_t>(number_[b])] != 0;
   }
-  // Blocks held, those the slide has left included.
+  // Number of cached blocks, including those that the sliding mass has left.
   [[nodiscard]] std::size_t held() const { return blocks_.size(); }
 
  private:
   using Patch = std::array<std::uint8_t, static_cast<std::size_t>(T::patch_nodes)>;
-  // Candidate nodes in the reach of a tile's particles. They depend on the ground alone and are found once per tile.
+  // Candidate nodes in reach of a tile's particles. They depend on the ground only and are computed once per tile.
   struct Nearness {
     bool is_known = false, any = false;
-    Patch from{};  // by place in the tile's patch: whether a candidate is among the 3^Dim nodes from there on
+    Patch from{};  // by place in the tile's patch: 1 if one of the 3^Dim nodes from there on is a candidate
   };
   [[nodiscard]] const Nearness& near_of(std::size_t t) const { return near_[static_cast<std::size_t>(tile_[t])]; }
 
-  // Starts anew with the active blocks when most of those held are no longer active.
+  // Removes inactive blocks from the cache when most of its blocks are inactive.
   void forget_left_blocks(const mpm::SparseGrid<Dim, Real>& grid) {
     constexpr std::size_t held_per_active = 3;
     if (blocks_.size() <= held_per_active * grid.blocks().size()) {
@@ -146,7 +146,7 @@ class GroundOnGrid {
 
   void learn(const Surface<Dim>& surface, const Substrates* substrates, double cell, std::size_t k) {
     std::array<GroundAtNode<Dim, double>, static_cast<std::size_t>(T::nodes)> nodes;
-    ask_ground<Dim>(surface, substrates, keys_[k], cell, nodes.data());
+    query_ground<Dim>(surface, substrates, keys_[k], cell, nodes.data());
     any_candidate_[k] = 0;
     partly_unknown_[k] = is_ground_known<Dim>(surface, keys_[k], cell) ? 0 : 1;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -179,7 +179,7 @@ class GroundOnGrid {
         });
       }
     });
-    for (int node = 0; node < T::nodes; ++node) {  // the nearest one
+    for (int node = 0; node < T::nodes; ++node) {  // nearest node
       const typename T::Index nearest = T::node({}, node);
       std::uint8_t& near = found.from[static_cast<std::size_t>(T::in_patch(below(nearest)))];
       for (int k = 0; k < T::stencil; ++k) {
@@ -199,13 +199,13 @@ class GroundOnGrid {
     return node;
   }
 
-  KeyIndex index_;  // block key -> place in keys_, blocks_, near_ and the marks
+  KeyIndex index_;  // block key -> index in keys_, blocks_, near_ and the marks
   std::vector<std::uint64_t> keys_;
   std::vector<Block> blocks_;
   std::vector<std::uint8_t> any_candidate_, partly_unknown_;
-  std::vector<std::int32_t> number_;  // active block -> place in blocks_
-  std::vector<Nearness> near_;        // by place in keys_, of tiles
-  std::vector<std::int32_t> tile_;    // active tile -> place in near_
+  std::vector<std::int32_t> number_;  // active block -> index in blocks_
+  std::vector<Nearness> near_;        // by index in keys_, for tiles
+  std::vector<std::int32_t> tile_;    // active tile -> index in near_
 };
 
 }  // namespace thawslide::terrain

@@ -13,8 +13,8 @@ namespace thawslide::terrain {
 
 namespace {
 
-constexpr int block = 16;  // points each way of those that are summarised together
-// In parts of a cell: places this little beyond a point are at it.
+constexpr int block = 16;  // points along each axis of a block with a common summary
+// In cells: tolerance for positions at a point.
 constexpr double round_off = 1e-9;
 
 int blocks_of(int points) { return (points + block - 1) / block; }
@@ -150,7 +150,7 @@ std::size_t HeightField::Cell::triangle_at(const Place& place) const {
 
 HeightField::Place HeightField::Cell::gradient(std::size_t k) const {
   const Vector<double, 3>&a = point[k], &b = point[(k + 1) % 4];
-  const int along = k % 2 == 0 ? 0 : 1;  // the axis of the outer edge
+  const int along = k % 2 == 0 ? 0 : 1;  // axis of the outer edge
   const int across = 1 - along;
   Place gradient;
   gradient[along] = (b[2] - a[2]) / (b[along] - a[along]);
@@ -177,7 +177,7 @@ double HeightField::height(const Place& place) const {
 }
 
 double HeightField::highest(const Place& from, const Place& to) const {
-  // Beyond the outermost points the ground is as high as at the edge.
+  // Beyond the outermost points, the ground is as high as at the edge.
   const Place least(points_.x, points_.y), greatest(points_.x_end(), points_.y_end());
   const Place low = from.cwiseMax(least).cwiseMin(greatest), high = to.cwiseMax(least).cwiseMin(greatest);
   const Span columns = cell_columns(low[0], high[0]), rows = cell_rows(low[1], high[1]);
@@ -214,7 +214,7 @@ bool HeightField::is_known(const Place& from, const Place& to) const {
   if ((from.array() < (least - margin).array()).any() || (to.array() > (greatest + margin).array()).any()) {
     return false;
   }
-  // Cells that the rectangle only touches do not count.
+  // Cells that only touch the rectangle do not count.
   const Place low = (from + margin).cwiseMin(greatest - margin);
   return summary(low, (to - margin).cwiseMax(low)).known;
 }
@@ -285,7 +285,7 @@ std::optional<Vector<double, 3>> HeightField::nearest(const Vector<double, 3>& p
       }
     }
   };
-  // First where the foot on the plane of the triangle below is: then nearly all other cells are seen to be too far.
+  // Starts at the foot on the plane of the triangle below, because nearly all other cells are then known to be too far.
   const Place slope = gradient(place, 0.0);
   const Place foot = place + slope * ((position[2] - height(place)) / (1.0 + slope.squaredNorm()));
   look(cell_columns(foot[0], foot[0]).first, cell_rows(foot[1], foot[1]).first);
@@ -301,7 +301,7 @@ std::optional<Vector<double, 3>> HeightField::nearest(const Vector<double, 3>& p
 }
 
 double HeightField::squared_distance_of_cell(const Vector<double, 3>& position, int column, int row) const {
-  const auto gap = [](double offset, int cell, int points) {  // from a cell along an axis, in cells
+  const auto gap = [](double offset, int cell, int points) {  // distance from a cell along an axis, in cells
     return std::max({0.0, cell < 0 ? 0.0 : cell - offset, cell + 1 < points ? offset - (cell + 1) : 0.0});
   };
   const double x = points_.cell_x * gap((position[0] - points_.x) / points_.cell_x, column, points_.columns);

@@ -1,7 +1,7 @@
-// The ground as heights on a regular grid of points (a terrain model), triangulated: each cell of four points is four
-// triangles about its centre, whose height is the mean of the four, so that mirror images and quarter turns of the
-// points give mirrored and turned ground. Beyond the outermost points the ground goes on with the height of the edge.
-// Points without data take the height of the nearest point that has one, and the ground is not known there.
+// Ground as heights on a regular grid of points (a DEM), triangulated. Each cell of four points is split into four
+// triangles around its centre, whose height is the mean of the four; the surface is therefore invariant under mirroring
+// and quarter turns of the points. Beyond the outermost points, the ground continues at the height of the edge. Points
+// without data have the height of the nearest point with data, and count as unknown ground.
 #pragma once
 
 #include <array>
@@ -16,34 +16,34 @@ namespace thawslide::terrain {
 
 class HeightField final : public Surface<3> {
  public:
-  // Distances are exact up to this many cells of the grid.
+  // Distances are exact up to this number of grid cells.
   static constexpr double reach_in_cells = 4.0;
 
-  // Elevations [m] at points relative to the domain's lower corner; NaN: no data. At least two points each way, and one
-  // of them with data.
+  // Elevations [m] at points relative to the domain's lower corner; NaN: no data. At least two points along each axis,
+  // and one with data.
   explicit HeightField(Raster points);
 
   [[nodiscard]] double height(const Place& place) const override;
-  // Over a width of zero, that of the triangle that holds the place; on an edge, of one of the two.
+  // With zero width: gradient of the triangle that contains the place; on an edge, of one of the two.
   [[nodiscard]] Place gradient(const Place& place, double width) const override;
   [[nodiscard]] double highest(const Place& from, const Place& to) const override;
 
-  // Area and space are exact to round-off. The normal is along the integral of S n dA where a node has area, otherwise
-  // along the line to the nearest point of the surface. Where the surface is more than `reach_in_cells` away, the
-  // distance is that reach, with its sign, and the normal that of the ground straight below (or above).
+  // Area and space are exact to round-off. The normal is along the integral of S n dA if the node has area, otherwise
+  // towards the nearest point of the surface. If the surface is further than `reach_in_cells`, the distance is that
+  // limit, with its sign, and the normal is that of the ground vertically below or above.
   void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<3, double>* nodes) const override;
-  // The same for nodes of which the first is anywhere, at `lowest`.
+  // The same for nodes at any position. lowest: position of the first node.
   void at_nodes_from(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const;
 
-  // Within the outermost points, and all points of the cells there have data.
+  // True within the outermost points if all points of the cells there have data.
   [[nodiscard]] bool is_known(const Place& place) const override;
   [[nodiscard]] bool is_known(const Place& from, const Place& to) const override;
 
-  // The point of the surface nearest to a position, if there is one nearer than `reach` [m].
+  // Point of the surface nearest to a position, if nearer than `reach` [m].
   [[nodiscard]] std::optional<Vector<double, 3>> nearest(const Vector<double, 3>& position, double reach) const;
 
  private:
-  // What the points of a rectangle tell.
+  // Summary of the points of a rectangle.
   struct Summary {
     double lowest = HUGE_VAL, highest = -HUGE_VAL;
     bool known = true;  // all have data
@@ -54,7 +54,7 @@ class HeightField final : public Surface<3> {
   struct Span {
     int first, last;
   };
-  // A cell of the terrain model: its points from the south-west counter-clockwise, and its centre.
+  // Cell of the DEM: its points from the south-west counter-clockwise, and its centre.
   struct Cell {
     std::array<Vector<double, 3>, 4> point;
     Vector<double, 3> centre;
@@ -67,11 +67,11 @@ class HeightField final : public Surface<3> {
     [[nodiscard]] Place gradient(std::size_t triangle) const;
   };
 
-  // Columns -1 and columns - 1, and rows likewise, are the cells beyond the outermost points.
+  // Columns -1 and columns - 1, and the corresponding rows, are the cells beyond the outermost points.
   [[nodiscard]] Span cell_columns(double from, double to) const;
   [[nodiscard]] Span cell_rows(double from, double to) const;
-  [[nodiscard]] double height_at(int column, int row) const;  // that of the nearest point where there is none
-  // Cells beyond the outermost points reach as far as the rectangle.
+  [[nodiscard]] double height_at(int column, int row) const;  // of the nearest point for places outside the DEM
+  // Cells beyond the outermost points extend to the sides of the rectangle.
   [[nodiscard]] Cell cell(int column, int row, const Place& from, const Place& to) const;
   [[nodiscard]] Cell cell_at(const Place& place) const;
   template <class Visit>
@@ -79,15 +79,15 @@ class HeightField final : public Surface<3> {
 
   [[nodiscard]] Summary summary_of_points(Span columns, Span rows) const;
   [[nodiscard]] Summary summary_one_by_one(Span columns, Span rows) const;
-  // Of the points of all cells that overlap a rectangle.
+  // Summary of the points of all cells that overlap a rectangle.
   [[nodiscard]] Summary summary(const Place& from, const Place& to) const;
   void summarise_blocks();
 
-  // Of the box that holds a cell of the terrain model: no point of its ground is nearer to the position [m2].
+  // Squared distance [m2] to the bounding box of a cell of the DEM: a lower bound of that to its ground.
   [[nodiscard]] double squared_distance_of_cell(const Vector<double, 3>& position, int column, int row) const;
   void set_distances(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const;
 
-  Raster points_;                       // without holes
+  Raster points_;                       // without no-data points
   std::vector<bool> no_data_;           // by point; empty if all have data
   std::vector<Summary> block_summary_;  // by blocks of points
 };

@@ -9,12 +9,12 @@ namespace thawslide::terrain {
 
 namespace {
 
-constexpr int reach = 4;  // columns on each side that count
+constexpr int reach = 4;  // columns on each side in the average
 constexpr double round_off = 1e-9;
 
 template <class Number>
 std::uint64_t key_of(const Number& number) {
-  constexpr long origin = 1L << 31;  // so that columns before the domain have a key too
+  constexpr long origin = 1L << 31;  // offset that gives columns outside the domain a key too
   std::uint64_t key = 0;
   for (std::size_t a = 0; a < number.size(); ++a) {
     key |= static_cast<std::uint64_t>(number[a] + origin) << (32 * a);
@@ -90,12 +90,12 @@ double LayerThickness<Dim>::at_middle(const Number& number) {
     double filled = 0.0, ground = 0.0;
     for_offsets<Dim - 1>(-reach, reach, [&](const Number& offset) {
       double weight = 1.0;
-      Number beside = number;
+      Number adjacent = number;
       for (std::size_t a = 0; a + 1 < Dim; ++a) {
         weight *= static_cast<double>(reach + 1 - std::abs(offset[a]));
-        beside[a] += offset[a];
+        adjacent[a] += offset[a];
       }
-      const Column there = column(beside);
+      const Column there = column(adjacent);
       filled += weight * there.filled;
       ground += weight * there.ground;
     });

@@ -1,4 +1,4 @@
-// The grid axis that the ground's normal is nearest to.
+// Grid axis closest to the ground's normal.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace thawslide::terrain {
 
-// Where the ground is as steep as level, the vertical: round-off does not decide.
+// At 45 degrees, the vertical axis is chosen with a tolerance, to be independent of round-off.
 template <int Dim, class Real>
 THAWSLIDE_HD int main_axis(const Vector<Real, Dim>& normal) {
   int axis = Dim - 1;

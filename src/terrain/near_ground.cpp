@@ -11,31 +11,31 @@ namespace thawslide::terrain {
 
 namespace {
 
-// The contact offset of boxes of half size `half` [m], how far they stretch towards the ground if that lies along a
-// grid axis; seen: what they read of the patch.
+// Contact offset of boxes of half size `half` [m]: their extent towards the ground, if that lies along a grid axis.
+// seen: planes interpolated from the patch.
 template <int Dim, class Real>
-Lanes<Real> contact_offset_of_box(const mpm::Reading<Dim, Lanes<Real>, 1 + Dim>& seen, Lanes<Real> half) {
-  Lanes<Real> largest = Real(0);
+Simd<Real> contact_offset_of_box(const mpm::Reading<Dim, Simd<Real>, 1 + Dim>& seen, Simd<Real> half) {
+  Simd<Real> largest = Real(0);
   for (std::size_t a = 0; a < Dim; ++a) {
     largest = max(largest, abs(seen.value[mpm::Planes::normal + a]));
   }
   return half * largest;
 }
 
-// The smallest distance of particles from the planes of the nodes that they see [m].
+// Smallest distance of particles from the planes of the nodes in reach [m].
 template <int Dim, class Real>
-Lanes<Real> smallest_gap(const mpm::BatchStencil<Dim, Real>& stencil, const mpm::Particles<Dim, Real>& particles,
-                         const mpm::TileBatch<Dim, Real>& batch, const mpm::PatchOf<mpm::Planes, Dim, Real>& planes) {
-  Lanes<Real> place[Dim];
+Simd<Real> smallest_gap(const mpm::BatchStencil<Dim, Real>& stencil, const mpm::Particles<Dim, Real>& particles,
+                        const mpm::TileBatch<Dim, Real>& batch, const mpm::PatchOf<mpm::Planes, Dim, Real>& planes) {
+  Simd<Real> place[Dim];
   for (int a = 0; a < Dim; ++a) {
     place[a] = particles.position.load(batch, a);
   }
-  Lanes<Real> smallest = std::numeric_limits<Real>::max();
+  Simd<Real> smallest = std::numeric_limits<Real>::max();
   mpm::with_fetch(stencil.nodes, planes, [&](const auto& fetch) {
     mpm::for_each_node<Dim>(
-        stencil.axis, 0, [&](std::size_t offset, Lanes<Real> weight, const Vector<Lanes<Real>, Dim>& /*slope*/) {
-          const Lanes<Real> gap = mpm::gap_to_plane<Dim>(
-              place, Lanes<Real>(Real(0)), [&](std::size_t component) { return fetch(offset, component); });
+        stencil.axis, 0, [&](std::size_t offset, Simd<Real> weight, const Vector<Simd<Real>, Dim>& /*slope*/) {
+          const Simd<Real> gap = mpm::gap_to_plane<Dim>(
+              place, Simd<Real>(Real(0)), [&](std::size_t component) { return fetch(offset, component); });
           smallest = select(weight > round_off<Real>, min(smallest, gap), smallest);
         });
   });
@@ -48,7 +48,8 @@ template <int Dim, class Real>
 void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                         const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,
                         std::size_t first) {
-  constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off<Real>);  // times a particle's contact offset
+  // in units of a particle's contact offset
+  constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off<Real>);
   mpm::PatchOf<mpm::Planes, Dim, Real> patch;
   mpm::with_shape<Real>(model.shape, [&](auto shape) {
     const mpm::MomentumWeights<decltype(shape), Dim, Real> weights{model.sizes, model.sides};
@@ -58,9 +59,9 @@ void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
         const mpm::BatchWeights<mpm::MomentumWeights<decltype(shape), Dim, Real>, Dim, Real> of_batch(weights, grid,
                                                                                                       particles, batch);
         const auto seen = mpm::read_nodes<1 + Dim>(of_batch.linear, patch);
-        const Lanes<Real> of_box = contact_offset_of_box(seen, model.sizes.of(particles, batch).half * grid.cell());
-        const Lanes<Real> gap = smallest_gap(of_batch.momentum, particles, batch, patch);
-        const Lanes<Real> found = select(gap < within_lowest_layer * of_box, gap, of_box);
+        const Simd<Real> of_box = contact_offset_of_box(seen, model.sizes.of(particles, batch).half * grid.cell());
+        const Simd<Real> gap = smallest_gap(of_batch.momentum, particles, batch, patch);
+        const Simd<Real> found = select(gap < within_lowest_layer * of_box, gap, of_box);
         for (std::size_t lane = 0; lane < batch.count; ++lane) {
           if (batch.particle[lane] >= first) {
             particles.contact_offset(batch.particle[lane]) = found[lane];
@@ -73,7 +74,7 @@ void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
 
 namespace {
 
-// Adds particles to the candidate nodes by a kernel, and sums the named parts of their records over tiles.
+// Scatters particles to the candidate nodes with a kernel, and sums the named parts of their records over tiles.
 template <class... Parts, int Dim, class Real, class Kernel>
 void to_candidates(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                    const mpm::MotionModel<Dim, Real>& model, const Kernel& kernel, mpm::Particles<Dim, Real>& particles,

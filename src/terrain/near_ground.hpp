@@ -1,6 +1,6 @@
-// What the particles near the ground tell the nodes that may touch it: the averages that the basal law takes, and how
-// far the slide still is from the ground by its particles' own edges. GIMP lets nodes feel the slide up to a cell
-// before it arrives, and without a check of that distance contact acts from then on.
+// Transfer from particles near the ground to candidate nodes: averages for the basal law, and the clearance between
+// particle edges and the ground. GIMP shape functions reach nodes up to a cell ahead of the sliding mass; without a
+// check of the clearance, contact acts from then on.
 #pragma once
 
 #include "mpm/motion.hpp"
@@ -8,24 +8,24 @@
 
 namespace thawslide::terrain {
 
-// Sets particles.contact_offset [m]: the distance from the planes of nodes at which a particle touches the ground. A
-// body that stands on the ground at the start touches with its lowest particles as they stand, which on a slope across
-// the grid are not all equally far from it; the others touch with the edge of their box, as the ground lies below them
-// at the start. Only of the particles that stand in memory from `first` on.
+// Sets particles.contact_offset [m], the distance from nodal planes at which a particle touches the ground, for
+// particles at memory index `first` and above. The lowest particles of a body that rests on the ground at the start
+// touch at their initial distance, which varies on a slope across the grid. Other particles touch with the edge of
+// their box, in the initial direction of the ground below them.
 template <int Dim, class Real>
 void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                         const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,
                         std::size_t first = 0);
 
-// Fills nodes.near_ground of candidate nodes (others of their blocks hold nothing meaningful): the sums, and the
-// clearance [m], the smallest gap between the node's plane and the particles that it sees (mpm/records.hpp), 0 or less
-// where they touch. Measured to any ground, particles on a floor would close the gap of nodes that face a wall.
+// Fills nodes.near_ground of candidate nodes (other nodes of their blocks are undefined): the sums, and the clearance
+// [m], the smallest gap between the node's plane and the particles in reach (mpm/records.hpp); 0 or less at contact. A
+// distance to any ground would let particles on a floor close the gap of nodes that face a wall.
 template <int Dim, class Real>
 void near_ground_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                          const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,
                          mpm::Nodes<Dim, Real>& nodes);
 
-// Fills the clearance alone; the sums in nodes.near_ground are then undefined.
+// Fills only the clearance; the sums in nodes.near_ground are then undefined.
 template <int Dim, class Real>
 void clearance_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
                        const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,

@@ -1,4 +1,4 @@
-// What a particle does in near_ground_to_grid and clearance_to_grid: kernels (mpm/kernel.hpp).
+// Particle kernels (mpm/kernel.hpp) of near_ground_to_grid and clearance_to_grid.
 #pragma once
 
 #include "base/select.hpp"
@@ -8,7 +8,7 @@
 
 namespace thawslide::terrain {
 
-// n_e of Eq. 2 as the basal law sees it: of the current or, without lubrication, initial state.
+// n_e of Eq. 2 for the basal law, from the current or, without lubrication, initial state.
 template <class Real, class Particles, class At>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value basal_solid_fraction(const physics::Phases<Real>& phases,
                                                                              bool lubrication,
@@ -18,16 +18,16 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value basal_solid_fraction(con
   return physics::effective_solid_fraction(phases, porosity.load(at), saturation.load(at));
 }
 
-// Lowers the clearance of the nodes near the ground.
+// Reduces the clearance of nodes near the ground to the minimum.
 template <int Dim, class Real>
 struct LowerClearance {
   using Reads = mpm::RecordList<mpm::Planes>;
   using Adds = mpm::RecordList<mpm::Clearance>;
   using Account = mpm::NoAccount;
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& /*account*/) const {
+                                                       Scatter& added, Account& /*account*/) const {
     auto& gaps = added.template of<mpm::Clearance>();
     unrolled<static_cast<std::size_t>(Dim)>(
         [&](auto a) THAWSLIDE_INLINE_LAMBDA { gaps.place[a] = particles.position.load(at, static_cast<int>(a())); });
@@ -36,8 +36,8 @@ struct LowerClearance {
   }
 };
 
-// State and slip to the nodes near the ground, by mass with the momentum shape functions and by volume with the linear
-// ones; lowers their clearance.
+// Scatters state and slip to the nodes near the ground, by mass with the momentum shape functions and by volume with
+// the linear ones; reduces the clearance.
 template <int Dim, class Real>
 struct AddNearGround {
   using Reads = mpm::RecordList<mpm::Planes>;
@@ -45,11 +45,11 @@ struct AddNearGround {
   using Account = mpm::NoAccount;
 
   physics::Phases<Real> phases;
-  bool lubrication;  // off: the solid fraction is that of the initial porosity and saturation
+  bool lubrication;  // off: the solid fraction uses the initial porosity and saturation
 
-  template <class Particles, class At, class Seen, class Added>
+  template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
-                                                       Added& added, Account& account) const {
+                                                       Scatter& added, Account& account) const {
     using mpm::NearGround, mpm::NearGroundByLinear;
     using Value = typename At::Value;
     const Value mass = particles.mass.load(at), volume = particles.volume.load(at);

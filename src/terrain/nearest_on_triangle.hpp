@@ -1,4 +1,4 @@
-// The point of a triangle nearest to a position.
+// Point of a triangle nearest to a position.
 #pragma once
 
 #include <algorithm>
@@ -9,15 +9,15 @@
 
 namespace thawslide::terrain {
 
-// The nearest point of the segment from a to b [m].
+// Nearest point of the segment from a to b [m].
 inline Vector<double, 3> nearest_on_segment(const Vector<double, 3>& position, const Vector<double, 3>& a,
                                             const Vector<double, 3>& b) {
   const Vector<double, 3> along = b - a;
   return a + std::clamp((position - a).dot(along) / along.squaredNorm(), 0.0, 1.0) * along;
 }
 
-// If the foot of the perpendicular is outside the triangle, the nearest point lies on an edge that the foot is
-// outside of.
+// If the foot of the perpendicular is outside the triangle, the nearest point lies on an edge that separates the foot
+// from the triangle.
 inline Vector<double, 3> nearest_on_triangle(const Vector<double, 3>& position,
                                              const std::array<Vector<double, 3>, 3>& triangle) {
   const Vector<double, 3>& a = triangle[0];

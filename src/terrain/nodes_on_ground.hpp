@@ -1,5 +1,5 @@
-// What passes over particles (mpm/particle_pass.hpp) know of the ground: its record, fetched like those of nodes, and
-// which particles see candidate nodes.
+// Ground data for particle passes (mpm/particle_pass.hpp): its record, loaded like nodal records, and the filter for
+// particles that reach candidate nodes.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace thawslide::terrain {
 
-// The planes of nodes, made of what the ground is at nodes.
+// Planes of nodes, from the ground at nodes.
 template <int Dim, class Real>
 struct PlanesOfGround {
   using Record = std::array<Real, mpm::record_size(mpm::components_of<mpm::Planes, Dim>)>;
@@ -39,7 +39,7 @@ void load_patch(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, const Pla
   });
 }
 
-// The records of a pass that reads of the ground.
+// Records of a pass that reads ground data.
 template <int Dim, class Real>
 struct NodesOnGround {
   mpm::Nodes<Dim, Real>& nodes;
@@ -55,13 +55,13 @@ struct NodesOnGround {
   }
 };
 
-// The tiles, and of these the batches and particles, that see candidate nodes with any shape functions.
+// Filter for tiles, batches and particles that reach candidate nodes with any shape function.
 template <int Dim, class Real>
 struct SeesCandidates {
   const GroundOnGrid<Dim, Real>& ground;
 
   [[nodiscard]] bool operator()(std::size_t tile) const { return ground.any_near(tile); }
-  // By the nodes of a batch, or the place of the lowest node of a particle.
+  // nodes: of a batch, or the place of the lowest node of a particle.
   template <class Nodes>
   [[nodiscard]] bool operator()(std::size_t tile, const Nodes& nodes) const {
     return ground.any_near(tile, nodes);

@@ -48,7 +48,7 @@ Polyline::Nearest Polyline::nearest(double x, double z) const {
     const Vector<double, 2> a(x_[k], height_[k]);
     const Vector<double, 2> along = Vector<double, 2>(x_[k + 1], height_[k + 1]) - a;
     double t = (point - a).dot(along) / along.squaredNorm();
-    // The end segments go on for ever, each beyond its own end of the line.
+    // The end segments extend to infinity, each beyond its own end of the line.
     t = std::max(k == 0 ? -HUGE_VAL : 0.0, std::min(k + 2 == x_.size() ? HUGE_VAL : 1.0, t));
     const Vector<double, 2> candidate = a + t * along;
     const double distance = (point - candidate).norm();
@@ -58,7 +58,7 @@ Polyline::Nearest Polyline::nearest(double x, double z) const {
       at = k;
     }
   };
-  // Outwards from the segment below, until the horizontal gap alone is farther than the best.
+  // Searches outwards from the segment below, until the horizontal distance alone exceeds the smallest distance found.
   const std::size_t start = segment(x);
   look(start);
   for (std::size_t k = start; k > 0 && x - x_[k] < best; --k) {
@@ -78,7 +78,7 @@ Polyline::Nearest Polyline::nearest(double x, double z) const {
 
 namespace {
 
-// The linear shape function about 0 on cells of width 1, and its integral from q upwards.
+// Linear shape function around 0 on cells of width 1, and its integral from q upwards.
 double linear_shape(double q) { return std::max(0.0, 1.0 - std::abs(q)); }
 
 double linear_shape_above(double q) {
@@ -91,7 +91,8 @@ double linear_shape_above(double q) {
 }  // namespace
 
 Polyline::LinearShare Polyline::linear_share(double x, double z, double cell) const {
-  // Between these abscissae the integrands are polynomials of at most third degree: three points of Gauss are exact.
+  // Between these abscissae, the integrands are polynomials of at most third degree, for which three Gauss points are
+  // exact.
   std::vector<double> breaks{x - cell, x, x + cell};
   for (std::size_t k = segment(x - cell); k + 1 < x_.size() && (k == 0 || x_[k] < x + cell); ++k) {
     breaks.push_back(x_[k]);

@@ -1,4 +1,4 @@
-// A polyline over x: flat ground, a plane or a profile. Coordinates are relative to the domain's lower corner [m].
+// Polyline over x: flat ground, a plane or a profile. Coordinates are relative to the domain's lower corner [m].
 #pragma once
 
 #include <vector>
@@ -7,14 +7,14 @@
 
 namespace thawslide::terrain {
 
-// Beyond its ends the polyline goes on with the gradient of its last segments.
+// Beyond its ends, the polyline continues with the gradient of its end segments.
 class Polyline {
  public:
   // x strictly ascending [m], at least two points.
   Polyline(std::vector<double> x, std::vector<double> height);
 
   [[nodiscard]] double height(double x) const;
-  // dh/dx of the segment that holds x.
+  // dh/dx of the segment that contains x.
   [[nodiscard]] double gradient(double x) const;
   // Highest point over [from, to].
   [[nodiscard]] double highest(double from, double to) const;
@@ -25,8 +25,8 @@ class Polyline {
   };
   [[nodiscard]] Nearest nearest(double x, double height) const;
 
-  // What the ground takes of a node's linear shape function S of half-width `cell`, centred at (x, height): exact for a
-  // polyline.
+  // Integrals over the ground of a node's linear shape function S of half-width `cell`, centred at (x, height). Exact
+  // for a polyline.
   struct LinearShare {
     double length = 0;                                        // B = integral of S along the ground [m]
     double above = 0;                                         // integral of S over the space above it [m2]

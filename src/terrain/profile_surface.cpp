@@ -15,7 +15,7 @@ typename ProfileSurface<Dim>::Place ProfileSurface<Dim>::gradient(const Place& p
 }
 
 template <int Dim>
-void ProfileSurface<Dim>::learn_from_points(double x, double z, double cell, GroundAtNode<Dim, double>& node) const {
+void ProfileSurface<Dim>::fit_to_points(double x, double z, double cell, GroundAtNode<Dim, double>& node) const {
   const RigidPoints::AtNode rock = RigidPoints(line_, spacing_, layers_).at_node(x, z, cell);
   const double across = Dim == 2 ? width_.at(x) : cell;
   const double slide = std::max(0.0, cell * cell - rock.volume);
@@ -36,11 +36,11 @@ GroundAtNode<Dim, double> ProfileSurface<Dim>::at_node(const Vector<double, Dim>
   node.normal.setZero();
   node.distance = nearest.distance;
   if (spacing_ > 0.0) {
-    learn_from_points(x, z, cell, node);
+    fit_to_points(x, z, cell, node);
     return node;
   }
   const Polyline::LinearShare share = line_.linear_share(x, z, cell);
-  const double across = Dim == 2 ? width_.at(x) : cell;  // the shape function's integral along y
+  const double across = Dim == 2 ? width_.at(x) : cell;  // integral of the shape function along y
   node.candidate = line_.highest(x - cell, x + cell) > z - cell + round_off * cell;
   const Vector<double, 2> place(x, z);
   Vector<double, 2> normal = nearest.normal;

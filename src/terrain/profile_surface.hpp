@@ -1,5 +1,5 @@
-// The ground as a polyline over x; in 3D it is extruded along y. Nodes learn of it from the line itself, or from rigid
-// points along it, as the paper has it.
+// Ground as a polyline over x, extruded along y in 3D. Ground data at nodes follow from the line itself or, as
+// published, from rigid points along it.
 #pragma once
 
 #include "mpm/section_width.hpp"
@@ -17,12 +17,12 @@ class ProfileSurface final : public Surface<Dim> {
   // width: of a 2D section.
   explicit ProfileSurface(Polyline line, mpm::SectionWidth<double> width = {})
       : line_(std::move(line)), width_(std::move(width)) {}
-  // Nodes learn of the ground from rigid points in `layers` layers, `spacing` [m] apart.
+  // Ground data from rigid points in `layers` layers, `spacing` [m] apart.
   ProfileSurface(Polyline line, double spacing, int layers, mpm::SectionWidth<double> width = {})
       : line_(std::move(line)), width_(std::move(width)), spacing_(spacing), layers_(layers) {}
 
   [[nodiscard]] double height(const Place& place) const override { return line_.height(place[0]); }
-  // Of the segment at the place, whatever the width.
+  // Gradient of the segment at the place, independent of the width.
   [[nodiscard]] Place gradient(const Place& place, double width) const override;
   [[nodiscard]] double highest(const Place& from, const Place& to) const override {
     return line_.highest(from[0], to[0]);
@@ -32,7 +32,7 @@ class ProfileSurface final : public Surface<Dim> {
   [[nodiscard]] GroundAtNode<Dim, double> at_node(const Vector<double, Dim>& position, double cell) const;
 
  private:
-  void learn_from_points(double x, double height, double cell, GroundAtNode<Dim, double>& node) const;
+  void fit_to_points(double x, double height, double cell, GroundAtNode<Dim, double>& node) const;
 
   Polyline line_;
   mpm::SectionWidth<double> width_;

@@ -11,7 +11,7 @@ RigidPoints::RigidPoints(const Polyline& line, double spacing, int layers)
 bool RigidPoints::is_rock(long column, long row) const {
   constexpr double round_off = 1e-9;
   const double depth = line_->height((static_cast<double>(column) + 0.5) * spacing_) / spacing_ -
-                       (static_cast<double>(row) + 0.5);  // of the point's centre, in squares
+                       (static_cast<double>(row) + 0.5);  // depth of the point's centre, in squares
   return depth > round_off && depth < static_cast<double>(layers_);
 }
 
@@ -31,7 +31,7 @@ RigidPoints::AtNode RigidPoints::at_node(double x, double z, double cell) const 
       }
       const double point = spacing_ * spacing_;
       node.volume += point * (1.0 - std::abs(across)) * (1.0 - std::abs(up));
-      // Minus grad S at the point, which falls away from the node.
+      // Minus grad S at the point; S decreases away from the node.
       node.normal +=
           point / cell *
           Vector<double, 2>(std::copysign(1.0 - std::abs(up), across), std::copysign(1.0 - std::abs(across), up));

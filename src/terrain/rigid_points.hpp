@@ -1,5 +1,5 @@
-// The ground as rigid material points in layers, as the paper has it: what nodes know of it comes from the points, not
-// from a signed distance. Nairn (2013) gives the contact area; the ground's surface is then known to within a cell.
+// Ground as rigid material points in layers, as published: ground data at nodes follow from the points instead of a
+// signed distance. The contact area is that of Nairn (2013); the surface is then resolved to within a cell.
 #pragma once
 
 #include "terrain/polyline.hpp"
@@ -8,15 +8,15 @@ namespace thawslide::terrain {
 
 class RigidPoints {
  public:
-  // Points stand at the centres of squares of side `spacing` [m] on the lattice of the domain's lower corner, below the
+  // Points are at the centres of squares of side `spacing` [m], on the lattice of the domain's lower corner, below the
   // line and at most `layers` squares deep.
   RigidPoints(const Polyline& line, double spacing, int layers);
 
   struct AtNode {
     double volume;             // V_b = sum v S_i with the linear shape functions [m2]
-    Vector<double, 2> normal;  // along minus sum v grad S_i: from the slide into the ground
+    Vector<double, 2> normal;  // along minus sum v grad S_i: from the sliding mass into the ground
   };
-  // For the node at (x, height) of cells `cell`; volume 0 where no point is near.
+  // Values at the node at (x, height) on a grid of cell size `cell`; volume 0 if no point is near.
   [[nodiscard]] AtNode at_node(double x, double height, double cell) const;
 
  private:
@@ -27,8 +27,8 @@ class RigidPoints {
   int layers_;
 };
 
-// A = sqrt(2 min(V_a, V_b) (V_a + V_b))/h [m2 per metre], the area of contact of the volumes V_a and V_b of two bodies
-// at a node of cells h (Nairn 2013): h exactly on a flat surface along a grid line.
+// A = sqrt(2 min(V_a, V_b) (V_a + V_b))/h [m2 per metre], contact area of two bodies of volumes V_a and V_b at a node
+// of cell size h (Nairn 2013); equal to h on a flat surface along a grid line.
 double nairn_area(double slide_volume, double rock_volume, double cell);
 
 }  // namespace thawslide::terrain

@@ -13,7 +13,7 @@ void Substrates::add_rings(int number, const std::vector<Ring>& rings) {
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
   for (const Ring& ring : rings) {
     for (std::size_t k = 1; k < ring.size(); ++k) {
-      // Ends in one order, so that neighbours who share an edge find the same side of it.
+      // A fixed order of the ends makes the side of an edge identical for both neighbours that share it.
       const auto [low, high] = std::minmax(ring[k - 1], ring[k], [](const auto& one, const auto& other) {
         return std::pair(one[1], one[0]) < std::pair(other[1], other[0]);
       });

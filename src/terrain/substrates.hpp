@@ -1,4 +1,4 @@
-// Where which substrate lies: kinds of ground, by number from 1, over the horizontal plane. Where none lies it is 0.
+// Substrates over the horizontal plane, by number from 1; 0 elsewhere.
 #pragma once
 
 #include <array>
@@ -12,19 +12,19 @@ namespace thawslide::terrain {
 
 class Substrates {
  public:
-  using Ring = std::vector<std::array<double, 2>>;  // closed: the last corner is the first one
+  using Ring = std::vector<std::array<double, 2>>;  // closed: the last corner equals the first one
 
-  // Origin: the domain's lower corner [m]. Areas are told in absolute coordinates, places are relative to it.
+  // origin: the domain's lower corner [m]. Areas are given in absolute coordinates, places relative to the origin.
   explicit Substrates(const std::array<double, 2>& origin) : origin_(origin) {}
 
-  // Everywhere from one x to another, which may be infinite; its beginning belongs to it, its end does not.
+  // Strip from one x to another, each possibly infinite. It includes its beginning but not its end.
   void add_strip(int number, double from, double to);
-  // Within outlines and not in their holes: an odd number of rings is about it.
+  // Area inside outlines and outside their holes: enclosed by an odd number of rings.
   void add_rings(int number, const std::vector<Ring>& rings);
-  // In the cells about those points of a raster that hold a code.
+  // Cells around the points of a raster that have a code.
   void add_code(int number, std::shared_ptr<const Raster> codes, double code);
 
-  // The number at a place; the one added first where there are several. y counts in three dimensions only.
+  // Number at a place; of overlapping areas, the one added first. y is used in 3D only.
   [[nodiscard]] int at(double x, double y) const;
 
  private:
@@ -35,7 +35,7 @@ class Substrates {
   struct Edge {
     std::array<double, 2> low, high;  // by y
   };
-  // Edges by the belts of y that they cross, so that a place asks few of them.
+  // Edges grouped by the belts of y that they cross, to test only a few edges per place.
   struct Rings {
     double first = 0.0, width = 1.0;  // of the belts [m]
     std::vector<std::vector<Edge>> belts;

@@ -1,5 +1,5 @@
-// The surface that bodies slide on, over the horizontal plane: what every kind of ground must tell. Coordinates are
-// relative to the domain's lower corner [m]; the vertical is the last axis.
+// Interface of the terrain surface over the horizontal plane. Coordinates are relative to the domain's lower corner
+// [m]; the vertical is the last axis.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@
 
 namespace thawslide::terrain {
 
-// What a node knows of the ground, computed once.
+// Ground at a node, computed once.
 template <int Dim, class Real>
 struct GroundAtNode {
   bool candidate = false;    // the node's linear shape function overlaps the ground
-  int substrate = 0;         // number of what lies below the node (substrates.hpp)
-  Vector<Real, Dim> normal;  // unit vector from the slide into the ground, along G = integral of S n dA
+  int substrate = 0;         // below the node (substrates.hpp)
+  Vector<Real, Dim> normal;  // unit vector from the sliding mass into the ground, along G = integral of S n dA
   Real area = 0;      // B = integral of the shape function S over the ground's surface [m2]; sums to that surface
   Real bend = 1;      // B/|G|: 1 on a plane, larger where the ground bends within reach of the node
   Real plane = 0;     // c.n with c = integral of x S dA / B: places x with x.n = c.n are the node's plane [m];
-                      // infinite where the node is no candidate
+                      // infinite unless the node is a candidate
   Real space = 0;     // integral of the shape function over the space above the ground [m3]
   Real distance = 0;  // from the ground, positive above it [m]
 };
@@ -36,25 +36,25 @@ class Surface {
 
   // Elevation at a place [m].
   [[nodiscard]] virtual double height(const Place& place) const = 0;
-  // Gradient at a place; where the surface is known in finer detail, its mean over a square of side `width` [m].
+  // Gradient at a place; on a surface of finer detail, its mean over a square of side `width` [m].
   [[nodiscard]] virtual Place gradient(const Place& place, double width) const = 0;
   // Highest elevation over the rectangle between two places [m].
   [[nodiscard]] virtual double highest(const Place& from, const Place& to) const = 0;
 
-  // Fills what the `edge`^Dim nodes of a block know, x fastest: the first is number `first` along each axis of a grid
-  // with cells of side `cell` [m].
+  // Fills the ground data of the `edge`^Dim nodes of a block, x fastest. first: index of its first node along each axis
+  // of a grid with cells of side `cell` [m].
   virtual void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<Dim, double>* nodes) const = 0;
 
-  // Whether the ground is known at a place, and all over the rectangle between two places. Where it is not, the other
-  // functions go on as best they can.
+  // True if the ground is known at a place, or everywhere in the rectangle between two places. On unknown ground, the
+  // other functions extrapolate.
   [[nodiscard]] virtual bool is_known(const Place& /*place*/) const { return true; }
   [[nodiscard]] virtual bool is_known(const Place& /*from*/, const Place& /*to*/) const { return true; }
 
-  // Cosine of the slope against the grid's axes, over `width` [m].
+  // Cosine of the slope, averaged over `width` [m].
   [[nodiscard]] double slope_cosine(const Place& place, double width) const {
     return 1.0 / std::hypot(1.0, gradient(place, width).norm());
   }
-  // Unit normal into the ground below a place, over `width` [m].
+  // Unit normal into the ground below a place, averaged over `width` [m].
   [[nodiscard]] Vector<double, Dim> normal_below(const Place& place, double width) const {
     Vector<double, Dim> normal;
     normal.template head<Dim - 1>() = gradient(place, width);

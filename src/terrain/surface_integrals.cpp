@@ -8,14 +8,13 @@ namespace thawslide::terrain {
 
 namespace {
 
-// In parts of a cell: what lies this little beyond a plane of the grid is not cut off, since the cut would be all
-// round-off.
+// In cells: parts this little beyond a grid plane are not cut off, because the cut would consist of round-off.
 constexpr double sliver = 1e-12;
-// Less area than this, in parts of a cell's face, gives no direction.
+// In areas of a cell's face: a smaller area does not define a direction.
 constexpr double least_area = 1e-12;
 
-// Calls slice(k, part) for the parts of a polygon between k and k + 1 along an axis; k is -1 for all that is below 0
-// and `count` for all that is above `count`.
+// Calls slice(k, part) for the parts of a polygon between k and k + 1 along an axis; k is -1 for everything below 0 and
+// `count` for everything above `count`.
 template <class Slice>
 void for_slices(const ConvexPolygon& polygon, int axis, int count, const Slice& slice) {
   const auto [least, greatest] = polygon.extent(axis);
@@ -37,27 +36,27 @@ void for_slices(const ConvexPolygon& polygon, int axis, int count, const Slice& 
 
 using OfCorners = Eigen::Array<double, 4, 1>;  // of a grid cell's column: x fastest
 
-// Integrals of s(x) s(y) w^p over a piece's plan, p = 0, 1, 2, with w the height above the cell's floor; and of those
-// of p = 0, 1 times the distance from the corner along x and y.
+// Integrals of s(x) s(y) w^p over the horizontal projection of a polygon, p = 0, 1, 2, where w is the height above the
+// cell's floor; and those of p = 0, 1 times the distance from the corner along x and y.
 struct Moments {
   OfCorners plan = OfCorners::Zero(), first = OfCorners::Zero(), second = OfCorners::Zero();
   std::array<OfCorners, 2> plan_along{OfCorners::Zero(), OfCorners::Zero()};
   std::array<OfCorners, 2> first_along{OfCorners::Zero(), OfCorners::Zero()};
 };
 
-// Six points of a triangle, exact to the fourth degree: Dunavant (1985), Int. J. Numer. Meth. Eng. 21, table II. Each
-// has two equal barycentric coordinates.
+// Six-point rule on triangles, exact to the fourth degree: Dunavant (1985), Int. J. Numer. Meth. Eng. 21, table II.
+// Each point has two equal barycentric coordinates.
 struct RulePoint {
   double weight, twice;
 };
 constexpr std::array<RulePoint, 2> rule{RulePoint{0.22338158967801146570, 0.44594849091596488632},
                                         RulePoint{0.10995174365532186764, 0.09157621350977074346}};
 
-Moments moments(const ConvexPolygon& piece, const Vector<double, 3>& floor) {
+Moments moments(const ConvexPolygon& segment, const Vector<double, 3>& floor) {
   Moments sum;
-  const Vector<double, 3> a = piece[0] - floor;
-  for (int k = 1; k + 1 < piece.size(); ++k) {
-    const Vector<double, 3> b = piece[k] - floor, c = piece[k + 1] - floor;
+  const Vector<double, 3> a = segment[0] - floor;
+  for (int k = 1; k + 1 < segment.size(); ++k) {
+    const Vector<double, 3> b = segment[k] - floor, c = segment[k + 1] - floor;
     const double plan = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
     for (const auto& [weight, twice] : rule) {
       const Vector<double, 3> all = twice * (a + b + c);
@@ -104,26 +103,26 @@ void SurfaceIntegrals::add(const std::array<Vector<double, 3>, 3>& triangle) {
     if (column < 0 || column > edge_) {
       return;
     }
-    for_slices(strip, 1, edge_ + 1, [&](int row, const ConvexPolygon& piece) {
+    for_slices(strip, 1, edge_ + 1, [&](int row, const ConvexPolygon& segment) {
       if (row >= 0 && row <= edge_) {
-        add_to_column(column, row, facet, piece);
+        add_to_column(column, row, facet, segment);
       }
     });
   });
 }
 
-void SurfaceIntegrals::add_to_column(int column, int row, const Facet& facet, const ConvexPolygon& piece) {
+void SurfaceIntegrals::add_to_column(int column, int row, const Facet& facet, const ConvexPolygon& segment) {
   double& top = top_[static_cast<std::size_t>(column + (edge_ + 1) * row)];
-  top = std::max(top, piece.extent(2).greatest);
-  for_slices(piece, 2, edge_ + 1, [&](int layer, const ConvexPolygon& part) {
+  top = std::max(top, segment.extent(2).greatest);
+  for_slices(segment, 2, edge_ + 1, [&](int layer, const ConvexPolygon& part) {
     if (layer <= edge_) {
       add_to_cell(column, row, layer, facet, part);
     }
   });
 }
 
-void SurfaceIntegrals::add_to_cell(int column, int row, int layer, const Facet& facet, const ConvexPolygon& piece) {
-  const Moments sum = moments(piece, Vector<double, 3>(column, row, layer));
+void SurfaceIntegrals::add_to_cell(int column, int row, int layer, const Facet& facet, const ConvexPolygon& segment) {
+  const Moments sum = moments(segment, Vector<double, 3>(column, row, layer));
   for (int corner = 0; corner < 4; ++corner) {
     const int i = column - 1 + corner % 2, j = row - 1 + corner / 2;
     if (i < 0 || j < 0 || i >= edge_ || j >= edge_) {
@@ -136,7 +135,8 @@ void SurfaceIntegrals::add_to_cell(int column, int row, int layer, const Facet& 
       at.space += space;
       moment_[static_cast<std::size_t>(node(i, j, k))] += facet.stretch * from_node;
     };
-    // Upwards from w: s = 1 - w at the floor's node integrates to (1 - w)^2/2, s = w at the ceiling's to 1 - w^2/2.
+    // Integrals upwards from w: (1 - w)^2/2 for s = 1 - w at the floor's node, 1 - w^2/2 for s = w at the ceiling's
+    // node.
     const double plan = sum.plan[corner], first = sum.first[corner], second = sum.second[corner];
     const auto along = [&](std::size_t a) { return sum.plan_along[a][corner]; };
     const auto first_along = [&](std::size_t a) { return sum.first_along[a][corner]; };

@@ -106,14 +106,14 @@ def test_a_path_next_to_the_release_is_reported(thawslide: Program, slope: Path)
     done = thawslide("check", slope)
     assert done.returncode == 0, done.stderr
     # From the release's edge at y = 122.5 m, whose points reach half a cell further.
-    assert "note: maps.path: path.geojson passes the release by, 6" in done.stdout
+    assert "warning: maps.path: path.geojson passes the release by, 6" in done.stdout
 
 
 def test_a_probe_without_terrain_is_reported(thawslide: Program, slope: Path) -> None:
     case = (slope / "case.toml").read_text()
     x, y = place(500.0, 100.0)
     (slope / "case.toml").write_text(f"{case}[probe.gate]\npoint = [{x}, {y}]\n")
-    note = "probe.gate: the terrain model has no data there, and the probe reports zeros"
+    note = "probe.gate: the DEM has no data there, and the probe reports zeros"
     assert note not in thawslide("check", slope).stdout
     hole = np.array([500.0, 100.0])
     write_dem(
@@ -134,7 +134,7 @@ def test_a_block_ends_with_its_profile(thawslide: Program, tmp_path: Path) -> No
     (tmp_path / "case.toml").write_text(text)
     done = thawslide("block", tmp_path / "case.toml", "--output", tmp_path / "a.csv", *sets(time__end=20.0))
     assert done.returncode == 0, done.stderr
-    assert "note: the profile is known from -100 to 400 m; the front leaves it at" in done.stdout
+    assert "warning: the profile is known from -100 to 400 m; the front leaves it at" in done.stdout
     rows = list(csv.DictReader((tmp_path / "a.csv").open()))
     assert max(float(row["front_position_m"]) for row in rows) <= 400.0
     assert float(rows[-1]["time_s"]) < 20.0

@@ -23,7 +23,7 @@ Said = Callable[..., list[str]]
 
 
 def notes(stdout: str) -> list[str]:
-    return re.findall(r"^note: at .*$", stdout, flags=re.MULTILINE)
+    return re.findall(r"^warning: at .*$", stdout, flags=re.MULTILINE)
 
 
 @pytest.fixture
@@ -40,7 +40,7 @@ def said(thawslide: Program, small_case: Path, tmp_path: Path) -> Said:
 
 def test_columns_that_boil_dry_are_told_once(said: Said) -> None:
     (note,) = said(*FAST)
-    found = re.match(r"note: at [\d.]+ s (\d+ columns|a column) .*boiled dry, and the hottest is at (\d+) C", note)
+    found = re.match(r"warning: at [\d.]+ s (\d+ columns|a column) .*boiled dry, and the hottest is at (\d+) C", note)
     assert found, note
     assert 100 < int(found[2]) < 5000
     assert "nothing limits temperature and friction" in note

@@ -128,13 +128,13 @@ def test_facts_are_told_of_a_case_that_goes_bad_in_its_first_steps(thawslide: Pr
     told = thawslide("check", small_case, "--json", *words)
     assert told.returncode == 3
     facts = json.loads(told.stdout)
-    assert facts["particles"] == 64 and facts["wall_s"] is None and len(facts["notes"]) > 1 and facts["card"] is None
+    assert facts["particles"] == 64 and facts["wall_s"] is None and len(facts["warnings"]) > 1 and facts["gpu"] is None
     assert told.stderr == f"error: {facts['error']}\n" and "the run failed at t = " in facts["error"]
     said = thawslide("check", small_case, *words)
     assert said.returncode == 3
     assert "case.toml: the run fails in its first steps\n" in said.stdout and "  particles   64\n" in said.stdout
     sound = json.loads(thawslide("check", small_case, "--json").stdout)
-    assert sound["error"] is None and (sound["card"]["why_not"] is None) == (sound["card"]["wall_s"] is not None)
+    assert sound["error"] is None and (sound["gpu"]["why_not"] is None) == (sound["gpu"]["wall_s"] is not None)
 
 
 def test_drainage_is_doubted_in_the_folder_of_a_run_too(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
@@ -158,7 +158,7 @@ def test_a_cell_that_is_proposed_fits_the_domain(thawslide: Program, small_case:
     words = sets(body__block__max="[14.0,0.9]", time__step=0.0001)
     said = thawslide("check", small_case, *words).stdout
     line = (small_case / "case.toml").read_text().splitlines().index("cell = 1.0") + 1
-    place = f"note: {small_case / 'case.toml'}:{line}:8: grid.cell: across the median thickness of body block, "
+    place = f"warning: {small_case / 'case.toml'}:{line}:8: grid.cell: across the median thickness of body block, "
     (note,) = (each for each in said.splitlines() if each.startswith(place))
     assert note.endswith(" Set grid.cell to 0.25 m, at about 64 times the run time.")
     finer = thawslide("check", small_case, *words, *sets(grid__cell=0.25))

@@ -91,8 +91,8 @@ def test_check_says_what_a_run_will_take(thawslide: Program) -> None:
     assert re.match(r"0\.01 s; the limit is 0\.0\d+ s, set by the elastic wave of material 'rock_ice'", said["step"])
     assert said["steps"] == "20000"
     assert re.fullmatch(r"about [1-9]\d{0,2} MB; \S+ [MG]B are (free|left by .*)", said["memory"])
-    without = r"none takes the steps: (this program was built without CUDA|there is no NVIDIA (driver|card)|the .*)"
-    assert re.fullmatch(without + r"|about .* \(measured on the first steps\) and .* free, on .*", said["card"])
+    without = r"not used: (this program was built without CUDA|no NVIDIA (driver|GPU) found|the .*)"
+    assert re.fullmatch(without + r"|about .* \(measured on the first steps\) and .* free, on .*", said["GPU"])
     assert re.match(
         r"slide: 8\.428e\+04 m3 and 1\.738e\+08 kg per metre of width, along 1055 m; 79\.9 m thick on average, 90 m "
         r"in the median and 90 m at most \(vertical\)",
@@ -211,7 +211,7 @@ def test_check_notes_what_is_unusual_of_broken_matter(thawslide: Program) -> Non
     found = thawslide("check", LAMPLUGH, *sets(material__rock_ice__softening_strain=0.5))
     assert found.returncode == 0, found.stderr
     assert (
-        "note: --set material.rock_ice.softening_strain=0.5: material.rock_ice.softening_strain is 0.5, outside the "
+        "warning: --set material.rock_ice.softening_strain=0.5: material.rock_ice.softening_strain is 0.5, outside the "
         "usual 0.005 to 0.05 of broken rock and ice (not checked)\n" in found.stdout
     )
     assert "softening_strain" not in thawslide("check", LAMPLUGH).stdout, "the paper's own softening"

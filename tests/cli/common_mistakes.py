@@ -77,7 +77,7 @@ COMMON_MISTAKES = [
         said=(
             "error: {case}/case.toml:11:12: this is not TOML: Error while parsing key-value pair: expected a "
             "comment or whitespace, saw 'm'. A number stands without its unit; a text stands in quotes. "
-            "Correct the line; https://toml.io tells the rules.\n"
+            "Correct the line; see https://toml.io for the syntax.\n"
         ),
     ),
     CommonMistake(
@@ -86,8 +86,8 @@ COMMON_MISTAKES = [
         new="cell = 1,0",
         said=(
             "error: {case}/case.toml:11:9: this is not TOML: Error while parsing key-value pair: expected a "
-            "comment or whitespace, saw ','. A number has a decimal point, no comma. Correct the line; "
-            "https://toml.io tells the rules.\n"
+            "comment or whitespace, saw ','. A number has a decimal point, no comma. Correct the line; see "
+            "https://toml.io for the syntax.\n"
         ),
     ),
     CommonMistake(
@@ -96,8 +96,8 @@ COMMON_MISTAKES = [
         new="end = 0.2\nend = 0.3",
         said=(
             "error: {case}/case.toml:6:7: this is not TOML: Error while parsing key-value pair: cannot "
-            "redefine existing floating-point 'end'. A key stands once in a table. Correct the line; "
-            "https://toml.io tells the rules.\n"
+            "redefine existing floating-point 'end'. A key stands once in a table. Correct the line; see "
+            "https://toml.io for the syntax.\n"
         ),
     ),
     CommonMistake(
@@ -222,7 +222,7 @@ COMMON_MISTAKES = [
         new='type = "profile"\nfile = "profil.csv"',
         said=(
             'error: {case}/case.toml:17:8: terrain.file is "profil.csv": no such file ({case}); did you mean '
-            "'profile.csv'? Allowed: a file, told from the folder of the case file.\n"
+            "'profile.csv'? Allowed: a file, relative to the folder of the case file.\n"
         ),
         files={"profile.csv": "distance_m,terrain_elevation_m\n0,0\n20,0\n"},
     ),

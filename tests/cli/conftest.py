@@ -158,7 +158,7 @@ def done(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
 
 @pytest.fixture
 def slope(tmp_path: Path) -> Slope:
-    """Return a function that writes a slope as a terrain model."""
+    """Return a function that writes a slope as a DEM."""
 
     def write(name: str = "dem.tif", **words: Any) -> Path:
         return write_slope(tmp_path / name, **words)

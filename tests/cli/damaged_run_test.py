@@ -11,7 +11,7 @@ from conftest import Program, assert_same_bits, history, run_facts, sets, snapsh
 from faults import as_killed
 
 WORDS = sets(checkpoint__interval=0.15)  # checkpoints at 0, 0.15 and 0.2 s; rows each 0.01 s, snapshots each 0.05 s
-GOES_ON = "going on from t = 0.15 s; it had come to "
+GOES_ON = "continuing from t = 0.15 s; it had reached "
 
 
 @pytest.fixture
@@ -38,9 +38,9 @@ def resumed(thawslide: Program, run: Path) -> list[str]:
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stderr == ""
     lines = outcome.stdout.splitlines()
-    begins = next(k for k, line in enumerate(lines) if line.startswith("going on from t = 0.15 s"))
-    notes = [line.removeprefix("note: ") for line in lines[:begins]]  # those of the case come behind
-    assert run_facts(run)["status"] == "done" and run_facts(run)["parts"][-1]["notes"] == notes
+    begins = next(k for k, line in enumerate(lines) if line.startswith("continuing from t = 0.15 s"))
+    notes = [line.removeprefix("warning: ") for line in lines[:begins]]  # those of the case come behind
+    assert run_facts(run)["status"] == "done" and run_facts(run)["parts"][-1]["warnings"] == notes
     return notes
 
 
@@ -101,7 +101,7 @@ def test_rows_that_are_lost_are_told(
 def test_a_lost_history_begins_anew(thawslide: Program, killed: Path) -> None:
     (killed / "history.csv").unlink()
     assert resumed(thawslide, killed) == [
-        "history.csv was missing: it begins anew, without the 16 rows up to t = 0.15 s"
+        "history.csv was missing: it starts again, without the 16 rows up to t = 0.15 s"
     ]
     assert hundredths(killed) == list(range(16, 21))
 
@@ -179,8 +179,9 @@ def test_a_damaged_run_json_is_told_with_what_to_do(thawslide: Program, killed: 
         outcome = thawslide(command, killed)
         assert outcome.returncode == 2
         assert outcome.stderr == (
-            f"error: {killed / 'run.json'} is damaged: {found}. Without it a run cannot go on: put back a copy of it, "
-            f"or run the case anew into another folder: thawslide run {killed} --output OTHER.\n"
+            f"error: {killed / 'run.json'} is damaged: {found}. Without it, the run cannot continue. Put back a copy "
+            f"of it, "
+            f"or run the case again into another folder: thawslide run {killed} --output OTHER.\n"
         )
 
 

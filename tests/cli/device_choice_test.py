@@ -17,7 +17,7 @@ def test_no_card_is_told_before_anything_is_written(thawslide: Program, small_ca
         pytest.skip("there is a card here, and the run went on it")
     assert outcome.returncode == 2
     assert outcome.stderr.startswith("error: --device gpu: ")
-    assert outcome.stderr.endswith("un it on the processor: --device cpu\n")
+    assert outcome.stderr.endswith("un the case on the CPU: --device cpu\n")
     assert not run.exists()
 
 

@@ -163,7 +163,7 @@ def test_section_keeps_its_direction_when_the_release_lies_at_the_first_end(
     words = ["--dem", case / "dem.tif", "--release", case / "release.geojson", "--thickness", 20]
     made = thawslide("section", tmp_path / "section", *words, "--line", case / "path.geojson")
     assert made.returncode == 0, made.stderr
-    note = "note: --line: path.geojson was drawn against the direction of the slide"
+    note = "warning: --line: path.geojson was drawn against the direction of the slide"
     assert (note in made.stdout) == is_reversed
     lines = (tmp_path / "section" / "profile.csv").read_text().splitlines()
     rows = np.array([line.split(",") for line in lines if line[0].isdigit()], dtype=float)
@@ -388,7 +388,7 @@ def test_fault_of_sections_uphill(
     for line in lines:
         made = thawslide("section", tmp_path / line, *words, "--line", folder / f"line-{line}.gpkg")
         assert made.returncode == 0, made.stderr
-        note = f"note: --line: line-{line}.gpkg was drawn against the direction of the slide"
+        note = f"warning: --line: line-{line}.gpkg was drawn against the direction of the slide"
         assert (note in made.stdout) == (line == lines[1])
         text = (tmp_path / line / "profile.csv").read_text().splitlines()
         assert text[1] == f"# From x = 500030, y = 5200300 to x = {end}, y = 5200300 in EPSG:32633."

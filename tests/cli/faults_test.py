@@ -80,7 +80,7 @@ def test_a_disk_that_is_full_from_the_start(thawslide: Program, small_case: Path
     try:
         outcome = thawslide("run", small_case, "--output", disk / "run")
         assert outcome.returncode == 5
-        assert "goes on from the last checkpoint" not in outcome.stderr
+        assert "continues from the last checkpoint" not in outcome.stderr
         assert not (disk / "run" / "checkpoint.bin").exists()
         assert ("starts it again" in outcome.stderr) == (disk / "run" / "run.json").exists()
     finally:

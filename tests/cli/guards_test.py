@@ -132,7 +132,8 @@ def test_what_guards_remove_is_counted(thawslide: Program, tmp_path: Path) -> No
     assert told, outcome.stderr
     assert told[2] == told[3] and 5.0 < float(told[4]) < 10.0
     assert re.search(
-        r"note: at t = \S+ s guards have removed \d+ particles?: 0 not finite, \d+ by their volume; history\.csv has "
+        r"warning: at t = \S+ s guards have removed \d+ particles?: 0 not finite, \d+ by their volume; history\.csv "
+        r"has "
         r"their mass, run\.json their number\n",
         outcome.stdout,
     )

@@ -47,7 +47,7 @@ def test_a_link_in_place_of_the_lock_is_refused(
     lock = killed / "run.lock"
     lock.symlink_to(victim.with_name(leads_to))
     said = (
-        f"error: {lock} is a link, where a run keeps its lock, a regular file. Remove it once no run is at work in "
+        f"error: {lock} is a link, but must be a regular file: the lock of a run. Remove it once no run is at work in "
         f"{killed}.\n"
     )
     for words in (["resume", killed], ["run", small_case, "--output", killed, "--overwrite"], ["status", killed]):
@@ -156,10 +156,10 @@ def test_a_checkpoint_that_cannot_be_read_gives_way_to_the_one_before(thawslide:
     outcome = thawslide("resume", killed)
     assert outcome.returncode == 0, outcome.stderr
     note = (
-        f"{last} is a folder, no file; it is kept as checkpoint.damaged.bin, and the run goes on from the checkpoint "
-        "before"
+        f"{last} is a folder, no file; it is kept as checkpoint.damaged.bin, and the run continues from the previous "
+        f"checkpoint"
     )
-    assert outcome.stdout.startswith(f"note: {note}\n") and run_facts(killed)["parts"][-1]["notes"] == [note]
+    assert outcome.stdout.startswith(f"warning: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
     assert (killed / "checkpoint.damaged.bin").is_dir() and last.is_file()
 
 
@@ -170,8 +170,8 @@ def test_a_checkpoint_that_is_missing_is_told(thawslide: Program, killed: Path) 
     assert "  last checkpoint " in said and "no checkpoint yet" not in said
     outcome = thawslide("resume", killed)
     assert outcome.returncode == 0, outcome.stderr
-    note = f"{last} is missing; the run goes on from the checkpoint before"
-    assert outcome.stdout.startswith(f"note: {note}\n") and run_facts(killed)["parts"][-1]["notes"] == [note]
+    note = f"{last} is missing; the run continues from the previous checkpoint"
+    assert outcome.stdout.startswith(f"warning: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
     assert last.is_file() and not list(killed.glob("*.damaged*"))
 
 
@@ -191,7 +191,8 @@ def test_snapshots_that_no_run_wrote_are_left_out(thawslide: Program, killed: Pa
     outcome = thawslide("resume", killed, limit=SOON)
     assert outcome.returncode == 0, outcome.stderr
     assert (
-        "note: of the 5 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf leaves them "
+        "warning: of the 5 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf leaves "
+        "them "
         "out\n"
     ) in outcome.stdout
 
@@ -207,7 +208,7 @@ def test_pipes_and_devices_keep_nobody_waiting(
     status, resume = thawslide("status", killed, limit=SOON), thawslide("resume", killed, limit=SOON)
     if file == "checkpoint.bin":
         assert (status.returncode, resume.returncode) == (0, 0), resume.stderr
-        assert f"note: {killed / file} is {kind}, no file; it is kept as " in resume.stdout
+        assert f"warning: {killed / file} is {kind}, no file; it is kept as " in resume.stdout
         return
     assert resume.returncode == 2
     assert f"{killed / file} is {kind}" in resume.stderr
@@ -228,7 +229,7 @@ def test_status_tells_what_it_can_where_rows_cannot_be_read(thawslide: Program, 
     )
     assert second == "  0.2 of 0.2 s simulated (100 %)\n"
     assert third == f"  it may have come further: {rows} is a folder, {NO_FILE}"
-    assert fourth.startswith("  last checkpoint ") and fifth == f"  to go on: thawslide resume {killed}\n"
+    assert fourth.startswith("  last checkpoint ") and fifth == f"  to continue: thawslide resume {killed}\n"
     assert json.loads(thawslide("status", killed, "--json").stdout)["state"] == "killed"
 
 

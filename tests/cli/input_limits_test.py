@@ -1,4 +1,4 @@
-"""Inputs that are too large, too deep, or links: refused with a clear word, or handled as the user guide says."""
+"""Inputs that are too large, too deep, or links: refused, or handled as docs/reference/limits.md states."""
 
 from __future__ import annotations
 
@@ -41,9 +41,7 @@ def test_large_profile(thawslide: Program, small_case: Path) -> None:
     profile = with_profile(small_case)
     os.truncate(profile, 200_000_000)
     said = refusal(thawslide, "check", small_case)
-    assert (
-        f'{profile}: the file has 200 MB; allowed: 100 MB. A terrain model is read with terrain.type = "dem".' in said
-    )
+    assert f'{profile}: the file has 200 MB; allowed: 100 MB. A DEM is read with terrain.type = "dem".' in said
 
 
 def test_long_profile(thawslide: Program, small_case: Path) -> None:
@@ -127,9 +125,9 @@ def test_the_copy_of_a_large_input_is_a_copy(thawslide: Program, small_case: Pat
         file.write("# a remark\n")
     outcome = thawslide("resume", run, "--end", 0.02)
     assert outcome.returncode == 0, outcome.stderr
-    note = f"{profile} has changed since the run began, which goes on with its copy, inputs/profile.csv"
-    assert f"note: {note}\n" in outcome.stdout and outcome.stdout.count("has changed") == 1
-    assert run_facts(run)["parts"][1]["notes"] == [note]
+    note = f"{profile} has changed since the run began. The run continues with its copy, inputs/profile.csv"
+    assert f"warning: {note}\n" in outcome.stdout and outcome.stdout.count("has changed") == 1
+    assert run_facts(run)["parts"][1]["warnings"] == [note]
 
 
 def test_links_to_case_files(thawslide: Program, small_case: Path) -> None:

@@ -26,7 +26,7 @@ PROFILE = "distance_m,terrain_elevation_m\n0,0\n20,0\n"
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_name_is_a_text_of_the_case(thawslide: Program, tmp_path: Path, slope: Slope, name: str) -> None:
-    """Of the folder, the terrain model and the release: all they become is the value of their keys."""
+    """Of the folder, the DEM and the release: all they become is the value of their keys."""
     release = write_release(tmp_path / f"{name}.geojson", WEST + 200.0, SOUTH + 250.0)
     folder = tmp_path / name
     outcome = made(thawslide, folder, slope(f"{name}.tif"), release, "--thickness", THICKNESS)

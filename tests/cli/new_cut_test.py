@@ -1,4 +1,4 @@
-"""A release that `thawslide new --cut` and `thawslide section --cut` cut out of a terrain model gets out of it."""
+"""A release that `thawslide new --cut` and `thawslide section --cut` cut out of a DEM gets out of it."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ def test_a_release_that_is_cut_out_gets_out(thawslide: Program, tmp_path: Path, 
     assert outcome.returncode == 0, outcome.stderr
     # The cell follows where most of the volume is; most of the area is below ramps.
     assert [line for line in outcome.stdout.splitlines() if line.startswith("note:")] == [
-        "note: --cell: across the median thickness of body slide, 10 m, there are too few particles to resolve shear "
+        "warning: --cell: across the median thickness of body slide, 10 m, there are too few particles to resolve "
+        "shear "
         "and thinning (found 3.3; needed 4). Set --cell to 3 m, at about 16 times the run time."
     ]
     assert (
@@ -55,13 +56,13 @@ def test_a_cut_without_room_for_its_ramps(thawslide: Program, tmp_path: Path, sl
     outcome = made(thawslide, folder, slope(), release, "--thickness", THICK, "--cut")
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stdout.startswith(
-        "note: --cut: the edges of the cut should be ramps 70 m wide, and there is room for 40 m, as the release is "
-        "narrow or near the end of what the terrain model knows; they rise by up to 45 degrees against the terrain, "
+        "warning: --cut: the edges of the cut should be ramps 70 m wide, and there is room for 40 m, as the release is "
+        "narrow or near the end of what the DEM knows; they rise by up to 45 degrees against the terrain, "
         "which falls by 30, and may hold the slide back. --on-top has no such edges\n"
     ), outcome.stdout
     assert (
         "they rise 45.0 degrees against the DEM, which falls 30.0\n"
-        "# degrees here; 70.0 m would be right, but there is no room.\ntaper = 40.0  # m\n"
+        "# degrees here; 70.0 m is needed, but the release is too narrow.\ntaper = 40.0  # m\n"
     ) in (folder / "case.toml").read_text()
     done = thawslide("run", folder, "--output", tmp_path / "run", "--set", "time.end=0.01")
     assert done.returncode == 0, done.stderr

@@ -1,4 +1,4 @@
-"""The cases that `thawslide new` makes run: thin releases on coarse terrain models, and releases near their edge."""
+"""The cases that `thawslide new` makes run: thin releases on coarse DEMs, and releases near their edge."""
 
 from __future__ import annotations
 
@@ -73,9 +73,8 @@ def test_release_beyond_the_edge_of_the_dem(thawslide: Program, tmp_path: Path, 
             24,
         ),
         tmp_path,
-        "--release: edge.geojson: the release reaches the outermost points of the terrain model in the west; needed: "
-        "10 m of it, one of its cells, beyond the release, and beyond where the slide may go. Take a larger terrain "
-        "model.",
+        "--release: edge.geojson: the release reaches the outermost points of the DEM in the west; needed: "
+        "10 m of it, one of its cells, beyond the release, and beyond where the slide may go. Take a larger DEM.",
     )
 
 
@@ -103,7 +102,7 @@ def test_holes_in_the_way(thawslide: Program, tmp_path: Path, slope: Slope, rele
     """`check` and `run` say before the first step where the ground ends, and what becomes of a slide there."""
     made(thawslide, tmp_path / "slide", slope(hole=slice(40, 45)), release, "--thickness", 24)
     note = (
-        r"note: 50 of \d+ points of the terrain model within the domain have no data, the nearest at "
+        r"warning: 50 of \d+ points of the DEM within the domain have no data, the nearest at "
         r"\(412400, 5160(2[5-9]|3[0-4])0\), about 70 m from the release: a slide that gets there "
     )
     checked = thawslide("check", tmp_path / "slide", "--set", 'grid.leaving="stop"')

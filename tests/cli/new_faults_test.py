@@ -1,4 +1,4 @@
-"""What is said of terrain models and releases that cannot be used, and of slides that leave the known ground."""
+"""What is said of DEMs and releases that cannot be used, and of slides that leave the known ground."""
 
 from __future__ import annotations
 
@@ -74,13 +74,14 @@ def test_dem_with_a_wrong_tag(thawslide: Program, tmp_path: Path, slope: Slope, 
     assert_refused(
         made(thawslide, folder, wrong, release, "--thickness", THICKNESS),
         tmp_path,
-        "--dem: wrong.tif: the tag says degrees (EPSG:4326), the numbers are metric (x from 411995 to 412895, y from "
+        "--dem: wrong.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric (x from 411995 to "
+        "412895, y from "
         '5159995 to 5160595). Set --crs "EPSG:..." to the system the numbers are in; its maker states it.',
     )
     given = made(thawslide, folder, wrong, release, "--thickness", THICKNESS, "--crs", "EPSG:32632")
     assert given.returncode == 0, given.stderr
     assert given.stdout.startswith(
-        "note: wrong.tif is taken to be in EPSG:32632, as --crs says; the file says EPSG:4326\n"
+        "warning: wrong.tif is read as EPSG:32632, as set by --crs; the file specifies EPSG:4326\n"
     )
 
 
@@ -110,7 +111,7 @@ def test_dem_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: Slop
         (
             100,
             "the raster cannot be opened; GDAL says: ",
-            ". Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is whole and may be read.\n",
+            ". Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is complete and readable.\n",
         ),
     ):
         dem.write_bytes(whole[:size])
@@ -160,8 +161,8 @@ def test_release_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: 
     text = said(outcome.stderr, tmp_path)
     assert text.startswith("error: --release: broken.geojson: the file cannot be opened; GDAL says: "), text
     assert text.endswith(
-        ". Allowed: Shapefile (with its .shx and .dbf beside it), GeoPackage or GeoJSON; check that the file is whole "
-        "and may be read.\n"
+        ". Allowed: Shapefile (with its .shx and .dbf), GeoPackage or GeoJSON; check that the file is complete and "
+        "readable.\n"
     ), text
     assert_refused(
         made(thawslide, folder, slope(), tmp_path / "absent.shp", "--thickness", THICKNESS),
@@ -172,8 +173,8 @@ def test_release_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: 
 
 def test_release_outside_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     for east, place, found in (
-        (5000.0, "outside the terrain model, by 4230 m in the east", "x from 417000 to 417120"),
-        (820.0, "partly outside the terrain model, by 50 m in the east", "x from 412820 to 412940"),
+        (5000.0, "outside the DEM, by 4230 m in the east", "x from 417000 to 417120"),
+        (820.0, "partly outside the DEM, by 50 m in the east", "x from 412820 to 412940"),
     ):
         beside = write_release(tmp_path / "beside.geojson", WEST + east, SOUTH)
         assert_refused(
@@ -181,7 +182,7 @@ def test_release_outside_the_dem(thawslide: Program, tmp_path: Path, slope: Slop
             tmp_path,
             f"--release: beside.geojson: the release lies {place}; found: {found}, y from 5160000 to 5160100; allowed: "
             "x from 412000 to 412890, y from 5160000 to 5160590. Check that both have the same place and reference "
-            "system (the ground's is EPSG:32632), or take a larger terrain model.",
+            "system (the ground's is EPSG:32632), or take a larger DEM.",
         )
 
 
@@ -211,7 +212,7 @@ def test_release_over_a_hole(thawslide: Program, tmp_path: Path, slope: Slope, r
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(hole=slice(20, 30)), release, "--thickness", THICKNESS),
         tmp_path,
-        "--release: release.geojson: the release lies over nodata of the terrain model at 100 of its points, such as "
+        "--release: release.geojson: the release lies over nodata of the DEM at 100 of its points, such as "
         "412200, 5160250. Fill the holes (gdal_fillnodata.py dem.tif filled.tif), or move the release.",
     )
 
@@ -254,7 +255,7 @@ ANEW = (
     r"of the DEM, or from a larger DEM\."
 )
 FURTHER = (
-    r"With 8 degrees of friction, the angle of reach that `thawslide new` starts from, it would go about (\d+) m "
+    r"With 8 degrees of friction, the reach angle that `thawslide new` assumes, it would go about (\d+) m "
     r"further on level ground, and more where the ground falls\. "
 )
 # What is said of a particle over ground that is not known.

@@ -1,4 +1,4 @@
-"""What `thawslide new` and `thawslide check` say of releases and terrain models that run, but hardly as meant."""
+"""What `thawslide new` and `thawslide check` say of releases and DEMs that run, but hardly as meant."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_particles_across_the_thickness(thawslide: Program, tmp_path: Path, slop
         "needed 8)"
     )
     assert (
-        f"note: --cell: {problem}. Set --cell to 8 m, at about 200 times the run time, or for maps to 3 m, at about "
+        f"warning: --cell: {problem}. Set --cell to 8 m, at about 200 times the run time, or for maps to 3 m, at about "
         "10,000 times the run time.\n"
     ) in coarse.stdout, coarse.stderr
     checked = thawslide("check", tmp_path / "coarse").stdout
@@ -79,7 +79,7 @@ def test_cells_for_maps(thawslide: Program, tmp_path: Path, slope: Slope, releas
     outcome = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
     problem = f"{ACROSS}{MAPS} (found 3; needed 8)"
     fewer = "Travel distance and speed need 2 to 4 cells.\n"
-    assert "note: " not in outcome.stdout and "  --resolution standard: cells of 3 m, about " in outcome.stdout
+    assert "warning: " not in outcome.stdout and "  --resolution standard: cells of 3 m, about " in outcome.stdout
     text = (folder / "case.toml").read_text()
     assert (
         "cell = 8.0  # m; two particles a cell and axis make 6.0 across a thickness of 24 m\n"
@@ -88,19 +88,19 @@ def test_cells_for_maps(thawslide: Program, tmp_path: Path, slope: Slope, releas
     ) in text
     place = f"{folder / 'case.toml'}:{text.splitlines().index('[grid]') + 2}:8"
     checked = thawslide("check", folder, "--json")
-    (note,) = json.loads(checked.stdout)["notes"]
+    (note,) = json.loads(checked.stdout)["warnings"]
     assert note.startswith(f"{place}: grid.cell: {problem}. Set grid.cell to ") and note.endswith(fewer.strip())
     run = thawslide("run", folder, "--output", tmp_path / "run", *sets(time__end=0.01))
-    assert f"note: {note}\n" in run.stdout, run.stderr
+    assert f"warning: {note}\n" in run.stdout, run.stderr
     assert f"{problem}. Set grid.cell to " in thawslide("check", tmp_path / "run").stdout
 
     fine = made(thawslide, tmp_path / "fine", slope(), release, "--thickness", THICKNESS, "--cell", 3)
-    assert fine.returncode == 0 and "note: " not in fine.stdout, fine.stderr
+    assert fine.returncode == 0 and "warning: " not in fine.stdout, fine.stderr
     assert "need 2 to 4 cells" not in (tmp_path / "fine" / "case.toml").read_text()
-    assert json.loads(thawslide("check", tmp_path / "fine", "--json").stdout)["notes"] == []
+    assert json.loads(thawslide("check", tmp_path / "fine", "--json").stdout)["warnings"] == []
 
     (folder / "case.toml").write_text(text.partition("# Maps are gathered")[0])
-    assert json.loads(thawslide("check", folder, "--json").stdout)["notes"] == [], "no key of maps is given"
+    assert json.loads(thawslide("check", folder, "--json").stdout)["warnings"] == [], "no key of maps is given"
 
 
 def test_release_smaller_than_a_cell_of_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
@@ -108,8 +108,8 @@ def test_release_smaller_than_a_cell_of_the_dem(thawslide: Program, tmp_path: Pa
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(), tiny, "--thickness", 20),
         tmp_path,
-        "--release: tiny.geojson: the release has 9 m2, less than one cell of the terrain model, 100 m2: it would be "
-        "spread over the cell and become as much thinner. Draw it larger, or resample the terrain model (gdalwarp -tr "
+        "--release: tiny.geojson: the release has 9 m2, less than one cell of the DEM, 100 m2: it would be "
+        "spread over the cell and become as much thinner. Draw it larger, or resample the DEM (gdalwarp -tr "
         "0.8 0.8 -r bilinear dem.tif finer.tif).",
     )
 
@@ -117,7 +117,8 @@ def test_release_smaller_than_a_cell_of_the_dem(thawslide: Program, tmp_path: Pa
 def test_thickness_of_the_order_of_the_width(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 300)
     assert outcome.stdout.startswith(
-        "note: the release of the body slide is up to 300 m thick and, by its area, 109.5 m wide: is the thickness in "
+        "warning: the release of the body slide is up to 300 m thick and, by its area, 109.5 m wide: is the "
+        "thickness in "
         "metres?\n"
     ), outcome.stdout + outcome.stderr
 
@@ -131,7 +132,8 @@ def test_hole_filled_with_zeros(thawslide: Program, tmp_path: Path, slope: Slope
         file.write(heights, 1)
     outcome = made(thawslide, tmp_path / "slide", dem, release, "--thickness", THICKNESS)
     note = (
-        "note: 15 points of dem.tif are exactly 0 m amid ground of 1000 to 1035 m, such as (412400, 5160300): a hole "
+        "warning: 15 points of dem.tif are exactly 0 m among heights of 1000 to 1035 m, such as (412400, 5160300): a "
+        "hole "
         "without data? Then say so in the file, gdal_edit.py -a_nodata 0 {}dem.tif, or fill it\n"
     )
     assert said(outcome.stdout, tmp_path).startswith(note.format("")), outcome.stdout + outcome.stderr
@@ -201,7 +203,7 @@ def test_a_release_near_the_edge_of_the_known_terrain(thawslide: Program, tmp_pa
     assert warning("amid", 205.0) == ""
     advice = (
         "needed its own length, 130 m, or more). Particles that pass the edge are removed, and the results lack them. "
-        "Use a larger terrain model"
+        "Use a larger DEM"
     )
     start = "warning: --dem: the release is close to the edge of the known terrain (found "
     assert warning("west", 75.0) == f"{start}70 m; {advice}"
@@ -233,7 +235,7 @@ def test_a_release_at_rest_has_the_area_that_was_drawn(
     assert state == "at 0.01 s, not at rest"
     with rasterio.open(run / "maps" / "final_thickness.tif") as file:
         thickness = file.read(1, masked=True)
-        assert file.descriptions == ("at 0.01 s, not at rest: vertical thickness of the slide",)
+        assert file.descriptions == ("at 0.01 s, not at rest: vertical thickness of the sliding mass",)
     assert thickness.sum() * CELL**2 == pytest.approx(8000.0 * THICKNESS, rel=0.01)
     whole_cells = (thickness > 0.1).sum() * CELL**2
-    assert whole_cells > 1.25 * 8000.0, "the terrain model makes ramps of the outline"
+    assert whole_cells > 1.25 * 8000.0, "the DEM makes ramps of the outline"

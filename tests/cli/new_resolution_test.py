@@ -47,7 +47,7 @@ def test_the_cell_and_the_cost(
     assert {name: float(cell) for name, cell in others.items()} == {
         name: cell for name, cell in CELLS.items() if name != chosen
     }
-    assert "note: " not in outcome.stdout, "the text names the cells for maps"
+    assert "warning: " not in outcome.stdout, "the text names the cells for maps"
 
 
 def test_a_cell_that_the_user_gives_is_of_no_resolution(
@@ -57,7 +57,7 @@ def test_a_cell_that_the_user_gives_is_of_no_resolution(
     assert outcome.returncode == 0 and cell_of(tmp_path / "own") == 12.0, outcome.stderr
     assert "\nresolution:  cells of 12 m\n             about " in outcome.stdout
     assert outcome.stdout.count("--resolution ") == 3
-    assert "note: --cell: across the median thickness" in outcome.stdout
+    assert "warning: --cell: across the median thickness" in outcome.stdout
     both = made(thawslide, tmp_path / "slide", slope(), release, "--cell", 12, "--resolution", "fine")
     assert_refused(both, tmp_path, "--cell excludes --resolution. Run with --help for more information.")
 

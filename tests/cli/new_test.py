@@ -1,4 +1,4 @@
-"""From a terrain model and a polygon to maps in two commands."""
+"""From a DEM and a polygon to maps in two commands."""
 
 from __future__ import annotations
 
@@ -208,7 +208,7 @@ def test_check_says_what_maps_take(thawslide: Program, tmp_path: Path, slope: Sl
         of_ground = file.width * file.height * 8
     usual = "2 x 2 of the DEM's, so as to be 12 m wide at least: three particle distances"
     note = (
-        "note: maps.cell is 5 m, and grid.cell 8 m: a cell of the maps holds few particles or one, and the largest "
+        "warning: maps.cell is 5 m, and grid.cell 8 m: a cell of the maps holds few particles or one, and the largest "
         "speeds and pressures are those of single particles. Without maps.cell they take cells of 20 m.\n"
     )
     for words, cell, reason in (([], 20, usual), (["--set", "maps.cell=5"], 5, "as maps.cell asks")):

@@ -77,8 +77,8 @@ def test_a_process_of_another_machine_is_taken_to_live(
     lock.write_text("process 12 on elsewhere\n")
     before = (done / "history.csv").read_bytes()
     message = (
-        f"error: {done} may be being written by process 12 on elsewhere: its file system has no locks, and from this "
-        f"machine it cannot be told whether that lives. If it has surely ended, remove {lock}.\n"
+        f"error: {done} may be being written by process 12 on elsewhere: its file system has no locks, and this "
+        f"machine cannot determine whether that process exists. If it has surely ended, remove {lock}.\n"
     )
     for words in (["resume", done], ["run", small_case, "--output", done, "--overwrite"]):
         outcome = thawslide(*words, environment=without_locks)
@@ -86,7 +86,8 @@ def test_a_process_of_another_machine_is_taken_to_live(
     assert (done / "history.csv").read_bytes() == before
     said = thawslide("status", done, environment=without_locks).stdout
     assert said.startswith(
-        f"{done}: whether it runs cannot be told, as its file system has no locks and process 12 on elsewhere has "
+        f"{done}: it cannot be determined whether it runs, because its file system has no locks and process 12 on "
+        f"elsewhere has "
         "begun to write it; its last file was written "
     )
     assert said.endswith(f"  if that has surely ended: remove {lock}, then thawslide resume {done}\n")

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 FULL = Path("/dev/full")
-LOST = "error: the output cannot be written: No space left on device. Send it to where there is room for it.\n"
+LOST = "error: the output cannot be written: No space left on device. Redirect it to a disk with free space.\n"
 
 pytestmark = pytest.mark.skipif(not FULL.exists(), reason="the system has no /dev/full")
 

@@ -44,7 +44,7 @@ def assert_it_has_stopped(process: subprocess.Popen[str], run: Path) -> None:
     _, said = process.communicate(timeout=LIMIT)
     assert process.returncode == 5
     assert said.startswith(f"error: {run} is not the folder any more that this run began in: ")
-    assert "goes on from the last checkpoint.\nstopped at t = " in said and "resume " + str(run) not in said
+    assert "continues from the last checkpoint.\nstopped at t = " in said and "resume " + str(run) not in said
 
 
 def test_a_run_whose_folder_is_moved_leaves_its_successor_alone(

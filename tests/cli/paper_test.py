@@ -14,8 +14,8 @@ from conftest import ROOT
 
 def test_paper_shortened(binary: Path, report_environment: dict[str, str], tmp_path: Path) -> None:
     output = tmp_path / "paper"
-    words = [sys.executable, "-m", "thawslide.paper", "--quick", "--program", str(binary), "--cases"]
-    environment = report_environment | {"PYTHONPATH": str(ROOT / "python"), "HOME": os.environ.get("HOME", "")}
+    words = [sys.executable, "-m", "reproduction", "--quick", "--program", str(binary), "--cases"]
+    environment = report_environment | {"PYTHONPATH": f"{ROOT}:{ROOT / 'python'}", "HOME": os.environ.get("HOME", "")}
     done = subprocess.run(
         [*words, str(ROOT / "cases"), "--output", str(output)],
         env=environment, capture_output=True, text=True, timeout=180, check=False,
@@ -37,8 +37,8 @@ def test_paper_shortened(binary: Path, report_environment: dict[str, str], tmp_p
 
 
 def test_paper_tells_of_a_program_that_computes_nothing(tmp_path: Path) -> None:
-    words = [sys.executable, "-m", "thawslide.paper", "--program", "false", "--cases", str(tmp_path), "--output"]
-    environment = dict(os.environ) | {"PYTHONPATH": str(ROOT / "python")}
+    words = [sys.executable, "-m", "reproduction", "--program", "false", "--cases", str(tmp_path), "--output"]
+    environment = dict(os.environ) | {"PYTHONPATH": f"{ROOT}:{ROOT / 'python'}"}
     done = subprocess.run(
         [*words, str(tmp_path / "paper")], env=environment, capture_output=True, text=True, timeout=60, check=False
     )

@@ -30,8 +30,8 @@ def notes_of(thawslide: Program, case: Path, *words: str) -> list[str]:
     said = thawslide("check", case, *words)
     told = thawslide("check", case, "--json", *words)
     assert said.returncode == told.returncode == 0, said.stderr + told.stderr
-    notes = re.findall(r"^note: (.*)$", said.stdout, re.MULTILINE)
-    assert notes == json.loads(told.stdout)["notes"]
+    notes = re.findall(r"^warning: (.*)$", said.stdout, re.MULTILINE)
+    assert notes == json.loads(told.stdout)["warnings"]
     return notes
 
 
@@ -43,7 +43,7 @@ def test_nothing_is_doubted_of_a_plain_case(thawslide: Program, plain_case: Path
 def test_nothing_is_doubted_of_the_cases_of_the_project(thawslide: Program, case: Path) -> None:
     if case.parent.name in BROUGHT:
         pytest.skip("the case needs data that are not in the repository")
-    notes = re.findall(r"^note: (.*)$", thawslide("check", case).stdout, re.MULTILINE)
+    notes = re.findall(r"^warning: (.*)$", thawslide("check", case).stdout, re.MULTILINE)
     expected = []
     if case.parent.name == "valley3d":
         if case.stem in ("columns", "weak"):  # their bodies are weaker than the base
@@ -117,12 +117,12 @@ def test_what_is_hardly_meant_is_told(thawslide: Program, plain_case: Path, word
     told = note.format(case=plain_case / "case.toml")
     assert notes_of(thawslide, plain_case, *words) == [told]
     run = thawslide("run", plain_case, "--output", plain_case.parent / "run", *sets(time__end=0.001), *words)
-    assert f"note: {told}\n".replace("0.2 s, which", "0.001 s, which") in run.stdout
+    assert f"warning: {told}\n".replace("0.2 s, which", "0.001 s, which") in run.stdout
 
 
-def test_nothing_is_doubted_of_the_example_of_the_guide(thawslide: Program, tmp_path: Path) -> None:
-    guide = (ROOT / "docs" / "user-guide.md").read_text()
-    example = re.search(r"```toml\n(\[case\]\ntitle = \"A block on a slope\".*?)```", guide, re.DOTALL)
+def test_nothing_is_doubted_of_the_example_of_the_how_to_page(thawslide: Program, tmp_path: Path) -> None:
+    page = (ROOT / "docs" / "how-to" / "write-a-2d-case.md").read_text()
+    example = re.search(r"```toml\n( *\[case\]\n *title = \"A block on a slope\".*?)```", page, re.DOTALL)
     assert example
     (tmp_path / "case.toml").write_text(example[1])
     assert notes_of(thawslide, tmp_path) == []
@@ -154,7 +154,8 @@ def test_a_default_without_drainage_is_told_by_run_too(thawslide: Program, small
     file = small_case / "case.toml"
     file.write_text(file.read_text() + '\n[band]\nmodel = "columns"\nthickness = 0.2\n')
     note = (
-        f"note: {file}: material.rock.hydraulic_conductivity is 0 m/s, its default: pore water never drains, and what "
+        f"warning: {file}: material.rock.hydraulic_conductivity is 0 m/s, its default: pore water never drains, and "
+        f"what "
         "is under pressure may never stop. Of the base of a slide 1e-8 to 1e-5 m/s is said. Give it, and if 0 is meant "
         "0, and this note goes.\n"
     )

@@ -31,7 +31,7 @@ def said(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> tuple[
 def test_opening_line(said: tuple[list[str], Path]) -> None:
     lines, run = said
     particles = run_facts(run)["particles"]
-    assert "note: " in lines[0] and "lamplugh_targets.csv: 7 of its values are later than the run" in lines[0]
+    assert "warning: " in lines[0] and "lamplugh_targets.csv: 7 of its values are later than the run" in lines[0]
     title = "Lamplugh rock-ice avalanche, 2016, reproduction of the paper"
     assert lines[1] == f"{title}: {particles} particles, 2 s to simulate, on 1 thread"
 
@@ -168,7 +168,7 @@ def test_a_run_whose_whole_slide_has_left_is_done(
     assert len(left) == 1 and left[0].removeprefix("warning: ") == facts["warnings"][0]
     assert re.fullmatch(
         rf"{facts['removed_particles']['left']} particles have left the domain or the known terrain and were removed: "
-        r"\S+ kg, \d+\.?\d* % of the mass\. The results lack them\. Use a larger domain or terrain model\.",
+        r"\S+ kg, \d+\.?\d* % of the mass\. The results lack them\. Use a larger domain or DEM\.",
         facts["warnings"][0],
     )
     with (

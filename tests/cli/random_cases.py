@@ -110,7 +110,7 @@ def _write_raster(file: Path, values: np.ndarray, origin: tuple[float, float], c
 
 
 def _place_near(random: Generator, size: tuple[float, float], share: float) -> tuple[float, float]:
-    """Return a place of the terrain model, or with this share one somewhat beyond it."""
+    """Return a place of the DEM, or with this share one somewhat beyond it."""
     margin = 0.3 if _chance(random, share) else -0.1
     return tuple(float(random.uniform(-margin * side, (1.0 + margin) * side)) for side in size)  # type: ignore[return-value]
 

@@ -48,15 +48,15 @@ def test_what_a_finished_run_has_lost_of_its_results_is_told(thawslide: Program,
     outcome = thawslide("resume", done)
     assert outcome.returncode == 0
     assert outcome.stdout.splitlines()[1:] == [
-        f"note: {done / 'particles.vtkhdf'} is missing",
-        f"note: {done / 'history.csv'} ends at 0.04 s, before the run",
-        f"note: 1 of the snapshots in {done / 'snapshots'} is missing",
+        f"warning: {done / 'particles.vtkhdf'} is missing",
+        f"warning: {done / 'history.csv'} ends at 0.04 s, before the run",
+        f"warning: 1 of the snapshots in {done / 'snapshots'} is missing",
     ]
     shutil.rmtree(done / "snapshots")
     (done / "history.csv").write_text("")
     told = thawslide("resume", done).stdout
-    assert f"note: {done / 'history.csv'} holds no rows\n" in told
-    assert f"note: {done / 'snapshots'} holds no snapshots\n" in told
+    assert f"warning: {done / 'history.csv'} holds no rows\n" in told
+    assert f"warning: {done / 'snapshots'} holds no snapshots\n" in told
 
 
 def test_what_does_not_fit_a_change_is_changed_on_the_command_line(

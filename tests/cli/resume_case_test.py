@@ -28,8 +28,8 @@ def test_a_case_changed_before_the_first_checkpoint_is_refused(thawslide: Progra
         outcome = thawslide("resume", done, *words)
         assert outcome.returncode == 2
         assert outcome.stderr == (
-            f"error: {file} has changed since the run began (run.json has its SHA-256), and there is no checkpoint to "
-            "tell what it was. Put back what was there, or run the case anew.\n"
+            f"error: {file} has changed since the run began (run.json has its SHA-256), and no checkpoint holds its "
+            f"content. Put back what was there, or run the case again.\n"
         )
     assert content_of(done) == before
     file.unlink()
@@ -71,7 +71,7 @@ def test_a_new_end_in_the_case_file_is_answered_with_the_command(
     )
     command = f"thawslide resume {done} --end 0.4"
     assert outcome.stderr == (
-        f"error: {begin}: time.end is 0.4, was 0.2. A new end is told on the command line: {command}.\n"
+        f"error: {begin}: time.end is 0.4, was 0.2. Specify a new end on the command line: {command}.\n"
     )
     edit(done, "\ncohesion = 100000.0 ", "\ncohesion = 200000.0 ")
     assert "Put that back, or r" in thawslide("resume", done).stderr
@@ -89,7 +89,7 @@ def test_what_a_finished_run_has_lost_is_told(thawslide: Program, done: Path) ->
     assert outcome.returncode == 0
     assert outcome.stdout == (
         f"{done} has reached its end at 0.2 s; nothing to do\n"
-        f"note: {done / 'history.csv'} is missing\n"
+        f"warning: {done / 'history.csv'} is missing\n"
         f"note: {done} holds no checkpoint: it cannot be given a later end\n"
     )
     edit(done, "\nend = 0.2 ", "\nend = 0.4 ")
@@ -121,16 +121,16 @@ def test_an_end_that_was_passed_before_the_kill_is_refused(thawslide: Program, d
     before = content_of(done)
     outcome = thawslide("resume", done, "--end", 0.1)
     assert outcome.returncode == 2
-    assert outcome.stderr == "error: the end of 0.1 s has passed: the run had come to 0.2 s. Give a later one.\n"
+    assert outcome.stderr == "error: the end of 0.1 s has passed: the run had reached 0.2 s. Give a later one.\n"
     assert content_of(done) == before
     outcome = thawslide("resume", done, "--end", 0.25)
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stdout.startswith(
-        "going on from t = 0 s; it had come to 0.2 s: rows and snapshots after 0 s are written anew\n"
+        "continuing from t = 0 s; it had reached 0.2 s: rows and snapshots after 0 s are written again\n"
     )
 
 
 def test_guards_that_would_change_the_columns_of_the_history(thawslide: Program, done: Path) -> None:
     outcome = thawslide("resume", done, "--end", 0.3, *sets(guards__volume="remove"))
     assert outcome.returncode == 2
-    assert "a run that goes on cannot change that. Run the case anew." in outcome.stderr
+    assert "a continued run cannot change this. Run the case again." in outcome.stderr

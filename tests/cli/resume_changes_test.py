@@ -41,7 +41,7 @@ def test_a_run_at_rest_goes_on_with_what_is_changed(thawslide: Program, small_ca
     outcome = thawslide("resume", run, "--end", 6)
     assert outcome.returncode == 0
     assert outcome.stdout == (
-        f"{run} has come to rest at {rest:g} s; nothing to do. It goes on with --set time.stop_at_rest=0\n"
+        f"{run} has come to rest at {rest:g} s; nothing to do. To continue it, add --set time.stop_at_rest=0\n"
     )
     assert thawslide("resume", run, *sets(basal__friction_angle=5)).returncode == 0
     again = run_facts(run)
@@ -59,9 +59,9 @@ def test_a_run_whose_slide_has_left_has_nothing_to_go_on_with(
     outcome = thawslide("resume", run, "--end", 8)
     assert outcome.returncode == 2
     assert outcome.stderr.startswith(
-        f"error: {run} has ended, and nothing is left of the slide to go on with: the whole slide has left the domain"
+        f"error: {run} has ended, and no particles are left to continue with: the whole slide has left the domain"
     )
-    assert outcome.stderr.endswith(". Run the case anew, in a larger domain.\n")
+    assert outcome.stderr.endswith(". Run the case again, in a larger domain.\n")
     assert content_of(run) == before
     assert thawslide("resume", run).returncode == 0
 
@@ -78,9 +78,9 @@ def test_the_checkpoint_of_another_run_is_refused(
     outcome = thawslide("resume", done)
     assert outcome.returncode == 2
     assert outcome.stderr == (
-        f"error: the checkpoint of {done} was not written by this run: run.json tells of no part with its case, in "
+        f"error: the checkpoint of {done} was not written by this run: run.json lists no part with its case, in "
         "which basal.friction_angle is 5.0, was 10.0. Put back the run's own checkpoint.bin or "
-        "checkpoint.previous.bin, or run the case anew.\n"
+        "checkpoint.previous.bin, or run the case again.\n"
     )
     for file, bytes_before in before.items():
         file.write_bytes(bytes_before)

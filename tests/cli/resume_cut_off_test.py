@@ -84,7 +84,7 @@ def test_a_change_on_a_change_is_asked_for_alone(thawslide: Program, done: Path)
     as_killed(told)
     shutil.copy(told / "run.json", done / "run.json")
     assert changes_asked_for(thawslide, done) == "time.end=0.4"
-    # Without the file, which is written anew from the checkpoint, both are.
+    # Without the file, which is written again from the checkpoint, both are.
     (done / "case.toml").unlink()
     outcome = thawslide("resume", done, "--end", 0.4)
     assert outcome.returncode == 2
@@ -119,8 +119,8 @@ def test_a_run_that_lost_its_checkpoints_is_not_begun_anew(thawslide: Program, d
     outcome = thawslide("resume", done, "--end", 0.3)
     assert outcome.returncode == 2
     assert outcome.stderr == (
-        f"error: {done} had come to 0.2 s, and neither checkpoint.bin nor checkpoint.previous.bin is there to go on "
-        "from: begun anew it would write over what it has. Put one of them back, or run the case anew in another "
+        f"error: {done} had reached 0.2 s, but checkpoint.bin and checkpoint.previous.bin are missing. A new start "
+        f"would overwrite its results. Put one of them back, or run the case again in another "
         f"folder: thawslide run {done} --output OTHER.\n"
     )
     assert content_of(done) == before
@@ -134,7 +134,7 @@ def test_what_a_run_at_rest_advises_works(thawslide: Program, small_case: Path, 
     assert thawslide("run", small_case, "--output", run, *RESTS).returncode == 0
     rest = run_facts(run)["simulated_time_s"]
     told = thawslide("resume", run, "--end", 5.5).stdout
-    assert told.endswith("nothing to do. It goes on with --set time.stop_at_rest=0\n")
+    assert told.endswith("nothing to do. To continue it, add --set time.stop_at_rest=0\n")
     outcome = thawslide("resume", run, "--end", rest + 0.5, "--set", "time.stop_at_rest=0")
     assert outcome.returncode == 0, outcome.stderr
     assert run_facts(run)["simulated_time_s"] == pytest.approx(rest + 0.5)

@@ -12,8 +12,8 @@ def require_refused(thawslide: Program, run: Path, copy: Path) -> None:
     outcome = thawslide("resume", run)
     assert outcome.returncode == 2
     assert outcome.stderr == (
-        f"error: {copy} has changed. A run goes on with the inputs it began with (run.json has their SHA-256): put "
-        "them back, or run the case anew.\n"
+        f"error: {copy} has changed. A run continues with the inputs of its start (run.json has their SHA-256): put "
+        "them back, or run the case again.\n"
     )
 
 
@@ -27,7 +27,7 @@ def test_a_changed_input_is_refused_and_a_changed_original_told(
     original.write_text(original.read_text() + "# a remark\n")
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
-    told = f"note: {original} has changed since the run began, which goes on with its copy, inputs/case.toml\n"
+    told = f"warning: {original} has changed since the run began. The run continues with its copy, inputs/case.toml\n"
     assert told in outcome.stdout
     as_killed(run)
     copy.write_text("other")

@@ -67,7 +67,7 @@ def test_other_steps_have_the_same_bits_after_a_kill(thawslide: Program, done: P
     as_killed(twice)
     (twice / "checkpoint.previous.bin").rename(twice / "checkpoint.bin")
     outcome = thawslide("resume", twice)
-    assert outcome.returncode == 0 and "going on from t = 0.2" in outcome.stdout, outcome.stderr
+    assert outcome.returncode == 0 and "continuing from t = 0.2" in outcome.stdout, outcome.stderr
     assert_same_bits(done, twice)
 
 

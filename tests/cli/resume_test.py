@@ -48,7 +48,7 @@ def test_a_stopped_run_goes_on_to_the_same_bits(
     assert history(run)["time_s"][-1] <= stop
     outcome = thawslide("resume", run, "--threads", 1)
     assert outcome.returncode == 0, outcome.stderr
-    assert outcome.stdout.startswith(f"going on from t = {stop:g} s\n")
+    assert outcome.stdout.startswith(f"continuing from t = {stop:g} s\n")
     assert_same_bits(whole, run)
     assert (run / "checkpoint.bin").read_bytes() == (whole / "checkpoint.bin").read_bytes()
     after, complete = run_facts(run), run_facts(whole)
@@ -85,7 +85,7 @@ def test_a_killed_run_goes_on_from_its_last_checkpoint(
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
     told = re.match(
-        r"going on from t = (\S+) s; it had come to (\S+) s: rows and snapshots after (\S+) s are written anew\n",
+        r"continuing from t = (\S+) s; it had reached (\S+) s: rows and snapshots after (\S+) s are written again\n",
         outcome.stdout,
     )
     assert told and told[1] == told[3] and float(told[2]) == pytest.approx(rows[-1], rel=1e-5)
@@ -105,7 +105,7 @@ def test_what_a_stop_says(binary: Path, plain_environment: dict[str, str], tmp_p
         process.terminate()
         _, errors = process.communicate(timeout=LIMIT)
     stop = run_facts(run)["simulated_time_s"]
-    assert errors == f"stopped by signal 15 at t = {stop:g} s; `thawslide resume {run}` goes on from here\n"
+    assert errors == f"interrupted by signal 15 at t = {stop:g} s. To continue: thawslide resume {run}\n"
 
 
 def test_a_finished_run_goes_on_when_its_end_is_moved(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
@@ -116,7 +116,7 @@ def test_a_finished_run_goes_on_when_its_end_is_moved(thawslide: Program, small_
     assert thawslide("run", small_case, "--output", longer, *sets(time__end=0.0099), *words).returncode == 0
     outcome = thawslide("resume", longer, "--end", 0.05)
     assert outcome.returncode == 0, outcome.stderr
-    assert outcome.stdout.startswith("going on from t = 0.0099 s\nchanged: time.end=0.05\n")
+    assert outcome.stdout.startswith("continuing from t = 0.0099 s\nchanged: time.end=0.05\n")
     assert_same_bits(whole, longer)
     assert (longer / "case.toml").read_text() == (whole / "case.toml").read_text()
     first, second = run_facts(longer)["parts"]
@@ -152,7 +152,7 @@ def test_resume_where_there_is_no_run(thawslide: Program, tmp_path: Path) -> Non
     outcome = thawslide("resume", tmp_path)
     assert outcome.returncode == 2
     assert outcome.stderr == (
-        f"error: {tmp_path} holds no run to go on from: there is no run.json, which a run writes when it begins. Run "
+        f"error: {tmp_path} holds no run to continue: run.json is missing, which a run writes at its start. Run "
         "the case again.\n"
     )
     assert list(tmp_path.iterdir()) == []
@@ -181,13 +181,14 @@ def test_a_damaged_checkpoint_gives_way_to_the_one_before(
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stdout.startswith(
-        f"note: {file} is damaged: its checksum does not fit its {size} bytes; it is kept as checkpoint.damaged.bin, "
-        "and the run goes on from the checkpoint before\n"
-        "going on from t = 0.15 s; it had come to 0.2 s: rows and snapshots after 0.15 s are written anew\n"
+        f"warning: {file} is damaged: its checksum does not fit its {size} bytes; it is kept as "
+        f"checkpoint.damaged.bin, "
+        "and the run continues from the previous checkpoint\n"
+        "continuing from t = 0.15 s; it had reached 0.2 s: rows and snapshots after 0.15 s are written again\n"
     )
     # The good one is still there, and the damaged one beside.
     assert (run / "checkpoint.previous.bin").read_bytes() == before.read_bytes()
-    assert run_facts(run)["parts"][1]["notes"] == [outcome.stdout.splitlines()[0].removeprefix("note: ")]
+    assert run_facts(run)["parts"][1]["warnings"] == [outcome.stdout.splitlines()[0].removeprefix("warning: ")]
     assert_same_bits(whole, run)
     assert file.read_bytes() == (whole / "checkpoint.bin").read_bytes()
 
@@ -222,7 +223,7 @@ def test_a_run_killed_before_its_first_checkpoint_is_due_starts_again(
     torn.write_bytes(b"half a file")
     outcome = thawslide("resume", run, "--threads", 1)
     assert outcome.returncode == 0, outcome.stderr
-    assert outcome.stdout.startswith("going on from t = 0 s")
+    assert outcome.stdout.startswith("continuing from t = 0 s")
     assert not torn.exists()
     twin = tmp_path / "twin"
     assert thawslide("run", LAMPLUGH, "--output", twin, *words).returncode == 0
@@ -249,7 +250,7 @@ def test_a_run_killed_at_its_very_end_is_closed(thawslide: Program, small_case: 
     (run / "particles.vtkhdf").unlink()
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
-    assert outcome.stdout.startswith("going on from t = 0.2 s\n")
+    assert outcome.stdout.startswith("continuing from t = 0.2 s\n")
     assert run_facts(run)["status"] == "done"
     assert digest(run) == digest(whole)
 
@@ -296,14 +297,14 @@ def test_a_changed_case_is_refused(thawslide: Program, small_case: Path, tmp_pat
     assert outcome.returncode == 2
     assert outcome.stderr == (
         f"error: {file} has changed since the run wrote its checkpoint: material.rock.cohesion is 200000.0, was "
-        "100000.0; time.end is 0.3, was 0.2. Put that back, or remove the file, which then is written anew; what "
-        f"should change is told on the command line: thawslide resume {run} --set KEY=VALUE, or --end T.\n"
+        "100000.0; time.end is 0.3, was 0.2. Put that back, or remove the file, which is then written again. Specify "
+        "changes on the command line: thawslide resume {run} --set KEY=VALUE, or --end T.\n"
     )
     assert content_of(run) == before
     file.unlink()
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
-    assert f"note: {file} was missing; it is written anew from the checkpoint\n" in outcome.stdout
+    assert f"note: {file} was missing. It was written again from the checkpoint\n" in outcome.stdout
     assert file.read_text() == text
 
 
@@ -325,10 +326,10 @@ def test_figures_may_have_other_times(thawslide: Program, small_case: Path, tmp_
     [
         (
             ["--set", "grid.cell=2", "--set", "body.block.porosity=0.1", "--end", "1"],
-            "a run that goes on cannot change grid.cell, body.block.porosity: what it has computed so far was for the "
-            "case it has. Allowed: [time], [checkpoint], [guards], grid.leaving, ",
+            "grid.cell, body.block.porosity cannot be changed on resume, because earlier results depend on it. "
+            "Allowed: [time], [checkpoint], [guards], grid.leaving, ",
         ),
-        (["--end", "0.1"], "the end of 0.1 s has passed: the run had come to 0.2 s. Give a later one."),
+        (["--end", "0.1"], "the end of 0.1 s has passed: the run had reached 0.2 s. Give a later one."),
         (["--end", "2", "--set", "time.end=3"], "--end is short for --set time.end: give one of the two."),
         (["--end", "-1"], "-1 found; allowed: above 0"),
         (["--set", "time.ende=3"], "--set time.ende=3: key 'time.ende' is not known in [time]; did you mean 'end'?"),

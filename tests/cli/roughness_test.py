@@ -1,4 +1,4 @@
-"""Noise on a terrain model: what check says of it, and that every command slides on the same ground."""
+"""Noise on a DEM: what check says of it, and that every command slides on the same ground."""
 
 from __future__ import annotations
 
@@ -86,18 +86,18 @@ def test_check_reports_noise_filter_and_what_is_left(thawslide: Program, rough_c
 
 def test_noise_that_the_user_leaves_is_warned_of(thawslide: Program, rough_case: Path) -> None:
     left = json.loads(thawslide("check", rough_case, "--json", *sets(terrain__smooth=0)).stdout)
-    note = next(note for note in left["notes"] if note.startswith("terrain.smooth: "))
+    note = next(note for note in left["warnings"] if note.startswith("terrain.smooth: "))
     assert note.endswith('at most 0.06 is intended). Set terrain.smooth = "auto".')
     assert 0.1 < left["roughness"]["apparent_friction"] < 0.25
     smooth = json.loads(thawslide("check", rough_case, "--json", *sets(terrain__smooth=20)).stdout)
-    assert not [note for note in smooth["notes"] if note.startswith("terrain.smooth: ")]
+    assert not [note for note in smooth["warnings"] if note.startswith("terrain.smooth: ")]
 
 
 def test_clean_ground_is_not_smoothed(thawslide: Program, tmp_path: Path) -> None:
     case = make_case(thawslide, tmp_path, 0.0)
     checked = json.loads(thawslide("check", case, "--json").stdout)
     assert checked["roughness"]["filter_m"] == 0.0
-    assert not [note for note in checked["notes"] if "smooth" in note]
+    assert not [note for note in checked["warnings"] if "smooth" in note]
 
 
 def test_run_its_own_case_and_resume_slide_on_the_same_ground(
@@ -132,7 +132,7 @@ def test_section_is_cut_out_of_the_ground_that_a_run_in_space_has(
         f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as for a 3D run on 10 m cells "
         "whose domain is the whole DEM; it has noise of 1 m rms and bumps with an rms slope of "
     )
-    assert f"note: {said}" in made.stdout
+    assert f"warning: {said}" in made.stdout
     text = (folder / "profile.csv").read_text()
     assert f"# {said}" in text
     rows = np.array(

@@ -1,4 +1,4 @@
-"""thawslide section cuts a 2D case out of a terrain model; thawslide block slides a 3D case along its path."""
+"""thawslide section cuts a 2D case out of a DEM; thawslide block slides a 3D case along its path."""
 
 from __future__ import annotations
 
@@ -62,8 +62,7 @@ def test_section_of_a_plane_runs_as_it_is(thawslide: Program, maps: Maps, tmp_pa
     assert comments == [
         "# Cut by `thawslide section` out of dem.tif along line.geojson: its triangles below the line.",
         "# From x = 300015, y = 400200 to x = 300775, y = 400200 in EPSG:31287.",
-        "# The terrain is that of the terrain model; the surface is higher by the vertical thickness of "
-        "release.geojson.",
+        "# The terrain is that of the DEM; the surface is higher by the vertical thickness of release.geojson.",
     ]
     distance, terrain = columns["distance_m"], columns["terrain_elevation_m"]
     assert distance[0] == 0.0 and distance[-1] == pytest.approx(760.0) and np.diff(distance).max() <= 5.0 + 1e-9
@@ -117,7 +116,7 @@ def test_cut_takes_the_body_out_of_the_ground(thawslide: Program, maps: Maps, tm
     assert thickness[inside] == pytest.approx(upright[inside], abs=1e-9)
     assert thickness.max() == pytest.approx(12.0)
     assert comments[2] == (
-        "# The surface is that of the terrain model; the terrain is lower by the vertical thickness of release.geojson."
+        "# The surface is that of the DEM; the terrain is lower by the vertical thickness of release.geojson."
     )
     assert thawslide("check", folders[1]).returncode == 0
 
@@ -136,8 +135,8 @@ def test_corners_are_kept_and_a_line_uphill_is_turned_round(thawslide: Program, 
     made = thawslide(*maps.words_with_release(tmp_path / "case"))
     assert made.returncode == 0, made.stderr
     assert (
-        "note: --line: line.geojson was drawn against the direction of the slide; distances count from its last corner"
-        in made.stdout
+        "warning: --line: line.geojson was drawn against the direction of the slide; distances count from its last "
+        "corner" in made.stdout
     )
     comments, columns = profile(tmp_path / "case")
     assert comments[1].startswith("# From x = 300053, y = 400200 to x = 300703, y = 400351 ")
@@ -160,9 +159,9 @@ def test_mistakes_are_told(thawslide: Program, maps: Maps, tmp_path: Path) -> No
     write_line(maps.line, [(15.0, 200.0), (815.0, 200.0)])
     x, y = place(800.0, 200.0)
     assert error(*maps.words(folder)) == (
-        f"error: --line: {maps.line}: the line is outside the terrain model 785 m from its beginning, at x = {x:g}, "
+        f"error: --line: {maps.line}: the line is outside the DEM 785 m from its beginning, at x = {x:g}, "
         f"y = {y:g}; its points reach from x = 300005 to 300795 and from y = 400005 to 400395. Draw the line within "
-        "them, or take a larger terrain model."
+        "them, or take a larger DEM."
     )
     write_line(maps.line, [(2000.0, 200.0), (2500.0, 200.0)])
     assert "the line (x from 302000 to 302500, y from 400200 to 400200) lies outside" in error(*maps.words(folder))
@@ -189,8 +188,7 @@ def test_mistakes_are_told(thawslide: Program, maps: Maps, tmp_path: Path) -> No
     message = error(*maps.words(folder))
     assert message.startswith(f"error: --line: {maps.line}: the line crosses a place without data ")
     assert message.endswith(
-        "; needed: an elevation all along it. Fill the terrain model there (gdal_fillnodata.py), or draw the line "
-        "around it."
+        "; needed: an elevation all along it. Fill the DEM there (gdal_fillnodata.py), or draw the line around it."
     )
 
 
@@ -238,7 +236,8 @@ def test_block_slides_a_case_in_space_along_its_path(thawslide: Program, maps: M
     far = thawslide("block", folder, "--output", file, *coulomb, *sets(time__end=40))
     assert far.returncode == 0, far.stderr
     told = re.search(
-        r"note: the path's ground is known for 760 m; the front leaves it at (\S+) s, and the rows end before\. Give a "
+        r"warning: the path's ground is known for 760 m; the front leaves it at (\S+) s, and the rows end before\. "
+        r"Give a "
         r"longer maps\.path, or a larger DEM, to follow it further\n",
         far.stdout,
     )

@@ -46,7 +46,7 @@ def test_a_signal_that_was_ignored_stays_ignored(
     time.sleep(0.3)
     assert process.poll() is None
     process.send_signal(signal.SIGTERM)
-    assert f"stopped by signal {int(signal.SIGTERM)} at t = " in process.communicate(timeout=LIMIT)[1]
+    assert f"interrupted by signal {int(signal.SIGTERM)} at t = " in process.communicate(timeout=LIMIT)[1]
     assert process.returncode == 4
 
 
@@ -59,7 +59,7 @@ def test_a_signal_ends_the_settling(binary: Path, thawslide: Program, small_case
     process.send_signal(signal.SIGTERM)
     said = process.communicate(timeout=LIMIT)[1]
     assert process.returncode == 4
-    assert said == f"stopped by signal 15 while it settled; `thawslide resume {run}` begins anew\n"
+    assert said == f"interrupted by signal 15 while the body settled. To start again: thawslide resume {run}\n"
     facts = json.loads((run / "run.json").read_text())
     assert (facts["status"], facts["message"], facts["simulated_time_s"]) == ("stopped", "signal 15", 0.0)
     assert thawslide("status", run).stdout.startswith(f"{run}: stopped")

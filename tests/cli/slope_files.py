@@ -1,4 +1,4 @@
-"""A slope as a terrain model with a release area on it, what `thawslide new` makes of them and says of wrong ones."""
+"""A slope as a DEM with a release area on it, what `thawslide new` makes of them and says of wrong ones."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ def test_a_living_and_a_killed_run(thawslide: Program, at_work: subprocess.Popen
         f"{run}: its process is gone without a word: it was killed, the machine went down, or its disk was too full "
         "to say why\n"
     )
-    assert outcome.stdout.endswith(f"  to go on: thawslide resume {run}\n")
+    assert outcome.stdout.endswith(f"  to continue: thawslide resume {run}\n")
     assert json.loads(thawslide("status", run, "--json").stdout)["state"] == "killed"
 
 
@@ -107,7 +107,10 @@ def test_where_there_are_no_locks_it_cannot_be_told_whether_a_run_lives(
         os.utime(file, (long_ago, long_ago))
     said = thawslide("status", run, environment=without).stdout
     assert re.match(
-        re.escape(f"{run}: whether it runs cannot be told, as its file system has no locks; its last file was written ")
+        re.escape(
+            f"{run}: it cannot be determined whether it runs, because its file system has no locks; its last file was "
+            "written "
+        )
         + r"5 min 0\d s ago\n",
         said,
     ), said
@@ -163,9 +166,7 @@ def test_a_run_that_sets_up_is_alive(thawslide: Program, tmp_path: Path) -> None
 def test_status_where_there_is_no_run(thawslide: Program, tmp_path: Path) -> None:
     outcome = thawslide("status", tmp_path)
     assert outcome.returncode == 2
-    assert (
-        outcome.stderr == f"error: {tmp_path} holds no run: there is no run.json, which a run writes when it begins.\n"
-    )
+    assert outcome.stderr == f"error: {tmp_path} holds no run: run.json is missing, which a run writes at its start.\n"
 
 
 def test_a_run_does_not_take_its_own_case_away(thawslide: Program, small_case: Path, tmp_path: Path) -> None:

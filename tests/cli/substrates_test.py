@@ -44,8 +44,8 @@ def test_gaps_are_told_by_every_command_that_uses_the_base(
     for words in (["check", case], ["run", case, "--output", tmp_path / "run"], ["block", case]):
         outcome = thawslide(*words)
         assert outcome.returncode == 0, outcome.stderr
-        note = "note: between the substrates moraine and glacier, from x = 5 to 12 m, none lies: [basal] holds there\n"
-        assert outcome.stdout.count(note) == 1, words
+        note = "between the substrates moraine and glacier, from x = 5 to 12 m, none lies: [basal] holds there\n"
+        assert outcome.stdout.count(f"warning: {note}") == 1, words
 
 
 def test_check_says_nothing_of_substrates_without_any(thawslide: Program, small_case: Path) -> None:

@@ -1,4 +1,4 @@
-"""Small terrain models, release areas and lines, as the files a user has."""
+"""Small DEMs, release areas and lines, as the files a user has."""
 
 from __future__ import annotations
 

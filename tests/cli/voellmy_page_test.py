@@ -17,7 +17,7 @@ PAGE = ROOT / "docs" / "coming-from-ramms-avaframe.md"
 @pytest.fixture
 def case(tmp_path: Path) -> Path:
     """Write the page's case beside the files that it names: a slope of 30 degrees and a release on it."""
-    (text,) = re.findall(
+    text, _ = re.findall(
         r"^```toml\n(.*?)^```$",
         PAGE.read_text(encoding="utf-8"),
         re.DOTALL | re.MULTILINE,

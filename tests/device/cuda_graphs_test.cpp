@@ -1,5 +1,5 @@
-// Graphs of launches (device/cuda_graphs.hpp) with the functions of CUDA that they call played by this file: a kernel
-// is then a function of the processor, whose argument is copied when CUDA copies it.
+// Tests of CUDA graphs of launches (device/cuda_graphs.hpp) with mocked CUDA functions: a kernel is a host function,
+// and its argument is copied when CUDA would copy it.
 #include "device/cuda_graphs.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ template <int Name>
 struct Argument {
   double number;
 };
-// The argument's number, and the kernel's, as text.
+// Records the kernel's number and the argument's number as text.
 template <int Name>
 void kernel(Argument<Name> argument) {
   ran.push_back(std::to_string(Name) + ":" + std::to_string(static_cast<int>(argument.number)));
@@ -71,7 +71,7 @@ cudaError_t cudaGraphCreate(cudaGraph_t* graph, unsigned /*flags*/) {
 cudaError_t cudaGraphAddKernelNode(cudaGraphNode_t* node, cudaGraph_t graph, const cudaGraphNode_t* after,
                                    std::size_t count, const cudaKernelNodeParams* parameters) {
   auto& nodes = reinterpret_cast<Graph*>(graph)->nodes;
-  // One after the other.
+  // Nodes form a chain.
   EXPECT_EQ(count, nodes.empty() ? 0u : 1u);
   EXPECT_TRUE(nodes.empty() || reinterpret_cast<Node*>(*after) == nodes.back().get());
   nodes.push_back(std::make_unique<Node>(node_of(*parameters)));

@@ -13,7 +13,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 PHYSICS = Path(__file__).with_name("physics_kernels.cu")
 STEP = Path(__file__).with_name("step_kernels.cu")
-CARD = ROOT / "src" / "device" / "card.cu"
+GPU = ROOT / "src" / "device" / "gpu.cu"
 BASAL_LAWS = ROOT / "src" / "physics" / "basal" / "laws.hpp"
 OLDEST = 12  # version of nvcc: the first with C++20
 LIMIT = 600.0  # s; alone it takes about 10, and 60 for the step on a card
@@ -228,7 +228,7 @@ def test_the_program_for_a_card_goes_well_without_one() -> None:
 
 def test_the_step_on_a_card_compiles_without_spills(tmp_path: Path) -> None:
     """As launched: passes by groups of threads, nodes, sorting."""
-    used = resources(compiled(find_nvcc(), CARD, tmp_path))
+    used = resources(compiled(find_nvcc(), GPU, tmp_path))
     ours = {kernel: spilled for kernel, (_, spilled) in used.items() if kernel.startswith("device::run_")}
     assert len(ours) > 50
     assert {kernel: spilled for kernel, spilled in ours.items() if spilled > 0} == {}

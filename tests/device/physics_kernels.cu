@@ -1,5 +1,5 @@
-// Every function of src/physics that devices may call, in kernels of one particle a thread, in double precision. They
-// are compiled and never run: that they can be, and in how many registers, is the test.
+// Device kernels with one particle per thread for every function of src/physics that devices may call, in double
+// precision. They are compiled and never run: the test is that they compile, and their register count.
 #include <cstddef>
 #include <utility>
 
@@ -28,7 +28,7 @@ namespace thawslide::physics {
 using Real = double;
 using Tensor = SymmetricTensor<Real>;
 
-// One number after the other of a thread's particle; those of the particles side by side.
+// Access to consecutive numbers of a thread's particle; values of different particles are adjacent in memory.
 class Row {
  public:
   __device__ Row(Real* numbers, std::size_t particles)
@@ -92,7 +92,7 @@ template __global__ void strain_and_stress<SofteningFriction, 2>(SofteningFricti
 template __global__ void strain_and_stress<SofteningFriction, 3>(SofteningFriction, Elastic<Real>, Real*, Real*,
                                                                  std::size_t);
 
-// What decides whether a particle needs its law at all, and what gaps take of its strain.
+// Checks whether a particle yields, and the part of its strain that gaps take.
 template <int Dim>
 __global__ void yield_and_gap(MohrCoulomb<Real> law, Elastic<Real> elastic, Real* numbers, Real* results,
                               std::size_t particles) {
@@ -208,7 +208,7 @@ __global__ void mixture(Phases<Real> phases, Real* numbers, Real* results, std::
   result.put(mixed(porosity, row.take(), row.take()));
 }
 
-__global__ void pore_water(Phases<Real> phases, Real gravity, Real dt, Real sign, bool as_printed, Real* numbers,
+__global__ void pore_water(Phases<Real> phases, Real gravity, Real dt, Real sign, bool as_published, Real* numbers,
                            Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
   const Real porosity = row.take(), saturation = row.take(), temperature = row.take();
@@ -217,7 +217,7 @@ __global__ void pore_water(Phases<Real> phases, Real gravity, Real dt, Real sign
   result.put(pore_pressure(saturation, liquid, ice));
   result.put(undrained_pressure_coefficient(phases, porosity, saturation));
   result.put(pore_stiffness(phases, porosity, saturation));
-  const Real scaling = pore_space_scaling(row.take(), as_printed);
+  const Real scaling = pore_space_scaling(row.take(), as_published);
   const Real diffusivity = hydraulic_diffusivity(phases, porosity, saturation, scaling * row.take());
   result.put(share_of_subgrid_diffusion(diffusivity, row.take(), 3, dt));
 }
@@ -256,7 +256,7 @@ __global__ void cohesion_law(Law law, Real* numbers, Real* results, std::size_t 
   result.put(law.cohesion(take_node(row)));
 }
 
-// A kernel for each law of the lists.
+// One kernel for each law of the lists.
 void use_every_law(void (*use)(const void* kernel)) {
   basal::for_each_law<basal::FrictionLaw<Real>>(
       [&]<class Law>(basal::OfType<Law>) { use(reinterpret_cast<const void*>(friction_law<Law>)); });

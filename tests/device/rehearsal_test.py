@@ -1,6 +1,6 @@
 """Whole cases by the code of a card, from start to end.
 
-On thawslide_rehearsal, whose card is the processor; or, with THAWSLIDE_ON_CARD=1, on the program itself and a card.
+On thawslide_rehearsal, whose card is the processor; or, with THAWSLIDE_ON_GPU=1, on the program itself and a card.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ TOLERANCE = 1e-6
 @pytest.fixture(scope="session")
 def on_card() -> Path:
     """Return the program, built if need be; skip where there is no nvcc."""
-    if os.environ.get("THAWSLIDE_ON_CARD"):
+    if os.environ.get("THAWSLIDE_ON_GPU"):
         return PROCESSOR
     if shutil.which("nvcc") is None and not Path(os.environ.get("CUDA_HOME", "/usr/local/cuda"), "bin/nvcc").exists():
         pytest.skip("no nvcc")
@@ -114,6 +114,6 @@ def test_a_killed_run_on_a_card_ends_with_the_same_bits(on_card: Path, tmp_path:
     process.kill()
     assert process.wait() == -signal.SIGKILL
     outcome = run(on_card, "resume", tmp_path / "killed", "--device", "gpu")
-    assert "going on from t = " in outcome.stdout
+    assert "continuing from t = " in outcome.stdout
     for file in ("history.csv", "checkpoint.bin"):
         assert (tmp_path / "killed" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()

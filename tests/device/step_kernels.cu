@@ -1,5 +1,5 @@
-// The kernels of the step (mpm/kernel.hpp) in device code, a thread a particle as in device/particle_pass.hpp, in
-// double precision. They are compiled and never run: that they can be, and in how many registers, is the test.
+// Kernels of the step (mpm/kernel.hpp) in device code, with one particle per thread as in device/particle_pass.hpp, in
+// double precision. They are compiled and never run: the test is that they compile, and their register count.
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -23,7 +23,7 @@ namespace thawslide {
 
 using Real = double;
 
-// A tile's particles, and the records that its nodes hold.
+// Particles of a tile, and the records of its nodes.
 template <int Dim>
 struct TileOnDevice {
   mpm::ParticleView<Dim, Real> particles;
@@ -45,7 +45,7 @@ struct PatchOnDevice {
   const Real* numbers;
 };
 
-// A tile's patch, if there is one, in shared memory; a thread a number.
+// Copies a tile's patch, if any, to shared memory, one number per thread.
 template <int Dim, class... Names>
 __device__ auto fetch(mpm::RecordList<Names...> /*names*/, const Real* records, Real* shared) {
   static_assert(sizeof...(Names) <= 1, "no kernel reads more");
@@ -80,7 +80,7 @@ __device__ void visit(const TileOnDevice<Dim>& tile, typename CarriedOf<Dim, typ
     return;
   }
   mpm::ParticleView<Dim, Real> particles = tile.particles;
-  const mpm::One<Real> at{{tile.particle[k]}};
+  const mpm::ScalarIndex<Real> at{{tile.particle[k]}};
   mpm::OnePlace<Dim, Real> place{{}, tile.first_node[k], {}};
   for (std::size_t a = 0; a < Dim; ++a) {
     const std::int32_t nearest = tile.nearest[a][k];
@@ -92,7 +92,7 @@ __device__ void visit(const TileOnDevice<Dim>& tile, typename CarriedOf<Dim, typ
   weights.set_linear(place, tile.inverse_cell);
   weights.template set_momentum<Shape>(place, tile.sizes.of(particles, at), tile.inverse_cell);
   weights.template set_affine<Shape>(place, tile.cell, tile.inverse_cell);
-  const mpm::SeenByOne<mpm::OneWeights<Dim, Real>, decltype(patches)> seen{weights, patches};
+  const mpm::ScalarGather<mpm::OneWeights<Dim, Real>, decltype(patches)> seen{weights, patches};
   typename CarriedOf<Dim, typename Kernel::Adds>::Type added{};
   typename Kernel::Account account{};
   kernel(particles, at, seen, added, account);
@@ -173,8 +173,8 @@ __global__ void sweep_filter(TileOnDevice<Dim> tile, Results<Dim, mpm::SweepFilt
 }
 
 template <int Dim>
-__global__ void take_filtered(TileOnDevice<Dim> tile, Results<Dim, mpm::TakeFiltered<Dim, Real>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::TakeFiltered<Dim, Real>{});
+__global__ void take_filtered(TileOnDevice<Dim> tile, Results<Dim, mpm::ApplyFiltered<Dim, Real>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::ApplyFiltered<Dim, Real>{});
 }
 
 template <int Dim, class Law>
@@ -207,30 +207,32 @@ __global__ void secant_capacity(TileOnDevice<Dim> tile, Results<Dim, band::Secan
 }
 
 template <int Dim, class Curve>
-__global__ void take_heat(TileOnDevice<Dim> tile, Results<Dim, band::TakeHeat<Dim, Real, Law<Curve>>> to,
+__global__ void take_heat(TileOnDevice<Dim> tile, Results<Dim, band::UpdateHeat<Dim, Real, Law<Curve>>> to,
                           Content<Curve> content, band::BandPhysics<Real> model, Real dt) {
   const Law<Curve> law{content};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::TakeHeat<Dim, Real, Law<Curve>>{model, law, dt});
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::UpdateHeat<Dim, Real, Law<Curve>>{model, law, dt});
 }
 
 template <int Dim, class Curve>
-__global__ void take_heat_as_printed(TileOnDevice<Dim> tile,
-                                     Results<Dim, band::TakeHeatAsPrinted<Dim, Real, Law<Curve>>> to,
-                                     Content<Curve> content, band::BandPhysics<Real> model, Real dt) {
+__global__ void update_heat_as_published(TileOnDevice<Dim> tile,
+                                         Results<Dim, band::UpdateHeatApparentCapacity<Dim, Real, Law<Curve>>> to,
+                                         Content<Curve> content, band::BandPhysics<Real> model, Real dt) {
   const Law<Curve> law{content};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::TakeHeatAsPrinted<Dim, Real, Law<Curve>>{model, law, dt});
+  visit<Shape<Dim>>(tile, to.carried, to.accounts,
+                    band::UpdateHeatApparentCapacity<Dim, Real, Law<Curve>>{model, law, dt});
 }
 
 template <int Dim, class Curve>
-__global__ void masses_anew(TileOnDevice<Dim> tile, Results<Dim, band::CountMassesAnew<Dim, Real, Law<Curve>>> to,
-                            Content<Curve> content) {
+__global__ void new_heat_masses(TileOnDevice<Dim> tile, Results<Dim, band::UpdateHeatMass<Dim, Real, Law<Curve>>> to,
+                                Content<Curve> content) {
   const Law<Curve> law{content};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::CountMassesAnew<Dim, Real, Law<Curve>>{law});
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::UpdateHeatMass<Dim, Real, Law<Curve>>{law});
 }
 
 template <int Dim>
-__global__ void orphan_heat(TileOnDevice<Dim> tile, Results<Dim, band::TakeOrphanHeat<Dim, Real>> to, Real dt) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::TakeOrphanHeat<Dim, Real>{dt});
+__global__ void unreached_heat(TileOnDevice<Dim> tile, Results<Dim, band::RedistributeUnreachedHeat<Dim, Real>> to,
+                               Real dt) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::RedistributeUnreachedHeat<Dim, Real>{dt});
 }
 
 template <int Dim>
@@ -257,37 +259,37 @@ __global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim,
                     Pressure<Dim, Balances>{model, hydraulic, Real(0.5) * tile.cell, *columns});
 }
 
-// The columns of the slide: what a box overlaps, a column at the body's edge, and the load of a particle below one.
+// Columns of the slide: overlap of a box, a column at the body's edge, and the load of a particle below one.
 template <int Dim>
 __global__ void box_in_columns(std::uint64_t tile_key, TileOnDevice<Dim> tile, band::Overlaps<Dim, Real>* overlaps) {
-  const mpm::One<Real> at{{tile.particle[threadIdx.x]}};
+  const mpm::ScalarIndex<Real> at{{tile.particle[threadIdx.x]}};
   overlaps[threadIdx.x] = band::overlaps<Dim>(band::first_cell_of<Dim>(tile_key), tile.cell, tile.inverse_cell,
                                               tile.sizes, tile.particles, at);
 }
 template <int Dim>
-__global__ void column(std::uint64_t tile_key, Real cell, const bool* filled, const band::Pile<Real>* piles,
+__global__ void column(std::uint64_t tile_key, Real cell, const bool* filled, const band::ColumnMass<Real>* piles,
                        const band::Extent<Dim, Real>* extents, std::uint64_t* keys, Real* thickness, Real* load) {
   const std::size_t k = threadIdx.x;
   const auto is_filled = [&](std::size_t side) { return filled[k * band::column_sides<Dim> + side]; };
   const bool at_edge = band::lacks_neighbour<Dim>(is_filled);
-  keys[k] = band::column_beside(band::column_key<Dim>(tile_key, k), k % 2);
+  keys[k] = band::neighbour_column(band::column_key<Dim>(tile_key, k), k % 2);
   thickness[k] = band::thickness_of(piles[k], band::footprint_of<Dim>(cell, at_edge, extents[k], is_filled));
   load[k] = band::load_per_depth(piles[k], load[k], Real(10));
 }
 template <int Dim>
 __global__ void load(TileOnDevice<Dim> tile, band::ColumnsOfTile<Dim, Real, band::NumbersOfColumns<Real>> columns) {
-  const mpm::One<Real> at{{tile.particle[threadIdx.x]}};
-  band::take_load(tile.particles, at.particle[0], columns.flow_depth(tile.particles, at));
+  const mpm::ScalarIndex<Real> at{{tile.particle[threadIdx.x]}};
+  band::update_load(tile.particles, at.particle[0], columns.flow_depth(tile.particles, at));
 }
 
 template <int Dim>
-__global__ void take_position(TileOnDevice<Dim> tile, Results<Dim, mpm::TakePosition<Dim, Real>> to,
-                              mpm::TakePosition<Dim, Real> kernel) {
+__global__ void take_position(TileOnDevice<Dim> tile, Results<Dim, mpm::UpdatePosition<Dim, Real>> to,
+                              mpm::UpdatePosition<Dim, Real> kernel) {
   visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
 }
 
-// The second phase of a pass: what the particles first .. last-1 of a cell add to a number of one of its nodes, or the
-// smallest that they bring.
+// Second phase of a pass: reduces the contributions of particles first .. last-1 of a cell to a number of one of its
+// nodes, by sum or minimum.
 template <class Name, int Dim>
 __global__ void sum_in_cell(const mpm::OneWeights<Dim, Real>* weights, const CarriedTo<Name, Dim>* carried,
                             std::size_t first, std::size_t last, Real* sums) {
@@ -331,9 +333,9 @@ void instantiate() {
   secant_capacity<Dim, Line><<<1, 128>>>(tile, {}, {}, 0);
   take_heat<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, {}, 0);
   take_heat<Dim, Line><<<1, 128>>>(tile, {}, {}, {}, 0);
-  take_heat_as_printed<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, {}, 0);
-  masses_anew<Dim, PowerLaw><<<1, 128>>>(tile, {}, {});
-  orphan_heat<Dim><<<1, 128>>>(tile, {}, 0);
+  update_heat_as_published<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, {}, 0);
+  new_heat_masses<Dim, PowerLaw><<<1, 128>>>(tile, {}, {});
+  unreached_heat<Dim><<<1, 128>>>(tile, {}, 0);
   seepage<Dim><<<1, 128>>>(tile, {}, {}, {}, 0);
   seeping_water<Dim><<<1, 128>>>(tile, {}, {}, {});
   box_in_columns<Dim><<<1, 128>>>(0, tile, nullptr);

@@ -59,10 +59,10 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   io::write_file_atomically(file, text);
   fuzz::gives_value(file, [&] {
     static_cast<void>(io::last_time_in_history(file));
-    std::vector<std::string> notes;
-    const auto writer = io::HistoryWriter::continue_after(file, header, then, notes);
+    std::vector<std::string> warnings;
+    const auto writer = io::HistoryWriter::continue_after(file, header, then, warnings);
     require_whole_rows(io::read_file(file), writer.extent().rows);
-    if (writer.extent().rows != then.rows && notes.empty()) {
+    if (writer.extent().rows != then.rows && warnings.empty()) {
       fuzz::fail("other rows than the checkpoint knew of, and no word of it");
     }
   });

@@ -32,10 +32,10 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   std::filesystem::create_directories(folder / "snapshots");
   fuzz::write("run/snapshots/000000.vtkhdf", text);
   fuzz::gives_value(folder, [&] {
-    std::vector<std::string> notes;
-    io::SnapshotSeries series = io::SnapshotSeries::continue_after(folder, 1, notes);
+    std::vector<std::string> warnings;
+    io::SnapshotSeries series = io::SnapshotSeries::continue_after(folder, 1, warnings);
     series.write_index();  // virtual datasets over what could be read
-    if (notes.empty() != std::filesystem::exists(folder / "particles.vtkhdf")) {
+    if (warnings.empty() != std::filesystem::exists(folder / "particles.vtkhdf")) {
       fuzz::fail("a snapshot that is neither told of nor in the index");
     }
   });

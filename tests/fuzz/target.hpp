@@ -46,7 +46,7 @@ inline std::filesystem::path write(const std::string& name, std::string_view byt
 // else it throws ends the process as a finding.
 template <class Read>
 bool gives_value(const std::string& file, const Read& read) {
-  const auto told = [&](const std::exception& error) {
+  const auto specified = [&](const std::exception& error) {
     const std::string_view words(error.what());
     if (const auto* letter =
             std::find_if(words.begin(), words.end(), [](char l) { return l > 0 && l < ' ' && l != '\n'; });
@@ -62,9 +62,9 @@ bool gives_value(const std::string& file, const Read& read) {
     read();
     return true;
   } catch (const UserError& error) {
-    return told(error);
+    return specified(error);
   } catch (const RunError& error) {
-    return told(error);
+    return specified(error);
   }
 }
 

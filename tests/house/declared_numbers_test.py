@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "python"))
+sys.path[:0] = [str(ROOT), str(ROOT / "python")]
 
-from thawslide.paper.page_numbers import misplaced, read_declarations, undeclared  # noqa: E402
+from reproduction.page_numbers import misplaced, read_declarations, undeclared  # noqa: E402
 
 DECLARED = read_declarations(ROOT / "scripts" / "page_numbers.toml")
 PAGES = {page.file: page for page in DECLARED.pages}

@@ -38,7 +38,7 @@ def code_files(*folders: str) -> list[Path]:
 
 def own_files() -> list[Path]:
     """Return text files of the project, without what is generated or built."""
-    folders = ["src", "tests", "benchmarks", "python/thawslide", "cases", "docs", "scripts", ".ci"]
+    folders = ["src", "tests", "benchmarks", "python/thawslide", "reproduction", "cases", "docs", "scripts", ".ci"]
     inside = [path for folder in folders for path in (ROOT / folder).rglob("*") if path.is_file()]
     kinds = {".cpp", ".hpp", ".cu", ".in", ".py", ".toml", ".md", ".txt", ".csv", ".ini", ""}
     found = [path for path in [*inside, *ROOT.iterdir()] if path.is_file() and path.suffix in kinds]
@@ -136,7 +136,7 @@ def test_core_neither_prints_nor_exits_nor_catches_signals() -> None:
     word = re.compile(r"\bstd::(cout|cerr|clog)\b|\bfmt::print\b|\bprintf\(|\b(exit|_exit|abort|signal|sigaction)\(")
     for path in code_files("src"):
         # A process of its own, which is there to crash, ends by itself.
-        if path.relative_to(SOURCE).parts[0] == "app" or path.name == "tried_in_child.cpp":
+        if path.relative_to(SOURCE).parts[0] == "app" or path.name == "probe_in_subprocess.cpp":
             continue
         found = word.search(path.read_text())
         assert not found, f"{place(path)}: {found.group() if found else ''} belongs in src/app"
@@ -158,11 +158,15 @@ def test_sources_without_a_header_say_what_they_are() -> None:
 def test_physics_files_name_their_source() -> None:
     for path in (path for path in code_files("src/physics") if path.suffix == ".hpp"):
         opening = path.read_text().split("#pragma once")[0]
-        assert re.search(r"Eqs?\. ?\d|\d{4}|chapter", opening), f"{place(path)} cites no equation and no paper"
+        assert re.search(r"Eqs?\. ?\d|\d{4}|chapter|docs/theory/", opening), (
+            f"{place(path)} cites no equation and no paper"
+        )
 
 
 @pytest.mark.parametrize(
-    "path", code_files("src", "tests", "benchmarks") + sorted(ROOT.glob("python/**/*.py")), ids=place
+    "path",
+    code_files("src", "tests", "benchmarks") + sorted([*ROOT.glob("python/**/*.py"), *ROOT.glob("reproduction/*.py")]),
+    ids=place,
 )
 def test_file_is_not_too_long(path: Path) -> None:
     assert len(path.read_text().splitlines()) < LONGEST_FILE
@@ -221,6 +225,11 @@ def test_code_cites_sections_that_the_theory_has() -> None:
         for number in re.findall(r"docs/theory\.md,? (?:section )?(\d+(?:\.\d+)*)", text):
             assert number in numbers, f"{place(path)} cites section {number} of docs/theory.md"
             cited += 1
+        for page, name in re.findall(r'(docs/theory/[\w-]+\.md)(?:, "([^"]+)")?', text):
+            assert (ROOT / page).is_file(), f"{place(path)} cites {page}"
+            headings = re.findall(r"^#+ (.+)$", (ROOT / page).read_text(), re.MULTILINE)
+            assert not name or name in headings, f"{place(path)} cites the section '{name}' of {page}"
+            cited += 1
     assert cited > 0
 
 
@@ -234,7 +243,7 @@ def test_every_history_column_is_defined() -> None:
     columns = set(re.findall(r'(?:emplace_back|\badd)\("(\w+)"', text))
     columns |= {f"{name}_{axis}_N" for name in re.findall(r'"(\w+)_\{\}_N"', text) for axis in "xyz"}
     assert len(columns) > 35
-    assert columns - names_in_backticks(ROOT / "ARCHITECTURE.md") == set()
+    assert columns - names_in_backticks(ROOT / "docs" / "reference" / "outputs-columns.md") == set()
 
 
 def test_every_exit_code_is_documented() -> None:
@@ -242,9 +251,8 @@ def test_every_exit_code_is_documented() -> None:
     assert codes
     numbers = re.findall(r"= (\d+)", codes.group(1))
     assert numbers == ["0", "2", "3", "4", "5", "6"]
-    for document in ["ARCHITECTURE.md", "docs/user-guide.md"]:
-        table = re.findall(r"^\| (\d) \|", (ROOT / document).read_text(), re.MULTILINE)
-        assert set(numbers) <= set(table), document
+    page = ROOT / "docs" / "reference" / "command-line.md"
+    assert set(numbers) <= set(re.findall(r"^\| (\d) \|", page.read_text(), re.MULTILINE))
 
 
 def test_run_explains_itself_without_setting_up() -> None:

@@ -14,11 +14,11 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import FillBetweenPolyCollection, PolyCollection
 from matplotlib.figure import Figure
 
+from reproduction.bars import bars
 from thawslide import NotInRunError, Run
 from thawslide.band_pass import band_passed
 from thawslide.clock import time_of_speed
 from thawslide.figures import FIGURES
-from thawslide.figures.bars import bars
 from thawslide.figures.colours import TEMPERATURE, colour_range, label_bar, normalisation
 from thawslide.figures.energy import relative_residual
 from thawslide.figures.moments import chosen_snapshots

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 from conftest import MakeRun, history_columns, write_history
 
-from thawslide.paper.lamplugh import FRONT, base_traction, block_measures, near_ground, read_block, zone_shares, zones
-from thawslide.paper.one_at_a_time import Outcome, Row, at_rest, end_of, is_current, outcome, run_rows, table, table_row
-from thawslide.paper.runs import LAMPLUGH_BLOCKS
+from reproduction.lamplugh import FRONT, base_traction, block_measures, near_ground, read_block, zone_shares, zones
+from reproduction.one_at_a_time import Outcome, Row, at_rest, end_of, is_current, outcome, run_rows, table, table_row
+from reproduction.runs import LAMPLUGH_BLOCKS
 from thawslide.run import Run
 
 

@@ -13,12 +13,9 @@ from band_columns_test import column_history
 from conftest import MakeRun, write_history
 from force_record_test import pulse, write_record
 
-from thawslide import Run
-from thawslide.figures.force import force_in_band
-from thawslide.figures.force_record import compared
-from thawslide.paper.lamplugh import INVERSION
-from thawslide.paper.member_figures import MEMBER, members_over_time, on_one_clock
-from thawslide.paper.members import (
+from reproduction.lamplugh import INVERSION
+from reproduction.member_figures import MEMBER, members_over_time, on_one_clock
+from reproduction.members import (
     QUANTITIES,
     Observed,
     is_met,
@@ -32,7 +29,10 @@ from thawslide.paper.members import (
     variants_table,
     verdict,
 )
-from thawslide.paper.one_at_a_time import Row, commit_of, is_of_commit, words_to_start
+from reproduction.one_at_a_time import Row, commit_of, is_of_commit, words_to_start
+from thawslide import Run
+from thawslide.figures.force import force_in_band
+from thawslide.figures.force_record import compared
 
 START = 10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0))  # s: 12 sin2(pi t/10) = 8
 GOOD = Observed(

@@ -6,8 +6,8 @@ import dataclasses
 import tomllib
 from pathlib import Path
 
-from thawslide.paper.members import Observed
-from thawslide.paper.numerics import (
+from reproduction.members import Observed
+from reproduction.numerics import (
     CELL,
     CELLS,
     DOMAIN,
@@ -20,7 +20,7 @@ from thawslide.paper.numerics import (
     variant_cell_rows,
     variant_cells_table,
 )
-from thawslide.paper.one_at_a_time import Row
+from reproduction.one_at_a_time import Row
 
 
 def test_rows_scale_the_step_and_keep_the_domain() -> None:

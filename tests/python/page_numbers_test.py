@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from thawslide.paper.page_measures import from_table
-from thawslide.paper.page_numbers import (
+from reproduction.page_measures import from_table
+from reproduction.page_numbers import (
     DeclarationError,
     Page,
     Phrase,

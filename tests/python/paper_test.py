@@ -11,16 +11,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from thawslide.paper.band_model import GRAVITY, Column, Drive, solve
-from thawslide.paper.block import clapeyron, differences
-from thawslide.paper.freezing import COLD_END, reference
-from thawslide.paper.incline import drag, falls_below, friction_coefficient
-from thawslide.paper.mixture import FREEZING_BAR, TABLE_1, HeatTable, Mixture, linear_saturation, power_saturation
-from thawslide.paper.old_capacity import Bar, error
-from thawslide.paper.page import NAMES
-from thawslide.paper.runs import all_runs
-from thawslide.paper.sentences import claims, filled, holds, table, verdict
-from thawslide.paper.stages import balance, balance_cohesion, rubbing
+from reproduction.band_model import GRAVITY, Column, Drive, solve
+from reproduction.block import clapeyron, differences
+from reproduction.freezing import COLD_END, reference
+from reproduction.incline import drag, falls_below, friction_coefficient
+from reproduction.mixture import FREEZING_BAR, TABLE_1, HeatTable, Mixture, linear_saturation, power_saturation
+from reproduction.old_capacity import Bar, error
+from reproduction.page import NAMES
+from reproduction.runs import all_runs
+from reproduction.sentences import claims, filled, holds, table, verdict
+from reproduction.stages import balance, balance_cohesion, rubbing
 from thawslide.run import Run
 
 

@@ -13,10 +13,10 @@ from conftest import MakeRun, write_history
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
+from reproduction import lamplugh
 from thawslide import Run
 from thawslide.figures import FIGURES
 from thawslide.figures.style import COLUMN_WIDTH, without_title
-from thawslide.paper import lamplugh
 from thawslide.report import make_report
 
 SMALLEST = 6.0  # points

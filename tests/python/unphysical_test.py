@@ -13,11 +13,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
+from reproduction.lamplugh_figures import figure_20
 from thawslide import Run
 from thawslide.boiling import boiling_temperature
 from thawslide.figures import FIGURES
 from thawslide.figures.load import load_on_band, overburden
-from thawslide.paper.lamplugh_figures import figure_20
 
 
 def warnings(figure: Figure) -> dict[str, str]:

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from conftest import MakeRun
 
+from reproduction.lamplugh import deposit
 from thawslide.figures.snapshots import particle_size
 from thawslide.key_numbers import found_for
-from thawslide.paper.lamplugh import deposit
 from thawslide.run import Run
 from thawslide.targets import Target
 

@@ -1,7 +1,7 @@
-// Bonds of ice between slide and ground, which slip breaks and melting frees, to nothing: a c_S of Eq. 17 that does not
-// last.
+// Cohesion by ice bonds between sliding mass and ground, which slip breaks and melting removes, to zero: a c_S of
+// Eq. 17.
 //   c_S = c_0 exp(-s/d_c) (1 - S),  s the slip
-// Where all is frozen (S = 0) sliding costs the energy c_0 d_c [J/m2], and no more.
+// In fully frozen material (S = 0), breaking the bonds takes the energy c_0 d_c [J/m2].
 #pragma once
 
 #include <cmath>

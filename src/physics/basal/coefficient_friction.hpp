@@ -1,5 +1,5 @@
-// Friction as a given share of the whole load: sliding on a glacier, where what the load melts keeps friction low
-// without a pore pressure of its own. It stands in place of Eqs. 17 and 25.
+// Friction proportional to the total load: sliding on a glacier, where frictional melting keeps friction low without
+// an explicit pore pressure. Replaces Eqs. 17 and 25.
 //   tau = mu N
 #pragma once
 
@@ -12,7 +12,7 @@ template <class Real>
 struct CoefficientFriction {
   static constexpr const char* word = "coefficient";
   static constexpr const char* text = "friction_coefficient times N, whatever the pore pressure";
-  static constexpr bool feels_pore_pressure = false;
+  static constexpr bool depends_on_pore_pressure = false;
   static constexpr auto parameters = parameter_list(friction_coefficient);
 
   Real given;  // mu

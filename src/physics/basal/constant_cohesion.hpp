@@ -1,4 +1,4 @@
-// c_S = c_0 (Eq. 17), for ever.
+// c_S = c_0 (Eq. 17), constant.
 #pragma once
 
 #include "physics/basal/contact_node.hpp"

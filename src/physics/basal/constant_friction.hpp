@@ -12,7 +12,7 @@ template <class Real>
 struct ConstantFriction {
   static constexpr const char* word = "constant";
   static constexpr const char* text = "tan(friction_angle)";
-  static constexpr bool feels_pore_pressure = true;
+  static constexpr bool depends_on_pore_pressure = true;
   static constexpr auto parameters = parameter_list(friction_angle);
 
   Real full_coefficient;  // tan(phi_f)

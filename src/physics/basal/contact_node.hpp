@@ -1,4 +1,4 @@
-// What a law of the base may ask of a contact node (Eqs. 17, 25).
+// Input of the basal laws at a contact node (Eqs. 17, 25).
 #pragma once
 
 #include "base/portability.hpp"
@@ -10,12 +10,12 @@ struct ContactNode {
   Real normal_pressure = 0;  // N [Pa]
   Real pore_pressure = 0;    // P [Pa]
   Real temperature = 0;      // T [C]
-  Real saturation = 0;       // liquid, of the pores, S
+  Real saturation = 0;       // liquid saturation of the pores, S
   Real solid_fraction = 0;   // n_e, effective (Eq. 2)
-  Real slip = 0;             // gathered along the ground [m]
+  Real slip = 0;             // accumulated along the ground [m]
   Real speed = 0;            // of the slip, v [m/s]
   Real time = 0;             // [s]
-  Real unit_weight = 0;      // of the slide, rho g [N/m3]
+  Real unit_weight = 0;      // of the sliding mass, rho g [N/m3]
 };
 
 }  // namespace thawslide::physics::basal

@@ -1,4 +1,4 @@
-// Cohesion in proportion to the ice in the pores: the c_S of Eq. 17, of which the paper gives no law.
+// Cohesion proportional to the ice in the pores: a law for c_S of Eq. 17, which the paper does not specify.
 //   c_S = c_0 (1 - S)
 #pragma once
 

@@ -1,5 +1,5 @@
-// The laws of the base (Eqs. 17, 25): a line each, in the order in which the reference tells them. The case file, its
-// messages and its reference, `thawslide run` and `thawslide block` take them from here.
+// Basal laws (Eqs. 17, 25), one per line, in the order of the reference. The case file, its messages and its reference,
+// `thawslide run` and `thawslide block` use these lists.
 #pragma once
 
 #include <utility>
@@ -32,7 +32,7 @@ using CohesionLaw = std::variant<  //
     TimeCohesion<Real>,            //
     BondsCohesion<Real>>;
 
-// Traction of a friction law that is no share of the load [Pa].
+// Traction of a friction law that is independent of the load [Pa].
 template <class Law, class Real>
 THAWSLIDE_HD Real drag_of(const Law& law, const ContactNode<Real>& node) {
   if constexpr (requires { law.drag(node); }) {
@@ -42,7 +42,7 @@ THAWSLIDE_HD Real drag_of(const Law& law, const ContactNode<Real>& node) {
   }
 }
 
-// The type of a law, to be handed to a function.
+// Type of a law, as a function argument.
 template <class Law>
 struct OfType {
   using type = Law;
@@ -62,7 +62,7 @@ struct Each<std::variant<Laws...>> {
 
 }  // namespace detail
 
-// function(OfType<Law>) for each law of one of the lists above.
+// Calls function(OfType<Law>) for each law of one of the lists above.
 template <class Laws, class Function>
 void for_each_law(const Function& function) {
   detail::Each<Laws>::call(function);

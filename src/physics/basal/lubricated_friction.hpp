@@ -1,6 +1,6 @@
-// Friction that is lost as solid is: with the melting of ice, and with dilation.
+// Friction that decreases with the solid fraction: by melting of ice, and by dilation.
 //   mu_e = tan(phi_f) [1 - (1 - x)^omega],  x = (n_e - n_min)/(n_max - n_min) within [0, 1]                  (Eq. 25)
-// The limits on x are ours: beyond them Eq. 25 has no meaning.
+// The limits on x are an addition of the present implementation: beyond them, Eq. 25 is not meaningful.
 #pragma once
 
 #include <cmath>
@@ -35,7 +35,7 @@ template <class Real>
 struct LubricatedFriction {
   static constexpr const char* word = "lubricated";
   static constexpr const char* text = "tan(friction_angle) times a factor that falls as ice melts (Eq. 25)";
-  static constexpr bool feels_pore_pressure = true;
+  static constexpr bool depends_on_pore_pressure = true;
   static constexpr auto parameters =
       parameter_list(friction_angle, lubrication_exponent, min_solid_fraction, max_solid_fraction);
 

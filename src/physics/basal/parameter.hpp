@@ -1,10 +1,11 @@
-// How a law of the base (Eq. 17) says what it takes from the case file. A law is a struct in a header of its own, and
+// Declaration of a basal law (Eq. 17) and its parameters in the case file. A law is a struct in a separate header, with
 // one line in laws.hpp. It has
-//   word, text          what the case file calls it, and what it does
-//   parameters          the numbers that it takes, declared here or shared with others (shared_parameters.hpp)
-//   from(numbers)       the law, from a function that gives the number of a parameter
-//   coefficient(node)   of a friction law: mu_e; feels_pore_pressure: of N - P; drag(node), if any: no share of N [Pa]
-//   cohesion(node)      of a cohesion law: c_S [Pa]
+//   word, text          keyword in the case file, and description
+//   parameters          its numbers, declared there or shared with other laws (shared_parameters.hpp)
+//   from(numbers)       creates the law from a function that returns the number of a parameter
+//   coefficient(node)   friction law: mu_e; depends_on_pore_pressure: applied to N - P; optional drag(node):
+//                       part independent of N [Pa]
+//   cohesion(node)      cohesion law: c_S [Pa]
 #pragma once
 
 #include <array>
@@ -12,21 +13,21 @@
 
 namespace thawslide::physics::basal {
 
-// A number of the case file, and all that is said of it there.
+// Number of the case file, with its documentation.
 struct Parameter {
   const char* key;
   const char* unit = "";
   double initial = 0.0;             // default
-  bool is_needed = false;           // no default: where one of its laws is chosen it must be given
-  bool only_with_its_laws = false;  // where none of these is chosen it must not be given
+  bool is_needed = false;           // no default: required if one of its laws is selected
+  bool only_with_its_laws = false;  // not allowed if none of its laws is selected
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool low_open = false, high_open = false;
-  double usual_low = -std::numeric_limits<double>::infinity();  // of a base with band columns, not checked
+  double usual_low = -std::numeric_limits<double>::infinity();  // typical range with band columns, not checked
   double usual_high = std::numeric_limits<double>::infinity();
   const char* usual_where = "";  // "on a glacier"
-  const char* usual_law = "";    // word of the only law that these are usual of; empty: of any
-  const char* text = "";         // "{laws}" in it: the law "x", or the laws "x" and "y", that take the number
+  const char* usual_law = "";    // word of the only law to which the typical range applies; empty: all
+  const char* text = "";  // "{laws}" in it is replaced by the law "x", or the laws "x" and "y", that use the number
   const char* source = "";
 };
 

@@ -1,4 +1,4 @@
-// Numbers that several laws of the base take (Eqs. 17, 25).
+// Parameters used by several basal laws (Eqs. 17, 25).
 #pragma once
 
 #include "physics/basal/parameter.hpp"
@@ -14,7 +14,7 @@ inline constexpr Parameter friction_angle{.key = "friction_angle",
                                           .text = "basal friction angle phi_f",
                                           .source = "Eq. 25, Tables 2, 3"};
 
-// The usual ones are a range of back-calculated rock avalanches on glaciers, not checked.
+// The typical range is that of back-calculated rock avalanches on glaciers, not checked.
 inline constexpr Parameter friction_coefficient{.key = "friction_coefficient",
                                                 .is_needed = true,
                                                 .only_with_its_laws = true,
@@ -25,7 +25,7 @@ inline constexpr Parameter friction_coefficient{.key = "friction_coefficient",
                                                 .usual_law = "coefficient",
                                                 .text = "friction coefficient mu of {laws}"};
 
-// All laws of cohesion take it. Where it is 0 nothing is lost, and none of their other numbers is needed.
+// Used by all cohesion laws. If it is 0, none of their other parameters is required.
 inline constexpr Parameter initial_cohesion{
     .key = "cohesion", .unit = "Pa", .low = 0.0, .text = "cohesion along the ground at t = 0, c_0", .source = "Eq. 17"};
 

@@ -1,4 +1,4 @@
-// Cohesion that slip takes away, to a residual: the c_S of Eq. 17, of which the paper gives no law.
+// Cohesion that slip reduces to a residual: a law for c_S of Eq. 17, which the paper does not specify.
 //   c_S = c_r + (c_0 - c_r) exp(-s/d_c),  s the slip
 #pragma once
 

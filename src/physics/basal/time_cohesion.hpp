@@ -1,4 +1,4 @@
-// Cohesion that is lost at a given time, to a residual: the c_S of Eq. 17, of which the paper gives no law.
+// Cohesion that decreases to a residual at a given time: a law for c_S of Eq. 17, which the paper does not specify.
 #pragma once
 
 #include "physics/basal/contact_node.hpp"

@@ -1,7 +1,7 @@
-// Voellmy friction (Voellmy 1955; Salm 1993): Coulomb friction and a turbulent drag that is no share of the load.
+// Voellmy friction (Voellmy 1955; Salm 1993): Coulomb friction and a turbulent drag independent of the load.
 //   tau = mu (N - P) + rho g v^2/xi
-// rho: bulk density of the slide at the node; v: slip speed. RAMMS and AvaFrame's com1DFA (frictModel "Voellmy") write
-// S = mu N + rho g u^2/xi with a given density and the depth-averaged velocity u, and have no pore pressure P.
+// rho: bulk density of the sliding mass at the node; v: slip speed. RAMMS and AvaFrame's com1DFA (frictModel "Voellmy")
+// use S = mu N + rho g u^2/xi with a given density and the depth-averaged velocity u, without pore pressure P.
 #pragma once
 
 #include "physics/basal/contact_node.hpp"
@@ -23,7 +23,7 @@ template <class Real>
 struct VoellmyFriction {
   static constexpr const char* word = "voellmy";
   static constexpr const char* text = "friction_coefficient (N - P) + rho g v^2/turbulent_friction, v the slip speed";
-  static constexpr bool feels_pore_pressure = true;
+  static constexpr bool depends_on_pore_pressure = true;
   static constexpr auto parameters = parameter_list(friction_coefficient, turbulent_friction);
 
   Real given;       // mu

@@ -1,11 +1,11 @@
-// The steady drained band, derived in chapter 16, for the arrest or runaway of Goren and Aharonov (2009): friction
-// heats a band over its thickness e, water leaves it through its top, where P = 0; its base is sealed, heat stays. With
-// strength mu (N - P), P the mean over the band,
+// Steady drained band, derived in chapter 16, for the arrest or runaway of Goren and Aharonov (2009). Friction heats a
+// band over its thickness e; water leaves it through its top, where P = 0; its base is sealed, and no heat is lost.
+// With strength mu (N - P), P the mean over the band,
 //   tau = mu N/(1 + A v/k),   A = mu beta_m gamma_w eta e/(3 C)
-// A block that slides down an angle a speeds up where tau < N tan(a) and slows down where tau > N tan(a). Strength
-// falls as the speed v rises, so that the speed at which both are equal,
+// A block on a slope a accelerates if tau < N tan(a) and decelerates if tau > N tan(a). Strength decreases with the
+// speed v; the speed at which both are equal,
 //   v = (mu/tan(a) - 1) k/A,
-// is unstable: of two blocks on either side of it one arrests and one runs away.
+// is therefore unstable: below it, a block arrests; above it, it runs away.
 #pragma once
 
 #include <cmath>
@@ -27,8 +27,8 @@ struct DrainedBand {
   [[nodiscard]] double strength(double speed, double conductivity) const {
     return friction / (1.0 + weakening() * speed / conductivity);
   }
-  // The conductivity [m/s] at which a block of a speed [m/s] on a slope [rad] neither speeds up nor slows down: with
-  // less it runs away, with more it arrests. The slope is less steep than friction is.
+  // Conductivity [m/s] at which a block at a speed [m/s] on a slope [rad] neither accelerates nor decelerates: below
+  // it, the block runs away; above it, the block arrests. The slope must be below the friction angle.
   [[nodiscard]] double boundary_conductivity(double speed, double slope) const {
     return weakening() * speed / (friction / std::tan(slope) - 1.0);
   }

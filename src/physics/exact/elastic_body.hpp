@@ -1,8 +1,7 @@
-// Elastic bodies: closed-form solutions.
-//   bar that hits a rigid wall end on, nu = 0: pressure rho c v on the wall for 2 H/c, c = sqrt(E/rho), then it leaves
-//   with the speed it came with                                                     (Timoshenko and Goodier 1951, ch.
-//   15) cylinder turning about its axis, plane strain                                   (Timoshenko and Goodier 1951,
-//   ch. 4)
+// Elastic bodies: closed-form solutions (Timoshenko and Goodier 1951).
+//   bar that hits a rigid wall end on, nu = 0 (ch. 15): pressure rho c v on the wall for 2 H/c, c = sqrt(E/rho); then
+//   it rebounds with its initial speed
+//   cylinder rotating about its axis, plane strain (ch. 4):
 //     s_r = (3-2 nu)/(8 (1-nu)) rho w^2 (R^2 - r^2)
 //     s_t = rho w^2/(8 (1-nu)) [(3-2 nu) R^2 - (1+2 nu) r^2],  s_z = nu (s_r + s_t)
 #pragma once
@@ -16,7 +15,7 @@ inline double impact_pressure(double density, double youngs_modulus, double spee
   return std::sqrt(density * youngs_modulus) * speed;
 }
 
-// Time [s] that a bar of a length [m] stays at the wall.
+// Contact time [s] of a bar of a length [m] with the wall.
 inline double impact_time(double density, double youngs_modulus, double length) {
   return 2.0 * length / std::sqrt(youngs_modulus / density);
 }

@@ -1,18 +1,18 @@
 // Freezing of a half space from its face: the sharp front of Neumann (Carslaw and Jaeger 1959, ch. 11) and the three
-// zones of Lunardini (1985), whose middle zone, between Tm and Tf, freezes bit by bit.
+// zones of Lunardini (1985), whose middle zone freezes gradually between Tm and Tf.
 //   zones: 1 frozen, 2 freezing, 3 thawed;  a1 = k1/C1, a3 = k3/C3, a4 = k2/(C2 + Lv/(Tf - Tm)), r = sqrt(a1/a4)
-//   X1 = 2 psi sqrt(a1 t), X = 2 gam sqrt(a4 t)   where zones 1 and 2, and 2 and 3, meet
+//   X1 = 2 psi sqrt(a1 t), X = 2 gam sqrt(a4 t)   interfaces of zones 1 and 2, and of 2 and 3
 //   (Tm-Ts)/(Tf-Tm) exp(-psi^2 (1-a1/a4)) = (k2/k1) r erf(psi)/[erf(gam) - erf(psi r)]
 //   (Tf-Tm)/(T0-Tf) (k2/k3) sqrt(a3/a4) exp(-gam^2 (1-a4/a3)) = [erf(gam) - erf(psi r)]/erfc(gam sqrt(a4/a3))
-// McKenzie et al. (2007) print the first condition with a wrong sign.
+// McKenzie et al. (2007) give the first condition with a wrong sign.
 #pragma once
 
 #include <cmath>
 
 namespace thawslide::physics::exact {
 
-// A half space at `initial` T0 whose face is at `face` Ts since t = 0; it freezes between `freezing` Tf and `frozen` Tm
-// [C] and gives latent_heat Lv [J/m3] on the way. Arrays: frozen, freezing and thawed zone.
+// Half space at `initial` T0 whose face is at `face` Ts since t = 0. It freezes between `freezing` Tf and `frozen` Tm
+// [C] and releases latent_heat Lv [J/m3]. Arrays: frozen, freezing and thawed zone.
 struct FreezingProblem {
   double initial, face, freezing, frozen;
   double conductivity[3];  // k [W/m/K]
@@ -20,7 +20,7 @@ struct FreezingProblem {
   double latent_heat;
 };
 
-// The root in (low, high) of a function that is positive at low and negative at high.
+// Root in (low, high) of a function that is positive at low and negative at high.
 template <class Function>
 double falling_root(double low, double high, const Function& function) {
   for (int k = 0; k < 200; ++k) {
@@ -60,13 +60,13 @@ class ThreeZones {
   }
 
  private:
-  // erf(gam) by the first condition.
+  // erf(gam) from the first condition.
   [[nodiscard]] double erf_gam(double psi) const {
     return std::erf(psi * r_) + p_.conductivity[1] / p_.conductivity[0] * r_ * std::erf(psi) *
                                     (p_.freezing - p_.frozen) / (p_.frozen - p_.face) *
                                     std::exp(psi * psi * (1.0 - a1_ / a4_));
   }
-  // Left less right side of the second condition.
+  // Left side minus right side of the second condition.
   [[nodiscard]] double thawed_condition(double psi) const {
     const double erf_of_gam = erf_gam(psi);
     if (erf_of_gam >= 1.0) {
@@ -85,7 +85,8 @@ class ThreeZones {
   double a1_, a3_, a4_, r_, psi_, gam_;
 };
 
-// Neumann's two zones: all latent heat is given at `freezing`; `frozen` and the middle zone's numbers do not matter.
+// Neumann's two zones: all latent heat is released at `freezing`; `frozen` and the values of the middle zone are not
+// used.
 class SharpFront {
  public:
   explicit SharpFront(const FreezingProblem& problem)
@@ -108,7 +109,7 @@ class SharpFront {
   }
 
  private:
-  // Heat flow out of the front into the frozen side, less that from the thawed side, less what the front gives.
+  // Heat flow from the front into the frozen side, minus that from the thawed side, minus the latent heat released.
   [[nodiscard]] double front_condition(double psi) const {
     const double root_pi = std::sqrt(std::acos(-1.0));
     const double out =

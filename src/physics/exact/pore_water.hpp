@@ -1,17 +1,17 @@
-// Pore pressure of melted matter: closed-form solutions.
+// Pore pressure of melted material: closed-form solutions.
 //   consolidation       P = P0 sum_k (2/M) sin(M z/H) exp(-M^2 D t/H^2), M = (k + 1/2) pi   (Terzaghi 1943, ch. 13)
 //   undrained heating   dP = K_L [(1-n) beta_S + n beta_L]/n dT with 1-n = (1-n0) exp(beta_S (T - T0)) (Eqs. 6 and 8):
 //                       P - P0 = K_L {beta_S I + (beta_L - beta_S) (T - T0)}, I = integral of dT/n
 //   slip on a plane     tau/tau0 = exp(d/L) erfc(sqrt(d/L)), d = V t                       (Rice 2006, Eq. 9)
-//                       L = s (C/Lam)^2 (sqrt(D) + sqrt(a))^2/(f^2 V), s = 4 with matter on both sides (Rice), 1 with
-//                       matter on one side of a sealed, insulated plane: it takes twice the heat.
+//                       L = s (C/Lam)^2 (sqrt(D) + sqrt(a))^2/(f^2 V), s = 4 with material on both sides (Rice), 1
+//                       with material on one side of a sealed, insulated plane, which receives twice the heat.
 #pragma once
 
 #include <cmath>
 
 namespace thawslide::physics::exact {
 
-// P/P0 at depth z [m] below the drained top of a layer of thickness H [m] with a sealed base that was at P0;
+// P/P0 at depth z [m] below the drained top of a layer of thickness H [m] with a sealed base and initial pressure P0;
 // diffusivity D [m2/s], t > 0 [s].
 inline double consolidation_pressure(double z, double thickness, double diffusivity, double t) {
   const double pi = std::acos(-1.0);
@@ -24,7 +24,7 @@ inline double consolidation_pressure(double z, double thickness, double diffusiv
   return sum;
 }
 
-// Pressure rise [Pa] by undrained heating of melted matter of porosity n0 by `heating` [K]; water_bulk_modulus [Pa],
+// Pressure rise [Pa] by undrained heating of melted material of porosity n0 by `heating` [K]; water_bulk_modulus [Pa],
 // expansions [1/K].
 inline double undrained_pressure_rise(double heating, double porosity, double water_bulk_modulus, double rock_expansion,
                                       double water_expansion) {
@@ -34,7 +34,7 @@ inline double undrained_pressure_rise(double heating, double porosity, double wa
   return water_bulk_modulus * (rock_expansion * integral + (water_expansion - rock_expansion) * heating);
 }
 
-// Slip length L [m] over which a slipping plane with matter on one side loses its strength: heat capacity C [J/m3/K],
+// Slip length L [m] over which a plane with material on one side loses its strength: heat capacity C [J/m3/K],
 // undrained pressure coefficient Lam [Pa/K], hydraulic and thermal diffusivity [m2/s], friction f, speed V [m/s].
 inline double one_sided_slip_length(double capacity, double pressure_coefficient, double hydraulic_diffusivity,
                                     double thermal_diffusivity, double friction, double speed) {
@@ -43,7 +43,7 @@ inline double one_sided_slip_length(double capacity, double pressure_coefficient
   return ratio * ratio / speed;
 }
 
-// Strength of the plane after a slip [m], over that at its start.
+// Strength of the plane after a slip [m], relative to the initial strength.
 inline double strength_on_plane(double slip, double slip_length) {
   const double x = slip / slip_length;
   return std::exp(x) * std::erfc(std::sqrt(x));

@@ -1,18 +1,18 @@
 // Rigid bodies with Coulomb friction (chapters on rigid bodies of any textbook of mechanics).
-//   plane   a = g (sin theta - mu cos theta); work of friction mu m g cos theta times the way
-//   arc     a body turns about the centre O of a circular arc of radius R on which it slides down, with mass m, moment
-//           of inertia I about O and centre of mass at r from O, phi its angle from the lowest point:
+//   plane   a = g (sin theta - mu cos theta); work of friction mu m g cos theta times the distance
+//   arc     a body slides down a circular arc of radius R, turning about its centre O, with mass m, moment of inertia I
+//           about O, centre of mass at r from O, and phi its angle from the lowest point:
 //             (I/2) dw^2/dphi = -m g r sin phi + mu R m (g cos phi + r w^2),   w = -dphi/dt > 0
-//           dw^2/dphi = a w^2 - b sin phi + c cos phi with a = 2 mu R m r/I, b = 2 m g r/I, c = 2 mu R m g/I, so
+//           dw^2/dphi = a w^2 - b sin phi + c cos phi with a = 2 mu R m r/I, b = 2 m g r/I, c = 2 mu R m g/I, hence
 //             w^2 = A sin phi + B cos phi + K exp(a phi),  A = (a b + c)/(1 + a^2), B = b - a A
-//           (short against R: the ground's pressure acts along the radius of the centre of mass)
+//           (short compared with R: the ground's pressure acts along the radius of the centre of mass)
 #pragma once
 
 #include <cmath>
 
 namespace thawslide::physics::exact {
 
-// Acceleration [m/s2] down a plane of slope [rad] above the friction angle; 0 below it. From rest.
+// Acceleration [m/s2] down a plane of a slope [rad] above the friction angle, from rest; 0 below the friction angle.
 inline double acceleration_on_plane(double slope, double friction, double gravity) {
   const double down = gravity * (std::sin(slope) - friction * std::cos(slope));
   return down > 0.0 ? down : 0.0;
@@ -25,7 +25,7 @@ struct ArcSlide {
   double friction;         // mu
   double gravity;          // [m/s2]
 
-  // Angular speed [rad/s] at the angle phi <= start [rad], having been at rest at start.
+  // Angular speed [rad/s] at the angle phi <= start [rad], from rest at `start`.
   [[nodiscard]] double angular_speed(double phi, double start) const {
     const double a = 2.0 * friction * radius * centre_distance / inertia;
     const double b = 2.0 * gravity * centre_distance / inertia;

@@ -1,6 +1,4 @@
 // What lanes do beside arithmetic: between memory and registers, and from rows to columns.
-#include "base/lanes.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,8 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
+
+#include "base/simd.hpp"
 
 namespace thawslide {
 namespace {
@@ -19,7 +19,7 @@ TYPED_TEST_SUITE(LanesTest, Reals);
 
 TYPED_TEST(LanesTest, GatherAndScatterGoByPlaces) {
   using Real = TypeParam;
-  constexpr std::size_t count = lane_count<Real>;
+  constexpr std::size_t count = simd_width<Real>;
   std::array<Real, 3 * count> numbers{};
   std::iota(numbers.begin(), numbers.end(), Real(0));
   std::array<std::int32_t, count> places{};
@@ -27,7 +27,7 @@ TYPED_TEST(LanesTest, GatherAndScatterGoByPlaces) {
     places[k] = static_cast<std::int32_t>((5 * k + 2) % numbers.size());
   }
   const auto whole = whole_lanes<Real>(places.data());
-  const auto gathered = Lanes<Real>::gather(numbers.data(), whole);
+  const auto gathered = Simd<Real>::gather(numbers.data(), whole);
   for (std::size_t k = 0; k < count; ++k) {
     EXPECT_EQ(gathered[k], static_cast<Real>(places[k]));
   }
@@ -43,22 +43,22 @@ TYPED_TEST(LanesTest, GatherAndScatterGoByPlaces) {
 
 template <class Real, std::size_t Width>
 void expect_rows_and_columns() {
-  constexpr std::size_t count = lane_count<Real>;
+  constexpr std::size_t count = simd_width<Real>;
   const auto number = [](std::size_t quantity, std::size_t particle) {
     return static_cast<Real>(10 * quantity + particle + 1);
   };
-  Lanes<Real> quantities[Width], back[Width];
+  Simd<Real> quantities[Width], back[Width];
   for (std::size_t q = 0; q < Width; ++q) {
-    quantities[q] = Lanes<Real>::of([&](std::size_t lane) { return number(q, lane); });
+    quantities[q] = Simd<Real>::of([&](std::size_t lane) { return number(q, lane); });
   }
-  Lanes<Real, Width> rows[count];
-  by_particle(quantities, rows);
+  Simd<Real, Width> rows[count];
+  transpose_to_rows(quantities, rows);
   for (std::size_t p = 0; p < count; ++p) {
     for (std::size_t q = 0; q < Width; ++q) {
       EXPECT_EQ(rows[p][q], number(q, p));
     }
   }
-  by_quantity(rows, back);
+  transpose_to_columns(rows, back);
   for (std::size_t q = 0; q < Width; ++q) {
     for (std::size_t p = 0; p < count; ++p) {
       EXPECT_EQ(back[q][p], number(q, p));
@@ -68,17 +68,17 @@ void expect_rows_and_columns() {
 
 TYPED_TEST(LanesTest, RowsBecomeColumnsAndBack) {
   expect_rows_and_columns<TypeParam, 4>();
-  expect_rows_and_columns<TypeParam, lane_count<TypeParam>>();
+  expect_rows_and_columns<TypeParam, simd_width<TypeParam>>();
 }
 
 TYPED_TEST(LanesTest, MasksKnowTheirLanes) {
   using Real = TypeParam;
   EXPECT_FALSE(any(lanes_before<Real>(0)));
-  for (std::size_t count = 1; count <= lane_count<Real>; ++count) {
+  for (std::size_t count = 1; count <= simd_width<Real>; ++count) {
     const auto before = lanes_before<Real>(count);
     EXPECT_TRUE(any(before));
-    EXPECT_EQ(any(!before), count < lane_count<Real>);
-    for (std::size_t k = 0; k < lane_count<Real>; ++k) {
+    EXPECT_EQ(any(!before), count < simd_width<Real>);
+    for (std::size_t k = 0; k < simd_width<Real>; ++k) {
       EXPECT_EQ(before[k], k < count);
     }
   }
@@ -97,8 +97,8 @@ TYPED_TEST(LanesTest, SmallerAndLargerAreThoseOfOneNumberInEveryBit) {
   const auto is_same = [](Real a, Real b) { return std::memcmp(&a, &b, sizeof a) == 0; };
   for (const Real a : numbers) {
     for (const Real b : numbers) {
-      EXPECT_TRUE(is_same(min(a, b), min(Lanes<Real>(a), Lanes<Real>(b))[0])) << a << " " << b;
-      EXPECT_TRUE(is_same(max(a, b), max(Lanes<Real>(a), Lanes<Real>(b))[0])) << a << " " << b;
+      EXPECT_TRUE(is_same(min(a, b), min(Simd<Real>(a), Simd<Real>(b))[0])) << a << " " << b;
+      EXPECT_TRUE(is_same(max(a, b), max(Simd<Real>(a), Simd<Real>(b))[0])) << a << " " << b;
       EXPECT_TRUE(is_same(min(a, b), std::min(a, b)) && is_same(max(a, b), std::max(a, b))) << a << " " << b;
     }
   }

@@ -1,11 +1,11 @@
 // A shell takes each text for one word, and for that text.
-#include "base/shell_word.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstdio>
 #include <memory>
+
+#include "base/shell_quote.hpp"
 
 namespace thawslide {
 namespace {
@@ -21,24 +21,24 @@ std::string as_bash_reads(const std::string& word) {
 
 TEST(ShellWord, LeavesPlainPathsAsTheyAre) {
   for (const std::string path : {"runs/small", "../a_b-c.toml", "/tmp/x,y@z+1%", "time.end=5", "h\xC3\xBCtte"}) {
-    EXPECT_EQ(shell_word(path), path);
+    EXPECT_EQ(shell_quote(path), path);
   }
 }
 
 TEST(ShellWord, QuotesWhatMeansSomethingToAShell) {
-  EXPECT_EQ(shell_word("o/a b"), "'o/a b'");
-  EXPECT_EQ(shell_word("o/$(id)"), "'o/$(id)'");
-  EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
-  EXPECT_EQ(shell_word(""), "''");
-  EXPECT_EQ(shell_word("~"), "'~'");
-  EXPECT_EQ(shell_word("-x"), "./-x") << "no option";
-  EXPECT_EQ(shell_word("two\nlines"), "$'two\\012lines'") << "nothing that would steer a terminal";
+  EXPECT_EQ(shell_quote("o/a b"), "'o/a b'");
+  EXPECT_EQ(shell_quote("o/$(id)"), "'o/$(id)'");
+  EXPECT_EQ(shell_quote("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_quote(""), "''");
+  EXPECT_EQ(shell_quote("~"), "'~'");
+  EXPECT_EQ(shell_quote("-x"), "./-x") << "no option";
+  EXPECT_EQ(shell_quote("two\nlines"), "$'two\\012lines'") << "nothing that would steer a terminal";
 }
 
 TEST(ShellWord, IsReadAsTheTextItWas) {
   for (const std::string text : {"a b", "$(id)", "`id`", "it's", "a\"b", "back\\slash", "a;b&c|d<e>f*?[g]{h,i}!#~",
                                  "two\nlines", "tab\tand ' and \\ and \x1b[2J"}) {
-    EXPECT_EQ(as_bash_reads(shell_word(text)), text);
+    EXPECT_EQ(as_bash_reads(shell_quote(text)), text);
   }
 }
 

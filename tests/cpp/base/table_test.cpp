@@ -66,11 +66,11 @@ TEST(ParallelSum, AddsEachOnceAndInTheSameOrderOnAnyThreads) {
   set_thread_count(before);
 }
 
-TEST(LoneThread, LeavesTheNumberOfThreadsAsItWas) {
+TEST(SingleThreadScope, LeavesTheNumberOfThreadsAsItWas) {
   const int before = thread_count();
   set_thread_count(3);
   {
-    const LoneThread alone;
+    const SingleThreadScope alone;
     EXPECT_EQ(thread_count(), 1);
   }
   EXPECT_EQ(thread_count(), 3);

@@ -51,9 +51,9 @@ TEST(ThreadChoice, FollowsWhatElseTheMachineDoes) {
   const std::int64_t before = run.steps;
   run.until(30.0, beside_another);
   EXPECT_GT(static_cast<double>(run.steps - before), 0.95 * 10.0 / step);
-  const std::int64_t beside = run.steps;
+  const std::int64_t adjacent = run.steps;
   run.until(60.0, shared_well);
-  EXPECT_GT(static_cast<double>(run.steps - beside), 0.9 * 30.0 / (step / 2));
+  EXPECT_GT(static_cast<double>(run.steps - adjacent), 0.9 * 30.0 / (step / 2));
 }
 
 TEST(ThreadChoice, FindsFewThreadsAmongMany) {

@@ -27,7 +27,7 @@ TEST(Bed, LawThatLacksItsStrength) {
             "[Pa].");
 }
 
-TEST(Bed, NoMatter) {
+TEST(Bed, NoMaterial) {
   EXPECT_EQ(error_of_bed("material = \"rock\"\n", ""),
             "FOLDER/case.toml:22:1: key 'bed.material' is missing: it is needed when bed.law is not \"none\". Add "
             "'material = ...' to [bed]: name of the material that the bed is made of, a text in quotes.");
@@ -38,8 +38,8 @@ TEST(Bed, NoMatter) {
 
 TEST(Bed, DeeperThanACell) {
   EXPECT_EQ(error_of_bed("2.0", "6.0"),
-            "FOLDER/case.toml:24:9: bed.depth is 6 m, more than grid.cell, which is 5 m; the ground does not sink as "
-            "the bed is taken up. Make the bed thinner, or let a lower terrain and a body on it stand for the bed.");
+            "FOLDER/case.toml:24:9: bed.depth is 6 m, more than grid.cell, which is 5 m; the ground is not lowered as "
+            "the bed is entrained. Make the bed thinner, or represent the bed by a body on lower terrain.");
 }
 
 TEST(Bed, DepthThatHasNoPlace) {

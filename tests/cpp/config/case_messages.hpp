@@ -80,7 +80,7 @@ inline std::string changed(const std::vector<Change>& changes, std::string text 
 
 using testing_support::folder_of_this_test;
 
-inline void write_beside_the_case(const std::string& name, const std::string& text) {
+inline void write_next_to_the_case(const std::string& name, const std::string& text) {
   const std::filesystem::path file = folder_of_this_test() / name;
   std::filesystem::create_directories(file.parent_path());
   std::ofstream(file, std::ios::binary) << text;
@@ -99,7 +99,7 @@ inline std::string without_marks(std::string resolved) {
 // Maps are opened when a run begins: to the case file it is enough that they are there.
 inline void write_map_files() {
   for (const char* name : {"dem.tif", "release.geojson", "map.tif", "line.geojson"}) {
-    write_beside_the_case(name, "");
+    write_next_to_the_case(name, "");
   }
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "config/section_proposal.hpp"
-#include "sim/watch.hpp"
+#include "sim/monitor.hpp"
 
 namespace thawslide::config {
 namespace {

@@ -113,7 +113,7 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseInForce) {
       "[bed]\nlaw = \"momentum\"\ndepth = 2.0\nstrength = 0.0\ndepth_per_slip = 0.5\nmaterial = \"rock\"\n";
   const std::string ice = "[substrate.ice]\nfriction_angle = 5.0\n";
   const std::string resting = changed({{"step = 0.001", "step = 0.001\nstop_at_rest = 0.1"}});
-  write_beside_the_case("force.csv", "time_s,up_N,north_N,east_N\n0,0,0,0\n1,0,0,0\n");
+  write_next_to_the_case("force.csv", "time_s,up_N,north_N,east_N\n0,0,0,0\n1,0,0,0\n");
   const std::string record = "[report]\nforce_record = \"force.csv\"\nforce_periods = [10.0, 200.0]\n";
   for (const std::string& text : {sound + record, sound + wall + ice + "x_min = 50.0\n", sound + noise, sound + bed,
                                   sound + columns, sound + columns + growth, sound_on_dem, of_surface, resting,

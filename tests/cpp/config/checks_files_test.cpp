@@ -13,8 +13,8 @@ const std::string heights = "distance_m,terrain_elevation_m\n0,0\n100,0\n";
 const std::string columns = "quantity,time_s,value,unit,source\n";
 
 TEST(InputFiles, OfOneNameAreRefusedAtTheLaterKey) {
-  write_beside_the_case("data.csv", heights);
-  write_beside_the_case("reports/data.csv", columns);
+  write_next_to_the_case("data.csv", heights);
+  write_next_to_the_case("reports/data.csv", columns);
   EXPECT_EQ(error_of_changed({profile, {"[basal]", "[report]\ntargets = \"reports/data.csv\"\n[basal]"}}),
             "FOLDER/case.toml:21:11: report.targets leads to FOLDER/reports/data.csv, and terrain.file to "
             "FOLDER/data.csv; allowed: names of their own, since a run keeps copies of all its inputs in one folder. "
@@ -25,7 +25,7 @@ TEST(InputFiles, OfOneNameAreRefusedAtTheLaterKey) {
 TEST(InputFiles, OfAMapAreToldOnceWithAllThatLiesBesideIt) {
   for (const std::string folder : {"west", "east"}) {
     for (const std::string ending : {".shp", ".shx", ".dbf"}) {
-      write_beside_the_case(folder + "/area" + ending, "");
+      write_next_to_the_case(folder + "/area" + ending, "");
     }
   }
   write_map_files();
@@ -45,18 +45,18 @@ TEST(InputFiles, ThatAreNoFilesAreCalledWhatTheyAre) {
 
 // The words are those of the report, which reads the file again (tests/cli/targets_test.py).
 TEST(ReportedValues, AreReadWithTheCaseAndEachMistakeIsTold) {
-  write_beside_the_case("targets.csv", "# told by others\n" + columns +
-                                           "mean_velocty,1,8,m/s,x\n"
-                                           "mean_velocity,1,8,knots,x\n"
-                                           "mean_velocity,1,fast,m/s,x\n"
-                                           "mean_velocity,-100,8,m/s,x\n"
-                                           "mean_velocity,1,-8,m/s,x\n"
-                                           "band_SL,1,30,-,x\n"
-                                           "max_seismic_force_150_35_s,1,2,N,x\n"
-                                           "mean_displacement,1,2,m\n"
-                                           "source_volume,-5,2,million m3,\"x, and others\"\n"
-                                           "mean_displacement,1,2,m,x\n"
-                                           "mean_displacement,1,3,m,x\n");
+  write_next_to_the_case("targets.csv", "# told by others\n" + columns +
+                                            "mean_velocty,1,8,m/s,x\n"
+                                            "mean_velocity,1,8,knots,x\n"
+                                            "mean_velocity,1,fast,m/s,x\n"
+                                            "mean_velocity,-100,8,m/s,x\n"
+                                            "mean_velocity,1,-8,m/s,x\n"
+                                            "band_SL,1,30,-,x\n"
+                                            "max_seismic_force_150_35_s,1,2,N,x\n"
+                                            "mean_displacement,1,2,m\n"
+                                            "source_volume,-5,2,million m3,\"x, and others\"\n"
+                                            "mean_displacement,1,2,m,x\n"
+                                            "mean_displacement,1,3,m,x\n");
   const std::string place = "FOLDER/case.toml:21:11: report.targets: FOLDER/targets.csv:";
   EXPECT_EQ(error_of_changed({targets}),
             place +
@@ -73,20 +73,20 @@ TEST(ReportedValues, AreReadWithTheCaseAndEachMistakeIsTold) {
                 "9: max_seismic_force_150_35_s: give the shorter period first, both from 0.001 to 100000 s\n" +  //
                 place + "10: 4 values for 5 columns\n" +                                                         //
                 place +
-                "13: mean_displacement at this time from this source is in line 12 already; keep one of the "
-                "two, or tell their sources apart\n" +
+                "13: mean_displacement at this time from this source is in line 12 already; keep one of the two, or "
+                "give them different sources\n" +
                 place +
                 "6: mean_velocity is of -100 s, before the run; allowed: 0 s and later, or a row "
                 "start_velocity that sets their clock");
 }
 
 TEST(ReportedValues, AreOfOneOfThreeKinds) {
-  write_beside_the_case("targets.csv",
-                        "quantity,time_s,value,unit,kind\nmean_velocity,1,8,m/s,observation\n"
-                        "mean_velocity,2,8,m/s,model\nmean_velocity,3,8,m/s,assumption\n");
+  write_next_to_the_case("targets.csv",
+                         "quantity,time_s,value,unit,kind\nmean_velocity,1,8,m/s,observation\n"
+                         "mean_velocity,2,8,m/s,model\nmean_velocity,3,8,m/s,assumption\n");
   EXPECT_EQ(error_of_changed({targets}), "no error");
-  write_beside_the_case("targets.csv",
-                        "quantity,time_s,value,unit,kind\nmean_velocity,1,8,m/s,guess\nmean_velocity,2,8,m/s,\n");
+  write_next_to_the_case("targets.csv",
+                         "quantity,time_s,value,unit,kind\nmean_velocity,1,8,m/s,guess\nmean_velocity,2,8,m/s,\n");
   const std::string place = "FOLDER/case.toml:21:11: report.targets: FOLDER/targets.csv:";
   EXPECT_EQ(error_of_changed({targets}),
             place + "2: the kind 'guess' for mean_velocity; allowed: observation, model, assumption\n" +  //
@@ -94,25 +94,27 @@ TEST(ReportedValues, AreOfOneOfThreeKinds) {
 }
 
 TEST(ReportedValues, OnAClockOfTheirOwnMayBeEarlier) {
-  write_beside_the_case("targets.csv", columns + "start_velocity,-50,8,m/s,x\nmean_velocity,-40,8,m/s,x\n");
+  write_next_to_the_case("targets.csv", columns + "start_velocity,-50,8,m/s,x\nmean_velocity,-40,8,m/s,x\n");
   EXPECT_EQ(error_of_changed({targets}), "no error");
 }
 
 TEST(ReportedValues, AfterTheEndAreNoted) {
   const std::string rows = "mean_velocity,1,8,m/s,x\nmean_velocity,75,8,m/s,x\ndeposit_volume,900,1,m3,x\n";
-  write_beside_the_case("targets.csv", columns + rows + "mean_displacement,80,8,m,x\n");
-  const std::string note = note_on_late_values(testing_support::case_from_text(changed({targets})));
-  EXPECT_NE(note.find("/case.toml:21:11: report.targets is targets.csv: 2 of its values are later than the run, which "
-                      "ends at 2 s, as mean_velocity of 75 s in line 3; nothing of the run is compared with them."),
-            std::string::npos)
-      << note;
-  write_beside_the_case("targets.csv", columns + "start_velocity,40,8,m/s,x\n" + rows);
-  EXPECT_EQ(note_on_late_values(testing_support::case_from_text(changed({targets}))), "") << "on a clock of their own";
+  write_next_to_the_case("targets.csv", columns + rows + "mean_displacement,80,8,m,x\n");
+  const std::string warning = warning_of_late_values(testing_support::case_from_text(changed({targets})));
+  EXPECT_NE(
+      warning.find("/case.toml:21:11: report.targets is targets.csv: 2 of its values are later than the run, which "
+                   "ends at 2 s, as mean_velocity of 75 s in line 3; nothing of the run is compared with them."),
+      std::string::npos)
+      << warning;
+  write_next_to_the_case("targets.csv", columns + "start_velocity,40,8,m/s,x\n" + rows);
+  EXPECT_EQ(warning_of_late_values(testing_support::case_from_text(changed({targets}))), "")
+      << "on a clock of their own";
 }
 
 TEST(ReportedValues, AreTextInUtf8) {
   const auto error_of_file = [](const std::string& bytes) {
-    write_beside_the_case("targets.csv", bytes);
+    write_next_to_the_case("targets.csv", bytes);
     const std::string found = error_of_changed({targets}), place = "FOLDER/case.toml:21:11: report.targets: FOLDER/";
     return found.compare(0, place.size(), place) == 0 ? found.substr(place.size()) : found;
   };
@@ -147,7 +149,7 @@ TEST(ForceRecord, NeedsTwoPeriodsAndAFileThatIsUnderstood) {
   const auto error_of_report = [](const std::string& keys) {
     return error_of_changed({{"[basal]", "[report]\nforce_record = \"force.csv\"\n" + keys + "[basal]"}});
   };
-  write_beside_the_case("force.csv", "time_s,up_N,north_N,east_N\n0,0,0,0\n1,0,0,0\n");
+  write_next_to_the_case("force.csv", "time_s,up_N,north_N,east_N\n0,0,0,0\n1,0,0,0\n");
   EXPECT_EQ(error_of_report("force_periods = [10.0, 200.0]\n"), "no error");
   EXPECT_EQ(
       error_of_report("force_periods = [10.0]\n"),
@@ -160,7 +162,7 @@ TEST(ForceRecord, NeedsTwoPeriodsAndAFileThatIsUnderstood) {
   EXPECT_NE(error_of_report("").find("report.force_periods"), std::string::npos);
   EXPECT_NE(error_of_changed({{"[basal]", "[report]\nforce_periods = [10.0, 200.0]\n[basal]"}}).find("force_periods"),
             std::string::npos);
-  write_beside_the_case("force.csv", "time_s,up_N,north_N,east_N\n0,0,0,0\n0,0,0,0\n");
+  write_next_to_the_case("force.csv", "time_s,up_N,north_N,east_N\n0,0,0,0\n0,0,0,0\n");
   EXPECT_EQ(error_of_report("force_periods = [10.0, 200.0]\n"),
             "FOLDER/case.toml:21:16: report.force_record: FOLDER/force.csv:3: time_s does not rise (found 0 after 0; "
             "allowed: more than that). Sort the rows by time.");

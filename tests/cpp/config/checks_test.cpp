@@ -109,7 +109,7 @@ TEST(Domain, HoldsTheBody) {
   EXPECT_EQ(error_of_changed({polygon("[[-1, 0], [40, 0], [20, 30]]")}),
             "FOLDER/case.toml:18:12: body.block reaches from (-1, 0) to (40, 30)" + remedy);
   EXPECT_EQ(error_of_changed({box("[0.0, 0.0]", "[100.0, 50.0]")}), "no error") << "up to the sides";
-  write_beside_the_case("profile.csv", header_with_surface + "0,0,0\n50,0,60\n100,2,2\n");
+  write_next_to_the_case("profile.csv", header_with_surface + "0,0,0\n50,0,60\n100,2,2\n");
   EXPECT_EQ(error_of_changed({profile, surface}),
             "FOLDER/case.toml:17:9: body.block reaches from (0, 0) to (100, 60)" + remedy)
       << "one row above the ground holds a body that thins out to its neighbours";
@@ -167,7 +167,7 @@ TEST(BelowTerrain, BoxOnAPlane) {
 }
 
 TEST(BelowTerrain, BoxOnAProfile) {
-  write_beside_the_case("profile.csv", header + "0,0\n20,5\n40,0\n100,0\n");
+  write_next_to_the_case("profile.csv", header + "0,0\n20,5\n40,0\n100,0\n");
   EXPECT_EQ(error_of_changed({profile}), below("18:7", "20", "0", "5")) << "a hill between the box's ends";
   EXPECT_EQ(error_of_changed({profile, box("[10.0, 1.0]", "[15.0, 20.0]")}), below("18:7", "10", "1", "2.5"));
   EXPECT_EQ(error_of_changed({profile, box("[10.0, 5.0]", "[50.0, 20.0]")}), "no error");
@@ -184,7 +184,7 @@ TEST(BelowTerrain, PolygonOnAPlane) {
 }
 
 TEST(BelowTerrain, PolygonOnAProfile) {
-  write_beside_the_case("profile.csv", header + "0,0\n20,5\n40,0\n100,0\n");
+  write_next_to_the_case("profile.csv", header + "0,0\n20,5\n40,0\n100,0\n");
   EXPECT_EQ(error_of_changed({profile, polygon("[[10, 1], [40, 20], [0, 20]]")}), below("18:12", "10", "1", "2.5"));
   EXPECT_EQ(error_of_changed({profile, polygon("[[0, 0], [40, 4], [40, 20]]")}), below("18:12", "20", "2", "5"))
       << "a hill between two vertices that stand on the ground";
@@ -192,7 +192,7 @@ TEST(BelowTerrain, PolygonOnAProfile) {
 }
 
 TEST(Profile, CoversTheDomain) {
-  write_beside_the_case("profile.csv", header + "0,0\n90,0\n");
+  write_next_to_the_case("profile.csv", header + "0,0\n90,0\n");
   EXPECT_EQ(error_of_changed({profile}),
             "FOLDER/case.toml:10:8: the profile reaches from 0 to 90 m and the domain from 0 to 100 m; allowed: a "
             "profile that covers the domain. Set terrain.extend = true to continue its last gradients, or make the "
@@ -206,17 +206,17 @@ TEST(Profile, GivesTheSurfaceOfABody) {
       "FOLDER/case.toml:17:9: body.block.shape is \"surface\", and terrain.type is not \"profile\"; that shape "
       "takes the body from the profile's surface_elevation_m. Set terrain.type and terrain.file, or use the shape "
       "\"box\" or \"polygon\".");
-  write_beside_the_case("profile.csv", header + "0,0\n100,2\n");
+  write_next_to_the_case("profile.csv", header + "0,0\n100,2\n");
   EXPECT_EQ(
       error_of_changed({profile, surface}),
       "FOLDER/case.toml:17:9: body.block.shape is \"surface\", and the profile has no column surface_elevation_m; "
       "add it to FOLDER/profile.csv, or use the shape \"box\" or \"polygon\".");
-  write_beside_the_case("profile.csv", header_with_surface + "0,0,0\n100,2,2\n");
+  write_next_to_the_case("profile.csv", header_with_surface + "0,0,0\n100,2,2\n");
   EXPECT_EQ(error_of_changed({profile, surface}),
             "FOLDER/case.toml:17:9: body.block.shape is \"surface\", and surface_elevation_m is nowhere above the "
             "terrain in FOLDER/profile.csv: the body holds nothing. Raise the surface there, or use the shape \"box\" "
             "or \"polygon\".");
-  write_beside_the_case("profile.csv", header_with_surface + "0,0,0\n50,1,9\n100,2,2\n");
+  write_next_to_the_case("profile.csv", header_with_surface + "0,0,0\n50,1,9\n100,2,2\n");
   EXPECT_EQ(error_of_changed({profile, surface}), "no error");
 }
 
@@ -311,7 +311,7 @@ TEST(Values, GiveOneAnotherAMeaning) {
   EXPECT_EQ(error_of_changed({{"[basal]", "[heat]\nadvection_form = \"conservative\"\nmasses = \"current\"\n[basal]"}},
                              {"material.rock.hydraulic_conductivity=1e-7"}),
             "FOLDER/case.toml:21:18: heat.advection_form is \"conservative\", and heat.update or heat.masses is as "
-            "printed, which makes heat all the same; allowed with it: heat.update = \"enthalpy\" and heat.masses = "
+            "published, which still creates heat; allowed with it: heat.update = \"enthalpy\" and heat.masses = "
             "\"initial\". Set both so, or heat.advection_form = \"as_printed\".");
   EXPECT_EQ(error_of_changed({{"[basal]", "[pressure]\nresidual_stress = 2e5\nfrozen = \"ice_pressure\"\n[basal]"}}),
             "FOLDER/case.toml:21:19: pressure.residual_stress is 200000 Pa, and pressure.frozen is not \"none\"; where "

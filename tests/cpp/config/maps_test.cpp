@@ -143,10 +143,9 @@ TEST_F(Maps, OfThicknessHaveMistakes) {
       with_thickness("{ raster = \"\" }"),
       "FOLDER/case.toml:21:24: body.slide.thickness has the text \"\" as its raster; allowed: the path of a file, "
       "in quotes.");
-  EXPECT_EQ(
-      with_thickness("{ raster = \"no.tif\" }"),
-      "FOLDER/case.toml:21:24: body.slide.thickness is \"no.tif\": no such file (FOLDER); allowed: a file, told from "
-      "the folder of the case file.");
+  EXPECT_EQ(with_thickness("{ raster = \"no.tif\" }"),
+            "FOLDER/case.toml:21:24: body.slide.thickness is \"no.tif\": no such file (FOLDER); allowed: a file, "
+            "relative to the folder of the case file.");
   EXPECT_EQ(with_thickness("{ raster = \"../no.tif\" }"),
             "FOLDER/case.toml:21:24: body.slide.thickness is \"../no.tif\", which lies outside the folder of the case "
             "file; allowed: a file in that folder. Copy it there, or give its path with --set "
@@ -337,8 +336,9 @@ TEST_F(Maps, FilesOfLinesNeedADem) {
     EXPECT_EQ(error_of_text(text), "no error");
     text.replace(text.find("\"dem\"\nfile = \"dem.tif\""), 22, "\"flat\"\nelevation = 0.0");
     const std::string key = lines.find("maps") == 1 ? "maps.path" : "probe.gauge.line";
-    const std::string told = key + " is given, and terrain.type is not \"dem\"; a file of a line needs the coordinate";
-    EXPECT_NE(error_of_text(text).find(told), std::string::npos) << error_of_text(text);
+    const std::string specified =
+        key + " is given, and terrain.type is not \"dem\"; a file of a line needs the coordinate";
+    EXPECT_NE(error_of_text(text).find(specified), std::string::npos) << error_of_text(text);
   }
 }
 
@@ -346,7 +346,7 @@ TEST_F(Maps, FilesOfLinesNeedADem) {
 TEST_F(Maps, GoWithTheRun) {
   for (const char* name : {"dem.tif.aux.xml", "dem.tfw", "release.shp", "release.shx", "release.dbf", "release.prj",
                            "release.CPG", "release.sbn", "before.asc", "before.prj", "water.tif", "section.geojson"}) {
-    write_beside_the_case(name, "");
+    write_next_to_the_case(name, "");
   }
   const Case found =
       read({{"release.geojson", "release.shp"},
@@ -365,10 +365,10 @@ TEST_F(Maps, GoWithTheRun) {
                                           "before.prj", "water.tif", "map.tif", "line.geojson", "section.geojson"}));
   const fs::path run = folder_of_this_test() / "run";
   for (const std::string& name : names) {
-    write_beside_the_case("run/inputs/" + name, "");
+    write_next_to_the_case("run/inputs/" + name, "");
   }
   const std::string resolved = resolved_toml(found, "inputs");
-  write_beside_the_case("run/case.toml", resolved);
+  write_next_to_the_case("run/case.toml", resolved);
   const Case again = read_case(run);
   EXPECT_EQ(resolved_toml(again, "inputs"), resolved);
   EXPECT_EQ(again.bodies.at("slide").release, (run / "inputs" / "release.shp").string());

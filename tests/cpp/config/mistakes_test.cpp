@@ -20,7 +20,7 @@ TEST(Mistakes, SoundCaseHasNone) { EXPECT_EQ(error_of_text(sound), "no error"); 
 
 TEST(Mistakes, NoSuchFile) {
   const fs::path folder = folder_of_this_test();
-  write_beside_the_case("case.toml", sound);
+  write_next_to_the_case("case.toml", sound);
   EXPECT_EQ(error_of([&] { read_case(folder / "lamplugh"); }),
             "FOLDER/lamplugh: there is no such file or folder. Give a case file, or a folder with a case.toml.");
   EXPECT_EQ(error_of([&] { read_case(folder / "cas.toml"); }),
@@ -34,9 +34,9 @@ TEST(Mistakes, FolderWithoutCaseFile) {
   fs::create_directories(folder);
   EXPECT_EQ(error_of([&] { read_case(folder); }),
             "FOLDER: the folder has no case.toml. Give a case file, or a folder with a case.toml.");
-  write_beside_the_case("DLP.toml", sound);
-  write_beside_the_case("DL.toml", sound);
-  write_beside_the_case("README.md", "");
+  write_next_to_the_case("DLP.toml", sound);
+  write_next_to_the_case("DL.toml", sound);
+  write_next_to_the_case("README.md", "");
   EXPECT_EQ(error_of([&] { read_case(folder); }),
             "FOLDER: the folder has no case.toml. Give one of its case files: DL.toml, DLP.toml.");
   EXPECT_EQ(read_case(folder / "DLP.toml").name, "Mistakes.FolderWithoutCaseFile-DLP");
@@ -50,7 +50,7 @@ TEST(Mistakes, EmptyFile) {
 }
 
 TEST(Mistakes, NotToml) {
-  const std::string remedy = ". Correct the line; https://toml.io tells the rules.";
+  const std::string remedy = ". Correct the line; see https://toml.io for the syntax.";
   EXPECT_EQ(
       error_of_changed({{"cell = 5.0", "cell = = 5.0"}}),
       "FOLDER/case.toml:5:8: this is not TOML: Error while parsing value: could not determine value type" + remedy);

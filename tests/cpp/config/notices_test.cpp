@@ -4,9 +4,9 @@
 #include <array>
 
 #include "case_messages.hpp"
+#include "config/changed_defaults.hpp"
 #include "config/declaration.hpp"
 #include "config/describe.hpp"
-#include "config/moved_defaults.hpp"
 #include "config/strips.hpp"
 
 namespace thawslide::config {
@@ -31,7 +31,7 @@ std::vector<std::string> notices_of(const std::string& of_material) {
   return without_folder(notices(found));
 }
 
-TEST(Notices, TellOfBrokenMatterThatIsUnusual) {
+TEST(Notices, WarnOfUnusualBrokenMaterial) {
   EXPECT_EQ(
       notices_of("residual_cohesion = 6e4\nresidual_friction_angle = 12.0\nsoftening_strain = 0.5"),
       (std::vector<std::string>{
@@ -43,7 +43,7 @@ TEST(Notices, TellOfBrokenMatterThatIsUnusual) {
           "rock and ice (not checked)"}));
 }
 
-TEST(Notices, HaveNothingAgainstUsualBrokenMatterNorThePaper) {
+TEST(Notices, AcceptUsualBrokenMaterialAndThePaper) {
   const std::vector<std::string> none;
   EXPECT_EQ(notices_of("residual_cohesion = 1e4\nresidual_friction_angle = 25.0\nsoftening_strain = 0.02"), none);
   EXPECT_EQ(notices_of("residual_cohesion = 1e4\nresidual_friction_angle = 25.0\nsoftening_slip = 3.0"), none);
@@ -123,7 +123,7 @@ TEST(Notices, DoubtTheNumbersOfVoellmyFriction) {
 
 TEST(Notices, DoubtWhatIsMostLikelyNotMeant) {
   // Key, what is given, and what the notice says after "KEY is ".
-  const std::vector<std::array<std::string, 3>> doubtful{
+  const std::vector<std::array<std::string, 3>> questionable{
       {"material.rock.youngs_modulus", "0.5",
        "0.5 Pa: so soft that a slide is squeezed flat by its own weight, or bursts. Broken rock and ice have 1e7 Pa "
        "and more."},
@@ -143,20 +143,19 @@ TEST(Notices, DoubtWhatIsMostLikelyNotMeant) {
       {"phases.water_density", "100", "100 kg/m3: water has 950 to 1300 kg/m3."},
       {"case.gravity", "98.1", "98.1 m/s2: on Earth it is 9.81 m/s2."},
       {"time.step", "1e-12",
-       "1e-12 s: that is 1e+12 steps, from days to years of computing. `thawslide check` tells how long, and the "
-       "limit, "
-       "which a step may come close to."},
+       "1e-12 s: that is 1e+12 steps, from days to years of computing. `thawslide check` estimates the time and prints "
+       "the limit of the step."},
       {"checkpoint.interval", "50",
        "50 s: longer than the run of 1 s, which leaves the checkpoints of checkpoint.wall_interval."},
       {"checkpoint.interval", "1e-8",
        "1e-08 s: no longer than the step of 0.001 s: a checkpoint every step takes longer than the step. "
-       "checkpoint.wall_interval writes them by the clock."},
+       "Set checkpoint.wall_interval to write them by wall-clock time."},
       {"checkpoint.wall_interval", "1e-9",
        "1e-09 s: so often most of the time goes into checkpoints; usual is a minute to an hour."},
       {"time.history_interval", "2",
        "2 s: longer than the run of 1 s: history.csv gets a row of its start and one of its end."}};
   const std::string known = "pressure.frozen=none", text = changed(with_columns);
-  for (const auto& [key, value, said] : doubtful) {
+  for (const auto& [key, value, said] : questionable) {
     const std::string set = key + "=" + value;
     EXPECT_EQ(notices(testing_support::case_from_text(text, {known, "time.end=1", set})),
               std::vector<std::string>{"--set " + set + ": " + key + " is " + said});
@@ -220,7 +219,7 @@ TEST(Notices, CountSnapshotsByTheStepsThereAre) {
   finer.emplace_back("time.step=5e-5");
   EXPECT_EQ(notices(testing_support::case_from_text(text, finer)),
             std::vector<std::string>{"--set time.output_interval=1e-6: time.output_interval is 1e-06 s: that is 20000 "
-                                     "snapshots, each a file, more than a folder or a film is good for."});
+                                     "snapshots, each a file, too many for a folder or an animation."});
 }
 
 TEST(Notices, DoubtWaterInTheGroundOfACaseWithoutHeatToo) {
@@ -256,7 +255,7 @@ TEST(Notices, DoubtABaseWithoutABand) {
   EXPECT_EQ(without_folder(notices(testing_support::case_from_text(text, {known}))),
             std::vector<std::string>{
                 "FOLDER/case.toml: band.thickness is not given: friction then heats the lowest cells as a whole, 5 m "
-                "thick, which hardly warm or melt. Give the thickness of what shears at the base: usual is 0.01 to 2 "
+                "thick, which barely warm or melt. Give the thickness of what shears at the base: usual is 0.01 to 2 "
                 "m. If nothing is to melt, set heat.enabled = false."});
   const std::vector<std::string> none;
   EXPECT_EQ(notices(testing_support::case_from_text(text, {"heat.enabled=false"})), none);
@@ -281,7 +280,7 @@ TEST(Notices, TellOfGapsBetweenSubstrates) {
                 "[substrate.ice]\nx_max = 50.0\nfriction_angle = 5.0\n[substrate.snow]\nx_min = 60.0\nfriction_angle = "
                 "5.0\n[basal]"}}),
       {"block.bends=true", "heat.enabled=false"});
-  EXPECT_EQ(notices(found), notes_on_gaps(found));
+  EXPECT_EQ(notices(found), warnings_of_gaps(found));
   EXPECT_EQ(notices(found).size(), 1U);
 }
 
@@ -310,7 +309,7 @@ TEST(Notices, OneTellsAFileOfEarlierVersionsWhatChanged) {
 
 TEST(Notices, SayNothingOfDefaultsWhereOneIsGivenOrNoneIsFelt) {
   const std::vector<std::string> none;
-  for (const MovedDefault& moved : moved_defaults()) {
+  for (const ChangedDefault& moved : changed_defaults()) {
     const std::string table = moved.table == "material.NAME" ? "material.rock" : moved.table;
     const Case found = testing_support::case_from_text(changed(with_band), {table + "." + moved.key + "=" + moved.now});
     EXPECT_EQ(notices(found), none) << moved.key;
@@ -320,7 +319,7 @@ TEST(Notices, SayNothingOfDefaultsWhereOneIsGivenOrNoneIsFelt) {
 
 // What the notice says of the present is what the declarations say.
 TEST(Notices, NameThePresentDefaults) {
-  for (const MovedDefault& moved : moved_defaults()) {
+  for (const ChangedDefault& moved : changed_defaults()) {
     bool is_found = false;
     for (const auto& table : tables()) {
       for (const Entry& entry : table->entries()) {

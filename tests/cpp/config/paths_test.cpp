@@ -16,7 +16,7 @@ TEST(Paths, DoNotLeaveTheFolderOfTheCase) {
   };
   const fs::path folder = folder_of_this_test();
   fs::remove_all(folder);
-  write_beside_the_case("profile.csv", header + "0,0\n100,0\n");
+  write_next_to_the_case("profile.csv", header + "0,0\n100,0\n");
   fs::create_directories(folder / "inside");
   const fs::path outside = folder.string() + ".csv";
   fs::copy_file(folder / "profile.csv", outside, fs::copy_options::overwrite_existing);
@@ -32,13 +32,12 @@ TEST(Paths, DoNotLeaveTheFolderOfTheCase) {
   EXPECT_EQ(with_file("inside/../profile.csv"), "no error");
   EXPECT_EQ(with_file("no_profile.csv"),
             "FOLDER/case.toml:10:8: terrain.file is \"no_profile.csv\": no such file (FOLDER); did you mean "
-            "'profile.csv'? Allowed: a file, told from the folder of the case file.");
+            "'profile.csv'? Allowed: a file, relative to the folder of the case file.");
   EXPECT_EQ(with_file("profile.csv\\u0000"),
             "FOLDER/case.toml:10:8: terrain.file is \"profile.csv?\", a name with a zero byte; allowed: a file.");
-  EXPECT_EQ(
-      with_file("new\\nline"),
-      "FOLDER/case.toml:10:8: terrain.file is \"new?line\": no such file (FOLDER); allowed: a file, told from the "
-      "folder of the case file.");
+  EXPECT_EQ(with_file("new\\nline"),
+            "FOLDER/case.toml:10:8: terrain.file is \"new?line\": no such file (FOLDER); allowed: a file, relative to "
+            "the folder of the case file.");
   EXPECT_EQ(error_of_changed({profile}, {"terrain.file=" + outside.string()}), "no error") << "the command line may";
   fs::remove(outside);
 }

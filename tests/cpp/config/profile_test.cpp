@@ -9,14 +9,14 @@ using namespace case_messages;
 
 // What reading a profile of this text says.
 std::string error_of_profile(const std::string& text) {
-  write_beside_the_case("profile.csv", text);
+  write_next_to_the_case("profile.csv", text);
   return error_of([] { read_profile(folder_of_this_test() / "profile.csv"); });
 }
 
 TEST(Profile, IsReadWithCommentsBlankLinesMarksAndWindowsLineEnds) {
-  write_beside_the_case("profile.csv",
-                        "\xEF\xBB\xBF# a comment\r\ndistance_m, terrain_elevation_m, surface_elevation_m\r\n\r\n"
-                        "-10, +5.5, 5.5\r\n# between\r\n0,1e1,12\r\n20,0,0");
+  write_next_to_the_case("profile.csv",
+                         "\xEF\xBB\xBF# a comment\r\ndistance_m, terrain_elevation_m, surface_elevation_m\r\n\r\n"
+                         "-10, +5.5, 5.5\r\n# between\r\n0,1e1,12\r\n20,0,0");
   const ProfileTable profile = read_profile(folder_of_this_test() / "profile.csv");
   EXPECT_EQ(profile.distance, (std::vector<double>{-10.0, 0.0, 20.0}));
   EXPECT_EQ(profile.terrain, (std::vector<double>{5.5, 10.0, 0.0}));
@@ -24,7 +24,7 @@ TEST(Profile, IsReadWithCommentsBlankLinesMarksAndWindowsLineEnds) {
 }
 
 TEST(Profile, WithoutSurface) {
-  write_beside_the_case("profile.csv", "distance_m,terrain_elevation_m\n0,1\n1,2\n");
+  write_next_to_the_case("profile.csv", "distance_m,terrain_elevation_m\n0,1\n1,2\n");
   EXPECT_TRUE(read_profile(folder_of_this_test() / "profile.csv").surface.empty());
 }
 
@@ -49,7 +49,7 @@ TEST(Profile, MistakesNameTheLine) {
   EXPECT_EQ(error_of_profile(std::string("II*\0\10\0,\0\n", 9)),
             file +
                 "1: this is no text file; allowed: columns separated by commas under the header "
-                "distance_m,terrain_elevation_m[,surface_elevation_m]. A terrain model is read with terrain.type = "
+                "distance_m,terrain_elevation_m[,surface_elevation_m]. A DEM is read with terrain.type = "
                 "\"dem\".");
   EXPECT_EQ(error_of_profile(header + "0,0,0\n"), file + "2: the profile has 1 rows; a profile needs at least 2.");
   EXPECT_EQ(error_of_profile(header + "0,0\n"), file + "2: the row has 2 fields; the header has 3.");
@@ -70,7 +70,7 @@ TEST(Profile, MistakesNameTheLine) {
 }
 
 TEST(Profile, MistakesAreToldAtTheKeyThatNamesTheFile) {
-  write_beside_the_case("profile.csv", "distance_m,terrain_elevation_m\n0,0\n50,10\n40,12\n100,0\n");
+  write_next_to_the_case("profile.csv", "distance_m,terrain_elevation_m\n0,0\n50,10\n40,12\n100,0\n");
   EXPECT_EQ(error_of_changed({{"type = \"flat\"\nelevation = 0.0", "type = \"profile\"\nfile = \"profile.csv\""}}),
             "FOLDER/case.toml:10:8: terrain.file: FOLDER/profile.csv:4: the profile folds back: distance_m is 40 after "
             "50; allowed: strictly increasing distances. Sort the rows, and leave out overhangs and repeated points.");

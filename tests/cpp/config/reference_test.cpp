@@ -27,8 +27,8 @@ TEST(Reference, DeclaresEveryKeyOnceWithItsWords) {
       EXPECT_TRUE(seen.insert(table->name + "." + entry.rule->key).second) << table->name << "." << entry.rule->key;
       EXPECT_FALSE(entry.rule->text.empty()) << table->name << "." << entry.rule->key;
       EXPECT_FALSE(entry.type.empty()) << table->name << "." << entry.rule->key;
-      const int ways = (entry.required.empty() ? 0 : 1) + (entry.default_text.empty() ? 0 : 1);
-      EXPECT_TRUE(ways == 1 || !entry.otherwise.empty()) << "absent " << table->name << "." << entry.rule->key;
+      const int directions = (entry.required.empty() ? 0 : 1) + (entry.default_text.empty() ? 0 : 1);
+      EXPECT_TRUE(directions == 1 || !entry.otherwise.empty()) << "absent " << table->name << "." << entry.rule->key;
     }
   }
   EXPECT_GT(seen.size(), 90U);

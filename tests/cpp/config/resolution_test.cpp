@@ -24,10 +24,10 @@ BodyOnCells body_on(double thickness, double cell, int particles_per_axis, bool 
 }
 
 // The cells that a note proposes: all numbers between "to" and "m, at about".
-std::vector<double> cells_named(const std::string& note) {
+std::vector<double> cells_named(const std::string& warning) {
   std::vector<double> cells;
   const std::regex named(R"( to ([0-9.]+) m, at about)");
-  for (std::sregex_iterator each(note.begin(), note.end(), named), end; each != end; ++each) {
+  for (std::sregex_iterator each(warning.begin(), warning.end(), named), end; each != end; ++each) {
     cells.push_back(std::stod((*each)[1]));
   }
   return cells;
@@ -39,8 +39,8 @@ TEST(Resolution, ANoteComesWithTooFewParticlesAndIfMapsAreAskedForWithTooFewCell
       for (int tenths = 2; tenths <= 120; ++tenths) {
         const double cell = 10.0 * thickness / tenths;
         const bool lacks_particles = tenths * particles < 40, lacks_cells = tenths < 80;
-        const std::string plain = resolution_note(body_on(thickness, cell, particles, false), "grid.cell");
-        const std::string maps = resolution_note(body_on(thickness, cell, particles, true), "grid.cell");
+        const std::string plain = resolution_warning(body_on(thickness, cell, particles, false), "grid.cell");
+        const std::string maps = resolution_warning(body_on(thickness, cell, particles, true), "grid.cell");
         EXPECT_EQ(plain.empty(), !lacks_particles) << plain;
         EXPECT_EQ(maps.empty(), !lacks_particles && !lacks_cells) << maps;
         EXPECT_EQ(maps.find("too few particles") != std::string::npos, lacks_particles) << maps;
@@ -55,16 +55,17 @@ TEST(Resolution, ACellThatIsNamedIsFineEnough) {
   for (const auto& lengths : domains) {
     for (const double cell : {24.0, 12.0, 8.0, 6.0, 4.0}) {
       for (const double thickness : {5.0, 23.9, 24.0, 31.0}) {
-        const std::string note = resolution_note(body_on(thickness, cell, 2, true), "grid.cell", lengths);
-        const std::vector<double> cells = cells_named(note);
-        ASSERT_EQ(cells.empty(), note.empty()) << note;
+        const std::string warning = resolution_warning(body_on(thickness, cell, 2, true), "grid.cell", lengths);
+        const std::vector<double> cells = cells_named(warning);
+        ASSERT_EQ(cells.empty(), warning.empty()) << warning;
         if (!cells.empty()) {
-          EXPECT_EQ(resolution_note(body_on(thickness, cells.back(), 2, true), "grid.cell", lengths), "") << note;
-          EXPECT_EQ(resolution_note(body_on(thickness, cells.front(), 2, false), "grid.cell", lengths), "") << note;
+          EXPECT_EQ(resolution_warning(body_on(thickness, cells.back(), 2, true), "grid.cell", lengths), "") << warning;
+          EXPECT_EQ(resolution_warning(body_on(thickness, cells.front(), 2, false), "grid.cell", lengths), "")
+              << warning;
         }
         for (const double length : lengths) {
           for (const double named : cells) {
-            EXPECT_NEAR(length / named, std::round(length / named), 1e-6) << note;
+            EXPECT_NEAR(length / named, std::round(length / named), 1e-6) << warning;
           }
         }
       }
@@ -74,26 +75,27 @@ TEST(Resolution, ACellThatIsNamedIsFineEnough) {
 
 TEST(Resolution, NotesNameWhatIsFoundWhatIsNeededAndWhatItCosts) {
   EXPECT_EQ(
-      resolution_note(body_on(24.0, 8.0, 2, true), "--cell"),
+      resolution_warning(body_on(24.0, 8.0, 2, true), "--cell"),
       "--cell: across the median thickness of body slide, 24 m, there are too few cells for maps of thickness and "
       "area (found 3; needed 8). Set --cell to 3 m, at about 51 times the run time. Travel distance and speed need "
       "2 to 4 cells.");
   EXPECT_EQ(
-      resolution_note(body_on(24.0, 30.0, 2, true), "grid.cell"),
+      resolution_warning(body_on(24.0, 30.0, 2, true), "grid.cell"),
       "grid.cell: across the median thickness of body slide, 24 m, there are too few particles to resolve shear "
       "and thinning (found 1.6; needed 4), and too few cells for maps of thickness and area (found 0.8; needed 8). "
       "Set grid.cell to 8 m, at about 200 times the run time, or for maps to 3 m, at about 10,000 times the run "
       "time.");
-  EXPECT_EQ(resolution_note(body_on(1.5, 1.0, 2, false, 2), "grid.cell", {20.0, 10.0}),
+  EXPECT_EQ(resolution_warning(body_on(1.5, 1.0, 2, false, 2), "grid.cell", {20.0, 10.0}),
             "grid.cell: across the median thickness of body slide, 1.5 m, there are too few particles to resolve shear "
             "and thinning (found 3; needed 4). Set grid.cell to 0.5 m, at about 8 times the run time.");
 }
 
 TEST(Resolution, ANumberThatIsTooSmallDoesNotReadAsEnough) {
-  EXPECT_NE(resolution_note(body_on(7.99, 1.0, 2, true), "grid.cell").find("(found 7.9; needed 8)"), std::string::npos);
-  EXPECT_NE(resolution_note(body_on(3.99, 1.0, 1, false), "grid.cell").find("(found 3.9; needed 4)"),
+  EXPECT_NE(resolution_warning(body_on(7.99, 1.0, 2, true), "grid.cell").find("(found 7.9; needed 8)"),
             std::string::npos);
-  EXPECT_EQ(resolution_note(body_on(8.0 * (1.0 - 1e-12), 1.0, 2, true), "grid.cell"), "") << "round-off";
+  EXPECT_NE(resolution_warning(body_on(3.99, 1.0, 1, false), "grid.cell").find("(found 3.9; needed 4)"),
+            std::string::npos);
+  EXPECT_EQ(resolution_warning(body_on(8.0 * (1.0 - 1e-12), 1.0, 2, true), "grid.cell"), "") << "round-off";
 }
 
 TEST(Resolution, RunTimeGoesWithTheCellsAndTheSteps) {
@@ -144,11 +146,11 @@ TEST(Resolution, MapsAreAskedForByTheirCellOrByTheThicknessThatCounts) {
 TEST(Resolution, TheCommentOfACaseSaysTheSame) {
   for (const double cell : {30.0, 8.0, 4.0, 3.1}) {
     const BodyOnCells body = body_on(24.0, cell, 2, true);
-    const std::string comment = maps_comment(body), note = resolution_note(body, "--cell");
+    const std::string comment = maps_comment(body), warning = resolution_warning(body, "--cell");
     EXPECT_NE(comment.find("cells of 3 m (`thawslide new --resolution standard`), at about"), std::string::npos)
         << comment;
     const std::string cost = comment.substr(comment.find("at about"));
-    EXPECT_NE(note.find(cost.substr(0, cost.find('.', cost.find("times")))), std::string::npos) << note;
+    EXPECT_NE(warning.find(cost.substr(0, cost.find('.', cost.find("times")))), std::string::npos) << warning;
   }
   EXPECT_EQ(maps_comment(body_on(24.0, 3.0, 2, true)), "");
 }
@@ -184,7 +186,7 @@ TEST(Resolution, StandardNeedsNoNoteAboutMaps) {
   for (const double thickness : {1.3, 10.0, 24.0, 31.0}) {
     const double cell = cell_of(Resolution::standard, thickness, thickness, 2);
     const BodyOnCells body{.name = "slide", .thickness = thickness, .cell = cell, .has_maps = true};
-    EXPECT_EQ(resolution_note(body, "--cell"), "");
+    EXPECT_EQ(resolution_warning(body, "--cell"), "");
   }
 }
 

@@ -126,7 +126,7 @@ TEST(Set, IsNamedWhereItDoesNotFit) {
 TEST(Set, TellsPathsFromTheWorkingDirectory) {
   const fs::path folder = folder_of_this_test();
   fs::create_directories(folder);
-  write_beside_the_case("profile.csv", "distance_m,terrain_elevation_m\n0,0\n100,0\n");
+  write_next_to_the_case("profile.csv", "distance_m,terrain_elevation_m\n0,0\n100,0\n");
   const fs::path here = fs::current_path();
   const Case found = case_from_text(
       sound, {"terrain.type=profile", "terrain.file=" + fs::relative(folder / "profile.csv", here).string()});
@@ -134,7 +134,7 @@ TEST(Set, TellsPathsFromTheWorkingDirectory) {
   EXPECT_TRUE(fs::path(found.terrain.file).is_absolute());
   EXPECT_EQ(error_of_text(sound, {"terrain.type=profile", "terrain.file=no_profile.csv"}),
             "--set terrain.file=no_profile.csv: terrain.file is \"no_profile.csv\": no such file (" + here.string() +
-                "); allowed: a file, told from where you are.");
+                "); allowed: a file, relative to the current folder.");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(Substrates, HaveLawsAndPlacesOfTheirOwn) {
   EXPECT_TRUE(std::isinf(ice.x_max));
   EXPECT_EQ(moraine.numbers(physics::basal::friction_angle), 30.0);
   EXPECT_EQ(moraine.numbers(physics::basal::initial_cohesion), 0.0) << "that of [basal] is not handed on";
-  EXPECT_TRUE(notes_on_gaps(found).empty());
+  EXPECT_TRUE(warnings_of_gaps(found).empty());
   EXPECT_EQ(found.basal.friction, "lubricated");
 }
 
@@ -81,8 +81,8 @@ TEST(Substrates, MayNotOverlapNorLeaveAGapBelowACell) {
       "FOLDER/case.toml:27:9: between the substrates ice and snow there is a gap of 0.5 m, less than a cell of the "
       "grid: substrate.ice.x_max is 50 m, and substrate.snow.x_min is 50.5 m. Let them meet, or leave a gap of "
       "at least 5 m.");
-  EXPECT_TRUE(notes_on_gaps(case_from_text(with(50.0))).empty());
-  EXPECT_EQ(notes_on_gaps(case_from_text(with(60.0))),
+  EXPECT_TRUE(warnings_of_gaps(case_from_text(with(50.0))).empty());
+  EXPECT_EQ(warnings_of_gaps(case_from_text(with(60.0))),
             std::vector<std::string>{
                 "between the substrates ice and snow, from x = 50 to 60 m, none lies: [basal] holds there"});
 }

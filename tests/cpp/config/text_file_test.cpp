@@ -19,8 +19,8 @@ std::string refusal_of(const std::filesystem::path& file) {
 
 TEST(TextFile, IsReadAsItStands) {
   const std::string text = std::string("one\r\ntwo") + '\0' + "\xFF";
-  case_messages::write_beside_the_case("text.txt", text);
-  case_messages::write_beside_the_case("empty.txt", "");
+  case_messages::write_next_to_the_case("text.txt", text);
+  case_messages::write_next_to_the_case("empty.txt", "");
   EXPECT_EQ(read_text_file(case_messages::folder_of_this_test() / "text.txt"), text);
   EXPECT_EQ(read_text_file(case_messages::folder_of_this_test() / "empty.txt"), "");
 }

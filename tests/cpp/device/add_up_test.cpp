@@ -26,7 +26,7 @@ std::vector<double> parts_of(std::size_t count) {
   return parts;
 }
 
-double on_processor(const std::vector<double>& parts) {
+double emulated(const std::vector<double>& parts) {
   return parallel_sum<double>(parts.size(), [&](std::size_t k, double& sum) { sum = parts[k]; });
 }
 
@@ -34,7 +34,7 @@ double on_device(const std::vector<double>& parts, ThreadOrder order) {
   Host host(order);
   Array<double, Host> sums(host);
   std::vector<double> with_room = parts;
-  with_room.resize(room_to_add_up(parts.size()));
+  with_room.resize(partial_sum_count(parts.size()));
   sums.set(with_room);
   const double* sum = add_up(host, sums.data(), parts.size());
   double found = 0.0;
@@ -43,13 +43,13 @@ double on_device(const std::vector<double>& parts, ThreadOrder order) {
   return found;
 }
 
-TEST(AddUp, HasTheBitsOfTheProcessor) {
+TEST(AddUp, IsBitwiseIdenticalToTheCpu) {
   const std::size_t run = parts_of_a_run;
   for (const std::size_t count :
        {std::size_t{0}, std::size_t{1}, run - 1, run, run + 1, 2 * run, 5 * run + 3, run * run, run * run + run + 1}) {
     const std::vector<double> parts = parts_of(count);
     for (const ThreadOrder order : {ThreadOrder::forward, ThreadOrder::shuffled}) {
-      EXPECT_EQ(on_device(parts, order), on_processor(parts)) << count;
+      EXPECT_EQ(on_device(parts, order), emulated(parts)) << count;
     }
   }
 }
@@ -61,8 +61,8 @@ TEST(AddUp, DependsOnItsOrder) {
   for (const double part : parts) {
     one_after_the_other += part;
   }
-  EXPECT_NE(on_processor(parts), one_after_the_other);
-  EXPECT_NEAR(on_processor(parts), one_after_the_other, 1e-6);
+  EXPECT_NE(emulated(parts), one_after_the_other);
+  EXPECT_NEAR(emulated(parts), one_after_the_other, 1e-6);
 }
 
 }  // namespace

@@ -25,24 +25,24 @@ using device::Host, device::HostGroup, device::ThreadOrder;
 
 // What a pass needs beside weights and kernels: its records, what of tiles it takes, and whether its sums are asked for
 // at what the ground knows of a node.
-template <class Records, class Takes, class Asked>
+template <class Records, class TileFilter, class ColumnQuery>
 struct Pass {
   std::string name;
   Records& records;
-  Takes takes;
-  Asked asked;
+  TileFilter accepts;
+  ColumnQuery asked;
   bool shows_barriers = true;  // what it leaves is other where a barrier is missing
 };
 inline constexpr auto everywhere = [](const auto& /*ground*/) { return true; };
 
 // The same on a device, which asks of every particle.
-template <class Takes, int Dim>
+template <class TileFilter, int Dim>
 struct TakesOnDevice {
-  Takes takes;
+  TileFilter accepts;
 
-  bool operator()(std::size_t tile) const { return takes(tile); }
+  bool operator()(std::size_t tile) const { return accepts(tile); }
   bool operator()(std::size_t tile, std::size_t cell) const {
-    return mpm::takes_nodes(takes, tile, device::lowest_about<Dim>(cell));
+    return mpm::accepts_nodes(accepts, tile, device::lowest_about<Dim>(cell));
   }
 };
 
@@ -91,9 +91,9 @@ inline void take_sum(double sum, std::vector<double>& numbers) { numbers.push_ba
 inline void take_sum(const mpm::NoAccount& /*sum*/, std::vector<double>& /*numbers*/) {}
 inline void take_sum(const mpm::Deformed<double>& sum, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), {sum.work.total, sum.work.plastic, sum.work.viscous, sum.work.pore,
-                                 static_cast<double>(sum.bad.id), static_cast<double>(sum.bad.fault)});
+                                 static_cast<double>(sum.invalid.id), static_cast<double>(sum.invalid.fault)});
 }
-inline void take_sum(const mpm::BadParticle& sum, std::vector<double>& numbers) {
+inline void take_sum(const mpm::InvalidParticle& sum, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), {static_cast<double>(sum.id), static_cast<double>(sum.fault)});
 }
 inline void take_sum(const band::DrainedWater<double>& sum, std::vector<double>& numbers) {
@@ -104,8 +104,8 @@ inline void take_sum(const band::DrainedWater<double>& sum, std::vector<double>&
 using Bits = std::map<std::string, std::vector<double>>;
 
 // on_device: the patches there; null: those of the scene's nodes.
-template <class Name, int Dim, class Asked>
-void take_patches_of(Scene<Dim>& scene, const Asked& asked, const double* on_device, Bits& bits) {
+template <class Name, int Dim, class ColumnQuery>
+void take_patches_of(Scene<Dim>& scene, const ColumnQuery& asked, const double* on_device, Bits& bits) {
   constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
   auto& of_name = bits[typeid(Name).name()];
   const auto patches = scene.nodes.template of<Name>().patches(scene.grid.tiles().size());
@@ -145,8 +145,8 @@ struct PatchesOf<mpm::RecordList<Names...>> {
     };
     (clear_one(scene.nodes.template of<Names>().patches(scene.grid.tiles().size())), ...);
   }
-  template <int Dim, class Asked>
-  static void take([[maybe_unused]] Scene<Dim>& scene, [[maybe_unused]] const Asked& asked,
+  template <int Dim, class ColumnQuery>
+  static void take([[maybe_unused]] Scene<Dim>& scene, [[maybe_unused]] const ColumnQuery& asked,
                    [[maybe_unused]] const double* on_device, [[maybe_unused]] Bits& bits) {
     (take_patches_of<Names>(scene, asked, on_device, bits), ...);
   }
@@ -155,8 +155,8 @@ struct PatchesOf<mpm::RecordList<Names...>> {
 
 // Runs a pass by run(particles, sums) on a copy of the scene's particles; run returns the patches on the device, or
 // null.
-template <class Adds, int Dim, class Asked, class Run>
-Bits bits_of(Scene<Dim>& scene, const Asked& asked, const Run& run) {
+template <class Adds, int Dim, class ColumnQuery, class Run>
+Bits bits_of(Scene<Dim>& scene, const ColumnQuery& asked, const Run& run) {
   mpm::Particles<Dim, double> particles;
   particles.affine_velocity.keep(true);
   particles.viscous_stress.keep(true);
@@ -182,8 +182,8 @@ struct NumbersOfPatch<mpm::RecordList<Name, Names...>> {
 };
 
 // The pass of some kernels as a device runs it; returns its patches.
-template <int Dim, class Records, class Takes, class Asked, class Weights, class... Kernels>
-std::vector<double> run_on_device(Host host, const Pass<Records, Takes, Asked>& pass, Scene<Dim>& scene,
+template <int Dim, class Records, class TileFilter, class ColumnQuery, class Weights, class... Kernels>
+std::vector<double> run_on_device(Host host, const Pass<Records, TileFilter, ColumnQuery>& pass, Scene<Dim>& scene,
                                   const Weights& weights, mpm::Particles<Dim, double>& particles,
                                   std::vector<double>& sums, const Kernels&... kernels) {
   using Reads = mpm::AllOf<typename Kernels::Reads...>;
@@ -198,8 +198,8 @@ std::vector<double> run_on_device(Host host, const Pass<Records, Takes, Asked>& 
   in_order.wait();
   std::fill_n(memory.patches(numbers), numbers, 0.0);
   const RecordsOnDevice<Reads> records(scene.grid, pass.records);
-  const device::PassOver<decltype(on_device(weights)), TakesOnDevice<Takes, Dim>, Dim, double> over{
-      cells.tables(), on_host.view(), on_device(weights), {pass.takes}, scene.grid.cell()};
+  const device::PassOver<decltype(on_device(weights)), TakesOnDevice<TileFilter, Dim>, Dim, double> over{
+      cells.tables(), on_host.view(), on_device(weights), {pass.accepts}, scene.grid.cell()};
   const auto* all = device::particle_pass(host, memory, over, records, kernels...);
   host.wait();
   if constexpr ((!std::is_same_v<typename Kernels::Account, mpm::NoAccount> || ...)) {
@@ -211,9 +211,9 @@ std::vector<double> run_on_device(Host host, const Pass<Records, Takes, Asked>& 
 }
 
 // The pass of some kernels by lanes and by groups.
-template <int Dim, class Records, class Takes, class Asked, class Weights, class... Kernels>
-void expect_the_bits_of_lanes(const Pass<Records, Takes, Asked>& pass, Scene<Dim>& scene, const Weights& weights,
-                              const Kernels&... kernels) {
+template <int Dim, class Records, class TileFilter, class ColumnQuery, class Weights, class... Kernels>
+void expect_the_bits_of_lanes(const Pass<Records, TileFilter, ColumnQuery>& pass, Scene<Dim>& scene,
+                              const Weights& weights, const Kernels&... kernels) {
   const std::string& name = pass.name;
   using Adds = mpm::AllOf<typename Kernels::Adds...>;
   using Reads = mpm::AllOf<typename Kernels::Reads...>;
@@ -222,7 +222,7 @@ void expect_the_bits_of_lanes(const Pass<Records, Takes, Asked>& pass, Scene<Dim
   PatchesOf<Adds>::take(scene, pass.asked, nullptr, before);
   before["sums"] = {};
   const Bits by_lanes = bits_of<Adds>(scene, pass.asked, [&](auto& particles, auto& sums) {
-    const auto all = mpm::particle_pass(scene.grid, weights, particles, pass.records, pass.takes, kernels...);
+    const auto all = mpm::particle_pass(scene.grid, weights, particles, pass.records, pass.accepts, kernels...);
     std::apply([&](const auto&... sum) { (take_sum(sum, sums), ...); },
                static_cast<const std::tuple<typename Kernels::Account...>&>(all));
     return std::vector<double>{};

@@ -106,7 +106,7 @@ void expect_the_tables_of_the_grid(std::size_t count, const Host& with) {
   }
   EXPECT_TRUE(any_kept);
   on_device.reorder(cells.tables().order);
-  cells.note_order_in_memory();
+  cells.store_memory_order();
   host.wait();
   for (std::size_t k = 0; k < count; ++k) {
     EXPECT_EQ(cells.tables().order[k], k);

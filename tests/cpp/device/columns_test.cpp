@@ -78,7 +78,7 @@ std::vector<double> on_device(Scene<Dim>& scene, Host host) {
   for (std::size_t t = 0, k = 0; t < tables.tiles; ++t) {
     const auto loading = columns.loading(tables).of_tile(t);
     for (; k < tables.first_of_cell[(t + 1) * nodes]; ++k) {
-      numbers.push_back(loading.flow_depth(on_host.view(), mpm::One<double>{{tables.order[k]}}));
+      numbers.push_back(loading.flow_depth(on_host.view(), mpm::ScalarIndex<double>{{tables.order[k]}}));
     }
   }
   return numbers;
@@ -89,7 +89,7 @@ bool are_same(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 template <int Dim>
-void expect_the_columns_of_the_processor(int barriers) {
+void expect_the_columns_of_the_cpu(int barriers) {
   Simulation<Dim, double> simulation(two_bodies<Dim>(2e4, 3.0, 3.0, 12.0));
   for (int k = 0; k < 60; ++k) {
     simulation.step(0.002);
@@ -109,10 +109,10 @@ void expect_the_columns_of_the_processor(int barriers) {
   }
 }
 
-TEST(DeviceColumns, AreThoseOfTheFlowDepthInThePlane) { expect_the_columns_of_the_processor<2>(1); }
+TEST(DeviceColumns, AreThoseOfTheFlowDepthInThePlane) { expect_the_columns_of_the_cpu<2>(1); }
 
 // Tiles with more particles than a group takes at a time.
-TEST(DeviceColumns, AreThoseInSpace) { expect_the_columns_of_the_processor<3>(2); }
+TEST(DeviceColumns, AreThoseInSpace) { expect_the_columns_of_the_cpu<3>(2); }
 
 }  // namespace
 }  // namespace thawslide::sim

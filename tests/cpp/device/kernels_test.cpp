@@ -63,11 +63,11 @@ template <int Dim>
 void expect_the_same_positions(Scene<Dim>& scene) {
   Vector<double, Dim> lower = Vector<double, Dim>::Constant(-1e3), upper = -lower;
   upper[0] = scene.particles.position(scene.particles.size() / 2, 0);
-  const mpm::TakePosition<Dim, double> kernel{lower, upper};
-  std::vector<mpm::BadParticle> bad;
+  const mpm::UpdatePosition<Dim, double> kernel{lower, upper};
+  std::vector<mpm::InvalidParticle> invalid;
   const auto bits = [&](const auto& run) {
     return bits_of<mpm::RecordList<>>(scene, everywhere, [&](auto& particles, auto& /*sums*/) {
-      bad.push_back(run(particles));
+      invalid.push_back(run(particles));
       return std::vector<double>{};
     });
   };
@@ -82,9 +82,9 @@ void expect_the_same_positions(Scene<Dim>& scene) {
       "positions", scene.nodes, mpm::every_tile, everywhere,
       false};  // the bad particle of smallest id may be of a later chunk
   expect_the_bits_of_lanes(pass, scene, mpm::LinearWeights{}, kernel);
-  for (const mpm::BadParticle& found : bad) {
+  for (const mpm::InvalidParticle& found : invalid) {
     EXPECT_EQ(found.fault, mpm::Fault::left_domain);
-    EXPECT_EQ(found.id, bad.front().id);
+    EXPECT_EQ(found.id, invalid.front().id);
   }
 }
 
@@ -115,7 +115,7 @@ void expect_all_kernels_agree() {
   expect_the_bits_of_lanes("moments", scene, ugimp, mpm::AddFilterMoments<Dim, double>{});
   expect_the_bits_of_lanes("momentum to filter", scene, ugimp, mpm::AddFilterMomentum<Dim, double>{});
   expect_the_bits_of_lanes("sweep", scene, quadratic, mpm::SweepFilter<Dim, double>{});
-  expect_the_bits_of_lanes("filtered", scene, ugimp, mpm::TakeFiltered<Dim, double>{});
+  expect_the_bits_of_lanes("filtered", scene, ugimp, mpm::ApplyFiltered<Dim, double>{});
   expect_the_bits_near_the_ground(scene, ugimp, dt);
   expect_the_bits_near_the_ground(scene, quadratic, dt);
   expect_the_bits_of_lanes("stress", scene, ugimp, stress);
@@ -140,7 +140,7 @@ void expect_all_kernels_agree() {
       band::SeepageFlows<Dim, double>{balanced, balanced.hydraulic(), dt, scene.grid.inverse_cell()});
   expect_the_bits_of_lanes("pressure by the balance of water", scene, by_linear,
                            band::UpdatePorePressure<Dim, double, true, true>{scene.grid, balanced, depth});
-  expect_the_bits_of_lanes("orphan heat", scene, ugimp, band::TakeOrphanHeat<Dim, double>{dt});
+  expect_the_bits_of_lanes("orphan heat", scene, ugimp, band::RedistributeUnreachedHeat<Dim, double>{dt});
   band::with_particle_heat(band, [&](const auto& law) {
     using Law = std::decay_t<decltype(law)>;
     const band::HeatFlows<Dim, double, Law> flows{band, band.hydraulic(), law, dt, scene.grid.inverse_cell(), true};
@@ -149,9 +149,9 @@ void expect_all_kernels_agree() {
                                                        dt,       scene.grid.inverse_cell(), true};
     expect_the_bits_of_lanes("heat flows with the water's heat", scene, by_linear, conserving);
     expect_the_bits_of_lanes("secant capacity", scene, by_linear, band::SecantCapacity<Dim, double, Law>{law, dt});
-    expect_the_bits_of_lanes("heat", scene, by_linear, band::TakeHeat<Dim, double, Law>{band, law, dt});
+    expect_the_bits_of_lanes("heat", scene, by_linear, band::UpdateHeat<Dim, double, Law>{band, law, dt});
     expect_the_bits_of_lanes("heat as printed", scene, by_linear,
-                             band::TakeHeatAsPrinted<Dim, double, Law>{band, law, dt});
+                             band::UpdateHeatApparentCapacity<Dim, double, Law>{band, law, dt});
   });
   expect_the_same_positions(scene);
 }

@@ -10,14 +10,14 @@ namespace {
 
 TEST(DeviceRun, EndsWithTheSameWords) {
   const config::Case parameters = sliding_bodies<2>();
-  Simulation<2, double> on_processor(parameters), on_device(parameters);
-  on_device.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::forward));
-  for (Simulation<2, double>* simulation : {&on_processor, &on_device}) {
+  Simulation<2, double> emulated(parameters), on_device(parameters);
+  on_device.use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
+  for (Simulation<2, double>* simulation : {&emulated, &on_device}) {
     for (std::size_t p = 0; p < simulation->particles().size(); ++p) {
       simulation->particles().velocity(p, 0) = -500.0;
     }
   }
-  const std::string expected = error_of(on_processor);
+  const std::string expected = error_of(emulated);
   EXPECT_NE(expected.find("left the domain"), std::string::npos) << expected;
   EXPECT_EQ(error_of(on_device), expected);
 }
@@ -25,16 +25,16 @@ TEST(DeviceRun, EndsWithTheSameWords) {
 // Steps until it breaks down, or until particles are asked for.
 class BreaksDown final : public PassesOn<2> {
  public:
-  BreaksDown(std::unique_ptr<device::AnyStep<2, double>> steps, int sound) : PassesOn(std::move(steps)), left_(sound) {}
+  BreaksDown(std::unique_ptr<device::Solver<2, double>> steps, int sound) : PassesOn(std::move(steps)), left_(sound) {}
 
   device::StepSums<2, double> step(double time, double dt) override {
     if (left_-- == 0) {
-      throw device::Failure("asking the card for memory: out of memory");
+      throw device::Failure("allocating memory on the GPU: out of memory");
     }
     return PassesOn::step(time, dt);
   }
   void copy_to(const mpm::ParticleView<2, double>& /*particles*/) override {
-    throw device::Failure("copying from the card: unspecified launch failure");
+    throw device::Failure("copying from the GPU: unspecified launch failure");
   }
 
  private:
@@ -42,39 +42,39 @@ class BreaksDown final : public PassesOn<2> {
 };
 
 // Steps of a device that breaks down after so many; returns what is told, and the particles that are left.
-std::string told_of_failure(int sound, int steps) {
+std::string reported_failure(int sound, int steps) {
   Simulation<2, double> simulation(sliding_bodies<2>());
   const auto at_start = fields_by_id(simulation.particles());
   const auto make = [sound](const auto& model, const auto& particles, std::size_t count, auto ask) {
-    return std::make_unique<BreaksDown>(
-        in_place_of_a_card<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)), sound);
+    return std::make_unique<BreaksDown>(emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)),
+                                        sound);
   };
-  simulation.take_steps_on("a card", make);
-  std::string told;
+  simulation.use_device("a GPU", make);
+  std::string specified;
   try {
     for (int k = 0; k < steps; ++k) {
       simulation.step(0.002);
     }
     static_cast<void>(std::as_const(simulation).particles());
   } catch (const DeviceError& error) {
-    told = error.what();
+    specified = error.what();
   }
   EXPECT_EQ(fields_by_id(std::as_const(simulation).particles()).at("position"), at_start.at("position"));
-  return told;
+  return specified;
 }
 
 TEST(DeviceRun, TellsOfADeviceThatFails) {
-  EXPECT_EQ(told_of_failure(3, 5), "a card failed at step 3: asking the card for memory: out of memory");
-  EXPECT_EQ(told_of_failure(9, 5), "a card failed at step 5: copying from the card: unspecified launch failure");
+  EXPECT_EQ(reported_failure(3, 5), "a GPU failed at step 3: allocating memory on the GPU: out of memory");
+  EXPECT_EQ(reported_failure(9, 5), "a GPU failed at step 5: copying from the GPU: unspecified launch failure");
 }
 
 // The same while a body settles.
 TEST(DeviceRun, TellsOfADeviceThatFailsAsABodySettles) {
   Simulation<2, double> simulation(sliding_bodies<2>(
       {"mechanics.initial_stress=\"settle\"", "mechanics.settle_time=0.1", "mechanics.settle_damping=5.0"}));
-  simulation.take_steps_on("a card", [](const auto& model, const auto& particles, std::size_t count, auto ask) {
-    return std::make_unique<BreaksDown>(
-        in_place_of_a_card<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)), 3);
+  simulation.use_device("a GPU", [](const auto& model, const auto& particles, std::size_t count, auto ask) {
+    return std::make_unique<BreaksDown>(emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)),
+                                        3);
   });
   EXPECT_THROW(simulation.settle(), DeviceError);
 }
@@ -84,7 +84,7 @@ TEST(DeviceRun, GoesOnFromACheckpoint) {
   const config::Case parameters = sliding_bodies<2>({"time.stepping=\"adaptive\""});
   Simulation<2, double> whole(parameters), first(parameters);
   for (Simulation<2, double>* simulation : {&whole, &first}) {
-    simulation->take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::forward));
+    simulation->use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
   }
   const auto go_on = [](Simulation<2, double>& simulation, int steps) {
     for (int k = 0; k < steps; ++k) {
@@ -99,7 +99,7 @@ TEST(DeviceRun, GoesOnFromACheckpoint) {
   for (const bool on_device : {false, true}) {
     Simulation<2, double> second(parameters);
     if (on_device) {
-      second.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::backward));
+      second.use_device("a GPU", emulated_gpu<2>(ThreadOrder::backward));
     }
     std::vector<double> numbers;
     io::read_checkpoint<2, double>(io::newest_checkpoint(folder), second.particles(), numbers);
@@ -119,18 +119,18 @@ TEST(DeviceRun, RefusesWhatNoDeviceDoesYet) {
       {{"heat.update=\"apparent_capacity\""}, "heat.update = \"apparent_capacity\""},
       {{"heat.masses=\"current\""}, "heat.masses = \"current\""}};
   std::vector<std::pair<config::Case, std::string>> cases;
-  for (const auto& [sets, told] : options) {
-    cases.emplace_back(sliding_bodies<2>(sets), told);
+  for (const auto& [sets, specified] : options) {
+    cases.emplace_back(sliding_bodies<2>(sets), specified);
   }
   cases.emplace_back(sliding_bodies<2>(), "a [frame]");
   cases.back().first.frames["driver"] = {{-3.0, 2.4}, {7.5, 20.0}, "x", 25.0};
-  for (const auto& [parameters, told] : cases) {
+  for (const auto& [parameters, specified] : cases) {
     Simulation<2, double> simulation(parameters);
     try {
-      simulation.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::forward));
-      ADD_FAILURE() << told;
+      simulation.use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
+      ADD_FAILURE() << specified;
     } catch (const UserError& error) {
-      EXPECT_NE(std::string(error.what()).find("no step on a card does " + told + " yet"), std::string::npos)
+      EXPECT_NE(std::string(error.what()).find(specified + " is not supported on a GPU"), std::string::npos)
           << error.what();
     }
   }

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "../../device/on_processor.hpp"
+#include "../../device/emulated.hpp"
 #include "../support/fields.hpp"
 #include "../support/two_bodies.hpp"
 #include "base/error.hpp"
@@ -22,38 +22,38 @@ using namespace testing_support;
 using device::Host, device::ThreadOrder;
 
 template <int Dim>
-device::MakeStep<Dim, double> in_place_of_a_card(ThreadOrder order) {
-  return device::on_processor<Dim>(order);
+device::SolverFactory<Dim, double> emulated_gpu(ThreadOrder order) {
+  return device::emulated<Dim>(order);
 }
 
 // Leaves all to other steps, for tests that change some of it.
 template <int Dim>
-class PassesOn : public device::AnyStep<Dim, double> {
+class PassesOn : public device::Solver<Dim, double> {
  public:
-  explicit PassesOn(std::unique_ptr<device::AnyStep<Dim, double>> steps) : steps_(std::move(steps)) {}
+  explicit PassesOn(std::unique_ptr<device::Solver<Dim, double>> steps) : steps_(std::move(steps)) {}
 
   device::StepSums<Dim, double> step(double time, double dt) override { return steps_->step(time, dt); }
-  mpm::WatchedSums<double> watch(const mpm::LookAtParticle<Dim, double>& look) override { return steps_->watch(look); }
-  void look_at_map(const mpm::MapCells& cells, device::MapLook& look) override { steps_->look_at_map(cells, look); }
+  mpm::MonitorSums<double> watch(const mpm::MonitorKernel<Dim, double>& look) override { return steps_->watch(look); }
+  void sample_map(const mpm::MapCells& cells, device::MapSample& look) override { steps_->sample_map(cells, look); }
   band::BodySums<Dim, double> sum_over_body(const band::SumsOfParticle<Dim, double>& of_particle) override {
     return steps_->sum_over_body(of_particle);
   }
-  mpm::OnWay front(const mpm::Way<Dim>& way, double mass) override { return steps_->front(way, mass); }
-  std::vector<Vector<double, Dim>> places_of_strays() override { return steps_->places_of_strays(); }
+  mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) override { return steps_->front(way, mass); }
+  std::vector<Vector<double, Dim>> escaped_positions() override { return steps_->escaped_positions(); }
   void sort_in_memory() override { steps_->sort_in_memory(); }
   void copy_to(const mpm::ParticleView<Dim, double>& particles) override { steps_->copy_to(particles); }
   void time_stages() override {}
   [[nodiscard]] std::map<std::string, double> seconds() const override { return {}; }
 
  private:
-  std::unique_ptr<device::AnyStep<Dim, double>> steps_;
+  std::unique_ptr<device::Solver<Dim, double>> steps_;
 };
 
 // Counts how often particles come back.
 template <int Dim>
 class CountsCopies final : public PassesOn<Dim> {
  public:
-  CountsCopies(std::unique_ptr<device::AnyStep<Dim, double>> steps, int& copies)
+  CountsCopies(std::unique_ptr<device::Solver<Dim, double>> steps, int& copies)
       : PassesOn<Dim>(std::move(steps)), copies_(copies) {}
 
   void copy_to(const mpm::ParticleView<Dim, double>& particles) override {
@@ -65,9 +65,9 @@ class CountsCopies final : public PassesOn<Dim> {
   int& copies_;
 };
 template <int Dim>
-device::MakeStep<Dim, double> counting_copies(ThreadOrder order, int& copies) {
+device::SolverFactory<Dim, double> counting_copies(ThreadOrder order, int& copies) {
   return [order, &copies](const auto& model, const auto& particles, std::size_t count, auto ask) {
-    return std::make_unique<CountsCopies<Dim>>(in_place_of_a_card<Dim>(order)(model, particles, count, std::move(ask)),
+    return std::make_unique<CountsCopies<Dim>>(emulated_gpu<Dim>(order)(model, particles, count, std::move(ask)),
                                                copies);
   };
 }
@@ -82,10 +82,9 @@ config::Case sliding_bodies(const std::vector<std::string>& more = {}, const std
 template <int Dim>
 void expect_the_same_particles(const Simulation<Dim, double>& found, const Simulation<Dim, double>& expected) {
   const auto numbers = fields_by_id(found.particles());
-  for (const auto& [name, of_processor] : fields_by_id(expected.particles())) {
-    ASSERT_EQ(numbers.at(name).size(), of_processor.size()) << name;
-    EXPECT_EQ(std::memcmp(numbers.at(name).data(), of_processor.data(), of_processor.size() * sizeof(double)), 0)
-        << name;
+  for (const auto& [name, of_cpu] : fields_by_id(expected.particles())) {
+    ASSERT_EQ(numbers.at(name).size(), of_cpu.size()) << name;
+    EXPECT_EQ(std::memcmp(numbers.at(name).data(), of_cpu.data(), of_cpu.size() * sizeof(double)), 0) << name;
   }
 }
 

@@ -17,20 +17,20 @@ namespace {
 // Returns how often particles came back from the device before anyone asked for them.
 template <int Dim>
 int expect_the_same_run(const config::Case& parameters, int steps, const config::Site& site = {}) {
-  Simulation<Dim, double> on_processor(parameters, site), on_device(parameters, site);
+  Simulation<Dim, double> emulated(parameters, site), on_device(parameters, site);
   int copies = 0;
-  on_device.take_steps_on("a card", counting_copies<Dim>(ThreadOrder::shuffled, copies));
+  on_device.use_device("a GPU", counting_copies<Dim>(ThreadOrder::shuffled, copies));
   on_device.set_sorting_interval(32);
   for (int k = 0; k < steps; ++k) {
-    on_processor.step(on_processor.next_step(10.0));
+    emulated.step(emulated.next_step(10.0));
     on_device.step(on_device.next_step(10.0));
-    EXPECT_EQ(on_device.time(), on_processor.time());
+    EXPECT_EQ(on_device.time(), emulated.time());
   }
   const int copies_of_steps = copies;
-  EXPECT_EQ(on_device.removed().left, on_processor.removed().left);
-  const auto expected = history_row(on_processor), found = history_row(on_device);
+  EXPECT_EQ(on_device.removed().left, emulated.removed().left);
+  const auto expected = history_row(emulated), found = history_row(on_device);
   EXPECT_EQ(copies, copies_of_steps) << "a row brings particles back";
-  expect_the_same_particles(on_device, on_processor);
+  expect_the_same_particles(on_device, emulated);
   EXPECT_EQ(found.size(), expected.size());
   const auto unit_of = [](const std::string& name) { return name.substr(name.rfind('_') + 1); };
   std::map<std::string, double> largest;
@@ -50,7 +50,7 @@ int expect_the_same_run(const config::Case& parameters, int steps, const config:
   return copies_of_steps;
 }
 
-TEST(DeviceRun, GivesTheParticlesOfTheProcessor) {
+TEST(DeviceRun, GivesTheParticlesOfTheCpu) {
   EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>(), 75), 0);
   EXPECT_EQ(expect_the_same_run<2>(sliding_bodies<2>({"time.stepping=\"adaptive\""}), 45), 0);
   EXPECT_EQ(expect_the_same_run<3>(sliding_bodies<3>(), 35), 0);
@@ -92,17 +92,17 @@ template <int Dim>
 void expect_the_same_columns(int steps) {
   const config::Case parameters = sliding_bodies<Dim>(on_columns);
   EXPECT_EQ(expect_the_same_run<Dim>(parameters, steps), 0);
-  Simulation<Dim, double> on_processor(parameters), on_device(parameters);
-  on_device.take_steps_on("a card", in_place_of_a_card<Dim>(ThreadOrder::forward));
-  const std::size_t at_start = on_processor.band_columns()->pieces().size();
+  Simulation<Dim, double> emulated(parameters), on_device(parameters);
+  on_device.use_device("a GPU", emulated_gpu<Dim>(ThreadOrder::forward));
+  const std::size_t at_start = emulated.band_columns()->segments().size();
   for (int k = 0; k < steps; ++k) {
-    on_processor.step(0.002);
+    emulated.step(0.002);
     on_device.step(0.002);
   }
-  EXPECT_GT(on_processor.band_columns()->pieces().size(), at_start);
-  EXPECT_EQ(on_device.band_columns()->state(), on_processor.band_columns()->state());
+  EXPECT_GT(emulated.band_columns()->segments().size(), at_start);
+  EXPECT_EQ(on_device.band_columns()->state(), emulated.band_columns()->state());
 }
-TEST(DeviceRun, KeepsTheBandColumnsOfTheProcessor) {
+TEST(DeviceRun, KeepsTheBandColumnsOfTheCpu) {
   expect_the_same_columns<2>(60);
   expect_the_same_columns<3>(25);
 }
@@ -114,17 +114,17 @@ void expect_the_same_bed(const std::vector<std::string>& more, int steps) {
   sets.insert(sets.end(), more.begin(), more.end());
   const config::Case parameters = sliding_bodies<Dim>(sets);
   EXPECT_GT(expect_the_same_run<Dim>(parameters, steps), 0);
-  Simulation<Dim, double> on_processor(parameters), on_device(parameters);
-  on_device.take_steps_on("a card", in_place_of_a_card<Dim>(ThreadOrder::backward));
+  Simulation<Dim, double> emulated(parameters), on_device(parameters);
+  on_device.use_device("a GPU", emulated_gpu<Dim>(ThreadOrder::backward));
   for (int k = 0; k < steps; ++k) {
-    on_processor.step(0.002);
+    emulated.step(0.002);
     on_device.step(0.002);
-    ASSERT_EQ(on_device.bed()->state(), on_processor.bed()->state()) << "after step " << k;
+    ASSERT_EQ(on_device.bed()->state(), emulated.bed()->state()) << "after step " << k;
   }
-  EXPECT_GT(on_processor.particle_count(), on_processor.particles_at_start() + 5);
-  EXPECT_EQ(on_device.particle_count(), on_processor.particle_count());
+  EXPECT_GT(emulated.particle_count(), emulated.particles_at_start() + 5);
+  EXPECT_EQ(on_device.particle_count(), emulated.particle_count());
 }
-TEST(DeviceRun, TakesUpTheBedOfTheProcessor) {
+TEST(DeviceRun, EntrainsTheBedOfTheCpu) {
   for (const std::string law : {"momentum", "strength"}) {
     SCOPED_TRACE(law);
     expect_the_same_bed<2>({"bed.law=" + law}, 90);
@@ -138,18 +138,18 @@ TEST(DeviceRun, TakesUpTheBedOfTheProcessor) {
 TEST(DeviceRun, SettlesABody) {
   const config::Case parameters = sliding_bodies<2>(
       {"mechanics.initial_stress=\"settle\"", "mechanics.settle_time=0.1", "mechanics.settle_damping=5.0"});
-  Simulation<2, double> on_processor(parameters), on_device(parameters);
+  Simulation<2, double> emulated(parameters), on_device(parameters);
   int copies = 0;
-  on_device.take_steps_on("a card", counting_copies<2>(ThreadOrder::shuffled, copies));
-  EXPECT_TRUE(on_processor.settle() && on_device.settle());
+  on_device.use_device("a GPU", counting_copies<2>(ThreadOrder::shuffled, copies));
+  EXPECT_TRUE(emulated.settle() && on_device.settle());
   EXPECT_EQ(copies, 1);
   EXPECT_EQ(on_device.time(), 0.0);
-  expect_the_same_particles(on_device, on_processor);
+  expect_the_same_particles(on_device, emulated);
   for (int k = 0; k < 20; ++k) {
-    on_processor.step(0.002);
+    emulated.step(0.002);
     on_device.step(0.002);
   }
-  expect_the_same_particles(on_device, on_processor);
+  expect_the_same_particles(on_device, emulated);
 }
 
 // They come back when some have left, and only then.
@@ -185,32 +185,32 @@ TEST(DeviceRun, StaysOnGroundThatIsKnown) {
                          "band.thickness={time=[0.0,0.01],value=[0.1,0.2]}"},
                         "type = \"dem\"\nfile = \"dem.tif\"\n");
   EXPECT_EQ(expect_the_same_run<3>(by_layer, 12, bumpy_site(40.0)), 0);
-  std::vector<std::string> told;
+  std::vector<std::string> specified;
   for (const bool on_device : {false, true}) {
     Simulation<3, double> simulation(parameters, bumpy_site(8.0));
     if (on_device) {
-      simulation.take_steps_on("a card", in_place_of_a_card<3>(ThreadOrder::forward));
+      simulation.use_device("a GPU", emulated_gpu<3>(ThreadOrder::forward));
     }
-    told.push_back(error_of(simulation));
+    specified.push_back(error_of(simulation));
   }
-  EXPECT_NE(told[0].find("known"), std::string::npos) << told[0];
-  EXPECT_EQ(told[1], told[0]);
+  EXPECT_NE(specified[0].find("known"), std::string::npos) << specified[0];
+  EXPECT_EQ(specified[1], specified[0]);
 }
 
 // Above a block whose ground is not known everywhere, and well away from where it is not.
-TEST(DeviceRun, LooksAtStraysAlone) {
+TEST(DeviceRun, ChecksEscapedParticlesAlone) {
   std::ofstream(folder_of_this_test() / "dem.tif");
   const config::Case parameters = sliding_bodies<3>({}, "type = \"dem\"\nfile = \"dem.tif\"\n");
   for (double known_to = 30.0;; known_to -= 0.5) {
     ASSERT_GT(known_to, 0.0) << "no ground ends beside the slide";
     const config::Site site = bumpy_site(known_to, 0.5);
     Simulation<3, double> simulation(parameters, site);
-    bool beside = false;
+    bool adjacent = false;
     for (std::size_t t = 0; t < simulation.grid().tiles().size(); ++t) {
       const auto own = static_cast<std::size_t>(simulation.grid().blocks_about_tile(t)[mpm::Tile<3>::stencil / 2]);
-      beside = beside || simulation.ground()->partly_unknown(own);
+      adjacent = adjacent || simulation.ground()->partly_unknown(own);
     }
-    if (beside) {
+    if (adjacent) {
       EXPECT_EQ(expect_the_same_run<3>(parameters, 4, site), 0);
       return;
     }
@@ -219,25 +219,25 @@ TEST(DeviceRun, LooksAtStraysAlone) {
 
 void expect_the_same_map(const MapKind& kind, const FlowMaps& found, const FlowMaps& expected) {
   const Raster of_device = found.raster(kind, MapExtent::whole_grid);
-  const Raster of_processor = expected.raster(kind, MapExtent::whole_grid);
-  ASSERT_EQ(of_device.values.size(), of_processor.values.size());
+  const Raster of_cpu = expected.raster(kind, MapExtent::whole_grid);
+  ASSERT_EQ(of_device.values.size(), of_cpu.values.size());
   double largest = 0.0;
   std::size_t filled = 0;
-  for (const double value : of_processor.values) {
+  for (const double value : of_cpu.values) {
     largest = std::isnan(value) ? largest : std::max(largest, std::abs(value));
     filled += std::isnan(value) ? 0 : 1;
   }
   EXPECT_GT(filled, 5U) << kind.name;
-  for (std::size_t k = 0; k < of_processor.values.size(); ++k) {
-    EXPECT_EQ(std::isnan(of_device.values[k]), std::isnan(of_processor.values[k])) << kind.name << ", cell " << k;
-    if (!std::isnan(of_processor.values[k])) {
-      EXPECT_NEAR(of_device.values[k], of_processor.values[k], 1e-12 * largest) << kind.name << ", cell " << k;
+  for (std::size_t k = 0; k < of_cpu.values.size(); ++k) {
+    EXPECT_EQ(std::isnan(of_device.values[k]), std::isnan(of_cpu.values[k])) << kind.name << ", cell " << k;
+    if (!std::isnan(of_cpu.values[k])) {
+      EXPECT_NEAR(of_device.values[k], of_cpu.values[k], 1e-12 * largest) << kind.name << ", cell " << k;
     }
   }
 }
 
 // Of cells as wide as those of the grid, of narrower and wider ones, and over band columns.
-TEST(DeviceRun, GathersTheMapsOfTheProcessor) {
+TEST(DeviceRun, GathersTheMapsOfTheCpu) {
   const std::vector<std::vector<std::string>> choices{{"maps.arrival_thickness=0.1"},
                                                       {"maps.cell=0.6"},
                                                       {"maps.cell=2.7"},
@@ -246,23 +246,23 @@ TEST(DeviceRun, GathersTheMapsOfTheProcessor) {
   for (const std::vector<std::string>& sets : choices) {
     SCOPED_TRACE(sets.front());
     const config::Case parameters = sliding_bodies<3>(sets);
-    Simulation<3, double> on_processor(parameters), on_device(parameters);
+    Simulation<3, double> emulated(parameters), on_device(parameters);
     int copies = 0;
-    on_device.take_steps_on("a card", counting_copies<3>(ThreadOrder::backward, copies));
-    RunRecords<3> expected(on_processor, {}), found(on_device, {});
-    expected.start(on_processor);
+    on_device.use_device("a GPU", counting_copies<3>(ThreadOrder::backward, copies));
+    RunRecords<3> expected(emulated, {}), found(on_device, {});
+    expected.start(emulated);
     found.start(on_device);
     for (int k = 0; k < 40; ++k) {
-      on_processor.step(0.002);
+      emulated.step(0.002);
       on_device.step(0.002);
-      expected.after_step(on_processor);
+      expected.after_step(emulated);
       found.after_step(on_device);
     }
-    const auto front = found.front(on_device), expected_front = expected.front(on_processor);
+    const auto front = found.front(on_device), expected_front = expected.front(emulated);
     ASSERT_TRUE(front && expected_front);
     EXPECT_EQ(front->along, expected_front->along);
     EXPECT_EQ(front->place, expected_front->place);
-    EXPECT_EQ(copies > 0, on_processor.removed().left > 0);
+    EXPECT_EQ(copies > 0, emulated.removed().left > 0);
     for (const MapKind& kind : map_kinds()) {
       expect_the_same_map(kind, *found.maps(), *expected.maps());
     }
@@ -282,7 +282,7 @@ TEST(DeviceRun, BringsParticlesBackInTheirOrder) {
     return by_place;
   };
   const std::vector<std::int64_t> at_start = ids();
-  simulation.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::forward));
+  simulation.use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
   simulation.set_sorting_interval(10);
   for (int k = 0; k < 60; ++k) {
     simulation.step(0.002);
@@ -291,11 +291,11 @@ TEST(DeviceRun, BringsParticlesBackInTheirOrder) {
 }
 
 // Steps go on from particles that the processor has changed.
-TEST(DeviceRun, GoesOnFromWhatTheProcessorMakesOfIt) {
+TEST(DeviceRun, ContinuesFromParticlesChangedOnTheCpu) {
   const config::Case parameters = sliding_bodies<2>();
-  Simulation<2, double> on_processor(parameters), on_device(parameters);
-  on_device.take_steps_on("a card", in_place_of_a_card<2>(ThreadOrder::backward));
-  for (Simulation<2, double>* simulation : {&on_processor, &on_device}) {
+  Simulation<2, double> emulated(parameters), on_device(parameters);
+  on_device.use_device("a GPU", emulated_gpu<2>(ThreadOrder::backward));
+  for (Simulation<2, double>* simulation : {&emulated, &on_device}) {
     for (int k = 0; k < 7; ++k) {
       simulation->step(0.002);
     }
@@ -307,7 +307,7 @@ TEST(DeviceRun, GoesOnFromWhatTheProcessorMakesOfIt) {
       simulation->step(0.002);
     }
   }
-  expect_the_same_particles(on_device, on_processor);
+  expect_the_same_particles(on_device, emulated);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ class Scene {
     fill<mpm::Motion>({10.0, 5.0, 8.0, 1.0, 2.0, 3.0}, random);
     fill<mpm::FilterIncrement>({1.0, 2.0, 0.5, 0.2, 0.1, 0.3}, random);
     fill<mpm::FilterTotal>({10.0, 5.0, 2.0, 0.4, 0.3, 0.1}, random);
-    fill<mpm::OrphanHeat>({2.0}, random);
+    fill<mpm::UnreachedHeat>({2.0}, random);
     fill<mpm::Contact>({1.0, 1.0, 3.0, 1e3, 1e4, 1.0}, random);
     for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {

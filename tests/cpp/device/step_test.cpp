@@ -36,9 +36,9 @@ template <int Dim>
 void expect_the_same_particles(const mpm::Particles<Dim, double>& expected, const mpm::Particles<Dim, double>& found,
                                bool band, const std::string& when) {
   const auto numbers = fields_by_id(found);
-  for (const auto& [name, of_processor] : fields_by_id(expected)) {
+  for (const auto& [name, of_cpu] : fields_by_id(expected)) {
     if (band || of_band.count(name) == 0) {
-      EXPECT_EQ(std::memcmp(numbers.at(name).data(), of_processor.data(), of_processor.size() * sizeof(double)), 0)
+      EXPECT_EQ(std::memcmp(numbers.at(name).data(), of_cpu.data(), of_cpu.size() * sizeof(double)), 0)
           << name << ", " << when;
     }
   }
@@ -129,7 +129,7 @@ void expect_water_to_work(const Simulation<Dim, double>& simulation, const Field
 
 // So many steps; particles are sorted in memory before number `sorted_before`.
 template <int Dim>
-void expect_the_steps_of_the_processor(const config::Case& parameters, int steps, int sorted_before, const Host& with) {
+void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int sorted_before, const Host& with) {
   constexpr double dt = 0.002;
   Simulation<Dim, double> simulation(parameters);
   ASSERT_EQ(simulation.model().motion.shape, mpm::ShapeKind::ugimp);
@@ -150,7 +150,7 @@ void expect_the_steps_of_the_processor(const config::Case& parameters, int steps
     const auto sums = mechanics.step(time, dt);
     const std::string when = fmt::format("step {}", k);
     expect_the_same_contact(simulation.contact(), sums.contact, when);
-    EXPECT_EQ(sums.bad.id, -1) << when;
+    EXPECT_EQ(sums.invalid.id, -1) << when;
     brought.add(sums);
     expect_the_same_ledger(simulation, brought, when);
     if (::testing::Test::HasFailure()) {
@@ -200,39 +200,37 @@ std::vector<std::string> balanced(const std::string& frozen_rows) {
           "heat.advection_form=\"conservative\""};
 }
 
-TEST(DeviceStep, HasTheBitsOfTheProcessorInThePlane) {
+TEST(DeviceStep, IsBitwiseIdenticalToTheCpuInThePlane) {
   for (const std::string heat : {"false", "true"}) {
-    expect_the_steps_of_the_processor<2>(without_pressure<2>(heat), 150, -1, Host(ThreadOrder::forward));
-    expect_the_steps_of_the_processor<2>(without_pressure<2>(heat), 150, 60, Host(ThreadOrder::backward, 7));
-    expect_the_steps_of_the_processor<2>(without_pressure<2>(heat), 150, 60, Host(ThreadOrder::shuffled, 32));
+    expect_the_steps_of_the_cpu<2>(without_pressure<2>(heat), 150, -1, Host(ThreadOrder::forward));
+    expect_the_steps_of_the_cpu<2>(without_pressure<2>(heat), 150, 60, Host(ThreadOrder::backward, 7));
+    expect_the_steps_of_the_cpu<2>(without_pressure<2>(heat), 150, 60, Host(ThreadOrder::shuffled, 32));
   }
 }
 
 TEST(DeviceStep, HasThemInSpace) {
-  expect_the_steps_of_the_processor<3>(without_pressure<3>("true"), 100, 50, Host(ThreadOrder::shuffled, 96));
+  expect_the_steps_of_the_cpu<3>(without_pressure<3>("true"), 100, 50, Host(ThreadOrder::shuffled, 96));
 }
 
 TEST(DeviceStep, HasTheBitsOfVoellmyFriction) {
   const std::vector<std::string> voellmy{"heat.enabled=false", "pressure.enabled=false", "basal.friction=voellmy",
                                          "basal.friction_coefficient=0.2", "basal.turbulent_friction=100"};
-  expect_the_steps_of_the_processor<2>(sliding_bodies<2>(voellmy), 100, 50, Host(ThreadOrder::shuffled, 32));
-  expect_the_steps_of_the_processor<3>(sliding_bodies<3>(voellmy), 60, 30, Host(ThreadOrder::shuffled, 96));
+  expect_the_steps_of_the_cpu<2>(sliding_bodies<2>(voellmy), 100, 50, Host(ThreadOrder::shuffled, 32));
+  expect_the_steps_of_the_cpu<3>(sliding_bodies<3>(voellmy), 60, 30, Host(ThreadOrder::shuffled, 96));
 }
 
-TEST(DeviceStep, HasTheBitsOfTheProcessorWithPorePressureInThePlane) {
-  expect_the_steps_of_the_processor<2>(with_pressure<2>(), 150, -1, Host(ThreadOrder::forward));
-  expect_the_steps_of_the_processor<2>(with_pressure<2>(), 150, 60, Host(ThreadOrder::shuffled, 32));
-  expect_the_steps_of_the_processor<2>(with_pressure<2>({"pressure.seepage=false"}), 150, 60,
-                                       Host(ThreadOrder::backward, 7));
-  expect_the_steps_of_the_processor<2>(with_pressure<2>({"heat.enabled=false"}), 150, 60,
-                                       Host(ThreadOrder::shuffled, 7));
-  expect_the_steps_of_the_processor<2>(with_pressure<2>({"mechanics.effective_stress=true"}), 150, -1,
-                                       Host(ThreadOrder::backward, 32));
+TEST(DeviceStep, IsBitwiseIdenticalToTheCpuWithPorePressureInThePlane) {
+  expect_the_steps_of_the_cpu<2>(with_pressure<2>(), 150, -1, Host(ThreadOrder::forward));
+  expect_the_steps_of_the_cpu<2>(with_pressure<2>(), 150, 60, Host(ThreadOrder::shuffled, 32));
+  expect_the_steps_of_the_cpu<2>(with_pressure<2>({"pressure.seepage=false"}), 150, 60, Host(ThreadOrder::backward, 7));
+  expect_the_steps_of_the_cpu<2>(with_pressure<2>({"heat.enabled=false"}), 150, 60, Host(ThreadOrder::shuffled, 7));
+  expect_the_steps_of_the_cpu<2>(with_pressure<2>({"mechanics.effective_stress=true"}), 150, -1,
+                                 Host(ThreadOrder::backward, 32));
 }
 
 TEST(DeviceStep, HasThemWithTheBalanceOfWater) {
-  expect_the_steps_of_the_processor<2>(with_pressure<2>(balanced("sealed")), 150, 60, Host(ThreadOrder::forward));
-  expect_the_steps_of_the_processor<2>(with_pressure<2>(balanced("vented")), 150, 60, Host(ThreadOrder::shuffled, 7));
+  expect_the_steps_of_the_cpu<2>(with_pressure<2>(balanced("sealed")), 150, 60, Host(ThreadOrder::forward));
+  expect_the_steps_of_the_cpu<2>(with_pressure<2>(balanced("vented")), 150, 60, Host(ThreadOrder::shuffled, 7));
 }
 
 // It takes in matter, and does not.
@@ -240,19 +238,19 @@ TEST(DeviceStep, HasThemInABandThatThickens) {
   const std::string thickness = "band.thickness={time=[0.0, 0.3], value=[0.1, 0.2]}";
   std::vector<std::string> conserving = balanced("vented");
   conserving.insert(conserving.end(), {"band.thickness_change=\"conserving\"", thickness});
-  expect_the_steps_of_the_processor<2>(with_pressure<2>(conserving), 150, 60, Host(ThreadOrder::shuffled, 7));
-  expect_the_steps_of_the_processor<2>(with_pressure<2>({"band.region=\"first_layer\"", thickness}), 150, 60,
-                                       Host(ThreadOrder::backward, 32));
+  expect_the_steps_of_the_cpu<2>(with_pressure<2>(conserving), 150, 60, Host(ThreadOrder::shuffled, 7));
+  expect_the_steps_of_the_cpu<2>(with_pressure<2>({"band.region=\"first_layer\"", thickness}), 150, 60,
+                                 Host(ThreadOrder::backward, 32));
 }
 
 TEST(DeviceStep, HasThemWithPorePressureInSpace) {
-  expect_the_steps_of_the_processor<3>(with_pressure<3>(), 100, 50, Host(ThreadOrder::shuffled, 96));
-  expect_the_steps_of_the_processor<3>(with_pressure<3>(balanced("vented")), 100, 50, Host(ThreadOrder::backward, 7));
+  expect_the_steps_of_the_cpu<3>(with_pressure<3>(), 100, 50, Host(ThreadOrder::shuffled, 96));
+  expect_the_steps_of_the_cpu<3>(with_pressure<3>(balanced("vented")), 100, 50, Host(ThreadOrder::backward, 7));
 }
 
 // The launches of a step in which no particle comes to another cell: they wait for what the processor asks, which is
 // whether there is one, whether water seeps (for the averages, and for the pressures) and the sums of the step.
-TEST(DeviceStep, GoesToACardInFourGraphs) {
+TEST(DeviceStep, IsSubmittedInFourGraphs) {
   const config::Case parameters = with_pressure<3>(balanced("vented"));
   Simulation<3, double> simulation(parameters);
   Host host;

@@ -1,4 +1,4 @@
-// What the filter of a terrain model takes of the wedge effect of valleys.
+// What the filter of a DEM takes of the wedge effect of valleys.
 #include <cmath>
 #include <functional>
 

@@ -18,9 +18,9 @@ using namespace map_files;
 
 std::vector<MapLayer> layers() {
   const Polygon with_hole{{{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}}, {{{2, 2}, {2, 4}, {4, 4}, {4, 2}, {2, 2}}}};
-  const Polygon beside{{{20, 0}, {29, 0}, {29, 9}, {20, 0}}, {}};
+  const Polygon adjacent{{{20, 0}, {29, 0}, {29, 9}, {20, 0}}, {}};
   return {
-      {"affected_area", std::vector<Polygons>{{with_hole, beside}}, {{"area_m2", std::vector<double>{117.5}}}},
+      {"affected_area", std::vector<Polygons>{{with_hole, adjacent}}, {{"area_m2", std::vector<double>{117.5}}}},
       {"front",
        std::vector<Polyline2>{{{0, 0}, {3, 4}}, {{1, 1}, {2, 2}, {3, 1}}},
        {{"time_s", std::vector<double>{10.0, missing}}, {"note", std::vector<std::string>{"first", ""}}}},
@@ -32,7 +32,7 @@ TEST(MapWritingTest, GeopackageOpensAgain) {
   write_geopackage(file, layers(), ground);
   write_geopackage(file, layers(), ground);  // an older one is replaced
   const VectorLayer area = read_polygons(file, ground);
-  EXPECT_EQ(area.notes, std::vector<std::string>{});
+  EXPECT_EQ(area.warnings, std::vector<std::string>{});
   ASSERT_EQ(area.features.size(), 1U);
   EXPECT_NEAR(area_of(area.features[0].polygons), 81.0 - 4.0 + 40.5, 1e-12);
   EXPECT_EQ(area.features[0].numbers.at("area_m2"), 117.5);

@@ -1,4 +1,4 @@
-// Points of a terrain model whose value stands for no data although the file does not say so.
+// Points of a DEM whose value stands for no data although the file does not say so.
 #include "gis/pits.hpp"
 
 #include "site_case.hpp"
@@ -19,30 +19,30 @@ Raster slope_with(double value, int columns, int rows) {
   return dem;
 }
 
-std::string note_of(const Raster& dem) { return pits_note("folder/dem.tif", dem); }
+std::string warning_of(const Raster& dem) { return pits_warning("folder/dem.tif", dem); }
 
 TEST(PitsTest, HolesFilledWithAConstant) {
-  EXPECT_EQ(note_of(slope_with(0.0, 3, 5)),
-            "15 points of dem.tif are exactly 0 m amid ground of 1292 to 1302 m, such as (400100, 300050): a hole "
+  EXPECT_EQ(warning_of(slope_with(0.0, 3, 5)),
+            "15 points of dem.tif are exactly 0 m among heights of 1292 to 1302 m, such as (400100, 300050): a hole "
             "without data? Then say so in the file, gdal_edit.py -a_nodata 0 folder/dem.tif, or fill it");
-  EXPECT_EQ(note_of(slope_with(0.0, 1, 1)),
-            "1 point of dem.tif is exactly 0 m amid ground of 1298 to 1302 m, such as (400100, 300050): a hole "
+  EXPECT_EQ(warning_of(slope_with(0.0, 1, 1)),
+            "1 point of dem.tif is exactly 0 m among heights of 1298 to 1302 m, such as (400100, 300050): a hole "
             "without data? Then say so in the file, gdal_edit.py -a_nodata 0 folder/dem.tif, or fill it");
-  EXPECT_EQ(note_of(slope_with(-99.5, 2, 1)).substr(0, 39), "2 points of dem.tif are exactly -99.5 m");
-  EXPECT_EQ(note_of(slope_with(8000.0, 2, 2)).substr(0, 38), "4 points of dem.tif are exactly 8000 m");
-  // As warping leaves it: beyond an edge of the terrain model's.
+  EXPECT_EQ(warning_of(slope_with(-99.5, 2, 1)).substr(0, 39), "2 points of dem.tif are exactly -99.5 m");
+  EXPECT_EQ(warning_of(slope_with(8000.0, 2, 2)).substr(0, 38), "4 points of dem.tif are exactly 8000 m");
+  // As warping leaves it: beyond an edge of the DEM's.
   Raster edge = slope_with(0.0, 0, 0);
   for (int row = 0; row < edge.rows; ++row) {
     edge.values[edge.index(0, row)] = edge.values[edge.index(1, row)] = 0.0;
   }
-  EXPECT_EQ(note_of(edge).substr(0, 60), "62 points of dem.tif are exactly 0 m amid ground of 1345 to ");
+  EXPECT_EQ(warning_of(edge).substr(0, 62), "62 points of dem.tif are exactly 0 m among heights of 1345 to ");
 }
 
 TEST(PitsTest, SoundGroundIsNotTold) {
-  EXPECT_EQ(note_of(slope_with(0.0, 0, 0)), "");
-  EXPECT_EQ(note_of(slope_with(1230.0, 3, 5)), "") << "a lake 70 m below its shores";
-  EXPECT_EQ(note_of(slope_with(500.0, 1, 1)), "") << "a single point is noise";
-  EXPECT_EQ(note_of(raster_of([](double, double) { return 0.0; }, west, south, 5.0, 20, 20)), "");
+  EXPECT_EQ(warning_of(slope_with(0.0, 0, 0)), "");
+  EXPECT_EQ(warning_of(slope_with(1230.0, 3, 5)), "") << "a lake 70 m below its shores";
+  EXPECT_EQ(warning_of(slope_with(500.0, 1, 1)), "") << "a single point is noise";
+  EXPECT_EQ(warning_of(raster_of([](double, double) { return 0.0; }, west, south, 5.0, 20, 20)), "");
   // Sea level below cliffs of 400 m, with a beach in one place; and the same without the beach, which is no coast.
   const auto coast = [](bool has_beach) {
     Raster dem = raster_of([](double x, double) { return x < west + 100.0 ? 0.0 : 400.0 + 0.1 * (x - west); }, west,
@@ -52,8 +52,8 @@ TEST(PitsTest, SoundGroundIsNotTold) {
     }
     return dem;
   };
-  EXPECT_EQ(note_of(coast(true)), "");
-  EXPECT_NE(note_of(coast(false)), "");
+  EXPECT_EQ(warning_of(coast(true)), "");
+  EXPECT_NE(warning_of(coast(false)), "");
 }
 
 TEST(PitsTest, TheSiteTellsOfThem) {
@@ -63,13 +63,14 @@ TEST(PitsTest, TheSiteTellsOfThem) {
     dem.values[dem.index(column, 70)] = 0.0;
   }
   parameters.terrain.file = geotiff("dem.tif", dem);
-  const SiteAndNotes loaded = load_site(parameters);
-  ASSERT_EQ(loaded.notes.size(), 1U);
-  EXPECT_EQ(loaded.notes[0].rfind("2 points of dem.tif are exactly 0 m amid ground of 1580 to 1591 m, such as (400550, "
-                                  "300350): a hole without data?",
-                                  0),
-            0U)
-      << loaded.notes[0];
+  const SiteAndWarnings loaded = load_site(parameters);
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_EQ(
+      loaded.warnings[0].rfind("2 points of dem.tif are exactly 0 m among heights of 1580 to 1591 m, such as (400550, "
+                               "300350): a hole without data?",
+                               0),
+      0U)
+      << loaded.warnings[0];
 }
 
 }  // namespace

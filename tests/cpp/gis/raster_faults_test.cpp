@@ -18,7 +18,7 @@ TEST(RasterFaultsTest, MissingFile) {
 TEST(RasterFaultsTest, NoRaster) {
   const std::string message = error_of_file(text_file("dem.tif", "this is no raster"));
   EXPECT_EQ(message.substr(0, message.find(';')), "FOLDER/dem.tif: the raster cannot be opened");
-  EXPECT_NE(message.find("Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is whole and may be read."),
+  EXPECT_NE(message.find("Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is complete and readable."),
             std::string::npos)
       << message;
 }
@@ -56,10 +56,9 @@ TEST(RasterFaultsTest, WithoutItsPlace) {
   const std::string file = in_folder("picture.tif");
   GDALDatasetUniquePtr(
       GetGDALDriverManager()->GetDriverByName("GTiff")->Create(file.c_str(), 4, 3, 1, GDT_Float32, nullptr));
-  EXPECT_EQ(
-      error_of_file(file),
-      "FOLDER/picture.tif: the raster is not georeferenced: nothing tells where its corner lies and how large its "
-      "cells are. Export it again with its place (GeoTIFF tags, or a world file beside it).");
+  EXPECT_EQ(error_of_file(file),
+            "FOLDER/picture.tif: the raster is not georeferenced: its corner and the size of its cells are unknown. "
+            "Export it again with georeferencing (GeoTIFF tags, or a world file next to it).");
 }
 
 TEST(RasterFaultsTest, ComplexNumbers) {
@@ -101,7 +100,7 @@ TEST(RasterFaultsTest, MapsAreNotWrittenWhereTheyCannotBe) {
     write_geotiff(in_folder("no/such/folder/map.tif"), raster, {"m", "thickness"});
   });
   EXPECT_EQ(message.substr(0, 45), "cannot write FOLDER/no/such/folder/map.tif: G") << message;
-  EXPECT_NE(message.find("Check that the folder exists, may be written to, and that the disk has room."),
+  EXPECT_NE(message.find("Check that the folder exists and is writable, and that the disk has free space."),
             std::string::npos);
 }
 

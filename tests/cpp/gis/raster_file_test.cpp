@@ -27,7 +27,7 @@ TEST(RasterFileTest, GeotiffRoundTripKeepsEveryBit) {
   EXPECT_EQ(read.cell_x, raster.cell_x);
   EXPECT_EQ(read.cell_y, raster.cell_y);
   EXPECT_EQ(name_of(read.crs), "EPSG:31287");
-  EXPECT_EQ(opened.conversion().note, "");
+  EXPECT_EQ(opened.conversion().warning, "");
   for (std::size_t k = 0; k < raster.values.size(); ++k) {
     if (k == raster.index(2, 1)) {
       EXPECT_TRUE(std::isnan(read.values[k]));

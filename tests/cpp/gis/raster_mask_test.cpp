@@ -7,7 +7,7 @@ namespace {
 
 using namespace site_case;
 
-enum class MaskKind { internal, beside, alpha, real_alpha };
+enum class MaskKind { internal, adjacent, alpha, real_alpha };
 
 // A raster of the foreign kind, whose points are masked where `is_masked` says so.
 std::string masked(const std::string& name, MaskKind kind, const ForeignRaster& what,
@@ -52,7 +52,7 @@ std::string masked(const std::string& name, MaskKind kind, const ForeignRaster& 
   return file;
 }
 
-constexpr MaskKind kinds[] = {MaskKind::internal, MaskKind::beside, MaskKind::alpha, MaskKind::real_alpha};
+constexpr MaskKind kinds[] = {MaskKind::internal, MaskKind::adjacent, MaskKind::alpha, MaskKind::real_alpha};
 
 TEST(RasterMaskTest, MaskedPointsHaveNoDataInBothDirectionsOfRowsAndInWindows) {
   const auto is_masked = [](int column, int line) { return (column + 2 * line) % 3 == 0; };
@@ -166,7 +166,7 @@ TEST(RasterMaskTest, MaskedTemperatureBedAndGroundAreMissing) {
   parameters.terrain.file =
       masked("dem.tif", MaskKind::internal, dem, [](int column, int line) { return column == 60 && line == 100; });
   EXPECT_NE(error_of_site(parameters)
-                .find("the release lies over nodata of the terrain model at 1 of its points, such as 400300, 300300"),
+                .find("the release lies over nodata of the DEM at 1 of its points, such as 400300, 300300"),
             std::string::npos);
 }
 

@@ -43,19 +43,19 @@ TEST(ReferenceSystemTest, NumberWithoutItsRegistry) {
 }
 
 TEST(ReferenceSystemTest, FarOutsideTheAreaOfTheSystem) {
-  const auto note = [](const Rectangle& extent, const char* system) {
-    return place_note({"folder/dem.tif", extent, 10.0, 10.0}, reference_system_named(system));
+  const auto warning = [](const Rectangle& extent, const char* system) {
+    return place_warning({"folder/dem.tif", extent, 10.0, 10.0}, reference_system_named(system));
   };
-  EXPECT_EQ(note({500000.0, 5200000.0, 502000.0, 5201200.0}, "EPSG:32632"), "");
-  EXPECT_EQ(note({400000.0, 300000.0, 401000.0, 301000.0}, "EPSG:31287"), "");
+  EXPECT_EQ(warning({500000.0, 5200000.0, 502000.0, 5201200.0}, "EPSG:32632"), "");
+  EXPECT_EQ(warning({400000.0, 300000.0, 401000.0, 301000.0}, "EPSG:31287"), "");
   // Numbers of zone 32 of the UTM, taken to be Austrian Lambert's.
-  EXPECT_EQ(note({500000.0, 5200000.0, 502000.0, 5201200.0}, "EPSG:31287"),
+  EXPECT_EQ(warning({500000.0, 5200000.0, 502000.0, 5201200.0}, "EPSG:31287"),
             "the middle of dem.tif would be at longitude 20.74, latitude 85.64 in EPSG:31287, which is for longitudes "
             "9.53 to 17.17 and latitudes 46.4 to 49.02: is it the right system? If not, set terrain.crs to the one the "
             "numbers are in");
   // The far north of Norway in zone 33, as its maps are.
-  EXPECT_EQ(note({1100000.0, 7800000.0, 1101000.0, 7801000.0}, "EPSG:25833"), "");
-  EXPECT_EQ(note({2600000.0, 1200000.0, 2601000.0, 1201000.0}, "EPSG:32632").substr(0, 78),
+  EXPECT_EQ(warning({1100000.0, 7800000.0, 1101000.0, 7801000.0}, "EPSG:25833"), "");
+  EXPECT_EQ(warning({2600000.0, 1200000.0, 2601000.0, 1201000.0}, "EPSG:32632").substr(0, 78),
             "the middle of dem.tif would be at longitude 27.85, latitude 10.29 in EPSG:3263")
       << "Swiss numbers";
 }
@@ -84,15 +84,15 @@ TEST(ReferenceSystemTest, Degrees) {
 }
 
 TEST(ReferenceSystemTest, TagOfDegreesOverMetricNumbers) {
-  EXPECT_EQ(
-      error_of_system(metric_raster, "EPSG:4326"),
-      "dem.tif: the tag says degrees (EPSG:4326), the numbers are metric (x from 49280 to 52280, y from 193490 to "
-      "195690). Set terrain.crs = \"EPSG:...\" to the system the numbers are in; its maker states it.");
+  EXPECT_EQ(error_of_system(metric_raster, "EPSG:4326"),
+            "dem.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric (x from 49280 to 52280, y from "
+            "193490 to "
+            "195690). Set terrain.crs = \"EPSG:...\" to the system the numbers are in; its maker states it.");
 }
 
 TEST(ReferenceSystemTest, Feet) {
-  const Located feet{"dem.tif", {6000000.0, 2000000.0, 6010000.0, 2010000.0}, 10.0, 10.0};
-  EXPECT_EQ(error_of_system(feet, "EPSG:2227"),
+  const Located footpoints{"dem.tif", {6000000.0, 2000000.0, 6010000.0, 2010000.0}, 10.0, 10.0};
+  EXPECT_EQ(error_of_system(footpoints, "EPSG:2227"),
             "dem.tif: the coordinates are in the unit 'US survey foot' (EPSG:2227); allowed: a map projection in "
             "metres, and elevations in metres. Reproject: gdalwarp -t_srs EPSG:32610 -tr 3 3 -r bilinear dem.tif "
             "dem-EPSG32610.tif");
@@ -118,7 +118,7 @@ TEST(ReferenceSystemTest, SystemsThatAreNoProjection) {
 TEST(ReferenceSystemTest, MissingDatabaseIsNamed) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
   const std::string folder = std::filesystem::path(text_file("proj.db", "no database")).parent_path().string();
-  const auto tell = [&] {
+  const auto report_line = [&] {
     const char* const paths[] = {folder.c_str(), nullptr};
     OSRSetPROJSearchPaths(paths);
     const std::string message = error_of([] { static_cast<void>(reference_system_named("EPSG:31254")); });
@@ -126,7 +126,7 @@ TEST(ReferenceSystemTest, MissingDatabaseIsNamed) {
     std::exit(0);
   };
   EXPECT_EXIT(
-      tell(), testing::ExitedWithCode(0),
+      report_line(), testing::ExitedWithCode(0),
       "PROJ's database of coordinate reference systems, proj.db, cannot be used; GDAL says: .*Install it .Debian: "
       "apt-get install proj-data., or let PROJ_LIB name the folder that holds it");
 }

@@ -13,12 +13,12 @@ TEST(ReleaseFaultsTest, OutsideTheTerrainModel) {
   EXPECT_EQ(
       error_of_site(case_with_release({{"", box_at(-500, 300, -400, 400)}})),
       std::string(at_release) +
-          "FOLDER/release.geojson: the release lies outside the terrain model, by 500 m in the west; found: x from "
+          "FOLDER/release.geojson: the release lies outside the DEM, by 500 m in the west; found: x from "
           "399500 to 399600, y from 300300 to 300400; allowed: x from 400000 to 401000, y from 300000 to 300800. "
           "Check that both have the same place and reference system (the ground's is EPSG:31287), or take a larger "
-          "terrain model.");
+          "DEM.");
   EXPECT_NE(error_of_site(case_with_release({{"", box_at(900, 300, 1010, 400)}}))
-                .find("the release lies partly outside the terrain model, by 10 m in the east;"),
+                .find("the release lies partly outside the DEM, by 10 m in the east;"),
             std::string::npos);
 }
 
@@ -49,8 +49,8 @@ TEST(ReleaseFaultsTest, TaperThatReachesTooFar) {
   parameters.bodies["rock"].taper = 500.0;
   EXPECT_EQ(error_of_site(parameters),
             "--set body.rock.taper=50: body.rock.taper: a taper of 500 m spreads the release 250 m beyond its outline, "
-            "and outside the terrain model by 134 m in the west; allowed: up to 230 m. Set a narrower one, or take a "
-            "larger terrain model.");
+            "and outside the DEM by 134 m in the west; allowed: up to 230 m. Set a narrower one, or take a "
+            "larger DEM.");
 }
 
 TEST(ReleaseFaultsTest, TaperOverNodata) {
@@ -64,18 +64,17 @@ TEST(ReleaseFaultsTest, TaperOverNodata) {
   EXPECT_EQ(
       error_of_site(parameters),
       "case.toml: body.rock.taper: a taper of 40 m spreads the release of FOLDER/release.geojson over nodata of the "
-      "terrain model at 1 points, such as 400415, 300330. Set a narrower one, or fill the holes "
+      "DEM at 1 points, such as 400415, 300330. Set a narrower one, or fill the holes "
       "(gdal_fillnodata.py FOLDER/dem.tif filled.tif).");
 }
 
 TEST(ReleaseFaultsTest, SmallerThanACellOfTheTerrainModel) {
   config::Case parameters = case_with_release({{"", box_at(300, 300, 303, 303)}}, 20.0);
-  EXPECT_EQ(
-      error_of_site(parameters),
-      std::string(at_release) +
-          "FOLDER/release.geojson: the release has 9 m2, less than one cell of the terrain model, 25 m2: it would "
-          "be spread over the cell and become as much thinner. Draw it larger, or resample the terrain model "
-          "(gdalwarp -tr 0.8 0.8 -r bilinear FOLDER/dem.tif finer.tif).");
+  EXPECT_EQ(error_of_site(parameters),
+            std::string(at_release) +
+                "FOLDER/release.geojson: the release has 9 m2, less than one cell of the DEM, 25 m2: it would "
+                "be spread over the cell and become as much thinner. Draw it larger, or resample the DEM "
+                "(gdalwarp -tr 0.8 0.8 -r bilinear FOLDER/dem.tif finer.tif).");
   parameters.terrain.resample = 0.5;
   EXPECT_EQ(error_of_site(parameters), "no error");
 }
@@ -87,7 +86,7 @@ TEST(ReleaseFaultsTest, OverNodata) {
   parameters.terrain.file = geotiff("dem.tif", dem);
   EXPECT_EQ(error_of_site(parameters),
             std::string(at_release) +
-                "FOLDER/release.geojson: the release lies over nodata of the terrain model at 2 of its points, such as "
+                "FOLDER/release.geojson: the release lies over nodata of the DEM at 2 of its points, such as "
                 "400350, 300330. Fill the holes (gdal_fillnodata.py FOLDER/dem.tif filled.tif), or move the release.");
 }
 
@@ -195,7 +194,7 @@ TEST(ReleaseFaultsTest, RasterAsTheRelease) {
   EXPECT_EQ(
       error_of_site(parameters),
       "case.toml: body.rock.thickness: FOLDER/before.tif: the surface before the slide lies nowhere more than 0.01 "
-      "m above the terrain model: there is no release. Are the two files swapped?");
+      "m above the DEM: there is no release. Are the two files swapped?");
   parameters.bodies["rock"] = raster_body(in_folder("none.tif"));
   EXPECT_EQ(error_of_site(parameters),
             "case.toml: body.rock.thickness: FOLDER/none.tif: there is no such file. Correct the path.");
@@ -214,7 +213,7 @@ TEST(ReleaseFaultsTest, SurfacesBeforeTheSlide) {
   EXPECT_EQ(with(-3.0),
             std::string(at_thickness) +
                 "FOLDER/before.tif: at 400300, 300300, within the release, the surface before the slide lies 3 "
-                "m below the terrain model; allowed: above it, or below by up to 0.01 m. Are the two files swapped? "
+                "m below the DEM; allowed: above it, or below by up to 0.01 m. Are the two files swapped? "
                 "Else draw "
                 "the release smaller, or set body.rock.surface_tolerance to the noise of the two.");
   body.surface_tolerance = 3.5;
@@ -224,8 +223,8 @@ TEST(ReleaseFaultsTest, SurfacesBeforeTheSlide) {
   body.surface_tolerance = 0.01;
   body.placement = config::Placement::cut;
   EXPECT_EQ(with(12.0),
-            "case.toml: body.rock.placement: a thickness between a surface before the slide and the terrain "
-            "model takes the terrain model for what the slide lay on, so that nothing is to be cut out of it. "
+            "case.toml: body.rock.placement: a thickness between a surface before the slide and the DEM takes the DEM "
+            "for what the slide lay on, so that nothing is to be cut out of it. "
             "Set \"on_top\".");
   body.placement = config::Placement::on_top;
   body.thickness_along = config::ThicknessAlong::normal;

@@ -86,8 +86,8 @@ TEST(ReleaseTest, BodiesOfOneFileSayItOnce) {
     parameters.bodies[name] = release_body(file, 5.0);
     parameters.bodies[name].polygons = {name};
   }
-  const SiteAndNotes loaded = load_site(parameters);
-  EXPECT_EQ(loaded.notes.size(), 1U);
+  const SiteAndWarnings loaded = load_site(parameters);
+  EXPECT_EQ(loaded.warnings.size(), 1U);
   EXPECT_NEAR(volume_of(loaded.site.releases.at("a").thickness), 5e4, 1e-4);
   EXPECT_NEAR(volume_of(loaded.site.releases.at("b").thickness), 2e4, 1e-4);
 }
@@ -138,29 +138,29 @@ TEST(ReleaseTest, TaperKeepsTheVolume) {
   EXPECT_EQ(thickness_at(release, 280.0, 350.0), 0.0);
   parameters.bodies["rock"].taper = 6.0;
   EXPECT_EQ(
-      load_site(parameters).notes,
+      load_site(parameters).warnings,
       std::vector<std::string>{"the taper of the body rock, 6 m, is no wider than two cells of the ground, 5 m x 5 "
                                "m: it changes nothing"});
 }
 
-TEST(ReleaseTest, NoteOnANarrowRelease) {
+TEST(ReleaseTest, WarnsOfANarrowRelease) {
   config::Case strip = case_with_release({{"", box_at(300, 300, 400, 303)}}, 2.0);
-  const SiteAndNotes loaded = load_site(strip);
+  const SiteAndWarnings loaded = load_site(strip);
   EXPECT_NEAR(volume_of(loaded.site.releases.at("rock").thickness), 600.0, 1e-6);
-  EXPECT_EQ(loaded.notes, std::vector<std::string>{
-                              "the release of the body rock covers no cell of the terrain model, 5 m x 5 m, as a "
-                              "whole: it is spread over cells that it covers in part, and gets up to 50 % of the "
-                              "thickness given; the volume stays. Draw it larger, or resample the terrain model"});
+  EXPECT_EQ(loaded.warnings, std::vector<std::string>{
+                                 "the release of the body rock covers no cell of the DEM, 5 m x 5 m, as a "
+                                 "whole: it is spread over cells that it covers in part, and gets up to 50 % of the "
+                                 "thickness given; the volume stays. Draw it larger, or resample the DEM"});
 }
 
-TEST(ReleaseTest, NoteOnATower) {
+TEST(ReleaseTest, WarnsOfATower) {
   config::Case tower = case_with_release({{"", box_at(300, 300, 500, 500)}}, 600.0);
   EXPECT_EQ(
-      load_site(tower).notes,
+      load_site(tower).warnings,
       std::vector<std::string>{"the release of the body rock is up to 600 m thick and, by its area, 200 m wide: is "
                                "the thickness in metres?"});
   tower.bodies["rock"].thickness.number = 90.0;
-  EXPECT_EQ(load_site(tower).notes, std::vector<std::string>{});
+  EXPECT_EQ(load_site(tower).warnings, std::vector<std::string>{});
 }
 
 TEST(ReleaseTest, RasterGivesTheThicknessWithinPolygons) {
@@ -195,15 +195,15 @@ TEST(ReleaseTest, RasterAloneIsTheRelease) {
       },
       west, south, 5.0, 201, 161);
   parameters.bodies["rock"] = raster_body(geotiff("release.tif", thickness));
-  const SiteAndNotes loaded = load_site(parameters);
+  const SiteAndWarnings loaded = load_site(parameters);
   const config::Release& release = loaded.site.releases.at("rock");
   EXPECT_NEAR(volume_of(release.thickness), 6.0 * 21 * 13 * 25.0, 1e-6);
   EXPECT_NEAR(release.area, 21 * 13 * 25.0, 1e-6);
   EXPECT_TRUE(release.outlines.empty());
-  EXPECT_EQ(loaded.notes, std::vector<std::string>{});
+  EXPECT_EQ(loaded.warnings, std::vector<std::string>{});
   thickness.crs = "";
   parameters.bodies["rock"] = raster_body(geotiff("release.tif", thickness));
-  EXPECT_EQ(load_site(parameters).notes,
+  EXPECT_EQ(load_site(parameters).warnings,
             std::vector<std::string>{"release.tif names no coordinate reference system: taken "
                                      "to be in the ground's, EPSG:31287"});
 }

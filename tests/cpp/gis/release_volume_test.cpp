@@ -119,24 +119,25 @@ struct Differences {
 };
 
 void take_differences(const config::Case& parameters, double volume, Differences& largest) {
-  const auto note = [](double& difference, double found, double expected) {
+  const auto warning = [](double& difference, double found, double expected) {
     difference = std::max(difference, std::abs(found / expected - 1.0));
   };
   const config::Site site = load_site(parameters).site;
-  note(largest.raster, volume_of(site.releases.at("slide").thickness), volume);
+  warning(largest.raster, volume_of(site.releases.at("slide").thickness), volume);
   sim::Simulation<3, double> simulation(parameters, site);
   sim::RunRecords<3> records(simulation, site);
   records.start(simulation);
   const Sums start(simulation.particles());
-  note(largest.volume, start.volume, volume);
-  note(largest.mass, start.mass, volume * (0.7 * parameters.phases.rock_density + 0.3 * parameters.phases.ice_density));
+  warning(largest.volume, start.volume, volume);
+  warning(largest.mass, start.mass,
+          volume * (0.7 * parameters.phases.rock_density + 0.3 * parameters.phases.ice_density));
   for (int k = 0; k < 20; ++k) {
     simulation.step(parameters.time.step);
     records.after_step(simulation);
   }
   double on_maps = 0.0;
   records.maps()->for_cells([&](int, int, const sim::MapCell& cell) { on_maps += cell.thickness; });
-  note(largest.maps, on_maps * records.maps()->map_grid().cell_area(), Sums(simulation.particles()).volume);
+  warning(largest.maps, on_maps * records.maps()->map_grid().cell_area(), Sums(simulation.particles()).volume);
 }
 
 TEST(ReleaseVolume, IsThatOfThePolygonsTimesTheThickness) {

@@ -1,4 +1,4 @@
-// Noise of terrain models: found on ground of any shape, none on clean ground; the filter that follows from it.
+// Noise of DEMs: found on ground of any shape, none on clean ground; the filter that follows from it.
 #include "gis/roughness.hpp"
 
 #include <algorithm>
@@ -116,7 +116,7 @@ TEST(RoughnessTest, NoiseOfAPartOfTheDomainCounts) {
   }
 }
 
-// A band of noise narrower than a tile is none in the domain; a release on it tells of it.
+// A band of noise narrower than a tile is none in the domain; a release on it triggers the warning.
 TEST(RoughnessTest, NoiseBelowABodyCounts) {
   Raster raster = ground_of([](double x, double y) { return 0.5 * x - 0.1 * y; }, 0.2, 7, 321, 161);
   for (int row = 0; row < raster.rows; ++row) {
@@ -264,19 +264,19 @@ Raster ground_with_noise(double rms, unsigned seed) {
 TEST(RoughnessTest, GroundOfACaseIsFilteredByItsNoise) {
   const Raster rough = ground_with_noise(1.0, 11);
   config::Case parameters = plain_case(rough);
-  const SiteAndNotes loaded = load_site(parameters);
+  const SiteAndWarnings loaded = load_site(parameters);
   const config::Roughness found = *loaded.site.roughness;
   EXPECT_NEAR(found.noise, 1.0, 0.2);
   EXPECT_EQ(found.spacing, 5.0);
   EXPECT_EQ(found.width, fitting_width(found.noise, 5.0, parameters.grid.cell));
   EXPECT_NEAR(found.width, 5.0, 1.0);
   EXPECT_EQ(found.narrow_valley, 40.0 * found.width);
-  ASSERT_EQ(loaded.notes.size(), 1U);
-  EXPECT_EQ(loaded.notes.front(),
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_EQ(loaded.warnings.front(),
             fmt::format("dem.tif was smoothed with a standard deviation of {:g} m, as it has noise of {:.2g} m rms and "
                         "bumps with an rms slope of {:.2g} (terrain.smooth = \"auto\")",
                         found.width, found.noise, found.bump_slope));
-  EXPECT_EQ(roughness_note(parameters, loaded.site), "");
+  EXPECT_EQ(roughness_warning(parameters, loaded.site), "");
   const Raster &ground = *loaded.site.ground, whole = smoothed(rough, found.width);
   const auto column = static_cast<int>(std::lround((ground.x - west) / 5.0));
   const auto row = static_cast<int>(std::lround((ground.y - south) / 5.0));
@@ -284,13 +284,13 @@ TEST(RoughnessTest, GroundOfACaseIsFilteredByItsNoise) {
     ASSERT_NEAR(ground.at(k, k), whole.at(column + k, row + k), 1e-9);
   }
   parameters.terrain.smooth = {.number = 1000.0};
-  EXPECT_NE(roughness_note(parameters, load_site(parameters).site).find("a filter of 1000 m removes terrain"),
+  EXPECT_NE(roughness_warning(parameters, load_site(parameters).site).find("a filter of 1000 m removes terrain"),
             std::string::npos);
   parameters.terrain.smooth = {};
-  const SiteAndNotes raw = load_site(parameters);
+  const SiteAndWarnings raw = load_site(parameters);
   EXPECT_EQ(raw.site.roughness->noise, found.noise);
   EXPECT_EQ(raw.site.ground->at(20, 20), rough.at(column + 20, row + 20));
-  EXPECT_EQ(roughness_note(parameters, raw.site).substr(0, 16), "terrain.smooth: ");
+  EXPECT_EQ(roughness_warning(parameters, raw.site).substr(0, 16), "terrain.smooth: ");
   // Points that were interpolated between those of the file are as rough as these.
   parameters.terrain.smooth.is_auto = true;
   parameters.terrain.resample = 2.5;
@@ -311,8 +311,8 @@ TEST(RoughnessTest, PointsStayWhereTheDomainLiesOnThem) {
       parameters.grid.cell = distance;
       parameters.grid.min = {rough.x_of(first), rough.y_of(first), 1000.0};
       parameters.grid.max = {rough.x_of(80), rough.y_of(70), 2500.0};
-      std::vector<std::string> notes;
-      const Dem dem = load_dem(parameters, notes);
+      std::vector<std::string> warnings;
+      const Dem dem = load_dem(parameters, warnings);
       ASSERT_GT(dem.roughness.width, 0.0) << distance;
       ASSERT_EQ(dem.raster.columns, dem.before_smoothing.columns) << distance;
       ASSERT_EQ(dem.raster.rows, dem.before_smoothing.rows) << distance;
@@ -329,7 +329,7 @@ TEST(RoughnessTest, ThicknessBelowASurfaceIsThatOfTheFiles) {
   for (double& height : before.values) {
     height += 8.0;
   }
-  // The same with a file of the terrain model that tells another system than the case.
+  // The same with a file of the DEM that tells another system than the case.
   Raster of_other_system = rough;
   of_other_system.crs = ground("EPSG:32633").crs;
   for (const Raster& dem : {rough, of_other_system}) {

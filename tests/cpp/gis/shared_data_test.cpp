@@ -1,4 +1,4 @@
-// Terrain models of real mountains, which lie beside the project where they are at hand.
+// DEMs of real mountains, which lie beside the project where they are at hand.
 #include "gis/polygons.hpp"
 #include "gis/site.hpp"
 #include "gis/vector_file.hpp"
@@ -38,7 +38,7 @@ TEST_F(SharedDataTest, TagOfFluchthornIsNamed) {
   config::Case parameters = case_on("fluchthorn/fluchthorn.tif",
                                     {span.min_x + 50.0, span.min_y + 50.0, span.max_x - 50.0, span.max_y - 50.0});
   const std::string message = error_of([&] { static_cast<void>(load_site(parameters)); });
-  EXPECT_NE(message.find("fluchthorn.tif: the tag says degrees (EPSG:4326), the numbers are metric (x from "),
+  EXPECT_NE(message.find("fluchthorn.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric (x from "),
             std::string::npos)
       << message;
   EXPECT_NE(message.find("Set terrain.crs = \"EPSG:...\" to the system the numbers are in"), std::string::npos);
@@ -47,11 +47,11 @@ TEST_F(SharedDataTest, TagOfFluchthornIsNamed) {
   parameters.bodies["summit"].release =
       (shared_data() / "fluchthorn" / "POLYGONS" / "scarpFluchthorn_perimeter.shp").string();
   parameters.bodies["summit"].thickness.number = 10.0;
-  const SiteAndNotes loaded = load_site(parameters);
+  const SiteAndWarnings loaded = load_site(parameters);
   EXPECT_EQ(loaded.site.crs_name, "EPSG:31254");
-  ASSERT_EQ(loaded.notes.size(), 3U);
-  EXPECT_EQ(loaded.notes[1].rfind("fluchthorn.tif was smoothed with a standard deviation of ", 0), 0U);
-  EXPECT_EQ(loaded.notes[2],
+  ASSERT_EQ(loaded.warnings.size(), 3U);
+  EXPECT_EQ(loaded.warnings[1].rfind("fluchthorn.tif was smoothed with a standard deviation of ", 0), 0U);
+  EXPECT_EQ(loaded.warnings[2],
             "scarpFluchthorn_perimeter.shp names no coordinate reference system: taken to be in the "
             "ground's, EPSG:31254");
   const config::Release& release = loaded.site.releases.at("summit");
@@ -78,7 +78,7 @@ TEST_F(SharedDataTest, ReleaseOfAlrIsComputed) {
   body.shape = config::BodyShape::release;
   body.release = layer.file;
   body.thickness = {config::MapValue::From::attribute, 0.0, "thickness"};
-  const SiteAndNotes loaded = load_site(parameters);
+  const SiteAndWarnings loaded = load_site(parameters);
   const config::Release& release = loaded.site.releases.at("snow");
   double volume = 0.0;
   for (const double thickness : release.thickness.values) {

@@ -9,9 +9,9 @@ namespace {
 using namespace site_case;
 
 TEST(SiteTest, GroundIsCroppedToTheDomainAndSomeCells) {
-  const SiteAndNotes loaded = load_site(plain_case(ground()));
+  const SiteAndWarnings loaded = load_site(plain_case(ground()));
   const Raster& raster = *loaded.site.ground;
-  // 3 cells of the grid and 2 of the terrain model: 40 m, and a point more.
+  // 3 cells of the grid and 2 of the DEM: 40 m, and a point more.
   EXPECT_NEAR(raster.x, west + 60.0, 5.0 + 1e-6);
   EXPECT_NEAR(raster.x_end(), west + 940.0, 5.0 + 1e-6);
   EXPECT_NEAR(raster.y, south + 60.0, 5.0 + 1e-6);
@@ -24,7 +24,7 @@ TEST(SiteTest, GroundIsCroppedToTheDomainAndSomeCells) {
   EXPECT_EQ(loaded.site.crs_name, "EPSG:31287");
   EXPECT_EQ(name_of(loaded.site.crs), "EPSG:31287");
   EXPECT_EQ(raster.crs, loaded.site.crs);
-  EXPECT_EQ(loaded.notes, std::vector<std::string>{});
+  EXPECT_EQ(loaded.warnings, std::vector<std::string>{});
   EXPECT_TRUE(loaded.site.releases.empty());
 }
 
@@ -37,7 +37,7 @@ TEST(SiteTest, CroppingChangesNoValueOfResampledAndSmoothedGround) {
     config::Case large = small;
     large.grid.min = {west + 50.0, south + 50.0, 0.0};
     large.grid.max = {west + 950.0, south + 750.0, 3000.0};
-    const SiteAndNotes loaded = load_site(small), more = load_site(large);
+    const SiteAndWarnings loaded = load_site(small), more = load_site(large);
     const Raster &part = *loaded.site.ground, &whole = *more.site.ground;
     EXPECT_EQ(part.cell_x, distance > 0.0 ? distance : 5.0);
     const auto column = static_cast<int>(std::lround((part.x - whole.x) / part.cell_x));
@@ -46,28 +46,28 @@ TEST(SiteTest, CroppingChangesNoValueOfResampledAndSmoothedGround) {
     for (int k = 0; k < std::min(part.columns, part.rows); ++k) {
       EXPECT_NEAR(part.at(k, k), whole.at(column + k, row + k), 1e-9) << distance;
     }
-    std::vector<std::string> notes;
+    std::vector<std::string> warnings;
     if (distance > 0.0) {
-      notes.push_back(fmt::format("dem.tif was taken from points 5 m x 5 m apart to points {:g} m apart", distance));
+      warnings.push_back(fmt::format("dem.tif was taken from points 5 m x 5 m apart to points {:g} m apart", distance));
     }
-    notes.emplace_back("dem.tif was smoothed with a standard deviation of 8 m");
-    EXPECT_EQ(loaded.notes, notes);
+    warnings.emplace_back("dem.tif was smoothed with a standard deviation of 8 m");
+    EXPECT_EQ(loaded.warnings, warnings);
   }
 }
 
 TEST(SiteTest, KeyOverrulesTheFile) {
   config::Case parameters = plain_case(ground("EPSG:4326"));
   parameters.terrain.crs = "EPSG:31254";
-  const SiteAndNotes loaded = load_site(parameters);
+  const SiteAndWarnings loaded = load_site(parameters);
   EXPECT_EQ(loaded.site.crs_name, "EPSG:31254");
-  EXPECT_EQ(loaded.notes,
-            std::vector<std::string>{"dem.tif is taken to be in EPSG:31254, as terrain.crs says; the file "
-                                     "says EPSG:4326"});
+  EXPECT_EQ(loaded.warnings, std::vector<std::string>{
+                                 "dem.tif is read as EPSG:31254, as set by terrain.crs; the file specifies EPSG:4326"});
 }
 
 TEST(SiteTest, WrongTagIsToldAtTheKey) {
   EXPECT_EQ(error_of_site(plain_case(ground("EPSG:4326"))),
-            "case.toml:5:8: terrain.file: FOLDER/dem.tif: the tag says degrees (EPSG:4326), the numbers are metric (x "
+            "case.toml:5:8: terrain.file: FOLDER/dem.tif: the tag specifies degrees (EPSG:4326), but the numbers are "
+            "metric (x "
             "from 399997.5 to 401002.5, y from 299997.5 to 300802.5). Set terrain.crs = \"EPSG:...\" to the system the "
             "numbers are in; its maker states it.");
   config::Case parameters = plain_case(ground(""));
@@ -84,14 +84,13 @@ TEST(SiteTest, DomainBeyondTheTerrainModel) {
       error_of_site(parameters),
       "case.toml:3:1: grid.min: the domain reaches beyond the outermost points of FOLDER/dem.tif, by 12.5 m in the "
       "west and 40 m in the north; allowed: x from 400000 to 401000, y from 300000 to 300800. Set grid.min = "
-      "[400007.5, 300100, 0] and grid.max = [400900, 300800, 3000], or take a larger terrain model.");
+      "[400007.5, 300100, 0] and grid.max = [400900, 300800, 3000], or take a larger DEM.");
   parameters.terrain.resample = 20.0;
   EXPECT_EQ(
       error_of_site(parameters),
       "case.toml:3:1: grid.min: the domain reaches beyond the outermost points of FOLDER/dem.tif, taken to points 20 m "
       "apart, by 22.5 m in the west and 50 m in the north; allowed: x from 400010 to 400990, y from 300010 to "
-      "300790. Set grid.min = [400017.5, 300100, 0] and grid.max = [400900, 300790, 3000], or take a larger terrain "
-      "model.");
+      "300790. Set grid.min = [400017.5, 300100, 0] and grid.max = [400900, 300790, 3000], or take a larger DEM.");
   parameters.places["terrain.resample"] = "case.toml:4:1";
   parameters.terrain.resample = 1e-7;
   EXPECT_EQ(error_of_site(parameters),
@@ -159,7 +158,7 @@ TEST(SiteTest, WithoutATerrainModelThereIsNoGround) {
   EXPECT_EQ(site.crs_name, "");
   parameters.bodies["rock"] = release_body("release.shp", 10.0);
   EXPECT_EQ(error_of_site(parameters),
-            "case.toml: body.rock.shape: a release lies on a terrain model. Set terrain.type = "
+            "case.toml: body.rock.shape: a release lies on a DEM. Set terrain.type = "
             "\"dem\" and terrain.file.");
 }
 

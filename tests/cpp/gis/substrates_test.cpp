@@ -88,7 +88,7 @@ config::Substrate in_raster(const std::string& file, int code) {
 
 config::Case plane_case() { return case_with_release({{"", box_at(300.0, 300.0, 400.0, 400.0)}}); }
 
-std::vector<std::string> notes_of(const config::Case& parameters) { return load_site(parameters).notes; }
+std::vector<std::string> warnings_of(const config::Case& parameters) { return load_site(parameters).warnings; }
 
 std::string codes_file(const std::function<double(double, double)>& code, int columns = 100, int rows = 80) {
   return geotiff("codes.tif", raster_of(code, west + 5.0, south + 5.0, 10.0, columns, rows));
@@ -149,7 +149,7 @@ TEST(SubstratesOfMaps, WhatNoSubstrateNamesIsNoted) {
   made.substrates["ice"] = in_raster(codes_file(code), 1);
   made.substrates["snow"] = in_raster(in_folder("codes.tif"), 2);
   EXPECT_EQ(
-      notes_of(made),
+      warnings_of(made),
       (std::vector<std::string>{
           "the code 3 of codes.tif (10 % of the domain, x from 400805 to 400895, y from 300105 to 300595) belongs "
           "to no substrate: [basal] holds there",
@@ -157,8 +157,9 @@ TEST(SubstratesOfMaps, WhatNoSubstrateNamesIsNoted) {
           "y from 300605 to 300695): [basal] holds there"}));
   made.substrates["ice"] = in_raster(codes_file([](double, double) { return 1.0; }, 60), 1);
   made.substrates.erase("snow");
-  EXPECT_EQ(notes_of(made), std::vector<std::string>{"codes.tif does not cover the domain, which reaches beyond it by "
-                                                     "300 m in the east: [basal] holds there"});
+  EXPECT_EQ(warnings_of(made),
+            std::vector<std::string>{"codes.tif does not cover the domain, which reaches beyond it by "
+                                     "300 m in the east: [basal] holds there"});
 }
 
 // A raster in longitude and latitude: every point of the ground takes the code of the nearest of its points.
@@ -181,15 +182,15 @@ TEST(SubstratesOfMaps, CodesInAnotherSystemAreTakenToTheGroundsPoints) {
     return codes;
   }());
   made.substrates["ice"] = in_raster(file, 2);
-  const SiteAndNotes loaded = load_site(made);
+  const SiteAndWarnings loaded = load_site(made);
   const auto substrates = sim::make_substrates(made, loaded.site);
   EXPECT_EQ(substrates->at(350.0, 300.0), 0);
   EXPECT_EQ(substrates->at(450.0, 300.0), 1);
-  EXPECT_NE(std::find_if(loaded.notes.begin(), loaded.notes.end(),
-                         [](const std::string& note) {
-                           return note.find("were taken to the points of the terrain model") != std::string::npos;
+  EXPECT_NE(std::find_if(loaded.warnings.begin(), loaded.warnings.end(),
+                         [](const std::string& warning) {
+                           return warning.find("were taken to the points of the DEM") != std::string::npos;
                          }),
-            loaded.notes.end());
+            loaded.warnings.end());
 }
 
 }  // namespace

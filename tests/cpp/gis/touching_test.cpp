@@ -29,11 +29,11 @@ config::Case touching_case(const std::string& ice, const std::string& rock, doub
                                  south + 100.0, west + 900.0, south + 700.0) +
                      "[terrain]\ntype = \"dem\"\nfile = \"dem.tif\"\n[basal]\nfriction_angle = 20.0\n" +
                      "[material.granite]\n" + material + "[material.firn]\n" + material;
-  for (const auto& [name, matter, thickness] :
+  for (const auto& [name, material, thickness] :
        {std::tuple("ice", "firn", ice_thickness), std::tuple("rock", "granite", rock_thickness)}) {
     text +=
         fmt::format("[body.{0}]\nmaterial = \"{1}\"\nshape = \"release\"\nrelease = \"{0}.geojson\"\nthickness = {2}\n",
-                    name, matter, thickness) +
+                    name, material, thickness) +
         more;
   }
   return config::read_case(text_file("case.toml", text), {});

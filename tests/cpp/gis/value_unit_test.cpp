@@ -45,10 +45,10 @@ TEST(ValueUnitTest, LengthsInEverySpellingAreMetres) {
                                                   {"Foot_US", survey_foot}};
   for (const auto& [unit, metres] : units) {
     EXPECT_NEAR(computed(unit, Quantity::length, 50.0), 50.0 * metres, 1e-12) << unit;
-    const std::string note = conversion_from({"folder/map.tif", unit, "", 1.0}, Quantity::length).note;
-    EXPECT_EQ(note, metres == 1.0
-                        ? ""
-                        : fmt::format("map.tif states the unit '{}': its values were converted to metres", unit));
+    const std::string warning = conversion_from({"folder/map.tif", unit, "", 1.0}, Quantity::length).warning;
+    EXPECT_EQ(warning, metres == 1.0
+                           ? ""
+                           : fmt::format("map.tif states the unit '{}': its values were converted to metres", unit));
   }
 }
 
@@ -66,7 +66,7 @@ TEST(ValueUnitTest, TemperaturesAndSharesAreConverted) {
   EXPECT_NEAR(computed("%", Quantity::share, 30.0), 0.3, 1e-15);
   EXPECT_EQ(computed("1", Quantity::share, 0.3), 0.3);
   EXPECT_EQ(computed("whatever", Quantity::code, 7.0), 7.0);
-  EXPECT_EQ(conversion_from({"map.tif", "K", "", 1.0}, Quantity::temperature).note,
+  EXPECT_EQ(conversion_from({"map.tif", "K", "", 1.0}, Quantity::temperature).warning,
             "map.tif states the unit 'K': its values were converted to degrees Celsius");
 }
 
@@ -140,10 +140,10 @@ TEST(ValueUnitTest, VolumesAreThoseOfMetresInEveryUnit) {
     write_geotiff(parameters.terrain.file, times(ground(), 1.0 / metres), {unit, "elevation"});
     write_geotiff(in_folder("thickness.tif"), times(thickness, 1.0 / metres), {unit, "thickness"});
     parameters.bodies["rock"] = raster_body(in_folder("thickness.tif"));
-    const SiteAndNotes loaded = load_site(parameters);
+    const SiteAndWarnings loaded = load_site(parameters);
     EXPECT_NEAR(volume_of(loaded.site.releases.at("rock").thickness), volume_of(thickness), 1e-6) << unit;
     EXPECT_NEAR(bilinear(*loaded.site.ground, west + 400.0, south + 400.0, Missing::unknown), 1700.0, 1e-6) << unit;
-    EXPECT_EQ(loaded.notes,
+    EXPECT_EQ(loaded.warnings,
               (std::vector<std::string>{
                   fmt::format("dem.tif states the unit '{}': its values were converted to metres", unit),
                   fmt::format("thickness.tif states the unit '{}': its values were converted to metres", unit)}));
@@ -160,10 +160,10 @@ TEST(ValueUnitTest, CompoundSystemsAreInThePlaceOfTheirHorizontalPart) {
   config::Case parameters = plain_case(ground());
   parameters.bodies["rock"] = raster_body(in_folder("thickness.tif"));
   write_geotiff(in_folder("thickness.tif"), times(thickness, 3937.0 / 1200.0), {"", "thickness"});
-  const SiteAndNotes loaded = load_site(parameters);
+  const SiteAndWarnings loaded = load_site(parameters);
   EXPECT_NEAR(volume_of(loaded.site.releases.at("rock").thickness), volume_of(thickness), 1e-6);
-  EXPECT_EQ(loaded.notes, std::vector<std::string>{"thickness.tif states the unit 'US survey foot': its values were "
-                                                   "converted to metres"});
+  EXPECT_EQ(loaded.warnings, std::vector<std::string>{"thickness.tif states the unit 'US survey foot': its values were "
+                                                      "converted to metres"});
 }
 
 TEST(ValueUnitTest, UnitOfAnotherQuantityIsToldAtTheKey) {

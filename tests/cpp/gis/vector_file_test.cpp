@@ -61,7 +61,7 @@ TEST(VectorFileTest, EveryFormatIsRead) {
     EXPECT_EQ(feature.numbers.at("THICKNESS"), 12.5);
     EXPECT_EQ(feature.numbers.at("class"), 3.0);
     EXPECT_EQ(feature.numbers.count("Name"), 0U);
-    EXPECT_EQ(layer.notes, std::vector<std::string>{});
+    EXPECT_EQ(layer.warnings, std::vector<std::string>{});
     EXPECT_EQ(attribute_named(layer, "thickness", "body.rock.thickness"), "THICKNESS");
     EXPECT_EQ(error_of([&] { static_cast<void>(attribute_named(layer, "thicknes", "body.rock.thickness")); }),
               "FOLDER/" + std::string(name) +
@@ -78,8 +78,9 @@ TEST(VectorFileTest, ShapefileWithoutPrjIsInTheSystemOfTheGround) {
   const std::string file = foreign_polygon("ESRI Shapefile", "bare.shp", "");
   const VectorLayer layer = read_polygons(file, ground());
   EXPECT_EQ(layer.features.front().polygons.front().outline.front()[0], 400000.0);
-  EXPECT_EQ(layer.notes, std::vector<std::string>{"bare.shp names no coordinate reference system: taken to be in the "
-                                                  "ground's, EPSG:31287"});
+  EXPECT_EQ(layer.warnings,
+            std::vector<std::string>{"bare.shp names no coordinate reference system: taken to be in the "
+                                     "ground's, EPSG:31287"});
 }
 
 TEST(VectorFileTest, OtherSystemsAreReprojectedAndSaid) {
@@ -88,7 +89,7 @@ TEST(VectorFileTest, OtherSystemsAreReprojectedAndSaid) {
   const std::string file =
       geojson("r.geojson", {{"", polygon_json({{x[0], y[0]}, {x[1], y[1]}, {x[2], y[2]}, {x[3], y[3]}})}}, "4326");
   const VectorLayer layer = read_polygons(file, ground());
-  EXPECT_EQ(layer.notes, std::vector<std::string>{"r.geojson was taken from EPSG:4326 to EPSG:31287"});
+  EXPECT_EQ(layer.warnings, std::vector<std::string>{"r.geojson was taken from EPSG:4326 to EPSG:31287"});
   EXPECT_NEAR(layer.features.front().polygons.front().outline.front()[0], 400000.0, 0.01);
   EXPECT_NEAR(area_of(layer.features.front().polygons), 5000.0, 2.0);
 }
@@ -96,9 +97,10 @@ TEST(VectorFileTest, OtherSystemsAreReprojectedAndSaid) {
 TEST(VectorFileTest, DegreesThatCannotBeAreSaid) {
   const VectorLayer layer =
       read_polygons(geojson("r.geojson", {{"", box_json(400000, 300000, 400100, 300050)}}, "4326"), ground());
-  EXPECT_EQ(layer.notes, std::vector<std::string>{"r.geojson says that its coordinates are degrees (EPSG:4326), which "
-                                                  "400000, 300000 cannot be: taken to be in the ground's system, "
-                                                  "EPSG:31287"});
+  EXPECT_EQ(layer.warnings,
+            std::vector<std::string>{"r.geojson says that its coordinates are degrees (EPSG:4326), which "
+                                     "400000, 300000 cannot be: taken to be in the ground's system, "
+                                     "EPSG:31287"});
 }
 
 TEST(VectorFileTest, FeaturesAreChosenByName) {
@@ -159,10 +161,9 @@ TEST(VectorFileTest, WrongFiles) {
   EXPECT_EQ(error_of_polygons(in_folder("none.shp")), "FOLDER/none.shp: there is no such file. Correct the path.");
   const std::string nonsense = error_of_polygons(text_file("bad.gpkg", "this is no GeoPackage"));
   EXPECT_NE(nonsense.find("FOLDER/bad.gpkg: the file cannot be opened; GDAL says: "), std::string::npos) << nonsense;
-  EXPECT_NE(
-      nonsense.find("Allowed: Shapefile (with its .shx and .dbf beside it), GeoPackage or GeoJSON; check that the "
-                    "file is whole and may be read."),
-      std::string::npos);
+  EXPECT_NE(nonsense.find("Allowed: Shapefile (with its .shx and .dbf), GeoPackage or GeoJSON; check that the file is "
+                          "complete and readable."),
+            std::string::npos);
   EXPECT_EQ(error_of_polygons(geojson("empty.geojson", {})),
             "FOLDER/empty.geojson: the layer is empty; needed: polygons. Draw them, or name the file that has them.");
   EXPECT_EQ(error_of_polygons(geojson("way.geojson", {{"", line_json({{0, 0}, {5, 5}})}})),

@@ -81,9 +81,9 @@ TEST_F(Files, HistoryGoesOnAfterATime) {
   }
   std::ofstream(file, std::ios::app) << "2.5,3";  // a row cut short
   {
-    std::vector<std::string> notes;
-    HistoryWriter writer = HistoryWriter::continue_after(file, "time_s,speed", then, notes);
-    EXPECT_TRUE(notes.empty());
+    std::vector<std::string> warnings;
+    HistoryWriter writer = HistoryWriter::continue_after(file, "time_s,speed", then, warnings);
+    EXPECT_TRUE(warnings.empty());
     EXPECT_EQ(writer.extent().bytes, then.bytes);
     writer.add({{"time_s", 1.5}, {"speed", 7.0}});
   }
@@ -140,16 +140,16 @@ TEST_F(Files, DamagedCheckpointsAreRefused) {
   write_checkpoint<2, double>(folder_, particles, particles.size(), {1.0}, {{"maps", std::vector<double>(2000, 1.5)}});
   const std::filesystem::path file = folder_ / checkpoint_name;
   const std::string good = read_file(file);
-  const auto expect_damage = [&](std::string_view bad) {
-    write_file_atomically(file, bad);
+  const auto expect_damage = [&](std::string_view invalid) {
+    write_file_atomically(file, invalid);
     const std::string message = failure_of([&] { (void)newest_checkpoint(folder_); });
     EXPECT_NE(message.find("is damaged: its checksum does not fit"), std::string::npos) << message;
   };
   std::mt19937 random(5);
   for (int k = 0; k < 200; ++k) {
-    std::string bad = good;
-    bad[random() % bad.size()] ^= static_cast<char>(1 + random() % 255);
-    expect_damage(bad);
+    std::string invalid = good;
+    invalid[random() % invalid.size()] ^= static_cast<char>(1 + random() % 255);
+    expect_damage(invalid);
   }
   for (const std::size_t left : {good.size() / 2, good.size() - 1, std::size_t{32}, std::size_t{1}, std::size_t{0}}) {
     expect_damage(std::string_view(good).substr(0, left));
@@ -167,10 +167,10 @@ TEST_F(Files, ADamagedCheckpointGivesWayToTheOneBefore) {
   EXPECT_FALSE(std::filesystem::exists(before));
   write_checkpoint<2, double>(folder_, particles, particles.size(), {2.0});
   EXPECT_EQ(newest_checkpoint(folder_).file, last);
-  EXPECT_EQ(newest_checkpoint(folder_).note, "");
+  EXPECT_EQ(newest_checkpoint(folder_).warning, "");
   write_file_atomically(last, "torn");
   const WholeCheckpoint found = newest_checkpoint(folder_);
-  EXPECT_EQ(found.note, last.string() + " is damaged: its checksum does not fit its 4 bytes");
+  EXPECT_EQ(found.warning, last.string() + " is damaged: its checksum does not fit its 4 bytes");
   std::vector<double> scalars;
   read_checkpoint<2, double>(found, loaded, scalars);
   EXPECT_EQ(scalars, std::vector<double>{1.0});

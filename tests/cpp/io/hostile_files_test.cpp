@@ -73,17 +73,17 @@ TEST_F(HostileFiles, ALongNameIsWrittenAllTheSame) {
 }
 
 TEST_F(HostileFiles, WhatWaitsInThePlaceOfAnUnfinishedOneIsReplaced) {
-  const fs::path beside = folder_ / fmt::format(".a.txt.{}.thawslide-part", getpid()), victim = folder_ / "victim";
+  const fs::path adjacent = folder_ / fmt::format(".a.txt.{}.thawslide-part", getpid()), victim = folder_ / "victim";
   put(victim, "mine");
   const auto expect_replaced = [&] {
     write_file_atomically(folder_ / "a.txt", "text");
     EXPECT_EQ(content(folder_ / "a.txt"), "text");
     EXPECT_EQ(content(victim), "mine");
-    EXPECT_FALSE(fs::exists(fs::symlink_status(beside)));
+    EXPECT_FALSE(fs::exists(fs::symlink_status(adjacent)));
   };
-  fs::create_symlink(victim, beside);
+  fs::create_symlink(victim, adjacent);
   expect_replaced();
-  ASSERT_EQ(mkfifo(beside.c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo(adjacent.c_str(), 0600), 0);
   expect_replaced();
 }
 
@@ -102,9 +102,9 @@ TEST_F(HostileFiles, AHistoryReplacesWhatStandsInItsPlace) {
   // One that goes on takes the rows from where the link leads.
   fs::rename(file, victim);
   fs::create_symlink(victim, file);
-  std::vector<std::string> notes;
-  HistoryWriter::continue_after(file, "time_s", {1, 9, 1.0}, notes).add({{"time_s", 2.0}});
-  EXPECT_TRUE(notes.empty());
+  std::vector<std::string> warnings;
+  HistoryWriter::continue_after(file, "time_s", {1, 9, 1.0}, warnings).add({{"time_s", 2.0}});
+  EXPECT_TRUE(warnings.empty());
   EXPECT_EQ(content(victim), "time_s\n1\n");
   EXPECT_EQ(content(file), "time_s\n1\n2\n");
 }
@@ -120,9 +120,10 @@ TEST_F(HostileFiles, AHistoryThatAUserHasNamedGoesWhereALinkLeads) {
 TEST_F(HostileFiles, ALockIsAFileOfItsFolder) {
   const fs::path lock = folder_ / lock_name, victim = folder_ / "victim";
   const auto expect_refusal = [&](const std::string& found) {
-    const std::string message = lock.string() + " is " + found +
-                                ", where a run keeps its lock, a regular file. Remove it once no run is at work in " +
-                                folder_.string() + ".";
+    const std::string message =
+        lock.string() + " is " + found +
+        ", but must be a regular file: the lock of a run. Remove it once no run is at work in " + folder_.string() +
+        ".";
     EXPECT_EQ(failure_of([&] { const RunLock taken(folder_); }), message);
     EXPECT_EQ(failure_of([&] { (void)process_at_work(folder_); }), message);
     fs::remove(lock);
@@ -156,7 +157,7 @@ TEST_F(HostileCheckpoints, WhatCannotBeReadGivesWayToTheOneBefore) {
   const auto expect_passed_over = [&](const std::string& fault) {
     const WholeCheckpoint found = newest_checkpoint(folder_);
     EXPECT_EQ(found.file, before());
-    EXPECT_EQ(found.note, fault);
+    EXPECT_EQ(found.warning, fault);
     EXPECT_EQ(found.damaged, last());
     EXPECT_EQ(read_file(before()), found.bytes);
     fs::remove(last());
@@ -177,7 +178,7 @@ TEST_F(HostileCheckpoints, AMissingOneIsToldAndNothingIsToBeKept) {
   fs::remove(last());
   const WholeCheckpoint found = newest_checkpoint(folder_);
   EXPECT_EQ(found.file, before());
-  EXPECT_EQ(found.note, last().string() + " is missing");
+  EXPECT_EQ(found.warning, last().string() + " is missing");
   EXPECT_EQ(found.damaged, "");
   put(before(), "torn");
   EXPECT_EQ(
@@ -221,9 +222,9 @@ TEST_F(HostileFiles, ProvenanceSteersNoTerminal) {
   provenance.status = "do\x1b[2Jne";
   provenance.message = "it\nis\x07 so";
   write_provenance(folder_ / "run.json", provenance);
-  const Provenance told = read_provenance(folder_);
-  EXPECT_EQ(told.status, "do?[2Jne");
-  EXPECT_EQ(told.message, "it?is? so");
+  const Provenance specified = read_provenance(folder_);
+  EXPECT_EQ(specified.status, "do?[2Jne");
+  EXPECT_EQ(specified.message, "it?is? so");
 }
 
 }  // namespace

@@ -69,10 +69,10 @@ class HostileSnapshots : public FolderOfTest {
     change(root, data, mass);
   }
   void expect_left_out() const {
-    std::vector<std::string> notes;
-    SnapshotSeries::continue_after(folder_, 3, notes).write_index();
-    ASSERT_EQ(notes.size(), 1U);
-    EXPECT_EQ(notes[0],
+    std::vector<std::string> warnings;
+    SnapshotSeries::continue_after(folder_, 3, warnings).write_index();
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_EQ(warnings[0],
               "of the 3 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf leaves them "
               "out");
     EXPECT_TRUE(fs::exists(folder_ / "particles.vtkhdf"));
@@ -81,9 +81,9 @@ class HostileSnapshots : public FolderOfTest {
 };
 
 TEST_F(HostileSnapshots, SoundOnesAreTaken) {
-  std::vector<std::string> notes;
-  SnapshotSeries::continue_after(folder_, 3, notes).write_index();
-  EXPECT_TRUE(notes.empty());
+  std::vector<std::string> warnings;
+  SnapshotSeries::continue_after(folder_, 3, warnings).write_index();
+  EXPECT_TRUE(warnings.empty());
 }
 
 TEST_F(HostileSnapshots, ATimeOfManyNumbers) {

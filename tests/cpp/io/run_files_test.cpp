@@ -101,8 +101,8 @@ TEST_F(RunFiles, ARunJsonOfAnotherProgramMakesNoRun) {
   for (const char* text : {"", "{", "[]", "3", R"({"program": 3})", R"({"program": "jogger"})", R"({"km": 12})"}) {
     put(run() / "run.json", text);
     EXPECT_EQ(failure_of([&] { make_run_folder(run(), true); }),
-              "the output folder " + run().string() +
-                  " cannot be told for that of a run: its run.json is damaged, or of another program. Give another "
+              "cannot determine whether " + run().string() +
+                  " is the folder of a run: its run.json is damaged, or was written by another program. Give another "
                   "--output, or remove yourself what is there.")
         << text;
     EXPECT_EQ(content(run() / "run.json"), text);

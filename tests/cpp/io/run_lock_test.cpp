@@ -157,8 +157,8 @@ TEST_F(WithoutLocks, AProcessOfAnotherMachineIsTakenToLive) {
     EXPECT_FALSE(process_at_work(folder_).is_known);
     EXPECT_EQ(process_at_work(folder_).process, line);
     EXPECT_EQ(refusal(), folder_.string() + " may be being written by " + line +
-                             ": its file system has no locks, and from this machine it cannot be told whether that "
-                             "lives. If it has surely ended, remove " +
+                             ": its file system has no locks, and this machine cannot determine whether that process "
+                             "exists. If it has surely ended, remove " +
                              file().string() + ".");
   }
   fs::remove(file());

@@ -1,5 +1,3 @@
-#include "io/tried_in_child.hpp"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -10,23 +8,24 @@
 #include <string>
 
 #include "folder_of_test.hpp"
+#include "io/probe_in_subprocess.hpp"
 #include "io/snapshot_series.hpp"
 
 namespace thawslide::io {
 namespace {
 
-using Told = std::vector<bool>;
+using Reported = std::vector<bool>;
 
 TEST(TriedInChild, TellsWhatCanBeDone) {
   int done_here = 0;
-  EXPECT_EQ(tried_in_child(3,
-                           [&](std::size_t k) {
-                             ++done_here;
-                             return k != 1;
-                           }),
-            (Told{true, false, true}));
+  EXPECT_EQ(probe_in_subprocess(3,
+                                [&](std::size_t k) {
+                                  ++done_here;
+                                  return k != 1;
+                                }),
+            (Reported{true, false, true}));
   EXPECT_EQ(done_here, 0);  // it was done elsewhere
-  EXPECT_EQ(tried_in_child(0, [](std::size_t /*k*/) { return true; }), Told{});
+  EXPECT_EQ(probe_in_subprocess(0, [](std::size_t /*k*/) { return true; }), Reported{});
 }
 
 TEST(TriedInChild, GoesOnBehindWhatEndsItsProcess) {
@@ -40,7 +39,7 @@ TEST(TriedInChild, GoesOnBehindWhatEndsItsProcess) {
     }
     return true;
   };
-  EXPECT_EQ(tried_in_child(6, work), (Told{false, false, true, false, false, true}));
+  EXPECT_EQ(probe_in_subprocess(6, work), (Reported{false, false, true, false, false, true}));
 }
 
 class DamagedSnapshot : public FolderOfTest {};
@@ -59,19 +58,19 @@ TEST_F(DamagedSnapshot, WithAnyByteFlippedEndsNoResume) {
   std::ifstream stream(file, std::ios::binary);
   const std::string sound((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
   ASSERT_GT(sound.size(), 1000u);
-  std::size_t told = 0;
+  std::size_t specified = 0;
   for (std::size_t place = 0; place < sound.size(); place += stride) {
     std::string damaged = sound;
     damaged[place] = static_cast<char>(damaged[place] ^ (1 << place % 8));
     std::ofstream(file, std::ios::binary) << damaged;
-    std::vector<std::string> notes;
-    SnapshotSeries series = SnapshotSeries::continue_after(folder_, 1, notes);
+    std::vector<std::string> warnings;
+    SnapshotSeries series = SnapshotSeries::continue_after(folder_, 1, warnings);
     series.write_index();
-    told += notes.size();
-    EXPECT_EQ(notes.empty(), std::filesystem::exists(folder_ / "particles.vtkhdf")) << place;
+    specified += warnings.size();
+    EXPECT_EQ(warnings.empty(), std::filesystem::exists(folder_ / "particles.vtkhdf")) << place;
     std::filesystem::remove(folder_ / "particles.vtkhdf");
   }
-  EXPECT_GT(told, sound.size() / stride / 100);
+  EXPECT_GT(specified, sound.size() / stride / 100);
 }
 
 }  // namespace

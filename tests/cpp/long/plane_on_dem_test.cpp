@@ -1,4 +1,4 @@
-// A block on planes of a terrain model, all slopes and directions.
+// A block on planes of a DEM, all slopes and directions.
 #include "../verification/plane_on_dem.hpp"
 
 namespace thawslide::verification {

@@ -79,7 +79,7 @@ TEST(SpreadingBlock, SpreadsLessWhereTheGroundCutsCells) {
   }
   record.expect_near("deficit of cells of 20 m, a tenth above", deficits.front(), 0.40, 0.02);
   record.expect_order("cell [m]", cells, "deficit, a tenth above", deficits, 1.0, 0.1);
-  record.explain("The lowest layer cannot thin where the ground cuts cells: section 5 of the theory.");
+  record.explain("The lowest layer cannot thin where the ground cuts cells: docs/theory/contact.md.");
 }
 
 }  // namespace

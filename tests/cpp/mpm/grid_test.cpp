@@ -128,8 +128,8 @@ void expect_runs(const BatchNodes<double>& nodes) {
       begins.push_back(lane);
     }
   }
-  EXPECT_EQ(nodes.runs, std::min<std::size_t>(begins.size(), BatchNodes<double>::many_runs));
-  EXPECT_TRUE(begins.size() != 2 || nodes.second_run == begins[1]);
+  EXPECT_EQ(nodes.runs, std::min<std::size_t>(begins.size(), BatchNodes<double>::irregular));
+  EXPECT_TRUE(begins.size() != 2 || nodes.second_run_begin == begins[1]);
 }
 
 template <int Dim>
@@ -273,9 +273,9 @@ TEST(Tile, FindsTheNodeBesideAnother) {
         node[static_cast<std::size_t>(axis)] += shift;
         int place = 0;
         T::split(node, tile, place);
-        const auto beside = T::beside(local, axis, shift);
-        EXPECT_EQ(beside.local, place);
-        EXPECT_EQ(beside.direction, ((tile[2] + 1) * 3 + tile[1] + 1) * 3 + tile[0] + 1);
+        const auto adjacent = T::adjacent(local, axis, shift);
+        EXPECT_EQ(adjacent.local, place);
+        EXPECT_EQ(adjacent.direction, ((tile[2] + 1) * 3 + tile[1] + 1) * 3 + tile[0] + 1);
       }
     }
   }

@@ -74,7 +74,7 @@ template <int Dim>
 void expect_sums_of_seen_rows(bool of_all_tiles) {
   Sprinkled<Dim> scene;
   const auto& grid = scene.grid;
-  const auto takes = [&](std::size_t t) { return of_all_tiles || t % 2 == 0; };
+  const auto accepts = [&](std::size_t t) { return of_all_tiles || t % 2 == 0; };
   Nodes<Dim, double> nodes;
   nodes.averages.resize(grid.blocks().size());
   auto patches = nodes.averages.patches(grid.tiles().size());
@@ -88,7 +88,7 @@ void expect_sums_of_seen_rows(bool of_all_tiles) {
   std::size_t left_out = 0;
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
     std::fill_n(nodes.averages.of_block(b), nodes.averages.nodes, typename decltype(nodes.averages)::Record{99.0});
-    const std::uint32_t rows = sum_block<Averages>(grid, b, nodes, takes);
+    const std::uint32_t rows = sum_block<Averages>(grid, b, nodes, accepts);
     EXPECT_EQ(rows, rows_seen_in_block(grid, b));
     std::array<double, static_cast<std::size_t>(Tile<Dim>::nodes)> sums{};
     std::uint32_t seen_by_some = 0;
@@ -101,7 +101,7 @@ void expect_sums_of_seen_rows(bool of_all_tiles) {
       for_shared_nodes<Dim, opposite<Dim>(d)>([&](std::size_t in_block, std::size_t in_patch) {
         if ((grid.rows_seen(t) >> in_patch / static_cast<std::size_t>(Tile<Dim>::patch_edge) & 1) != 0) {
           seen_by_some |= std::uint32_t{1} << in_block / static_cast<std::size_t>(Tile<Dim>::edge);
-          sums[in_block] += takes(t) ? patches[t].records[in_patch][0] : 0.0;
+          sums[in_block] += accepts(t) ? patches[t].records[in_patch][0] : 0.0;
         }
       });
     });
@@ -123,7 +123,7 @@ template <int Dim>
 void expect_patches_of_seen_rows() {
   Sprinkled<Dim> scene;
   const auto& grid = scene.grid;
-  NodeRecords<Dim, double, 3> records(std::make_shared<PatchRoom>());
+  NodeRecords<Dim, double, 3> records(std::make_shared<PatchPool>());
   auto patches = records.patches(grid.tiles().size());
   for (std::size_t t = 0; t < patches.size(); ++t) {
     std::fill(patches[t].records.begin(), patches[t].records.end(), std::array<double, 4>{nowhere});

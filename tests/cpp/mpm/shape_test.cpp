@@ -125,7 +125,7 @@ void expect_linear_shape_reproduces_a_linear_field() {
         double sum = 0.0, x = 0.0;
         Vector<double, Dim> gradient = Vector<double, Dim>::Zero();
         for_each_node<Dim>(stencil.axis, static_cast<std::size_t>(stencil.nodes.first[lane]),
-                           [&](std::size_t node, const Lanes<double>& weight, const auto& slope) {
+                           [&](std::size_t node, const Simd<double>& weight, const auto& slope) {
                              // The patch's first node along x lies one before the tile.
                              const auto i = static_cast<double>(node % static_cast<std::size_t>(T::patch_edge));
                              const double at = 5.0 * (static_cast<double>(index[0] * T::edge) - 1.0 + i);
@@ -149,7 +149,7 @@ void expect_linear_shape_reproduces_a_linear_field() {
 
 // Whatever number of runs of lanes a batch has, it reads the same bits. seen: counts batches by that number.
 template <int Dim>
-void expect_the_same_readings_by_runs(std::size_t count, std::array<int, BatchNodes<double>::many_runs + 1>& seen) {
+void expect_the_same_readings_by_runs(std::size_t count, std::array<int, BatchNodes<double>::irregular + 1>& seen) {
   Particles<Dim, double> particles;
   fill<Dim>(particles, count);
   SparseGrid<Dim, double> grid(5.0);
@@ -164,13 +164,13 @@ void expect_the_same_readings_by_runs(std::size_t count, std::array<int, BatchNo
     for (TileBatch<Dim, double> batch : grid.batches(t)) {
       const auto place = place_of(grid, particles, batch);
       const auto read = [&] {
-        const auto stencil = make_stencil<Ugimp<double>>(grid, batch, place, {Lanes<double>(0.25)}, HeldSides<Dim>());
+        const auto stencil = make_stencil<Ugimp<double>>(grid, batch, place, {Simd<double>(0.25)}, HeldSides<Dim>());
         return std::tuple(read_nodes<3>(linear_stencil(grid, particles, batch), patch), read_nodes<3>(stencil, patch),
                           read_values(stencil, patch));
       };
       ++seen[batch.nodes.runs];
       const auto [linear, nodes, values] = read();
-      batch.nodes.runs = BatchNodes<double>::many_runs;
+      batch.nodes.runs = BatchNodes<double>::irregular;
       const auto [linear_by_lane, nodes_by_lane, values_by_lane] = read();
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -190,7 +190,7 @@ void expect_the_same_readings_by_runs(std::size_t count, std::array<int, BatchNo
 // Few particles a node make many runs, many make few, with four lanes and with eight.
 template <int Dim>
 void expect_the_same_readings_by_any_runs(std::size_t few, std::size_t many) {
-  std::array<int, BatchNodes<double>::many_runs + 1> seen{};
+  std::array<int, BatchNodes<double>::irregular + 1> seen{};
   expect_the_same_readings_by_runs<Dim>(few, seen);
   expect_the_same_readings_by_runs<Dim>(many, seen);
   EXPECT_GT(*std::min_element(seen.begin() + 1, seen.end()), 0) << "one, two and many runs should all occur";

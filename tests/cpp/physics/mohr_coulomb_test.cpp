@@ -8,7 +8,7 @@
 #include <random>
 
 #include "../support/record.hpp"
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 #include "physics/tension_gap.hpp"
 
 namespace thawslide::physics {
@@ -54,7 +54,7 @@ double size(const Tensor& stress) { return stress.cwiseAbs().maxCoeff(); }
 // Four (as many as lanes) at a time are what they are one by one: faces, edges, apex and cut-off in one batch too.
 template <class Law>
 void expect_lanes_return_as_single_numbers_do(double softening_strain, double angle_lost) {
-  using Wide = Lanes<double>;
+  using Wide = Simd<double>;
   std::mt19937 random(4);
   for (const Set& set : sets) {
     const double residual_angle = std::max(set.dilation, set.friction - angle_lost);

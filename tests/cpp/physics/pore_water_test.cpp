@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 #include "physics/pressurization.hpp"
 #include "table1.hpp"
 
@@ -60,16 +60,16 @@ TEST(WaterExpansion, SwellingAddsUpAndHasTheExpansionForItsRate) {
 TEST(PoreWater, LanesAreTheNumbers) {
   std::mt19937 random(12);
   std::uniform_real_distribution<double> temperature(-40.0, 220.0);
-  Lanes<double> from, to;
+  Simd<double> from, to;
   for (int k = 0; k < 100; ++k) {
-    for (std::size_t lane = 0; lane < lane_count<double>; ++lane) {
+    for (std::size_t lane = 0; lane < simd_width<double>; ++lane) {
       set_lane(from, lane, temperature(random));
       set_lane(to, lane, temperature(random));
     }
-    const Lanes<double> expansion = by_temperature.at(from), swelling = by_temperature.swelling(from, to);
-    for (std::size_t lane = 0; lane < lane_count<double>; ++lane) {
-      EXPECT_DOUBLE_EQ(in_lane(expansion, lane), by_temperature.at(in_lane(from, lane)));
-      EXPECT_NEAR(in_lane(swelling, lane), by_temperature.swelling(in_lane(from, lane), in_lane(to, lane)), 1e-17);
+    const Simd<double> expansion = by_temperature.at(from), swelling = by_temperature.swelling(from, to);
+    for (std::size_t lane = 0; lane < simd_width<double>; ++lane) {
+      EXPECT_DOUBLE_EQ(extract(expansion, lane), by_temperature.at(extract(from, lane)));
+      EXPECT_NEAR(extract(swelling, lane), by_temperature.swelling(extract(from, lane), extract(to, lane)), 1e-17);
     }
   }
 }

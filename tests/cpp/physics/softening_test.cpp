@@ -169,7 +169,7 @@ TEST(Softening, TheWidestCellIsWhereTheDisplacementTurnsBack) {
 }
 
 // Where friction falls, the return is that of matter which has the remaining angle and cohesion from the start.
-TEST(Softening, ReturnsAsMatterThatHasWhatIsLeft) {
+TEST(Softening, ReturnsWithTheRemainingStrength) {
   std::mt19937 random(31);
   std::normal_distribution<double> normal(0.0, 2e6);
   std::uniform_real_distribution<double> strains(0.0, 0.1);

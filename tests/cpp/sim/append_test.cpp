@@ -71,16 +71,16 @@ template <int Dim>
 void note_accounts(const Simulation<Dim, double>& simulation, Seen& seen) {
   const HistoryRow row = history_row(simulation);
   const double mass = simulation.ledger().initial_mass;
-  const auto note = [](double& largest, double share) { largest = std::max(largest, std::abs(share)); };
-  note(seen.mass, value_of(row, "mass_residual_kg") / mass);
-  note(seen.mass,
-       (value_of(row, "rock_kg") + value_of(row, "ice_kg") + value_of(row, "water_kg") - value_of(row, "mass_kg")) /
-           mass);
+  const auto warning = [](double& largest, double share) { largest = std::max(largest, std::abs(share)); };
+  warning(seen.mass, value_of(row, "mass_residual_kg") / mass);
+  warning(seen.mass,
+          (value_of(row, "rock_kg") + value_of(row, "ice_kg") + value_of(row, "water_kg") - value_of(row, "mass_kg")) /
+              mass);
   for (const std::string axis : Dim == 2 ? std::vector{"x", "y"} : std::vector{"x", "y", "z"}) {
-    note(seen.momentum, value_of(row, "momentum_residual_" + axis + "_N_s") / (mass * 20.0));
+    warning(seen.momentum, value_of(row, "momentum_residual_" + axis + "_N_s") / (mass * 20.0));
   }
-  note(seen.heat,
-       value_of(row, "thermal_residual_J") / (std::abs(value_of(row, "sensible_J")) + value_of(row, "latent_J")));
+  warning(seen.heat,
+          value_of(row, "thermal_residual_J") / (std::abs(value_of(row, "sensible_J")) + value_of(row, "latent_J")));
 }
 
 // Ids that no two have had, and rows in their order.

@@ -9,7 +9,7 @@
 #include "../physics/band_column_model.hpp"
 #include "../support/case_from_text.hpp"
 #include "../support/column_slab.hpp"
-#include "band/base_columns.hpp"
+#include "band/basal_segments.hpp"
 #include "base/error.hpp"
 #include "base/thread_choice.hpp"
 #include "sim/base_table.hpp"
@@ -28,8 +28,8 @@ void expect_balances() {
   Simulation<Dim, double> simulation(case_from_text(column_slab(Dim)));
   while (simulation.time() < 3.0 - 1e-9) {
     simulation.step(simulation.next_step(3.0));
-    for (const auto& piece : simulation.band_columns()->pieces()) {
-      EXPECT_LE(simulation.band_columns()->means_now(piece).pore_pressure, piece.load) << "at every step";
+    for (const auto& segment : simulation.band_columns()->segments()) {
+      EXPECT_LE(simulation.band_columns()->means_now(segment).pore_pressure, segment.load) << "at every step";
     }
     const HistoryRow row = history_row(simulation);
     const double heat = value_of(row, "friction_heat_J");
@@ -60,7 +60,7 @@ TEST(BandColumns, UnderASlabAreThatOfTheBlock) {
   const auto* columns = simulation.band_columns();
   const auto expect_middle = [&](const char* name, const auto& of, double start) {
     const double middle =
-        median_over_base(simulation, [&](const auto& piece) { return of(columns->means_now(piece)); });
+        median_over_base(simulation, [&](const auto& segment) { return of(columns->means_now(segment)); });
     EXPECT_NEAR(middle - start, value_of(block, name) - start, 0.02 * (value_of(block, name) - start)) << name;
   };
   EXPECT_NEAR(value_of(history_row(simulation), "mean_velocity_m_s"), value_of(block, "velocity_m_s"),
@@ -85,7 +85,7 @@ TEST(BandColumns, LoseNoHeatOnSteepGround) {
   const HistoryRow row = history_row(simulation);
   EXPECT_GT(value_of(row, "friction_heat_J"), 1e6);
   EXPECT_LT(std::abs(value_of(row, "thermal_residual_J")), 1e-9 * value_of(row, "friction_heat_J"));
-  EXPECT_GT(simulation.band_columns()->pieces().size(), 10U);
+  EXPECT_GT(simulation.band_columns()->segments().size(), 10U);
 }
 
 // What keeps a step short for particles does not for columns, which are implicit.
@@ -102,7 +102,7 @@ TEST(BandColumns, TakeThinBandsAndLargeConductivitiesAtAnyStep) {
 
 // One that stands in a flow that spreads evenly: matter comes in from above as its area grows, so that what stands on a
 // square metre stays the same.
-TEST(BandColumns, PiecesOfASpreadingSlideGrowAndPart) {
+TEST(BandColumns, SegmentsOfASpreadingSlideGrowAndSplit) {
   Simulation<2, double> simulation(
       case_from_text(column_slab(), {"time.end=4.0", "basal.friction_angle=1.0", "case.gravity_tilt=0.0",
                                      "body.slab.velocity=[0,0]", "material.rock.youngs_modulus=1e6"}));
@@ -111,7 +111,7 @@ TEST(BandColumns, PiecesOfASpreadingSlideGrowAndPart) {
     particles.velocity(p, 0) = 0.2 * (particles.position(p, 0) - 160.0);
   }
   run_until(simulation, 0.5);
-  const std::size_t before = simulation.band_columns()->pieces().size();
+  const std::size_t before = simulation.band_columns()->segments().size();
   const double area = simulation.band_columns()->sums().area, water = simulation.band_columns()->sums().water;
   const double intake = value_of(history_row(simulation), "column_intake_kg");
   run_until(simulation, 3.0);
@@ -122,7 +122,7 @@ TEST(BandColumns, PiecesOfASpreadingSlideGrowAndPart) {
     last = std::max(last, particles.position(p, 0));
   }
   EXPECT_NEAR(grown, (last - first + 5.0) / (200.0 * std::exp(0.2 * 0.5)), 0.08 * grown);
-  EXPECT_GT(simulation.band_columns()->pieces().size(), before + 5);
+  EXPECT_GT(simulation.band_columns()->segments().size(), before + 5);
   const HistoryRow row = history_row(simulation);
   const double gained = (grown - 1.0) * water;  // at the ice that stood on a square metre
   EXPECT_GT(gained, 0.3 * water);
@@ -132,7 +132,7 @@ TEST(BandColumns, PiecesOfASpreadingSlideGrowAndPart) {
 
 // One that comes together: pieces crowd, and small ones join, so that there are about as many as cells of the base;
 // what leaves at the top and what stays is all that there was.
-TEST(BandColumns, PiecesOfAShorteningSlideJoin) {
+TEST(BandColumns, SegmentsOfAShorteningSlideMerge) {
   using Which =
       std::pair<int, std::string>;  // thick bands: columns as tall as the slide, each of its own ratio of cells
   for (const auto& [dimension, thickness] : {Which{2, "0.1"}, Which{3, "0.1"}, Which{2, "3.0"}}) {
@@ -143,12 +143,12 @@ TEST(BandColumns, PiecesOfAShorteningSlideJoin) {
         particles.velocity(p, 0) = -0.25 * (particles.position(p, 0) - 160.0);
       }
       run_until(simulation, 0.5);
-      const std::size_t before = simulation.band_columns()->pieces().size();
+      const std::size_t before = simulation.band_columns()->segments().size();
       const double area = simulation.band_columns()->sums().area;
       run_until(simulation, 3.0);
       const double shortened = simulation.band_columns()->sums().area / area;
       EXPECT_LT(shortened, 0.8);
-      EXPECT_LT(static_cast<double>(simulation.band_columns()->pieces().size()), 0.85 * static_cast<double>(before));
+      EXPECT_LT(static_cast<double>(simulation.band_columns()->segments().size()), 0.85 * static_cast<double>(before));
       const HistoryRow row = history_row(simulation);
       EXPECT_LT(std::abs(value_of(row, "column_water_residual_kg")), 1e-12 * value_of(row, "column_water_kg"));
       EXPECT_LT(std::abs(value_of(row, "thermal_residual_J")), 1e-12 * std::abs(value_of(row, "sensible_J")));
@@ -172,8 +172,8 @@ TEST(BandColumns, PiecesOfAShorteningSlideJoin) {
 template <class Simulation>
 std::vector<double> heights_in(const Simulation& simulation) {
   std::vector<double> heights;
-  for (const auto& piece : simulation.band_columns()->pieces()) {
-    const physics::ColumnGrid<double> grid(piece.column.thickness, piece.column.cell_growth, 1.0, 1.0);
+  for (const auto& segment : simulation.band_columns()->segments()) {
+    const physics::ColumnGrid<double> grid(segment.column.thickness, segment.column.cell_growth, 1.0, 1.0);
     heights.push_back(grid.face(physics::ColumnCells::slide));
   }
   return heights;
@@ -185,12 +185,12 @@ TEST(BandColumns, AreNoTallerThanTheSlide) {
   Simulation<2, double> simulation(
       case_from_text(column_slab(), {"band.thickness=3.0", "body.slab.velocity=[0.0, 0.0]"}));
   run_until(simulation, 2.0);
-  const double middle = median_over_base(simulation, [](const auto& piece) { return piece.depth; });
+  const double middle = median_over_base(simulation, [](const auto& segment) { return segment.depth; });
   EXPECT_NEAR(middle, 40.0, 2.0) << "N over rho g cos(30 degrees)";
   const std::vector<double> heights = heights_in(simulation);
   for (std::size_t p = 0; p < heights.size(); ++p) {
-    const auto& piece = simulation.band_columns()->pieces()[p];
-    EXPECT_NEAR(heights[p], std::clamp(piece.depth, 7.5, 76.1), 0.01 * heights[p]);
+    const auto& segment = simulation.band_columns()->segments()[p];
+    EXPECT_NEAR(heights[p], std::clamp(segment.depth, 7.5, 76.1), 0.01 * heights[p]);
   }
   const HistoryRow row = history_row(simulation);
   const double of_slide = value_of(row, "ice_kg") + value_of(row, "water_kg");
@@ -204,9 +204,9 @@ TEST(BandColumns, AreNoTallerThanTheSlide) {
 TEST(BandColumns, AreFullBelowADeepSlide) {
   Simulation<2, double> simulation(case_from_text(column_slab()));
   run_until(simulation, 1.0);
-  for (const auto& piece : simulation.band_columns()->pieces()) {
-    if (piece.position[0] > 80.0 && piece.position[0] < 260.0) {
-      EXPECT_EQ(piece.column.cell_growth, 1.4);
+  for (const auto& segment : simulation.band_columns()->segments()) {
+    if (segment.position[0] > 80.0 && segment.position[0] < 260.0) {
+      EXPECT_EQ(segment.column.cell_growth, 1.4);
     }
   }
 }
@@ -222,7 +222,7 @@ TEST(BandColumns, BelowABlockAreAsTallAsItIsThick) {
   BlockBandColumn column(model, 1.35, 2e5, 0.05);
   for (int step = 0; step < 100; ++step) {
     column.step({0.0, 8e5, 10.0, 10.0, 1.35, 0.05});
-    const physics::ColumnGrid<double> grid(1.35, column.piece().column.cell_growth, 1.0, 1.0);
+    const physics::ColumnGrid<double> grid(1.35, column.segment().column.cell_growth, 1.0, 1.0);
     EXPECT_NEAR(grid.face(physics::ColumnCells::slide), 11.0, 1e-9);
   }
 }
@@ -255,13 +255,13 @@ TEST(BandColumns, StandInATable) {
 TEST(BandColumns, KeepTheirBitsOnAnyThreadsAndThroughACheckpoint) {
   const int threads_before = thread_count();
   std::vector<std::vector<double>> states;
-  std::vector<band::BasePiece<3, double>> pieces;
+  std::vector<band::BasalSegment<3, double>> segments;
   for (const int threads : {1, 3}) {
     set_thread_count(threads);
     Simulation<3, double> simulation(case_from_text(column_slab(3)));
     run_until(simulation, 1.0);
     states.push_back(simulation.band_columns()->state());
-    pieces = simulation.band_columns()->pieces();
+    segments = simulation.band_columns()->segments();
   }
   set_thread_count(threads_before);
   EXPECT_EQ(states[0], states[1]);
@@ -269,14 +269,14 @@ TEST(BandColumns, KeepTheirBitsOnAnyThreadsAndThroughACheckpoint) {
   other.restore_band_columns(states[0]);
   EXPECT_EQ(other.band_columns()->state(), states[0]);
   // The other data of pieces are computed again from their columns.
-  const auto& restored = other.band_columns()->pieces();
-  ASSERT_FALSE(pieces.empty());
-  ASSERT_EQ(restored.size(), pieces.size());
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    EXPECT_EQ(restored[p].means.saturation, pieces[p].means.saturation);
-    EXPECT_EQ(restored[p].means.temperature, pieces[p].means.temperature);
-    EXPECT_EQ(restored[p].means.solid_fraction, pieces[p].means.solid_fraction);
-    EXPECT_EQ(restored[p].liquid, pieces[p].liquid);
+  const auto& restored = other.band_columns()->segments();
+  ASSERT_FALSE(segments.empty());
+  ASSERT_EQ(restored.size(), segments.size());
+  for (std::size_t p = 0; p < segments.size(); ++p) {
+    EXPECT_EQ(restored[p].means.saturation, segments[p].means.saturation);
+    EXPECT_EQ(restored[p].means.temperature, segments[p].means.temperature);
+    EXPECT_EQ(restored[p].means.solid_fraction, segments[p].means.solid_fraction);
+    EXPECT_EQ(restored[p].liquid, segments[p].liquid);
   }
 }
 

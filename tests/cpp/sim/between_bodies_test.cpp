@@ -212,16 +212,16 @@ TEST(BetweenBodies, KeepTheirAccounts) {
 }
 
 TEST(BetweenBodies, AreDoubtedWhereTheyStandApartAndShareNodes) {
-  const auto doubt = [](double gap, const std::vector<std::string>& sets) {
-    return doubt_of_bodies_apart(Simulation<2, double>(two_blocks<2>(gap, 0.0, 0.0, sets)));
+  const auto warning = [](double gap, const std::vector<std::string>& sets) {
+    return warning_of_bodies_apart(Simulation<2, double>(two_blocks<2>(gap, 0.0, 0.0, sets)));
   };
-  EXPECT_EQ(doubt(0.0, {}), "") << "they touch";
-  EXPECT_EQ(doubt(10.0, frictional), "");
-  EXPECT_EQ(doubt(10.0, {"contact.between_bodies=bonded"}), "") << "it is meant";
-  EXPECT_NE(doubt(10.0, {}).find("body.right stands apart from body.left, and contact.between_bodies is \"bonded\": "
-                                 "from a gap of 1 to 2 cells (2 to 4 m) on they act on one another"),
+  EXPECT_EQ(warning(0.0, {}), "") << "they touch";
+  EXPECT_EQ(warning(10.0, frictional), "");
+  EXPECT_EQ(warning(10.0, {"contact.between_bodies=bonded"}), "") << "it is meant";
+  EXPECT_NE(warning(10.0, {}).find("body.right stands apart from body.left, and contact.between_bodies is \"bonded\": "
+                                   "from a gap of 1 to 2 cells (2 to 4 m) on they act on one another"),
             std::string::npos)
-      << doubt(10.0, {});
+      << warning(10.0, {});
 }
 
 }  // namespace

@@ -158,8 +158,8 @@ std::vector<Choice> choices() {
        lacks_particles},
   };
   if (Dim == 3) {
-    all.push_back({"a terrain model", {}, dem});
-    all.push_back({"a terrain model, the first layer, cut cells",
+    all.push_back({"a DEM", {}, dem});
+    all.push_back({"a DEM, the first layer, cut cells",
                    {"band.region=first_layer", "band.cut_cells=equal_thickness", "body.right.particles_per_axis=2"},
                    dem});
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "../support/case_from_text.hpp"
-#include "sim/doubts_of_bodies.hpp"
+#include "sim/body_warnings.hpp"
 
 namespace thawslide::sim {
 namespace {
@@ -63,7 +63,7 @@ TEST(BodyFigures, AreThoseOfTheBody) {
   EXPECT_NEAR(body.coldest, -9.5, 1e-12);
   EXPECT_NEAR(body.clearance, 0.0, 1e-12);
   EXPECT_EQ(body.standing_share, 1.0);
-  EXPECT_TRUE(doubts_of_bodies(case_from_text(step), bodies).empty());
+  EXPECT_TRUE(body_warnings(case_from_text(step), bodies).empty());
 }
 
 // A heap of 5 m x 8 m with a blanket of 25 m x 1 m before it, from where on it is squeezed too.
@@ -76,17 +76,18 @@ TEST(BodyFigures, TheMedianIsByAreaAndANoteLooksAtIt) {
   EXPECT_NEAR(bodies.front().median_thickness, 1.0, 1e-12) << "not the 8 m of most of its volume";
   EXPECT_NEAR(bodies.front().particles_across, 2.0, 1e-12);
   EXPECT_NEAR(bodies.front().most_particles_across, 16.0, 1e-12);
-  const auto doubts = doubts_of_bodies(case_from_text(step, sets), bodies);
-  ASSERT_EQ(doubts.size(), 2U);
-  EXPECT_NE(doubts[0].find("the weight of body step, 1.6e+05 Pa where it is thickest, squeezes it by 8 % there. Give "
-                           "it 4e+06 Pa or more."),
+  const auto warnings = body_warnings(case_from_text(step, sets), bodies);
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_NE(warnings[0].find("the weight of body step, 1.6e+05 Pa where it is thickest, squeezes it by 8 % there. Give "
+                             "it 4e+06 Pa or more."),
             std::string::npos)
-      << doubts[0];
-  EXPECT_NE(doubts[1].find("grid.cell: across the median thickness of body step, 1 m, there are too few particles to "
-                           "resolve shear and thinning (found 2; needed 4). Set grid.cell to 0.25 m, at about 64 times "
-                           "the run time."),
-            std::string::npos)
-      << doubts[1];
+      << warnings[0];
+  EXPECT_NE(
+      warnings[1].find("grid.cell: across the median thickness of body step, 1 m, there are too few particles to "
+                       "resolve shear and thinning (found 2; needed 4). Set grid.cell to 0.25 m, at about 64 times "
+                       "the run time."),
+      std::string::npos)
+      << warnings[1];
 }
 
 // Material of this strength on a base of 30 degrees, whose friction is 0.577 of the load.
@@ -98,31 +99,31 @@ std::vector<std::string> with_strength(const std::vector<std::string>& others) {
 }
 
 TEST(BodyFigures, ABrokenBodyWeakerThanItsBaseCausesAWarning) {
-  const auto doubts_with = [](const std::vector<std::string>& others) {
+  const auto warnings_with = [](const std::vector<std::string>& others) {
     const std::vector<std::string> sets = with_strength(others);
-    return doubts_of_bodies(case_from_text(step, sets), figures_of(step, sets));
+    return body_warnings(case_from_text(step, sets), figures_of(step, sets));
   };
   const std::string slip = "material.rock.softening_slip=1.0", angle = "material.rock.friction_angle=35.0";
   const std::string residual = "material.rock.residual_friction_angle=";
-  const auto doubts = doubts_with({slip, angle, residual + "25.0"});
-  ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_NE(doubts.front().find(
+  const auto warnings = warnings_with({slip, angle, residual + "25.0"});
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings.front().find(
                 "broken material of body step bears 0.466 of its load in shear, and friction of the base is 0.577 of "
                 "it: the slide shears above its base, which then does not warm, and the results depend on grid.cell. "
                 "Give material.rock.residual_friction_angle a larger angle, or [basal] a friction of at most 0.466 (an "
                 "angle of 25.0 degrees)."),
             std::string::npos)
-      << doubts.front();
-  EXPECT_TRUE(doubts_with({slip, angle, residual + "30.0"}).empty()) << "an angle as large as that of the base";
-  EXPECT_EQ(doubts_with({slip, angle, residual + "29.9"}).size(), 1U);
-  EXPECT_TRUE(doubts_with({slip, angle, residual + "25.0", "basal.friction_angle=25.0"}).empty());
-  EXPECT_TRUE(doubts_with({slip, angle, residual + "25.0", "material.rock.residual_cohesion=2e4"}).empty());
-  EXPECT_EQ(doubts_with({slip, "material.rock.friction_angle=20.0"}).size(), 1U) << "friction that does not soften";
-  EXPECT_TRUE(doubts_with({slip, angle, residual + "25.0", "mechanisms.deformation=false"}).empty());
+      << warnings.front();
+  EXPECT_TRUE(warnings_with({slip, angle, residual + "30.0"}).empty()) << "an angle as large as that of the base";
+  EXPECT_EQ(warnings_with({slip, angle, residual + "29.9"}).size(), 1U);
+  EXPECT_TRUE(warnings_with({slip, angle, residual + "25.0", "basal.friction_angle=25.0"}).empty());
+  EXPECT_TRUE(warnings_with({slip, angle, residual + "25.0", "material.rock.residual_cohesion=2e4"}).empty());
+  EXPECT_EQ(warnings_with({slip, "material.rock.friction_angle=20.0"}).size(), 1U) << "friction that does not soften";
+  EXPECT_TRUE(warnings_with({slip, angle, residual + "25.0", "mechanisms.deformation=false"}).empty());
   // Over a strain of 1, on cells of 1 m a slip of sqrt(3) m, the body stays unbroken as it slides.
-  EXPECT_TRUE(doubts_with({"material.rock.softening_strain=1.0", angle, residual + "25.0"}).empty()) << "the paper's";
-  EXPECT_TRUE(doubts_with({"material.rock.softening_slip=1.74", angle, residual + "25.0"}).empty());
-  EXPECT_EQ(doubts_with({"material.rock.softening_slip=1.73", angle, residual + "25.0"}).size(), 1U);
+  EXPECT_TRUE(warnings_with({"material.rock.softening_strain=1.0", angle, residual + "25.0"}).empty()) << "the paper's";
+  EXPECT_TRUE(warnings_with({"material.rock.softening_slip=1.74", angle, residual + "25.0"}).empty());
+  EXPECT_EQ(warnings_with({"material.rock.softening_slip=1.73", angle, residual + "25.0"}).size(), 1U);
 }
 
 // R_0 - R_f is 1e5 cos 35 + p (sin 35 - sin 30), p the weight of 4 m.
@@ -130,14 +131,14 @@ TEST(BodyFigures, ACellTooWideForSofteningCausesAWarning) {
   const std::vector<std::string> sets =
       with_strength({"material.rock.friction_angle=35.0", "material.rock.residual_friction_angle=30.0",
                      "material.rock.softening_slip=0.001"});
-  const auto doubts = doubts_of_bodies(case_from_text(step, sets), figures_of(step, sets));
-  ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_NE(
-      doubts.front().find("material.rock.softening_slip is 0.001 m: in a cell of 1 m the strength falls faster "
-                          "than the elastic strain can follow, and breaking depends on grid.cell. Set grid.cell to at "
-                          "most "),
-      std::string::npos)
-      << doubts.front();
+  const auto warnings = body_warnings(case_from_text(step, sets), figures_of(step, sets));
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings.front().find(
+                "material.rock.softening_slip is 0.001 m: in a cell of 1 m the strength falls faster "
+                "than the elastic strain can follow, and breaking depends on grid.cell. Set grid.cell to at "
+                "most "),
+            std::string::npos)
+      << warnings.front();
 }
 
 // If cohesion stays and friction falls, the radius of Mohr's circle may grow, and no energy is released.
@@ -145,19 +146,19 @@ TEST(BodyFigures, SofteningThatLosesNoStrengthIsNotReported) {
   const std::vector<std::string> sets = with_strength(
       {"material.rock.friction_angle=35.0", "material.rock.residual_friction_angle=20.0", "material.rock.cohesion=1e7",
        "material.rock.residual_cohesion=1e7", "material.rock.softening_slip=0.001"});
-  EXPECT_TRUE(doubts_of_bodies(case_from_text(step, sets), figures_of(step, sets)).empty());
+  EXPECT_TRUE(body_warnings(case_from_text(step, sets), figures_of(step, sets)).empty());
 }
 
 TEST(BodyFigures, TellHowFarABodyIsAboveTheGround) {
   const std::vector<BodyFigures> bodies = figures_of(step, {"terrain.elevation=-0.75"});
   EXPECT_NEAR(bodies.front().clearance, 1.75, 1e-12);
   EXPECT_EQ(bodies.front().standing_share, 0.0);
-  const auto doubts = doubts_of_bodies(case_from_text(step), bodies);
-  ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_NE(doubts.front().find("body.step floats: its underside is 1.75 m above what is below it, and it falls for "
-                                "0.6 s before it touches. Begin it on that"),
+  const auto warnings = body_warnings(case_from_text(step), bodies);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings.front().find("body.step floats: its underside is 1.75 m above what is below it, and it falls for "
+                                  "0.6 s before it touches. Begin it on that"),
             std::string::npos)
-      << doubts.front();
+      << warnings.front();
 }
 
 TEST(BodyFigures, TellWhatTheLatticeMakesOfAVolume) {
@@ -166,13 +167,14 @@ TEST(BodyFigures, TellWhatTheLatticeMakesOfAVolume) {
   const std::vector<BodyFigures> bodies = figures_of(step, lower);
   EXPECT_NEAR(bodies.front().shape_volume, 38.4, 1e-12);
   EXPECT_NEAR(bodies.front().volume, 40.0, 1e-12);
-  const auto doubts = doubts_of_bodies(case_from_text(step, lower), bodies);
-  ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_NE(doubts.front().find("body.step has 38.4 m3 per m of width; its particles, which stand 0.5 m apart and are "
-                                "what slides, have 40, 4.2 % more. Put its corners on multiples of that distance, or "
-                                "make grid.cell smaller."),
-            std::string::npos)
-      << doubts.front();
+  const auto warnings = body_warnings(case_from_text(step, lower), bodies);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(
+      warnings.front().find("body.step has 38.4 m3 per m of width; its particles, which stand 0.5 m apart and are "
+                            "what slides, have 40, 4.2 % more. Put its corners on multiples of that distance, or "
+                            "make grid.cell smaller."),
+      std::string::npos)
+      << warnings.front();
 }
 
 // A box with its lower left corner on a slope of 45 degrees: of its 24 columns the first stands within half a metre.

@@ -87,7 +87,7 @@ TEST_F(CheckpointDamage, OfAnyOneByteIsFoundAndTheOneBeforeIsTaken) {
     const io::WholeCheckpoint found = io::newest_checkpoint(folder_);
     ASSERT_EQ(found.file, previous_) << "byte " << place;
     ASSERT_EQ(found.bytes, bytes_of_previous_) << "byte " << place;
-    ASSERT_EQ(found.note, damage_words(last_, bytes_of_last_.size())) << "byte " << place;
+    ASSERT_EQ(found.warning, damage_words(last_, bytes_of_last_.size())) << "byte " << place;
     put(last_, place, bytes_of_last_[place]);
   }
   EXPECT_EQ(io::newest_checkpoint(folder_).bytes, bytes_of_last_);
@@ -190,9 +190,9 @@ TEST_F(SignedCheckpoint, CountsBeyondTheFileAreRefused) {
   const std::string body = body_of(bytes_of_last_);
   const std::size_t particles = place_of_counts(body), scalars = particles + sizeof(std::uint64_t);
   for (const std::uint64_t number : {std::uint64_t{1} << 62U, ~std::uint64_t{0}, std::uint64_t{body.size()}}) {
-    EXPECT_NE(error_of_signed(with_number(body, particles, number)).find(fmt::format("it tells of {} part", number)),
+    EXPECT_NE(error_of_signed(with_number(body, particles, number)).find(fmt::format("it specifies {} part", number)),
               std::string::npos);
-    EXPECT_NE(error_of_signed(with_number(body, scalars, number)).find(fmt::format("it tells of {} numb", number)),
+    EXPECT_NE(error_of_signed(with_number(body, scalars, number)).find(fmt::format("it specifies {} numb", number)),
               std::string::npos);
   }
 }

@@ -117,7 +117,7 @@ TEST(CoveredArea, OfWallsIsTheirOwnInAnyDirection) {
 TEST(CoveredArea, OfAReleaseThatDoesNotMoveIsTheDrawnOne) {
   const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
   for (const Rectangle& drawn : rectangles()) {
-    // The terrain model's points interpolate the thickness: a ramp, two cells wide, about the outline.
+    // The DEM's points interpolate the thickness: a ramp, two cells wide, about the outline.
     const Raster points = cells_of(14, [&](double x, double y) { return drawn.contains(x, y) ? 20.0 : 0.0; });
     Raster h = points;
     for (int row = 1; row + 1 < h.rows; ++row) {
@@ -168,7 +168,7 @@ TEST(CoveredArea, OfARasterReleaseIsThatOfItsCells) {
   }
 }
 
-// Next to the release, where the terrain model makes a ramp of its outline, and far from it.
+// Next to the release, where the DEM makes a ramp of its outline, and far from it.
 TEST(CoveredArea, OfABoxBesideAReleaseIsItsOwnToo) {
   const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
   const Rectangle drawn{80.0, 80.0, 0.0, -45.0, 5.0};

@@ -44,11 +44,11 @@ bool keeps(const Slope& slope, const Polyline2& path) {
   Slope drawn = slope, otherwise = slope;
   drawn.site.path = path;
   otherwise.site.path = reversed(path);
-  const std::string note = orient_lines(drawn.parameters, drawn.site);
+  const std::string warning = orient_lines(drawn.parameters, drawn.site);
   const std::string other = orient_lines(otherwise.parameters, otherwise.site);
   EXPECT_EQ(drawn.site.path, otherwise.site.path);
-  EXPECT_EQ(drawn.site.path == path, note.empty());
-  EXPECT_EQ(drawn.site.path == path ? other : note,
+  EXPECT_EQ(drawn.site.path == path, warning.empty());
+  EXPECT_EQ(drawn.site.path == path ? other : warning,
             "maps.path: path.gpkg was drawn against the direction of the slide; distances count from its last corner");
   return drawn.site.path == path;
 }

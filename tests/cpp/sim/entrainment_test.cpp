@@ -46,16 +46,16 @@ void note_accounts(const Simulation<Dim, double>& simulation, Seen& seen) {
   const HistoryRow row = history_row(simulation);
   const double mass = simulation.ledger().initial_mass;
   const auto value = [&](const std::string& name) { return value_of(row, name); };
-  const auto note = [](double& largest, double share) { largest = std::max(largest, std::abs(share)); };
-  note(seen.mass, value("mass_residual_kg") / mass);
-  note(seen.mass, (value("mass_kg") - mass - (value("entrained_mass_kg") - value("loose_mass_kg"))) / mass);
+  const auto warning = [](double& largest, double share) { largest = std::max(largest, std::abs(share)); };
+  warning(seen.mass, value("mass_residual_kg") / mass);
+  warning(seen.mass, (value("mass_kg") - mass - (value("entrained_mass_kg") - value("loose_mass_kg"))) / mass);
   for (const std::string axis : Dim == 2 ? std::vector{"x", "y"} : std::vector{"x", "y", "z"}) {
-    note(seen.momentum, value("momentum_residual_" + axis + "_N_s") / (mass * 20.0));
+    warning(seen.momentum, value("momentum_residual_" + axis + "_N_s") / (mass * 20.0));
   }
-  note(seen.heat, value("thermal_residual_J") / (std::abs(value("sensible_J")) + value("latent_J")));
-  note(seen.work, value("mechanical_residual_J") / (0.5 * mass * 400.0));
-  note(seen.bed, value("bed_residual_kg") / mass);
-  note(seen.bed, value("bed_residual_J") / (0.5 * mass * 400.0));
+  warning(seen.heat, value("thermal_residual_J") / (std::abs(value("sensible_J")) + value("latent_J")));
+  warning(seen.work, value("mechanical_residual_J") / (0.5 * mass * 400.0));
+  warning(seen.bed, value("bed_residual_kg") / mass);
+  warning(seen.bed, value("bed_residual_J") / (0.5 * mass * 400.0));
   for (const double left : simulation.bed()->left()) {
     seen.smallest = std::min(seen.smallest, left);
   }
@@ -176,8 +176,9 @@ TEST(Entrainment, TheBlockModelRefusesABed) {
     run_block(slide_over_bed<2>({"bed.law=strength"}));
     FAIL();
   } catch (const UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("the block model takes up no bed. Remove [bed], or use `thawslide run`."),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(error.what()).find("the block model does not entrain a bed. Remove [bed], or use `thawslide run`."),
+        std::string::npos)
         << error.what();
   }
 }

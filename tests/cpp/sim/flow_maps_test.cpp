@@ -49,7 +49,7 @@ const MapKind& kind(const std::string& name) {
 
 // Of a box on an axis of ten cells.
 mpm::CellRange cells_below(double middle, double half) {
-  return mpm::cell_spans(Lanes<double>(middle), Lanes<double>(half), Lanes<double>(0.5 / half), 10).of_lane(0);
+  return mpm::cell_spans(Simd<double>(middle), Simd<double>(half), Simd<double>(0.5 / half), 10).of_lane(0);
 }
 
 TEST(CellRange, SharesAreThoseOfTheBoxAndSumToOne) {
@@ -200,7 +200,7 @@ TEST(FlowMaps, RecordsAreTheLargestOfWhatTheColumnHeld) {
   of_thin.start(simulation.grid(), simulation.particles());
   const double area = 64.0 * 20.0;
   double speed = 0.0, flux = 0.0, pressure = 0.0, temperature = -HUGE_VAL, melt = 0.0, pore = -HUGE_VAL;
-  const auto note = [&] {
+  const auto warning = [&] {
     const auto& particles = simulation.particles();
     Vector<double, 3> momentum = Vector<double, 3>::Zero();
     double mass = 0.0, water = 0.0, band = 0.0, warm = 0.0, pressed = 0.0;
@@ -223,12 +223,12 @@ TEST(FlowMaps, RecordsAreTheLargestOfWhatTheColumnHeld) {
     melt = std::max(melt, water / area);
     pore = std::max(pore, pressed / band);
   };
-  note();
+  warning();
   for (int k = 0; k < 60; ++k) {
     simulation.step(0.002);
     maps.gather(simulation.grid(), simulation.particles(), simulation.time());
     of_thin.gather(simulation.grid(), simulation.particles(), simulation.time());
-    note();
+    warning();
   }
   EXPECT_EQ(maps.covered_cells().area(), 0.0);
   EXPECT_TRUE(std::isnan(maps.cell(0, 0).max_speed));

@@ -82,7 +82,7 @@ Jump jump(const std::string& change, double temperature) {
 double heat(const HistoryRow& row) { return value_of(row, "sensible_J") + value_of(row, "latent_J"); }
 
 // Volumes V/xi = V e/L_e of 5 m2: 0.5 and 5 m2.
-TEST(ThicknessChange, ConservingMixesInMatterAsItWas) {
+TEST(ThicknessChange, ConservingMixesInMaterialUnchanged) {
   for (const double temperature : {400.0, 30.0, -1.0}) {
     const Jump found = jump("conserving", temperature);
     const double brought = 4.5 * found.cold;
@@ -103,7 +103,7 @@ TEST(ThicknessChange, ConservingMixesInMatterAsItWas) {
   }
 }
 
-TEST(ThicknessChange, AsPrintedMakesTheHeatThatItsColumnShows) {
+TEST(ThicknessChange, PublishedCreatesTheHeatInItsColumn) {
   const Jump found = jump("as_printed", 30.0);
   EXPECT_EQ(found.temperature_thick, 30.0);
   EXPECT_NEAR(value_of(found.thick, "band_rescale_J"), 4.5 * found.hot, 1e-9 * found.hot);

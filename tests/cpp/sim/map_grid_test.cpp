@@ -56,18 +56,18 @@ TEST(MapGrid, CellsAreThreeParticleDistancesWideUnlessAskedFor) {
   EXPECT_EQ(grid.rows, 20);
   EXPECT_EQ(reason_for_map_cell(parameters, site),
             "3 x 3 of the DEM's, so as to be 15 m wide at least: three particle distances");
-  EXPECT_EQ(note_on_map_cell(parameters, site), "");
+  EXPECT_EQ(warning_of_map_cell(parameters, site), "");
   site.ground = std::make_shared<Raster>(Raster{10.0, 2.5, 20.0, 5.0, 25, 60, {}, ""});
   EXPECT_EQ(map_grid_of(parameters, site).cell_x, 20.0);
   EXPECT_EQ(map_grid_of(parameters, site).cell_y, 15.0);
   parameters.maps.cell = 5.0;
   EXPECT_EQ(map_grid_of(parameters, site).cell_x, 5.0);
   EXPECT_EQ(reason_for_map_cell(parameters, site), "as maps.cell asks");
-  EXPECT_EQ(note_on_map_cell(parameters, site),
+  EXPECT_EQ(warning_of_map_cell(parameters, site),
             "maps.cell is 5 m, and grid.cell 10 m: a cell of the maps holds few particles or one, and the largest "
             "speeds and pressures are those of single particles. Without maps.cell they take cells of 20 x 15 m.");
   parameters.maps.cell = 10.0;
-  EXPECT_EQ(note_on_map_cell(parameters, site), "");
+  EXPECT_EQ(warning_of_map_cell(parameters, site), "");
 }
 
 // Where four particles an axis lie in a cell of the grid, that is wider than three of their distances; and a DEM that

@@ -70,11 +70,11 @@ TEST(PathLine, ProjectsOntoManySegments) {
   }
 }
 
-TEST(CentreWay, HasCornersASpacingApart) {
-  CentreWay way(2.0);
+TEST(CentrePath, HasCornersASpacingApart) {
+  CentrePath way(2.0);
   for (int k = 0; k <= 100; ++k) {
     const double wavering = 0.01 * (k % 2);
-    way.note({0.1 * k, wavering});
+    way.add_position({0.1 * k, wavering});
     EXPECT_EQ(way.line().empty(), k == 0);
     EXPECT_EQ(way.line().corners().size(), k == 0 ? 1u : k < 40 ? 2u : static_cast<std::size_t>(k / 20 + 1)) << k;
     if (k > 0 && k < 20) {
@@ -84,30 +84,30 @@ TEST(CentreWay, HasCornersASpacingApart) {
   EXPECT_NEAR(way.line().length(), 10.0, 1e-3);
 }
 
-TEST(CentreWay, HasNoDirectionBeforeTheCentreMoves) {
-  CentreWay way(2.0);
-  way.note({5.0, 5.0});
-  way.note({5.0, 5.019});
+TEST(CentrePath, HasNoDirectionBeforeTheCentreMoves) {
+  CentrePath way(2.0);
+  way.add_position({5.0, 5.0});
+  way.add_position({5.0, 5.019});
   EXPECT_TRUE(way.line().empty());
-  way.note({5.021, 5.0});
+  way.add_position({5.021, 5.0});
   EXPECT_FALSE(way.line().empty());
   EXPECT_NEAR(way.line().project({8.0, 4.0}).along, 3.0, 1e-12);
-  way.note({5.0, 5.0});
+  way.add_position({5.0, 5.0});
   EXPECT_TRUE(way.line().empty());
 }
 
-TEST(CentreWay, GoesOnFromItsNumbers) {
+TEST(CentrePath, GoesOnFromItsNumbers) {
   for (const int stop : {0, 1, 7, 19, 20, 21, 60}) {
-    CentreWay whole(2.0), first(2.0);
+    CentrePath whole(2.0), first(2.0);
     for (int k = 0; k <= stop; ++k) {
-      first.note({0.1 * k, 0.02 * k});
+      first.add_position({0.1 * k, 0.02 * k});
     }
-    CentreWay second(2.0);
+    CentrePath second(2.0);
     second.restore(first.state());
     for (int k = 0; k <= 80; ++k) {
-      whole.note({0.1 * k, 0.02 * k});
+      whole.add_position({0.1 * k, 0.02 * k});
       if (k > stop) {
-        second.note({0.1 * k, 0.02 * k});
+        second.add_position({0.1 * k, 0.02 * k});
       }
     }
     EXPECT_EQ(second.state(), whole.state()) << stop;
@@ -116,7 +116,7 @@ TEST(CentreWay, GoesOnFromItsNumbers) {
 
 TEST(Front, LeavesHalfAPercentOfTheMassAhead) {
   std::mt19937 random(3);
-  std::vector<MassOnWay> masses;
+  std::vector<MassOnPath> masses;
   for (std::size_t k = 0; k < 1000; ++k) {
     masses.push_back({static_cast<double>(k), 2.0, k});
   }

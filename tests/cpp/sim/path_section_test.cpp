@@ -148,7 +148,7 @@ TEST(PathSection, PlanarTerrainModelGivesTheMotionOfThePlane) {
   }
 }
 
-// The release's outline, which is no longer along the points, is known to half a cell of the terrain model.
+// The release's outline, which is no longer along the points, is known to half a cell of the DEM.
 TEST(PathSection, SoItDoesWhereThePointsAreOblique) {
   const config::Case flat = flat_case(slope);
   const auto rows = run_along_path(case_on_dem(flat, 37.0, 0.0)), expected = run_block(flat);
@@ -238,7 +238,7 @@ TEST(PathSection, FieldsFromMapsBecomeTheirMeanOverTheVolume) {
   EXPECT_NEAR(flat.velocity[1], -2.0, 1e-12);
 }
 
-// A path drawn for maps may begin within the release and leave the terrain model.
+// A path drawn for maps may begin within the release and leave the DEM.
 TEST(PathSection, PathNeedsGroundAtTheReleaseOnly) {
   InSpace made = case_on_dem(flat_case(slope), 0.0, 0.0);
   made.site.path = {{250.0, 0.0}, {5000.0, 0.0}};
@@ -281,7 +281,7 @@ TEST(PathSection, SaysWhatItNeeds) {
   EXPECT_EQ(error_of(made), "case.toml: the block model slides one body, and the case has 2. Use `thawslide run`.");
 }
 
-// Down a plane the way is straight, up to where half a width is left of the terrain model.
+// Down a plane the way is straight, up to where half a width is left of the DEM.
 TEST(SteepestDescent, OfAPlaneIsItsLineOfFall) {
   constexpr double width = 20.0;
   for (const double azimuth : {0.0, 37.0, 90.0, 203.0}) {
@@ -358,7 +358,7 @@ TEST(PathSection, WithoutAWayDownItSaysWhatToGive) {
   reshape(bowl_about(900.0));
   const PathSection section = section_along_path(made.parameters, made.site);
   ASSERT_TRUE(section.pit);
-  // The floor between the lowest points of the terrain model, at 897.5 and 902.5 m, is level.
+  // The floor between the lowest points of the DEM, at 897.5 and 902.5 m, is level.
   EXPECT_NEAR(section.pit->along, 700.0, 2.5 + 1e-9);
   EXPECT_NEAR(section.pit->place[0], 900.0, 2.5 + 1e-9);
 }

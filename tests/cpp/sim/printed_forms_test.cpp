@@ -48,7 +48,7 @@ std::vector<double> by_id(Simulation<2, double>& simulation, mpm::Field<double, 
   return values;
 }
 
-TEST(SeepageScaling, PrintedIsSlowerByXi) {
+TEST(SeepageScaling, PublishedIsSlowerByXi) {
   const std::vector<std::string> still = {"mechanics.enabled=false", "heat.enabled=false", "band.thickness=0.0125"};
   const auto seep = [&](const std::string& scaling, double step, double end) {
     auto sets = still;

@@ -148,14 +148,14 @@ TEST(Rest, IsSinceTheStartWhereNothingHasMoved) {
   EXPECT_FALSE(state_at(0.5, "case.gravity_tilt=30.0").at_rest);
 }
 
-TEST(Rest, AStrayParticleKeepsNoSlideMoving) {
-  const std::string stray = R"([body.stray]
+TEST(Rest, AnEscapedParticleDoesNotPreventRest) {
+  const std::string escaping = R"([body.stray]
 material = "rock"
 min = [6.0, 12.0]
 max = [6.5, 12.5]
 velocity = [0.0, 6.0]
 )";
-  Simulation<2, double> simulation(paper_case(block + stray));
+  Simulation<2, double> simulation(paper_case(block + escaping));
   const double end = end_of(simulation);
   EXPECT_LT(end, 1.8);
   double fastest = 0.0;

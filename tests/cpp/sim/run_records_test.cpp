@@ -98,9 +98,10 @@ TEST(Probes, BesideTheMapsAreRefused) {
     FAIL();
   } catch (const UserError& error) {
     const std::string message = error.what();
-    EXPECT_NE(message.find(": probe 'gauge' has a point at x = 3.5 m, y = 40 m, beside the maps; allowed: x from -4 to "
-                           "60 m, y from -5 to 15 m. Move it, or make the domain larger."),
-              std::string::npos)
+    EXPECT_NE(
+        message.find(": probe 'gauge' has a point at x = 3.5 m, y = 40 m, outside the maps; allowed: x from -4 to "
+                     "60 m, y from -5 to 15 m. Move it, or make the domain larger."),
+        std::string::npos)
         << message;
   }
   site.probes = {{"gauge", {{3.5, 4.0}, {3.5, 4.0}}}};

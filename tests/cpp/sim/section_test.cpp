@@ -1,4 +1,4 @@
-// Sections through a terrain model along a line.
+// Sections through a DEM along a line.
 #include "sim/section.hpp"
 
 #include <gtest/gtest.h>
@@ -84,14 +84,13 @@ TEST(Section, SaysWhereTheGroundEnds) {
   Raster ground = raster(0.0, 0.0, 2.0, 6, 6, [](double x, double) { return x; });
   const PathLine line({{1.0, 3.0}, {14.0, 3.0}});
   EXPECT_EQ(error_of(line, 13.0, ground),
-            "--line: way.gpkg: the line is outside the terrain model 10 m from its beginning, at x = 11, y = 3; its "
-            "points reach from x = 0 to 10 and from y = 0 to 10. Draw the line within them, or take a larger terrain "
-            "model.");
+            "--line: way.gpkg: the line is outside the DEM 10 m from its beginning, at x = 11, y = 3; its "
+            "points reach from x = 0 to 10 and from y = 0 to 10. Draw the line within them, or take a larger DEM.");
   EXPECT_EQ(error_of(line, 9.0, ground), "no error") << "only as far as it must be known";
   ground.values[ground.index(3, 2)] = std::nan("");
   EXPECT_EQ(error_of(line, 13.0, ground),
             "--line: way.gpkg: the line crosses a place without data 3 m from its beginning, at x = 4, y = 3; needed: "
-            "an elevation all along it. Fill the terrain model there (gdal_fillnodata.py), or draw the line around "
+            "an elevation all along it. Fill the DEM there (gdal_fillnodata.py), or draw the line around "
             "it.");
 }
 

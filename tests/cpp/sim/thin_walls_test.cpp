@@ -25,7 +25,7 @@ std::string of_dyke(double width, double height, double cell) {
   config::Site site;
   site.profile.distance = {-200.0, -0.5 * width - 0.01, -0.5 * width, 0.5 * width, 0.5 * width + 0.01, 200.0};
   site.profile.terrain = {0.0, 0.0, height, height, 0.0, 0.0};
-  return doubt_of_thin_walls(case_of(config::TerrainKind::profile, 2, cell), site);
+  return warning_of_thin_walls(case_of(config::TerrainKind::profile, 2, cell), site);
 }
 
 std::string on_raster(const std::function<double(double, double)>& height, double spacing, double cell) {
@@ -40,7 +40,7 @@ std::string on_raster(const std::function<double(double, double)>& height, doubl
   }
   config::Site site;
   site.ground = ground;
-  return doubt_of_thin_walls(case_of(config::TerrainKind::dem, 3, cell), site);
+  return warning_of_thin_walls(case_of(config::TerrainKind::dem, 3, cell), site);
 }
 
 TEST(ThinWalls, OfProfiles) {
@@ -53,7 +53,7 @@ TEST(ThinWalls, OfProfiles) {
   config::Site site;  // a cliff and a sharp crest are no walls
   site.profile.distance = {-200.0, -50.0, -49.9, 0.0, 60.0, 200.0};
   site.profile.terrain = {0.0, 0.0, 80.0, 150.0, 60.0, 0.0};
-  EXPECT_EQ(doubt_of_thin_walls(case_of(config::TerrainKind::profile, 2, 5.0), site), "");
+  EXPECT_EQ(warning_of_thin_walls(case_of(config::TerrainKind::profile, 2, 5.0), site), "");
 }
 
 TEST(ThinWalls, OfRasters) {

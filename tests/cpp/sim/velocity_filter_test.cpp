@@ -291,7 +291,7 @@ Swing swing(const std::vector<std::string>& sets) {
   }
   set_velocities(simulation, Velocities(1e-3 * form));
   std::vector<double> velocity;
-  const LoneThread alone;  // waking others for so short a bar takes longer than a step
+  const SingleThreadScope alone;  // waking others for so short a bar takes longer than a step
   for (int k = 1; k <= 40 * interval_in_steps; ++k) {
     simulation.step(bar_step);
     if (k % interval_in_steps == 0) {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <regex>
 
-#include "config/moved_defaults.hpp"
+#include "config/changed_defaults.hpp"
 
 namespace thawslide::testing_support {
 
@@ -31,7 +31,7 @@ config::Case paper_case(const std::string& text, std::vector<std::string> sets) 
            std::any_of(sets.begin(), sets.end(), [&](const std::string& set) { return std::regex_search(set, line); });
   };
   std::vector<std::string> of_the_paper;
-  for (const config::MovedDefault& moved : config::moved_defaults()) {
+  for (const config::ChangedDefault& moved : config::changed_defaults()) {
     if (gives(moved.key)) {
       continue;
     }

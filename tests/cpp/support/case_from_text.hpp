@@ -1,4 +1,4 @@
-// A case from TOML text, as a user would write it.
+// Case from TOML text, as written by a user.
 #pragma once
 
 #include <filesystem>
@@ -10,16 +10,16 @@
 
 namespace thawslide::testing_support {
 
-// A temporary folder of the running test; made if it is not there.
+// Temporary folder of the running test; created if it does not exist.
 std::filesystem::path folder_of_this_test();
 
 config::Case case_from_text(const std::string& text, const std::vector<std::string>& sets = {});
 
-// As case_from_text, with the forms of the paper for each key that neither `text` nor `sets` gives: what tests of its
-// equations, and of the numbers it gives, are of.
+// As case_from_text, with the published formulation for each key that neither `text` nor `sets` gives, for tests of the
+// published equations and results.
 config::Case paper_case(const std::string& text, std::vector<std::string> sets = {});
 
-// Steps until `end`.
+// Advances the simulation until `end`.
 template <class Simulation>
 void run_until(Simulation& simulation, double end) {
   while (simulation.time() < end * (1.0 - 1e-12)) {

@@ -1,4 +1,4 @@
-// A straight channel on a slope, as a terrain model, and a fill that slides down it.
+// Straight channel on a slope, as a DEM, with a fill that slides down it.
 #pragma once
 
 #include <cmath>
@@ -8,30 +8,30 @@
 
 namespace thawslide::testing_support {
 
-// The cross-section of a channel, across the thalweg: how high the ground is above it at a distance [m].
+// Cross-section of a channel: height of the ground above the thalweg at a distance across it [m].
 using Section = std::function<double(double across)>;
 
 struct Channel {
   Section ground;
   double surface = 0.0;       // of the fill above the thalweg [m]
-  double half_width = 120.0;  // of the fill at most [m]
+  double half_width = 120.0;  // maximum, of the fill [m]
   double azimuth = 0.0;       // of the thalweg, from +x towards +y [degrees]
-  double aside = 0.0;         // of the thalweg from the domain's middle, which is on grid lines [m]
-  double spacing = 1.25;      // of the terrain model's points [m]
+  double aside = 0.0;         // offset of the thalweg from the domain's centre, which is on grid lines [m]
+  double spacing = 1.25;      // of the DEM's points [m]
 };
 
-// No channel at all: a plane, with a fill of a width and a thickness [m] across it.
+// Plane instead of a channel, with a fill of a width and a thickness [m] across it.
 inline Channel plane_channel(double width, double thickness) {
   return {.ground = [](double) { return 0.0; }, .surface = thickness, .half_width = 0.5 * width};
 }
 
-// V of half an opening angle [degrees], filled to a width [m].
+// V-shaped channel with half its opening angle [degrees], filled to a width [m].
 inline Channel v_channel(double half_opening, double width) {
   const double rise = 1.0 / std::tan(half_opening * pi<double> / 180.0);
   return {.ground = [rise](double across) { return rise * std::abs(across); }, .surface = 0.5 * width * rise};
 }
 
-// Half a circle of a width [m], filled to the brim; where it is steep, planes.
+// Semicircle of a width [m], filled to the brim; its steep parts are replaced by planes.
 inline Channel u_channel(double width) {
   const double radius = 0.5 * width, steep = 0.98 * radius;
   const double rise = steep / std::sqrt(radius * radius - steep * steep);
@@ -43,13 +43,13 @@ inline Channel u_channel(double width) {
           .surface = radius};
 }
 
-// Cells of 5 m; the thalweg falls by 35 degrees; friction of the ground 15 degrees.
+// Cells of 5 m; slope of the thalweg 35 degrees; friction angle of the ground 15 degrees.
 inline constexpr double channel_cell = 5.0, channel_slope = 35.0, channel_friction = 15.0;
 
-// The ground's points before the slide gets to know them.
+// Modifies the ground before the simulation uses it.
 using Treatment = std::function<Raster(Raster)>;
 
-// How much more than the coefficient of the ground the fill is held back, on average between two times [s]: by the
+// Additional friction of the fill relative to the coefficient of the ground, on average between two times [s], from the
 // velocity of its centre of mass along the thalweg.
 inline double friction_in_channel(
     const Channel& channel, const std::string& material, double from, double to,
@@ -63,7 +63,7 @@ inline double friction_in_channel(
   const Raster ground =
       raster_between(Place(-130.0, -130.0), Place(130.0, 130.0), channel.spacing,
                      [&](double x, double y) { return on_slope(x, y, channel.ground(across(x, y))); });
-  // The ends of the fill are vertical; in the map it is `length` long.
+  // The ends of the fill are vertical; its length in the map is `length`.
   const Place half(120.0, 120.0);
   const Raster thickness = thickness_between(-half, half, 0.625, [&](double x, double y) {
     const double depth = (channel.surface - channel.ground(across(x, y))) / cosine;

@@ -1,4 +1,4 @@
-// A case with band columns: an elastic slab on a frictional incline, the grid along the slope.
+// Case with band columns: an elastic slab on a frictional incline, with the grid along the slope.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,7 +10,8 @@
 
 namespace thawslide::testing_support {
 
-// 200 m long, 40 m thick, on 30 degrees, 8 m/s fast at the start; `dimension` 2 or 3 (40 m wide between smooth walls).
+// 200 m long, 40 m thick, on 30 degrees, with an initial velocity of 8 m/s; `dimension` 2 or 3 (40 m wide between
+// smooth walls).
 inline std::string column_slab(int dimension = 2) {
   const bool space = dimension == 3;
   return fmt::format(
@@ -64,12 +65,12 @@ skeleton_compressibility = 2e-9
       space ? "[200.0, 40.0, 40.0]" : "[200.0, 40.0]", space ? "[8.0, 0.0, 0.0]" : "[8.0, 0.0]");
 }
 
-// The median over the pieces of a slide's base, of a number that of(piece) tells.
+// Median of of(segment) over the basal segments.
 template <class Simulation, class Of>
 double median_over_base(const Simulation& simulation, const Of& of) {
   std::vector<double> numbers;
-  for (const auto& piece : simulation.band_columns()->pieces()) {
-    numbers.push_back(of(piece));
+  for (const auto& segment : simulation.band_columns()->segments()) {
+    numbers.push_back(of(segment));
   }
   const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
   std::nth_element(numbers.begin(), middle, numbers.end());

@@ -1,13 +1,12 @@
-// Dry sand, of which granular columns are, in the plane and in space. Sand whose angle of repose is 31 degrees slides
-// along planes at tau = tan(31) sigma; without dilation such planes bear sin(phi) sigma (Davis 1968):
-// phi = asin(tan(31)) = 36.9 degrees.
+// Dry sand of granular columns, in 2D and 3D. Sand with an angle of repose of 31 degrees slides along planes at tau =
+// tan(31) sigma; without dilation such planes resist sin(phi) sigma (Davis 1968): phi = asin(tan(31)) = 36.9 degrees.
 #pragma once
 
 #include "friction_alone.hpp"
 
 namespace thawslide::testing_support {
 
-// The tables of the material "sand", of its stiffness [Pa], and of its friction on the ground.
+// Tables of the material "sand" with its stiffness [Pa], and of its friction on the ground.
 inline std::string dry_sand(double youngs_modulus) {
   return fmt::format(R"(
 [material.sand]

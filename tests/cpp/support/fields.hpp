@@ -1,4 +1,4 @@
-// Every field of every particle, by name and in order of id; the state of a run, to the last bit.
+// Complete state of a run: every field of every particle, by name and in order of id, for bitwise comparison.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::map<std::string, std::vector<double>> fields_by_id(const mpm::Particles<Dim
   return fields;
 }
 
-// With the numbers of the run.
+// Includes the scalars of the run.
 template <class Simulation>
 std::map<std::string, std::vector<double>> state_of(const Simulation& simulation) {
   auto state = fields_by_id(simulation.particles());
@@ -35,7 +35,7 @@ std::map<std::string, std::vector<double>> state_of(const Simulation& simulation
   return state;
 }
 
-// == would take 0 for -0, and no number for another than itself.
+// == would equate 0 and -0, and NaN would differ from itself.
 inline void expect_the_same_state(const std::map<std::string, std::vector<double>>& a,
                                   const std::map<std::string, std::vector<double>>& b, const std::string& when) {
   for (const auto& [name, numbers] : a) {

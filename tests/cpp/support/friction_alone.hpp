@@ -1,4 +1,4 @@
-// The tables of a case whose ground has Coulomb friction, and in which nothing else acts on the slide.
+// Tables of a case in which only Coulomb friction of the ground acts on the slide.
 #pragma once
 
 #include <fmt/format.h>

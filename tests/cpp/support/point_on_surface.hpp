@@ -1,10 +1,10 @@
-// A point mass that slides with Coulomb friction on a surface z = f(x, y) under gravity g, for comparison with small
-// blocks on terrain models. With W = sqrt(1 + f_x^2 + f_y^2), the unit normal n = (-f_x, -f_y, 1)/W and the velocity
-// v = (u, w, f_x u + f_y w), the constraint z = f(x, y) differentiated twice gives the normal acceleration, which is
-// the second fundamental form of the velocity,
-//   a.n = II(v, v) = (f_xx u^2 + 2 f_xy u w + f_yy w^2)/W
-// so that Newton's law a = -g e_z + N n - mu N v/|v| has the normal force per mass N = II(v, v) + g/W. (do Carmo 1976,
-// Differential geometry of curves and surfaces, Section 3.3)
+// Point mass sliding with Coulomb friction on a surface z = f(x, y) under gravity g, for comparison with small blocks
+// on DEMs. With W = sqrt(1 + f_x^2 + f_y^2), the unit normal n = (-f_x, -f_y, 1)/W and the velocity v = (u, w, f_x u +
+// f_y w), the constraint z = f(x, y) differentiated twice gives the normal acceleration, which is the second
+// fundamental form of the velocity,
+//    a.n = II(v, v) = (f_xx u^2 + 2 f_xy u w + f_yy w^2)/W
+// Newton's law a = -g e_z + N n - mu N v/|v| therefore has the normal force per mass N = II(v, v) + g/W. (do Carmo
+// 1976, Differential geometry of curves and surfaces, Section 3.3)
 #pragma once
 
 #include <functional>
@@ -19,20 +19,20 @@ class PointOnSurface {
   using Place = Vector<double, 2>;
   using Height = std::function<double(double x, double y)>;
 
-  // At rest at a place [m] of a surface of some height [m]; friction coefficient, gravity [m/s2].
+  // Starts at rest at a position [m] on a surface of given height [m]; friction coefficient, gravity [m/s2].
   PointOnSurface(Height height, const Place& start, double friction, double gravity)
       : height_(std::move(height)), friction_(friction), gravity_(gravity) {
     state_ << start, 0.0, 0.0;
   }
 
   [[nodiscard]] Place place() const { return state_.head<2>(); }
-  // [m/s], in space.
+  // [m/s], in 3D.
   [[nodiscard]] Vector<double, 3> velocity() const {
     const Place flat = state_.tail<2>();
     return {flat[0], flat[1], slopes(place()).first.dot(flat)};
   }
 
-  // One step of dt [s] by the classical Runge-Kutta method.
+  // Advances by dt [s] with the classical Runge-Kutta method.
   void step(double dt) {
     const State k1 = rate(state_);
     const State k2 = rate(state_ + 0.5 * dt * k1);
@@ -48,7 +48,7 @@ class PointOnSurface {
     Matrix<double, 2> second;
   };
 
-  // By central differences.
+  // Central differences.
   [[nodiscard]] Slopes slopes(const Place& place) const {
     constexpr double h = 0.01;  // m
     const auto at = [&](int i, int j) { return height_(place[0] + i * h, place[1] + j * h); };
@@ -71,7 +71,7 @@ class PointOnSurface {
     if (pressing < 0.0) {
       throw std::logic_error("the point leaves the surface");
     }
-    // Friction opposes the motion, and from rest the weight.
+    // Friction opposes the motion or, at rest, the weight.
     const Vector<double, 3> driven = velocity.norm() > 0.0 ? velocity : weight - weight.dot(normal) * normal;
     const Vector<double, 3> acceleration = weight + pressing * (normal - friction_ * driven.normalized());
     State rate;

@@ -11,7 +11,7 @@ namespace thawslide::verification {
 
 namespace {
 
-// In one write, since tests run side by side.
+// A single write, because tests run in parallel.
 void append(const char* file, const std::string& line) {
   const int descriptor = open(file, O_WRONLY | O_APPEND | O_CREAT, 0666);
   EXPECT_EQ(write(descriptor, line.data(), line.size()), static_cast<ssize_t>(line.size())) << file;
@@ -45,14 +45,14 @@ void Record::expect_near(const std::string& what, double found, double expected,
 void Record::expect_order(const std::string& resolution, const std::vector<double>& resolutions,
                           const std::string& error, const std::vector<double>& errors, double expected,
                           double allowed) {
-  const double found = note_order(resolution, resolutions, error, errors, expected, allowed);
+  const double found = add_order(resolution, resolutions, error, errors, expected, allowed);
   EXPECT_NEAR(found, expected, allowed) << error << " " << testing::PrintToString(errors);
 }
 
 void Record::expect_order_at_least(const std::string& resolution, const std::vector<double>& resolutions,
                                    const std::string& error, const std::vector<double>& errors, double expected,
                                    double allowed) {
-  const double found = note_order(resolution, resolutions, error, errors, expected, allowed);
+  const double found = add_order(resolution, resolutions, error, errors, expected, allowed);
   (*facts_)["orders"].back()["at_least"] = true;
   EXPECT_GE(found, expected - allowed) << error << " " << testing::PrintToString(errors);
 }
@@ -68,9 +68,8 @@ void Record::draw(const Curve& curve) {
                                  {"reference", curve.reference}});
 }
 
-double Record::note_order(const std::string& resolution, const std::vector<double>& resolutions,
-                          const std::string& error, const std::vector<double>& errors, double expected,
-                          double allowed) {
+double Record::add_order(const std::string& resolution, const std::vector<double>& resolutions,
+                         const std::string& error, const std::vector<double>& errors, double expected, double allowed) {
   EXPECT_EQ(resolutions.size(), errors.size());
   EXPECT_GE(errors.size(), 3U);
   std::vector<double> orders;

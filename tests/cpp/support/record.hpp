@@ -1,5 +1,5 @@
-// What a verification test found, for docs/verification.md: appended as a line of JSON to the file that the environment
-// variable THAWSLIDE_VERIFICATION names, if it names one. scripts/verification-page reads it.
+// Results of a verification test for docs/verification.md: appended as a line of JSON to the file named by the
+// environment variable THAWSLIDE_VERIFICATION, if set. scripts/verification-page reads it.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace thawslide::verification {
 
-// Computed numbers and those to compare with, to draw; `reference` names the latter in the legend.
+// Computed and reference values for a plot; `reference` names the latter in the legend.
 struct Curve {
   std::string x_label, y_label;
   std::vector<double> x, computed, exact;
@@ -27,25 +27,25 @@ class Record {
   // Asserts |found - expected| <= allowed.
   void expect_near(const std::string& what, double found, double expected, double allowed);
 
-  // Errors over resolutions, coarse to fine, and the order between neighbours; asserts that the order of the finest
-  // pair is what theory says, up to a difference: an order above theory asks for its reason as well.
+  // Records errors over resolutions, coarse to fine, and the order between consecutive ones. Asserts that the order of
+  // the finest pair agrees with theory to within `allowed`: an order above theory needs an explanation as well.
   void expect_order(const std::string& resolution, const std::vector<double>& resolutions, const std::string& error,
                     const std::vector<double>& errors, double expected, double allowed);
 
-  // The same where theory bounds the error from above only: asserts an order of at least expected - allowed.
+  // The same if theory bounds the error only from above: asserts an order of at least expected - allowed.
   void expect_order_at_least(const std::string& resolution, const std::vector<double>& resolutions,
                              const std::string& error, const std::vector<double>& errors, double expected,
                              double allowed);
 
-  // Says why an order is what it is.
+  // Records the reason for an order.
   void explain(const std::string& text);
 
   void draw(const Curve& curve);
 
  private:
-  // Keeps the errors and the orders between neighbours; returns the last order.
-  double note_order(const std::string& resolution, const std::vector<double>& resolutions, const std::string& error,
-                    const std::vector<double>& errors, double expected, double allowed);
+  // Records the errors and the orders between consecutive resolutions; returns the last order.
+  double add_order(const std::string& resolution, const std::vector<double>& resolutions, const std::string& error,
+                   const std::vector<double>& errors, double expected, double allowed);
 
   std::unique_ptr<nlohmann::json> facts_;
 };

@@ -1,4 +1,4 @@
-// The depth of the flow at particles, column by column and particle by particle: what band/flow_depth must give.
+// Reference for band/flow_depth: flow depth at particles, computed column by column and particle by particle.
 #pragma once
 
 #include <algorithm>
@@ -35,12 +35,12 @@ class ScalarColumns {
     return over_columns(p, [](const Held& held) { return held.cosine; });
   }
 
-  // N [Pa], where gravity presses with normal_gravity [m/s2] on ground below a unit of footprint.
+  // N [Pa]; normal_gravity: component of gravity normal to the ground, per unit of footprint [m/s2].
   [[nodiscard]] double normal_load(const Point<Dim>& p, double normal_gravity) const {
     return over_columns(p, [&](const Held& held) { return held.mass / held.volume * normal_gravity; });
   }
 
-  // Of the particle's middle [m].
+  // Of the particle's centre [m].
   [[nodiscard]] double below_top(const Point<Dim>& p) const {
     Column column;
     for (std::size_t a = 0; a + 1 < Dim; ++a) {
@@ -62,7 +62,7 @@ class ScalarColumns {
     }
   };
 
-  // Of the vertical depths in the columns, each times factor(column).
+  // Sum of the vertical depths in the columns, each multiplied by factor(column).
   template <class Factor>
   [[nodiscard]] double over_columns(const Point<Dim>& p, const Factor& factor) const {
     double sum = 0.0;
@@ -95,7 +95,7 @@ class ScalarColumns {
     }
   }
 
-  // [m2], per metre of width in 2D: the cell's, or where the body ends what boxes cover of it.
+  // [m2], per metre of width in 2D: area of the cell or, at the edge of the body, the part covered by boxes.
   [[nodiscard]] double footprint(const Column& column, const Held& held) const {
     double product = 1.0;
     for (std::size_t a = 0; a + 1 < Dim; ++a) {

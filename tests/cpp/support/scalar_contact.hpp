@@ -1,5 +1,5 @@
-// The motion of nodes on the ground, node by node: Eqs. 15-17 and 25 with the sums of the oracle. Of the simulation it
-// takes what the ground is at nodes, which is computed once. Without walls, frames and damping.
+// Reference for the motion of nodes on the ground, node by node: Eqs. 15-17 and 25 with the reference sums. The ground
+// at nodes, which is computed once, is taken from the simulation. Without walls, frames and damping.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct NodeMotion {
   double slip_speed = 0, friction_heat = 0;
 };
 
-// Sums over particles that contact needs.
+// Sums over particles for contact.
 template <int Dim>
 struct ContactSums {
   using Sums = typename ScalarTransfer<Dim>::Sums;
@@ -31,7 +31,7 @@ class ScalarContact {
   using Place = Vector<double, Dim>;
   using Ground = ByNode<Dim, terrain::GroundAtNode<Dim, double>>;
 
-  // ground: at all nodes about the particles.
+  // ground: at all nodes around the particles.
   ScalarContact(const terrain::ContactModel<Dim, double>& model, const ScalarTransfer<Dim>& transfer,
                 const std::vector<Point<Dim>>& points, const ContactSums<Dim>& sums, Ground ground, double dt)
       : model_(model), sums_(sums), ground_(std::move(ground)), dt_(dt), cell_(1.0 / transfer.inverse_cell) {
@@ -51,10 +51,11 @@ class ScalarContact {
   }
 
   [[nodiscard]] const ByNode<Dim, NodeMotion<Dim>>& motion() const { return motion_; }
-  // Smallest gap between candidate nodes' planes and the particles that they see [m]; nodes that see none are left out.
+  // Minimum gap between candidate nodes' planes and the particles within their support [m]; nodes without particles are
+  // omitted.
   [[nodiscard]] const ByNode<Dim, double>& clearance() const { return clearance_; }
 
-  // Velocity of a node from the momentum that particles mapped back.
+  // Velocity of a node from the mapped-back momentum of particles.
   [[nodiscard]] Place mapped_velocity(const Index& node, Place momentum) const {
     if (motion_.at(node).touching) {
       const Place& normal = ground_.at(node).normal;
@@ -67,8 +68,8 @@ class ScalarContact {
   using Momentum = mpm::MomentumLayout<Dim>;
   using NearGround = mpm::NearGround;
   static constexpr std::size_t solid_fraction_by_linear =
-      NearGround::solid_fraction_by_linear - NearGround::saturation_by_linear;  // in the oracle's own sums
-  static constexpr double smallest_share = 1e-6;  // of a cell's face: keeps N finite over no ground
+      NearGround::solid_fraction_by_linear - NearGround::saturation_by_linear;  // in the reference sums
+  static constexpr double smallest_share = 1e-6;  // fraction of a cell's face: keeps N finite without covered ground
 
   static Place vector_of(const std::vector<double>& sum, std::size_t first) {
     return Eigen::Map<const Place>(sum.data() + first);
@@ -96,7 +97,7 @@ class ScalarContact {
     }
   }
 
-  // Momentum into the ground beyond what closes the clearance.
+  // Momentum into the ground in excess of that which closes the clearance.
   [[nodiscard]] double approach(const Index& node, double inward) const {
     const auto clearance = clearance_.find(node);
     const double left = clearance != clearance_.end() ? std::max(0.0, clearance->second) : HUGE_VAL;
@@ -110,7 +111,7 @@ class ScalarContact {
     const double space = near_ground ? known->second.space : std::pow(cell_, Dim);
     return sum != sums_.momentum.end() ? std::min(1.0, sum->second[Momentum::volume] / space) : 0.0;
   }
-  // What the node or the two further from the ground are filled with.
+  // Maximum filled fraction of the node and the two nodes farther from the ground.
   [[nodiscard]] double covered_share(const Index& node, const Place& normal) const {
     const int axis = terrain::main_axis<Dim, double>(normal);
     double share = 0.0;
@@ -127,24 +128,24 @@ class ScalarContact {
     const int across = terrain::main_axis<Dim, double>(ground_.at(node).normal);
     double load = 0.0, covered = 0.0;
     for (int n = 0; n < mpm::power(3, Dim); ++n) {
-      Index beside = node;
+      Index adjacent = node;
       double weight = 1.0;
       int rest = n;
       for (int a = 0; a < Dim; ++a) {
         const int shift = rest % 3 - 1;
         rest /= 3;
-        beside[static_cast<std::size_t>(a)] += shift;
+        adjacent[static_cast<std::size_t>(a)] += shift;
         weight *= a == across ? 1.0 : shift == 0 ? 0.5 : 0.25;
       }
-      if (covered_.count(beside) == 1) {
-        load += weight * load_.at(beside);
-        covered += weight * covered_.at(beside);
+      if (covered_.count(adjacent) == 1) {
+        load += weight * load_.at(adjacent);
+        covered += weight * covered_.at(adjacent);
       }
     }
     return load / (dt_ * std::max(covered, smallest_share * std::pow(cell_, Dim - 1)));
   }
 
-  // An average at a node: by the linear shape functions, or by mass where it has no weight by these.
+  // Average at a node with the linear shape functions, or by mass if its linear weight is zero.
   [[nodiscard]] double average(const Index& node, const typename ContactSums<Dim>::Sums& sums, std::size_t by_linear,
                                std::size_t by_mass) const {
     const auto linear = sums_.linear.find(node);
@@ -169,7 +170,7 @@ class ScalarContact {
     const Place old = old_momentum(node);
     Place momentum = trial(node), along = Place::Zero();
     double friction_impulse = 0.0;
-    bool slides = false;  // where pore pressure bears all of the load, without friction
+    bool slides = false;  // without friction if pore pressure carries the full load
     const auto load = load_.find(node);
     if (load != load_.end() && load->second > 0.0) {
       const Place& normal = ground_.at(node).normal;

@@ -1,5 +1,5 @@
-// Particles one by one, by id, and what they give to and read of nodes by the plain weights: what scalar_step.hpp,
-// scalar_contact.hpp and scalar_columns.hpp are made of.
+// Reference particles, individually by id, and their transfers to and from nodes with plain weights, for
+// scalar_step.hpp, scalar_contact.hpp and scalar_columns.hpp.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct Point {
   bool in_band;
   std::size_t material;
   double old_temperature = 0, capacity = 0, conduction_in_cell = 0;
-  Place step = Place::Zero();  // displacement of the step
+  Place step = Place::Zero();  // displacement in the step
 };
 
 // All particles, by id.
@@ -66,20 +66,20 @@ std::vector<Point<Dim>> points_of(const sim::Simulation<Dim, double>& simulation
   return points;
 }
 
-// A node, by its number along each axis, and quantities of nodes.
+// Node index along each axis, and nodal quantities.
 template <int Dim>
 using NodeIndex = std::array<int, Dim>;
 template <int Dim, class Value>
 using ByNode = std::map<NodeIndex<Dim>, Value>;
 
-// What a particle adds to nodes: weight * value, and gradient . flux to the first components.
+// Contribution of a particle to nodes: weight * value, and gradient . flux to the first components.
 template <int Dim>
 struct Carried {
   std::vector<double> value;
   std::vector<Vector<double, Dim>> flux;
 };
 
-// Transfers by uGIMP and by the linear shape functions.
+// Transfers with uGIMP and with the linear shape functions.
 template <int Dim>
 struct ScalarTransfer {
   using Index = NodeIndex<Dim>;

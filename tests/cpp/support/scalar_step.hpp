@@ -1,7 +1,7 @@
-// One step particle by particle, node by node, number by number, by the plain functions: what the batches of the step
-// must give. Of the simulation it takes the ground at nodes. For uGIMP, FLIP, the heat content form, lubricated
-// friction and constant cohesion, the band everywhere or in the first layer; without conditions for heat on the
-// domain's faces, walls, frames and a band that changes. Energies are not in it: the ledgers have tests of their own.
+// Reference for the SIMD implementation of a step, computed particle by particle and node by node with plain functions.
+// The ground at nodes is taken from the simulation. It covers uGIMP, FLIP, the heat content form, lubricated friction
+// and constant cohesion, and the band everywhere or in the first layer. It excludes thermal conditions on the domain's
+// faces, walls, frames and a changing band. Energies are tested with the budgets.
 #pragma once
 
 #include <optional>
@@ -75,7 +75,7 @@ class ScalarStep {
   [[nodiscard]] const Sums& mapped() const { return mapped_; }
   [[nodiscard]] const ScalarContact<Dim>& contact() const { return *contact_; }
   [[nodiscard]] std::pair<std::size_t, std::size_t> at(const Index& node) const { return place_.at(node); }
-  // The particles after the step, by id.
+  // Particles after the step, by id.
   [[nodiscard]] const std::vector<Point<Dim>>& points() const { return points_; }
 
  private:
@@ -113,7 +113,7 @@ class ScalarStep {
     return carried;
   }
 
-  // Band particles have a candidate among the corners of their cells; slip is the touching ones' average.
+  // Band particles have a candidate node among the corners of their cell; slip is the average over touching nodes.
   void mark_band_and_slip() {
     for (Point<Dim>& p : points_) {
       p.in_band = false;
@@ -138,7 +138,7 @@ class ScalarStep {
     for (Point<Dim>& p : points_) {
       for_nodes(p, Transfer::ugimp, [&](const Index& node, double weight, const Place& /*gradient*/) {
         const auto motion = contact_->motion().find(node);
-        if (motion != contact_->motion().end()) {  // else the node has no mass, and the particle no weight there
+        if (motion != contact_->motion().end()) {  // otherwise the node has no mass, and the particle no weight there
           p.velocity += dt_ * weight * motion->second.acceleration;
           p.step += dt_ * weight * motion->second.middle_velocity;
         }
@@ -182,7 +182,7 @@ class ScalarStep {
     return motion != contact_->motion().end() ? motion->second.friction_heat : 0.0;
   }
 
-  // The rate of temperature of every node [K/s] from sums of heat flow, capacity and subgrid heat.
+  // Temperature rate of every node [K/s] from sums of heat flow, capacity and subgrid heat.
   [[nodiscard]] ByNode<Dim, double> rates(const Sums& flows, const Sums& stored) const {
     ByNode<Dim, double> rate;
     for (const auto& [node, sum] : stored) {
@@ -192,8 +192,8 @@ class ScalarStep {
     return rate;
   }
 
-  // The friction heat of nodes without linear weight [J/m3], by the weight of the particle's momentum there.
-  [[nodiscard]] double orphan_heat(const Point<Dim>& p, const Sums& stored) const {
+  // Friction heat of nodes without linear weight [J/m3], by the weight of the particle's momentum there.
+  [[nodiscard]] double unreached_heat(const Point<Dim>& p, const Sums& stored) const {
     double power = 0.0;
     for_nodes(p, Transfer::ugimp, [&](const Index& node, double weight, const Place& /*gradient*/) {
       const auto held = stored.find(node);
@@ -212,8 +212,8 @@ class ScalarStep {
     return sum;
   }
 
-  // A linear average of the step's start, at the particle's place, and its gradient. Pressure is that of the water that
-  // seeps.
+  // Linear average at the beginning of the step, at the particle's position, and its gradient. Pressure is that of the
+  // seeping water.
   struct Seen {
     double value = 0.0;
     Place gradient = Place::Zero();
@@ -253,7 +253,7 @@ class ScalarStep {
       const Sums held = stored();
       const auto second = rates(flows, held);
       for (Point<Dim>& p : points_) {
-        const double taken = p.capacity * change(p, second) + orphan_heat(p, held);
+        const double taken = p.capacity * change(p, second) + unreached_heat(p, held);
         p.old_temperature = p.temperature;
         if (p.heat_content + taken != p.heat_content) {
           p.heat_content += taken;
@@ -302,7 +302,7 @@ class ScalarStep {
     }
   }
 
-  // Seepage to nodes, pore space, and what subgrid diffusion takes of it.
+  // Seepage to nodes, pore space, and the contribution of subgrid diffusion to it.
   [[nodiscard]] Carried<Dim> seepage_of(const Point<Dim>& p) const {
     const auto& band = simulation_.model().band;
     const Seen around = seen(p, mpm::Averages::pore_pressure);
@@ -317,7 +317,7 @@ class ScalarStep {
             {flowing ? Place(-flow * around.gradient) : Place(Place::Zero())}};
   }
 
-  // The volume and pressure that nodes see of the water that seeps; of all matter where frozen rows drain.
+  // Volume and pressure of seeping water for the nodes; of all material if frozen rows drain.
   [[nodiscard]] Carried<Dim> seeping_water(const Point<Dim>& p) const {
     const band::FrozenRows rows = simulation_.model().band.frozen_rows;
     const bool counts = rows == band::FrozenRows::draining || p.temperature >= tref;
@@ -325,7 +325,7 @@ class ScalarStep {
     return {{volume, counts ? p.volume * p.pore_pressure : 0.0}, {}};
   }
 
-  // What subgrid diffusion brings to the pressure.
+  // Pressure change due to subgrid diffusion.
   [[nodiscard]] double by_subgrid_diffusion(const Point<Dim>& p, double level) const {
     const double diffusivity =
         p.scaling * p.scaling *

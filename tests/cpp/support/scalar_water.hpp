@@ -1,4 +1,4 @@
-// Pressures and water of one particle after heat and seepage: what band/pressure_kernels.hpp must give.
+// Reference for band/pressure_kernels.hpp: pressures and water of one particle after heat and seepage.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,8 @@ class ScalarWater {
   ScalarWater(const sim::Model<Dim, double>& model, const ScalarColumns<Dim>& columns)
       : model_(model), columns_(columns) {}
 
-  // seeped: what seepage brings to the pressure [Pa]; drained_depth: below the top, where it is that of the air [m].
+  // seeped: pressure change due to seepage [Pa]; drained_depth: depth below the top within which the pressure is
+  // atmospheric [m].
   void update(Point<Dim>& p, double seeped, double drained_depth) const {
     const auto& band = model_.band;
     const double load_change = load(p);
@@ -49,7 +50,7 @@ class ScalarWater {
     return p.porosity / model_.band.phases.water_bulk_modulus + model_.band.skeleton_compressibility;
   }
 
-  // N as it is now; returns its change.
+  // Updates N; returns its change.
   double load(Point<Dim>& p) const {
     if (!model_.band.needs_normal_load()) {
       return 0.0;
@@ -65,7 +66,7 @@ class ScalarWater {
                         (p.temperature - from);
   }
 
-  // The surplus of water, as a pressure or as a void.
+  // Excess water, as a pressure or as a void.
   double balanced(Point<Dim>& p, double before, double from, double load_change) const {
     const auto& band = model_.band;
     const double to = std::max(p.temperature, tref);

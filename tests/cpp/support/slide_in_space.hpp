@@ -1,4 +1,4 @@
-// A small slide in space, for tests of what a run gathers.
+// Small 3D slide for tests of run records.
 #pragma once
 
 #include <fmt/format.h>
@@ -7,8 +7,8 @@
 
 namespace thawslide::testing_support {
 
-// A frictionless box of 6 x 4 x 3 m on a plane of 25 degrees that falls towards +x, with warm ice in it, on a grid of
-// 1 m; `body`: more keys of the box.
+// Frictionless box of 6 x 4 x 3 m of warm ice on a plane of 25 degrees that falls towards +x, on a grid of 1 m; `body`:
+// more keys of the box.
 inline config::Case slide_in_space(const std::string& body = "", const std::vector<std::string>& sets = {}) {
   return paper_case(fmt::format(R"(
 [case]

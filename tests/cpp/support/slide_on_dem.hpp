@@ -1,4 +1,4 @@
-// A slide on a terrain model, both made in memory.
+// Slide on a DEM, both created in memory.
 #pragma once
 
 #include <fstream>
@@ -16,9 +16,9 @@
 
 namespace thawslide::testing_support {
 
-using Height = std::function<double(double x, double y)>;  // [m], of places in [m]
+using Height = std::function<double(double x, double y)>;  // [m], at positions in [m]
 
-// The sole body of a case of slide_on_dem().
+// The only body of a case of slide_on_dem().
 const std::string release_table = "[body.slide]\nshape = \"release\"\nthickness = { raster = \"thickness.tif\" }\n";
 
 // Time [s], grid and domain [m].
@@ -27,8 +27,8 @@ struct Frame {
   Position least, greatest;
 };
 
-// The text of a case in which a release of the material "matter" slides with Coulomb friction [degrees] alone;
-// `material`: the tables of the material, and more.
+// Text of a case in which a release of the material "matter" slides with Coulomb friction [degrees] alone; `material`:
+// tables of the material and others.
 inline std::string release_on_dem(const Frame& frame, const std::string& material, double friction_angle) {
   const auto list = [](const Position& p) { return fmt::format("[{}, {}, {}]", p[0], p[1], p[2]); };
   return fmt::format(R"(
@@ -49,7 +49,7 @@ file = "dem.tif"
          material + release_table + "material = \"matter\"\n" + friction_alone(friction_angle);
 }
 
-// Rock that hardly deforms, under the stress of a slab on a slope; viscosity over stiffness [s].
+// Rock that barely deforms, under the stress of a slab on a slope; viscosity divided by stiffness [s].
 inline std::string elastic_rock(double viscosity_time) {
   return fmt::format(R"(
 [material.matter]
@@ -63,8 +63,8 @@ slope_shear = true
                      viscosity_time);
 }
 
-// A case with `text`, in which the terrain model is terrain.file = "dem.tif" and the release is `release_table`. The
-// files are there, and empty: what they stand for is in the site.
+// Case with `text`, in which the DEM is terrain.file = "dem.tif" and the release is `release_table`. The files exist
+// but are empty: their contents are in the site.
 inline config::Case case_on_dem(const std::string& text, const std::vector<std::string>& sets = {}) {
   const std::filesystem::path folder = folder_of_this_test();
   std::ofstream(folder / "dem.tif");
@@ -72,14 +72,14 @@ inline config::Case case_on_dem(const std::string& text, const std::vector<std::
   return paper_case(text, sets);
 }
 
-// Points `cell` [m] apart over the rectangle between two places.
+// Points `cell` [m] apart over the rectangle between two points.
 inline Raster raster_between(const Place& least, const Place& greatest, double cell, const Height& height) {
   const auto count = [&](int axis) { return 1 + static_cast<int>(std::lround((greatest - least)[axis] / cell)); };
   return raster(least[0], least[1], cell, count(0), count(1), height);
 }
 
-// The thickness [m] over the rectangle between two places, with points at the centres of squares of side `cell` [m]:
-// beyond the rectangle there is none, half a cell away.
+// Thickness [m] over the rectangle between two points, sampled at the centres of squares of side `cell` [m]: it falls
+// to zero half a cell outside the rectangle.
 inline Raster thickness_between(const Place& least, const Place& greatest, double cell, const Height& thickness) {
   const Place half = Place::Constant(0.5 * cell);
   return raster_between(least + half, greatest - half, cell, thickness);
@@ -92,7 +92,7 @@ inline config::Site site_of(Raster ground, Raster thickness) {
   return site;
 }
 
-// Mean over the particles, by mass, of position [m, absolute] and velocity [m/s].
+// Mass averages over the particles of position [m, absolute] and velocity [m/s].
 struct CentreOfMass {
   double mass = 0.0;
   Position position = Position::Zero(), velocity = Position::Zero();

@@ -1,4 +1,4 @@
-// Ground from small terrain models, and what the nodes of a block know of it.
+// Ground from small DEMs, and its data at the nodes of a block.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ using Place = Vector<double, 2>;
 using Position = Vector<double, 3>;
 using Node = terrain::GroundAtNode<3, double>;
 
-constexpr int edge = 4;  // nodes of a block
+constexpr int edge = 4;  // nodes per block, along each axis
 constexpr double no_data = std::numeric_limits<double>::quiet_NaN();
 
 inline Raster raster(double x, double y, double cell, int columns, int rows,
@@ -44,13 +44,13 @@ inline std::vector<Node> block_at(const terrain::HeightField& ground, const Posi
 
 inline std::size_t node_number(int i, int j, int k) { return static_cast<std::size_t>(i + edge * (j + edge * k)); }
 
-// One node's share, wherever in the block it is.
+// Ground at one node, wherever it is in the block.
 inline Node node_at(const terrain::HeightField& ground, const Position& position, double cell, int i = 1, int j = 2,
                     int k = 1) {
   return block_at(ground, position - cell * Position(i, j, k), cell)[node_number(i, j, k)];
 }
 
-// The triangles of a terrain model, put together here once more.
+// Triangles of a DEM, constructed independently.
 inline std::vector<std::array<Position, 3>> triangles(const Raster& points) {
   std::vector<std::array<Position, 3>> all;
   for (int row = 0; row + 1 < points.rows; ++row) {

@@ -1,4 +1,4 @@
-// A case with every mechanism, for tests of whole steps.
+// Case with every mechanism, for tests of whole steps.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,9 +11,9 @@
 
 namespace thawslide::testing_support {
 
-// Two bodies on a slope, one frozen and one melted, with every mechanism; every body has its own particle size and its
-// own count of particles a cell, so that batches fall out of step with nodes. length, height: of the left body [m];
-// speed: of both down the slope [m/s]; terrain: its table; sets: what else the case has.
+// Two bodies on a slope, one frozen and one melted, with every mechanism. Each body has a different particle size and
+// number of particles per cell, so that SIMD batches are not aligned with nodes. length, height: of the left body [m];
+// speed: of both down the slope [m/s]; terrain: its table; sets: further keys of the case.
 template <int Dim>
 config::Case two_bodies(double cohesion, double length = 7.0, double height = 5.0, double speed = 0.0,
                         const std::string& terrain = "type = \"flat\"\nelevation = 0.0",
@@ -81,7 +81,7 @@ thickness = 0.1
                     sets);
 }
 
-// A bed of melted matter below two_bodies, loose enough to be taken up.
+// Bed of melted material below two_bodies, weak enough to be entrained.
 inline std::vector<std::string> loose_bed() {
   return {"bed.depth={x=[-4.0,8.0],value=[0.2,0.6]}",
           "bed.strength=100.0",

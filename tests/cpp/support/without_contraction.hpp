@@ -1,6 +1,5 @@
-// Included before all else where bits are compared (tests/CMakeLists.txt). Eigen adds up small vectors of numbers in
-// registers of its own, with contracted products: not here, while its types keep the alignment that they have
-// elsewhere.
+// Included first where results are compared bitwise (tests/CMakeLists.txt). It prevents Eigen from summing small
+// vectors in registers with contracted products. The alignment of its types stays the same as elsewhere.
 #pragma once
 
 #define EIGEN_DONT_VECTORIZE

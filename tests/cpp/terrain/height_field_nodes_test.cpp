@@ -1,4 +1,4 @@
-// What nodes take of the triangulated surface of a terrain model: area, space, normal and distance.
+// What nodes take of the triangulated surface of a DEM: area, space, normal and distance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -303,7 +303,7 @@ TEST(HeightField, ErrorsFallWithTheSquareOfTheSpacing) {
     }
     return nodes;
   };
-  verification::Record record("Terrain models of a smooth surface",
+  verification::Record record("DEMs of a smooth surface",
                               "Hills of 25 m and 6 m are DEMs with points each 20 m, 10 m and 5 m. The test evaluates "
                               "the ground's area at nodes of cells of 20 m, and its height.",
                               "a model of the same surface with points each 0.625 m; of heights, the surface itself",

@@ -1,4 +1,4 @@
-// The ground from a terrain model: heights, distances, what is known, and what goes in the place of missing points.
+// The ground from a DEM: heights, distances, what is known, and what goes in the place of missing points.
 #include "terrain/height_field.hpp"
 
 #include <gtest/gtest.h>

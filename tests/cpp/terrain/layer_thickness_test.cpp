@@ -57,7 +57,7 @@ TEST(LayerThickness, IsTheSameAllAlongASlopeThatRepeatsWithTheGrid) {
   EXPECT_NEAR(layer.largest(Layer::Place(0.0), Layer::Place(500.0)), vertical / std::sqrt(2.0), 1e-9);
 }
 
-// A terrain model of the same plane has the same layer, along either axis.
+// A DEM of the same plane has the same layer, along either axis.
 TEST(LayerThickness, OfATerrainModelIsThatOfTheProfile) {
   constexpr double gradient = 0.6, cell = 10.0, spacing = 5.0;
   Layer along(plane(gradient, 3.0), cell, spacing, Layer::Filling::on_ground);

@@ -33,14 +33,14 @@ AtEnd slide(const std::vector<std::string>& more) {
   for (double end = 0.05; end < 5.0 + 1e-9; end += 0.05) {
     run_until(simulation, end);
     const double ratio = median_over_base(
-        simulation, [&](const auto& piece) { return columns->means_now(piece).pore_pressure / piece.load; });
+        simulation, [&](const auto& segment) { return columns->means_now(segment).pore_pressure / segment.load; });
     result.half_afloat = result.half_afloat == 0.0 && ratio > 0.5 ? end : result.half_afloat;
   }
   const sim::HistoryRow row = sim::history_row(simulation);
   result.velocity = value_of(row, "mean_velocity_m_s");
   result.displacement = value_of(row, "mean_displacement_m");
   result.temperature =
-      median_over_base(simulation, [&](const auto& piece) { return columns->means_now(piece).temperature; });
+      median_over_base(simulation, [&](const auto& segment) { return columns->means_now(segment).temperature; });
   return result;
 }
 

@@ -1,4 +1,4 @@
-// V channels on terrain models, for the tests of some and of all.
+// V channels on DEMs, for the tests of some and of all.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A small block on curved terrain models: a bowl, and a channel along a helix.
+// A small block on curved DEMs: a bowl, and a channel along a helix.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -120,7 +120,7 @@ struct Helix {
 };
 
 // How far a block has come along the channel when it is at the point that the equation of motion tells, over the way of
-// that point: at each quarter of a turn. The points of the terrain model are `spacing` [m] apart.
+// that point: at each quarter of a turn. The points of the DEM are `spacing` [m] apart.
 std::vector<double> run_along(double spacing, double turns, Curve& curve) {
   const Helix helix;
   const Raster ground = raster_between(Place(-230.0, -230.0), Place(230.0, 230.0), spacing,

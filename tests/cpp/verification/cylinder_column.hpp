@@ -1,4 +1,4 @@
-// Collapse of cylindrical granular columns on a flat terrain model.
+// Collapse of cylindrical granular columns on a flat DEM.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ inline double runout_of_lube(double aspect) { return aspect < 1.7 ? 1.24 * aspec
 // r_inf - r_0 over r_0, r_inf being the radius within which 99.5 % of the mass lies.
 inline double runout(const sim::Simulation<3, double>& simulation) {
   const auto& particles = simulation.particles();
-  std::vector<sim::MassOnWay> by_radius;
+  std::vector<sim::MassOnPath> by_radius;
   double mass = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Position place = particles.position.get<Position>(p) + simulation.model().origin;

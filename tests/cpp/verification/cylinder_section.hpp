@@ -36,7 +36,7 @@ inline double runout_of_section(int cells, const std::string& transfer) {  // ac
                            "mechanics.transfer=" + transfer}));
   run_until(simulation, 5.0);
   const auto& particles = simulation.particles();
-  std::vector<sim::MassOnWay> by_radius;
+  std::vector<sim::MassOnPath> by_radius;
   double mass = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     by_radius.push_back({particles.position(p, 0), particles.mass(p), p});

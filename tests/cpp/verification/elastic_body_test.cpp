@@ -131,9 +131,9 @@ Landing land(double cell, bool distance_check) {
 }
 
 TEST(ElasticImpact, ComesWhereTheEdgesMeet) {
-  Record record(
-      "Early contact", "The same bar comes from two cells above the ground, with basal.distance_check on and off.",
-      "its lower end touches at height 0; it leaves with the energy it came with", "docs/theory.md, section 5");
+  Record record("Early contact",
+                "The same bar comes from two cells above the ground, with basal.distance_check on and off.",
+                "its lower end touches at height 0; it leaves with the energy it came with", "docs/theory/contact.md");
   const std::vector<double> cells{2.0, 1.0, 0.5};
   std::vector<double> early;
   for (const double cell : cells) {

@@ -123,7 +123,7 @@ TEST(Entrainment, SweepsUpALayerInSpace) { sweep_up<3>("3D"); }
 // With Coulomb friction mu on a bed of mu_b, by the law of momentum: the drag on the slide is mu m g whatever it takes
 // up, so v = v0 - mu g t, and dm v = (mu - mu_b) m g dt.
 template <int Dim>
-void take_up_by_friction(const std::string& where) {
+void entrain_by_friction(const std::string& where) {
   constexpr double angle = 17.0, bed_angle = 14.0;  // degrees
   const double mu = std::tan(angle * pi<double> / 180.0), mu_bed = std::tan(bed_angle * pi<double> / 180.0);
   Record record("Entrainment: a block whose friction outdoes the bed's, " + where,
@@ -146,8 +146,8 @@ void take_up_by_friction(const std::string& where) {
   record.expect_near("momentum left over, as a share", now.residual, 0.0, 1e-13);
 }
 
-TEST(Entrainment, FrictionTakesUpWhatItHasImpulseForInThePlane) { take_up_by_friction<2>("2D"); }
-TEST(Entrainment, FrictionTakesUpWhatItHasImpulseForInSpace) { take_up_by_friction<3>("3D"); }
+TEST(Entrainment, FrictionTakesUpWhatItHasImpulseForInThePlane) { entrain_by_friction<2>("2D"); }
+TEST(Entrainment, FrictionTakesUpWhatItHasImpulseForInSpace) { entrain_by_friction<3>("3D"); }
 
 // A bed that withstands more than friction brings stays where it is, and the slide moves as if it were not there.
 TEST(Entrainment, ABedThatWithstandsTheShearStays) {

@@ -1,4 +1,4 @@
-// A profile as a terrain model that does not vary across, between smooth walls: what runs over it runs as in 2D.
+// A profile as a DEM that does not vary across, between smooth walls: what runs over it runs as in 2D.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -114,7 +114,7 @@ class ManufacturedVibration {
               mpm::make_stencil<decltype(shape)>(grid_, batch, place, model_.sizes.of(particles_, batch), model_.sides);
           mpm::Contribution<2, double, 2> force;
           for (std::size_t a = 0; a < 2; ++a) {
-            force.value[a] = Lanes<double>::of([&](std::size_t lane) {
+            force.value[a] = Simd<double>::of([&](std::size_t lane) {
               const std::uint32_t p = batch.particle[lane];
               return particles_.mass(p) * body_force(start(p))[static_cast<int>(a)];
             });
@@ -133,7 +133,7 @@ class ManufacturedVibration {
   }
 
   void step(double dt) {
-    mpm::BadParticle bad;
+    mpm::InvalidParticle invalid;
     grid_.update(particles_, 64);
     mpm::momentum_to_grid(grid_, particles_, model_, nodes_);
     add_body_force();
@@ -142,9 +142,9 @@ class ManufacturedVibration {
     mpm::move_particles(grid_, particles_, model_, dt, nodes_);
     terrain::constrain_mapped_back(grid_, no_ground, constraints_, terrain::ContactModel<2, double>{}, model_.gravity,
                                    time_, dt, nodes_);
-    mpm::update_stress_and_porosity(grid_, particles_, model_, dt, nodes_, bad);
-    mpm::take_new_positions(particles_, Vector<double, 2>(Vector<double, 2>::Zero()), constraints_.extent, bad);
-    THAWSLIDE_ASSERT(bad.id < 0, "particle {} failed at {} s", bad.id, time_);
+    mpm::update_stress_and_porosity(grid_, particles_, model_, dt, nodes_, invalid);
+    mpm::update_positions(particles_, Vector<double, 2>(Vector<double, 2>::Zero()), constraints_.extent, invalid);
+    THAWSLIDE_ASSERT(invalid.id < 0, "particle {} failed at {} s", invalid.id, time_);
     time_ += dt;
   }
 
@@ -155,7 +155,7 @@ class ManufacturedVibration {
   mpm::Particles<2, double> particles_;
   mpm::SparseGrid<2, double> grid_;
   mpm::Nodes<2, double> nodes_;
-  mpm::NodeRecords<2, double, 2> body_force_{std::make_shared<mpm::PatchRoom>()};
+  mpm::NodeRecords<2, double, 2> body_force_{std::make_shared<mpm::PatchPool>()};
 };
 
 }  // namespace thawslide::sim

@@ -18,7 +18,7 @@ using sim::Simulation;
 constexpr double height = 20.0, half_length = 200.0, gravity = 9.81, friction_angle = 35.0;
 
 // Friction opposes the motion down the slope, and none acts across it: here, the base has none.
-const std::string pile = R"(
+const std::string column_mass = R"(
 [case]
 dimension = 2
 [time]
@@ -83,7 +83,7 @@ TEST(ParabolicPile, SpreadsAsSavageAndHutterSay) {
                 "Savage and Hutter 1989");
   for (const double cell : {10.0, 5.0}) {
     Simulation<2, double> simulation(testing_support::case_from_text(
-        pile, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 4.5e-3 * cell), parabola()}));
+        column_mass, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 4.5e-3 * cell), parabola()}));
     for (const double time : {10.0, 20.0}) {
       testing_support::run_until(simulation, time);
       record.expect_near(fmt::format("spread over exact, cells of {} m, after {} s", cell, time),

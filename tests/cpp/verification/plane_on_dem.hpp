@@ -1,4 +1,4 @@
-// A block on a planar terrain model, for the tests of some slopes and of all.
+// A block on a planar DEM, for the tests of some slopes and of all.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ struct Slide {
   double area;  // of contact, mean [m2]
 };
 
-// The points of the terrain model, 7 m apart, are nowhere in step with the grid. Those of the thickness are 16 to a
+// The points of the DEM, 7 m apart, are nowhere in step with the grid. Those of the thickness are 16 to a
 // particle's spacing, so that the block ends where it should.
 inline Slide slide(const Plane& plane, const std::vector<std::string>& sets) {
   const Position down = plane.down();

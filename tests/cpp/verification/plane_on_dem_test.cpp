@@ -1,4 +1,4 @@
-// A block on planes of a terrain model.
+// A block on planes of a DEM.
 #include "plane_on_dem.hpp"
 
 namespace thawslide::verification {

@@ -1,4 +1,4 @@
-// Slides on terrain models with noise on their points, filtered by default: for the tests of some and of all.
+// Slides on DEMs with noise on their points, filtered by default: for the tests of some and of all.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Noise on the points of a terrain model acts as friction, unless it is filtered.
+// Noise on the points of a DEM acts as friction, unless it is filtered.
 #ifdef THAWSLIDE_WITH_GIS
 #include "rough_dem.hpp"
 

@@ -1,4 +1,4 @@
-// Slides on terrain models that are turned and shifted against the grid, or are their own mirror image.
+// Slides on DEMs that are turned and shifted against the grid, or are their own mirror image.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ gaps_close_first = true
 // Of particles: mass-weighted place along a direction behind which 99.5 % of the mass lies [m, absolute].
 double front_along(const Simulation<3, double>& simulation, const Place& direction) {
   const auto& particles = simulation.particles();
-  std::vector<sim::MassOnWay> on_way;
+  std::vector<sim::MassOnPath> on_way;
   double mass = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Position place = particles.position.get<Position>(p) + simulation.model().origin;

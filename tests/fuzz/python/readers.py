@@ -124,7 +124,7 @@ def write_run(folder: Path) -> None:
 
 
 class Folder:
-    """A run folder in which one file is written anew for each input."""
+    """A run folder in which one file is written again for each input."""
 
     def __init__(self, name: str) -> None:
         """Make the folder, in memory where the system has such a place."""

@@ -1,0 +1,143 @@
+"""Influence of the cell, the time step, the stiffness and the viscosity on the Lamplugh case with band columns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from reproduction.members import QUANTITIES, Observed
+from reproduction.one_at_a_time import Row
+
+THICKNESSES = (0.21, 0.30, 0.40)  # m, of the band at the start
+CELLS = (20.0, 10.0, 5.0)  # m, the coarsest first
+CELL = 10.0  # m, of the case
+STEP_PER_CELL = 1e-3  # s/m, as in the case
+DOMAIN = (-200.0, 14000.0, 200.0, 2400.0)  # m, x and y
+QUANTITY_NAMES = ("displacement", "runout", "peak")
+
+
+def cell_key(thickness: float, cell: float) -> str:
+    """Return the folder of a run of the table of cells."""
+    return f"e-{thickness:g}-cell-{cell:g}"
+
+
+def cell_rows() -> list[Row]:
+    """Return the runs of the table of cells: each thickness of the band on each cell, the step in proportion."""
+    return [
+        Row(
+            cell_key(thickness, cell),
+            f"e {thickness:g} m, cells of {cell:g} m",
+            (f"band.thickness={thickness:g}", f"grid.cell={cell:g}", f"time.step={STEP_PER_CELL * cell:g}"),
+        )
+        for cell in reversed(CELLS)  # the long runs first
+        for thickness in THICKNESSES
+    ]
+
+
+def variant_cell_key(key: str, cell: float) -> str:
+    """Return the folder of a variant on cells that are not those of the case."""
+    return f"{key}-on-{cell:g}"
+
+
+def variant_cell_rows(variants: Sequence[Row]) -> list[Row]:
+    """Return the runs of variants on the cells that are not those of the case."""
+    return [
+        Row(
+            variant_cell_key(row.key, cell),
+            f"{row.words}, cells of {cell:g} m",
+            (*row.sets, f"grid.cell={cell:g}", f"time.step={STEP_PER_CELL * cell:g}"),
+        )
+        for cell in reversed(CELLS)  # the long runs first
+        if cell != CELL
+        for row in variants
+    ]
+
+
+def _shifted(share: float, cell: float = CELL) -> tuple[str, ...]:
+    """Return the changes that move the grid by a share of a cell, down and to the left."""
+    by = share * cell
+    left, right, low, high = (edge - by for edge in DOMAIN)
+    return (f"grid.min=[{left:g},{low:g}]", f"grid.max=[{right:g},{high:g}]")
+
+
+def numerics_rows() -> list[Row]:
+    """Return the runs that differ from the case in one numerical parameter."""
+    modulus, viscosity = "material.rock_ice.youngs_modulus", "material.rock_ice.viscosity_time"
+    slip = "material.rock_ice.softening_slip"
+    return [
+        Row("half-step", "half the time step", ("time.step=0.005",)),
+        Row("half-modulus", "half of Young's modulus", (f"{modulus}=2.5e8",)),
+        Row("twice-modulus", "twice Young's modulus (shorter step)", (f"{modulus}=1e9", "time.step=0.007")),
+        # The viscous stress is viscosity_time times the shear modulus: these keep it.
+        Row("soft", "half of Young's modulus, the same viscosity", (f"{modulus}=2.5e8", f"{viscosity}=0.005")),
+        Row("softest", "a quarter of Young's modulus, the same viscosity", (f"{modulus}=1.25e8", f"{viscosity}=0.01")),
+        Row(
+            "stiff",
+            "twice Young's modulus, the same viscosity (shorter step)",
+            (f"{modulus}=1e9", f"{viscosity}=0.00125", "time.step=0.007"),
+        ),
+        Row("half-viscosity", "half the viscosity", (f"{viscosity}=0.00125",)),
+        Row("twice-viscosity", "twice the viscosity (shorter step)", (f"{viscosity}=0.005", "time.step=0.008")),
+        Row("half-slip", "half the slip over which the body softens", (f"{slip}=0.435",)),
+        Row("twice-slip", "twice that slip", (f"{slip}=1.74",)),
+        Row(
+            "fine-half-viscosity",
+            "cells of 5 m, half the viscosity",
+            ("grid.cell=5", "time.step=0.005", f"{viscosity}=0.00125"),
+        ),
+        Row("quarter-shift", "the grid shifted by a quarter of a cell", _shifted(0.25)),
+        Row("half-shift", "the grid shifted by half a cell", _shifted(0.5)),
+        Row("twice-column-step", "twice the time step of the columns", ("band.column_step=0.1",)),
+    ]
+
+
+def cells_table(found: Mapping[str, Observed]) -> str:
+    """Return the table of cells: displacement, runout and peak of each thickness, and what the finer two differ by."""
+    lines = ["| e [m] | quantity | " + " | ".join(f"{cell:g} m" for cell in CELLS) + " | finer two differ by |"]
+    lines.append("|---" * (len(CELLS) + 3) + "|")
+    quantities = {each.name: each for each in QUANTITIES}
+    for thickness in THICKNESSES:
+        growth = " | ".join(f"{found[cell_key(thickness, cell)].dilation:.1f}" for cell in CELLS)
+        for name in QUANTITY_NAMES:
+            quantity = quantities[name]
+            values = [getattr(found[cell_key(thickness, cell)], name) for cell in CELLS]
+            difference = abs(values[-1] - values[-2]) / values[-2]
+            shares = f"{100.0 * difference:.1f} %" if np.isfinite(difference) else "none"
+            head = f"{quantity.head} [{quantity.unit}]"
+            numbers = " | ".join(quantity.text(value) for value in values)
+            lines.append(f"| {thickness:g} | {head} | {numbers} | {shares} |")
+        lines.append(f"| {thickness:g} | growth of the volume [%] | {growth.replace('nan', 'none')} | |")
+    return "\n".join(lines)
+
+
+def variant_cells_table(variants: Sequence[Row], found: Mapping[str, Observed]) -> str:
+    """Return one line a variant: some quantities on each cell, the coarsest first."""
+    by_name = {each.name: each for each in QUANTITIES}
+    quantities = [by_name[name] for name in ("displacement", "runout", "peak", "reversal", "stop", "hottest")]
+    lines = ["| run | " + " | ".join(f"{each.head} [{each.unit}]" for each in quantities) + " |"]
+    lines.append("|---" * (len(quantities) + 1) + "|")
+    for row in variants:
+        on_cells = [found[row.key if cell == CELL else variant_cell_key(row.key, cell)] for cell in CELLS]
+        cells = [" / ".join(each.text(getattr(run, each.name)) for run in on_cells) for each in quantities]
+        lines.append(f"| {row.words} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def numerics_table(rows: Sequence[Row], base: Observed, found: Mapping[str, Observed]) -> str:
+    """Return one line a run: displacement, runout and peak, and by how much each differs from the case."""
+    quantities = [each for each in QUANTITIES if each.name in QUANTITY_NAMES]
+    lines = ["| run | " + " | ".join(f"{each.head} [{each.unit}]" for each in quantities) + " | set |"]
+    lines.append("|---" * (len(quantities) + 2) + "|")
+    for row in rows:
+        each = found[row.key]
+        if each.failure and np.isnan(each.peak):
+            lines.append(f"| {row.words} | {each.failure} |{' |' * (len(quantities) - 1)} |")
+            continue
+        cells = []
+        for quantity in quantities:
+            value, of_case = getattr(each, quantity.name), getattr(base, quantity.name)
+            change = 100.0 * (value / of_case - 1.0) if of_case else float("nan")
+            cells.append(f"{quantity.text(value)} ({change:+.1f} %)".replace("-", "−"))
+        lines.append(f"| {row.words} | {' | '.join(cells)} | {' '.join(f'`{setting}`' for setting in row.sets)} |")
+    return "\n".join(lines)

@@ -1,0 +1,239 @@
+"""Quantities that expressions in scripts/page_numbers.toml read from a run, a rigid-block run and a generated page."""
+
+from __future__ import annotations
+
+import re
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from reproduction import freezing
+from reproduction.lamplugh import deposit, read_block
+from reproduction.members import Observed, observed
+from thawslide.arrays import Numbers
+from thawslide.clock import time_of_speed
+from thawslide.figures.force import force_in_band, seismic_force
+from thawslide.figures.force_record import Comparison, compared, filtered
+from thawslide.force_record import PARTS
+from thawslide.history import History
+from thawslide.key_numbers import stop_time
+from thawslide.run import Run
+from thawslide.targets import Band
+
+
+class Curve:
+    """A history by the names of its columns: values at the end, extremes, and values at a time [s]."""
+
+    def __init__(self, history: History) -> None:
+        self.history = history
+
+    def end(self, column: str) -> float:
+        """Return the last value."""
+        return float(self.history[column][-1])
+
+    def maximum(self, column: str) -> float:
+        """Return the largest value."""
+        return float(np.nanmax(self.history[column]))
+
+    def time_of_maximum(self, column: str) -> float:
+        """Return the time [s] of the largest value."""
+        return float(self.history["time_s"][int(np.nanargmax(self.history[column]))])
+
+    def first_time(self, column: str, value: float) -> float:
+        """Return when [s] a column first reaches a value, nan where it never does."""
+        reached = np.flatnonzero(self.history[column] >= value)
+        return float(self.history["time_s"][reached[0]]) if reached.size else float("nan")
+
+    def at(self, time: float, column: str) -> float:
+        """Return the value at a time [s]."""
+        return float(np.interp(time, self.history["time_s"], self.history[column]))
+
+
+class Measured(Curve):
+    """A run folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self.run = Run(folder)
+        super().__init__(self.run.history)
+
+    @cached_property
+    def observed(self) -> Observed:
+        """The numbers of the results page of the case on band columns."""
+        return observed(self.run.folder)
+
+    @cached_property
+    def peak(self) -> float:
+        """The peak of the mean velocity [m/s]."""
+        return self.maximum("mean_velocity_m_s")
+
+    @cached_property
+    def peak_time(self) -> float:
+        """The time [s] of that peak."""
+        return self.time_of_maximum("mean_velocity_m_s")
+
+    @cached_property
+    def front(self) -> float:
+        """How far the front has come [m]: at the end less at the start."""
+        known = self.history["runout_m"][np.isfinite(self.history["runout_m"])]
+        return float(known[-1] - known[0])
+
+    def fact(self, name: str) -> float:
+        """Return an entry of run.json."""
+        return float(self.run.facts[name])
+
+    def speed_reached(self, speed: float) -> float:
+        """Return when [s] the mean velocity first reaches a speed [m/s]."""
+        return time_of_speed(self.run, speed)
+
+    def stop(self, below: float) -> float:
+        """Return when [s] the mean velocity falls below a speed [m/s] for good, inf where it does not."""
+        time = stop_time(self.run, below)
+        return float("inf") if time is None else time
+
+    def force(self, shortest: float = 0.0, longest: float = 0.0) -> float:
+        """Return the largest seismic force [N], of periods between two [s], or of all.
+
+        Of all periods, the first second does not count: the stress put in at t = 0 adjusts then.
+        """
+        if longest:
+            return float(np.nanmax(force_in_band(self.run, Band(shortest, longest))))
+        return float(np.nanmax(self._whole_force()))
+
+    @property
+    def force_time(self) -> float:
+        """The time [s] of the largest force of all periods."""
+        return float(self.history["time_s"][int(np.nanargmax(self._whole_force()))])
+
+    @property
+    def first_force(self) -> tuple[float, float]:
+        """The time [s] and the size [N] of the largest force of the first second."""
+        first = self.history["time_s"] <= 1.0
+        force = np.nan_to_num(seismic_force(self.run)[1][first])
+        return float(self.history["time_s"][first][int(np.argmax(force))]), float(force.max())
+
+    def _whole_force(self) -> Numbers:
+        return np.asarray(np.where(self.history["time_s"] > 1.0, seismic_force(self.run)[1], np.nan))
+
+    @cached_property
+    def comparison(self) -> Comparison:
+        """The run and the force record in the record's band."""
+        return compared(self.run)
+
+    @property
+    def reversal(self) -> float:
+        """How long [s] the vertical force takes from its largest upward to its largest downward value."""
+        found = self.comparison.run.reversal
+        return found.duration if found else float("nan")
+
+    @property
+    def record_reversal(self) -> float:
+        """The same of the force record."""
+        found = self.comparison.record.reversal
+        return found.duration if found else float("nan")
+
+    def record_force(self, shortest: float, longest: float) -> float:
+        """Return the largest force [N] of the record in periods between two [s]."""
+        record = self.run.force_record
+        assert record is not None
+        parts = [filtered(record.time, record.best[part], record.time, Band(shortest, longest)) for part in PARTS]
+        return float(np.max(np.sqrt(sum(part * part for part in parts))))
+
+    @cached_property
+    def freezing_errors(self) -> tuple[float, float]:
+        """The largest and the root mean square error [K] of the freezing bar."""
+        return freezing.errors(self.run)
+
+    def depth_of(self, temperature: float) -> float:
+        """Return the distance [m] from the cold end of the freezing bar at which it has a temperature [C] at last."""
+        x, found = freezing.profile(self.run)
+        return float(np.interp(temperature, found, x))
+
+    @property
+    def taken_share(self) -> float:
+        """The mass taken off the bed over that of the slide at the start."""
+        return self.end("entrained_mass_kg") / float(self.history["mass_kg"][0])
+
+    @property
+    def columns_over_slide(self) -> float:
+        """The ice and water of all columns of the band over those of the slide, at most."""
+        slide = self.history["ice_kg"] + self.history["water_kg"]
+        return float(np.max(self.history["column_water_kg"] / slide))
+
+    @property
+    def volume(self) -> float:
+        """The volume [m3] of a slide in 3D at the start."""
+        return float(np.sum(self.run.snapshot(0, fields=["volume"])["volume"]))
+
+    @property
+    def band_share(self) -> float:
+        """The share of the slide's mass that lies in the scaled band at the start."""
+        shot = self.run.snapshot(0, fields=["mass", "in_band"])
+        return float(np.sum(shot["mass"] * shot["in_band"]) / np.sum(shot["mass"]))
+
+    @property
+    def velocity_noise(self) -> float:
+        """The root mean square velocity [m/s] of particles at the end of a run in 2D less the mean of their cell.
+
+        A mean over few particles follows each of them: one particle a cell does not count.
+        """
+        shot = self.run.snapshot(-1)
+        cells = np.floor(shot.points[:, :2] / float(self.run.section("grid")["cell"])).astype(np.int64)
+        _, cell = np.unique(cells, axis=0, return_inverse=True)
+        velocity = np.asarray(shot["velocity"], dtype=np.float64)[:, :2]
+        means = [np.bincount(cell, part) / np.bincount(cell) for part in velocity.T]
+        apart = velocity - np.stack([mean[cell] for mean in means], axis=1)
+        return float(np.sqrt(np.sum(apart**2) / (len(apart) - len(means[0]))))
+
+    def length(self, place: int) -> float:
+        """Return the length [m] of the slide in a snapshot, from its last particle to its first."""
+        return float(np.ptp(self.run.snapshot(place, fields=["volume"]).points[:, 0]))
+
+    @property
+    def hottest_particle(self) -> float:
+        """The highest temperature [C] of a particle in any snapshot."""
+        return max(
+            float(np.max(self.run.snapshot(place, fields=["temperature"])["temperature"]))
+            for place in range(self.run.times.size)
+        )
+
+    def deposit_thickness(self, start: float, end: float) -> Numbers:
+        """Return the thickness [m] of the deposit from x to x [m], in means over 100 m."""
+        x, thickness = deposit(self.run)
+        return np.asarray(thickness[(x >= start) & (x <= end)])
+
+
+class Block(Curve):
+    """The table that `thawslide block` wrote of a case as a rigid block."""
+
+    def __init__(self, table: Path) -> None:
+        super().__init__(read_block(table))
+
+    @property
+    def safety(self) -> float:
+        """The safety factor at the start."""
+        return float(self.history["sliding_strength_Pa"][0] / self.history["driving_traction_Pa"][0])
+
+
+def cells_of(line: str) -> list[str]:
+    """Return the cells of a row of a table, without bold."""
+    return [cell.strip().strip("*") for cell in line.strip().strip("|").split("|")]
+
+
+def from_table(source: str, column: str, *keys: str) -> float:
+    """Return a number of a page's table: of the row that begins with these cells; the last one of a range.
+
+    KeyError where no table has this column and this row.
+    """
+    header: list[str] = []
+    previous = ""
+    for line in source.splitlines():
+        if re.fullmatch(r"\|[-| :]+\|", line.strip()):
+            header = cells_of(previous)
+        elif column in header and (cells := cells_of(line))[: len(keys)] == list(keys):
+            value = cells[header.index(column)].partition(" (")[0]
+            return float(re.findall(r"[-−]?[\d,]+(?:\.\d+)?", value)[-1].replace(",", "").replace("−", "-"))
+        elif not line.startswith("|"):
+            header = []
+        previous = line
+    raise KeyError(f"no table has the column '{column}' and a row that begins with {keys}")

@@ -1,0 +1,119 @@
+"""What mkdocs needs for pages that stay where the repository has them: their files, lists as on GitHub, formulas.
+
+mkdocs.yml names this file. The site has the tree of the repository, and the same relative links work in both.
+"""
+
+import html
+import re
+import subprocess
+import unicodedata
+from pathlib import Path
+
+import ziamath
+from latex2mathml.converter import convert
+from mkdocs.exceptions import PluginError
+from mkdocs.structure.files import File, Files
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGES = re.compile(r"[^/]+\.md|(docs|benchmarks)/.+\.md|cases/[^/]+/[^/]+\.md")
+LINK = re.compile(r"\]\(([^)\s#]+)")
+FENCED = re.compile(r"^ *```.*?^ *```", re.MULTILINE | re.DOTALL)
+ASSETS = {
+    "assets/site.css": ROOT / "scripts" / "site.css",
+    "assets/iframe-worker.js": ROOT / "scripts" / "site_worker.js",
+    "assets/mathematics.ttf": Path(ziamath.__file__).parent / "fonts" / "STIXTwoMath-Regular.ttf",
+}
+
+ITEM = re.compile(r"( *)([-*+]|\d+[.)]) +")
+FORMULA = re.compile(r'<(span|div) class="arithmatex">\\[(\[](.*?)\\[)\]]</\1>', re.DOTALL)
+TAG = re.compile(r"\\tag\{([^}]*)\}")
+CAPITAL = re.compile(r"<mi>(&#x0039[1-9A-F];|&#x003A[0-9];)</mi>")
+FUNCTION = re.compile(r"<mi>([a-z]{2,})</mi>(?!<mo[^>]*>&#x00028;)")
+VARIANT = re.compile(r'<(mi|mn) mathvariant="(bold|bold-italic|script|double-struck)">(.*?)</\1>')
+
+
+def files_of_site():
+    """Return the paths of the pages, and of the files of the repository to which they link."""
+    listed = subprocess.run(
+        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        check=True,
+        capture_output=True,
+        text=True,
+    ).stdout
+    known = {path for path in listed.splitlines() if (ROOT / path).is_file()}
+    pages = {path for path in known if PAGES.fullmatch(path)}
+    linked = set()
+    for page in pages:
+        for target in LINK.findall(FENCED.sub("", (ROOT / page).read_text(encoding="utf-8"))):
+            path = (ROOT / page).parent.joinpath(target).resolve()
+            if path.is_relative_to(ROOT):
+                linked.add(str(path.relative_to(ROOT)))
+    return sorted(pages | (linked & known))
+
+
+def on_files(files, config):
+    """Replace the files of docs_dir by those of the repository."""
+    theme = [file for file in files if file.src_dir != config.docs_dir]
+    own = {path: ROOT / path for path in files_of_site()} | ASSETS
+    return Files(theme + [File.generated(config, path, abs_src_path=str(file)) for path, file in own.items()])
+
+
+def on_page_markdown(markdown, **_):
+    """Indent what belongs to an item of a list by four columns a level, as Python-Markdown needs it."""
+    depths = []  # columns in which the text of the items begins that are open
+    fence = False
+    lines = []
+    for line in markdown.splitlines():
+        indent = len(line) - len(line.lstrip(" "))
+        item = None if fence else ITEM.match(line)
+        if line.strip() and not fence:
+            while depths and indent < depths[-1] and (item or not lines[-1].strip()):
+                depths.pop()
+        moved = min(indent, depths[-1]) if depths else 0
+        lines.append(" " * 4 * len(depths) + line[moved:] if line.strip() else "")
+        if item:
+            depths.append(item.end())
+        if line.lstrip().startswith("```"):
+            fence = not fence
+    return "\n".join(lines) + "\n"
+
+
+def styled(match):
+    """Return an element whose variant is in the character: browsers ignore the attribute."""
+    name, variant, text = match.groups()
+    letter = html.unescape(text)
+    described = unicodedata.name(letter).replace(" LETTER", "").removeprefix("LATIN ").removeprefix("GREEK ")
+    style = "" if "DIGIT" in described and variant != "bold" else variant.upper().replace("-", " ")
+    for name_of_letter in (f"MATHEMATICAL {style} {described}", f"{style} {described}"):
+        try:
+            return f"<{name}>{unicodedata.lookup(name_of_letter)}</{name}>"
+        except KeyError:
+            continue
+    raise PluginError(f"no {variant} form of {letter} exists")
+
+
+def formula(match):
+    """Return a formula in MathML, its number beside it."""
+    kind, latex = match[1], html.unescape(match[2])
+    tag = TAG.search(latex)
+    latex = TAG.sub("", latex).replace("{aligned}", "{split}").strip()
+    latex = re.sub(r"\\mathrm\s*(?:\{(\w)\}|(\w)\b)", r"\\text{\1\2}", latex)
+    drawn = convert(latex, display="block" if kind == "div" else "inline")
+    if "\\" in drawn or "&</mi>" in drawn:
+        raise PluginError(f"latex2mathml does not know all of this formula: {latex}")
+    drawn = VARIANT.sub(styled, drawn)
+    drawn = CAPITAL.sub(r'<mi mathvariant="normal">\1</mi>', drawn)  # upright, as in LaTeX
+    drawn = FUNCTION.sub(r'<mo lspace="0.17em" rspace="0.17em">\1</mo>', drawn)
+    if kind == "span":
+        return drawn
+    number = f"<span>({tag[1]})</span>" if tag else ""
+    return f'<div class="formula"><div>{drawn}</div>{number}</div>'
+
+
+def on_page_content(content, page, **_):
+    """Convert the formulas of a page."""
+    try:
+        return FORMULA.sub(formula, content)
+    except PluginError as error:
+        raise PluginError(f"{page.file.src_uri}: {error}") from error

@@ -1,0 +1,90 @@
+#include "app/boiling_warning.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "physics/boiling.hpp"
+
+namespace thawslide::app {
+
+namespace {
+
+constexpr double boiling = physics::Steam<double>::boiling_at_atmosphere;  // [C]
+constexpr double beyond_belief = 210.0;  // [C] steam at this temperature lifts about 80 m of slide
+
+template <int Dim>
+double warmest_particle(const sim::Simulation<Dim, double>& simulation) {
+  double temperature = -HUGE_VAL;
+  for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
+    temperature = std::max(temperature, simulation.particles().temperature(p));
+  }
+  return temperature;
+}
+
+bool has_boiled_dry(const physics::BandColumn<double>& column) {
+  for (int k = 0; k < physics::ColumnCells::slide; ++k) {
+    if (column.water[k] <= 0.0 && column.temperature[physics::ColumnCells::ground + k] > boiling) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::string of_dry(double time, std::ptrdiff_t dry, double hottest) {
+  return fmt::format(
+      "warning: at {:g} s {} of the base {} boiled dry, and the hottest is at {:.0f} C: where no water is left nothing "
+      "limits temperature and friction. A thicker band (band.thickness) or one that mixes (band.mixing_slip) keeps it "
+      "cooler; docs/choosing-the-base.md.",
+      time, dry == 1 ? "a column" : fmt::format("{} columns", dry), dry == 1 ? "has" : "have", hottest);
+}
+
+std::string of_hot(double time) {
+  const double load = physics::saturation_pressure(beyond_belief) - physics::Steam<double>::atmosphere;
+  return fmt::format(
+      "warning: at {:g} s the hottest column of the base passes {:g} C, where water boils under {:.1f} MPa: there the "
+      "load "
+      "is more than that, or the water is gone; docs/choosing-the-base.md.",
+      time, beyond_belief, load / 1e6);
+}
+
+std::string of_no_boiling(double time, const char* reason) {
+  return fmt::format(
+      "warning: at {:g} s the base passes {:g} C. {}: beyond this temperatures are a bookkeeping of heat, not a "
+      "forecast.",
+      time, boiling, reason);
+}
+
+}  // namespace
+
+template <int Dim>
+std::string BoilingWatch::warning(const sim::Simulation<Dim, double>& simulation) {
+  const auto once = [](bool& is_specified, bool holds) {
+    const bool is_new = holds && !is_specified;
+    is_specified = is_specified || holds;
+    return is_new;
+  };
+  const double time = simulation.time();
+  const auto* columns = simulation.band_columns();
+  if (columns == nullptr || !simulation.parameters().heat.steam) {
+    const double hottest = columns == nullptr ? warmest_particle(simulation) : columns->means().hottest;
+    const char* const reason =
+        columns == nullptr ? "Nothing in the model boils" : "Nothing boils, as heat.steam is false";
+    return once(is_hot_, hottest > boiling) ? of_no_boiling(time, reason) : "";
+  }
+  const auto& segments = columns->segments();
+  const auto dry = std::count_if(segments.begin(), segments.end(),
+                                 [](const auto& segment) { return has_boiled_dry(segment.column); });
+  const double hottest = columns->means().hottest;
+  if (once(is_dry_, dry > 0)) {
+    return of_dry(time, dry, hottest);
+  }
+  return !is_dry_ && once(is_hot_, hottest > beyond_belief) ? of_hot(time) : "";
+}
+
+template std::string BoilingWatch::warning<2>(const sim::Simulation<2, double>&);
+template std::string BoilingWatch::warning<3>(const sim::Simulation<3, double>&);
+
+}  // namespace thawslide::app

@@ -1,0 +1,364 @@
+#include "band/basal_segments.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "base/instances.hpp"
+#include "base/parallel.hpp"
+
+namespace thawslide::band {
+
+using mpm::BaseState;
+using mpm::Contact;
+
+namespace {
+
+constexpr double longest = 1.5;  // longest side of a segment along an axis, in cells
+// largest area of two merged segments, in areas of a cell's face times the relative section width
+constexpr double largest_joined = 1.0;
+// largest distance of two merged segments along each axis, in sizes of a lattice part
+constexpr double joining_reach = 0.5;
+
+}  // namespace
+
+// Segments of each block, in ascending order.
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::list_segments_by_block(std::size_t blocks) {
+  first_of_block_.assign(blocks + 1, 0);
+  for (const Stencil& stencil : stencils_) {
+    stencil.for_each_block([&](std::size_t b, int /*corner*/) { ++first_of_block_[b]; });
+  }
+  std::uint32_t end = 0;
+  for (std::uint32_t& number : first_of_block_) {
+    end += number;
+    number = end;  // end of the block's segments, for now
+  }
+  by_block_.resize(end);
+  for (std::size_t p = stencils_.size(); p-- > 0;) {
+    stencils_[p].for_each_block([&](std::size_t b, int corner) {
+      by_block_[--first_of_block_[b]] = {static_cast<std::uint32_t>(p), corner};
+    });
+  }
+}
+
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) {
+  using Record = typename mpm::RecordsOf<BaseState, Dim, Real>::Record;
+  std::vector<Record> shared(segments_.size());  // per area of a segment
+  stencils_.resize(segments_.size());
+  parallel_for(segments_.size(), [&](std::size_t p) {
+    const Segment& segment = segments_[p];
+    const physics::BandMeans<Real> means = means_now(segment);
+    shared[p] = {};
+    shared[p][BaseState::area] = Real(1);
+    shared[p][BaseState::temperature] = means.temperature;
+    shared[p][BaseState::pressure_ratio] = pressure_ratio(means, segment);
+    shared[p][BaseState::saturation] = means.saturation;
+    shared[p][BaseState::solid_fraction] = means.solid_fraction;
+    shared[p][BaseState::slip] = segment.slip;
+    stencils_[p] = Stencil(grid, segment.position);
+  });
+  list_segments_by_block(grid.blocks().size());
+  nodes.base_state.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.near_ground.holds(b); });
+  parallel_for(grid.blocks().size(), [&](std::size_t b) {
+    if (!nodes.base_state.holds(b)) {
+      return;
+    }
+    Record* records = nodes.base_state.of_block(b);
+    std::fill_n(records, nodes.base_state.nodes, Record{});
+    for (std::size_t n = first_of_block_[b]; n < first_of_block_[b + 1]; ++n) {
+      const std::size_t p = by_block_[n].segment;
+      const Record& of_segment = shared[p];
+      const Real area = segments_[p].area;
+      stencils_[p].for_each_in(by_block_[n].corner, [&](std::size_t node, Real weight) {
+        Record& record = records[node];
+        const Real share = weight * area;
+        for (std::size_t c = 0; c < record.size(); ++c) {
+          record[c] += share * of_segment[c];
+        }
+      });
+    }
+  });
+}
+
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::take(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+                                    const NodeGroundOf& node_ground, Real thickness, Real dt,
+                                    mpm::Nodes<Dim, Real>& nodes) {
+  THAWSLIDE_ASSERT(stencils_.size() == segments_.size(), "{} segments read from nodes, of which {} have added to them",
+                   segments_.size(), stencils_.size());
+  if (checks_gaps_ || some_node_is_bare(grid, nodes)) {
+    create_segments(grid, ground, node_ground, thickness, nodes);
+    checks_gaps_ = false;
+  }
+  parallel_for(segments_.size(), [&](std::size_t p) {
+    gather_from_nodes(stencils_[p], dt, nodes, segments_[p]);
+    segments_[p].position += dt * segments_[p].velocity;
+  });
+}
+
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+                                      const NodeGroundOf& node_ground, Real duration,
+                                      const mpm::Nodes<Dim, Real>& nodes) {
+  std::vector<std::uint8_t> alone(segments_.size());
+  parallel_for(segments_.size(), [&](std::size_t p) {
+    const Nearby slide = slide_near(grid, Stencil(grid, segments_[p].position), node_ground, nodes, segments_[p]);
+    alone[p] = slide.is_present ? 0 : 1;
+    if (slide.is_present) {
+      stretch_with(slide, ground, duration, segments_[p]);
+    }
+  });
+  for (std::size_t p = 0; p < segments_.size(); ++p) {
+    if (alone[p] != 0) {
+      remove_segment(segments_[p]);
+    }
+  }
+  keep_only(alone);
+  split_long_segments(Real(longest) * grid.cell(), ground);
+  merge_small_segments(grid, ground);
+  checks_gaps_ = true;
+}
+
+// Velocity of the sliding mass at a segment, and its gradient along the ground: a linear fit to the nodes around it,
+// weighted by mass. Velocities are rotated from the ground normal at the node to that of the segment; a bend of the
+// ground therefore causes no spurious stretching.
+template <int Dim, class Real>
+typename BasalSegments<Dim, Real>::Nearby BasalSegments<Dim, Real>::slide_near(const mpm::SparseGrid<Dim, Real>& grid,
+                                                                               const Stencil& stencil,
+                                                                               const NodeGroundOf& node_ground,
+                                                                               const mpm::Nodes<Dim, Real>& nodes,
+                                                                               const Segment& segment) const {
+  // added to the spread of positions, in cells squared, to keep the fit regular
+  constexpr Real smallest_spread = static_cast<Real>(1e-3);
+  const auto along_ground = [&](const Vector<Real, Dim>& v) -> Vector<Real, Dim> {
+    return v - v.dot(segment.normal) * segment.normal;
+  };
+  Real mass = 0;
+  Vector<Real, Dim> places = Vector<Real, Dim>::Zero(), velocities = Vector<Real, Dim>::Zero();  // times mass
+  Matrix<Real, Dim> squares = Matrix<Real, Dim>::Zero(), together = Matrix<Real, Dim>::Zero();
+  stencil.for_each_with_place([&](std::size_t b, std::size_t node, Real weight, const Vector<Real, Dim>& from_segment) {
+    const Real of_node = weight * nodes.momentum(b, node)[mpm::MomentumLayout<Dim>::mass];
+    if (!(of_node > Real(0))) {
+      return;
+    }
+    auto velocity = mpm::vector_at<Dim, Real>(nodes.motion(b, node), mpm::MotionLayout<Dim>::middle_velocity);
+    const Vector<Real, Dim>* normal = node_ground(b, node).normal;
+    velocity = along_ground(normal != nullptr ? turned<Dim, Real>(velocity, *normal, segment.normal) : velocity);
+    const Vector<Real, Dim> place = along_ground(from_segment);
+    const Vector<Real, Dim> weighted = of_node * place;
+    mass += of_node;
+    places += weighted;
+    velocities += of_node * velocity;
+    squares += place * weighted.transpose();
+    together += velocity * weighted.transpose();
+  });
+  Nearby result;
+  if (!(mass > Real(0))) {
+    return result;
+  }
+  const Vector<Real, Dim> mean_place = places / mass, mean_velocity = velocities / mass;
+  const Matrix<Real, Dim> spread = squares - places * mean_place.transpose() +
+                                   mass * smallest_spread * grid.cell() * grid.cell() * Matrix<Real, Dim>::Identity();
+  result.gradient = (together - velocities * mean_place.transpose()) * spread.inverse();
+  result.velocity = mean_velocity - result.gradient * mean_place;
+  result.is_present = true;
+  return result;
+}
+
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::gather_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes,
+                                                 Segment& segment) const {
+  Real force = 0, area = 0, heat = 0, slip = 0, borne = 0;  // borne: normal force per area of the segment [Pa]
+  stencil.for_each_block([&](std::size_t b, int corner) {
+    if (!nodes.contact.holds(b)) {
+      return;
+    }
+    THAWSLIDE_ASSERT(nodes.base_state.holds(b), "block {} has contact and no state of the base", b);
+    const auto* contacts = &nodes.contact(b, 0);
+    const auto* states = &nodes.base_state(b, 0);
+    stencil.for_each_in(corner, [&](std::size_t node, Real weight) {
+      const auto& contact = contacts[node];
+      if (contact[Contact::touching] > Real(0)) {
+        const Real of_seen = weight / states[node][BaseState::area];
+        force += weight * contact[Contact::normal_force];
+        area += weight * contact[Contact::area];
+        slip += weight * contact[Contact::area] * contact[Contact::slip_speed];
+        heat += of_seen * contact[Contact::friction_heat];
+        borne += of_seen * contact[Contact::normal_force];
+      }
+    });
+  });
+  if (segment.touched || area > Real(0)) {
+    update_load(area > Real(0) ? force / area : Real(0), borne, dt, segment);
+  }
+  segment.speed = area > Real(0) ? slip / area : Real(0);
+  segment.slip += dt * segment.speed;
+  segment.heat += dt * heat * segment.area;
+}
+
+// The flow depth follows from the load borne by the segment [Pa]: its part of the nodal normal forces, which are
+// distributed over segments completely. N equals this load under full contact and exceeds it if the sliding mass has
+// holes. If gravity does not press on the ground, the depth is undefined; the largest thickness is used.
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::update_load(Real normal_pressure, Real borne, Real dt, Segment& segment) const {
+  const Real weight = model_.density * gravity_.dot(segment.normal);  // [N/m3]
+  follow_load(model_, normal_pressure, weight > Real(0) ? borne / weight : model_.largest_thickness, dt, segment);
+}
+
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::place_on(const Ground& ground, Segment& segment) const {
+  const Vector<Real, Dim - 1> place = segment.position.template head<Dim - 1>();
+  const Vector<Real, Dim> before = segment.normal;
+  segment.position[Dim - 1] = ground.height(place);
+  segment.normal = ground.normal(place);
+  for (int side = 0; side + 1 < Dim; ++side) {
+    const Vector<Real, Dim> edge = turned<Dim, Real>(segment.sides.col(side), before, segment.normal);
+    segment.sides.col(side) = edge;
+  }
+}
+
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::stretch_with(const Nearby& slide, const Ground& ground, Real dt,
+                                            Segment& segment) const {
+  segment.velocity = slide.velocity;
+  segment.sides += dt * slide.gradient * segment.sides;
+  place_on(ground, segment);
+  segment.area = ground.area_of(segment.position, segment.sides);
+}
+
+// Splits segments with a side longer than `most` along an axis into two, along this side.
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::split_long_segments(Real most, const Ground& ground) {
+  const std::size_t count = segments_.size();
+  for (std::size_t p = 0; p < count; ++p) {
+    for (int side = 0; side + 1 < Dim; ++side) {
+      if (segments_[p].sides.col(side).cwiseAbs().maxCoeff() <= most) {
+        continue;
+      }
+      const Vector<Real, Dim> quarter = Real(0.25) * segments_[p].sides.col(side);
+      Segment& segment = segments_[p];
+      segment.sides.col(side) *= Real(0.5);
+      segment.area *= Real(0.5);
+      segment.area_of_column *= Real(0.5);
+      segment.heat *= Real(0.5);
+      Segment other = segment;
+      other.id = next_id_++;
+      segment.position -= quarter;
+      other.position += quarter;
+      place_on(ground, segment);
+      place_on(ground, other);
+      segments_.push_back(other);
+    }
+  }
+}
+
+// Shear splits segments repeatedly, and they accumulate where the flow converges. Two segments in one part of the
+// lattice merge if they are nearer than half of its size along each axis and together no larger than a cell. The result
+// is a square at their common centre. Segments that were created next to each other and move together keep a larger
+// distance. The segments of one part are visited in order, and each merges into the smallest one before it.
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::merge_small_segments(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground) {
+  const Real largest = static_cast<Real>(largest_joined * std::pow(grid.cell(), Dim - 1));
+  struct Place {
+    LatticePart at;
+    std::size_t segment;
+  };
+  std::vector<Place> places(segments_.size());
+  parallel_for(segments_.size(), [&](std::size_t p) {
+    const Lattice cell = lattice_cell(grid, segments_[p].position), parts = parts_on(segments_[p].normal);
+    places[p] = {{cell, lattice_part(grid, segments_[p].position, cell, parts), parts}, p};
+  });
+  const auto key = [](const Place& place) { return std::tie(place.at.cell, place.at.part); };
+  std::sort(places.begin(), places.end(),
+            [&](const Place& a, const Place& b) { return key(a) != key(b) ? key(a) < key(b) : a.segment < b.segment; });
+  std::vector<std::uint8_t> joined(segments_.size(), 0);
+  std::size_t smallest = 0;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const Place& place = places[k];
+    Segment &segment = segments_[place.segment], &small = segments_[smallest];
+    const bool is_first = k == 0 || key(place) != key(places[k - 1]);
+    const auto is_near = [&] {
+      Real furthest = 0;  // in sizes of the part
+      for (std::size_t a = 0; a + 1 < Dim; ++a) {
+        const auto axis = static_cast<int>(a);
+        furthest = std::max(
+            furthest, std::abs(small.position[axis] - segment.position[axis]) * static_cast<Real>(place.at.parts[a]));
+      }
+      return furthest < Real(joining_reach) * grid.cell();
+    };
+    if (!is_first && small.area + segment.area <= ground.width(small.position.template head<Dim - 1>()) * largest &&
+        is_near()) {
+      join(segment, ground, small);
+      joined[place.segment] = 1;
+    } else if (is_first || segment.area < small.area) {
+      smallest = place.segment;
+    }
+  }
+  keep_only(joined);
+}
+
+// Removes the segments marked in `left`; the others keep their order.
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::keep_only(const std::vector<std::uint8_t>& left) {
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < segments_.size(); ++p) {
+    if (left[p] == 0) {
+      if (kept < p) {
+        segments_[kept] = segments_[p];
+      }
+      ++kept;
+    }
+  }
+  segments_.resize(kept);
+}
+
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::join(const Segment& other, const Ground& ground, Segment& segment) {
+  const Real share = segment.area / (segment.area + other.area);
+  const Vector<Real, Dim> middle = share * segment.position + (Real(1) - share) * other.position;
+  add_to_ledger(merge_from(model_, other, segment));
+  segment.position = middle;
+  place_on(ground, segment);
+  segment.sides = sides_on<Dim, Real>(segment.normal, Vector<Real, Dim - 1>::Ones());
+  segment.sides *=
+      std::pow(segment.area / ground.area_of(segment.position, segment.sides), Real(1) / static_cast<Real>(Dim - 1));
+  keep_means(model_, segment);
+}
+
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::remove_segment(const Segment& segment) {
+  ledger_.left_heat += segment.area_of_column * physics::heat_of(segment.column) + segment.heat;
+  ledger_.left_water += segment.area_of_column * physics::water_of(segment.column);
+  ledger_.friction_heat += segment.heat;
+}
+
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::step(Real thickness, Real duration) {
+  std::vector<physics::ColumnAccount<Real>> accounts(segments_.size());
+  parallel_for(segments_.size(), [&](std::size_t p) {
+    accounts[p] = step_segment(model_, thickness, duration, segments_[p]);
+    keep_means(model_, segments_[p]);
+  });
+  for (const auto& account : accounts) {
+    add_to_ledger(account);
+  }
+}
+
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::add_to_ledger(const physics::ColumnAccount<Real>& account) {
+  ledger_.friction_heat += account.friction_heat;
+  ledger_.body_heat += account.body_heat;
+  ledger_.ground_heat += account.ground_heat;
+  ledger_.vented_heat += account.vented_heat;
+  ledger_.steam_heat += account.steam_heat;
+  ledger_.body_water += account.body_water;
+  ledger_.vented_water += account.vented_water;
+  ledger_.steam += account.steam;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real) template class BasalSegments<Dim, Real>;
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::band

@@ -1,0 +1,166 @@
+#include "band/segment_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/instances.hpp"
+
+namespace thawslide::band {
+
+namespace {
+
+template <class Real>
+void add(const physics::ColumnAccount<Real>& part, Real area, physics::ColumnAccount<Real>& sum) {
+  sum.friction_heat += area * part.friction_heat;
+  sum.body_heat += area * part.body_heat;
+  sum.ground_heat += area * part.ground_heat;
+  sum.vented_heat += area * part.vented_heat;
+  sum.steam_heat += area * part.steam_heat;
+  sum.body_water += area * part.body_water;
+  sum.vented_water += area * part.vented_water;
+  sum.steam += area * part.steam;
+}
+
+// Next band thickness [m] of a segment; limited to a change of 5 % per step.
+template <int Dim, class Real>
+Real next_thickness(const ColumnsModel<Real>& model, Real thickness, const BasalSegment<Dim, Real>& segment) {
+  constexpr Real least_effective = static_cast<Real>(0.02), fastest = static_cast<Real>(1.05);
+  const Real now = segment.column.thickness;
+  Real wanted = thickness;
+  if (model.growth == BandGrowth::slip) {
+    wanted = std::max(now, thickness + model.growth_per_slip * segment.slip);
+  } else if (model.growth == BandGrowth::inertial && segment.load > Real(0)) {
+    const Real effective =
+        std::max(segment.load - means_of(model, segment).pore_pressure, least_effective * segment.load);
+    wanted = std::max(
+        {now, thickness,
+         segment.speed * model.grain_size * std::sqrt(model.rock_density / effective) / model.inertial_number});
+  }
+  return std::min({std::max(wanted, now / fastest), now * fastest, model.largest_thickness});
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+physics::BandMeans<Real> means_of(const ColumnsModel<Real>& model, const BasalSegment<Dim, Real>& segment) {
+  return std::visit([&](const auto& column) { return physics::band_means(column, segment.load, segment.column); },
+                    model.column);
+}
+
+template <int Dim, class Real>
+void keep_means(const ColumnsModel<Real>& model, BasalSegment<Dim, Real>& segment) {
+  segment.means = means_of(model, segment);
+  segment.liquid =
+      std::visit([&](const auto& column) { return physics::liquid_volume(column, segment.column); }, model.column);
+}
+
+template <int Dim, class Real>
+physics::ColumnVolumes<Real> volumes_of(const ColumnsModel<Real>& model, const BasalSegment<Dim, Real>& segment) {
+  return std::visit([&](const auto& column) { return physics::column_volumes(column, segment.load, segment.column); },
+                    model.column);
+}
+
+template <int Dim, class Real>
+void start_column_of(const ColumnsModel<Real>& model, Real thickness, BasalSegment<Dim, Real>& segment) {
+  segment.column = std::visit(
+      [&](const auto& column) {
+        return physics::start_column(column, thickness,
+                                     physics::cell_growth_below(segment.depth, thickness, column.growth),
+                                     model.body_temperature, model.ground_temperature, segment.load);
+      },
+      model.column);
+}
+
+template <int Dim, class Real>
+void follow_load(const ColumnsModel<Real>& model, Real normal_pressure, Real depth, Real dt,
+                 BasalSegment<Dim, Real>& segment) {
+  constexpr Real depth_times = 10;  // averaging time of the depth, as a multiple of that of the load
+  const Real share = segment.touched ? -physics::exponential_minus_one(-dt / model.load_time) : Real(1);
+  segment.load += share * (std::max(normal_pressure, Real(0)) - segment.load);
+  segment.loaded_for = segment.touched ? std::min(segment.loaded_for + dt, depth_times * model.load_time) : dt;
+  const Real share_of_depth = segment.loaded_for > Real(0) ? dt / segment.loaded_for : Real(1);
+  segment.depth += share_of_depth * (std::max(depth, Real(0)) - segment.depth);
+  segment.touched = true;
+}
+
+template <int Dim, class Real>
+physics::ColumnAccount<Real> step_segment(const ColumnsModel<Real>& model, Real thickness, Real duration,
+                                          BasalSegment<Dim, Real>& segment) {
+  segment.depth *=
+      segment.area_of_column / segment.area;  // the mass thins as it stretches; the time average would lag behind
+  return std::visit(
+      [&](const auto& column) {
+        const Real next = next_thickness(model, thickness, segment);
+        const physics::ColumnChange<Real> change{std::log(segment.area / segment.area_of_column),
+                                                 segment.column.thickness, next, segment.column.cell_growth,
+                                                 physics::cell_growth_below(segment.depth, next, column.growth)};
+        const int parts = physics::parts_of(column, change);
+        const Real dt = duration / static_cast<Real>(parts), heat = segment.heat / static_cast<Real>(parts);
+        const Real factor = std::exp(change.stretch / static_cast<Real>(parts));
+        physics::ColumnAccount<Real> account;
+        for (int part = 1; part <= parts; ++part) {
+          segment.area_of_column = part == parts ? segment.area : segment.area_of_column * factor;
+          const physics::ColumnDrive<Real> drive{
+              dt,
+              segment.load,
+              heat / (segment.area_of_column * dt),
+              (factor - Real(1)) / dt,
+              change.thickness_after(part, parts),
+              change.cell_growth_after(part, parts),
+              -physics::exponential_minus_one(-segment.speed * dt / model.mixing_slip),
+              physics::body_enthalpy(column, model.body_temperature),
+              physics::water_of_full_pores(column, model.body_temperature)};
+          add(physics::step_column(column, drive, segment.column), segment.area_of_column, account);
+        }
+        segment.heat = Real(0);
+        return account;
+      },
+      model.column);
+}
+
+template <int Dim, class Real>
+physics::ColumnAccount<Real> merge_from(const ColumnsModel<Real>& model, const BasalSegment<Dim, Real>& other,
+                                        BasalSegment<Dim, Real>& segment) {
+  const Real share = segment.area / (segment.area + other.area);
+  for (Real BasalSegment<Dim, Real>::*const number :
+       {&BasalSegment<Dim, Real>::slip, &BasalSegment<Dim, Real>::speed, &BasalSegment<Dim, Real>::load,
+        &BasalSegment<Dim, Real>::depth, &BasalSegment<Dim, Real>::loaded_for}) {
+    segment.*number = share * segment.*number + (Real(1) - share) * other.*number;
+  }
+  segment.velocity = share * segment.velocity + (Real(1) - share) * other.velocity;
+  const Real share_of_column = segment.area_of_column / (segment.area_of_column + other.area_of_column);
+  const physics::ColumnAccount<Real> account = std::visit(
+      [&](const auto& column) {
+        physics::BandColumn<Real> first = segment.column, second = other.column;
+        const Real growth = second.cell_growth + share_of_column * (first.cell_growth - second.cell_growth);
+        const Real heat = physics::body_enthalpy(column, model.body_temperature);
+        const Real water = physics::water_of_full_pores(column, model.body_temperature);
+        physics::ColumnAccount<Real> both;
+        add(physics::take_cell_growth(column, growth, heat, water, first), segment.area_of_column, both);
+        add(physics::take_cell_growth(column, growth, heat, water, second), other.area_of_column, both);
+        segment.column = physics::joined_columns(column, share_of_column, first, second, segment.load);
+        return both;
+      },
+      model.column);
+  segment.area += other.area;
+  segment.area_of_column += other.area_of_column;
+  segment.heat += other.heat;
+  segment.touched = segment.touched || other.touched;
+  return account;
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                            \
+  template physics::BandMeans<Real> means_of<Dim, Real>(const ColumnsModel<Real>&, const BasalSegment<Dim, Real>&); \
+  template void keep_means<Dim, Real>(const ColumnsModel<Real>&, BasalSegment<Dim, Real>&);                         \
+  template physics::ColumnVolumes<Real> volumes_of<Dim, Real>(const ColumnsModel<Real>&,                            \
+                                                              const BasalSegment<Dim, Real>&);                      \
+  template physics::ColumnAccount<Real> merge_from<Dim, Real>(                                                      \
+      const ColumnsModel<Real>&, const BasalSegment<Dim, Real>&, BasalSegment<Dim, Real>&);                         \
+  template void start_column_of<Dim, Real>(const ColumnsModel<Real>&, Real, BasalSegment<Dim, Real>&);              \
+  template void follow_load<Dim, Real>(const ColumnsModel<Real>&, Real, Real, Real, BasalSegment<Dim, Real>&);      \
+  template physics::ColumnAccount<Real> step_segment<Dim, Real>(const ColumnsModel<Real>&, Real, Real,              \
+                                                                BasalSegment<Dim, Real>&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::band

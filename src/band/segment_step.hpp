@@ -1,0 +1,77 @@
+// Time step of a basal segment and its column, with load and heat from the contact nodes or from a rigid block.
+#pragma once
+
+#include <limits>
+#include <variant>
+
+#include "band/basal_segment.hpp"
+#include "physics/band_column_step.hpp"
+
+namespace thawslide::band {
+
+template <class Real>
+using AnyColumnModel = std::variant<physics::ColumnModel<Real, physics::PowerLawCurve<Real>>,
+                                    physics::ColumnModel<Real, physics::LinearCurve<Real>>>;
+
+// Growth of the band thickness e beyond the prescribed value.
+enum class BandGrowth {
+  none,
+  inertial,  // e = v d sqrt(rho_S/(N - P))/I, with N - P at least 0.02 N
+  slip       // in proportion to the slip
+};
+
+template <class Real>
+struct ColumnsModel {
+  AnyColumnModel<Real> column;
+  Real body_temperature = 0, ground_temperature = 0;  // [C]
+  Real density = 0;                                   // initial density of the body at its base [kg/m3]
+  Real load_time = 0;                                 // averaging time of N [s]
+  BandGrowth growth = BandGrowth::none;
+  Real grain_size = 0, inertial_number = 1;  // d [m], I
+  Real growth_per_slip = 0;
+  Real mixing_slip = std::numeric_limits<Real>::infinity();  // slip over which shear mixes the band [m]
+  Real rock_density = 0;                                     // rho_S [kg/m3]
+  Real largest_thickness = 0;                                // of the band: initial depth of the sliding mass [m]
+};
+
+template <int Dim, class Real>
+physics::BandMeans<Real> means_of(const ColumnsModel<Real>& model, const BasalSegment<Dim, Real>& segment);
+
+// Stores means and liquid water of the column in the segment, for use until its next step.
+template <int Dim, class Real>
+void keep_means(const ColumnsModel<Real>& model, BasalSegment<Dim, Real>& segment);
+
+template <int Dim, class Real>
+physics::ColumnVolumes<Real> volumes_of(const ColumnsModel<Real>& model, const BasalSegment<Dim, Real>& segment);
+
+// P over the averaged N, 0 to 1. The basal law uses this ratio times the current N as pore pressure.
+template <int Dim, class Real>
+Real pressure_ratio(const physics::BandMeans<Real>& means, const BasalSegment<Dim, Real>& segment) {
+  return segment.load > Real(0) ? means.pore_pressure / segment.load : Real(0);
+}
+
+// Creates a column of the body's material, with a band of this thickness [m], under the segment's load. Its height is
+// limited to the flow depth above it.
+template <int Dim, class Real>
+void start_column_of(const ColumnsModel<Real>& model, Real thickness, BasalSegment<Dim, Real>& segment);
+
+// Updates the averages of normal pressure [Pa], over the model's time, and of the corresponding flow depth [m], over
+// ten times that time or the time since the first load.
+template <int Dim, class Real>
+void follow_load(const ColumnsModel<Real>& model, Real normal_pressure, Real depth, Real dt,
+                 BasalSegment<Dim, Real>& segment);
+
+// Steps the column over `duration` [s], with the pending friction heat and the current area of the segment. thickness:
+// prescribed band thickness at the end [m]. Returns the column's budget for the whole area ([J], [kg]).
+template <int Dim, class Real>
+physics::ColumnAccount<Real> step_segment(const ColumnsModel<Real>& model, Real thickness, Real duration,
+                                          BasalSegment<Dim, Real>& segment);
+
+// Merges another segment into a segment: sums of area, heat and water, and area-weighted means of everything else.
+// Position and shape do not change. Returns the budget of both columns ([J], [kg]) for the change to a common cell
+// growth.
+template <int Dim, class Real>
+physics::ColumnAccount<Real> merge_from(const ColumnsModel<Real>& model, const BasalSegment<Dim, Real>& other,
+                                        BasalSegment<Dim, Real>& segment);
+
+}  // namespace thawslide::band

@@ -1,0 +1,176 @@
+// Sums over the band columns of the base, and their checkpoint state.
+#include <algorithm>
+#include <limits>
+
+#include "band/basal_segments.hpp"
+#include "base/instances.hpp"
+#include "base/parallel.hpp"
+#include "base/state_numbers.hpp"
+
+namespace thawslide::band {
+
+namespace {
+
+// Calls visit(number) for each number of a segment, in order.
+template <int Dim, class Real, class Visit>
+void for_each_number(BasalSegment<Dim, Real>& segment, const Visit& visit) {
+  for (int a = 0; a < Dim; ++a) {
+    visit(segment.position[a]);
+    visit(segment.normal[a]);
+    visit(segment.velocity[a]);
+    for (int side = 0; side + 1 < Dim; ++side) {
+      visit(segment.sides(a, side));
+    }
+  }
+  for (Real* number :
+       {&segment.area, &segment.area_of_column, &segment.slip, &segment.speed, &segment.load, &segment.depth,
+        &segment.loaded_for, &segment.heat, &segment.column.thickness, &segment.column.cell_growth}) {
+    visit(*number);
+  }
+  for (int k = 0; k < physics::ColumnCells::all; ++k) {
+    visit(segment.column.heat[k]);
+    visit(segment.column.temperature[k]);
+  }
+  for (int k = 0; k < physics::ColumnCells::slide; ++k) {
+    for (Real* numbers :
+         {segment.column.water, segment.column.thawing, segment.column.surplus, segment.column.pressure}) {
+      visit(numbers[k]);
+    }
+  }
+}
+
+// Water in pores full of melt [kg/m3].
+template <class Real>
+Real water_of_full_pores(const ColumnsModel<Real>& model) {
+  return std::visit([](const auto& column) { return column.porosity * column.phases.water_density; }, model.column);
+}
+
+template <int Dim, class Real>
+physics::ColumnGrid<Real> grid_of(const ColumnsModel<Real>& model, const BasalSegment<Dim, Real>& segment) {
+  return std::visit([&](const auto& column) { return physics::grid_of(column, segment.column); }, model.column);
+}
+
+// True if a cell of the band has no water left, as ice or melt.
+template <int Dim, class Real>
+bool is_dry(const BasalSegment<Dim, Real>& segment) {
+  const Real* water = segment.column.water;
+  return std::any_of(water, water + physics::ColumnCells::band, [](Real of_cell) { return !(of_cell > Real(0)); });
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+ColumnSums<Real> BasalSegments<Dim, Real>::sums() const {
+  std::vector<ColumnSums<Real>> of_segment(segments_.size());
+  parallel_for(segments_.size(), [&](std::size_t p) {
+    const Segment& segment = segments_[p];
+    const physics::ColumnVolumes<Real> volumes = volumes_of(segment);
+    of_segment[p] = {segment.area,
+                     segment.area_of_column * physics::heat_of(segment.column) + segment.heat,
+                     segment.heat,
+                     segment.area_of_column * physics::water_of(segment.column),
+                     segment.area * volumes.opening,
+                     segment.area * volumes.gas_void};
+  });
+  ColumnSums<Real> sums;
+  for (const ColumnSums<Real>& one : of_segment) {
+    sums += one;
+  }
+  return sums;
+}
+
+template <int Dim, class Real>
+BaseMeans<Real> BasalSegments<Dim, Real>::means() const {
+  constexpr Real wet_share = static_cast<Real>(1e-3);  // of full pores; less water has just seeped in, and boils next
+  constexpr Real nothing = std::numeric_limits<Real>::quiet_NaN();
+  const Real full = water_of_full_pores(model_);
+  struct Extremes {
+    Real hottest, hottest_wet, pressure_ratio;
+    bool dry;
+  };
+  std::vector<Extremes> extremes(segments_.size());
+  parallel_for(segments_.size(), [&](std::size_t p) {
+    const Segment& segment = segments_[p];
+    const auto grid = grid_of(model_, segment);
+    Extremes& found = extremes[p];
+    found = {-celsius_to_kelvin<Real>, -celsius_to_kelvin<Real>, Real(0), is_dry(segment)};
+    for (int k = 0; k < physics::ColumnCells::slide; ++k) {
+      const Real temperature = segment.column.temperature[physics::ColumnCells::ground + k];
+      found.hottest = std::max(found.hottest, temperature);
+      const bool is_wet = segment.column.water[k] > wet_share * full * grid.slide_height(k);
+      found.hottest_wet = is_wet ? std::max(found.hottest_wet, temperature) : found.hottest_wet;
+    }
+    const Real highest =
+        *std::max_element(segment.column.pressure, segment.column.pressure + physics::ColumnCells::slide);
+    found.pressure_ratio = segment.load > Real(0) ? std::min(highest / segment.load, Real(1)) : Real(0);
+  });
+  BaseMeans<Real> result;
+  Real area = 0, dry_area = 0, hottest = -celsius_to_kelvin<Real>, hottest_wet = hottest;
+  for (std::size_t p = 0; p < segments_.size(); ++p) {
+    const Segment& segment = segments_[p];
+    const physics::BandMeans<Real> means = means_now(segment);
+    area += segment.area;
+    dry_area += extremes[p].dry ? segment.area : Real(0);
+    hottest = std::max(hottest, extremes[p].hottest);
+    hottest_wet = std::max(hottest_wet, extremes[p].hottest_wet);
+    result.temperature += segment.area * means.temperature;
+    result.saturation += segment.area * means.saturation;
+    result.pore_pressure += segment.area * means.pore_pressure;
+    result.load += segment.area * segment.load;
+    result.thickness += segment.area * segment.column.thickness;
+    result.largest_pressure_ratio = std::max(result.largest_pressure_ratio, extremes[p].pressure_ratio);
+  }
+  result.hottest = area > Real(0) ? hottest : nothing;
+  result.hottest_wet = area > Real(0) ? hottest_wet : nothing;
+  result.dry_share = area > Real(0) ? dry_area / area : nothing;
+  for (Real* mean : {&result.temperature, &result.saturation, &result.pore_pressure, &result.load, &result.thickness}) {
+    *mean = area > Real(0) ? *mean / area : nothing;
+  }
+  return result;
+}
+
+template <int Dim, class Real>
+std::vector<double> BasalSegments<Dim, Real>::state() const {
+  std::vector<double> numbers{static_cast<double>(next_id_), checks_gaps_ ? 1.0 : 0.0,
+                              static_cast<double>(segments_.size())};
+  ColumnLedger<Real> ledger = ledger_;
+  const auto add = [&](const Real& number) { numbers.push_back(static_cast<double>(number)); };
+  ledger.for_each(add);
+  for (Segment segment : segments_) {
+    numbers.push_back(static_cast<double>(segment.id));
+    numbers.push_back(segment.touched ? 1.0 : 0.0);
+    for_each_number(segment, add);
+  }
+  return numbers;
+}
+
+template <int Dim, class Real>
+void BasalSegments<Dim, Real>::restore(const std::vector<double>& numbers) {
+  StateNumbers state(numbers, "band columns");
+  std::size_t of_ledger = 0, of_segment = 2;  // number of state entries
+  ledger_.for_each([&](Real&) { ++of_ledger; });
+  Segment any;
+  for_each_number(any, [&](Real&) { ++of_segment; });
+  next_id_ = state.whole(largest_whole);
+  checks_gaps_ = state.next() != 0.0;
+  segments_.assign(state.count(of_segment, of_ledger), Segment{});
+  const auto set = [&](Real& number) { number = static_cast<Real>(state.next()); };
+  ledger_.for_each(set);
+  for (Segment& segment : segments_) {
+    segment.id = state.whole(next_id_);
+    segment.touched = state.next() != 0.0;
+    for_each_number(segment, set);
+    keep_means(model_, segment);
+  }
+  state.expect_end();
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                \
+  template ColumnSums<Real> BasalSegments<Dim, Real>::sums() const;     \
+  template BaseMeans<Real> BasalSegments<Dim, Real>::means() const;     \
+  template std::vector<double> BasalSegments<Dim, Real>::state() const; \
+  template void BasalSegments<Dim, Real>::restore(const std::vector<double>&);
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::band

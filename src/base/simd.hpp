@@ -1,0 +1,333 @@
+// SIMD numbers: lane k of every quantity belongs to the k-th particle of a batch. A formula with a template parameter
+// for its numbers and the functions of base/select.hpp works for one number and for lanes. CPU only: nvcc does not
+// accept the vector types of g++.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
+
+#include "base/linear.hpp"
+#include "base/portability.hpp"
+#include "base/select.hpp"
+
+namespace thawslide {
+
+// Vector register types of a real type.
+template <class Real, std::size_t Count>
+struct LaneRegister {
+  using Flag = std::conditional_t<sizeof(Real) == sizeof(std::int64_t), std::int64_t, std::int32_t>;
+  using Numbers [[gnu::vector_size(Count * sizeof(Real))]] = Real;
+  // may alias single numbers in memory
+  using Stored [[gnu::vector_size(Count * sizeof(Real)), gnu::may_alias]] = Real;
+  using Flags [[gnu::vector_size(Count * sizeof(Real))]] = Flag;  // results of comparisons
+  using Whole [[gnu::vector_size(Count * sizeof(std::int32_t))]] = std::int32_t;
+};
+
+// Lanes of the widest register of the CPU, at most eight: the block size of fields.
+#ifdef __AVX512F__
+inline constexpr std::size_t register_bytes = 64;
+#else
+inline constexpr std::size_t register_bytes = 32;
+#endif
+template <class Real>
+inline constexpr std::size_t simd_width = std::min<std::size_t>(register_bytes / sizeof(Real), 8);
+
+// Consecutive integers in memory.
+template <class Real, std::size_t Count = simd_width<Real>, class Number>
+THAWSLIDE_ALWAYS_INLINE typename LaneRegister<Real, Count>::Whole whole_lanes(const Number* numbers) {
+  static_assert(sizeof(Number) == sizeof(std::int32_t));
+  typename LaneRegister<Real, Count>::Whole whole;
+  std::memcpy(&whole, numbers, sizeof whole);
+  return whole;
+}
+
+// One boolean per lane.
+template <class Real, std::size_t Count = simd_width<Real>>
+class SimdMask {
+ public:
+  using Native = typename LaneRegister<Real, Count>::Flags;
+
+  SimdMask() = default;
+  THAWSLIDE_ALWAYS_INLINE explicit SimdMask(Native native) : native_(native) {}
+
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE bool operator[](std::size_t lane) const { return native_[lane] != 0; }
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Native native() const { return native_; }
+
+  THAWSLIDE_ALWAYS_INLINE friend SimdMask operator&(SimdMask a, SimdMask b) { return SimdMask(a.native_ & b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend SimdMask operator|(SimdMask a, SimdMask b) { return SimdMask(a.native_ | b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend SimdMask operator!(SimdMask a) { return SimdMask(~a.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend bool any(SimdMask a) {
+#ifdef __AVX512F__
+    if constexpr (sizeof(Native) == 64) {
+      return _mm512_test_epi64_mask(__m512i(a.native_), __m512i(a.native_)) != 0;
+    }
+#endif
+#ifdef __AVX__
+    if constexpr (sizeof(Native) == 32) {
+      using Bits = long long __attribute__((vector_size(32)));
+      return __builtin_ia32_ptestz256(Bits(a.native_), Bits(a.native_)) == 0;
+    }
+#endif
+    typename LaneRegister<Real, Count>::Flag flags = 0;
+    for (std::size_t k = 0; k < Count; ++k) {
+      flags |= a.native_[k];
+    }
+    return flags != 0;
+  }
+
+ private:
+  Native native_;
+};
+
+template <class Real, std::size_t Count = simd_width<Real>>
+class Simd {
+ public:
+  static constexpr std::size_t count = Count;
+  using Native = typename LaneRegister<Real, Count>::Numbers;
+  using Mask = SimdMask<Real, Count>;
+  using Whole = typename LaneRegister<Real, Count>::Whole;
+
+  Simd() = default;
+  // Broadcasts a number to all lanes.
+  THAWSLIDE_ALWAYS_INLINE Simd(Real number) : native_(number - Native{}) {}
+  THAWSLIDE_ALWAYS_INLINE explicit Simd(Native native) : native_(native) {}
+
+  // Loads and stores `count` consecutive numbers, aligned to their size.
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd load(const Real* numbers) {
+    return Simd(Native(*reinterpret_cast<const typename LaneRegister<Real, Count>::Stored*>(numbers)));
+  }
+  THAWSLIDE_ALWAYS_INLINE void store(Real* numbers) const {
+    *reinterpret_cast<typename LaneRegister<Real, Count>::Stored*>(numbers) = native_;
+  }
+
+  // Loads and stores `count` consecutive integers, with conversion.
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd load_whole(const std::int32_t* numbers) {
+    return Simd(__builtin_convertvector(whole_lanes<Real, Count>(numbers), Native));
+  }
+  THAWSLIDE_ALWAYS_INLINE void store_whole(std::int32_t* numbers) const {
+    const Whole numbers_of_lanes = whole();
+    std::memcpy(numbers, &numbers_of_lanes, sizeof numbers_of_lanes);
+  }
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Whole whole() const { return __builtin_convertvector(native_, Whole); }
+
+  // Lane k is number(k).
+  template <class Number>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd of(const Number& number) {
+    return [&]<std::size_t... K>(std::index_sequence<K...>) THAWSLIDE_INLINE_LAMBDA {
+      return Simd(Native{static_cast<Real>(number(K))...});
+    }
+    (std::make_index_sequence<Count>());
+  }
+
+  // Lane k is numbers[places[k]].
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd gather(const Real* numbers, Whole places) {
+#ifdef __AVX512F__
+    if constexpr (sizeof(Native) == 64) {
+      return Simd(Native(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, reinterpret_cast<__m256i>(places), numbers,
+                                                  sizeof(Real))));
+    }
+#endif
+    return of([&](std::size_t lane) { return numbers[places[lane]]; });
+  }
+  // Inverse of gather for the lanes 0 .. lanes-1.
+  THAWSLIDE_ALWAYS_INLINE void scatter(Real* numbers, Whole places, std::size_t lanes) const {
+#ifdef __AVX512F__
+    if constexpr (sizeof(Native) == 64) {
+      const auto mask = static_cast<__mmask8>((1u << lanes) - 1u);
+      _mm512_mask_i32scatter_pd(numbers, mask, reinterpret_cast<__m256i>(places), __m512d(native_), sizeof(Real));
+      return;
+    }
+#endif
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      numbers[places[lane]] = native_[lane];
+    }
+  }
+
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Real operator[](std::size_t lane) const { return native_[lane]; }
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Native native() const { return native_; }
+
+  THAWSLIDE_ALWAYS_INLINE friend Simd operator+(Simd a, Simd b) { return Simd(a.native_ + b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Simd operator-(Simd a, Simd b) { return Simd(a.native_ - b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Simd operator*(Simd a, Simd b) { return Simd(a.native_ * b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Simd operator/(Simd a, Simd b) { return Simd(a.native_ / b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Simd operator-(Simd a) { return Simd(-a.native_); }
+  THAWSLIDE_ALWAYS_INLINE Simd& operator+=(Simd a) { return *this = *this + a; }
+  THAWSLIDE_ALWAYS_INLINE Simd& operator-=(Simd a) { return *this = *this - a; }
+  THAWSLIDE_ALWAYS_INLINE Simd& operator*=(Simd a) { return *this = *this * a; }
+  THAWSLIDE_ALWAYS_INLINE Simd& operator/=(Simd a) { return *this = *this / a; }
+
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator<(Simd a, Simd b) { return Mask(a.native_ < b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator<=(Simd a, Simd b) { return Mask(a.native_ <= b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator>(Simd a, Simd b) { return Mask(a.native_ > b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator>=(Simd a, Simd b) { return Mask(a.native_ >= b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator==(Simd a, Simd b) { return Mask(a.native_ == b.native_); }
+  THAWSLIDE_ALWAYS_INLINE friend Mask operator!=(Simd a, Simd b) { return Mask(a.native_ != b.native_); }
+
+  // a where the mask is true, b elsewhere.
+  THAWSLIDE_ALWAYS_INLINE friend Simd select(Mask mask, Simd a, Simd b) {
+    return Simd(mask.native() ? a.native_ : b.native_);
+  }
+  // function(number), by lane.
+  template <class Function>
+  THAWSLIDE_ALWAYS_INLINE friend Simd map_lanes(Simd a, const Function& function) {
+    return of([&](std::size_t lane) { return function(a.native_[lane]); });
+  }
+  THAWSLIDE_ALWAYS_INLINE friend Simd sqrt(Simd a) {
+    return map_lanes(a, [](Real number) { return std::sqrt(number); });
+  }
+  THAWSLIDE_ALWAYS_INLINE friend Simd floor(Simd a) {
+    return map_lanes(a, [](Real number) { return std::floor(number); });
+  }
+  THAWSLIDE_ALWAYS_INLINE friend Simd log(Simd a) {
+    return map_lanes(a, [](Real number) { return std::log(number); });
+  }
+  THAWSLIDE_ALWAYS_INLINE friend Simd abs(Simd a) { return select(a < Simd(Real(0)), -a, a); }
+  THAWSLIDE_ALWAYS_INLINE friend Simd min(Simd a, Simd b) { return select(b < a, b, a); }
+  THAWSLIDE_ALWAYS_INLINE friend Simd max(Simd a, Simd b) { return select(a < b, b, a); }
+
+ private:
+  Native native_;
+};
+
+// True in the lanes 0 .. count-1.
+template <class Real>
+THAWSLIDE_ALWAYS_INLINE SimdMask<Real> lanes_before(std::size_t count) {
+  return Simd<Real>::of([](std::size_t lane) { return lane; }) < Simd<Real>(static_cast<Real>(count));
+}
+
+template <class Real>
+struct NumberOf<Simd<Real>> {
+  using Type = Real;
+};
+
+// Calls body(k) for the lanes k of a mask.
+template <class Real, class Body>
+THAWSLIDE_ALWAYS_INLINE void for_each_lane(const SimdMask<Real>& mask, const Body& body) {
+  for (std::size_t k = 0; any(mask) && k < simd_width<Real>; ++k) {
+    if (mask[k]) {
+      body(k);
+    }
+  }
+}
+
+// Number in one lane.
+template <class Real>
+THAWSLIDE_ALWAYS_INLINE Real extract(const Simd<Real>& lanes, std::size_t lane) {
+  return lanes[lane];
+}
+template <class Real>
+THAWSLIDE_ALWAYS_INLINE void set_lane(Simd<Real>& lanes, std::size_t lane, Real number) {
+  lanes = Simd<Real>::of([&](std::size_t k) { return k == lane ? number : lanes[k]; });
+}
+
+// Exchanges blocks between a and b: lanes whose bit Half is 1 in `a` with those whose bit Half is 0 in `b`.
+template <std::size_t Half, class Real, std::size_t Count, std::size_t... K>
+THAWSLIDE_ALWAYS_INLINE void exchange(Simd<Real, Count>& a, Simd<Real, Count>& b, std::index_sequence<K...> /*lanes*/) {
+  const auto kept = __builtin_shufflevector(a.native(), b.native(), ((K & Half) == 0 ? K : Count + (K ^ Half))...);
+  const auto moved = __builtin_shufflevector(a.native(), b.native(), ((K & Half) == 0 ? (K | Half) : Count + K)...);
+  a = Simd<Real, Count>(kept);
+  b = Simd<Real, Count>(moved);
+}
+
+// Transposes rows and columns: lane j of rows[k] is lane k of the former rows[j]. As many rows as lanes.
+template <std::size_t Half, class Real, std::size_t Count>
+THAWSLIDE_ALWAYS_INLINE void transpose_blocks(Simd<Real, Count>* rows) {
+  unrolled<Count>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+    if constexpr ((k & Half) == 0) {
+      exchange<Half>(rows[k], rows[k | Half], std::make_index_sequence<Count>());
+    }
+  });
+  if constexpr (Half > 1) {
+    transpose_blocks<Half / 2>(rows);
+  }
+}
+template <class Real, std::size_t Count>
+THAWSLIDE_ALWAYS_INLINE void transpose(Simd<Real, Count>* rows) {
+  transpose_blocks<Count / 2>(rows);
+}
+
+// Lanes First, First + 1, ... of a register; concatenation of two registers.
+template <std::size_t First, class Real, std::size_t Count, std::size_t... K>
+THAWSLIDE_ALWAYS_INLINE Simd<Real, sizeof...(K)> part_of(const Simd<Real, Count>& whole,
+                                                         std::index_sequence<K...> /*lanes*/) {
+  return Simd<Real, sizeof...(K)>(__builtin_shufflevector(whole.native(), whole.native(), (First + K)...));
+}
+template <class Real, std::size_t Count, std::size_t... K>
+THAWSLIDE_ALWAYS_INLINE Simd<Real, sizeof...(K)> joined(const Simd<Real, Count>& a, const Simd<Real, Count>& b,
+                                                        std::index_sequence<K...> /*lanes*/) {
+  return Simd<Real, sizeof...(K)>(__builtin_shufflevector(a.native(), b.native(), K...));
+}
+
+template <class Real>
+THAWSLIDE_ALWAYS_INLINE Simd<Real> look_up(const Real* table, const Simd<Real>& place) {
+  return Simd<Real>::gather(table, place.whole());
+}
+
+// Minimum over all lanes.
+template <class Real, std::size_t Count>
+THAWSLIDE_ALWAYS_INLINE Real smallest(const Simd<Real, Count>& lanes) {
+  if constexpr (Count == 2) {
+    return std::min(lanes[0], lanes[1]);
+  } else {
+    constexpr auto half = std::make_index_sequence<Count / 2>();
+    return smallest(min(part_of<0>(lanes, half), part_of<Count / 2>(lanes, half)));
+  }
+}
+
+// Converts `Width` quantities, with one particle per lane, to one row of `Width` numbers per particle.
+template <class Real, std::size_t Width>
+THAWSLIDE_ALWAYS_INLINE void transpose_to_rows(const Simd<Real>* quantities, Simd<Real, Width>* rows) {
+  constexpr std::size_t parts = simd_width<Real> / Width;
+  static_assert(parts * Width == simd_width<Real>);
+  unrolled<parts>([&](auto part) THAWSLIDE_INLINE_LAMBDA {
+    constexpr std::size_t first = part() * Width;
+    unrolled<Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+      rows[first + k] = part_of<first>(quantities[k], std::make_index_sequence<Width>());
+    });
+    transpose(rows + first);
+  });
+}
+
+// Inverse conversion; overwrites `rows`.
+template <class Real, std::size_t Width>
+THAWSLIDE_ALWAYS_INLINE void transpose_to_columns(Simd<Real, Width>* rows, Simd<Real>* quantities) {
+  constexpr std::size_t parts = simd_width<Real> / Width;
+  static_assert(parts * Width == simd_width<Real> && parts <= 2);
+  unrolled<parts>([&](auto part) THAWSLIDE_INLINE_LAMBDA { transpose(rows + part * Width); });
+  unrolled<Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
+    if constexpr (parts == 1) {
+      quantities[k] = rows[k];
+    } else {
+      quantities[k] = joined(rows[k], rows[Width + k], std::make_index_sequence<2 * Width>());
+    }
+  });
+}
+
+}  // namespace thawslide
+
+// Vectors and matrices of lanes.
+template <class Number>
+struct Eigen::NumTraits<thawslide::Simd<Number>> : Eigen::GenericNumTraits<thawslide::Simd<Number>> {
+  using Real = thawslide::Simd<Number>;
+  using NonInteger = Real;
+  using Nested = Real;
+  using Literal = Real;
+  enum {  // NOLINTBEGIN(readability-identifier-naming): Eigen's names
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 0,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };  // NOLINTEND(readability-identifier-naming)
+};

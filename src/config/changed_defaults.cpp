@@ -1,0 +1,67 @@
+#include "config/changed_defaults.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace thawslide::config {
+
+namespace {
+
+bool yields(const Case& parameters) {
+  return parameters.mechanics.enabled && parameters.mechanisms.deformation &&
+         std::any_of(parameters.materials.begin(), parameters.materials.end(),
+                     [](const auto& each) { return each.second.law == LawKind::mohr_coulomb; });
+}
+
+bool has_bends(const Case& parameters) {
+  return parameters.terrain.kind == TerrainKind::profile || parameters.terrain.kind == TerrainKind::dem;
+}
+
+bool is_given(const Case& parameters, const ChangedDefault& moved) {
+  if (moved.table != "material.NAME") {
+    return parameters.places.count(moved.table + "." + moved.key) > 0;
+  }
+  return std::any_of(parameters.materials.begin(), parameters.materials.end(), [&](const auto& each) {
+    return parameters.places.count("material." + each.first + "." + moved.key) > 0;
+  });
+}
+
+}  // namespace
+
+const std::vector<ChangedDefault>& changed_defaults() {
+  static const std::vector<ChangedDefault> all{
+      {"band", "model", "\"scaled\"", "\"columns\"", has_band_columns},
+      {"band", "thickness_change", "\"as_printed\"", "\"conserving\"", has_band_columns},
+      {"heat", "advection_form", "\"as_printed\"", "\"conservative\"", water_seeps},
+      {"pressure", "frozen", "\"ice_pressure\"", "\"none\"", has_pore_water},
+      {"pressure", "frozen_rows", "\"draining\"", "\"sealed\"", water_seeps},
+      {"pressure", "melt_contraction", "false", "true", has_pore_water},
+      {"pressure", "skeleton_compressibility", "0.0", "2e-09", has_pore_water},
+      {"phases", "water_expansion_law", "\"constant\"", "\"by_temperature\"", has_pore_water},
+      {"material.NAME", "gaps_close_first", "false", "true", yields},
+      {"block", "bends", "false", "true", has_bends},
+  };
+  return all;
+}
+
+std::string notice_of_moved_defaults(const Case& parameters) {
+  std::string changed;
+  for (const ChangedDefault& moved : changed_defaults()) {
+    if (is_given(parameters, moved)) {
+      return "";
+    }
+    if (moved.matters(parameters)) {
+      changed += fmt::format("\n  {}.{} = {}  # was {}", moved.table, moved.key, moved.now, moved.before);
+    }
+  }
+  if (changed.empty()) {
+    return "";
+  }
+  return fmt::format(
+      "{}: the file gives none of these keys, whose defaults are no longer the paper's forms:{}\n  With the values of "
+      "before it gives what it gave. Give one of them, and this note goes; docs/choosing-the-base.md says why.",
+      parameters.file, changed);
+}
+
+}  // namespace thawslide::config

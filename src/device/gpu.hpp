@@ -1,0 +1,23 @@
+// GPU detection and the solver on a GPU. Built if nvcc is found; THAWSLIDE_WITH_GPU is defined then.
+#pragma once
+
+#include <string>
+
+#include "device/launching.hpp"
+#include "device/solver.hpp"
+
+namespace thawslide::device {
+
+struct Gpu {
+  bool is_usable = false;
+  std::string name, why_not;
+  double free = 0.0;  // free memory [bytes]
+};
+Gpu find_gpu();
+
+// Solver on the GPU that find_gpu detected, in double precision. Errors are thrown as a Failure that states the failed
+// operation.
+template <int Dim>
+SolverFactory<Dim, double> on_gpu(Launching launching = Launching::in_graphs);
+
+}  // namespace thawslide::device

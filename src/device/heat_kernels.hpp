@@ -1,0 +1,208 @@
+// Device kernels of heat conduction: those of band/heat_kernels.hpp with their parameters held by value, and the
+// functions of band/nodal_heat.hpp.
+#pragma once
+
+#include "band/heat_kernels.hpp"
+#include "band/nodal_heat.hpp"
+#include "band/rescaling.hpp"
+#include "device/layer_thickness.hpp"
+#include "device/node_kernels.hpp"
+
+namespace thawslide::device {
+
+// Scaling xi of particles in the band: uniform, or from the thickness of the cells along the ground.
+template <class Real>
+struct OneScaling {
+  Real scaling;
+
+  [[nodiscard]] THAWSLIDE_HD OneScaling in_tile(std::size_t /*tile*/) const { return *this; }
+  template <class Particles>
+  [[nodiscard]] THAWSLIDE_HD Real of(const Particles& /*particles*/, std::uint32_t /*p*/) const {
+    return scaling;
+  }
+};
+template <int Dim, class Real>
+struct ScalingByLayer {
+  LayersOfTile<Dim> layers;
+  Real thickness;  // of the band [m]
+
+  [[nodiscard]] THAWSLIDE_HD ScalingByLayer in_tile(std::size_t tile) const {
+    ScalingByLayer of_tile = *this;
+    of_tile.layers.tile = tile;
+    return of_tile;
+  }
+  template <class Particles>
+  [[nodiscard]] THAWSLIDE_HD Real of(const Particles& particles, std::uint32_t p) const {
+    std::array<double, Dim - 1> place{};
+    for (std::size_t a = 0; a < place.size(); ++a) {
+      place[a] = static_cast<double>(particles.position(p, static_cast<int>(a)));
+    }
+    return static_cast<Real>(layers.at(place)) / thickness;
+  }
+};
+
+// Sets the scaling of particles in the band, or of all particles; sums the heat that the change of scaling adds.
+template <int Dim, class Real, class Content, class Scaling>
+struct RescaleBand {
+  using Law = band::ParticleHeat<Content, band::InitialMasses>;
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<>;
+  using Account = Real;
+
+  Content content;
+  band::BandPhysics<Real> physics;
+  bool has_water, scales_all;
+  Scaling in_band;
+
+  [[nodiscard]] THAWSLIDE_HD RescaleBand in_tile(std::size_t tile) const {
+    return {content, physics, has_water, scales_all, in_band.in_tile(tile)};
+  }
+
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
+                               Real& added_heat) const {
+    const std::uint32_t p = at.particle[0];
+    const Law law{content};
+    const Real scaling = scales_all || particles.in_band(p) != 0 ? in_band.of(particles, p) : Real(1);
+    band::rescale_particle(physics, law, has_water, scaling, p, particles, added_heat);
+  }
+};
+
+template <int Dim, class Real, class Content>
+struct HeatFlows {
+  using Law = band::ParticleHeat<Content, band::InitialMasses>;
+  using Kernel = band::HeatFlows<Dim, Real, Law>;
+  using Reads = typename Kernel::Reads;
+  using Adds = typename Kernel::Adds;
+  using Account = typename Kernel::Account;
+
+  Content content;
+  band::BandPhysics<Real> physics;
+  band::HydraulicConductivity<Real> hydraulic;
+  Real dt, inverse_cell;
+  bool subgrid;
+
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
+                               Account& account) const {
+    const Law law{content};
+    const Kernel kernel{physics, hydraulic, law, dt, inverse_cell, subgrid};
+    kernel(particles, at, seen, added, account);
+  }
+};
+
+template <int Dim, class Real, class Content>
+struct SecantCapacity {
+  using Law = band::ParticleHeat<Content, band::InitialMasses>;
+  using Kernel = band::SecantCapacity<Dim, Real, Law>;
+  using Reads = typename Kernel::Reads;
+  using Adds = typename Kernel::Adds;
+  using Account = typename Kernel::Account;
+
+  Content content;
+  Real dt;
+
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
+                               Account& account) const {
+    const Law law{content};
+    const Kernel kernel{law, dt};
+    kernel(particles, at, seen, added, account);
+  }
+};
+
+template <int Dim, class Real, class Content>
+struct UpdateHeat {
+  using Law = band::ParticleHeat<Content, band::InitialMasses>;
+  using Kernel = band::UpdateHeat<Dim, Real, Law>;
+  using Reads = typename Kernel::Reads;
+  using Adds = typename Kernel::Adds;
+  using Account = typename Kernel::Account;
+
+  Content content;
+  band::BandPhysics<Real> physics;
+  Real dt;
+
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
+                               Account& account) const {
+    const Law law{content};
+    const Kernel kernel{physics, law, dt};
+    kernel(particles, at, seen, added, account);
+  }
+};
+
+// Nodal temperature rates, from sums with the tangent capacity, or with the secant capacity in blocks with temperature
+// changes.
+template <int Dim, class Real>
+struct SolveRates {
+  using Part = band::NodalHeat<Real>;
+  using Sum = Part;
+  static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+
+  NodeViews<Dim, Real> nodes;
+  const Real *tangent_rates, *secant_rates;
+  const std::uint8_t* changing_blocks;  // null: none yet
+  Real* unreached_heat;
+  Real dt;
+  const std::uint64_t* block_keys;
+  band::HeatFaces<Dim, Real> faces;
+  bool has_faces, first_step;
+  Real cell;
+
+  THAWSLIDE_HD void visit(std::size_t node, Part& part) const {
+    using mpm::HeatRates;
+    constexpr std::size_t size = mpm::record_size(HeatRates::size<Dim>);
+    constexpr std::size_t unreached_size = mpm::record_size(mpm::UnreachedHeat::size<Dim>);
+    const bool changes = changing_blocks != nullptr && changing_blocks[node / block_nodes] != 0;
+    const Real* rates = (changes ? secant_rates : tangent_rates) + node * size;
+    const Real* tangent = tangent_rates + node * size;
+    for (std::size_t c = 1; c < unreached_size; ++c) {
+      // cleared, because a pass that reads the record reads all its components
+      unreached_heat[node * unreached_size + c] = Real(0);
+    }
+    band::solve_temperature_rate<Dim>(
+        tangent, rates[HeatRates::capacity], rates[HeatRates::subgrid],
+        nodes.contact_at(node)[mpm::Contact::friction_heat], static_cast<const Real*>(nodes.momentum_at(node)), dt,
+        nodes.state_at(node)[mpm::NodalState::temperature_rate], unreached_heat[node * unreached_size], part,
+        [&](Real& rate, Real& power) {
+          return has_faces && band::meets_face(faces.at(place_of_node<Dim>(block_keys, node, cell)), first_step,
+                                               static_cast<const Real*>(nodes.averages_at(node)),
+                                               rates[HeatRates::capacity], cell, dt, rate, power, part.gain.boundary);
+        });
+  }
+  THAWSLIDE_HD void add(const Part* parts, std::size_t count, Sum& sum) const {
+    for (std::size_t k = 0; k < count; ++k) {
+      sum += parts[k];
+    }
+  }
+};
+
+// Tile condition (device/marks.hpp): a temperature may change by more than is negligible.
+template <int Dim, class Real, class Content>
+struct MayChange {
+  NodeViews<Dim, Real> nodes;
+  mpm::ParticleView<Dim, Real> particles;
+  Content content;
+  Real dt;
+
+  [[nodiscard]] THAWSLIDE_HD bool of_node(std::size_t node) const {
+    return !content.is_negligible(Real(2) * (dt * nodes.state_at(node)[mpm::NodalState::temperature_rate]));
+  }
+  [[nodiscard]] THAWSLIDE_HD bool of_particle(std::uint32_t particle) const {
+    return !content.is_negligible(Real(2) * particles.conduction_in_cell(particle));
+  }
+};
+
+// Tile condition: nodes hold friction heat to be passed on to particles.
+template <int Dim, class Real>
+struct HasHeat {
+  const Real* unreached_heat;
+
+  [[nodiscard]] THAWSLIDE_HD bool of_node(std::size_t node) const {
+    return unreached_heat[node * mpm::record_size(mpm::UnreachedHeat::size<Dim>)] != Real(0);
+  }
+  [[nodiscard]] THAWSLIDE_HD bool of_particle(std::uint32_t /*particle*/) const { return false; }
+};
+
+}  // namespace thawslide::device

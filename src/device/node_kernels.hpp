@@ -1,0 +1,368 @@
+// Device kernels of nodes: nodal state, contact with the ground and velocities mapped back, using the same functions as
+// the CPU stages.
+#pragma once
+
+#include <limits>
+
+#include "band/heat_face.hpp"
+#include "band/nodal_state.hpp"
+#include "device/step_model.hpp"
+#include "device/tile_tables.hpp"
+#include "mpm/records.hpp"
+#include "physics/basal/laws.hpp"
+#include "physics/basal_friction.hpp"
+#include "terrain/contact_node.hpp"
+
+namespace thawslide::device {
+
+// Records of nodes, accessed by the node's number over all blocks.
+template <int Dim, class Real>
+struct NodeViews {
+  Real *averages, *state, *momentum, *near_ground, *base, *contact, *motion, *velocity;
+  const terrain::GroundAtNode<Dim, Real>* known;  // null: no ground
+
+  template <class Name>
+  [[nodiscard]] THAWSLIDE_HD static Real* record(Real* numbers, std::size_t node) {
+    return numbers + node * mpm::record_size(mpm::components_of<Name, Dim>);
+  }
+  [[nodiscard]] THAWSLIDE_HD Real* averages_at(std::size_t node) const { return record<mpm::Averages>(averages, node); }
+  [[nodiscard]] THAWSLIDE_HD Real* state_at(std::size_t node) const { return record<mpm::NodalState>(state, node); }
+  [[nodiscard]] THAWSLIDE_HD Real* momentum_at(std::size_t node) const { return record<mpm::Momentum>(momentum, node); }
+  [[nodiscard]] THAWSLIDE_HD Real* near_ground_at(std::size_t node) const {
+    return record<mpm::NearGround>(near_ground, node);
+  }
+  [[nodiscard]] THAWSLIDE_HD Real* base_at(std::size_t node) const { return base + node * base_size; }
+  [[nodiscard]] THAWSLIDE_HD Real* contact_at(std::size_t node) const { return record<mpm::Contact>(contact, node); }
+  [[nodiscard]] THAWSLIDE_HD Real* motion_at(std::size_t node) const { return record<mpm::Motion>(motion, node); }
+  [[nodiscard]] THAWSLIDE_HD Real* velocity_at(std::size_t node) const { return record<mpm::Velocity>(velocity, node); }
+
+  static constexpr std::size_t base_size = mpm::BaseLayout::size;
+};
+
+// Position [m, relative to the domain's lower corner] of a node, by its number over all blocks.
+template <int Dim, class Real>
+THAWSLIDE_HD Vector<Real, Dim> place_of_node(const std::uint64_t* block_keys, std::size_t node, Real cell) {
+  using T = mpm::Tile<Dim>;
+  constexpr auto block_nodes = static_cast<std::size_t>(T::nodes);
+  const typename T::Index index =
+      T::node(T::index(block_keys[node / block_nodes]), static_cast<int>(node % block_nodes));
+  Vector<Real, Dim> place;
+  for (int a = 0; a < Dim; ++a) {
+    place[a] = static_cast<Real>(index[static_cast<std::size_t>(a)]) * cell;
+  }
+  return place;
+}
+
+// Faces of the domain at one node.
+template <int Dim, class Real>
+struct FacesAtNode {
+  const mpm::DomainFaces<Dim, Real>& faces;
+  Vector<Real, Dim> position;
+
+  [[nodiscard]] THAWSLIDE_HD bool any() const {
+    for (int a = 0; a < Dim; ++a) {
+      if ((faces.at_lower(position[a], a) && faces.faces[2 * a] != mpm::FaceKind::open) ||
+          (faces.at_upper(position[a], a) && faces.faces[2 * a + 1] != mpm::FaceKind::open)) {
+        return true;
+      }
+    }
+    return false;
+  }
+  THAWSLIDE_HD bool apply(Real /*mass*/, Vector<Real, Dim>& momentum) const {
+    faces.apply_faces(position, momentum);
+    return false;
+  }
+};
+
+// Arguments common to all node kernels of a step.
+template <int Dim, class Real>
+struct NodeStageArgs {
+  static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+
+  TileTables<Dim> tables;
+  NodeViews<Dim, Real> nodes;
+  mpm::DomainFaces<Dim, Real> faces;
+  Vector<Real, Dim> gravity;
+  Real cell, mass_damping, time, dt;
+  bool distance_check, pore_pressure, base_holds;
+
+  [[nodiscard]] THAWSLIDE_HD FacesAtNode<Dim, Real> walls(std::size_t node) const {
+    return {faces, place_of_node<Dim>(tables.block_keys, node, cell)};
+  }
+  [[nodiscard]] THAWSLIDE_HD terrain::NodeState<Dim, Real> trial(std::size_t node) const {
+    return terrain::trial_state<Dim>(walls(node), dt, mass_damping, static_cast<const Real*>(nodes.momentum_at(node)));
+  }
+  [[nodiscard]] THAWSLIDE_HD bool has_mass(std::size_t node) const {
+    return nodes.momentum_at(node)[mpm::MomentumLayout<Dim>::mass] > Real(0);
+  }
+  // Finds node `local` of the block in a direction from a node's own block. Returns false if there is no such block.
+  THAWSLIDE_HD bool find(std::size_t node, std::size_t direction, std::size_t local, std::size_t& found) const {
+    constexpr auto stencil = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
+    const std::int32_t block = tables.blocks_about_block[node / block_nodes * stencil + direction];
+    found = static_cast<std::size_t>(block) * block_nodes + local;
+    return block != absent;
+  }
+};
+
+// Sets the temperature and pore pressure of a node, with prescribed temperatures on faces of the domain.
+template <int Dim, class Real>
+struct SetState {
+  NodeViews<Dim, Real> nodes;
+  const std::uint64_t* block_keys;
+  band::HeatFaces<Dim, Real> faces;
+  bool has_faces;
+  Real cell;
+
+  THAWSLIDE_HD void operator()(std::size_t node) const {
+    Real* state = nodes.state_at(node);
+    if (band::set_nodal_state<Dim, Real>(static_cast<const Real*>(nodes.averages_at(node)), state) && has_faces) {
+      band::prescribe_temperature(faces.at(place_of_node<Dim>(block_keys, node, cell)), state);
+    }
+  }
+};
+
+// Load of a candidate node on the ground, and the ground area that the sliding mass covers.
+template <int Dim, class Real>
+struct PressOnGround {
+  NodeStageArgs<Dim, Real> step;
+  const std::uint32_t* candidates;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    const std::size_t node = candidates[k];
+    const terrain::GroundAtNode<Dim, Real>& known = step.nodes.known[node];
+    Real* base = step.nodes.base_at(node);
+    base[mpm::BaseLayout::load] = Real(0);
+    if (step.has_mass(node)) {
+      const auto state = step.trial(node);
+      base[mpm::BaseLayout::load] =
+          known.bend * terrain::approach(step.distance_check,
+                                         step.nodes.near_ground_at(node)[mpm::NearGround::clearance], step.dt,
+                                         state.mass, Real(state.momentum.dot(known.normal)));
+    }
+    const std::size_t local = node % NodeStageArgs<Dim, Real>::block_nodes;
+    base[mpm::BaseLayout::covered] =
+        known.area * terrain::covered_share<Dim, Real>(local, known.normal, [&](int direction, int further) {
+          return filled(node, static_cast<std::size_t>(direction), static_cast<std::size_t>(further));
+        });
+  }
+
+ private:
+  THAWSLIDE_HD Real filled(std::size_t node, std::size_t direction, std::size_t local) const {
+    std::size_t other = 0;
+    if (!step.find(node, direction, local, other)) {
+      return Real(0);
+    }
+    const Real cell = step.cell;
+    const terrain::GroundAtNode<Dim, Real>& known = step.nodes.known[other];
+    const Real space = known.candidate ? known.space : Dim == 2 ? cell * cell : cell * cell * cell;
+    return terrain::filled_share(step.nodes.momentum_at(other)[mpm::MomentumLayout<Dim>::volume], space);
+  }
+};
+
+// Input of the basal laws at a candidate node, and their results.
+template <class Real>
+struct ContactInput {
+  physics::basal::ContactNode<Real> node;
+  Real area;  // [m2]; 0: not in contact
+  // mu_e, pore pressure that reduces friction [Pa], drag [Pa], c_S [Pa]
+  Real friction, relief, drag, cohesion;
+};
+
+template <int Dim, class Real>
+struct GatherContactInput {
+  NodeStageArgs<Dim, Real> step;
+  const std::uint32_t* candidates;
+  Real smallest_area, gravity;
+  const Real* columns;  // records of BaseState by candidate; null without band columns
+  ContactInput<Real>* bases;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    using mpm::BaseLayout;
+    const std::size_t node = candidates[k];
+    const NodeViews<Dim, Real>& nodes = step.nodes;
+    ContactInput<Real>& base = bases[k];
+    base.area = Real(0);
+    const Real load = nodes.base_at(node)[BaseLayout::load];
+    if (!step.has_mass(node) || !(load > Real(0))) {
+      return;
+    }
+    const Vector<Real, Dim>& normal = nodes.known[node].normal;
+    const Real none[BaseLayout::size] = {};
+    const Real pressure =
+        terrain::base_pressure_of_node<Dim>(normal, step.dt, smallest_area, [&](std::size_t n) -> const Real* {
+          std::size_t other = 0;
+          return find_neighbour(node, n, other) ? nodes.base_at(other) : none;
+        });
+    base.area = load / (pressure * step.dt);  // the basal area is divided among nodes in proportion to their loads
+    base.node = terrain::contact_node_of<Dim>(
+        static_cast<const Real*>(nodes.state_at(node)), nodes.averages_at(node)[mpm::Averages::volume],
+        static_cast<const Real*>(nodes.near_ground_at(node)), pressure, step.pore_pressure, normal, step.trial(node));
+    if (columns != nullptr) {
+      terrain::take_columns_state(columns + k * mpm::BaseState::size<Dim>, step.pore_pressure, base.node);
+    }
+    base.node.time = step.time;
+    base.node.unit_weight = terrain::unit_weight_of<Dim>(static_cast<const Real*>(nodes.momentum_at(node)), gravity);
+  }
+
+ private:
+  // Neighbour n of 3^Dim, x fastest.
+  THAWSLIDE_HD bool find_neighbour(std::size_t node, std::size_t n, std::size_t& other) const {
+    using T = mpm::Tile<Dim>;
+    typename T::Index index = T::node({}, static_cast<int>(node % NodeStageArgs<Dim, Real>::block_nodes));
+    for (std::size_t a = 0; a < Dim; ++a) {
+      index[a] += static_cast<int>(n % 3) - 1;
+      n /= 3;
+    }
+    const PlaceInBlock<Dim> place = place_in_block<Dim>(static_cast<std::size_t>(T::in_patch(index)));
+    return step.find(node, place.direction, place.node, other);
+  }
+};
+
+// Friction and cohesion by the laws of one substrate, at its nodes.
+template <class Law, int Dim, class Real>
+struct EvaluateFriction {
+  Law law;
+  int substrate;
+  const terrain::GroundAtNode<Dim, Real>* known;
+  const std::uint32_t* candidates;
+  ContactInput<Real>* bases;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    ContactInput<Real>& base = bases[k];
+    if (known[candidates[k]].substrate == substrate && base.area > Real(0)) {
+      base.friction = law.coefficient(base.node);
+      base.drag = physics::basal::drag_of(law, base.node);
+      base.relief = Law::depends_on_pore_pressure ? base.node.pore_pressure : Real(0);
+    }
+  }
+};
+template <class Law, int Dim, class Real>
+struct EvaluateCohesion {
+  Law law;
+  int substrate;
+  const terrain::GroundAtNode<Dim, Real>* known;
+  const std::uint32_t* candidates;
+  ContactInput<Real>* bases;
+
+  THAWSLIDE_HD void operator()(std::size_t k) const {
+    ContactInput<Real>& base = bases[k];
+    if (known[candidates[k]].substrate == substrate && base.area > Real(0)) {
+      base.cohesion = law.cohesion(base.node);
+    }
+  }
+};
+
+// Used when there is no erodible bed.
+struct NoBeds {
+  template <class Real>
+  [[nodiscard]] THAWSLIDE_HD terrain::NoBed below(std::size_t /*candidate*/, Real /*area*/, Real /*strength*/,
+                                                  Real /*dt*/, Real /*mass*/) const {
+    return {};
+  }
+};
+
+// From nodal momentum and force to nodal motion. Beds provides below(candidate, area, strength, dt, mass), the bed
+// argument of apply_contact.
+template <class Beds, int Dim, class Real>
+struct ResolveContact {
+  struct Part {
+    terrain::ContactWork<Dim, Real> contact, motion;
+    bool touches = false;
+  };
+  using Sum = terrain::ContactWork<Dim, Real>;
+
+  NodeStageArgs<Dim, Real> step;
+  const std::int32_t* number;  // by node, index among candidates; null: no ground
+  const ContactInput<Real>* bases;
+  physics::FrictionClamp clamp;
+  bool cap_pressure;
+  Real heat_fraction;
+  Beds beds;
+
+  THAWSLIDE_HD void visit(std::size_t node, Part& part) const {
+    const NodeViews<Dim, Real>& nodes = step.nodes;
+    Real* motion = nodes.motion_at(node);
+    Real* contact = nodes.contact_at(node);
+    clear<mpm::Motion>(motion);
+    clear<mpm::Contact>(contact);
+    const std::int32_t candidate = number != nullptr ? number[node] : absent;
+    contact[mpm::Contact::candidate] = candidate != absent ? Real(1) : Real(0);
+    if (!step.has_mass(node)) {
+      return;
+    }
+    auto state = step.trial(node);
+    const FacesAtNode<Dim, Real> walls = step.walls(node);
+    if (candidate != absent && bases[candidate].area > Real(0)) {
+      part.touches = true;
+      touch(static_cast<std::size_t>(candidate), node, walls, state, part.contact, contact);
+    }
+    terrain::finish_node<Dim>(state, walls.any(), step.mass_damping, step.dt, part.motion, motion);
+  }
+
+  // Adds nodes in contact after the others.
+  THAWSLIDE_HD void add(const Part* parts, std::size_t count, Sum& sum) const {
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!parts[k].touches) {
+        sum += parts[k].motion;
+      }
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      if (parts[k].touches) {
+        sum += parts[k].contact;
+        sum += parts[k].motion;
+      }
+    }
+  }
+
+ private:
+  template <class Name>
+  THAWSLIDE_HD static void clear(Real* record) {
+    for (std::size_t c = 0; c < mpm::record_size(mpm::components_of<Name, Dim>); ++c) {
+      record[c] = Real(0);
+    }
+  }
+  THAWSLIDE_HD void touch(std::size_t candidate, std::size_t node, const FacesAtNode<Dim, Real>& walls,
+                          terrain::NodeState<Dim, Real>& state, Sum& work, Real* contact) const {
+    const ContactInput<Real>& base = bases[candidate];
+    const Real held = physics::sliding_strength(base.friction, base.node.normal_pressure, base.relief, base.cohesion,
+                                                clamp, cap_pressure) +
+                      base.drag;
+    const Real strength = step.base_holds ? std::numeric_limits<Real>::infinity() : held;
+    const terrain::GroundAtNode<Dim, Real>& known = step.nodes.known[node];
+    const terrain::ContactConditions<Dim, Real> hold{
+        known.normal, step.nodes.base_at(node)[mpm::BaseLayout::load], known.bend, base.area, strength, base.friction};
+    terrain::apply_contact(walls, hold, heat_fraction, step.dt,
+                           beds.below(candidate, base.area, strength, step.dt, state.mass), state, work, contact);
+  }
+};
+
+// Velocities from the momentum that particles map back.
+template <int Dim, class Real>
+struct MapBack {
+  using Part = Real;
+  using Sum = Real;
+
+  NodeStageArgs<Dim, Real> step;
+
+  THAWSLIDE_HD void visit(std::size_t node, Part& work) const {
+    const NodeViews<Dim, Real>& nodes = step.nodes;
+    if (!step.has_mass(node)) {
+      return;
+    }
+    const bool touching = nodes.contact_at(node)[mpm::Contact::touching] > Real(0);
+    const terrain::GroundOfMappedBack<Dim, Real> below{
+        touching, step.distance_check, touching ? &nodes.known[node].normal : nullptr,
+        touching ? nodes.near_ground_at(node)[mpm::NearGround::clearance] : Real(0)};
+    Real* velocity = nodes.velocity_at(node);
+    work = terrain::map_back<Dim>(step.walls(node), below, step.gravity, step.dt,
+                                  static_cast<const Real*>(nodes.momentum_at(node)),
+                                  static_cast<const Real*>(nodes.motion_at(node)), velocity);
+  }
+  THAWSLIDE_HD void add(const Part* parts, std::size_t count, Sum& sum) const {
+    for (std::size_t k = 0; k < count; ++k) {
+      sum += parts[k];
+    }
+  }
+};
+
+}  // namespace thawslide::device

@@ -1,0 +1,61 @@
+// Reductions over all particles: kernels (mpm/kernel.hpp).
+#pragma once
+
+#include "band/body_sums.hpp"
+#include "band/step_extremes.hpp"
+#include "mpm/kernel.hpp"
+#include "mpm/monitor_sums.hpp"
+
+namespace thawslide::device {
+
+// Sums for the run monitor (failure checks, rest).
+template <int Dim, class Real>
+struct RunMonitor {
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<>;
+  using Account = mpm::MonitorSums<Real>;
+
+  mpm::MonitorKernel<Dim, Real> look;
+
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
+                               Account& sums) const {
+    sums = look(particles, at.particle[0]);
+  }
+};
+
+// Extremes that determine the next step.
+template <int Dim, class Real>
+struct FindExtremes {
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<>;
+  using Account = band::StepExtremes;
+
+  band::BandPhysics<Real> physics;
+  band::HydraulicConductivity<Real> hydraulic;
+  band::FreeGaps<Real> free_gaps;
+
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
+                               Account& found) const {
+    found = band::extremes_of_particle<Dim>(physics, hydraulic, free_gaps, particles, at.particle[0]);
+  }
+};
+
+// Sums for history rows.
+template <int Dim, class Real>
+struct SumOverBody {
+  using Reads = mpm::RecordList<>;
+  using Adds = mpm::RecordList<>;
+  using Account = band::BodySums<Dim, Real>;
+
+  band::SumsOfParticle<Dim, Real> of_particle;
+
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
+                               Account& sums) const {
+    sums = of_particle(particles, at.particle[0]);
+  }
+};
+
+}  // namespace thawslide::device

@@ -1,0 +1,76 @@
+// Batch of particles processed at once, one per SIMD lane. Batches follow the canonical order, but their boundaries
+// depend on the order in memory. Results of a particle must therefore be independent of its neighbours in the batch,
+// and sums over particles run in the order of lanes.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "base/simd.hpp"
+#include "mpm/scalar_index.hpp"
+
+namespace thawslide::mpm {
+
+template <class Real>
+struct SimdBatch {
+  using Value = Simd<Real>;
+  static constexpr std::size_t most = simd_width<Real>;
+
+  std::array<std::uint32_t, most> particle;  // by lane; lanes from `count` on repeat the last one
+  std::size_t count;
+  bool contiguous;  // the particles are `most` consecutive ones in memory, starting at a multiple of `most`
+
+  // Adds a quantity in the order of lanes.
+  THAWSLIDE_ALWAYS_INLINE void add_to(Real& sum, const Simd<Real>& quantity) const {
+    alignas(sizeof(Simd<Real>)) Real numbers[most];
+    quantity.store(numbers);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      sum += numbers[lane];
+    }
+  }
+  // of(particle), by lane.
+  template <class Of>
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Value each(const Of& of) const {
+    return Value::of([&](std::size_t lane) { return of(particle[lane]); });
+  }
+  template <class Body>
+  void for_each(const Body& body) const {
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      body(particle[lane]);
+    }
+  }
+};
+
+// Batch of particles first, first + 1, ... of `size` particles in memory order; first is a multiple of the lane count.
+template <class Real>
+THAWSLIDE_ALWAYS_INLINE SimdBatch<Real> batch_in_memory(std::size_t first, std::size_t size) {
+  SimdBatch<Real> batch;
+  batch.count = std::min(SimdBatch<Real>::most, size - first);
+  batch.contiguous = batch.count == SimdBatch<Real>::most;
+  const auto from = static_cast<std::uint32_t>(first), last = static_cast<std::uint32_t>(first + batch.count - 1);
+  for (std::uint32_t lane = 0; lane < SimdBatch<Real>::most; ++lane) {
+    batch.particle[lane] = std::min(from + lane, last);
+  }
+  return batch;
+}
+
+// Nodes in reach of the particles of a batch: places of the lowest ones in the tile's patch.
+template <class Real>
+struct BatchNodes {
+  static constexpr std::uint8_t irregular = 3;
+
+  std::array<std::int32_t, simd_width<Real>> first;  // by lane
+  std::uint8_t runs;                                 // runs of lanes with the same nodes: 1, 2 or `irregular`
+  std::uint8_t second_run_begin;                     // first lane of the second of two runs
+  bool goes_on;  // the next batch begins with a particle of the same nodes as the last one of this batch
+};
+
+// Batch of one tile and one material. It remains valid until the nearest node of a particle of the tile changes.
+template <int Dim, class Real>
+struct TileBatch : SimdBatch<Real> {
+  std::array<std::array<std::int32_t, simd_width<Real>>, Dim> nearest;  // index of the nearest node, by axis
+  BatchNodes<Real> nodes;                                               // 3 per axis, from the one before the nearest
+};
+
+}  // namespace thawslide::mpm

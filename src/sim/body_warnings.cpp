@@ -1,0 +1,223 @@
+#include "sim/body_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/linear.hpp"
+#include "base/rounding.hpp"
+#include "config/basal_laws.hpp"
+#include "config/fitting_cell.hpp"
+#include "config/plausibility.hpp"
+#include "config/resolution.hpp"
+#include "physics/softening.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+constexpr double most_strain = 0.05;      // under its own weight, at the base of the thickest column
+constexpr double most_volume_off = 0.02;  // relative deviation of particle volume from the shape's volume
+constexpr double least_standing = 0.5;    // fraction of a body's area
+constexpr double touching = 0.5;  // spacings: tolerance, because particles lie on a lattice and the ground may not
+constexpr int digits_of_places = 6;
+constexpr double strain_of_unbroken = 1.0;  // softening strain from which on a material slides unbroken
+
+// Particles lie on a lattice, so their volume may differ from that of the shape.
+std::string volume_warning(const config::Case& parameters, const BodyFigures& body) {
+  const double more = body.volume / body.shape_volume - 1.0;
+  if (std::abs(more) <= most_volume_off) {
+    return "";
+  }
+  const std::string key = "body." + body.name;
+  return fmt::format(
+      "{}: {} has {:.6g} {}; its particles, which stand {:g} m apart and are what slides, have {:.6g}, {:.2g} % {}. "
+      "Put its "
+      "corners on multiples of that distance, or make grid.cell smaller.",
+      config::place_of(parameters, key), key, body.shape_volume,
+      parameters.general.dimension == 2 ? "m3 per m of width" : "m3", body.spacing, body.volume, 100.0 * std::abs(more),
+      more > 0.0 ? "more" : "less");
+}
+
+// Warns of a body over nothing, or far above its support.
+std::string standing_warning(const config::Case& parameters, const BodyFigures& body) {
+  const std::string key = "body." + body.name;
+  if (!parameters.mechanics.enabled || parameters.general.gravity == 0.0 || !parameters.frames.empty()) {
+    return "";
+  }
+  if (std::isinf(body.clearance)) {
+    return fmt::format(
+        "{}: {} has nothing below it: terrain.type is \"none\" and the lower side of the domain is open, so it falls "
+        "out of the domain. Give terrain.type, or a boundary that holds.",
+        config::place_of(parameters, key), key);
+  }
+  if (body.clearance > touching * body.spacing) {
+    const double time = std::sqrt(2.0 * body.clearance / parameters.general.gravity);
+    return fmt::format(
+        "{}: {} floats: its underside is {:.3g} m above what is below it, and it falls for {:.2g} s before it touches. "
+        "Begin it on that, or set shape = \"surface\" or \"release\", which follow the ground.",
+        config::place_of(parameters, key), key, body.clearance, time);
+  }
+  if (body.standing_share < least_standing) {
+    return fmt::format(
+        "{}: {} stands on {:.2g} % of its area; below the rest is a gap of {:.3g} m and more, one distance of its "
+        "particles. Give it the shape of the ground: shape = \"surface\", \"release\", or a polygon.",
+        config::place_of(parameters, key), key, 100.0 * body.standing_share, body.spacing);
+  }
+  return "";
+}
+
+std::string stiffness_warning(const config::Case& parameters, const BodyFigures& body) {
+  const std::string& material = parameters.bodies.at(body.name).material;
+  const double modulus = parameters.materials.at(material).youngs_modulus;
+  const double load = body.mass / body.volume * parameters.general.gravity * body.largest_thickness;
+  const bool deforms = parameters.mechanics.enabled && parameters.mechanisms.deformation;
+  if (!deforms || modulus < config::softest_modulus || !(load > most_strain * modulus)) {
+    return "";
+  }
+  const std::string key = "material." + material + ".youngs_modulus";
+  return fmt::format(
+      "{}: {} is {} Pa: the weight of body {}, {:.2g} Pa where it is thickest, squeezes it by {:.0f} % there. Give it "
+      "{:.1g} Pa or more.",
+      config::place_of(parameters, key), key, modulus, body.name, load, 100.0 * load / modulus,
+      rounded_up(load / most_strain, 1));
+}
+
+std::string band_warning(const config::Case& parameters, const BodyFigures& body) {
+  const Table& thickness = parameters.band.thickness;
+  const double thickest =
+      thickness.value.empty() ? 0.0 : *std::max_element(thickness.value.begin(), thickness.value.end());
+  if (!parameters.mechanics.enabled || !(thickest > body.median_thickness)) {
+    return "";
+  }
+  return fmt::format(
+      "{}: band.thickness is {} m: more than the body {}, {:.3g} m thick in the median. The band is the part of a "
+      "slide "
+      "that shears at its base: usual is 0.01 to 2 m.",
+      config::place_of(parameters, "band.thickness"), thickest, body.name, body.median_thickness);
+}
+
+bool is_plastic(const config::Case& parameters, const config::Material& material) {
+  return parameters.mechanics.enabled && parameters.mechanisms.deformation &&
+         material.law == config::LawKind::mohr_coulomb;
+}
+
+double sine_of(double degrees) { return std::sin(degrees * pi<double> / 180.0); }
+double cosine_of(double degrees) { return std::cos(degrees * pi<double> / 180.0); }
+
+// Pressure of the body's weight at its median thickness [Pa].
+double usual_load(const config::Case& parameters, const BodyFigures& body) {
+  return body.mass / body.volume * parameters.general.gravity * body.median_thickness;
+}
+
+// Warns of a base that is stronger than the broken body above it. The slide then shears in the cells above its base,
+// the base stays frozen, and the result depends on the cell size. The same bound applies in soil mechanics: the
+// friction angle of an interface is at most that of the soil. On planes parallel to the base, the body resists N
+// tan(phi) + c.
+std::string strength_warning(const config::Case& parameters, const BodyFigures& body) {
+  const std::string& name = parameters.bodies.at(body.name).material;
+  const config::Material& material = parameters.materials.at(name);
+  const double load = usual_load(parameters, body);
+  if (!is_plastic(parameters, material) || parameters.terrain.kind == config::TerrainKind::none || !(load > 0.0)) {
+    return "";
+  }
+  const physics::basal::ContactNode<double> frozen{.normal_pressure = load, .solid_fraction = 1.0};
+  const double base = std::visit([&](const auto& law) { return law.coefficient(frozen); },
+                                 config::friction_of<double>(parameters.basal));
+  const double strain = std::max(material.softening_strain,
+                                 physics::softening_strain_of_slip(material.softening_slip, parameters.grid.cell));
+  const bool is_unbroken = strain >= strain_of_unbroken;
+  const double angle = is_unbroken ? material.friction_angle : material.residual_friction_angle;
+  const double cohesion = is_unbroken ? material.cohesion : material.residual_cohesion;
+  const double borne = std::tan(angle * pi<double> / 180.0) + cohesion / load;
+  if (base <= borne * (1.0 + round_off<double>)) {
+    return "";
+  }
+  const bool softens = material.residual_friction_angle < material.friction_angle;
+  const std::string key = "material." + name + (softens ? ".residual_friction_angle" : ".friction_angle");
+  return fmt::format(
+      "{}: broken material of body {} bears {:.3f} of its load in shear, and friction of the base is {:.3f} of it: the "
+      "slide shears above its base, which then does not warm, and the results depend on grid.cell. Give {} a larger "
+      "angle, or [basal] a friction of at most {:.3f} (an angle of {:.1f} degrees).",
+      config::place_of(parameters, key), body.name, borne, base, key, borne,
+      std::floor(10.0 * std::atan(borne) * 180.0 / pi<double>) / 10.0);
+}
+
+// Warns of material that softens over a slip and releases more elastic energy in a cell than its rupture consumes.
+std::string softening_warning(const config::Case& parameters, const BodyFigures& body) {
+  const std::string& name = parameters.bodies.at(body.name).material;
+  const config::Material& material = parameters.materials.at(name);
+  if (!is_plastic(parameters, material) || !(material.softening_slip > 0.0)) {
+    return "";
+  }
+  const auto radius = [&](double cohesion, double angle) {
+    return cohesion * cosine_of(angle) + usual_load(parameters, body) * sine_of(angle);
+  };
+  const double loss = radius(material.cohesion, material.friction_angle) -
+                      radius(material.residual_cohesion, material.residual_friction_angle);
+  const double shear_modulus = material.youngs_modulus / (2.0 * (1.0 + material.poisson_ratio));
+  const double widest = physics::widest_softening_cell(material.softening_slip, shear_modulus, loss);
+  if (!(loss > 0.0) || parameters.grid.cell <= widest) {
+    return "";
+  }
+  const std::string key = "material." + name + ".softening_slip";
+  return fmt::format(
+      "{}: {} is {} m: in a cell of {:g} m the strength falls faster than the elastic strain can follow, and breaking "
+      "depends on grid.cell. Set grid.cell to at most {:.2g} m, or {} to at least {:.2g} m.",
+      config::place_of(parameters, key), key, material.softening_slip, parameters.grid.cell, widest, key,
+      material.softening_slip * parameters.grid.cell / widest);
+}
+
+// Checks temperatures from maps; temperatures given as numbers are checked when the case is read.
+std::string temperature_warning(const config::Case& parameters, const BodyFigures& body) {
+  const InitialField& temperature = parameters.bodies.at(body.name).temperature;
+  const bool is_map = temperature.is_map() && !parameters.bodies.at(body.name).saturation.is_given();
+  if (!is_map || !(body.warmest > parameters.freezing.reference_temperature)) {
+    return "";
+  }
+  const std::string key = "body." + body.name + ".temperature";
+  return fmt::format(
+      "{}: {} is up to {:.{}g} C in '{}': there pores hold water from the start, no ice. Were "
+      "temperatures below 0 meant?",
+      config::place_of(parameters, key), key, body.warmest, digits_of_places, temperature.source);
+}
+
+// Warns of too few particles across the median thickness, or too few cells for maps.
+std::string resolution_warning(const config::Case& parameters, const BodyFigures& body) {
+  if (!parameters.mechanics.enabled) {
+    return "";
+  }
+  const config::BodyOnCells on_cells{.name = body.name,
+                                     .thickness = body.median_thickness,
+                                     .cell = parameters.grid.cell,
+                                     .particles_per_axis = parameters.bodies.at(body.name).particles_per_axis,
+                                     .dimension = parameters.general.dimension,
+                                     .has_maps = config::asks_for_maps(parameters)};
+  const std::string warning = config::resolution_warning(on_cells, "grid.cell", config::lengths_of_domain(parameters));
+  return warning.empty() ? "" : config::place_of(parameters, "grid.cell") + ": " + warning;
+}
+
+}  // namespace
+
+std::vector<std::string> body_warnings(const config::Case& parameters, const std::vector<BodyFigures>& bodies) {
+  std::vector<std::string> found;
+  const auto add = [&found](std::string warning) {
+    if (!warning.empty()) {
+      found.push_back(std::move(warning));
+    }
+  };
+  for (const BodyFigures& body : bodies) {
+    add(volume_warning(parameters, body));
+    add(standing_warning(parameters, body));
+    add(stiffness_warning(parameters, body));
+    add(band_warning(parameters, body));
+    add(strength_warning(parameters, body));
+    add(softening_warning(parameters, body));
+    add(temperature_warning(parameters, body));
+    add(resolution_warning(parameters, body));
+  }
+  return found;
+}
+
+}  // namespace thawslide::sim

@@ -1,0 +1,233 @@
+// Monitor of a run: unexplained energy growth, volume limits, and rest.
+#include "sim/monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/instances.hpp"
+#include "mpm/sum_over_particles.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+// Round-off of sums over particles, relative to their largest term, the potential energy.
+constexpr double round_off = 1e-10;
+
+// Lower bound of the reference energy, as the energy of a fall by this number of cells. A body almost at rest has so
+// little energy that discretization errors are a large fraction of it. An instability exceeds the bound within some
+// steps.
+constexpr double noticed_fall = 1.0;
+
+// Fraction by which the reference level relaxes to the current energy at each check. An instability grows within a few
+// hundred steps. The slow gains of a body at rest for a long time, which contact dissipates again, do not count.
+constexpr double forgotten_share = 0.02;
+
+// Speed below which the slide is at rest [m/s]: time.stop_at_rest, if specified.
+double rest_speed(const config::Time& times) {
+  return times.stop_at_rest > 0.0 ? times.stop_at_rest : usual_rest_speed;
+}
+
+// A slide that is slow from the start is at rest after this multiple of the free-fall time to the rest speed. A mass
+// that accelerates at a fiftieth of gravity exceeds that speed by then.
+constexpr double fall_times = 50.0;
+
+// Value of RunMonitor::has_moved in a run that does not stop at rest.
+constexpr double not_sampled = -1.0;
+
+// Energy present or accounted for, minus energy supplied [J]: the energy gained or lost by the transfers and the time
+// steps. It is the sum of mechanical_residual_J and numerical_J of the history, which compensate each other in a stable
+// run.
+template <int Dim, class Real>
+double energy_made(const Ledger<Dim, Real>& ledger, const mpm::MonitorSums<Real>& seen) {
+  const Real there = seen.kinetic + seen.potential + ledger.stress_work + ledger.pore_work + ledger.left_mechanical;
+  const Real gone = ledger.viscous + ledger.damping + ledger.friction_work + ledger.contact_loss + ledger.bed_work;
+  const Real came = ledger.frame_work + ledger.joined_mechanical + ledger.initial_mechanical;
+  return static_cast<double>(there + gone - came);
+}
+
+// Total energy so far: held by the material, kinetic or dissipated [J].
+template <int Dim, class Real>
+double energy_so_far(const Ledger<Dim, Real>& ledger, const mpm::MonitorSums<Real>& seen, double held_at_start) {
+  return held_at_start + static_cast<double>(seen.kinetic + std::abs(ledger.stress_work) + ledger.viscous +
+                                             ledger.damping + ledger.friction_work + ledger.contact_loss);
+}
+
+// True if more than escaped_fraction of the mass moves faster than `speed` [m/s].
+template <int Dim, class Real>
+bool starts_faster(const mpm::Particles<Dim, Real>& particles, double speed) {
+  double mass = 0.0, fast_mass = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const auto velocity = particles.velocity.template get<Vector<Real, Dim>>(p);
+    mass += static_cast<double>(particles.mass(p));
+    fast_mass += static_cast<double>(velocity.norm()) > speed ? static_cast<double>(particles.mass(p)) : 0.0;
+  }
+  return fast_mass > escaped_fraction * mass;
+}
+
+// Time for which a slide must be slow from the start to be at rest [s].
+double rest_time_from_start(const config::Time& times, double gravity) {
+  return std::min(times.rest_time, fall_times * rest_speed(times) / gravity);
+}
+
+// True if more than escaped_fraction of the mass has moved farther than a distance [m].
+template <int Dim, class Real>
+bool has_gone_further(const mpm::Particles<Dim, Real>& particles, Real way) {
+  Real mass = 0, far_mass = 0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    mass += particles.mass(p);
+    far_mass += particles.path_length(p) > way ? particles.mass(p) : Real(0);
+  }
+  return far_mass > static_cast<Real>(escaped_fraction) * mass;
+}
+
+}  // namespace
+
+template <int Dim, class Real>
+mpm::MonitorSums<Real> Simulation<Dim, Real>::monitor_sums() const {
+  // Displacement per step above which a particle is fast. Particle velocity also contains FLIP noise, which the grid
+  // does not resolve and which displaces nothing.
+  const Real fast_distance = static_cast<Real>(rest_speed(parameters_.time)) * dt_;
+  const mpm::MonitorKernel<Dim, Real> look{model_.motion.gravity, model_.origin.template cast<Real>(), fast_distance,
+                                           static_cast<Real>(parameters_.guards.smallest_volume),
+                                           static_cast<Real>(parameters_.guards.largest_volume)};
+  mpm::MonitorSums<Real> seen;
+  if (device_solver_) {
+    on_device([&] { seen = device_solver_->watch(look); });
+    return seen;
+  }
+  return mpm::sum_over_particles<mpm::MonitorSums<Real>>(grid_, [&](std::uint32_t p) { return look(particles_, p); });
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::start_monitor() {
+  monitor_ = {};
+  removed_ = {};
+  monitor_.first_step = parameters_.time.stepping == config::Stepping::adaptive ? adaptive_step() : 0.0;
+  if (!parameters_.mechanics.enabled) {
+    return;
+  }
+  for (const std::uint32_t p : grid_.order()) {
+    const auto& material = model_.motion.materials[static_cast<std::size_t>(particles_.material(p))];
+    const SymmetricTensor<Real> stress = mpm::full_tensor<Dim, Real>(particles_.stress, p);
+    monitor_.held_at_start +=
+        static_cast<double>(particles_.volume(p) * physics::elastic_energy_density(material.elastic, stress));
+  }
+  monitor_.lowest_made = energy_made(ledger_, monitor_sums());
+  monitor_.rest_since = starts_faster(particles_, rest_speed(parameters_.time)) ? -1.0 : 0.0;
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::watch() {
+  if (!parameters_.mechanics.enabled || (step_number_ % watch_interval != 0 && invalid_.id < 0)) {
+    return;
+  }
+  const mpm::MonitorSums<Real> seen = monitor_sums();
+  stop_if_energy_grows(seen);
+  invalid_ += seen.volumes;
+  update_rest(seen);
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::MonitorSums<Real>& seen) {
+  const double made = energy_made(ledger_, seen);
+  monitor_.lowest_made = std::min(made, monitor_.lowest_made + forgotten_share * (made - monitor_.lowest_made));
+  monitor_.largest_energy = std::max(monitor_.largest_energy, energy_so_far(ledger_, seen, monitor_.held_at_start));
+  const double growth = made - monitor_.lowest_made;
+  const double weight = static_cast<double>(seen.mass * model_.motion.gravity.norm());
+  const double energy = std::max(monitor_.largest_energy, weight * noticed_fall * parameters_.grid.cell);
+  const double round_off_of_sums = round_off * static_cast<double>(std::abs(seen.potential));
+  monitor_.made_share = made > round_off_of_sums ? made / energy : 0.0;
+  if (growth > parameters_.guards.energy_growth * energy + round_off_of_sums) {
+    stop_for_energy(growth, growth / energy);
+  }
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::update_rest(const mpm::MonitorSums<Real>& seen) {
+  const bool moves = seen.fast_mass > static_cast<Real>(escaped_fraction) * seen.mass;
+  if (parameters_.time.stop_at_rest <= 0.0) {
+    monitor_.has_moved = not_sampled;
+  } else if (monitor_.has_moved == not_sampled) {
+    // The criterion of rest used another speed so far.
+    monitor_.rest_since = -1.0;
+    monitor_.has_moved =
+        has_gone_further(std::as_const(*this).particles(), static_cast<Real>(parameters_.grid.cell)) ? 1.0 : 0.0;
+  }
+  if (moves) {
+    monitor_.has_moved = parameters_.time.stop_at_rest > 0.0 ? 1.0 : not_sampled;
+    monitor_.rest_since = -1.0;
+  } else if (monitor_.rest_since < 0.0) {
+    monitor_.rest_since = time_;
+  }
+}
+
+template <int Dim, class Real>
+bool Simulation<Dim, Real>::is_at_rest() const {
+  const config::Time& times = parameters_.time;
+  const double needed = monitor_.rest_since > 0.0
+                            ? times.rest_time
+                            : rest_time_from_start(times, static_cast<double>(model_.motion.gravity.norm()));
+  return monitor_.rest_since >= 0.0 && step_number_ >= watch_interval &&
+         time_ - monitor_.rest_since >= needed * (1.0 - 1e-9);
+}
+
+template <int Dim, class Real>
+bool Simulation<Dim, Real>::ends_at_rest() const {
+  return parameters_.time.stop_at_rest > 0.0 && monitor_.has_moved > 0.0 && is_at_rest();
+}
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::rest_rule() const {
+  const config::Time& times = parameters_.time;
+  const double from_start = rest_time_from_start(times, static_cast<double>(model_.motion.gravity.norm()));
+  const std::string or_from_start =
+      from_start < times.rest_time ? fmt::format(", or {:.2g} s from the start,", from_start) : "";
+  return fmt::format("for {:g} s{} no more than {:g} % of the mass faster than {:g} m/s", times.rest_time,
+                     or_from_start, 100.0 * escaped_fraction, rest_speed(times));
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::restart_rest_time() {
+  monitor_.rest_since = -1.0;
+}
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::energy_warning() const {
+  if (monitor_.made_share <= parameters_.guards.energy_growth) {
+    return "";
+  }
+  return fmt::format(
+      "warning: by t = {:.6g} s the steps have made {:.3g} % of all energy, little by little and without a cause: do "
+      "not "
+      "trust what the slide does from here on. A body without viscosity flutters: give its material a viscosity_time "
+      "(0.001 to 0.02 s), or take smaller steps",
+      time_, 100.0 * monitor_.made_share);
+}
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::rest_text() const {
+  return fmt::format(
+      "{}: since t = {:g} s no more than {:g} % of its mass has moved faster than {:g} m/s (time.stop_at_rest)",
+      at_rest, monitor_.rest_since, 100.0 * escaped_fraction, parameters_.time.stop_at_rest);
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                    \
+  template mpm::MonitorSums<Real> Simulation<Dim, Real>::monitor_sums() const;              \
+  template void Simulation<Dim, Real>::start_monitor();                                     \
+  template void Simulation<Dim, Real>::watch();                                             \
+  template void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::MonitorSums<Real>&); \
+  template void Simulation<Dim, Real>::update_rest(const mpm::MonitorSums<Real>&);          \
+  template bool Simulation<Dim, Real>::is_at_rest() const;                                  \
+  template bool Simulation<Dim, Real>::ends_at_rest() const;                                \
+  template std::string Simulation<Dim, Real>::rest_rule() const;                            \
+  template std::string Simulation<Dim, Real>::energy_warning() const;                       \
+  template void Simulation<Dim, Real>::restart_rest_time();                                 \
+  template std::string Simulation<Dim, Real>::rest_text() const;
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

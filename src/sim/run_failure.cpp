@@ -1,0 +1,312 @@
+// Message of a failed run: particle, position, time and probable cause.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/instances.hpp"
+#include "config/case_proposal.hpp"
+#include "config/plausibility.hpp"
+#include "physics/mixture.hpp"
+#include "sim/path_line.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+
+namespace {
+
+// A particle faster than this multiple of the body's mean speed has detached from it.
+constexpr double runaway = 5.0;
+
+// Below this temperature [C], compression has closed the pores rather than thermal expansion of the rock.
+constexpr double hot = 1000.0;
+
+// Advice for a DEM that ends too soon.
+constexpr const char* anew =
+    "`thawslide new` crops the DEM to the domain: create the case again with a smaller --reach-angle, which uses more "
+    "of the DEM, or from a larger DEM.";
+
+// Horizontal direction of a particle's motion as text; x is east and y north.
+std::string heading(double x, double y) {
+  const double speed = std::hypot(x, y);
+  // A component counts if the direction is more than 22.5 degrees from the other axis.
+  constexpr double share = 0.3826834323650898;
+  const std::string along = y > share * speed ? "north" : y < -share * speed ? "south" : "";
+  const std::string across = x > share * speed ? "east" : x < -share * speed ? "west" : "";
+  return along + (along.empty() || across.empty() ? "" : "-") + across;
+}
+
+// Axis along which a particle within the domain reaches a side first.
+template <int Dim, class Real>
+int axis_of_exit(const Vector<Real, Dim>& place, const Vector<Real, Dim>& velocity, const Vector<Real, Dim>& extent) {
+  int first = 0;
+  double soonest = HUGE_VAL;
+  for (int a = 0; a < Dim; ++a) {
+    const double speed = static_cast<double>(velocity[a]);
+    const double ahead = static_cast<double>(speed > 0.0 ? extent[a] - place[a] : place[a]);
+    const double time = speed == 0.0 ? HUGE_VAL : ahead / std::abs(speed);
+    if (time < soonest) {
+      soonest = time;
+      first = a;
+    }
+  }
+  return first;
+}
+
+// Distance from a position to the edge of the DEM, in the horizontal direction of motion [m].
+double distance_to_domain_edge(const config::Site& site, const Place2& place, const Place2& velocity) {
+  const double speed = std::hypot(velocity[0], velocity[1]);
+  const Raster& ground = *site.ground;
+  const auto [low, high] = site.terrain_model.value_or(
+      std::array<Place2, 2>{Place2{ground.x, ground.y}, Place2{ground.x_end(), ground.y_end()}});
+  double room = HUGE_VAL;
+  for (std::size_t a = 0; a < 2; ++a) {
+    const double forward = velocity[a] / speed;
+    if (forward != 0.0) {
+      room = std::min(room, ((forward > 0.0 ? high[a] : low[a]) - place[a]) / forward);
+    }
+  }
+  return std::max(room, 0.0);
+}
+
+// Index in memory; ties are broken by the smallest id.
+template <int Dim, class Real>
+std::size_t fastest_particle(const mpm::Particles<Dim, Real>& particles) {
+  const auto speed = [&](std::size_t p) { return particles.velocity.template get<Vector<Real, Dim>>(p).norm(); };
+  std::size_t fastest = 0;
+  for (std::size_t p = 1; p < particles.size(); ++p) {
+    if (speed(p) > speed(fastest) || (speed(p) == speed(fastest) && particles.id(p) < particles.id(fastest))) {
+      fastest = p;
+    }
+  }
+  return fastest;
+}
+
+// Failure due to pores closed by heat, if any: their water has no volume left, and its pressure is unbounded.
+template <int Dim, class Real>
+std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
+  std::size_t closed = 0;
+  double hottest = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    double temperature = 0.0;  // current and previous temperature, if finite
+    for (const Real one : {particles.temperature(p), particles.previous_temperature(p)}) {
+      temperature = std::max(temperature, static_cast<double>(one));
+    }
+    hottest = std::max(hottest, temperature);
+    closed += particles.porosity(p) <= physics::smallest_porosity<Real> && temperature > hot ? 1u : 0u;
+  }
+  if (closed == 0) {
+    return "";
+  }
+  return fmt::format(
+      "Likely cause: the pores of {} particles have closed, and the pressure of their water has no bound (hottest "
+      "particle: {:.4g} C). Rock that expands with heat (Eq. 6) fills its pores at some thousand degrees; rock "
+      "melts nowhere in the model, and water boils in band columns alone. A thicker band, less basal.heat_fraction or "
+      "less cohesion keep it cooler.",
+      closed, hottest);
+}
+
+}  // namespace
+
+// Throws if no particle has that id.
+template <int Dim, class Real>
+std::size_t Simulation<Dim, Real>::place_in_memory(std::int64_t id) const {
+  std::size_t p = 0;
+  while (p < particles_.size() && particles_.id(p) != id) {
+    ++p;
+  }
+  THAWSLIDE_ASSERT(p < particles_.size(), "bad particle {} is not among the particles", id);
+  return p;
+}
+
+// Position in the coordinates of the case [m].
+template <int Dim, class Real>
+Vector<double, Dim> Simulation<Dim, Real>::place_of(std::size_t p) const {
+  Vector<double, Dim> place;
+  for (int a = 0; a < Dim; ++a) {
+    place[a] = static_cast<double>(particles_.position(p, a)) + model_.origin[a];
+  }
+  return place;
+}
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::particle_text(std::size_t p) const {
+  const Vector<double, Dim> place = place_of(p);
+  std::string numbers;
+  for (int a = 0; a < Dim; ++a) {
+    numbers += fmt::format("{}{:.10g}", a == 0 ? "" : ", ", place[a]);
+  }
+  return fmt::format("particle {} of body '{}' at ({}) m", particles_.id(p),
+                     model_.body_names[static_cast<std::size_t>(particles_.body(p))], numbers);
+}
+
+// Describes the fault of the particle in invalid_.
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::fault_text(std::size_t p) const {
+  const auto ratio = static_cast<double>(particles_.volume(p) / particles_.initial_volume(p));
+  const config::Guards& guards = parameters_.guards;
+  switch (invalid_.fault) {
+    case mpm::Fault::volume_not_finite:
+      return "its volume is not a finite number";
+    case mpm::Fault::volume_not_positive:
+      return "its volume ratio is not positive";
+    case mpm::Fault::volume_too_small:
+      return fmt::format("its volume is {:.4g} of that at t = 0, where guards.smallest_volume allows {:g}", ratio,
+                         guards.smallest_volume);
+    case mpm::Fault::volume_too_large:
+      return fmt::format("its volume is {:.4g} of that at t = 0, where guards.largest_volume allows {:g}", ratio,
+                         guards.largest_volume);
+    case mpm::Fault::state_not_finite:
+      return "its position, stress, temperature or pore pressure is not a finite number";
+    case mpm::Fault::left_domain:
+      return "it left the domain";
+    case mpm::Fault::left_map:
+      return "the terrain below it is not known: the DEM ends or has a hole there";
+    case mpm::Fault::none:
+      break;
+  }
+  return "nothing is wrong with it";
+}
+
+// Stopping distance of a particle by friction, v2/(2 g tan(angle)), compared with the distance to the edge of the DEM.
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::terrain_ahead(std::size_t p) const {
+  const Vector<double, Dim> velocity = particles_.velocity.template get<Vector<Real, Dim>>(p).template cast<double>();
+  const double gravity = static_cast<double>(model_.motion.gravity.norm());
+  constexpr double angle = config::usual_reach_angle, degree = pi<double> / 180.0, rounded_to = 10.0;
+  const double energy_height = velocity.squaredNorm() / (2.0 * gravity);
+  const double further = std::ceil(energy_height / std::tan(angle * degree) / rounded_to) * rounded_to;
+  const std::string level = fmt::format(
+      "With {:g} degrees of friction, the reach angle that `thawslide new` assumes, it would go about {:.0f} m "
+      "further on level ground, and more where the ground falls. ",
+      angle, further);
+  if (Dim == 2 || site_.ground == nullptr || invalid_.fault == mpm::Fault::left_map) {
+    return level;
+  }
+  const Place2 place{static_cast<double>(particles_.position(p, 0)) + model_.origin[0],
+                     static_cast<double>(particles_.position(p, 1)) + model_.origin[1]};
+  const double room = distance_to_domain_edge(site_, place, {velocity[0], velocity[1]});
+  return level + (room <= further
+                      ? fmt::format("The DEM ends {:.0f} m ahead of it: it has to be larger, and [grid] with "
+                                    "it. {}",
+                                    room, anew)
+                      : fmt::format("The DEM ends {:.0f} m ahead of it: widen [grid] that way.", room));
+}
+
+template <int Dim, class Real>
+bool Simulation<Dim, Real>::is_too_soft(std::size_t p) const {
+  const std::string& material = model_.material_names[static_cast<std::size_t>(particles_.material(p))];
+  return parameters_.materials.at(material).youngs_modulus < config::softest_modulus;
+}
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::step_to_halve() const {
+  return parameters_.time.stepping == config::Stepping::fixed ? "time.step" : "time.safety";
+}
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::cause_in_material(std::size_t p) const {
+  if (is_too_soft(p)) {
+    const std::string& material = model_.material_names[static_cast<std::size_t>(particles_.material(p))];
+    return fmt::format(
+        "Likely cause: material '{}' is too soft (youngs_modulus {:g} Pa), and its own weight squeezes it flat; broken "
+        "rock and ice have 1e7 Pa and more.",
+        material, parameters_.materials.at(material).youngs_modulus);
+  }
+  return fmt::format(
+      "Likely cause: the step is too long for what the material does, or the material is softer than its load, or it "
+      "is torn apart; try half of {}, a viscosity_time in the material, or mechanics.transfer = \"blend\" with "
+      "mechanics.pic_share = 0.02.",
+      step_to_halve());
+}
+
+template <int Dim, class Real>
+std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
+  const std::string too_long = cause_in_material(p);
+  if (is_too_soft(p)) {
+    return too_long;
+  }
+  const bool pressurized = model_.band.heat && model_.band.pressure;
+  if (invalid_.fault == mpm::Fault::state_not_finite && pressurized) {
+    const std::string closed = closed_pores(particles_);
+    return closed.empty() ? too_long : closed;
+  }
+  const auto velocity = particles_.velocity.template get<Vector<Real, Dim>>(p);
+  const double own = static_cast<double>(velocity.norm());
+  const std::string towards =
+      Dim == 2 ? "" : " towards the " + heading(static_cast<double>(velocity[0]), static_cast<double>(velocity[1]));
+  if (invalid_.fault == mpm::Fault::left_map) {
+    return fmt::format("It moves at {:.4g} m/s{}. {}", own, towards, terrain_ahead(p)) +
+           "Give a DEM that reaches further there, and [grid] with it, or set grid.leaving = \"remove\" to let such "
+           "particles go. " +
+           anew;
+  }
+  if (invalid_.fault != mpm::Fault::left_domain) {
+    return too_long;
+  }
+  const BodySums<Dim, Real> sums = sum_over_body();
+  const double mean = std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass));
+  const std::string speeds =
+      fmt::format("It moves at {:.4g} m/s{}, the slide at {:.4g} m/s on average. ", own, towards, mean);
+  if (own > runaway * mean) {
+    return fmt::format(
+        "{}Likely cause: it came loose from the slide; try half of {}, or viscosity_time in the material.", speeds,
+        step_to_halve());
+  }
+  const std::string too_far = speeds + "Likely cause: the slide ran further than [grid] min and max allow";
+  const int exit_axis = axis_of_exit<Dim, Real>(particles_.position.template get<Vector<Real, Dim>>(p), velocity,
+                                                model_.constraints.extent);
+  if (Dim == 2) {
+    return too_far + "; widen them in its direction.";
+  }
+  if (exit_axis == Dim - 1) {
+    return too_far + (velocity[exit_axis] > Real(0) ? "; widen them upwards." : "; widen them downwards.");
+  }
+  return too_far + ". " + terrain_ahead(p) + (site_.ground ? "" : "Widen [grid] that way.");
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::stop_if_invalid() {
+  if (invalid_.id < 0) {
+    return;
+  }
+  const std::size_t p = place_in_memory(invalid_.id);
+  throw RunError(fmt::format("the run failed at t = {:.6g} s (step {}): {}: {}. {}", time_, step_number_,
+                             particle_text(p), fault_text(p), likely_cause(p)));
+}
+
+template <int Dim, class Real>
+void Simulation<Dim, Real>::stop_for_energy(double growth, double share) const {
+  sync_to_host();
+  const std::size_t fastest = fastest_particle(particles_);
+  const BodySums<Dim, Real> sums = sum_over_body();
+  const std::string cause =
+      parameters_.basal.distance_check || !model_.ground || is_too_soft(fastest)
+          ? cause_in_material(fastest)
+          : "Likely cause: without basal.distance_check the ground is felt up to a cell early, and throws back what "
+            "falls onto it with more energy than it had; set it to true.";
+  throw RunError(fmt::format(
+      "the run failed at t = {:.6g} s (step {}): {:.3g} J{} of energy have come without a cause, {:.3g} % of all so "
+      "far, where guards.energy_growth allows {:g} %. The fastest particle, {}, moves at {:.4g} m/s, the slide at "
+      "{:.4g} m/s on average. {}",
+      time_, step_number_, growth, Dim == 2 ? " per m of width" : "", 100.0 * share,
+      100.0 * parameters_.guards.energy_growth, particle_text(fastest).substr(std::string("particle ").size()),
+      static_cast<double>(particles_.velocity.template get<Vector<Real, Dim>>(fastest).norm()),
+      std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass)), cause));
+}
+
+#define THAWSLIDE_INSTANTIATE(Dim, Real)                                            \
+  template std::size_t Simulation<Dim, Real>::place_in_memory(std::int64_t) const;  \
+  template Vector<double, Dim> Simulation<Dim, Real>::place_of(std::size_t) const;  \
+  template std::string Simulation<Dim, Real>::particle_text(std::size_t) const;     \
+  template std::string Simulation<Dim, Real>::fault_text(std::size_t) const;        \
+  template std::string Simulation<Dim, Real>::terrain_ahead(std::size_t) const;     \
+  template bool Simulation<Dim, Real>::is_too_soft(std::size_t) const;              \
+  template std::string Simulation<Dim, Real>::step_to_halve() const;                \
+  template std::string Simulation<Dim, Real>::cause_in_material(std::size_t) const; \
+  template std::string Simulation<Dim, Real>::likely_cause(std::size_t) const;      \
+  template void Simulation<Dim, Real>::stop_for_energy(double, double) const;       \
+  template void Simulation<Dim, Real>::stop_if_invalid();
+THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
+#undef THAWSLIDE_INSTANTIATE
+
+}  // namespace thawslide::sim

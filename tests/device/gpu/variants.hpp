@@ -1,0 +1,168 @@
+// Model options other than those of slide.hpp, with CPU parts of the step: stubs of band columns and an erodible bed,
+// which record the data they receive.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "slide.hpp"
+
+namespace thawslide::gpu_test {
+
+enum class Variant {
+  plain,
+  elastic,
+  linear,
+  quadratic,
+  apic,
+  filtered,
+  heated_face,
+  at_rest,
+  by_layer,
+  unknown_ground,
+  columns,
+  bed
+};
+
+struct NamedVariant {
+  Variant variant;
+  const char* name;
+};
+inline constexpr std::array<NamedVariant, 12> variants{{{Variant::plain, "as it is"},
+                                                        {Variant::elastic, "without yielding"},
+                                                        {Variant::linear, "linear shape functions"},
+                                                        {Variant::quadratic, "quadratic shape functions"},
+                                                        {Variant::apic, "APIC"},
+                                                        {Variant::filtered, "velocity filter"},
+                                                        {Variant::heated_face, "heat through a face"},
+                                                        {Variant::at_rest, "heat and pressure alone"},
+                                                        {Variant::by_layer, "band by the cells' thickness"},
+                                                        {Variant::unknown_ground, "ground not known everywhere"},
+                                                        {Variant::columns, "band columns"},
+                                                        {Variant::bed, "erodible bed"}}};
+
+template <int Dim>
+device::StepModel<Dim, Real> model_of(Variant variant) {
+  device::StepModel<Dim, Real> model = model_of_slide<Dim>();
+  switch (variant) {
+    case Variant::elastic:
+      model.materials[0].law = physics::LinearElastic<Real>{};
+      break;
+    case Variant::linear:
+      model.shape = mpm::ShapeKind::linear;
+      break;
+    case Variant::quadratic:
+      model.shape = mpm::ShapeKind::quadratic;
+      break;
+    case Variant::apic:
+      model.shape = mpm::ShapeKind::quadratic;
+      model.affine = true;
+      break;
+    case Variant::filtered:
+      model.filter_order = 2;
+      model.filters_in_step = [](Real /*time*/, Real /*dt*/) { return true; };
+      break;
+    case Variant::heated_face:
+      model.heat_faces.extent.setConstant(1e5);
+      model.heat_faces.extent[0] = 20.0;  // within the slide: all nodes beyond it count
+      model.heat_faces.faces[1] = {band::FaceHeat::flux, 500.0};
+      break;
+    case Variant::at_rest:
+      model.moves = false;
+      break;
+    case Variant::columns:  // as in sim::device_model_of
+      model.heat = model.pressure_changes = model.rescales_band = false;
+      break;
+    case Variant::plain:
+    case Variant::by_layer:
+    case Variant::unknown_ground:
+    case Variant::bed:
+      break;
+  }
+  return model;
+}
+
+// Data received by the CPU part of a step, in sequence.
+using Reported = std::vector<Real>;
+
+// Uniform columns. Candidate nodes are those of one layer of each lowest block.
+template <int Dim>
+device::HostColumns<Real> columns_below(const std::shared_ptr<Reported>& specified) {
+  const auto states = std::make_shared<std::vector<Real>>();
+  return {
+      [states](const std::vector<std::uint64_t>& blocks) {
+        std::array<terrain::GroundAtNode<Dim, Real>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> nodes;
+        std::array<Real, static_cast<std::size_t>(mpm::BaseState::size<Dim>)> state{};
+        state[mpm::BaseState::area] = 1.0;
+        state[mpm::BaseState::pressure_ratio] = 0.3;
+        state[mpm::BaseState::saturation] = 0.8;
+        state[mpm::BaseState::solid_fraction] = 0.7;
+        states->clear();
+        std::vector<std::uint32_t> asked;
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+          query_ground<Dim>(blocks[b], nodes.data());
+          for (const auto& node : nodes) {
+            if (node.candidate) {
+              states->insert(states->end(), state.begin(), state.end());
+            }
+          }
+          asked.push_back(static_cast<std::uint32_t>(b));
+        }
+        return asked;
+      },
+      [states]() -> const std::vector<Real>& { return *states; },
+      [specified](const std::vector<Real>& nodes) { specified->insert(specified->end(), nodes.begin(), nodes.end()); }};
+}
+
+// Inexhaustible bed, whose available mass at a node increases with the covered part of its column.
+template <int Dim>
+device::HostBed<Dim, Real> bed_below(const std::shared_ptr<Reported>& specified) {
+  using Bed = device::HostBed<Dim, Real>;
+  Bed bed;
+  bed.material = {terrain::BedLaw::strength, 0.0, 0.01, 0.5, 1000.0};
+  const auto available = std::make_shared<std::vector<Real>>();
+  bed.set_columns = [](const typename Bed::Columns& /*of_blocks*/, const typename Bed::Columns& /*of_candidates*/) {};
+  bed.distribute = [specified, available](const std::vector<std::uint32_t>& parts,
+                                          const std::vector<Real>& loads) -> const std::vector<Real>& {
+    Real covered = 0;
+    for (const std::uint32_t of_column : parts) {
+      specified->push_back(of_column);
+      covered += of_column != 0 ? 1.0 : 0.0;
+    }
+    available->clear();
+    for (const Real load : loads) {
+      specified->push_back(load);
+      available->push_back(load > 0.0 ? covered : 0.0);
+    }
+    return *available;
+  };
+  bed.collect = [specified](const std::vector<Real>& nodes) {
+    specified->insert(specified->end(), nodes.begin(), nodes.end());
+  };
+  return bed;
+}
+
+template <int Dim>
+device::HostCallbacks<Dim, Real> processor_of(Variant variant, const std::shared_ptr<Reported>& specified) {
+  device::HostCallbacks<Dim, Real> ask = terrain_of_slide<Dim>();
+  if (variant == Variant::unknown_ground) {
+    ask.ground = [](std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
+      query_ground<Dim>(block, nodes);
+      return mpm::Tile<Dim>::index(block)[0] < 5;
+    };
+  }
+  if (variant == Variant::by_layer) {
+    ask.layer_at_middle = [](const std::array<int, Dim - 1>& column) { return 1.3 + 0.2 * std::sin(1.0 * column[0]); };
+  }
+  if (variant == Variant::columns) {
+    ask.columns = columns_below<Dim>(specified);
+  }
+  if (variant == Variant::bed) {
+    ask.bed = bed_below<Dim>(specified);
+  }
+  return ask;
+}
+
+}  // namespace thawslide::gpu_test

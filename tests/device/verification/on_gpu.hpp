@@ -1,0 +1,33 @@
+// Included before tests/cpp/verification to run its steps on a GPU. Every Simulation of a test uses it, except cases
+// that no device supports; these report it and run on the CPU.
+#pragma once
+
+#include <cstdio>
+#include <utility>
+
+#include "base/error.hpp"
+#include "device/gpu.hpp"
+#include "sim/base_table.hpp"
+#include "sim/body_figures.hpp"
+#include "sim/history.hpp"
+#include "sim/run_records.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+
+template <int Dim, class Real>
+class SimulationOnGpu : public Simulation<Dim, Real> {
+ public:
+  explicit SimulationOnGpu(const config::Case& parameters, const config::Site& site = {})
+      : Simulation<Dim, Real>(parameters, site) {
+    try {
+      this->use_device("a GPU", device::on_gpu<Dim>());
+    } catch (const UserError& refused) {
+      std::printf("on the CPU: %s\n", refused.what());
+    }
+  }
+};
+
+}  // namespace thawslide::sim
+
+#define Simulation SimulationOnGpu

@@ -1,0 +1,15 @@
+"""Writes the dem.tif and release.geojson that a page asks of the reader into a folder: a slope of 30 degrees.
+
+python slope_and_release.py FOLDER
+"""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
+from slope_files import SOUTH, WEST, write_release, write_slope
+
+folder = Path(sys.argv[1])
+folder.mkdir(exist_ok=True)
+write_slope(folder / "dem.tif")
+write_release(folder / "release.geojson", WEST + 50.0, SOUTH + 250.0)

@@ -1,0 +1,108 @@
+"""The reader of blocks and the comparison of outputs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from snippets import Block, Scratch, blocks_of, commands_of, difference, fault_of, missing_line, page_failures
+
+PAGE = """# Title
+
+1. Run it:
+
+    <!-- long: a minute -->
+    <!-- exit code: 2 -->
+    ```console
+    $ thawslide run \\
+      nothing
+    error
+
+      indented
+    $ true
+    ```
+
+```
+a = b
+```
+"""
+
+
+def test_blocks_have_line_language_text_and_marks() -> None:
+    console, plain = blocks_of(PAGE)
+    assert (console.line, console.language) == (7, "console")
+    assert console.marks == {"long": "a minute", "exit code": "2"}
+    assert plain == Block(16, "", "a = b\n", {})
+
+
+def test_commands_have_their_output() -> None:
+    first, second = commands_of(blocks_of(PAGE)[0])
+    assert (first.line, first.text) == (8, "thawslide run \\\n  nothing")
+    assert first.expected == ["error", "", "  indented"]
+    assert (second.line, second.expected) == (13, [])
+
+
+@pytest.mark.parametrize(
+    ("language", "text", "marks", "words"),
+    [
+        ("", "./run cases/incline\n", {}, "language console"),
+        ("", "build/release/thawslide check\n", {}, "language console"),
+        ("text", "$ ls\n", {}, "language console"),
+        ("", "tau = mu N\n", {}, ""),
+        ("bash", "ls\n", {}, "say why"),
+        ("bash", "ls\n", {"not run": "needs a key"}, ""),
+        ("toml", "a = 1\n", {}, "needs a mark"),
+        ("toml", "a = 1\n", {"merged into": "cases/incline/D.toml"}, ""),
+        ("console", "ls\n", {}, "begins with"),
+    ],
+)
+def test_form_of_a_block(language: str, text: str, marks: dict[str, str], words: str) -> None:
+    fault = fault_of(Block(1, language, text, marks))
+    assert (words in fault) if words else not fault
+
+
+def test_dots_stand_for_lines_and_for_text() -> None:
+    output = ["particles: 10", "", "time 3.1 s", "done"]
+    assert missing_line(output, output) is None
+    assert missing_line(["...", "time [..] s", "..."], output) is None
+    assert missing_line(["particles: 10", "...", "done"], output) is None
+    assert missing_line(["..."], []) is None
+    assert missing_line(["...", "time [..] h", "..."], output) == "time [..] h"
+    assert missing_line(["particles: 10", "..."], ["x", *output]) == "particles: 10"
+    assert missing_line(["particles: 10"], output) == "(end of the output)"
+    assert missing_line([], ["unexpected"]) == "(end of the output)"
+
+
+def test_diff_shows_lines_that_differ_alone() -> None:
+    shown = difference(["a [..]", "b"], ["a 1", "c"])
+    assert shown.splitlines()[3:] == [" a [..]", "-b", "+c"]
+
+
+def test_commands_of_a_page_run_in_one_folder(tmp_path: Path) -> None:
+    page = (
+        "<!-- file: data/a.txt -->\n```text\none\n```\n"
+        "```console\n$ cd data\n$ cat a.txt\none\n```\n"
+        "<!-- exit code: 3 -->\n```console\n$ exit 3\n```\n"
+        "```console\n$ ls\na.txt\n$ ls ../run ../cases/incline/D.toml\n...\n```\n"
+        "<!-- long: a minute -->\n```console\n$ false\n```\n"
+    )
+    scratch = Scratch(tmp_path / "clone")
+    assert page_failures(page, scratch, long=False) == []
+    (failure,) = page_failures(page.replace("a.txt\none\n", "a.txt\ntwo\n"), Scratch(tmp_path / "other"), long=False)
+    assert failure.startswith("line 7: $ cat a.txt\ndoes not come: two\n")
+    assert "-two\n+one" in failure
+
+
+def test_snippets_are_checked_with_what_they_are_for(tmp_path: Path) -> None:
+    scratch = Scratch(tmp_path / "clone")
+    page = (
+        "<!-- merged into: cases/incline/D.toml -->\n```toml\n[time]\nend = 1.0\n```\n"
+        "```python\nimport thawslide\n```\n"
+        '```cpp\n#include "base/error.hpp"\n```\n'
+    )
+    assert page_failures(page, scratch, long=False) == []
+    wrong = page.replace("end =", "ende =").replace("thawslide", "thawslyde").replace("error.hpp", "eror.hpp")
+    mistaken, unknown, absent = page_failures(wrong, scratch, long=False)
+    assert "ende" in mistaken
+    assert "thawslyde" in unknown
+    assert "eror.hpp" in absent
