@@ -14,9 +14,6 @@ NOT_CONVERTED = {
     "docs/user-guide.md",
     "docs/gpu.md",
     "docs/theory/width.md",
-    "cases/alr/README.md",
-    "cases/entrainment/README.md",
-    "cases/fluchthorn/README.md",
 }
 
 
