@@ -93,7 +93,7 @@ int end_at_once(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& 
     output.write_provenance(simulation, "stopped", error.what(), output.wall_seconds());
   } catch (const WriteError&) {  // NOLINT(bugprone-empty-catch): it is told below what could not be written first
   }
-  print_error("error: {}\nstopped at t = {:g} s; what stands is whole, and `thawslide resume {}` {}\n", error.what(),
+  print_error("error: {}\nstopped at t = {:g} s. All files are intact: `thawslide resume {}` {}\n", error.what(),
               simulation.time(), shell_quote(folder.string()),
               io::has_checkpoint(folder) ? "continues from the last checkpoint" : "starts it again");
   return static_cast<int>(code);

@@ -81,12 +81,12 @@ def test_memory_that_runs_out_amid_a_run(
         told = process.stderr.read()
     assert process.returncode == 2, told
     assert re.search(
-        r"error: the memory of this machine, or what a limit allows of it \(ulimit -v\), has run out amid the run\n"
-        rf"stopped at t = \S+ s; what stands is whole, and `thawslide resume {re.escape(str(run))}` ",
+        r"error: the memory of this machine, or its limit \(ulimit -v\), was exhausted during the run\n"
+        rf"stopped at t = \S+ s\. All files are intact: `thawslide resume {re.escape(str(run))}` ",
         told,
     ), told
     assert run_facts(run)["status"] == "stopped"
-    assert "has run out amid the run" in thawslide("status", run).stdout
+    assert "was exhausted during the run" in thawslide("status", run).stdout
     end = run_facts(run)["simulated_time_s"] + 0.02
     assert thawslide("resume", run, "--end", round(end, 3)).returncode == 0
 

@@ -119,7 +119,10 @@ def test_names_alone_make_no_run(thawslide: Program, small_case: Path, tmp_path:
     (folder / "run.json").write_text('{"km": 12}')
     outcome = thawslide("run", small_case, "--output", folder, "--overwrite")
     assert outcome.returncode == 2
-    assert "its run.json is damaged, or of another program. Give another --output, or remove yourself" in outcome.stderr
+    assert (
+        "its run.json is damaged, or was written by another program. Give another --output, or remove yourself"
+        in outcome.stderr
+    )
     (folder / "run.json").unlink()
     assert content_of(folder) == before
 
@@ -192,8 +195,7 @@ def test_snapshots_that_no_run_wrote_are_left_out(thawslide: Program, killed: Pa
     assert outcome.returncode == 0, outcome.stderr
     assert (
         "warning: of the 5 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf leaves "
-        "them "
-        "out\n"
+        "them out\n"
     ) in outcome.stdout
 
 

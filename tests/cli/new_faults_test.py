@@ -251,8 +251,8 @@ def test_folder_that_is_there(thawslide: Program, tmp_path: Path, slope: Slope, 
 
 
 ANEW = (
-    r"`thawslide new` crops the DEM to the domain: make the case anew with a smaller --reach-angle, which takes more "
-    r"of the DEM, or from a larger DEM\."
+    r"`thawslide new` crops the DEM to the domain: create the case again with a smaller --reach-angle, which uses "
+    r"more of the DEM, or from a larger DEM\."
 )
 FURTHER = (
     r"With 8 degrees of friction, the reach angle that `thawslide new` assumes, it would go about (\d+) m "

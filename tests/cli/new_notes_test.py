@@ -118,8 +118,7 @@ def test_thickness_of_the_order_of_the_width(thawslide: Program, tmp_path: Path,
     outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 300)
     assert outcome.stdout.startswith(
         "warning: the release of the body slide is up to 300 m thick and, by its area, 109.5 m wide: is the "
-        "thickness in "
-        "metres?\n"
+        "thickness in metres?\n"
     ), outcome.stdout + outcome.stderr
 
 
@@ -133,8 +132,7 @@ def test_hole_filled_with_zeros(thawslide: Program, tmp_path: Path, slope: Slope
     outcome = made(thawslide, tmp_path / "slide", dem, release, "--thickness", THICKNESS)
     note = (
         "warning: 15 points of dem.tif are exactly 0 m among heights of 1000 to 1035 m, such as (412400, 5160300): a "
-        "hole "
-        "without data? Then say so in the file, gdal_edit.py -a_nodata 0 {}dem.tif, or fill it\n"
+        "hole without data? Then say so in the file, gdal_edit.py -a_nodata 0 {}dem.tif, or fill it\n"
     )
     assert said(outcome.stdout, tmp_path).startswith(note.format("")), outcome.stdout + outcome.stderr
     for words in (
@@ -235,7 +233,7 @@ def test_a_release_at_rest_has_the_area_that_was_drawn(
     assert state == "at 0.01 s, not at rest"
     with rasterio.open(run / "maps" / "final_thickness.tif") as file:
         thickness = file.read(1, masked=True)
-        assert file.descriptions == ("at 0.01 s, not at rest: vertical thickness of the sliding mass",)
+        assert file.descriptions == ("at 0.01 s, not at rest: vertical thickness of the slide",)
     assert thickness.sum() * CELL**2 == pytest.approx(8000.0 * THICKNESS, rel=0.01)
     whole_cells = (thickness > 0.1).sum() * CELL**2
     assert whole_cells > 1.25 * 8000.0, "the DEM makes ramps of the outline"

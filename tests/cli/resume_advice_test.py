@@ -30,7 +30,7 @@ def test_a_run_that_failed_may_end_before_that(thawslide: Program, failed: Path)
 
 def test_a_run_that_failed_is_not_resumed_without_a_word(thawslide: Program, failed: Path) -> None:
     assert (
-        f"where the key may change amid a run, go on: thawslide resume {failed} --set KEY=VALUE\n"
+        f"If the key may change during a run, continue: thawslide resume {failed} --set KEY=VALUE\n"
         in thawslide("status", failed).stdout
     )
     outcome = thawslide("resume", failed)

@@ -34,7 +34,7 @@ def test_a_case_changed_before_the_first_checkpoint_is_refused(thawslide: Progra
     assert content_of(done) == before
     file.unlink()
     outcome = thawslide("resume", done)
-    assert outcome.returncode == 2 and f"{file} is missing, and there is no checkpoint" in outcome.stderr
+    assert outcome.returncode == 2 and f"{file} is missing, and no checkpoint holds its content" in outcome.stderr
     # What is told on the command line is taken.
     file.write_text(text)
     outcome = thawslide("resume", done, "--end", 0.3)
@@ -95,7 +95,7 @@ def test_what_a_finished_run_has_lost_is_told(thawslide: Program, done: Path) ->
     edit(done, "\nend = 0.2 ", "\nend = 0.4 ")
     outcome = thawslide("resume", done)
     assert outcome.returncode == 2
-    assert "its SHA-256 is not that of run.json. There is no checkpoint to go on from" in outcome.stderr
+    assert "its SHA-256 is not that of run.json. There is no checkpoint to continue from" in outcome.stderr
 
 
 def test_a_finished_run_in_a_folder_that_is_read_only(thawslide: Program, done: Path) -> None:

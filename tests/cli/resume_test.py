@@ -298,7 +298,7 @@ def test_a_changed_case_is_refused(thawslide: Program, small_case: Path, tmp_pat
     assert outcome.stderr == (
         f"error: {file} has changed since the run wrote its checkpoint: material.rock.cohesion is 200000.0, was "
         "100000.0; time.end is 0.3, was 0.2. Put that back, or remove the file, which is then written again. Specify "
-        "changes on the command line: thawslide resume {run} --set KEY=VALUE, or --end T.\n"
+        f"changes on the command line: thawslide resume {run} --set KEY=VALUE, or --end T.\n"
     )
     assert content_of(run) == before
     file.unlink()

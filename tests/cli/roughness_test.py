@@ -132,7 +132,7 @@ def test_section_is_cut_out_of_the_ground_that_a_run_in_space_has(
         f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as for a 3D run on 10 m cells "
         "whose domain is the whole DEM; it has noise of 1 m rms and bumps with an rms slope of "
     )
-    assert f"warning: {said}" in made.stdout
+    assert f"note: {said}" in made.stdout
     text = (folder / "profile.csv").read_text()
     assert f"# {said}" in text
     rows = np.array(

@@ -73,9 +73,9 @@ REGISTERS_OF_STEP = {
     "secant_capacity, LinearCurve<double>": (42, 44),  # 36, 38
     "take_heat, PowerLawCurve<double>": (58, 60),  # 52, 53
     "take_heat, LinearCurve<double>": (52, 52),  # 46, 46
-    "take_heat_as_printed, PowerLawCurve<double>": (54, 54),  # 47, 47
-    "masses_anew, PowerLawCurve<double>": (44, 44),  # 38, 38
-    "orphan_heat": (40, 40),  # 32, 32
+    "update_heat_as_published, PowerLawCurve<double>": (54, 54),  # 47, 47
+    "new_heat_masses, PowerLawCurve<double>": (44, 44),  # 38, 38
+    "unreached_heat": (40, 40),  # 32, 32
     "seepage": (50, 46),  # 43, 40
     "seeping_water": (24, 24),  # 16, 16
     "box_in_columns": (36, 46),  # 30, 40
@@ -203,7 +203,7 @@ def test_every_function_marked_for_devices_is_called_by_a_kernel() -> None:
 
 def test_every_kernel_of_the_step_is_compiled() -> None:
     kernels = set()
-    for path in sorted((ROOT / "src").glob("*/*kernel*.hpp")):
+    for path in sorted(set((ROOT / "src").glob("*/*kernel*.hpp")) - set((ROOT / "src" / "device").glob("*"))):
         for found in re.finditer(r"struct (\w+) \{(?:\n(?!\};).*)*?\n  using Account = ", path.read_text()):
             kernels.add(found.group(1))
     assert len(kernels) > 12

@@ -82,7 +82,7 @@ def test_dilation_and_removed_mass_are_rows(make_run: MakeRun) -> None:
     assert found["Volume change by dilation"] == ("+6.2 %", "250 m³; without the bed taken up")
     assert found["Mass removed"] == (
         "250 t",
-        "25 % of the mass: left the domain or the DEM, or removed by guards",
+        "25 % of the mass: left the domain or the terrain model, or removed by guards",
     )
     columns["left_mass_kg"][:] = 0.0
     write_history(folder / "history.csv", columns)
@@ -196,7 +196,7 @@ def test_command_tells_of_a_row_cut_off(make_run: MakeRun, capsys: pytest.Captur
     folder = make_run()
     (folder / "history.csv").write_text((folder / "history.csv").read_text()[:-5])
     assert main([str(folder), "--only", "motion", "--dpi", "50"]) == 0
-    assert "warning: " in (message := capsys.readouterr().err)
+    assert "note: " in (message := capsys.readouterr().err)
     assert "the last row was cut off and is left out" in message
 
 

@@ -128,7 +128,7 @@ def test_the_page_of_a_killed_run_says_how_to_go_on(map_run: Path) -> None:
 
 
 def test_the_page_of_a_run_that_had_lost_rows_says_so(map_run: Path) -> None:
-    parts = [{"notes": []}, {}, {"notes": ["history.csv lacks 2 of the 16 rows"]}, {"notes": 3}, 4]
+    parts = [{"warnings": []}, {}, {"warnings": ["history.csv lacks 2 of the 16 rows"]}, {"warnings": 3}, 4]
     (map_run / "run.json").write_text(json.dumps({"status": "done", "parts": parts}))
     page = make_report(Run(map_run), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
     assert '<p class="note">history.csv lacks 2 of the 16 rows</p>' in page

@@ -1,4 +1,6 @@
-// A piece of base and its column below a slide of some depth.
+// A basal segment and its column below a slide of some depth.
+#include "band/segment_step.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <random>
 
 #include "../physics/band_column_model.hpp"
-#include "band/segment_step.hpp"
 
 namespace thawslide::band {
 namespace {
