@@ -1,4 +1,4 @@
-"""What the Lamplugh case on band columns must show: its numbers, over members of starting noise and one at a time."""
+"""Numbers of the Lamplugh case on band columns, over members of starting noise and one at a time."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Observed:
 
 @dataclass(frozen=True)
 class Quantity:
-    """A row of the table: its name in Observed, kind, words, unit, what is reported, and the interval wanted."""
+    """A row of the table: its name in Observed, kind, words, unit, reported value, and accepted interval."""
 
     name: str
     kind: str  # of KINDS
@@ -82,12 +82,12 @@ NONE = float("-inf")
 # Of rows, with the word for several: a bound is physics, which no one observed.
 KINDS = {"observation": "observations", "model": "results of other models", "bound": "physical bounds"}
 QUANTITIES = (
-    Quantity("runout", "observation", "runout: front at the end less rear at the start", "runout", "km", "10.5",
+    Quantity("runout", "observation", "runout: front at the end minus initial rear", "runout", "km", "10.5",
              "9 to 11.5", 9.0, 11.5, ".1f"),
     Quantity("force", "observation", f"force, band-passed {INVERSION.words} (the band is assumed)",
              f"force {INVERSION.words}", "TN", "0.28", "0.22 to 0.34", 0.22, 0.34, ".2f"),
-    Quantity("reversal", "observation", "vertical force, 10 to 200 s: from its largest upward to its largest downward "
-             "value", "force reverses in", "s", "10.6", "8 to 13", 8.0, 13.0, ".1f"),
+    Quantity("reversal", "observation", "vertical force, 10 to 200 s: from its maximum upward to its maximum "
+             "downward value", "force reverses in", "s", "10.6", "8 to 13", 8.0, 13.0, ".1f"),
     Quantity("peak", "model", "peak of the mean velocity", "peak", "m/s", "80", "72 to 88", 72.0, 88.0, ".1f"),
     Quantity("rise", "model", "from 8 m/s to the peak", "to the peak", "s", "35", "28 to 42", 28.0, 42.0, ".1f"),
     Quantity("displacement", "model", "mean displacement", "mean displacement", "km", "5.6 to 5.9", "5.3 to 6.2", 5.3,
@@ -95,7 +95,7 @@ QUANTITIES = (
     Quantity("stop", "model", "stop: mean velocity below 0.1 m/s", "stop", "s", "before 200", "before 200", NONE, 200.0,
              ".0f"),
     Quantity("hottest", "bound", "hottest of any column", "hottest column", "°C", "", "below 210", NONE, 210.0, ".0f"),
-    Quantity("ratio", "bound", "largest P over averaged N", "P over N", "", "", "at most 1", NONE, 1.0, ".3f", True),
+    Quantity("ratio", "bound", "maximum P over averaged N", "P over N", "", "", "at most 1", NONE, 1.0, ".3f", True),
 )  # fmt: skip
 
 
@@ -182,7 +182,7 @@ def variant_rows(case: Mapping[str, Any]) -> list[Row]:
         *other_growth,
         Row("no-mixing", "no mixing of the band", ("band.mixing_slip=inf",)),
         Row("mixing-100", "mixing over 100 m of slip", ("band.mixing_slip=100",)),
-        Row("heat-0.9", "share of work that heats 0.9", ("basal.heat_fraction=0.9",)),
+        Row("heat-0.9", "fraction of work that heats 0.9", ("basal.heat_fraction=0.9",)),
         Row("k-5e-8", "k 5e-8 m/s", (f"{conductivity}=5e-8",)),
         Row("k-2e-7", "k 2e-7 m/s", (f"{conductivity}=2e-7",)),
         Row("glacier-0.10", "friction on the glacier 0.10", (f"{glacier}=0.10",)),
@@ -219,10 +219,10 @@ def is_met(found: Sequence[Observed], quantity: Quantity) -> bool:
 
 
 def members_table(found: Sequence[Observed]) -> str:
-    """Return the table of members, observations first: reported, wanted, median, range, and whether a row is met."""
+    """Return the table of members, observations first: reported, accepted, median, range, and whether a row is met."""
     end = min((each.end for each in found if not each.failure), default=float("nan"))
     lines = [
-        "| kind | quantity | reported | wanted | median | least to most | members inside | met |",
+        "| kind | quantity | reported | accepted | median | range | members inside | met |",
         "|---|---|---|---|---|---|---|---|",
     ]
     for each in QUANTITIES:
@@ -240,33 +240,33 @@ def members_table(found: Sequence[Observed]) -> str:
 
 
 def verdict(found: Sequence[Observed]) -> str:
-    """Say plainly which rows are met and which are not, and which members broke off."""
+    """Return which rows are met, which are not, and which members failed."""
     counts = []
     for kind, words in KINDS.items():
         rows = [each for each in QUANTITIES if each.kind == kind]
         met = [each.name_in_text for each in rows if is_met(found, each)]
-        counts.append(f"{len(met)} of {len(rows)} {words} ({'; '.join(met) or 'none'})")
-    parts = [f"Met: {', '.join(counts)}."]
+        counts.append(f"- {words}: {len(met)} of {len(rows)} ({'; '.join(met) or 'none'})")
+    parts = ["Met:\n\n" + "\n".join(counts)]
     missed = [f"- {_miss(found, each)}" for each in QUANTITIES if not is_met(found, each)]
     parts.append("Not met:\n\n" + "\n".join(missed) if missed else "Not met: none.")
     broken = [f"seed {seed} ({' '.join(each.failure.split())})" for seed, each in enumerate(found, 1) if each.failure]
     if broken:
-        parts.append(f"Left out of median and range, as they did not come to their end: {'; '.join(broken)}.")
+        parts.append(f"Excluded from median and range, because they failed: {'; '.join(broken)}.")
     return "\n\n".join(parts)
 
 
 def _miss(found: Sequence[Observed], quantity: Quantity) -> str:
-    """Say what a row that is not met has."""
+    """Return the value of a row that is not met."""
     values = _values(found, quantity)
     if not values.size:
-        return f"{quantity.name_in_text}: no member has it; {quantity.wanted} is wanted"
+        return f"{quantity.name_in_text}: no member has it (accepted: {quantity.wanted})"
     if quantity.everywhere and all(quantity.inside(value) for value in values):
-        return f"{quantity.name_in_text}: not every member came to its end; {quantity.wanted} is wanted of each"
-    which, value = ("most", float(values.max())) if quantity.everywhere else ("median", median(found, quantity))
+        return f"{quantity.name_in_text}: not every member ended (accepted: {quantity.wanted} in each)"
+    which, value = ("maximum", float(values.max())) if quantity.everywhere else ("median", median(found, quantity))
     if not np.isfinite(value):
-        return f"{quantity.name_in_text}: half of the members or more do not come to it; {quantity.wanted} is wanted"
+        return f"{quantity.name_in_text}: at least half of the members have none (accepted: {quantity.wanted})"
     number = f"{quantity.text(value)} {quantity.unit}".strip()
-    return f"{quantity.name_in_text}: the {which} is {number}; {quantity.wanted} is wanted"
+    return f"{quantity.name_in_text}: the {which} is {number} (accepted: {quantity.wanted})"
 
 
 def middle_member(found: Sequence[Observed]) -> int:
@@ -283,7 +283,7 @@ def middle_member(found: Sequence[Observed]) -> int:
 
 
 def variants_table(rows: Sequence[Row], found: Mapping[str, Observed]) -> str:
-    """Return one line a run; bold is what lies outside the interval wanted."""
+    """Return one line a run; values outside the accepted interval are bold."""
     heads = [f"{each.kind}: {each.head}" + (f" [{each.unit}]" if each.unit else "") for each in QUANTITIES]
     lines = [f"| run | {' | '.join(heads)} | 8 m/s at [s] | set |", "|---" * (len(heads) + 3) + "|"]
     broken = []
@@ -300,7 +300,7 @@ def variants_table(rows: Sequence[Row], found: Mapping[str, Observed]) -> str:
         start = f"{each.start:.1f}" if np.isfinite(each.start) else "never"
         lines.append(f"| {row.words} | {' | '.join(cells)} | {start} | {sets} |")
         if each.failure:
-            broken.append(f"- {row.words} broke off: {' '.join(each.failure.split())}")
+            broken.append(f"- {row.words} failed: {' '.join(each.failure.split())}")
     return "\n".join(lines) + ("\n\n" + "\n".join(broken) if broken else "")
 
 

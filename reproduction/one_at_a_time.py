@@ -234,7 +234,7 @@ def outcome(folder: Path) -> Outcome:
 
 HEADER = (
     "| run | peak [m/s] | at [s] | 8 m/s at [s] | stops at [s] | mean displacement [m] | runout [m] "
-    "| front travel [m] | deposit [m] | band at most [C] | set |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
+    "| front travel [m] | deposit [m] | band at most [°C] | set |\n|---|---|---|---|---|---|---|---|---|---|---|\n"
 )
 
 
@@ -247,7 +247,7 @@ def table_row(row: Row, found: Outcome, hidden: Sequence[str] = ()) -> str:
         return f"| {row.words} | {found.failure or 'no numbers'} | | | | | | | | | {' '.join(shown)} |"
     stop = f"{found.stop_time:.0f}"
     if found.failure:
-        stop = f"broke off at {found.end_time:.0f}"
+        stop = f"failed at {found.end_time:.0f}"
     elif found.peak < MOVED:
         stop = "does not start"
     elif np.isnan(found.stop_time):
@@ -258,21 +258,21 @@ def table_row(row: Row, found: Outcome, hidden: Sequence[str] = ()) -> str:
         f"{found.peak_time:.0f}",
         f"{found.start_time:.0f}" if np.isfinite(found.start_time) else "never",
         stop,
-        f"{found.displacement:.0f}",
-        f"{found.runout:.0f}",
-        f"{found.front:.0f}",
-        f"{found.length:.0f}",
-        f"{found.temperature:.0f}" if np.isfinite(found.temperature) else "",
+        f"{found.displacement:,.0f}",
+        f"{found.runout:,.0f}",
+        f"{found.front:,.0f}",
+        f"{found.length:,.0f}",
+        f"{found.temperature:,.0f}" if np.isfinite(found.temperature) else "",
         " ".join(shown),
     )
     return "| " + " | ".join(cells) + " |"
 
 
 def table(rows: Sequence[Row], found: Mapping[str, Outcome], hidden: Sequence[str] = ()) -> str:
-    """Return the whole table of some rows; what made a run break off stands below."""
+    """Return the whole table of some rows, with the messages of failed runs below."""
     lines = [table_row(row, found[row.key], hidden) for row in rows]
     broken = [
-        textwrap.fill(f"- {row.words}: {' '.join(found[row.key].failure.split())}", 120, subsequent_indent="  ")
+        textwrap.fill(f"- {row.words}: `{' '.join(found[row.key].failure.split())}`", 120, subsequent_indent="  ")
         for row in rows
         if found[row.key].failure and not np.isnan(found[row.key].peak)
     ]

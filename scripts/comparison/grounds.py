@@ -63,8 +63,8 @@ BOWL = Ground(
 ALR = Ground(
     "alr",
     "A slope of the Alps",
-    "A DEM of 5 m and a mapped release polygon of a snow avalanche (data: Land Tirol, data.tirol.gv.at, from the test "
-    "data of AvaFrame); 10 m of rock and ice in place of the snow are our choice.",
+    "A DEM of 5 m and a mapped release polygon of a snow avalanche, from the test data of AvaFrame (data: Land Tirol, "
+    "data.tirol.gv.at). The 10 m of rock and ice instead of the snow are an assumption.",
     25.0,
     is_straight=False,
     thawslide=(WIDE, ROUGH),

@@ -1,4 +1,4 @@
-"""The page of the comparison: one picture and one table a ground, and the reasons for what differs."""
+"""The page of the comparison: figures, a table and the causes of the differences for each terrain."""
 
 import math
 import textwrap
@@ -20,39 +20,43 @@ FOLDER = Path(__file__).resolve().parent
 
 OPENING = f"""# Comparison with AvaFrame
 
-[AvaFrame](https://avaframe.org) is what practitioners run: its `com1DFA` is a depth-averaged model whose particles move
-in the surface and repel each other by an SPH gradient of their thickness. Thawslide resolves the thickness. Both get
-the same DEM, the same release and the same friction, plain Coulomb; there is no entrainment, heat, pore pressure or
-cohesion. This page is written by `scripts/compare-avaframe`. Further comparisons: [the Frank slide with
+This page compares Thawslide with [AvaFrame](https://avaframe.org) on three terrains. AvaFrame is widely used in
+practice. Its `com1DFA` is a depth-averaged model: particles move in the surface and repel each other by an SPH gradient
+of their thickness. Thawslide resolves the thickness.
+
+Both programs receive the same DEM, the same release and the same Coulomb friction. There is no entrainment, heat, pore
+pressure or cohesion. `scripts/compare-avaframe` generates this page. Further comparisons: [the Frank slide with
 SHALTOP](frank.md), [the same slide on finer cells](refinement.md).
 
-- *AvaFrame.* Friction model `Coulomb`, 2,063 kg/m3, all else by its defaults: cells and SPH kernels of 5 m, steps of
-  0.1 s, artificial viscosity, curvature in the friction, the end where the kinetic energy is below 1 % of its largest.
+- *AvaFrame.* Friction model `Coulomb`, 2,063 kg/m3, all other settings by default. These are cells and SPH kernels of
+  5 m, time steps of 0.1 s, artificial viscosity, and curvature in the friction. A run ends when the kinetic energy
+  falls below 1 % of its maximum.
 - *Thawslide.* Cells of 3.3 m, of 6.6 m on the slope of the Alps; particles half a cell apart, internal friction 35
-  degrees, no tension. The DEM is filtered by default, which leaves the plane and the bowl as they are.
-- *Release.* 10 m along the normal for both, which is how AvaFrame takes a thickness. Its maps of thickness are made
-  vertical here, by the slope of the DEM.
-- *Reached.* A place is reached if the largest thickness is at least {AFFECTED} m. The travel distance is horizontal,
+  degrees, no tension. The DEM is filtered by default. The filter leaves the plane and the bowl unchanged.
+- *Release.* 10 m along the normal for both, as in the release thickness of AvaFrame. The slope of the DEM converts
+  AvaFrame's maps to vertical thickness here.
+- *Reached.* A place is reached if the maximum thickness is at least {AFFECTED} m. The travel distance is horizontal,
   from the top of the release to the farthest place reached; the reach angle is that of the straight line between them.
-- *Run times* are processor times of one thread on a machine with other work: good to a quarter.
-- *Point mass.* A point that slides from the middle of the release, with friction on its weight across the ground and on
-  the centrifugal force, integrated along the DEM. On a straight path the centre of a slide should do about that.
-- *Causes* are isolated by runs that differ in one setting; their columns name it.
+- *Run times* are processor times of one thread on a machine with other work, with an uncertainty of a quarter.
+- *Point mass.* A point that slides from the middle of the release, integrated along the DEM. Friction acts on its
+  weight across the ground and on the centrifugal force. On a straight path, the centre of a slide should move about as
+  far.
+- *Causes* are isolated by runs that differ in one setting. The columns name the setting.
 
 """
 
 FIELDS = [
-    ("thickness", "largest thickness (m, vertical)"),
-    ("speed", "largest speed (m/s)"),
+    ("thickness", "maximum thickness (m, vertical)"),
+    ("speed", "maximum speed (m/s)"),
 ]
 PAINTINGS = {"thickness": THICKNESS, "speed": VELOCITY}
 ROWS = {
     "travel distance (m)": lambda found: f"{found.travel:,.0f}",
     "reach angle (degrees)": lambda found: f"{found.reach_angle:.1f}",
     "displacement of the centre (m)": lambda found: f"{found.centre_way:,.0f}",
-    "largest speed (m/s)": lambda found: f"{found.largest_speed:.1f}",
-    "largest speed, median of places reached (m/s)": lambda found: f"{found.usual_speed:.1f}",
-    "largest thickness (m, vertical)": lambda found: f"{found.largest_thickness:.1f}",
+    "maximum speed (m/s)": lambda found: f"{found.largest_speed:.1f}",
+    "maximum speed, median of places reached (m/s)": lambda found: f"{found.usual_speed:.1f}",
+    "maximum thickness (m, vertical)": lambda found: f"{found.largest_thickness:.1f}",
     "area reached (m2)": lambda found: f"{found.area:,.0f}",
 }
 
@@ -63,7 +67,7 @@ def table(outcomes: list[Outcome], found: list[Numbered], point: PointMass | Non
     rows = [[what, *(text(each) for each in found)] for what, text in ROWS.items()]
     rows += [
         ["volume released (m3)", *(f"{outcome.released:,.0f}" for outcome in outcomes)],
-        ["share of it that left the DEM", *(f"{100.0 * outcome.left_share:.1f} %" for outcome in outcomes)],
+        ["fraction of it that left the DEM", *(f"{100.0 * outcome.left_share:.1f} %" for outcome in outcomes)],
         ["particles at the start", *(f"{outcome.particles:,}" for outcome in outcomes)],
         ["simulated (s)", *(f"{outcome.simulated:.0f}" for outcome in outcomes)],
         ["run time of one thread (s)", *(f"{outcome.processor:.0f}" for outcome in outcomes)],
@@ -72,7 +76,7 @@ def table(outcomes: list[Outcome], found: list[Numbered], point: PointMass | Non
         columns.append("point mass")
         told = {
             "displacement of the centre (m)": f"{point.way:,.0f}",
-            "largest speed (m/s)": f"{point.largest_speed:.1f}",
+            "maximum speed (m/s)": f"{point.largest_speed:.1f}",
         }
         rows = [[*row, told.get(row[0], "")] for row in rows]
     lines = [["", *columns], ["---"] * (len(columns) + 1), *rows]
@@ -124,7 +128,7 @@ def picture(
 
 
 def draw(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome], folder: Path) -> None:
-    """Write two pictures, of largest thickness and of largest speed."""
+    """Write two figures, of maximum thickness and of maximum speed."""
     for field, words in FIELDS:
         drawn = picture(ground, terrain, corners, outcomes, field, words)
         drawn.savefig(folder / f"{ground.name}-{field}.png", dpi=150)

@@ -12,9 +12,6 @@ from snippets import ROOT, Scratch, blocks_of, fault_of, page_failures
 # Pages whose blocks do not have the form yet.
 NOT_CONVERTED = {
     "docs/theory/width.md",
-    "cases/alr/README.md",
-    "cases/entrainment/README.md",
-    "cases/fluchthorn/README.md",
 }
 
 

@@ -112,8 +112,8 @@ def test_rows_say_plainly_what_failed() -> None:
     still = Outcome(peak=0.4, peak_time=1.0, displacement=0.0, runout=1000.0, length=1000.0, end_time=100.0)
     assert "| never | does not start |" in table_row(row, still)
     broken = Outcome("bad\nnews", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 4.0, 7.0, 8.0, 33.0, 9.0)
-    assert "broke off at 33" in table_row(row, broken)
-    assert table([row], {"x": broken}, ["a=1"]).endswith("[other.toml](other.toml) `b=2` |\n\n- x: bad news\n")
+    assert "failed at 33" in table_row(row, broken)
+    assert table([row], {"x": broken}, ["a=1"]).endswith("[other.toml](other.toml) `b=2` |\n\n- x: `bad news`\n")
     going = Outcome("", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 4.0, 7.0, 8.0, 200.0, 9.0)
     assert "not: 9 m/s at 200" in table_row(row, going)
     assert [end_of(each) for each in (Outcome(), still, broken, going)] == ["missing", "never", "broken", "going"]

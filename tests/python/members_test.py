@@ -105,30 +105,30 @@ def test_a_row_is_met_by_the_median_but_pressure_by_every_member() -> None:
     pressed = [*found[:4], changed(ratio=1.01)]
     assert not is_met(pressed, WANTED["ratio"])
     assert not is_met([changed(failure="bad"), GOOD], WANTED["ratio"])
-    assert "- largest P over averaged N: not every member came to its end" in verdict([changed(failure="bad"), GOOD])
+    assert "- maximum P over averaged N: not every member ended" in verdict([changed(failure="bad"), GOOD])
     table = members_table(found).splitlines()
     peak = "| model | peak of the mean velocity [m/s] | 80 | 72 to 88 | 80.0 | 60.0 to 120.0 | 3 of 5 | yes |"
     assert peak in table
-    assert "| bound | largest P over averaged N |  | at most 1 | 1.000 | 1.000 | 5 of 5 | yes |" in table
+    assert "| bound | maximum P over averaged N |  | at most 1 | 1.000 | 1.000 | 5 of 5 | yes |" in table
     assert table[0].count("|") == table[2].count("|") == 9
 
 
 def test_the_verdict_is_plain() -> None:
     assert verdict([GOOD, GOOD]).endswith("Not met: none.")
     assert verdict([GOOD, GOOD]).startswith(
-        "Met: 3 of 3 observations (runout; force, band-passed 35 to 150 s (the band is assumed); vertical force, 10 to "
-        "200 s), 4 of 4 results of other models (peak "
+        "Met:\n\n- observations: 3 of 3 (runout; force, band-passed 35 to 150 s (the band is assumed); vertical force, 10 "
+        "to 200 s)\n- results of other models: 4 of 4 (peak "
     )
     words = verdict([changed(peak=60.0, ratio=1.2), GOOD, changed(peak=70.0, failure="it\nleft")])
-    assert "3 of 4 results of other models (from 8 m/s to the peak; " in words
-    assert "1 of 2 physical bounds (hottest of any column)." in words
-    assert "- peak of the mean velocity: the median is 70.0 m/s; 72 to 88 is wanted" in words
-    assert "- largest P over averaged N: the most is 1.200; at most 1 is wanted" in words
-    assert words.endswith("Left out of median and range, as they did not come to their end: seed 3 (it left).")
+    assert "- results of other models: 3 of 4 (from 8 m/s to the peak; " in words
+    assert "- physical bounds: 1 of 2 (hottest of any column)\n" in words
+    assert "- peak of the mean velocity: the median is 70.0 m/s (accepted: 72 to 88)" in words
+    assert "- maximum P over averaged N: the maximum is 1.200 (accepted: at most 1)" in words
+    assert words.endswith("Excluded from median and range, because they failed: seed 3 (it left).")
     going = [changed(stop=float("inf")), changed(stop=float("inf")), GOOD]
-    assert "- stop: half of the members or more do not come to it; before 200 is wanted" in verdict(going)
+    assert "- stop: at least half of the members have none (accepted: before 200)" in verdict(going)
     assert "| before 200 | not by 220 | 180 to not by 220 | 1 of 3 | **no** |" in members_table(going)
-    assert "- runout: no member has it; 9 to 11.5 is wanted" in verdict([Observed("not run")])
+    assert "- runout: no member has it (accepted: 9 to 11.5)" in verdict([Observed("not run")])
 
 
 def test_the_member_in_the_middle_is_nearest_to_the_medians() -> None:
@@ -168,7 +168,7 @@ def test_variants_outside_the_intervals_are_bold() -> None:
     assert "| **not by 220** | **300** | 1.000 | 20.0 | `x=1` |" in hot
     assert "| gone | not run |" in gone
     assert {line.count("|") for line in (head, case, hot, gone)} == {13}
-    assert broken == "- hot broke off: it left"
+    assert broken == "- hot failed: it left"
 
 
 def test_words_may_name_medians_and_variants() -> None:
