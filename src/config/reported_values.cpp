@@ -91,8 +91,8 @@ class TargetsReader {
     }
     const auto [first, is_new] = lines_.emplace(std::tuple(name, time, source), row.line);
     if (!is_new) {
-      add(row.line, fmt::format("{} at this time from this source is in line {} already; keep one of the two, or tell "
-                                "their sources apart",
+      add(row.line, fmt::format("{} at this time from this source is in line {} already; keep one of the two, or give "
+                                "them different sources",
                                 name, first->second));
       return;
     }
