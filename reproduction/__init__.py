@@ -1,1 +1,1 @@
-"""The paper's figures and sentences beside what the simulator gives: run all its cases, draw, compare, write a page."""
+"""Reproduction of the paper: run its cases, plot its figures, check its sentences, write a page."""

@@ -1,4 +1,4 @@
-"""The command `./run paper`: exit code 0 done, 2 the user's mistake with a line that says what to do."""
+"""Command `./run paper`: exit code 0 for success, 2 for an error of the user."""
 
 from __future__ import annotations
 
@@ -17,15 +17,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the paper's cases and write the page; return the exit code."""
     parser = argparse.ArgumentParser(
         prog="./run paper",
-        description="Run every case of the paper and write one page: each figure, what the paper says, what we get.",
+        description="Run all cases of the paper and write one page with figures, summaries of the paper, and results.",
     )
-    parser.add_argument(
-        "--quick", action="store_true", help="only the first moments of each case: a trial of the whole"
-    )
-    parser.add_argument("--draw-only", action="store_true", help="draw anew from runs that are there")
+    parser.add_argument("--quick", action="store_true", help="only the first time steps of each case, as a test")
+    parser.add_argument("--draw-only", action="store_true", help="plot existing runs only")
     parser.add_argument("--program", type=Path, required=True, help=argparse.SUPPRESS)
     parser.add_argument("--cases", type=Path, required=True, help=argparse.SUPPRESS)
-    parser.add_argument("--output", type=Path, required=True, metavar="DIR", help="where to write")
+    parser.add_argument("--output", type=Path, required=True, metavar="DIR", help="output folder")
     given = parser.parse_args(arguments)
     started = time.monotonic()
 

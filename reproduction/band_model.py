@@ -1,7 +1,7 @@
-"""The shear band as a small system of ordinary differential equations, solved apart from the simulator.
+"""Shear band as a small system of ordinary differential equations, independent of the simulator.
 
-A column of rows of particles over rigid ground, two rows to a cell of height e (the cell as heat and pore pressure see
-it), linear shape functions between them: weights 3/4 and 1/4. Unknowns are heat content and liquid pressure of each
+The column has rows of particles over rigid terrain, two rows to a cell of height e (the scaled cell of heat and pore
+pressure), and linear shape functions with weights 3/4 and 1/4. Unknowns are heat content and liquid pressure of each
 row. A slab of normal pressure N slides over it at a given speed v:
 
     tau = mu max(0, N - P_base),   P_base = 3/4 P_1 + 1/4 P_2
@@ -98,7 +98,7 @@ class _State:
         self.temperature = np.full(rows, drive.temperature)
         self.saturation = power_saturation(self.temperature)
         self.normal_pressure = mixture.density() * GRAVITY * drive.height
-        # Rows of the band count the whole height, others their depth (of the slab, not of the scaled column).
+        # Rows of the band have the whole height, others their depth (in the slab, not in the scaled column).
         depth = drive.height * (1.0 - (np.arange(rows) + 0.5) / rows)
         depth[:2] = drive.height
         self.ice_pressure = mixture.ice_density * GRAVITY * depth
@@ -116,7 +116,7 @@ class _State:
         return self.saturation * self.liquid_pressure + (1.0 - self.saturation) * self.ice_pressure
 
     def advance(self, step: float) -> None:
-        """Take one explicit step."""
+        """Advance by one explicit step."""
         drive, column, mixture = self.drive, self.column, self.mixture
         melted = self.temperature >= 0.0
         strength = drive.friction * max(0.0, self.normal_pressure - column.at_nodes(self.pressure)[0])
@@ -129,7 +129,7 @@ class _State:
             power += column.weights @ (self._advection(melted, gradient, node_pressure) * column.volume)
         change, gain = self._heating(power, step)
         new = self.table.temperature(self.table.content(self.temperature) + gain)
-        new = np.where(np.abs(change) < 1e-12, self.temperature, new)  # the table's round-off heats nothing
+        new = np.where(np.abs(change) < 1e-12, self.temperature, new)  # no heating by round-off of the table
         seepage = self._seepage(melted, node_pressure, step)
         self._pressurize(melted, new, seepage)
 
@@ -160,8 +160,8 @@ class _State:
         if drive.hydraulic_conductivity == 0.0:
             return np.zeros_like(self.pressure)
         diffusivity = self.mixture.hydraulic_diffusivity(drive.hydraulic_conductivity)
-        share = -np.expm1(-step * diffusivity * 2.0 * DIMENSIONS / drive.thickness**2)
-        subgrid = np.where(melted, (column.weights.T @ node_pressure - self.pressure) * share, 0.0)
+        fraction = -np.expm1(-step * diffusivity * 2.0 * DIMENSIONS / drive.thickness**2)
+        subgrid = np.where(melted, (column.weights.T @ node_pressure - self.pressure) * fraction, 0.0)
         flux = np.where(melted, -diffusivity * (column.slopes.T @ node_pressure), 0.0)
         between = (step * (column.slopes @ flux) - column.weights @ subgrid) / column.sums
         return subgrid + column.weights.T @ between

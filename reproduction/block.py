@@ -1,4 +1,4 @@
-"""Sec. 3.2: the driven block (Figs. 6 and 7), with the same band as a system of ordinary differential equations."""
+"""Sec. 3.2: driven block (Figs. 6 and 7), compared with a system of ordinary differential equations."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from reproduction.band_model import BandHistory, Drive, solve
 from reproduction.mixture import TABLE_1
 from reproduction.runs import BLOCKS, NO_LATENT
-from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, PURPLE, RED, letters, styled
+from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, PURPLE, RED, styled, title_panels
 from thawslide.run import Numbers, Run
 
 COLUMNS = (
@@ -19,7 +19,7 @@ COLUMNS = (
     ("band_saturation", "saturation", "liquid saturation", 1.0),
     ("band_pore_pressure_Pa", "pressure", "pore pressure (kPa)", 1e3),
 )
-MELTED = 0.99  # mean saturation from which on the band counts as melted
+MELTED = 0.99  # mean saturation above which the band is melted
 EARLY = 5.0  # s: the time at which, in the paper, the band of 0.05 m has melted
 
 
@@ -43,7 +43,7 @@ def _solved(drive: Drive) -> BandHistory:
 
 
 def reference(run: Run) -> BandHistory:
-    """Return the band of a run as the system of ordinary differential equations gives it."""
+    """Return the solution of the ordinary differential equations for the band of a run."""
     return _solved(drive_of(run))
 
 
@@ -54,13 +54,13 @@ def at(run: Run, column: str, time: float) -> float:
 
 
 def first_time(run: Run, column: str, value: float) -> float:
-    """Return when [s] a column first reaches a value; nan where it never does."""
+    """Return the time [s] at which a column first attains a value; nan if it never does."""
     reached = np.flatnonzero(run.history[column] >= value)
     return float(run.history["time_s"][reached[0]]) if reached.size else float("nan")
 
 
 def differences(one: Run, other: Run, column: str) -> tuple[float, float]:
-    """Return the largest and the root mean square difference of a column between two runs over the time both have."""
+    """Return the maximum and the root mean square difference of a column between two runs over their common time."""
     end = min(one.history["time_s"][-1], other.history["time_s"][-1])
     times = np.linspace(0.1, end, 600)
     first, second = (np.interp(times, run.history["time_s"], run.history[column]) for run in (one, other))
@@ -112,8 +112,8 @@ def _of_run(run: Run) -> dict[str, float]:
     found["heat"] = float(history["friction_heat_J"][-1]) / 1e9
     found["ice_start"], found["ice_lowest"] = (1.0 - float(history["band_saturation"][k]) for k in (0, lowest))
     for column, name, _, scale in COLUMNS:
-        ours = np.interp(model.time, time, history[column])
-        found[f"{name}_off"] = float(np.max(np.abs(ours - getattr(model, name)))) / scale
+        values = np.interp(model.time, time, history[column])
+        found[f"{name}_off"] = float(np.max(np.abs(values - getattr(model, name)))) / scale
     return found
 
 
@@ -137,7 +137,7 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
             differences(runs[f"block-{one}{ending}"], runs[f"block-e050{ending}"], "band_saturation")[0]
             for one in ("k0", "k10", "k9", "k8")
         )
-    # The runs against their ordinary differential equations: the worst of each figure and side of it.
+    # Maximum difference of the runs from their ordinary differential equations, for each figure and latent heat.
     for figure, drawn in (("figure_6", FIGURE_6), ("figure_7", FIGURE_7)):
         for ending in ("", "_no_latent"):
             for _, name, _, _ in COLUMNS:
@@ -173,7 +173,7 @@ FIGURE_7: Drawn = (
 
 
 def mark(axes: Axes, time: float, value: float, words: str, colour: str = BLACK) -> None:
-    """Draw what the paper reports as a circle with words beside it, where the axes reach so far."""
+    """Mark a value of the paper by a circle with words, if it is within the axes."""
     if time <= axes.get_xlim()[1]:
         axes.plot(time, value, "o", color=colour, fillstyle="none", clip_on=False)
         axes.annotate(words, (time, value), xytext=(7, -9), textcoords="offset points", color=NOTE, size=8)
@@ -185,7 +185,7 @@ def _panel(axes: Axes, time: Numbers, values: Numbers, colour: str, words: str, 
 
 
 @styled
-def _draw(runs: dict[str, Run], drawn: Drawn, end: float) -> Figure:
+def _plot(runs: dict[str, Run], drawn: Drawn, end: float) -> Figure:
     figure = Figure(figsize=(COLUMN_WIDTH, 8.0), layout="constrained")
     panels = figure.subplots(3, 2)
     for side, ending in enumerate(("", NO_LATENT)):
@@ -200,22 +200,24 @@ def _draw(runs: dict[str, Run], drawn: Drawn, end: float) -> Figure:
             axes.set_ylabel(words)
             axes.grid(True)
             axes.set_xlim(0.0, min(end, max(runs[f"block-{name}"].history["time_s"][-1] for name, *_ in drawn)))
-        panels[2][side].set_xlabel(runs[f"block-{drawn[0][0]}"].clock.label)
+        panels[2][side].set_xlabel(runs[f"block-{drawn[0][0]}"].time_reference.label)
         panels[1][side].set_ylim(-0.02, 1.02)
         mark(panels[1][side], EARLY, 1.0, "Lei et al.: melted", drawn[0][2])  # of e = 0.05 m
-        panels[0][side].plot([], [], color=BLACK, linewidth=0.9, linestyle=(0, (4, 2)), label="the same as ODEs")
+        panels[0][side].plot(
+            [], [], color=BLACK, linewidth=0.9, linestyle=(0, (4, 2)), label="ordinary differential equations"
+        )
     panels[0][0].legend(loc="best")
     titles = [f"{words}, {heat}" for words in ("temperature", "saturation", "pore pressure")
               for heat in ("latent heat on", "latent heat off")]  # fmt: skip
-    letters(list(panels.flat), titles)
+    title_panels(list(panels.flat), titles)
     return figure
 
 
 def figure_6(runs: dict[str, Run]) -> Figure:
-    """Draw band temperature, saturation and pressure for three band thicknesses and three meshes."""
-    return _draw(runs, FIGURE_6, 240.0)
+    """Plot band temperature, saturation and pressure for three band thicknesses and three meshes."""
+    return _plot(runs, FIGURE_6, 240.0)
 
 
 def figure_7(runs: dict[str, Run]) -> Figure:
-    """Draw the same for four hydraulic conductivities, and without heat conduction."""
-    return _draw(runs, FIGURE_7, 60.0)
+    """Plot the same for four hydraulic conductivities, and without heat conduction."""
+    return _plot(runs, FIGURE_7, 60.0)

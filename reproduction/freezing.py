@@ -1,4 +1,4 @@
-"""Sec. 3.1: the freezing bar against an enthalpy finite-volume solution of the same equation (Fig. 4)."""
+"""Sec. 3.1: freezing bar compared with an enthalpy finite-volume solution of the same equation (Fig. 4)."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from matplotlib.figure import Figure
 
 from reproduction.mixture import FREEZING_BAR, HeatTable, Mixture, linear_saturation
 from reproduction.runs import BARS, PRINTED
-from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, ORANGE, RED, letters, styled
+from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, ORANGE, RED, styled, title_panels
 from thawslide.run import Numbers, Run
 
 COLD_END = -3.0  # C
 LENGTH = 2.0  # m
-COMPARED = 0.95  # m: the stretch over which errors are taken
+COMPARED = 0.95  # m: range of the errors
 CELLS = 800
 
 
@@ -46,7 +46,7 @@ def reference(
 
 
 def slope_and_latent(run: Run) -> tuple[float, bool]:
-    """Return m [1/K] and whether latent heat counts, from the resolved case."""
+    """Return m [1/K] and whether latent heat is on, from the resolved case."""
     return float(run.section("freezing")["slope"]), bool(run.section("heat").get("latent", True))
 
 
@@ -57,28 +57,28 @@ def profile(run: Run, time: float | None = None) -> tuple[Numbers, Numbers]:
     return shot.points[order, 0], np.asarray(shot["temperature"], dtype=np.float64)[order]
 
 
-def wrongs(run: Run) -> tuple[Numbers, Numbers]:
-    """Return (x [m], T less that of the reference [K]) of the particles over 0 < x < 0.95 m."""
+def temperature_errors(run: Run) -> tuple[Numbers, Numbers]:
+    """Return (x [m], T minus that of the reference [K]) of the particles over 0 < x < 0.95 m."""
     x, temperature = profile(run)
     exact_x, exact = reference(*slope_and_latent(run), float(run.times[-1]))
-    # The wall's temperature belongs to the curve: the first particles stand between it and the first volume.
-    wrong = temperature - np.interp(x, np.concatenate(([0.0], exact_x)), np.concatenate(([COLD_END], exact)))
-    return x[x < COMPARED], wrong[x < COMPARED]
+    # The curve includes the wall: the first particles are between it and the first volume.
+    difference = temperature - np.interp(x, np.concatenate(([0.0], exact_x)), np.concatenate(([COLD_END], exact)))
+    return x[x < COMPARED], difference[x < COMPARED]
 
 
 def errors(run: Run) -> tuple[float, float]:
-    """Return the largest and the root mean square error [K] over 0 < x < 0.95 m."""
-    _, wrong = wrongs(run)
-    return float(np.max(np.abs(wrong))), float(np.sqrt(np.mean(wrong**2)))
+    """Return the maximum and the root mean square error [K] over 0 < x < 0.95 m."""
+    _, difference = temperature_errors(run)
+    return float(np.max(np.abs(difference))), float(np.sqrt(np.mean(difference**2)))
 
 
 def place_of_saturation(run: Run, saturation: float, time: float | None = None) -> float:
-    """Return x [m] at which the particles' saturation passes a value, at the end or a time; nan where it does not."""
+    """Return x [m] at which the saturation of particles attains a value, at the end or a time; nan if it does not."""
     x, temperature = profile(run, time)
-    share = linear_saturation(slope_and_latent(run)[0])(temperature)
-    if not share[0] < saturation <= share[-1]:
+    liquid = linear_saturation(slope_and_latent(run)[0])(temperature)
+    if not liquid[0] < saturation <= liquid[-1]:
         return float("nan")
-    return float(np.interp(saturation, share, x))
+    return float(np.interp(saturation, liquid, x))
 
 
 def measures(runs: dict[str, Run]) -> dict[str, float]:
@@ -89,18 +89,18 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         found[f"{key}_max_error"], found[f"{key}_rms_error"] = errors(run)
         found[f"{key}_half"] = place_of_saturation(run, 0.5)
         found[f"{key}_half_early"] = place_of_saturation(run, 0.5, 0.5 * float(run.times[-1]))
-        share = linear_saturation(slope_and_latent(run)[0])(profile(run)[1])
-        found[f"{key}_left"], found[f"{key}_right"] = float(share[0]), float(share[-1])
-        backward = max(backward, float(np.max(np.maximum.accumulate(share) - share)))
+        liquid = linear_saturation(slope_and_latent(run)[0])(profile(run)[1])
+        found[f"{key}_left"], found[f"{key}_right"] = float(liquid[0]), float(liquid[-1])
+        backward = max(backward, float(np.max(np.maximum.accumulate(liquid) - liquid)))
         frozen, thawed = place_of_saturation(run, 0.05), place_of_saturation(run, 0.95)
         found[f"{key}_width"] = thawed - frozen
         slope, _ = slope_and_latent(run)
         found[f"{key}_gradient"] = 0.9 / slope / (thawed - frozen)
         printed = runs[name + PRINTED]
-        made, drawn = (abs(float(printed.history[c][-1])) for c in ("capacity_heat_J", "boundary_heat_J"))
+        created, removed = (abs(float(printed.history[c][-1])) for c in ("capacity_heat_J", "boundary_heat_J"))
         found[f"{key}_printed_error"] = errors(printed)[0]
-        found[f"{key}_printed_heat"] = 100.0 * made / max(drawn, 1e-300)
-    found["freezing_backward"] = backward  # largest fall of saturation on the way from the cold end
+        found[f"{key}_printed_heat"] = 100.0 * created / max(removed, 1e-300)
+    found["freezing_backward"] = backward  # maximum decrease of saturation with distance from the cold end
     found["freezing_max_error"] = max(value for name, value in found.items() if name.endswith("_max_error"))
     found["freezing_rms_error"] = max(value for name, value in found.items() if name.endswith("_rms_error"))
     return found
@@ -114,34 +114,34 @@ _DRAWN = (
 )
 
 
-NEAR = 0.16  # m: what the lower panels show
+NEAR = 0.16  # m: range of the lower panels
 
 
 def _draw_errors(axes: Axes, runs: dict[str, Run], ending: str) -> None:
-    """Draw how far the particles near the cold end are off the reference."""
+    """Plot the errors of the particles near the cold end."""
     for name, _, colour in _DRAWN:
-        x, wrong = wrongs(runs[name + ending])
-        axes.plot(x, 1e3 * wrong, "o-", color=colour, markersize=3.0, linewidth=0.7)
+        x, difference = temperature_errors(runs[name + ending])
+        axes.plot(x, 1e3 * difference, "o-", color=colour, markersize=3.0, linewidth=0.7)
     axes.set_ylabel("error (mK)")
     axes.set_ylim(-45.0, 45.0)
 
 
 @styled
 def figure_4(runs: dict[str, Run]) -> Figure:
-    """Draw temperature and saturation along the bar and near its end: particles as points, the reference as lines.
+    """Plot temperature and saturation along the bar and near its end: particles as points, the reference as lines.
 
-    Below, how far the points are off the lines, here and with the update that the paper prints.
+    The lowest panels have the errors of Thawslide and of the published update.
     """
     figure = Figure(figsize=(COLUMN_WIDTH, 8.3), layout="constrained")
     panels = list(figure.subplots(3, 2).flat)
     for name, words, colour in _DRAWN:
         run = runs[name]
         slope, latent = slope_and_latent(run)
-        share = linear_saturation(slope)
+        liquid = linear_saturation(slope)
         x, temperature = profile(run)
         fine_x, fine = reference(slope, latent, float(run.times[-1]))
         for number, axes in enumerate(panels[:4]):
-            points, line = (temperature, fine) if number % 2 == 0 else (share(temperature), share(fine))
+            points, line = (temperature, fine) if number % 2 == 0 else (liquid(temperature), liquid(fine))
             every = 6 if number < 2 else 1
             axes.plot(fine_x, line, color=BLACK, linewidth=0.9, zorder=3)
             axes.plot(x[::every], points[::every], "o", color=colour, markersize=3.4, label=words, zorder=2)
@@ -160,5 +160,5 @@ def figure_4(runs: dict[str, Run]) -> Figure:
     panels[0].legend(loc="lower right")
     after = ("temperature after one day", "liquid saturation after one day")
     near = ("temperature near the cold end", "saturation near the cold end")
-    letters(panels, (*after, *near, "error of temperature", "error with the printed update (Eqs. 18, 19)"))
+    title_panels(panels, (*after, *near, "error of temperature", "error with the published update (Eqs. 18, 19)"))
     return figure

@@ -8,14 +8,14 @@ from matplotlib.figure import Figure
 from reproduction.block import at, first_time, mark
 from reproduction.mixture import TABLE_1
 from reproduction.runs import INCLINES
-from thawslide.figures.style import BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, RED, letters, styled, time_line
+from thawslide.figures.style import BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, RED, styled, time_line, title_panels
 from thawslide.run import Numbers, Run
 
 GRAVITY, SLOPE, HEIGHT = 9.81, np.radians(40.0), 50.0
 NAMES = {"D": "D", "DL": "D-L", "DLP": "D-L-P", "PL": "P-L"}
 COLOURS = {"D": BLUE, "DL": GREEN, "DLP": RED, "PL": ORANGE}
 TIMES = (2.5, 5.0, 10.0, 15.0, 25.0)  # s
-LATE = 15.0  # s: what the paper calls "later"
+LATE = 15.0  # s: "later" in the paper
 _QUANTITIES = {
     "velocity": ("mean_velocity_m_s", 1.0),
     "displacement": ("mean_displacement_m", 1.0),
@@ -28,7 +28,7 @@ _QUANTITIES = {
 
 
 def smooth(run: Run, column: str, span: float = 0.5) -> Numbers:
-    """Return a column's running mean over `span` seconds: contact quantities ring with the body's elastic waves."""
+    """Return the running mean of a column over `span` seconds, because elastic waves modulate contact quantities."""
     values, time = run.history[column], run.history["time_s"]
     rows = max(1, round(span / (time[1] - time[0]))) if len(time) > 1 else 1
     rows = min(rows, len(time))
@@ -40,7 +40,7 @@ def smooth(run: Run, column: str, span: float = 0.5) -> Numbers:
 
 
 def flow_height(run: Run, time: float) -> float:
-    """Return the mean height [m] of the slide over its base: volume over the length that holds it."""
+    """Return the mean height [m] of the sliding mass: volume over length."""
     if time > run.times[-1] + 1e-9:
         return float("nan")
     shot = run.snapshot(time=time)
@@ -50,7 +50,7 @@ def flow_height(run: Run, time: float) -> float:
 
 
 def drag(run: Run) -> float:
-    """Return the mean force along the base from 15 to 25 s over the weight into the slope; nan in a shorter run."""
+    """Return the mean basal force from 15 to 25 s over the slope-normal weight; nan in a shorter run."""
     history = run.history
     late = history["time_s"] >= LATE
     weight = float(history["mass_kg"][0]) * GRAVITY * float(np.cos(SLOPE))
@@ -63,8 +63,8 @@ def friction_coefficient(porosity: float, saturation: float) -> float:
     return float((1.0 - (1.0 - (solid - 0.05) / 0.8) ** 2) * np.tan(np.radians(40.0)))
 
 
-def falls_of_friction(run: Run) -> dict[str, float]:
-    """Return by how much the coefficient of P-L falls to 25 s, the band's porosity then, and the fall that makes."""
+def friction_decrease(run: Run) -> dict[str, float]:
+    """Return the decrease of the coefficient of P-L to 25 s, the porosity of the band, and the decrease by porosity."""
     friction = run.history["band_friction_coefficient"]
     band = run.snapshot(time=25.0)
     inside = np.asarray(band["in_band"]) > 0
@@ -127,7 +127,7 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
     found["incline_points_pressure"] = at(points, "band_pore_pressure_Pa", 25.0) / 1e3
     found["incline_gain_L"] = found["incline_DL_velocity_25s"] - found["incline_D_velocity_25s"]
     found["incline_gain_P"] = found["incline_DLP_velocity_25s"] - found["incline_DL_velocity_25s"]
-    found |= falls_of_friction(runs["incline-PL"])
+    found |= friction_decrease(runs["incline-PL"])
     for name in ("D", "PL"):
         run, key = runs[f"incline-{name}-no-viscosity"], f"incline_{name}_undamped"
         found[f"{key}_displacement"] = at(run, "mean_displacement_m", min(20.0, run.history["time_s"][-1]))
@@ -138,43 +138,43 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
 
 
 @styled
-def _draw(runs: dict[str, Run], panels: tuple[tuple[str, str, float, float], ...], titles: tuple[str, ...]) -> Figure:
-    """Draw columns over time: (column, words, divisor, running mean [s])."""
+def _plot(runs: dict[str, Run], panels: tuple[tuple[str, str, float, float], ...], titles: tuple[str, ...]) -> Figure:
+    """Plot columns over time: (column, label, divisor, running mean [s])."""
     figure = Figure(figsize=(COLUMN_WIDTH, 3.2), layout="constrained")
     axes = list(figure.subplots(1, len(panels)))
     for panel, (column, words, divisor, span) in zip(axes, panels, strict=True):
         for name in INCLINES:
             run = runs[f"incline-{name}"]
             values = (smooth(run, column, span) if span else run.history[column]) / divisor
-            dashes = "--" if name == "PL" else "-"  # it often lies on D-L-P
+            dashes = "--" if name == "PL" else "-"  # it often coincides with D-L-P
             time_line(panel, run.history["time_s"], values, color=COLOURS[name], linestyle=dashes, label=NAMES[name])
         panel.set_ylabel(words)
-        panel.set_xlabel(runs["incline-DLP"].clock.label)
+        panel.set_xlabel(runs["incline-DLP"].time_reference.label)
         panel.set_xlim(0.0, runs["incline-DLP"].history["time_s"][-1])
         panel.grid(True)
     axes[0].legend(loc="best")
-    letters(axes, titles)
+    title_panels(axes, titles)
     return figure
 
 
 def figure_9(runs: dict[str, Run]) -> Figure:
-    """Draw temperature and saturation of the band."""
+    """Plot temperature and saturation of the band."""
     panels = (("band_temperature_C", "temperature (°C)", 1.0, 0.0), ("band_saturation", "liquid saturation", 1.0, 0.0))
-    figure = _draw(runs, panels, ("band temperature", "band saturation"))
+    figure = _plot(runs, panels, ("band temperature", "band saturation"))
     figure.axes[1].set_ylim(-0.02, 1.02)
     mark(figure.axes[1], 10.0, 1.0, "Lei et al.: P-L has melted", COLOURS["PL"])
     return figure
 
 
 def figure_10(runs: dict[str, Run]) -> Figure:
-    """Draw friction coefficient and pore pressure along the base."""
+    """Plot friction coefficient and pore pressure along the base."""
     panels = (
         ("band_friction_coefficient", "friction coefficient", 1.0, 0.5),
         ("band_pore_pressure_Pa", "pore pressure (MPa)", 1e6, 0.0),
     )
-    figure = _draw(runs, panels, ("friction coefficient, mean over 0.5 s", "band pore pressure"))
+    figure = _plot(runs, panels, ("friction coefficient, mean over 0.5 s", "band pore pressure"))
     pressure = figure.axes[1]
-    # Where it does not act on the base (D, D-L) it rises without bound: such curves are thin and leave the panel.
+    # If it does not act on the base (D, D-L) it increases without bound: such curves are thin and leave the panel.
     for name, line in zip(INCLINES, list(pressure.lines), strict=True):
         if name in ("D", "DL"):
             line.set(linestyle=":", linewidth=1.1)
@@ -185,17 +185,17 @@ def figure_10(runs: dict[str, Run]) -> Figure:
                       ha="right", textcoords="offset points", color=NOTE)  # fmt: skip
     highest = {name: float(np.nanmax(runs[f"incline-{name}"].history["band_pore_pressure_Pa"])) / 1e6
                for name in ("D", "DL")}  # fmt: skip
-    words = f"dotted: does not act on the base; up to {highest['D']:.0f} MPa (D), {highest['DL']:.0f} MPa (D-L)"
+    words = f"dotted: no effect on the base; maximum {highest['D']:.0f} MPa (D), {highest['DL']:.0f} MPa (D-L)"
     pressure.annotate(words, (0.015, 0.03), xycoords="axes fraction", size=8, color=NOTE)
     return figure
 
 
 def figure_11(runs: dict[str, Run]) -> Figure:
-    """Draw plastic strain, velocity and displacement of the mixture."""
+    """Plot plastic strain, velocity and displacement of the mixture."""
     panels = (
         ("mean_plastic_strain", "equivalent plastic strain", 1.0, 0.0),
         ("mean_velocity_m_s", "mean velocity (m/s)", 1.0, 0.0),
         ("mean_displacement_m", "mean displacement (m)", 1.0, 0.0),
     )
-    figure = _draw(runs, panels, ("plastic strain, mean of mass", "velocity", "displacement"))
+    figure = _plot(runs, panels, ("plastic strain, mass-weighted mean", "velocity", "displacement"))
     return figure

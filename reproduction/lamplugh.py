@@ -1,4 +1,4 @@
-"""Sec. 4: the Lamplugh avalanche. Figs. 14 to 20 are those of any report; deposit and rigid block are drawn here."""
+"""Sec. 4: Lamplugh avalanche. Figs. 14 to 20 are those of any report; this module adds deposit and rigid block."""
 
 from __future__ import annotations
 
@@ -11,10 +11,9 @@ from matplotlib.figure import Figure
 from reproduction.block import at
 from reproduction.runs import LAMPLUGH_BLOCKS
 from reproduction.stages import balance
-from thawslide.clock import time_of_speed
 from thawslide.errors import NotInRunError
 from thawslide.figures.force import force_in_band, seismic_force
-from thawslide.figures.motion import draw_targets
+from thawslide.figures.motion import plot_targets
 from thawslide.figures.style import (
     BLUE,
     COLUMN_WIDTH,
@@ -22,25 +21,26 @@ from thawslide.figures.style import (
     NOTE,
     ORANGE,
     RED,
-    letters,
-    stretch,
     styled,
     time_axis,
     time_line,
+    title_panels,
+    vertical_exaggeration,
 )
 from thawslide.history import History, read_history
-from thawslide.key_numbers import STOPPED_SHARE, stop_time
+from thawslide.key_numbers import STOPPED_FRACTION, stop_time
 from thawslide.run import Numbers, Run
 from thawslide.targets import Band
+from thawslide.time_reference import time_of_speed
 
-# Gradients the text gives for the way down: source slope, ramp, valley floor.
+# Slopes of the profile in the text [degrees]: source, ramp.
 SLOPE, RAMP = 48.0, 8.0
 BIN = 100.0  # m
 PHASE = 75.0  # s: the time of the peak in the paper
 FRONT = 10500.0  # m: the reported front
 COHESION = 6.0e5  # Pa: along the base at the start
 MARGIN = 1000.0  # m: what counts as the distal margin before it
-INVERSION = Band(35.0, 150.0)  # s: periods that inversions of long waves take; that of the report is not checked
+INVERSION = Band(35.0, 150.0)  # s: periods of inversions of long waves; that of the report is not checked
 WIDER = Band(20.0, 150.0)
 
 _COLOURS = (RED, ORANGE, GREEN)
@@ -48,7 +48,7 @@ _COLOURS = (RED, ORANGE, GREEN)
 
 @dataclass(frozen=True)
 class Zone:
-    """A zone of Fig. 12b: letter, what the text says of it, where we take it to lie [m] (the text gives no place)."""
+    """A zone of Fig. 12b: letter, description in the text, and assumed range [m] (the text states no place)."""
 
     letter: str
     text: str
@@ -67,7 +67,7 @@ def deposit(run: Run) -> tuple[Numbers, Numbers]:
 
 
 def breaks(run: Run) -> tuple[float, float]:
-    """Return x [m] of the foot of the slope and of the ramp: where the ground's slope falls under 28 and 4 degrees."""
+    """Return x [m] of the foot of the slope and of the ramp, at slopes of 28 and 4 degrees."""
     assert run.terrain is not None
     x, z = run.terrain
     slope = np.degrees(np.arctan(-np.gradient(z, x)))
@@ -77,7 +77,7 @@ def breaks(run: Run) -> tuple[float, float]:
 
 
 def zones(run: Run) -> list[Zone]:
-    """Return the zones downhill: B ends with the ramp, F is the last km before the front, C to E share the rest."""
+    """Return the zones downhill: B ends with the ramp, F is the last km before the front, C to E are equal parts."""
     foot, valley = breaks(run)
     first, second = valley + (FRONT - MARGIN - valley) * np.array([1.0, 2.0]) / 3.0
     return [
@@ -89,27 +89,27 @@ def zones(run: Run) -> list[Zone]:
     ]
 
 
-def zone_shares(run: Run) -> dict[str, tuple[float, float]]:
-    """Return by letter the share of the volume [%] and the mean thickness [m] in each zone at the end of the run."""
+def zone_fractions(run: Run) -> dict[str, tuple[float, float]]:
+    """Return by letter the fraction of the volume [%] and the mean thickness [m] in each zone at the end of the run."""
     shot = run.snapshot(-1)
     x, volume, area = shot.points[:, 0], np.asarray(shot["volume"], dtype=np.float64), run.section_areas(shot)
     found = {}
     for zone in zones(run):
         inside = (x >= zone.start) & (x < zone.end)
-        share = float(volume[inside].sum() / volume.sum())
-        found[zone.letter] = (100.0 * share, float(area[inside].sum()) / (zone.end - zone.start))
+        fraction = float(volume[inside].sum() / volume.sum())
+        found[zone.letter] = (100.0 * fraction, float(area[inside].sum()) / (zone.end - zone.start))
     return found
 
 
 def read_block(path: Path) -> History:
-    """Return the columns of what `thawslide block` wrote; NotInRunError where there is nothing."""
+    """Return the columns of a table of `thawslide block`; NotInRunError without the file."""
     if not path.is_file():
-        raise NotInRunError(f"{path}: not there")
+        raise NotInRunError(f"{path}: no such file. Run the rigid block.")
     return read_history(path, [])
 
 
 def blocks(run: Run) -> dict[str, History]:
-    """Return the histories of the rigid blocks that lie beside a run, by name."""
+    """Return the histories of the rigid blocks next to a run folder, by name."""
     return {each.name: read_block(run.folder.parent / f"{each.name}.csv") for each in LAMPLUGH_BLOCKS}
 
 
@@ -119,7 +119,7 @@ def block_measures(run: Run) -> dict[str, float]:
     for name, history in blocks(run).items():
         time, speed = history["time_s"], history["velocity_m_s"]
         peak = int(np.argmax(speed))
-        moving = np.flatnonzero(speed > STOPPED_SHARE * max(float(speed[peak]), 1e-300))
+        moving = np.flatnonzero(speed > STOPPED_FRACTION * max(float(speed[peak]), 1e-300))
         stopped = moving.size > 0 and int(moving[-1]) + 1 < len(time)
         key = name.replace("-", "_")
         found[f"{key}_peak"] = float(speed[peak])
@@ -132,27 +132,27 @@ def block_measures(run: Run) -> dict[str, float]:
 
 
 def base_traction(run: Run, start: float = 100.0, end: float = 140.0) -> float:
-    """Return the mean traction [kPa] of the base on the valley floor, from what slows the slide from start to end [s].
+    """Return the mean basal traction [kPa] on the valley floor, from the deceleration between two times [s].
 
-    Mass and length of the slide as they are half way; gravity along the mean slope of the ground under it.
+    Mass and length are those of half the time; gravity acts along the mean slope of the terrain below.
     """
     history = run.history
     if float(history["time_s"][-1]) < end:
         return float("nan")
     assert run.terrain is not None
-    slowing = (at(run, "mean_velocity_m_s", start) - at(run, "mean_velocity_m_s", end)) / (end - start)
+    deceleration = (at(run, "mean_velocity_m_s", start) - at(run, "mean_velocity_m_s", end)) / (end - start)
     shot = run.snapshot(time=0.5 * (start + end))
     order = np.argsort(shot.points[:, 0])
-    share = np.cumsum(np.asarray(shot["mass"], dtype=np.float64)[order])
-    rear, front = shot.points[order, 0][np.searchsorted(share, (0.005 * share[-1], 0.995 * share[-1]))]
+    mass = np.cumsum(np.asarray(shot["mass"], dtype=np.float64)[order])
+    rear, front = shot.points[order, 0][np.searchsorted(mass, (0.005 * mass[-1], 0.995 * mass[-1]))]
     low, high = np.interp((rear, front), *run.terrain)
     slope = np.arctan2(low - high, front - rear)
     gravity = 9.81
-    return float(share[-1] * (slowing + gravity * np.sin(slope)) / (front - rear) * np.cos(slope) / 1e3)
+    return float(mass[-1] * (deceleration + gravity * np.sin(slope)) / (front - rear) * np.cos(slope) / 1e3)
 
 
 def near_ground(run: Run, time: float, height: float = 5.0, column: float = 10.0) -> float:
-    """Return the mean number of particles within `height` [m] of the ground, across it, in each `column` [m] of x."""
+    """Return the mean number of particles within `height` [m] normal to the terrain, in each `column` [m] of x."""
     shot = run.snapshot(time=time)
     assert run.terrain is not None
     x, z = run.terrain
@@ -169,7 +169,7 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
     speed = history["mean_velocity_m_s"]
     peak = int(np.argmax(speed))
     _, force = seismic_force(run)
-    loudest = int(np.nanargmax(force))
+    strongest = int(np.nanargmax(force))
     stopped, other_stopped = stop_time(run), stop_time(other)
     x, thickness = deposit(run)
     foot, valley = breaks(run)
@@ -193,8 +193,8 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         "lamplugh_pressure_start": float(history["band_pore_pressure_Pa"][0]) / 1e6,
         "lamplugh_friction_40s": at(run, "band_friction_coefficient", 40.0),
         "lamplugh_friction_75s": at(run, "band_friction_coefficient", PHASE),
-        "lamplugh_force_TN": float(force[loudest]) / 1e12,
-        "lamplugh_force_time": float(time[loudest]),
+        "lamplugh_force_TN": float(force[strongest]) / 1e12,
+        "lamplugh_force_time": float(time[strongest]),
         "lamplugh_force_inverted_TN": float(np.nanmax(force_in_band(run, INVERSION))) / 1e12,
         "lamplugh_force_wider_TN": float(np.nanmax(force_in_band(run, WIDER))) / 1e12,
         "lamplugh_temperature_40s": at(run, "band_temperature_C", 40.0),
@@ -222,8 +222,8 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         "lamplugh_dry_stop": other_stopped if other_stopped is not None else float("nan"),
         "lamplugh_particles": float(len(run.snapshot(0).points)),
     }
-    for letter, (share, mean) in zone_shares(run).items():
-        found[f"lamplugh_zone_{letter}"] = share
+    for letter, (fraction, mean) in zone_fractions(run).items():
+        found[f"lamplugh_zone_{letter}"] = fraction
         found[f"lamplugh_zone_{letter}_thickness"] = mean
     found["lamplugh_base_traction"] = base_traction(run)
     found |= block_measures(run)
@@ -233,14 +233,17 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
 
 @styled
 def figure_deposit(runs: dict[str, Run]) -> Figure:
-    """Draw ground, start and deposit along the profile, and the deposit's thickness."""
+    """Plot terrain, initial state and deposit along the profile, and the thickness of the deposit."""
     run = runs["lamplugh"]
     figure = Figure(figsize=(COLUMN_WIDTH, 4.0), layout="constrained")
     section, thick = figure.subplots(2, 1, sharex=True, height_ratios=(1.0, 1.0))
     assert run.terrain is not None
     ground_x, ground_z = run.terrain
     section.fill_between(ground_x / 1e3, ground_z, ground_z.min() - 50.0, color="#E4E0DA")
-    for index, colour, words in ((0, NOTE, "start"), (-1, RED, f"end, t = {run.times[-1] + run.clock.shift:.4g} s")):
+    for index, colour, words in (
+        (0, NOTE, "start"),
+        (-1, RED, f"end, t = {run.times[-1] + run.time_reference.shift:.4g} s"),
+    ):
         points = run.snapshot(index).points
         section.plot(points[:, 0] / 1e3, points[:, 1], ".", color=colour, markersize=1.5, label=words)
     section.set_ylim(0.8 * float(run.snapshot(-1).points[:, 1].min()), None)
@@ -265,12 +268,12 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
         axes.grid(True)
         axes.set_axisbelow(True)
         axes.set_xlim(ground_x[0] / 1e3, max(FRONT + 1500.0, float(x.max()) + BIN) / 1e3)
-    figure.draw_without_rendering()  # sizes of panels are known from here on
-    letters(
+    figure.draw_without_rendering()  # sets the sizes of panels
+    title_panels(
         [section, thick],
         (
-            f"profile, heights ×{stretch(section, 1e3):.2g}",
-            "thickness of the deposit, means over 100 m; zones and words of Lei et al., places from this run",
+            f"profile, vertical exaggeration {vertical_exaggeration(section, 1e3):.2g}×",
+            "deposit thickness, means over 100 m; zones of Lei et al. at assumed places",
         ),
     )
     return figure
@@ -278,25 +281,25 @@ def figure_deposit(runs: dict[str, Run]) -> Figure:
 
 @styled
 def figure_blocks(runs: dict[str, Run]) -> Figure:
-    """Draw velocity and displacement of the deforming slide and of the rigid blocks, with the reported values."""
+    """Plot velocity and displacement of the deforming body and of the rigid blocks, with the reported values."""
     run = runs["lamplugh"]
     time = run.history["time_s"]
     figure = Figure(figsize=(COLUMN_WIDTH, 3.4), layout="constrained")
-    speed, way = figure.subplots(1, 2)
+    speed, distance = figure.subplots(1, 2)
     time_line(speed, time, run.history["mean_velocity_m_s"], color=BLUE, label="deforming (MPM)")
-    time_line(way, time, run.history["mean_displacement_m"] / 1e3, color=BLUE, label="deforming (MPM)")
-    beside = blocks(run)
+    time_line(distance, time, run.history["mean_displacement_m"] / 1e3, color=BLUE, label="deforming (MPM)")
+    histories = blocks(run)
     for block, colour, dashes in zip(LAMPLUGH_BLOCKS, _COLOURS[:2], ("--", "-."), strict=True):
-        history, look = beside[block.name], {"color": colour, "linestyle": dashes}
-        for axes, column, divisor in ((speed, "velocity_m_s", 1.0), (way, "displacement_m", 1e3)):
-            time_line(axes, history["time_s"], history[column] / divisor, **look, label=block.words)
-    draw_targets(speed, run, ("mean_velocity",), 1.0, NOTE)
-    draw_targets(way, run, ("mean_displacement",), 1e3, NOTE)
+        history, style = histories[block.name], {"color": colour, "linestyle": dashes}
+        for axes, column, divisor in ((speed, "velocity_m_s", 1.0), (distance, "displacement_m", 1e3)):
+            time_line(axes, history["time_s"], history[column] / divisor, **style, label=block.words)
+    plot_targets(speed, run, ("mean_velocity",), 1.0, NOTE)
+    plot_targets(distance, run, ("mean_displacement",), 1e3, NOTE)
     speed.set_ylabel("mean velocity (m/s)")
-    way.set_ylabel("mean displacement (km)")
-    for axes in (speed, way):
-        time_axis(axes, time, run.clock.label)
+    distance.set_ylabel("mean displacement (km)")
+    for axes in (speed, distance):
+        time_axis(axes, time, run.time_reference.label)
         axes.set_ylim(bottom=0.0)
         axes.legend(loc="best")
-    letters((speed, way), ("velocity", "displacement"))
+    title_panels((speed, distance), ("velocity", "displacement"))
     return figure

@@ -1,4 +1,4 @@
-"""Figs. 14, 15, 17 and 20 of the paper in its own layout: zones set off by dotted lines, two curves a panel."""
+"""Figs. 14, 15, 17 and 20 in the layout of the paper: zones between dotted lines, two curves a panel."""
 
 from __future__ import annotations
 
@@ -11,52 +11,53 @@ from matplotlib.figure import Figure
 from reproduction.lamplugh import INVERSION, PHASE, zones
 from thawslide.figures.force import force_in_band, seismic_force
 from thawslide.figures.load import load_on_band
-from thawslide.figures.snapshots import Stretch, plastic_strain, velocity
-from thawslide.figures.style import BLUE, COLUMN_WIDTH, NOTE, RED, letters, styled, time_axis, time_line, warn
+from thawslide.figures.snapshots import Zone as SnapshotZone
+from thawslide.figures.snapshots import plastic_strain, velocity
+from thawslide.figures.style import BLUE, COLUMN_WIDTH, NOTE, RED, styled, time_axis, time_line, title_panels, warn
 from thawslide.run import Numbers, Run
-from thawslide.unphysical import too_hot, too_much_for_weight
+from thawslide.unphysical import too_hot, too_much_for_overburden
 
-INVERTED = 0.28  # TN: the largest force inverted from seismic waves
+INVERTED = 0.28  # TN: maximum force inverted from seismic waves
 
 
-def stretches(run: Run) -> list[Stretch]:
-    """Return the zones of Fig. 12b, at places of ours, as figures name them."""
-    return [Stretch(zone.letter, zone.start, zone.end) for zone in zones(run)]
+def snapshot_zones(run: Run) -> list[SnapshotZone]:
+    """Return the zones of Fig. 12b at the places that Thawslide assumes."""
+    return [SnapshotZone(zone.letter, zone.start, zone.end) for zone in zones(run)]
 
 
 def figure_14(runs: dict[str, Run]) -> Figure:
-    """Draw the velocity with the zones."""
-    return velocity(runs["lamplugh"], stretches(runs["lamplugh"]))
+    """Plot the velocity with the zones."""
+    return velocity(runs["lamplugh"], snapshot_zones(runs["lamplugh"]))
 
 
 def figure_15(runs: dict[str, Run]) -> Figure:
-    """Draw the plastic strain with the zones."""
-    return plastic_strain(runs["lamplugh"], stretches(runs["lamplugh"]))
+    """Plot the plastic strain with the zones."""
+    return plastic_strain(runs["lamplugh"], snapshot_zones(runs["lamplugh"]))
 
 
 def _pair(axes: Axes, run: Run, left: tuple[Numbers, str], right: tuple[Numbers, str]) -> Axes:
-    """Draw one curve by the left axis in red, another by the right axis in blue; return the right axes."""
+    """Plot one curve on the left axis in red, another on the right axis in blue; return the right axes."""
     other, time = axes.twinx(), run.shown_time
     for panel, (values, words), colour in ((axes, left, RED), (other, right, BLUE)):
         time_line(panel, time, values, color=colour)
         panel.set_ylabel(words, color=colour)
         panel.tick_params(axis="y", colors=colour)
     other.spines["right"].set_visible(True)
-    time_axis(axes, time, run.clock.label)
+    time_axis(axes, time, run.time_reference.label)
     return other
 
 
 def _reported(axes: Axes, time: float, value: float, words: str, offset: tuple[float, float]) -> None:
-    """Mark a reported value of the red curve within the run's time, its words beside it."""
+    """Mark a reported value of the red curve within the time of the run, with words."""
     if time > axes.get_xlim()[1]:
         return
-    look: dict[str, Any] = {"markerfacecolor": "white", "markeredgecolor": RED, "markersize": 6.5, "clip_on": False}
-    axes.plot(time, value, "o", zorder=6, **look)
+    style: dict[str, Any] = {"markerfacecolor": "white", "markeredgecolor": RED, "markersize": 6.5, "clip_on": False}
+    axes.plot(time, value, "o", zorder=6, **style)
     axes.annotate(words, (time, value), xytext=offset, textcoords="offset points", size=8, color=NOTE)
 
 
 def _at_the_peak(axes: Axes, words: str, height: float, alignment: str) -> None:
-    """Draw a dotted line at the time of the paper's peak, where the axes reach so far, with words beside it."""
+    """Draw a dotted line with words at the time of the peak in the paper, if it is within the axes."""
     if axes.get_xlim()[1] >= PHASE:
         axes.axvline(PHASE, color="#8A8A8A", linestyle=":", linewidth=1.1)
         axes.annotate(words, (PHASE, height), xycoords=("data", "axes fraction"), va=alignment, size=8,
@@ -65,7 +66,7 @@ def _at_the_peak(axes: Axes, words: str, height: float, alignment: str) -> None:
 
 @styled
 def figure_17(runs: dict[str, Run]) -> Figure:
-    """Draw the contact force with the ground (red) and the mean plastic strain (blue) in one panel."""
+    """Plot the contact force (red) and the mean plastic strain (blue) in one panel."""
     run = runs["lamplugh"]
     time = run.shown_time
     _, magnitude = seismic_force(run)
@@ -73,19 +74,19 @@ def figure_17(runs: dict[str, Run]) -> Figure:
     figure = Figure(figsize=(COLUMN_WIDTH, 3.7), layout="constrained")
     axes = figure.subplots()
     strain = run.history["mean_plastic_strain"]
-    names = ("force on the ground less the static weight (TN)", "mean equivalent plastic strain")
+    names = ("force on the terrain minus static weight (TN)", "mean equivalent plastic strain")
     other = _pair(axes, run, (force, names[0]), (strain, names[1]))
     passed = force_in_band(run, INVERSION) / 1e12
-    time_line(axes, time, passed, color=RED, linewidth=1.0, linestyle="-.", label=f"band-passed {INVERSION.words}")
+    time_line(axes, time, passed, color=RED, linewidth=1.0, linestyle="-.", label=f"band-pass {INVERSION.words}")
     axes.legend(loc="upper left")
     axes.axhline(INVERTED, color=RED, linewidth=1.0, linestyle="--")
-    words = "Dufresne et al. (2019), seismic inversion: largest force 0.28 TN"
+    words = "Dufresne et al. (2019), seismic inversion: maximum force 0.28 TN"
     axes.annotate(words, (0.99, INVERTED), va="bottom", ha="right", size=8,
                   xycoords=("axes fraction", "data"), xytext=(0, 2), textcoords="offset points",
                   color=NOTE)  # fmt: skip
-    _at_the_peak(axes, "Lei et al., MPM: reaches the glacier", 0.985, "top")
+    _at_the_peak(axes, "Lei et al., MPM: arrival at the glacier", 0.985, "top")
     first = int(np.nanargmax(np.where(time <= 0.01 * time[-1], force, -np.inf)))
-    axes.annotate("the initial stress adjusts", (time[first], force[first]), xytext=(8, 8), size=8, color=NOTE,
+    axes.annotate("initial stress adjustment", (time[first], force[first]), xytext=(8, 8), size=8, color=NOTE,
                   textcoords="offset points")  # fmt: skip
     axes.set_ylim(0.0, 1.25 * max(float(np.nanmax(force)), INVERTED))
     other.set_ylim(0.0, 1.6 * max(float(np.nanmax(strain)), 1e-9))
@@ -94,7 +95,7 @@ def figure_17(runs: dict[str, Run]) -> Figure:
 
 @styled
 def figure_20(runs: dict[str, Run]) -> Figure:
-    """Draw the band: (a) temperature and pore pressure, (b) saturation and friction coefficient."""
+    """Plot (a) temperature and pore pressure, (b) saturation and friction coefficient of the band."""
     run = runs["lamplugh"]
     history = run.history
     figure = Figure(figsize=(COLUMN_WIDTH, 5.8), layout="constrained")
@@ -111,10 +112,13 @@ def figure_20(runs: dict[str, Run]) -> Figure:
     pressure.set_ylim(bottom=0.0)
     when, load = load_on_band(run)
     over = np.interp(when, run.shown_time, history["band_pore_pressure_Pa"]) / load
-    found = (too_hot(run, history["band_temperature_C"], history["band_pore_pressure_Pa"]), too_much_for_weight(over))
+    found = (
+        too_hot(run, history["band_temperature_C"], history["band_pore_pressure_Pa"]),
+        too_much_for_overburden(over),
+    )
     warn(pressure, "; ".join(filter(None, found)))
     low, high = heat.get_ylim()
-    for level, words in ((0.0, "ice melts"), (100.0, "boiling is not modelled")):
+    for level, words in ((0.0, "melting point"), (100.0, "boiling point")):
         if low < level < high:
             heat.axhline(level, color=NOTE, linewidth=0.8, linestyle=":")
             heat.annotate(words, (0.995, level), xycoords=("axes fraction", "data"), xytext=(0, 2 if level else -9),
@@ -123,7 +127,7 @@ def figure_20(runs: dict[str, Run]) -> Figure:
     friction.set_ylim(0.0, 1.0)
     _reported(melt, 40.0, 0.3, "Lei et al., MPM: 0.3 at 40 s", (9, -3))
     _reported(melt, 75.0, 0.9, "Lei et al., MPM: 0.9 at 75 s", (9, -10))
-    _at_the_peak(heat, "the band widens to 0.5 m", 0.14, "bottom")
+    _at_the_peak(heat, "band thickness 0.5 m from here on", 0.14, "bottom")
     _at_the_peak(melt, "", 0.0, "bottom")
-    letters((heat, melt), ("temperature and pore pressure of the band", "saturation and friction coefficient"))
+    title_panels((heat, melt), ("temperature and pore pressure of the band", "saturation and friction coefficient"))
     return figure

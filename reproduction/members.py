@@ -11,36 +11,36 @@ from typing import Any
 import numpy as np
 
 from reproduction.lamplugh import INVERSION
-from reproduction.one_at_a_time import Row, refusal, why_not_whole
-from thawslide.clock import time_of_speed
+from reproduction.one_at_a_time import Row, incompleteness, refusal
 from thawslide.errors import ReportError
 from thawslide.figures.force import force_in_band
 from thawslide.figures.force_record import compared
 from thawslide.key_numbers import stop_time
 from thawslide.run import Run
+from thawslide.time_reference import time_of_speed
 
 NOISE = 0.1  # of the distance of particles
 MEMBERS = 20
-SET_SPEED, SET_TIME = 8.0, 40.0  # m/s, s: the clock is set so that the mean velocity is so high then
+SET_SPEED, SET_TIME = 8.0, 40.0  # m/s, s: times are aligned by the mean velocity at this time
 REST = 0.1  # m/s
-MODEL = "Lei et al., MPM"  # whose results rows of the kind "model" have
+MODEL = "Lei et al., MPM"  # source of the rows of the kind "model"
 ROUND_OFF = 1e-9
 
 
 @dataclass(frozen=True)
 class Observed:
-    """What a run gives; nan where it never came to that, inf for a stop that it did not come to."""
+    """Results of a run; nan if not attained, inf for a stop that is not attained."""
 
     failure: str = ""
-    start: float = float("nan")  # s, on the run's own clock: first at SET_SPEED
-    end: float = float("nan")  # s, on the clock set: the run's end
+    start: float = float("nan")  # s, time of the run: first at SET_SPEED
+    end: float = float("nan")  # s, aligned: end of the run
     peak: float = float("nan")  # m/s
     rise: float = float("nan")  # s, from SET_SPEED to the peak
     displacement: float = float("nan")  # km
     runout: float = float("nan")  # km
-    stop: float = float("nan")  # s, on the clock set
+    stop: float = float("nan")  # s, aligned
     force: float = float("nan")  # TN
-    reversal: float = float("nan")  # s, from the largest upward to the largest downward force
+    reversal: float = float("nan")  # s, from the maximum upward to the maximum downward force
     dilation: float = float("nan")  # %, growth of the volume
     hottest: float = float("nan")  # C
     ratio: float = float("nan")  # P over averaged N
@@ -60,26 +60,26 @@ class Quantity:
     least: float
     most: float
     form: str
-    everywhere: bool = False  # not the median alone but every member has to be inside
+    is_strict: bool = False  # every member must be inside, not only the median
 
     @property
     def name_in_text(self) -> str:
-        """The words without what explains them."""
+        """The words without their explanation."""
         return self.words.partition(":")[0]
 
-    def inside(self, value: float) -> bool:
+    def accepts(self, value: float) -> bool:
         """Return whether a value lies in the interval."""
         return self.least <= value <= self.most + ROUND_OFF
 
     def text(self, value: float, end: float = float("nan")) -> str:
-        """Write a value; one that a run did not come to by its `end` says so."""
+        """Return a value as text, or that it is not attained by the `end`."""
         if np.isposinf(value):
             return f"not by {end:.0f}" if np.isfinite(end) else "not reached"
         return f"{value:{self.form}}".replace("-", "−") if np.isfinite(value) else "none"
 
 
 NONE = float("-inf")
-# Of rows, with the word for several: a bound is physics, which no one observed.
+# Kinds of rows, with their plural: a bound is a physical limit without observation.
 KINDS = {"observation": "observations", "model": "results of other models", "bound": "physical bounds"}
 QUANTITIES = (
     Quantity("runout", "observation", "runout: front at the end minus initial rear", "runout", "km", "10.5",
@@ -100,7 +100,7 @@ QUANTITIES = (
 
 
 def observed(folder: Path) -> Observed:
-    """Return the numbers of a run folder; one that is not there or broke off says so."""
+    """Return the results of a run folder, with the reason if it is missing or incomplete."""
     if not (folder / "history.csv").is_file():
         note = refusal(folder)
         return Observed(failure=note.read_text(encoding="utf-8") if note.is_file() else "not run")
@@ -109,7 +109,7 @@ def observed(folder: Path) -> Observed:
     speed = history["mean_velocity_m_s"]
     start, stop = time_of_speed(run, SET_SPEED), stop_time(run, REST)
     shift = SET_TIME - start
-    failure = why_not_whole(folder)
+    failure = incompleteness(folder)
     return Observed(
         failure=failure,
         start=start,
@@ -128,7 +128,7 @@ def observed(folder: Path) -> Observed:
 
 
 def _reversal(run: Run) -> float:
-    """Return how long the vertical force takes from its largest upward to its largest downward value [s]."""
+    """Return the time [s] from the maximum upward to the maximum downward value of the vertical force."""
     try:
         found = compared(run).run.reversal
     except ReportError:
@@ -137,7 +137,7 @@ def _reversal(run: Run) -> float:
 
 
 def member_rows() -> list[Row]:
-    """Return the members: the case with noise at the start, each with a seed of its own."""
+    """Return the members: the case with initial noise, each with a different seed."""
     return [
         Row(f"member-{seed:02d}", f"seed {seed}", (f"initial.noise={NOISE}", f"initial.seed={seed}"))
         for seed in range(1, MEMBERS + 1)
@@ -145,14 +145,14 @@ def member_rows() -> list[Row]:
 
 
 def _value_of(case: Mapping[str, Any], key: str) -> Any:
-    """Return what a resolved case has for a key with dots, None where it has nothing."""
+    """Return the value of a key with dots in a resolved case, None without it."""
     found: Any = case
     for part in key.split("."):
         found = found.get(part) if isinstance(found, Mapping) else None
     return found
 
 
-def _is_so_already(case: Mapping[str, Any], setting: str) -> bool:
+def _is_set(case: Mapping[str, Any], setting: str) -> bool:
     key, _, text = setting.partition("=")
     value = _value_of(case, key)
     if isinstance(value, bool | str):
@@ -161,13 +161,13 @@ def _is_so_already(case: Mapping[str, Any], setting: str) -> bool:
 
 
 def variant_rows(case: Mapping[str, Any]) -> list[Row]:
-    """Return what differs from a resolved case in one thing each; nothing that the case has already."""
+    """Return variants that differ from a resolved case in one parameter each, without settings of the case."""
     conductivity = "material.rock_ice.hydraulic_conductivity"
     glacier = "substrate.glacier.friction_coefficient"
-    other_way = "sealed" if _value_of(case, "pressure.frozen_rows") == "vented" else "vented"
+    other_boundary = "sealed" if _value_of(case, "pressure.frozen_rows") == "vented" else "vented"
     load_time = 2.0 * float(_value_of(case, "band.load_time"))
     grows = _value_of(case, "band.growth") == "slip"
-    # A key that the case states cannot be taken away: next to no growth stands for none.
+    # A key of the case cannot be removed: negligible growth represents none.
     other_growth = (
         [
             Row("no-growth", "the band does not grow", ("band.growth_per_slip=1e-12",)),
@@ -189,33 +189,33 @@ def variant_rows(case: Mapping[str, Any]) -> list[Row]:
         Row("glacier-0.13", "friction on the glacier 0.13", (f"{glacier}=0.13",)),
         Row("bonds-100", "bonds lost over 100 m", ("basal.slip_distance=100",)),
         Row("skeleton-1e-8", "m_v 1e-8 1/Pa", ("pressure.skeleton_compressibility=1e-8",)),
-        Row(f"frozen-{other_way}", f"frozen rows {other_way}", (f"pressure.frozen_rows={other_way}",)),
+        Row(f"frozen-{other_boundary}", f"frozen rows {other_boundary}", (f"pressure.frozen_rows={other_boundary}",)),
         Row("no-steam", "no steam: water stays liquid", ("heat.steam=false",)),
         Row("viscosity-0.005", "viscosity of the body 0.005 s", ("material.rock_ice.viscosity_time=0.005",)),
         Row("broken-20", "broken body of 20 degrees", ("material.rock_ice.residual_friction_angle=20",)),
         Row("load-time", f"N averaged over {load_time:g} s", (f"band.load_time={load_time:g}",)),
     ]
-    return [row for row in rows if not all(_is_so_already(case, setting) for setting in row.sets)]
+    return [row for row in rows if not all(_is_set(case, setting) for setting in row.sets)]
 
 
 def _values(found: Sequence[Observed], quantity: Quantity) -> np.ndarray:
-    """Return what members that came to their end have of a quantity."""
+    """Return the values of a quantity of the complete members."""
     values = np.array([getattr(each, quantity.name) for each in found if not each.failure], dtype=np.float64)
     return values[~np.isnan(values)]
 
 
 def median(found: Sequence[Observed], quantity: Quantity) -> float:
-    """Return the median over the members that came to their end, nan where none did."""
+    """Return the median over the complete members, nan without any."""
     values = _values(found, quantity)
     return float(np.median(values)) if values.size else float("nan")
 
 
 def is_met(found: Sequence[Observed], quantity: Quantity) -> bool:
-    """Return whether a row is met: by the median, or by every member where it must hold everywhere."""
+    """Return whether a row is met: by the median, or by every member if it is strict."""
     values = _values(found, quantity)
-    if quantity.everywhere:
-        return len(values) == len(found) > 0 and all(quantity.inside(value) for value in values)
-    return quantity.inside(median(found, quantity))
+    if quantity.is_strict:
+        return len(values) == len(found) > 0 and all(quantity.accepts(value) for value in values)
+    return quantity.accepts(median(found, quantity))
 
 
 def members_table(found: Sequence[Observed]) -> str:
@@ -232,7 +232,7 @@ def members_table(found: Sequence[Observed]) -> str:
             spread = low if low == high else f"{low} to {high}"
         else:
             spread = "none"
-        inside = f"{sum(each.inside(value) for value in values)} of {len(found)}"
+        inside = f"{sum(each.accepts(value) for value in values)} of {len(found)}"
         words = f"{each.words} [{each.unit}]" if each.unit else each.words
         cells = (each.kind, words, each.reported, each.wanted, each.text(median(found, each), end), spread, inside)
         lines.append(f"| {' | '.join(cells)} | {'yes' if is_met(found, each) else '**no**'} |")
@@ -260,9 +260,9 @@ def _miss(found: Sequence[Observed], quantity: Quantity) -> str:
     values = _values(found, quantity)
     if not values.size:
         return f"{quantity.name_in_text}: no member has it (accepted: {quantity.wanted})"
-    if quantity.everywhere and all(quantity.inside(value) for value in values):
+    if quantity.is_strict and all(quantity.accepts(value) for value in values):
         return f"{quantity.name_in_text}: not every member ended (accepted: {quantity.wanted} in each)"
-    which, value = ("maximum", float(values.max())) if quantity.everywhere else ("median", median(found, quantity))
+    which, value = ("maximum", float(values.max())) if quantity.is_strict else ("median", median(found, quantity))
     if not np.isfinite(value):
         return f"{quantity.name_in_text}: at least half of the members have none (accepted: {quantity.wanted})"
     number = f"{quantity.text(value)} {quantity.unit}".strip()
@@ -270,7 +270,7 @@ def _miss(found: Sequence[Observed], quantity: Quantity) -> str:
 
 
 def middle_member(found: Sequence[Observed]) -> int:
-    """Return the place of the member that is nearest to the medians, in halves of the intervals that have two ends."""
+    """Return the index of the member nearest to the medians, relative to the intervals with two ends."""
     distances = np.full(len(found), np.inf)
     for place, each in enumerate(found):
         if not each.failure and np.isfinite(each.start):
@@ -296,7 +296,7 @@ def variants_table(rows: Sequence[Row], found: Mapping[str, Observed]) -> str:
         for quantity in QUANTITIES:
             value = getattr(each, quantity.name)
             text = quantity.text(value, each.end)
-            cells.append(text if quantity.inside(value) else f"**{text}**")
+            cells.append(text if quantity.accepts(value) else f"**{text}**")
         start = f"{each.start:.1f}" if np.isfinite(each.start) else "never"
         lines.append(f"| {row.words} | {' | '.join(cells)} | {start} | {sets} |")
         if each.failure:
@@ -305,7 +305,7 @@ def variants_table(rows: Sequence[Row], found: Mapping[str, Observed]) -> str:
 
 
 def numbers(members: Sequence[Observed], variants: Mapping[str, Observed]) -> dict[str, float]:
-    """Return what the page's words may name: median_peak, least_peak, most_peak, e_0_35_peak and so on."""
+    """Return the numbers for texts of the page: median_peak, least_peak, most_peak, e_0_35_peak and so on."""
     named = {}
     for quantity in QUANTITIES:
         values = _values(members, quantity)

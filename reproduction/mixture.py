@@ -1,6 +1,6 @@
-"""The mixture's properties as the references need them, written anew in Python from the paper's equations.
+"""Properties of the mixture for the reference solutions, implemented from the equations of the paper.
 
-Nothing here is read from the simulator: a reference that shared its formulas could not find a mistake in them.
+Nothing is read from the simulator: a reference with the same formulas could not find an error in them.
 Symbols: n porosity, S liquid saturation, T temperature [C], r = rho_I/rho_L.
 """
 
@@ -54,12 +54,12 @@ class Mixture:
         return self.ice_density * self.porosity * self.latent_heat
 
     def pressurization(self) -> float:
-        """Return K_L beta_m/n [Pa/K] of melted matter (Eq. 8 at S = 1, undrained)."""
+        """Return K_L beta_m/n [Pa/K] of melted material (Eq. 8 at S = 1, undrained)."""
         expansion = (1.0 - self.porosity) * self.rock_expansion + self.porosity * self.water_expansion
         return self.water_bulk_modulus * expansion / self.porosity
 
     def hydraulic_diffusivity(self, hydraulic_conductivity: float) -> float:
-        """Return K_L k_L/(n gamma_w) [m2/s] of melted matter."""
+        """Return K_L k_L/(n gamma_w) [m2/s] of melted material."""
         return self.water_bulk_modulus * hydraulic_conductivity / (self.porosity * self.unit_weight)
 
 
@@ -88,13 +88,13 @@ class HeatTable:
     def __init__(
         self, mixture: Mixture, saturation: Callable[[Numbers], Numbers], low: float, latent: bool, high: float = 0.0
     ) -> None:
-        """Tabulate from `low` to 0 C finely, and to `high` [C], above which H is a straight line, by its end."""
+        """Tabulate finely from `low` to 0 C, and by the end point alone to `high` [C], because H is linear there."""
         above = [high] if high > 0.0 else []
         self.temperatures: Numbers = np.concatenate((np.linspace(low, 0.0, _KNOTS), above))
-        share = saturation(self.temperatures)
+        liquid = saturation(self.temperatures)
         middle = mixture.capacity(saturation(0.5 * (self.temperatures[1:] + self.temperatures[:-1])))
         sensible = np.concatenate(([0.0], np.cumsum(middle * np.diff(self.temperatures))))
-        self.contents: Numbers = sensible + (mixture.melting_heat() * share if latent else 0.0)
+        self.contents: Numbers = sensible + (mixture.melting_heat() * liquid if latent else 0.0)
 
     def temperature(self, content: Numbers) -> Numbers:
         """Return T [C] at which the heat content is H."""

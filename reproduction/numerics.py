@@ -54,9 +54,9 @@ def variant_cell_rows(variants: Sequence[Row]) -> list[Row]:
     ]
 
 
-def _shifted(share: float, cell: float = CELL) -> tuple[str, ...]:
-    """Return the changes that move the grid by a share of a cell, down and to the left."""
-    by = share * cell
+def _shifted(fraction: float, cell: float = CELL) -> tuple[str, ...]:
+    """Return the changes that shift the grid by a fraction of a cell, down and to the left."""
+    by = fraction * cell
     left, right, low, high = (edge - by for edge in DOMAIN)
     return (f"grid.min=[{left:g},{low:g}]", f"grid.max=[{right:g},{high:g}]")
 
@@ -93,7 +93,7 @@ def numerics_rows() -> list[Row]:
 
 
 def cells_table(found: Mapping[str, Observed]) -> str:
-    """Return the table of cells: displacement, runout and peak of each thickness, and what the finer two differ by."""
+    """Return the table of cells: displacement, runout, peak, and the difference of the finer two, by thickness."""
     lines = ["| e [m] | quantity | " + " | ".join(f"{cell:g} m" for cell in CELLS) + " | finer two differ by |"]
     lines.append("|---" * (len(CELLS) + 3) + "|")
     quantities = {each.name: each for each in QUANTITIES}
@@ -103,16 +103,16 @@ def cells_table(found: Mapping[str, Observed]) -> str:
             quantity = quantities[name]
             values = [getattr(found[cell_key(thickness, cell)], name) for cell in CELLS]
             difference = abs(values[-1] - values[-2]) / values[-2]
-            shares = f"{100.0 * difference:.1f} %" if np.isfinite(difference) else "none"
+            text = f"{100.0 * difference:.1f} %" if np.isfinite(difference) else "none"
             head = f"{quantity.head} [{quantity.unit}]"
             numbers = " | ".join(quantity.text(value) for value in values)
-            lines.append(f"| {thickness:g} | {head} | {numbers} | {shares} |")
+            lines.append(f"| {thickness:g} | {head} | {numbers} | {text} |")
         lines.append(f"| {thickness:g} | growth of the volume [%] | {growth.replace('nan', 'none')} | |")
     return "\n".join(lines)
 
 
 def variant_cells_table(variants: Sequence[Row], found: Mapping[str, Observed]) -> str:
-    """Return one line a variant: some quantities on each cell, the coarsest first."""
+    """Return one line per variant: quantities on each cell, the coarsest first."""
     by_name = {each.name: each for each in QUANTITIES}
     quantities = [by_name[name] for name in ("displacement", "runout", "peak", "reversal", "stop", "hottest")]
     lines = ["| run | " + " | ".join(f"{each.head} [{each.unit}]" for each in quantities) + " |"]
@@ -125,7 +125,7 @@ def variant_cells_table(variants: Sequence[Row], found: Mapping[str, Observed]) 
 
 
 def numerics_table(rows: Sequence[Row], base: Observed, found: Mapping[str, Observed]) -> str:
-    """Return one line a run: displacement, runout and peak, and by how much each differs from the case."""
+    """Return one line per run: displacement, runout and peak, and their differences from the case."""
     quantities = [each for each in QUANTITIES if each.name in QUANTITY_NAMES]
     lines = ["| run | " + " | ".join(f"{each.head} [{each.unit}]" for each in quantities) + " | set |"]
     lines.append("|---" * (len(quantities) + 2) + "|")

@@ -1,4 +1,4 @@
-"""Runs of one case that differ in one thing each: running them, and the numbers and words of their table."""
+"""Runs of one case that differ in one parameter each: execution, results and table."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ from typing import Any
 
 import numpy as np
 
-from thawslide.clock import time_of_speed
 from thawslide.key_numbers import stop_time
 from thawslide.run import Run
+from thawslide.time_reference import time_of_speed
 
-Tell = Callable[[str], None]
-REST = 10.0  # s: a slide that has stood still for so long is at rest
-REST_SHARE, REST_SPEED = 0.002, 0.02  # of the peak; m/s
-NEVER_MOVED = 100.0  # s: one that has not reached 1 m/s by then will not
+Report = Callable[[str], None]
+REST = 10.0  # s: duration of no motion for rest
+REST_FRACTION, REST_SPEED = 0.002, 0.02  # of the peak; m/s
+NEVER_MOVED = 100.0  # s: time without 1 m/s after which the mass will not start
 STARTED = 8.0  # m/s
-MOVED = 1.0  # m/s: a slide that never was so fast has only settled
+MOVED = 1.0  # m/s: below this maximum the mass has only settled
 
 
 @dataclass(frozen=True)
 class Row:
-    """One run: key (its folder), words for the table, what --set changes, its case file."""
+    """One run: key (its folder), words for the table, changes by --set, case file."""
 
     key: str
     words: str
@@ -43,7 +43,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a run gives; nan where it never came to that. Speeds in m/s, times in s, lengths in m."""
+    """Results of a run; nan if not attained. Speeds in m/s, times in s, lengths in m."""
 
     failure: str = ""
     peak: float = float("nan")
@@ -51,7 +51,7 @@ class Outcome:
     start_time: float = float("nan")  # first at STARTED
     stop_time: float = float("nan")
     displacement: float = float("nan")
-    runout: float = float("nan")  # front less the rear at the start
+    runout: float = float("nan")  # front minus initial rear
     front: float = float("nan")  # travel distance of the front
     length: float = float("nan")  # of the deposit: x between 0.5 % and 99.5 % of the volume
     temperature: float = float("nan")  # C, highest mean of the band
@@ -60,7 +60,7 @@ class Outcome:
 
 
 def end_of(found: Outcome) -> str:
-    """Return how a run ended, as figures tell it: stopped, going, never (started), broken, missing."""
+    """Return the ending of a run: "stopped", "going", "never" (started), "broken" or "missing"."""
     if np.isnan(found.peak):
         return "missing"
     if found.failure:
@@ -70,20 +70,20 @@ def end_of(found: Outcome) -> str:
     return "going" if np.isnan(found.stop_time) else "stopped"
 
 
-def words_to_start(program: Path, case: Path, folder: Path, sets: Iterable[str]) -> list[str]:
-    """Return the words that start a run on one thread."""
+def command_line(program: Path, case: Path, folder: Path, sets: Iterable[str]) -> list[str]:
+    """Return the command line of a run on one thread."""
     words = [str(program), "run", str(case), "--output", str(folder), "--overwrite", "--threads", "1"]
     return words + [word for key in sets for word in ("--set", key)]
 
 
 def at_rest(times: Sequence[float], speeds: Sequence[float]) -> bool:
-    """Return whether a slide that moved has stood still for REST seconds, or has not moved by NEVER_MOVED."""
+    """Return whether a mass that moved has been at rest for REST seconds, or has not moved by NEVER_MOVED."""
     if not times or times[-1] <= REST:
         return False
     peak = max(speeds)
     if peak < MOVED:
         return times[-1] >= NEVER_MOVED
-    low = max(REST_SHARE * peak, REST_SPEED)
+    low = max(REST_FRACTION * peak, REST_SPEED)
     return all(speed < low for when, speed in zip(times, speeds, strict=True) if when > times[-1] - REST)
 
 
@@ -91,7 +91,7 @@ def _speeds(history: Path) -> tuple[list[float], list[float]]:
     try:
         with history.open(newline="") as file:
             rows = [(float(row["time_s"]), float(row["mean_velocity_m_s"])) for row in csv.DictReader(file)]
-    except (OSError, ValueError, KeyError, TypeError):  # not there yet, or its last row is being written
+    except (OSError, ValueError, KeyError, TypeError):  # missing, or its last row is being written
         return [], []
     return [when for when, _ in rows], [speed for _, speed in rows]
 
@@ -108,7 +108,7 @@ def _stopped_at_rest(folder: Path, facts: Mapping[str, Any]) -> bool:
 
 
 def is_current(folder: Path, words: Sequence[str], inputs: Iterable[Path]) -> bool:
-    """Return whether a folder holds an ended run of these words that is newer than the program and its inputs."""
+    """Return whether a folder contains an ended run of this command that is newer than the program and its inputs."""
     facts = _facts(folder)
     ended = facts.get("status") in ("done", "failed") or _stopped_at_rest(folder, facts)
     if facts.get("command") != " ".join(words) or not ended:
@@ -118,33 +118,33 @@ def is_current(folder: Path, words: Sequence[str], inputs: Iterable[Path]) -> bo
 
 
 def commit_of(program: Path) -> str:
-    """Return the commit that a program was built from."""
-    told = subprocess.run([program, "version"], stdout=subprocess.PIPE, text=True, check=True).stdout
-    found = re.search(r"commit ([^,\s)]+)", told)
+    """Return the commit of a program."""
+    output = subprocess.run([program, "version"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    found = re.search(r"commit ([^,\s)]+)", output)
     return found[1] if found else ""
 
 
 def is_of_commit(folder: Path, words: Sequence[str], commit: str) -> bool:
-    """Return whether a folder holds an ended run of these words and of inputs as they are now, by this very commit."""
+    """Return whether a folder contains an ended run of this command, the present inputs and this commit."""
     facts = _facts(folder)
     ended = facts.get("status") in ("done", "failed") or _stopped_at_rest(folder, facts)
     if not ended or facts.get("command") != " ".join(words) or facts.get("commit") != commit:
         return False
-    return not commit.endswith("-dirty") and all(_is_as_it_was(each) for each in facts.get("inputs", ()))
+    return not commit.endswith("-dirty") and all(_is_unchanged(each) for each in facts.get("inputs", ()))
 
 
-def _is_as_it_was(file: Mapping[str, Any]) -> bool:
+def _is_unchanged(file: Mapping[str, Any]) -> bool:
     path = Path(file["path"])
     return path.is_file() and hashlib.sha256(path.read_bytes()).hexdigest() == file["sha256"]
 
 
 def refusal(folder: Path) -> Path:
-    """Return the file beside a run folder that says why the program would not begin the run."""
+    """Return the file next to a run folder with the error of a run that did not start."""
     return folder.parent / f"{folder.name}.refused.txt"
 
 
 def run_one(words: Sequence[str], folder: Path, until_rest: bool = True) -> str:
-    """Run to the end, or only until the slide is at rest; return "" or the program's error."""
+    """Run to the end, or only until rest; return "" or the error of the program."""
     environment = os.environ | {"OMP_NUM_THREADS": "1"}
     pipe = subprocess.PIPE
     with subprocess.Popen(words, env=environment, stdout=subprocess.DEVNULL, stderr=pipe, text=True) as process:
@@ -159,24 +159,24 @@ def run_one(words: Sequence[str], folder: Path, until_rest: bool = True) -> str:
 
 
 def run_rows(
-    rows: Sequence[Row], program: Path, cases: Path, output: Path, common: Sequence[str], jobs: int, tell: Tell,
+    rows: Sequence[Row], program: Path, cases: Path, output: Path, common: Sequence[str], jobs: int, report: Report,
     *, commit: str = "", until_rest: bool = True,
 ) -> None:  # fmt: skip
-    """Run what is not there yet, `jobs` at a time; tell of each with the time left. Failures stay in their folders.
+    """Execute the missing runs, `jobs` at a time; report each with the remaining time. Failures stay in their folders.
 
-    With a `commit` the runs of that very commit are there, without one those that are newer than program and inputs.
+    Existing runs are those of the `commit`, or without one those that are newer than program and inputs.
     """
     inputs = [program, *cases.glob("*.csv")]
     waiting = []
     for row in rows:
-        words = words_to_start(program, cases / row.case, output / row.key, (*common, *row.sets))
+        words = command_line(program, cases / row.case, output / row.key, (*common, *row.sets))
         folder = output / row.key
-        is_there = is_of_commit(folder, words, commit) or (
+        exists = is_of_commit(folder, words, commit) or (
             not commit and is_current(folder, words, [*inputs, cases / row.case])
         )
-        if not is_there:
+        if not exists:
             waiting.append((row, words))
-    tell(f"{len(rows)} runs, {len(rows) - len(waiting)} of them there already")
+    report(f"{len(rows)} runs, {len(rows) - len(waiting)} of them complete")
     output.mkdir(parents=True, exist_ok=True)
     started = time.monotonic()
     with ThreadPoolExecutor(max_workers=jobs) as pool:
@@ -187,11 +187,11 @@ def run_rows(
                 refusal(output / row.key).write_text(failure, encoding="utf-8")
             left = (time.monotonic() - started) / done * (len(waiting) - done)
             why = f": {failure}" if failure else ""
-            tell(f"{done} of {len(waiting)}, about {left / 60:.0f} min left: {row.key}{why}")
+            report(f"{done} of {len(waiting)}, about {left / 60:.0f} min left: {row.key}{why}")
 
 
-def why_not_whole(folder: Path) -> str:
-    """Return why a run did not come to its end or to rest, "" where it did."""
+def incompleteness(folder: Path) -> str:
+    """Return the reason for an incomplete run, "" for one that ended or came to rest."""
     facts = _facts(folder)
     if facts.get("status") == "done" or _stopped_at_rest(folder, facts):
         return ""
@@ -201,11 +201,11 @@ def why_not_whole(folder: Path) -> str:
 
 
 def outcome(folder: Path) -> Outcome:
-    """Return the numbers of a run folder; one that is not there or broke off says so."""
+    """Return the results of a run folder, with the reason if it is missing or incomplete."""
     if not (folder / "history.csv").is_file():
         note = refusal(folder)
         return Outcome(failure=note.read_text(encoding="utf-8") if note.is_file() else "not run")
-    failure = why_not_whole(folder)
+    failure = incompleteness(folder)
     run = Run(folder)
     time_s, speed = run.history["time_s"], run.history["mean_velocity_m_s"]
     peak = int(np.nanargmax(speed))
@@ -213,8 +213,8 @@ def outcome(folder: Path) -> Outcome:
     band = run.history["band_temperature_C"]
     shot = run.snapshot(-1)
     order = np.argsort(shot.points[:, 0])
-    share = np.cumsum(np.asarray(shot["volume"], dtype=np.float64)[order])
-    low, high = np.searchsorted(share, (0.005 * share[-1], 0.995 * share[-1]))
+    volume = np.cumsum(np.asarray(shot["volume"], dtype=np.float64)[order])
+    low, high = np.searchsorted(volume, (0.005 * volume[-1], 0.995 * volume[-1]))
     x = shot.points[order, 0]
     return Outcome(
         failure=failure,
@@ -280,7 +280,7 @@ def table(rows: Sequence[Row], found: Mapping[str, Outcome], hidden: Sequence[st
 
 
 def rewrapped(text: str) -> str:
-    """Return a document with its paragraphs and list items wrapped at 120 columns; tables and headings stay."""
+    """Return a document with paragraphs and list items wrapped at 120 columns; tables and headings are unchanged."""
     blocks = []
     for block in text.strip().split("\n\n"):
         if block.lstrip().startswith(("|", "#", "!", "```")):

@@ -1,4 +1,4 @@
-"""The page of `./run paper`: figures beside what the paper says, the sentences with their verdicts, the runs."""
+"""Page of `./run paper`: figures with summaries of the paper, sentences with verdicts, and runs."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _OWN: dict[str, Callable[[Runs], Figure]] = {
     "lamplugh-block": lamplugh.figure_blocks,
     "deposit": lamplugh.figure_deposit,
 }
-# Those of any report, drawn of the Lamplugh run.
+# Figures of any report, of the Lamplugh run.
 _SHARED = {"figure-16": motion, "figure-18": temperature, "figure-19": pore_pressure}
 NAMES = (*_OWN, *_SHARED)
 
@@ -45,7 +45,7 @@ def draw(name: str, runs: Runs) -> Figure:
 
 
 def measure(runs: Runs) -> dict[str, float]:
-    """Return every number that texts and tests use, by name."""
+    """Return all numbers of texts and tests, by name."""
     bars = {name: run for name, run in runs.items() if name.startswith("freezing-bar")}
     found = freezing.measures(bars) | old_capacity.measures()
     for section in (block, incline, lamplugh, stages):
@@ -60,16 +60,18 @@ def make_page(runs: Runs, output: Path, quick: bool, progress: Callable[[str], N
         for name in NAMES:
             try:
                 without_title(draw(name, runs)).savefig(output / "figures" / f"{name}.png", dpi=_DPI)
-                progress(f"{name}: drawn")
+                progress(f"{name}: plotted")
             except NotInRunError as error:
-                progress(f"{name}: left out, {error}")
+                progress(f"{name}: not available: {error}")
         measures = measure(runs)
         rows = "".join(f"{name},{float(value)!r}\n" for name, value in measures.items())
         (output / "measures.csv").write_text("measure,value\n" + rows, encoding="utf-8")
         page = output / "report.html"
         page.write_text(_page(runs, measures, output, quick), encoding="utf-8")
     except OSError as error:
-        raise ReportError(f"{error.filename or output}: cannot be written: {error.strerror or error}") from error
+        raise ReportError(
+            f"{error.filename or output}: cannot be written ({error.strerror or error}). Select another --output."
+        ) from error
     return page
 
 
@@ -77,12 +79,12 @@ def _page(runs: Runs, measures: dict[str, float], output: Path, quick: bool) -> 
     parts = ["<h1>The paper and Thawslide</h1>"]
     if quick:
         parts.append(
-            '<p class="note">Shortened runs: the first moments of each case. Figures and verdicts say nothing yet.</p>'
+            '<p class="note">Shortened runs: first steps of each case. Figures and verdicts are not meaningful.</p>'
         )
     links = [(row["name"], row["heading"]) for row in table("figures")]
     parts.append(
         "<nav>" + " · ".join(f'<a href="#{name}">{html.escape(words)}</a>' for name, words in links)
-        + ' · <a href="#sentences">Every sentence</a> · <a href="#runs">Runs</a></nav>'
+        + ' · <a href="#sentences">Sentences</a> · <a href="#runs">Runs</a></nav>'
     )  # fmt: skip
     for row in table("figures"):
         parts += _figure(row, measures, output)
@@ -96,7 +98,7 @@ def _figure(row: dict[str, str], measures: dict[str, float], output: Path) -> li
     parts = [f'<h2 id="{row["name"]}">{html.escape(row["heading"])}</h2>']
     if (output / link).is_file():
         parts.append(f'<figure><a href="{link}"><img src="{link}" alt="{html.escape(row["heading"])}"></a></figure>')
-    for words, key in (("The paper", "paper"), ("Here", "ours"), ("Why they differ", "why")):
+    for words, key in (("Paper", "paper"), ("Thawslide", "result"), ("Differences", "why")):
         parts.append(f"<p><b>{words}.</b> {html.escape(filled(row[key], measures))}</p>")
     return parts
 
@@ -107,15 +109,15 @@ def _sentences(measures: dict[str, float]) -> list[str]:
     tally = ", ".join(f"{count[key]} {words}" for key, words in VERDICTS.items())
     lines = [
         "<tr>" + "".join(f"<td>{html.escape(text)}</td>" for text in (
-            row.section, row.text, row.reported, row.ours)) + f"<td><b>{VERDICTS[row.verdict]}</b></td></tr>"
+            row.section, row.text, row.reported, row.result)) + f"<td><b>{VERDICTS[row.verdict]}</b></td></tr>"
         for row in found
     ]  # fmt: skip
     return [
-        '<h2 id="sentences">Every sentence with a number or an ordering</h2>',
-        f"<p>Abstract and Sections 3.1 to 4.2: {len(found)} sentences, {tally}. Each verdict is computed, from the "
-        "runs or a closed form. What the paper's words mean in numbers was fixed for all sentences alike:</p>",
+        '<h2 id="sentences">Sentences with a number or an ordering</h2>',
+        f"<p>Abstract and Sections 3.1 to 4.2: {len(found)} sentences, {tally}. Each verdict is computed from "
+        "the runs or from a closed form. The words of the paper have the same numerical meaning in all sentences:</p>",
         "<ul>" + "".join(f"<li>{html.escape(line)}</li>" for line in MEANINGS) + "</ul>",
-        "<table><tr><th>Section</th><th>Sentence</th><th>Claimed</th><th>Here</th><th>Verdict</th></tr>",
+        "<table><tr><th>Section</th><th>Sentence</th><th>Claim</th><th>Thawslide</th><th>Verdict</th></tr>",
         *lines,
         "</table>",
     ]
@@ -130,4 +132,4 @@ def _runs(runs: Runs) -> list[str]:
         lines.append(
             f"<tr><td>{html.escape(name)}</td>" + "".join(f"<td>{html.escape(c)}</td>" for c in cells) + "</tr>"
         )
-    return ['<h2 id="runs">The runs</h2>', '<table class="facts">', *lines, "</table>"]
+    return ['<h2 id="runs">Runs</h2>', '<table class="facts">', *lines, "</table>"]

@@ -1,4 +1,4 @@
-"""Quantities that expressions in scripts/page_numbers.toml read from a run, a rigid-block run and a generated page."""
+"""Quantities for scripts/page_numbers.toml, from a run, a rigid-block run and a generated page."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from reproduction import freezing
 from reproduction.lamplugh import deposit, read_block
 from reproduction.members import Observed, observed
 from thawslide.arrays import Numbers
-from thawslide.clock import time_of_speed
 from thawslide.figures.force import force_in_band, seismic_force
 from thawslide.figures.force_record import Comparison, compared, filtered
 from thawslide.force_record import PARTS
@@ -20,10 +19,11 @@ from thawslide.history import History
 from thawslide.key_numbers import stop_time
 from thawslide.run import Run
 from thawslide.targets import Band
+from thawslide.time_reference import time_of_speed
 
 
 class Curve:
-    """A history by the names of its columns: values at the end, extremes, and values at a time [s]."""
+    """Values of the columns of a history: at the end, extremes, and at a time [s]."""
 
     def __init__(self, history: History) -> None:
         self.history = history
@@ -33,15 +33,15 @@ class Curve:
         return float(self.history[column][-1])
 
     def maximum(self, column: str) -> float:
-        """Return the largest value."""
+        """Return the maximum."""
         return float(np.nanmax(self.history[column]))
 
     def time_of_maximum(self, column: str) -> float:
-        """Return the time [s] of the largest value."""
+        """Return the time [s] of the maximum."""
         return float(self.history["time_s"][int(np.nanargmax(self.history[column]))])
 
     def first_time(self, column: str, value: float) -> float:
-        """Return when [s] a column first reaches a value, nan where it never does."""
+        """Return the time [s] at which a column first attains a value, nan if it never does."""
         reached = np.flatnonzero(self.history[column] >= value)
         return float(self.history["time_s"][reached[0]]) if reached.size else float("nan")
 
@@ -59,7 +59,7 @@ class Measured(Curve):
 
     @cached_property
     def observed(self) -> Observed:
-        """The numbers of the results page of the case on band columns."""
+        """The results of the case with band columns."""
         return observed(self.run.folder)
 
     @cached_property
@@ -74,7 +74,7 @@ class Measured(Curve):
 
     @cached_property
     def front(self) -> float:
-        """How far the front has come [m]: at the end less at the start."""
+        """The front travel distance [m]."""
         known = self.history["runout_m"][np.isfinite(self.history["runout_m"])]
         return float(known[-1] - known[0])
 
@@ -83,18 +83,18 @@ class Measured(Curve):
         return float(self.run.facts[name])
 
     def speed_reached(self, speed: float) -> float:
-        """Return when [s] the mean velocity first reaches a speed [m/s]."""
+        """Return the time [s] at which the mean velocity first attains a value [m/s]."""
         return time_of_speed(self.run, speed)
 
     def stop(self, below: float) -> float:
-        """Return when [s] the mean velocity falls below a speed [m/s] for good, inf where it does not."""
+        """Return the time [s] from which on the mean velocity is below a value [m/s], inf if there is none."""
         time = stop_time(self.run, below)
         return float("inf") if time is None else time
 
     def force(self, shortest: float = 0.0, longest: float = 0.0) -> float:
-        """Return the largest seismic force [N], of periods between two [s], or of all.
+        """Return the maximum seismic force [N] in a band of periods [s], or unfiltered.
 
-        Of all periods, the first second does not count: the stress put in at t = 0 adjusts then.
+        The unfiltered maximum excludes the first second, in which the initial stress adjusts.
         """
         if longest:
             return float(np.nanmax(force_in_band(self.run, Band(shortest, longest))))
@@ -102,12 +102,12 @@ class Measured(Curve):
 
     @property
     def force_time(self) -> float:
-        """The time [s] of the largest force of all periods."""
+        """The time [s] of the maximum unfiltered force."""
         return float(self.history["time_s"][int(np.nanargmax(self._whole_force()))])
 
     @property
     def first_force(self) -> tuple[float, float]:
-        """The time [s] and the size [N] of the largest force of the first second."""
+        """Time [s] and value [N] of the maximum force in the first second."""
         first = self.history["time_s"] <= 1.0
         force = np.nan_to_num(seismic_force(self.run)[1][first])
         return float(self.history["time_s"][first][int(np.argmax(force))]), float(force.max())
@@ -122,18 +122,18 @@ class Measured(Curve):
 
     @property
     def reversal(self) -> float:
-        """How long [s] the vertical force takes from its largest upward to its largest downward value."""
+        """The time [s] from the maximum upward to the maximum downward value of the vertical force."""
         found = self.comparison.run.reversal
         return found.duration if found else float("nan")
 
     @property
     def record_reversal(self) -> float:
-        """The same of the force record."""
+        """The same time for the force record."""
         found = self.comparison.record.reversal
         return found.duration if found else float("nan")
 
     def record_force(self, shortest: float, longest: float) -> float:
-        """Return the largest force [N] of the record in periods between two [s]."""
+        """Return the maximum force [N] of the record in a band of periods [s]."""
         record = self.run.force_record
         assert record is not None
         parts = [filtered(record.time, record.best[part], record.time, Band(shortest, longest)) for part in PARTS]
@@ -141,7 +141,7 @@ class Measured(Curve):
 
     @cached_property
     def freezing_errors(self) -> tuple[float, float]:
-        """The largest and the root mean square error [K] of the freezing bar."""
+        """The maximum and the root mean square error [K] of the freezing bar."""
         return freezing.errors(self.run)
 
     def depth_of(self, temperature: float) -> float:
@@ -150,32 +150,32 @@ class Measured(Curve):
         return float(np.interp(temperature, found, x))
 
     @property
-    def taken_share(self) -> float:
-        """The mass taken off the bed over that of the slide at the start."""
+    def entrained_fraction(self) -> float:
+        """The ratio of entrained to initial mass."""
         return self.end("entrained_mass_kg") / float(self.history["mass_kg"][0])
 
     @property
     def columns_over_slide(self) -> float:
-        """The ice and water of all columns of the band over those of the slide, at most."""
-        slide = self.history["ice_kg"] + self.history["water_kg"]
-        return float(np.max(self.history["column_water_kg"] / slide))
+        """The maximum ratio of ice and water in band columns to those in the sliding mass."""
+        body = self.history["ice_kg"] + self.history["water_kg"]
+        return float(np.max(self.history["column_water_kg"] / body))
 
     @property
     def volume(self) -> float:
-        """The volume [m3] of a slide in 3D at the start."""
+        """The initial volume [m3] of a 3D run."""
         return float(np.sum(self.run.snapshot(0, fields=["volume"])["volume"]))
 
     @property
-    def band_share(self) -> float:
-        """The share of the slide's mass that lies in the scaled band at the start."""
+    def band_fraction(self) -> float:
+        """The fraction of the mass in the scaled band at the start."""
         shot = self.run.snapshot(0, fields=["mass", "in_band"])
         return float(np.sum(shot["mass"] * shot["in_band"]) / np.sum(shot["mass"]))
 
     @property
     def velocity_noise(self) -> float:
-        """The root mean square velocity [m/s] of particles at the end of a run in 2D less the mean of their cell.
+        """The root mean square velocity [m/s] of particles at the end of a 2D run, relative to the mean of their cell.
 
-        A mean over few particles follows each of them: one particle a cell does not count.
+        Each cell reduces the number of degrees of freedom by one.
         """
         shot = self.run.snapshot(-1)
         cells = np.floor(shot.points[:, :2] / float(self.run.section("grid")["cell"])).astype(np.int64)
@@ -186,12 +186,12 @@ class Measured(Curve):
         return float(np.sqrt(np.sum(apart**2) / (len(apart) - len(means[0]))))
 
     def length(self, place: int) -> float:
-        """Return the length [m] of the slide in a snapshot, from its last particle to its first."""
+        """Return the length [m] of the sliding mass in a snapshot, from the last particle to the first."""
         return float(np.ptp(self.run.snapshot(place, fields=["volume"]).points[:, 0]))
 
     @property
     def hottest_particle(self) -> float:
-        """The highest temperature [C] of a particle in any snapshot."""
+        """The maximum temperature [C] of a particle in any snapshot."""
         return max(
             float(np.max(self.run.snapshot(place, fields=["temperature"])["temperature"]))
             for place in range(self.run.times.size)
@@ -204,7 +204,7 @@ class Measured(Curve):
 
 
 class Block(Curve):
-    """The table that `thawslide block` wrote of a case as a rigid block."""
+    """Table of `thawslide block`."""
 
     def __init__(self, table: Path) -> None:
         super().__init__(read_block(table))
@@ -221,9 +221,9 @@ def cells_of(line: str) -> list[str]:
 
 
 def from_table(source: str, column: str, *keys: str) -> float:
-    """Return a number of a page's table: of the row that begins with these cells; the last one of a range.
+    """Return a number of a table in a page, in the row that begins with these cells; the last one of a range.
 
-    KeyError where no table has this column and this row.
+    KeyError if no table has this column and this row.
     """
     header: list[str] = []
     previous = ""

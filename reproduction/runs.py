@@ -1,4 +1,4 @@
-"""Every run the paper's figures need: which case, what is set, how it is shortened, and how all are run."""
+"""All runs of the figures of the paper: cases, settings, shortened versions, and their execution."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from pathlib import Path
 from thawslide.errors import ReportError
 from thawslide.run import Run
 
-NOTHING_COMPUTED = 2  # exit code of a user's mistake
+NOTHING_COMPUTED = 2  # exit code for an error of the user
 
 
 @dataclass(frozen=True)
 class PaperRun:
-    """One run: its name, case file below cases/, what --set changes, and its end [s] when shortened."""
+    """One run: name, case file below cases/, changes by --set, and end [s] of the shortened version."""
 
     name: str
     case: str
     sets: tuple[str, ...] = ()
     short_end: float = 0.2
-    cost: float = 1.0  # about how long it takes, against the others: the longest start first
+    cost: float = 1.0  # relative run time: the longest start first
 
     def command(self, program: Path, cases: Path, output: Path, quick: bool) -> list[str]:
-        """Return the words that start it."""
+        """Return its command line."""
         words = [str(program), "run", str(cases / self.case), "--output", str(output), "--overwrite", "--threads", "1"]
         sets = (*self.sets, f"time.end={self.short_end}") if quick else self.sets
         return words + [word for key in sets for word in ("--set", key)]
@@ -35,20 +35,20 @@ class PaperRun:
 
 @dataclass(frozen=True)
 class BlockRun:
-    """A run of the rigid block on the Lamplugh case: its name, what --set changes, and words for the legend."""
+    """Run of the rigid block on the Lamplugh case: name, changes by --set, and words for the legend."""
 
     name: str
     sets: tuple[str, ...]
     words: str
 
     def command(self, program: Path, cases: Path, folder: Path, quick: bool) -> list[str]:
-        """Return the words that start it; it writes NAME.csv."""
+        """Return its command line; it writes NAME.csv."""
         words = [str(program), "block", str(cases / "lamplugh" / "case.toml"), "--output", f"{folder / self.name}.csv"]
         sets = (*self.sets, "time.end=1.0") if quick else self.sets
         return words + [word for key in sets for word in ("--set", key)]
 
 
-# 0.561 MPa is what He et al. (2023) took for balance; a block with the paper's 0.6 MPa stays where it is.
+# He et al. (2023) use 0.561 MPa for equilibrium; a block with the 0.6 MPa of the paper does not move.
 LAMPLUGH_BLOCKS = (
     BlockRun("lamplugh-block", (), "rigid block, 0.6 MPa"),
     BlockRun("lamplugh-block-561", ("basal.cohesion=5.61e5",), "rigid block, 0.561 MPa"),
@@ -65,7 +65,7 @@ _COSTS = {"block-e200": 8.0, "block-e100-L5": 12.0, "block-e100": 4.0, "block-e1
 
 
 def all_runs() -> list[PaperRun]:
-    """Return every run, in the order of the paper."""
+    """Return all runs, in the order of the paper."""
     runs = [PaperRun(f"freezing-bar-{name}", f"freezing-bar/{name}.toml", (), 864.0, 0.5) for name in BARS]
     printed = ('heat.update="apparent_capacity"',)
     runs += [
@@ -83,13 +83,13 @@ def all_runs() -> list[PaperRun]:
     ]
     ice_only = ("pressure.thermal_pressurization=false",)
     runs.append(PaperRun("incline-DLP-ice", "incline/DLP.toml", ice_only, 0.1, 6.0))
-    # The ground as the paper has it: two layers of points in Sec. 3.3, three layers of cells with two each in Sec. 4.
+    # Terrain of the paper: two layers of points in Sec. 3.3, three layers of cells with two each in Sec. 4.
     runs.append(PaperRun("incline-DLP-points", "incline/DLP.toml", (POINTS, "terrain.layers=2"), 0.1, 6.0))
     six = (POINTS, "terrain.layers=6", "time.end=60.0")
     runs.append(PaperRun("lamplugh-points", "lamplugh/case.toml", six, 1.0, 5.0))
     weaker = (*six, "basal.cohesion=5.4e5")
     runs.append(PaperRun("lamplugh-points-540", "lamplugh/case.toml", weaker, 1.0, 5.0))
-    # The paper states values at 200 s, the end of its run: these runs do not stop when the slide has come to rest.
+    # The paper states values at 200 s, the end of its run: these runs do not stop at rest.
     whole = ("time.stop_at_rest=0",)
     runs.append(PaperRun("lamplugh", "lamplugh/case.toml", whole, 1.0, 20.0))
     runs.append(PaperRun("lamplugh-no-pressurization", "lamplugh/no-pressurization.toml", whole, 1.0, 15.0))
@@ -99,7 +99,7 @@ def all_runs() -> list[PaperRun]:
 def run_all(
     runs: Iterable[PaperRun], program: Path, cases: Path, folder: Path, quick: bool, progress: Callable[[str], None]
 ) -> None:
-    """Run all, two at a time on one thread each; ReportError for one that computed nothing."""
+    """Run all, two at a time on one thread each; ReportError for a run without results."""
     waiting = sorted(runs, key=lambda run: -run.cost)
     environment = os.environ | {"OMP_NUM_THREADS": "1"}
 
@@ -117,7 +117,7 @@ def run_all(
 
 
 def run_blocks(program: Path, cases: Path, folder: Path, quick: bool) -> None:
-    """Run the rigid blocks of Lamplugh, a moment each; ReportError for one that wrote nothing."""
+    """Run the rigid blocks of Lamplugh; ReportError for one without results."""
     for block in LAMPLUGH_BLOCKS:
         words = block.command(program, cases, folder, quick)
         done = subprocess.run(words, capture_output=True, text=True, check=False)
@@ -126,10 +126,10 @@ def run_blocks(program: Path, cases: Path, folder: Path, quick: bool) -> None:
 
 
 def read_runs(runs: Iterable[PaperRun], folder: Path) -> dict[str, Run]:
-    """Return the run folders by name; a run that broke off is named on standard error and kept."""
+    """Return the run folders by name; print a warning for each incomplete run."""
     found = {}
     for run in runs:
         found[run.name] = Run(folder / run.name)
         if found[run.name].facts.get("status") != "done":
-            print(f"note: {run.name} did not come to its end", file=sys.stderr)
+            print(f"warning: {run.name}: incomplete run", file=sys.stderr)
     return found

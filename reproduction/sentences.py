@@ -1,10 +1,10 @@
-"""The table of the paper's sentences: each with what the runs give, and whether it holds in them.
+"""Table of the sentences of the paper, with results of the runs and verdicts.
 
-claims/*.toml hold every sentence of the paper's abstract and Secs. 3.1 to 4.2 that claims a number or an ordering. What
-goes into a case (cells, steps, material data, gradients of the ground) is not repeated. reported: the number or
-ordering claimed. ours: what the runs give; {name} is a measure. tests: comparisons that must all hold for "true":
+claims/*.toml contain all sentences of the abstract and of Secs. 3.1 to 4.2 that claim a number or an ordering. Input of
+cases (cells, steps, material data, gradients of the terrain) is not repeated. reported: the claimed number or ordering.
+result: result of the runs; {name} is a measure. tests: comparisons that must all hold for "true":
 [left, "<" or ">", right], [left, "<" or ">", right, factor on the right side], or [left, "within", right, tolerance].
-A row without tests, or with a measure that the runs do not give (nan), is undetermined.
+A row without tests, or with a missing measure (nan), is undetermined.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-# What the paper's words mean in numbers, the same for every sentence and whatever the runs give.
+# Numerical meaning of the words of the paper, the same for all sentences and independent of the results.
 MEANINGS = (
     "a number, about, approximately, around, accurately: within 10 % of it (a saturation: within 0.1)",
     "higher, lower, faster, decreases, increases: the ordering, at the times the text names or at the end",
@@ -24,8 +24,8 @@ MEANINGS = (
     "much, significant, substantial, sharp, rapid, dominant, largely: by a factor of two at least, or more than "
     "half of the whole",
     "comparable: within a factor of two",
-    "close match, good agreement, negligible, constant, parallel, equilibrium: within 5 % of the range (10 K from the "
-    "start to melting, 1 in saturation, the normal stress of 1,012 kPa in pressure); distinct: more than that",
+    "close match, good agreement, negligible, constant, parallel, equilibrium: within 5 % of the range. Ranges: 10 K "
+    "(from the start to melting), saturation 1, pressure 1,012 kPa (normal stress). distinct: more than that",
     "melted, complete: saturation above 0.99; at rest: below 1 % of the peak speed",
 )
 VERDICTS = {True: "true", False: "false", None: "undetermined"}
@@ -33,24 +33,24 @@ VERDICTS = {True: "true", False: "false", None: "undetermined"}
 
 @dataclass(frozen=True)
 class Sentence:
-    """One row: where, what the paper says, what it claims, what the runs give, and the verdict (None: undetermined)."""
+    """One row: section, text, claim, result of the runs, and the verdict (None: undetermined)."""
 
     section: str
     text: str
     reported: str
-    ours: str
+    result: str
     verdict: bool | None
 
 
 class _Number(float):
-    """A measure as texts show it: a missing one as "none", a minus as such."""
+    """Measure in texts: "none" if missing, with a minus sign."""
 
     def __format__(self, form: str) -> str:
         return "none" if math.isnan(self) else super().__format__(form).replace("-", "−")
 
 
 def filled(text: str, measures: Mapping[str, float]) -> str:
-    """Return a text with its {measures} put in; KeyError for one that is not there."""
+    """Return a text with its {measures} inserted; KeyError for a missing one."""
     return text.format_map({name: _Number(value) for name, value in measures.items()})
 
 
@@ -59,7 +59,7 @@ def _value(side: str | float, measures: Mapping[str, float]) -> float:
 
 
 def holds(test: list[Any], measures: Mapping[str, float]) -> bool | None:
-    """Return whether one comparison holds, None where a measure is missing (nan)."""
+    """Return whether one comparison holds, None if a measure is missing (nan)."""
     left, right = _value(test[0], measures), _value(test[2], measures)
     if math.isnan(left) or math.isnan(right):
         return None
@@ -72,7 +72,7 @@ def holds(test: list[Any], measures: Mapping[str, float]) -> bool | None:
 
 
 def verdict(tests: list[list[Any]], measures: Mapping[str, float]) -> bool | None:
-    """Return False where any comparison fails, else None where any is undetermined or there is none, else True."""
+    """Return False if any comparison fails, None if any is undetermined or there is none, else True."""
     results = [holds(test, measures) for test in tests]
     if False in results:
         return False
@@ -85,7 +85,7 @@ CLAIMS = tuple(
 
 
 def table(name: str) -> list[dict[str, Any]]:
-    """Return the rows of one of the data files beside this module."""
+    """Return the rows of one of the data files of this package."""
     text = (Path(__file__).parent / f"{name}.toml").read_text(encoding="utf-8")
     (rows,) = tomllib.loads(text).values()
     return list(rows)
@@ -103,7 +103,7 @@ def sentences(measures: Mapping[str, float]) -> list[Sentence]:
             row["section"],
             row["text"],
             row["reported"],
-            filled(row["ours"], measures),
+            filled(row["result"], measures),
             verdict(row.get("tests", []), measures),
         )
         for row in claims()

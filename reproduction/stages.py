@@ -1,4 +1,4 @@
-"""Secs. 4.1 and 4.2, stage by stage: the body, its balance, before and after 75 s; and the ground as rigid points."""
+"""Secs. 4.1 and 4.2 by stages: body, equilibrium, before and after 75 s; terrain as rigid points."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ START, PEAK, END = 40.0, 75.0, 200.0  # s: the stages of the text
 JUMPED = 76.0  # s: the first whole second with the band of 0.5 m
 GRAVITY, SLOPE, FRICTION_ANGLE = 9.81, np.radians(48.0), np.radians(40.0)
 SOURCE_THICKNESS = 50.0  # m: the average of the source in the text
-HOTTEST = 1.0e4  # C: as far as the heat content is tabulated
+HOTTEST = 1.0e4  # C: upper end of the table of heat content
 
 
 def heating(run: Run, start: float, end: float) -> float:
-    """Return the mean power of friction heat [GW] between two times [s]; nan where the run is shorter."""
+    """Return the mean power of friction heat [GW] between two times [s]; nan if the run is shorter."""
     return (at(run, "friction_heat_J", end) - at(run, "friction_heat_J", start)) / (end - start) / 1e9
 
 
-def rubbing(run: Run, start: float = 35.0, end: float = 40.0) -> float:
-    """Return the mean force [GN] that rubs along the base between two times [s]: friction work over the mean way."""
+def basal_resistance(run: Run, start: float = 35.0, end: float = 40.0) -> float:
+    """Return the mean basal resistance [GN] between two times [s]: friction work over the mean displacement."""
     work = at(run, "friction_work_J", end) - at(run, "friction_work_J", start)
-    way = at(run, "mean_displacement_m", end) - at(run, "mean_displacement_m", start)
-    return work / way / 1e9 if way > 0.0 else float("nan")
+    distance = at(run, "mean_displacement_m", end) - at(run, "mean_displacement_m", start)
+    return work / distance / 1e9 if distance > 0.0 else float("nan")
 
 
 def balance_cohesion(thickness: float) -> float:
-    """Return the cohesion [MPa] that holds a frozen slab [m] on 48 degrees: tan 40 degrees on what ice pressure leaves.
+    """Return the cohesion [MPa] for equilibrium of a frozen slab [m] on 48 degrees, with friction of 40 degrees.
 
     rho g H (sin - tan(phi) cos) + tan(phi) rho_I g H, with P_I = rho_I g H of the thickness along the normal.
     """
@@ -40,7 +40,7 @@ def balance_cohesion(thickness: float) -> float:
 
 
 def balance(block: Mapping[str, Numbers], cohesion: float) -> dict[str, float]:
-    """Return what the rigid block needs to stand at t = 0, from its history with a cohesion [Pa]."""
+    """Return the equilibrium of the rigid block at t = 0, from its history with a cohesion [Pa]."""
     driving = float(block["driving_traction_Pa"][0])
     frictional = float(block["sliding_strength_Pa"][0]) - cohesion
     return {
@@ -58,7 +58,7 @@ def in_band(shot: Snapshot) -> Numbers:
 
 
 def solid_fraction(run: Run, time: float) -> float:
-    """Return n_e (Eq. 2, ice weighing 1/3) of the band at a time [s], mean of mass; nan after the end of the run."""
+    """Return n_e (Eq. 2, weight of ice 1/3) of the band at a time [s], mass-weighted mean; nan after the end."""
     if time > run.times[-1] + 1e-9:
         return float("nan")
     shot = run.snapshot(time=time)
@@ -69,30 +69,30 @@ def solid_fraction(run: Run, time: float) -> float:
 
 
 def diffusion(run: Run) -> dict[str, float]:
-    """Return the heat [TJ] that friction makes from 76 s to the end, and what particles outside the band of 76 s gain.
+    """Return the friction heat [TJ] from 76 s to the end, and the gain of particles outside the band at 76 s.
 
-    Heat contents are those of the volumes at t = 0 over xi of the wide band, as the simulator counts them.
+    Heat contents are those of the volumes at t = 0 over xi of the wide band, as in the simulator.
     """
-    share: dict[str, float] = dict.fromkeys(("generated", "given_off", "given_off_share"), float("nan"))
+    heat: dict[str, float] = dict.fromkeys(("generated", "given_off", "given_off_percent"), float("nan"))
     if run.times[-1] > JUMPED:
         first, last = run.snapshot(time=JUMPED), run.snapshot(-1)
         volume = np.asarray(run.snapshot(0)["volume"], dtype=np.float64) * run.width
         scale = float(run.section("grid")["cell"]) / float(run.section("band")["thickness"]["value"][-1])
         content = HeatTable(TABLE_1, power_saturation, -50.0, True, HOTTEST).content
         before, after = (content(np.asarray(shot["temperature"], dtype=np.float64)) for shot in (first, last))
-        share["given_off"] = float(np.sum((1.0 - in_band(first)) * volume * (after - before))) / scale / 1e12
+        heat["given_off"] = float(np.sum((1.0 - in_band(first)) * volume * (after - before))) / scale / 1e12
         made = at(run, "friction_heat_J", float(run.times[-1])) - at(run, "friction_heat_J", JUMPED)
-        share["generated"] = made / 1e12
-        share["given_off_share"] = 100.0 * share["given_off"] / share["generated"]
+        heat["generated"] = made / 1e12
+        heat["given_off_percent"] = 100.0 * heat["given_off"] / heat["generated"]
     melted = np.ones(1)
     diffusivity = float(TABLE_1.conductivity(melted)[0] / TABLE_1.capacity(melted)[0])
-    share["diffusion_length"] = float(np.sqrt(diffusivity * (END - PEAK)))
-    share["diffusion_days"] = 0.5**2 / diffusivity / 86400.0
-    return {f"lamplugh_{name}": value for name, value in share.items()}
+    heat["diffusion_length"] = float(np.sqrt(diffusivity * (END - PEAK)))
+    heat["diffusion_days"] = 0.5**2 / diffusivity / 86400.0
+    return {f"lamplugh_{name}": value for name, value in heat.items()}
 
 
 def rigid_points(run: Run) -> float:
-    """Return the number of points that describe the ground: in columns half a cell apart, so many layers deep."""
+    """Return the number of rigid points of the terrain, in columns half a cell apart."""
     grid = run.section("grid")
     columns = (grid["max"][0] - grid["min"][0]) / (0.5 * grid["cell"])
     return float(columns * run.section("terrain")["layers"])
@@ -112,12 +112,12 @@ def _body(run: Run) -> dict[str, float]:
         "lamplugh_thickness": section / float(np.interp(high, x, along) - np.interp(low, x, along)),
         "lamplugh_top": float(shot.points[:, 1].max()),
         "lamplugh_length_m": float(history["runout_m"][0]),
-        "lamplugh_front_way_km": float(history["front_position_m"][-1] - history["front_position_m"][0]) / 1e3,
+        "lamplugh_front_travel_km": float(history["front_position_m"][-1] - history["front_position_m"][0]) / 1e3,
     }
 
 
 def _energy(run: Run) -> dict[str, float]:
-    """Return what of the potential energy becomes kinetic [%], between 40 and 75 s and to the peak."""
+    """Return the conversion of potential to kinetic energy [%], between 40 and 75 s and to the peak."""
     history = run.history
     kinetic = [at(run, "kinetic_J", time) / 1e12 for time in (START, PEAK)]
     fall = (at(run, "potential_J", START) - at(run, "potential_J", PEAK)) / 1e12
@@ -133,7 +133,7 @@ def _energy(run: Run) -> dict[str, float]:
 
 
 def measures(runs: dict[str, Run]) -> dict[str, float]:
-    """Return speeds and heating of the stages, and what Lamplugh does on rigid points."""
+    """Return speeds and heating of the stages, and results on rigid points."""
     run, dry = runs["lamplugh"], runs["lamplugh-no-pressurization"]
     saturations = [float(run.history["band_saturation"][0])]
     saturations += [at(run, "band_saturation", time) for time in (START, PEAK)]
@@ -145,8 +145,8 @@ def measures(runs: dict[str, Run]) -> dict[str, float]:
         "lamplugh_heating_after": heating(run, PEAK, END),
         "lamplugh_displacement_60s": at(run, "mean_displacement_m", 60.0),
         "lamplugh_friction_100s": at(run, "band_friction_coefficient", 100.0),
-        "lamplugh_rubbing": rubbing(run),
-        "lamplugh_dry_rubbing": rubbing(dry),
+        "lamplugh_basal_resistance": basal_resistance(run),
+        "lamplugh_dry_basal_resistance": basal_resistance(dry),
         "lamplugh_dry_runout_km": float(dry.history["runout_m"][-1]) / 1e3,
         "lamplugh_melted_before": 100.0 * (saturations[1] - saturations[0]) / ice,
         "lamplugh_melted_between": 100.0 * (saturations[2] - saturations[1]) / ice,

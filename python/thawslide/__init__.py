@@ -1,4 +1,4 @@
-"""Read, draw and report runs of Thawslide."""
+"""Read, plot and report runs of Thawslide."""
 
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.run import History, Run, Snapshot, Target

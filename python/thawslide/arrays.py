@@ -1,4 +1,4 @@
-"""The arrays that readers and figures share."""
+"""Array type of readers and figures."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A zero-phase band-pass filter: what an inversion of long-period seismic waves sees of a history."""
+"""Zero-phase band-pass filter, for comparison of a history with an inversion of long-period seismic waves."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from thawslide.arrays import Numbers
 from thawslide.errors import ReportError
 
 ORDER = 4  # of the Butterworth filter
-SAMPLES = 40  # at least, of the shortest period
-MOST_SAMPLES = 2e7  # that a history may take
+SAMPLES = 40  # minimum number in the shortest period
+MOST_SAMPLES = 2e7
 
 
 def response(frequency: Numbers, shortest: float, longest: float) -> Numbers:
     """Return the factor on amplitudes at frequencies [Hz], for a band between two periods [s].
 
-    That of a Butterworth filter of fourth order, high pass and low pass, run forwards and backwards: no phase, 1/2 at
-    either end of the band, 0 at frequency 0.
+    It is that of a Butterworth filter of fourth order, high pass and low pass, applied forwards and backwards. It has
+    no phase, and is 1/2 at either end of the band and 0 at frequency 0.
     """
     high = 1.0 / (1.0 + (frequency * shortest) ** (2 * ORDER))
     slow = (frequency * longest) ** (2 * ORDER)
@@ -24,26 +24,26 @@ def response(frequency: Numbers, shortest: float, longest: float) -> Numbers:
 
 
 def even_times(start: float, end: float, step: float, shortest: float, longest: float) -> Numbers:
-    """Return times a step [s] apart, on which a history is filtered; ReportError where these are too many."""
+    """Return evenly spaced times [s] for filtering a history; ReportError if there are too many."""
     samples = (end - start + 4.0 * longest) / step
     if not samples <= MOST_SAMPLES:
         raise ReportError(
-            f"a force between periods of {shortest:g} and {longest:g} s over {end - start:g} s takes "
-            f"{samples:.3g} samples, above {MOST_SAMPLES:g}; specify longer periods"
+            f"band-pass {shortest:g} to {longest:g} s over {end - start:g} s: too many samples (found {samples:.3g}; "
+            f"allowed {MOST_SAMPLES:,.0f}). Specify longer periods."
         )
     return np.arange(start, end + 0.5 * step, step)
 
 
 def band_passed(time: Numbers, values: Numbers, shortest: float, longest: float, at: Numbers | None = None) -> Numbers:
-    """Return what is left of a history between two periods [s], at its own times [s], ascending, or at others.
+    """Return a history filtered to a band between two periods [s], at its own ascending times [s] or at others.
 
-    A row without a number, as the first one of a force, before any step, counts as 0. The history is taken to keep its
-    first value before its start and its last one after its end. These are held for the longest period each, and the
-    last goes over into the first along half a cosine of twice that length, which makes the record periodic without a
-    jump; so a constant leaves nothing. The rest is `response` in the frequency domain.
+    A missing number, as in the first row of a force, counts as 0. The history is extended by its first and its last
+    value, each for the longest period. Half a cosine of twice that length then leads from the last value to the first.
+    The record is therefore periodic without a jump, and a constant gives zero. `response` is applied in the frequency
+    domain.
     """
     if not 0.0 < shortest < longest:
-        raise ValueError(f"a band from {shortest:g} to {longest:g} s; the first period must be the shorter one")
+        raise ValueError(f"band from {shortest:g} to {longest:g} s: the first period must be the shorter one")
     wanted = time if at is None else at
     if len(time) < 2:
         return np.zeros_like(wanted)

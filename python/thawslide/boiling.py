@@ -1,4 +1,4 @@
-"""Where the pore water of band columns boils: the formulas of src/physics/boiling.hpp.
+"""Boiling of the pore water of band columns: the formulas of src/physics/boiling.hpp.
 
 L_v(T) = 2.5e6 - 2360 T [J/kg], T in C; dP_abs/dT = L_v P_abs/(R_v T^2) with steam as an ideal gas, integrated from
 100 C at one atmosphere.
@@ -36,8 +36,8 @@ def boiling_temperature(pressure: ArrayLike) -> Numbers:
     """Return the temperature [C] at which water boils under a pressure [Pa] above that of the air; nan stays nan."""
     wanted = np.log1p(np.asarray(pressure, dtype=np.float64) / ATMOSPHERE)
     temperature = np.full_like(wanted, AT_ATMOSPHERE)
-    for _ in range(_ITERATIONS):  # Newton's: ln P is concave in T
+    for _ in range(_ITERATIONS):  # Newton's method: ln P is concave in T
         latent = HEAT_AT_ZERO - HEAT_LOST_PER_KELVIN * temperature
-        short = wanted - _log_of_pressure(temperature)
-        temperature = temperature + short * GAS_CONSTANT * (temperature + KELVIN) ** 2 / latent
+        residual = wanted - _log_of_pressure(temperature)
+        temperature = temperature + residual * GAS_CONSTANT * (temperature + KELVIN) ** 2 / latent
     return temperature

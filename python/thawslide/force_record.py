@@ -1,7 +1,7 @@
-"""A force that was inverted from seismic waves: its file, the direction of travel it gives, when it reverses.
+"""Force inverted from seismic waves: file, direction of travel, reversal.
 
-Columns: time_s, up_N, north_N, east_N, and, all or none of them, the range that the inversion gives, as up_low_N and
-up_high_N. The force is that of the slide on the Earth.
+Columns: time_s, up_N, north_N, east_N, and, all or none of them, the range of the inversion, as up_low_N and up_high_N.
+The force is that of the sliding mass on the Earth.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _OF_RANGE = tuple(f"{part}_{end}_N" for part in PARTS for end in _ENDS)
 
 @dataclass(frozen=True)
 class ForceRecord:
-    """The components [N] by their names, shape (rows,), with the ends of their range, which may be empty."""
+    """Components [N] by name, shape (rows,), with the ends of their range, which can be empty."""
 
     time: Numbers  # s, ascending
     best: dict[str, Numbers]
@@ -36,7 +36,7 @@ class ForceRecord:
 
 @dataclass(frozen=True)
 class Reversal:
-    """When [s] a vertical force is largest upwards, passes 0, and is largest downwards after that."""
+    """Times [s] of the maximum upward value of a vertical force, of its zero, and of the maximum downward value."""
 
     upward: float
     zero: float
@@ -44,16 +44,16 @@ class Reversal:
 
     @property
     def duration(self) -> float:
-        """The time [s] between the two largest values."""
+        """The time [s] between the two maxima."""
         return self.downward - self.upward
 
     def moved(self, shift: float) -> Reversal:
-        """Return the same on a clock that shows `shift` [s] more."""
+        """Return the reversal with times shifted by `shift` [s]."""
         return Reversal(self.upward + shift, self.zero + shift, self.downward + shift)
 
 
 def read_force_record(path: Path, band: Band, source: str) -> ForceRecord:
-    """Read the file; ReportError names the line, what was found there and what is allowed."""
+    """Read the file; the ReportError states the line, the found and the allowed value."""
     table = read_table(path, _COLUMNS, _OF_RANGE, MEGABYTE)
     absent = [name for name in _OF_RANGE if name not in table.columns]
     if 0 < len(absent) < len(_OF_RANGE):
@@ -97,15 +97,15 @@ def projected(north: Numbers, east: Numbers, azimuth: float) -> Numbers:
 
 
 def projected_ends(low: dict[str, Numbers], high: dict[str, Numbers], azimuth: float) -> tuple[Numbers, Numbers]:
-    """Return the least and the largest that `projected` gives of any two components within their ranges."""
+    """Return minimum and maximum of `projected` over all components within their ranges."""
     corners = [projected(north["north"], east["east"], azimuth) for north in (low, high) for east in (low, high)]
     return np.min(corners, axis=0), np.max(corners, axis=0)
 
 
 def travel_azimuth(record: ForceRecord) -> float:
-    """Return the azimuth [degrees, from -180 to 180] of the horizontal momentum of the slide where that is largest.
+    """Return the azimuth [degrees, from -180 to 180] of the maximum horizontal momentum of the sliding mass.
 
-    The Earth pushes back: the momentum is p(t) = -int F dt, by the trapezoidal rule.
+    The force on the mass is the reaction: its momentum is p(t) = -int F dt, by the trapezoidal rule.
     """
     steps = np.diff(record.time)
     north, east = (
@@ -117,7 +117,7 @@ def travel_azimuth(record: ForceRecord) -> float:
 
 
 def reversal(time: Numbers, up: Numbers) -> Reversal | None:
-    """Return when a vertical force [N] reverses, None where it is not first upward and then downward."""
+    """Return the reversal of a vertical force [N], None if it is not first upward and then downward."""
     top = int(np.argmax(up))
     bottom = top + int(np.argmin(up[top:]))
     if not up[top] > 0.0 > up[bottom]:
@@ -128,7 +128,7 @@ def reversal(time: Numbers, up: Numbers) -> Reversal | None:
 
 
 def _vertex(time: Numbers, values: Numbers, row: int) -> float:
-    """Return when [s] the parabola through a row and its two neighbours, evenly spaced, has its vertex."""
+    """Return the time [s] of the vertex of the parabola through a row and its two evenly spaced neighbours."""
     if not 0 < row < len(time) - 1:
         return float(time[row])
     before, here, after = values[row - 1 : row + 2]

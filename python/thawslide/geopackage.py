@@ -1,4 +1,4 @@
-"""Layers of a GeoPackage as plain arrays: an SQLite file whose geometries are well-known binary.
+"""Layers of a GeoPackage as arrays: an SQLite file whose geometries are well-known binary.
 
 Formats: OGC 12-128r18 (GeoPackage), clause 2.1.3; OGC 06-103r4 (simple features), clause 8.
 """
@@ -20,9 +20,9 @@ from thawslide.text_files import is_file
 
 _ENVELOPE_BYTES = {0: 0, 1: 32, 2: 48, 3: 48, 4: 64}
 _LONGEST_VALUE = 8 * 1024 * 1024  # bytes of one geometry or text
-_WORK_BETWEEN = 10_000  # instructions of the database's machine between two looks at the budget
-_MOST_WORK = 10_000  # such stretches: some seconds
-_DEEPEST = 8  # collections inside one another
+_INSTRUCTIONS = 10_000  # of the virtual machine of SQLite between two checks of the budget
+_MAX_CHECKS = 10_000  # a few seconds
+_DEEPEST = 8  # nested collections
 _POINT, _LINE, _POLYGON, _COLLECTIONS = 1, 2, 3, (4, 5, 6, 7)
 
 
@@ -35,60 +35,59 @@ class Feature:
 
 
 def read_layer(path: Path, layer: str) -> list[Feature]:
-    """Read all features of a layer; NotInRunError without the file or the layer, ReportError when it is damaged."""
+    """Read all features of a layer; NotInRunError without the file or the layer, ReportError if it is damaged."""
     if not is_file(path):
-        raise NotInRunError(f"{path}: no such file; only a 3D run on a DEM writes it")
+        raise NotInRunError(f"{path}: no such file. Only a 3D run on a DEM writes it.")
     try:
         with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as database:
             column, rows = _rows(database, path, layer)
         return [Feature(geometry_parts(row.pop(column)), row) for row in rows]
     except (sqlite3.Error, ValueError, KeyError, MemoryError) as error:
-        raise ReportError(f"{path}: cannot be read as a GeoPackage ({error}); run the case again") from error
+        raise ReportError(f"{path}: cannot be read as a GeoPackage ({error}). Repeat the run.") from error
 
 
 def _rows(database: sqlite3.Connection, path: Path, layer: str) -> tuple[str, list[dict[str, Any]]]:
-    """Return the name of a layer's column of geometries, and its rows by column.
+    """Return the name of the geometry column of a layer, and its rows by column.
 
-    A damaged or foreign file may hold queries in the place of tables, or columns that are computed: these could go on
-    for ever.
+    A damaged or foreign file can contain queries in the place of tables, or computed columns, which could run forever.
     """
     database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, _LONGEST_VALUE)
     database.execute("PRAGMA trusted_schema = OFF")
-    database.set_progress_handler(_Budget(_MOST_WORK).spend, _WORK_BETWEEN)
+    database.set_progress_handler(_Budget(_MAX_CHECKS).spend, _INSTRUCTIONS)
     tables = {name for (name,) in database.execute("SELECT name FROM sqlite_master WHERE type = 'table'").fetchall()}
     if "gpkg_geometry_columns" not in tables:
         raise ValueError("no table gpkg_geometry_columns")
     layers = dict(database.execute("SELECT table_name, column_name FROM gpkg_geometry_columns").fetchall())
     if layer not in layers:
-        raise NotInRunError(f"{path}: no layer {layer}; there are: {', '.join(map(str, layers)) or 'none'}")
+        raise NotInRunError(f"{path}: no layer {layer} (found: {', '.join(map(str, layers)) or 'none'}).")
     if layer not in tables:
         raise ValueError(f"{layer} is no table")
     quoted = '"' + layer.replace('"', '""') + '"'
     cursor = database.execute(f"SELECT * FROM {quoted}")
     names = [column[0] for column in cursor.description]
-    rows, size, room = [], 0, path.stat().st_size
+    rows, size, limit = [], 0, path.stat().st_size
     for row in cursor:
         rows.append(dict(zip(names, row, strict=True)))
         size += 1 + sum(len(value) for value in row if isinstance(value, bytes | str))
-        if size > room:
-            raise ValueError(f"{layer} has more in it than the file has room for")
+        if size > limit:
+            raise ValueError(f"{layer} is larger than the file")
     return str(layers[layer]), rows
 
 
 class _Budget:
-    """Steps that a query may take: `spend` counts them and says when they are used up."""
+    """Limit of the steps of a query."""
 
     def __init__(self, calls: int) -> None:
         self.left = calls
 
     def spend(self) -> bool:
-        """Count one stretch; return whether there is none left."""
+        """Count one check; return whether the budget is exhausted."""
         self.left -= 1
         return self.left < 0
 
 
 def geometry_parts(blob: Any) -> list[Numbers]:
-    """Return the points, lines and rings of a GeoPackage geometry, x and y only; ValueError when it is none."""
+    """Return the points, lines and rings of a GeoPackage geometry, x and y only; ValueError if it is invalid."""
     if blob is None:
         return []
     if not isinstance(blob, bytes) or blob[:2] != b"GP" or len(blob) < 8:
@@ -105,9 +104,9 @@ def geometry_parts(blob: Any) -> list[Numbers]:
 
 
 def _read_geometry(blob: bytes, at: int, parts: list[Numbers], levels: int) -> int:
-    """Append the parts of the well-known binary at a place of the blob; return where it ends."""
+    """Append the parts of the well-known binary at an offset of the blob; return the offset of its end."""
     if levels == 0:
-        raise ValueError(f"a geometry has more than {_DEEPEST} collections inside one another")
+        raise ValueError(f"a geometry has more than {_DEEPEST} nested collections")
     (first,) = struct.unpack_from("B", blob, at)
     order = "<" if first == 1 else ">"
     (code,) = struct.unpack_from(f"{order}I", blob, at + 1)

@@ -1,4 +1,4 @@
-"""Rows through time: history.csv, probes.csv and what a rigid block writes, as columns by name."""
+"""Time series: history.csv, probes.csv and the table of a rigid block, as columns by name."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from thawslide.text_files import number
 
 _MOST_BYTES = 4 * 1024**3
 _LONGEST_LINE = 1024 * 1024  # bytes
-_RESUME = "`thawslide resume` writes what follows a checkpoint again"
+_RESUME = "Repeat the rows after the last checkpoint with `thawslide resume`."
+_NO_HISTORY = "Select the folder of a run."
 
 
 class History(Mapping[str, Numbers]):
@@ -32,7 +33,7 @@ class History(Mapping[str, Numbers]):
         if name not in self._columns:
             near = difflib.get_close_matches(name, self._columns, 1)
             hint = f" (nearest: {near[0]})" if near else ""
-            raise NotInRunError(f"{self.file} has no column {name}{hint}")
+            raise NotInRunError(f"{self.file}: no column {name}{hint}.")
         return self._columns[name]
 
     def __contains__(self, name: object) -> bool:
@@ -46,39 +47,43 @@ class History(Mapping[str, Numbers]):
 
 
 def read_history(path: Path, warnings: list[str]) -> History:
-    """Read rows through time; those that a kill or a power cut left unfinished at the end are left out, with a warning.
+    """Read a time series; incomplete rows at the end, after a kill or a power failure, are skipped with a warning.
 
-    ReportError for anything else that is not a row of numbers at a later time than the row before.
+    ReportError for any other row that is not of numbers at a later time than the previous row.
     """
     try:
         if not path.is_file():
-            raise ReportError(f"{path}: {'not a file' if path.exists() else 'no such file'}")
+            raise ReportError(f"{path}: {'not a file' if path.exists() else 'no such file'}. {_NO_HISTORY}")
         if path.stat().st_size > _MOST_BYTES:
-            raise ReportError(f"{path}: larger than 4 GB; set a longer [time] history_interval and run again")
+            raise ReportError(
+                f"{path}: too large (allowed 4 GB). Set a longer time.history_interval and repeat the run."
+            )
         with path.open("rb") as file:
             names = _header(file, path)
             values = _values(file, names, path, warnings)
     except OSError as error:
-        raise ReportError(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise ReportError(
+            f"{path}: cannot be read ({error.strerror or error}). Check the permissions of the file."
+        ) from error
     if not values:
-        raise ReportError(f"{path}: no rows after the header; the run has not written its first row")
+        raise ReportError(f"{path}: no rows after the header. Wait for the first row of the run.")
     table = np.array(values, dtype=np.float64).reshape(-1, len(names))
     return History(path.name, {name: table[:, place].copy() for place, name in enumerate(names)})
 
 
 def _header(file: BinaryIO, path: Path) -> list[str]:
     line = file.readline(_LONGEST_LINE)
-    if not line.endswith(b"\n"):  # a row is one write: without its end it was cut off
-        raise ReportError(f"{path}: empty; the run has not written its first row")
+    if not line.endswith(b"\n"):  # a row is one write: without its end it is incomplete
+        raise ReportError(f"{path}: empty. Wait for the first row of the run.")
     try:
         names = line.decode("ascii").rstrip("\r\n").split(",")
     except UnicodeDecodeError as error:
-        raise ReportError(f"{path}:1: the names of columns must be ASCII; this is not the history of a run") from error
+        raise ReportError(f"{path}:1: column names are not ASCII. {_NO_HISTORY}") from error
     if "time_s" not in names:
-        raise ReportError(f"{path}:1: no column time_s; this is not the history of a run")
+        raise ReportError(f"{path}:1: no column time_s. {_NO_HISTORY}")
     if len(set(names)) < len(names):
         twice = next(name for place, name in enumerate(names) if name in names[:place])
-        raise ReportError(f"{path}:1: two columns {quoted(twice)}; this is not the history of a run")
+        raise ReportError(f"{path}:1: duplicate column {quoted(twice)}. {_NO_HISTORY}")
     return names
 
 
@@ -90,16 +95,16 @@ def _values(file: BinaryIO, names: list[str], path: Path, warnings: list[str]) -
         place += 1
         where = f"{path}:{place}"
         if not line.endswith(b"\n") and len(line) < _LONGEST_LINE:
-            warnings.append(f"{path}: the last row was cut off and is left out")
+            warnings.append(f"{path}: the last row is incomplete and is ignored")
             break
         if b"\0" in line:
-            warnings.append(f"{where}: zero bytes, as a power cut leaves them; the rows from here on are left out")
+            warnings.append(
+                f"{where}: zero bytes, for example after a power failure; this row and all later rows are ignored"
+            )
             break
         row = _row(line, len(names), where)
         if not math.isfinite(row[time_at]) or row[time_at] <= before:
-            raise ReportError(
-                f"{where}: time_s is {row[time_at]:g} after {before:g}; rows must go forward in time. {_RESUME}"
-            )
+            raise ReportError(f"{where}: time_s does not increase (found {row[time_at]:g} after {before:g}). {_RESUME}")
         before = row[time_at]
         values.extend(row)
     return values
@@ -108,10 +113,10 @@ def _values(file: BinaryIO, names: list[str], path: Path, warnings: list[str]) -
 def _row(line: bytes, columns: int, where: str) -> list[float]:
     cells = line.rstrip(b"\r\n").split(b",")
     if len(cells) != columns:
-        raise ReportError(f"{where}: {len(cells)} values for {columns} columns; the row is damaged. {_RESUME}")
+        raise ReportError(f"{where}: damaged row (found {len(cells)} values for {columns} columns). {_RESUME}")
     if b"_" not in line:
         try:
             return [float(cell) for cell in cells]
         except ValueError:
-            pass  # the slower way names the cell
+            pass  # the slower conversion below identifies the cell
     return [number(cell.decode("ascii", "backslashreplace"), where) for cell in cells]

@@ -1,4 +1,4 @@
-"""The few numbers a report opens with, each with its unit and what it means."""
+"""Key numbers of a report, with units and remarks."""
 
 from __future__ import annotations
 
@@ -6,46 +6,35 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thawslide.clock import has_clock, time_of_speed
 from thawslide.figures.energy import relative_residual
 from thawslide.figures.force import force_in_band, reported_bands, reported_forces, seismic_force
-from thawslide.figures.style import area_text, prefixed, volume_text
+from thawslide.number_text import area_text, number_text, quantity_text, volume_text
 from thawslide.run import Run
-from thawslide.targets import SETS_CLOCK, SOURCE_VOLUME, Target, band_of, quantity_of
+from thawslide.targets import REFERENCE, SOURCE_VOLUME, Target, band_of, quantity_of
+from thawslide.time_reference import has_time_reference, time_of_speed
 
-STOPPED_SHARE = 0.01  # of the peak mean velocity
+STOPPED_FRACTION = 0.01  # of the peak mean velocity
 BOILING = 100.0  # C, at one atmosphere
 
 
 @dataclass(frozen=True)
 class KeyNumber:
-    """One row of the table: words, the value as text with its unit, and a remark (may be empty)."""
+    """One row of the table: label, value as text with its unit, and a remark (can be empty)."""
 
     words: str
     value: str
     remark: str = ""
 
 
-def shown(value: float, unit: str = "") -> str:
-    """Write a number with four significant digits, an SI prefix where the unit takes one, and its unit."""
-    if not np.isfinite(value):
-        return "none"
-    if unit in ("Pa", "N", "J", "m", "N/m of width") and abs(value) >= 1e4:
-        divisor, unit = prefixed(value, unit)
-        value /= divisor
-    text = f"{value:.4g}".replace("e+0", "e").replace("e+", "e").replace("-", "−")
-    return f"{text} {unit}".strip()
-
-
 def stop_time(run: Run, below: float | None = None) -> float | None:
-    """Return when [s] the mean velocity falls below a speed [m/s] for good, None where it does not or never passed it.
+    """Return the time [s] from which on the mean velocity is below a value [m/s], by default 1 % of its peak.
 
-    Without `below` that is 1 % of its peak.
+    None if it never exceeds the value, or exceeds it at the end.
     """
     speed = run.history["mean_velocity_m_s"]
     if not np.isfinite(speed).any() or np.nanmax(speed) <= 0.0:
         return None
-    moving = np.flatnonzero(~(speed < (STOPPED_SHARE * np.nanmax(speed) if below is None else below)))
+    moving = np.flatnonzero(~(speed < (STOPPED_FRACTION * np.nanmax(speed) if below is None else below)))
     if not moving.size:
         return None
     last = int(moving[-1])
@@ -53,28 +42,34 @@ def stop_time(run: Run, below: float | None = None) -> float | None:
 
 
 def key_numbers(run: Run) -> list[KeyNumber]:
-    """Return the rows that this run has columns for."""
+    """Return the rows for which the run has columns."""
     history = run.history
     time = run.shown_time
-    rows = [KeyNumber("Simulated time", shown(float(history["time_s"][-1]), "s"))]
+    rows = [KeyNumber("Simulated time", quantity_text(float(history["time_s"][-1]), "s"))]
     if "mean_velocity_m_s" in history:
         speed = history["mean_velocity_m_s"]
         if np.isfinite(speed).any():
             at = int(np.nanargmax(speed))
             rows.append(
-                KeyNumber("Peak mean velocity", shown(float(speed[at]), "m/s"), f"at {shown(float(time[at]), 's')}")
+                KeyNumber(
+                    "Peak mean velocity",
+                    quantity_text(float(speed[at]), "m/s"),
+                    f"at {quantity_text(float(time[at]), 's')}",
+                )
             )
             rows.append(_stop_number(run))
     rows += _front_numbers(run)
     if "mean_displacement_m" in history:
         rows.append(
-            KeyNumber("Mean displacement", _metres(history["mean_displacement_m"][-1]), "path length, mean of mass")
+            KeyNumber(
+                "Mean displacement", _metres(history["mean_displacement_m"][-1]), "path length, mass-weighted mean"
+            )
         )
     if "entrained_volume_m3" in history:
         per = "/m of width" if run.per_metre else ""
-        share = float(history["entrained_mass_kg"][-1] / history["mass_kg"][0])
-        volume = shown(float(history["entrained_volume_m3"][-1]), f"m³{per}")
-        rows.append(KeyNumber("Bed taken up", volume, f"{shown(share)} of the slide's mass at the start"))
+        fraction = 100.0 * float(history["entrained_mass_kg"][-1] / history["mass_kg"][0])
+        volume = f"{volume_text(float(history['entrained_volume_m3'][-1]))}{per}"
+        rows.append(KeyNumber("Entrained bed volume", volume, f"{number_text(fraction)} % of the initial mass"))
     rows += _volume_numbers(run)
     rows += _map_numbers(run)
     rows += _band_numbers(run)
@@ -83,48 +78,46 @@ def key_numbers(run: Run) -> list[KeyNumber]:
     for words, column in (("Mechanical", "mechanical_residual_J"), ("Thermal", "thermal_residual_J")):
         if column in history:
             residual = relative_residual(run, column)
-            value = shown(float(np.nanmax(residual))) if residual is not None else "nothing changed"
-            rows.append(KeyNumber(f"{words} energy residual", value, "largest, over the largest change of any account"))
+            value = number_text(float(np.nanmax(residual))) if residual is not None else "no change"
+            remark = "maximum, relative to the maximum change of any term"
+            rows.append(KeyNumber(f"{words} energy residual", value, remark))
     return rows
 
 
 def found_for(run: Run, target: Target) -> str:
-    """Return what a run has for a reported value, with its unit, or why it has nothing to compare."""
-    if target.quantity == SETS_CLOCK:
+    """Return the value of a run for a reported value, with its unit, or the reason for its absence."""
+    if target.quantity == REFERENCE:
         start = time_of_speed(run, target.value)
-        return f"{shown(start, 's')} after its start" if np.isfinite(start) else "never"
+        return f"{quantity_text(start, 's')} after the start" if np.isfinite(start) else "never"
     if not quantity_of(target.quantity).is_compared:
         return "not compared"
     if quantity_of(target.quantity).column in run.history:
         first, last = (float(run.shown_time[end]) for end in (0, -1))
-        if has_clock(run) and not first <= target.time <= last:
-            return f"not compared: the run is of {first:.4g} to {last:.4g} s"
+        if has_time_reference(run) and not first <= target.time <= last:
+            return f"not compared: time outside the run ({number_text(first)} to {number_text(last)} s)"
     value = _found(run, target)
     if value is None:
         return _why_not(run, target)
-    when = f" at {run.last_state}" if quantity_of(target.quantity).fact and run.moves_at_end else ""
-    return shown(target.in_its_unit(value), target.unit_words) + when
+    when = f" at {run.last_state}" if quantity_of(target.quantity).fact and run.is_moving_at_end else ""
+    return quantity_text(target.in_its_unit(value), target.unit_words) + when
 
 
 def _why_not(run: Run, target: Target) -> str:
-    """Return why a run has nothing for a reported value."""
+    """Return the reason why a run has no value for a reported one."""
     if quantity_of(target.quantity).column in run.history:
-        return "not compared: the run never reaches the speed that sets the clock"
+        return "not compared: the run never attains start_velocity"
     if quantity_of(target.quantity).fact:
-        return "not known: this takes a 3D run that came to its end" if run.dimension == 3 else "not known in 2D"
+        return "not available: incomplete run" if run.dimension == 3 else "not available in 2D"
     if run.per_metre:
-        return "not known: the case gives no width (case.width)"
-    return "not in the files of this run"
+        return "not available: no case.width"
+    return "not available in the files of this run"
 
 
 def _found(run: Run, target: Target) -> float | None:
-    """Return what a run has for a reported value within its times, in the first unit of its quantity.
-
-    None for nothing to compare.
-    """
+    """Return the value of a run for a reported value within its times, in the first unit of its quantity, or None."""
     history, quantity = run.history, quantity_of(target.quantity)
     if quantity.column in history:
-        if not has_clock(run):
+        if not has_time_reference(run):
             return None
         return float(np.interp(target.time, run.shown_time, history[quantity.column]))
     if quantity.fact:
@@ -140,7 +133,7 @@ def _found(run: Run, target: Target) -> float | None:
 
 
 def _source_volume(run: Run) -> float | None:
-    """Return the volume [m3] of the slide at t = 0, None without a snapshot of it or a width."""
+    """Return the volume [m3] of the sliding mass at t = 0, None without a snapshot of it or a width."""
     if run.per_metre or not run.times.size or run.times[0] > 0.0:
         return None
     volume = float(np.sum(run.snapshot(0, fields=["volume"])["volume"]))
@@ -148,101 +141,112 @@ def _source_volume(run: Run) -> float | None:
 
 
 def boiling_note(run: Run) -> str:
-    """Return a plain sentence where a band that does not boil passes 100 °C, "" otherwise."""
+    """Return a sentence if a band without boiling exceeds 100 °C, "" otherwise."""
     if "band_temperature_C" not in run.history or (run.has_band_columns and run.section("heat").get("steam", True)):
         return ""
     values = run.history["band_temperature_C"]
     if not np.any(values > BOILING):
         return ""
     first = float(run.shown_time[int(np.argmax(values > BOILING))])
-    highest = shown(float(np.nanmax(values)), "°C")
-    nothing = "Nothing boils, as heat.steam is false" if run.has_band_columns else "Nothing in the model boils"
+    highest = quantity_text(float(np.nanmax(values)), "°C")
+    reason = "heat.steam is false" if run.has_band_columns else "the model has no boiling in particles"
     return (
-        f"The mean band temperature passes 100 °C at {shown(first, 's')} and reaches {highest}. {nothing}: where the "
-        "pressure is low, read temperatures and pressures of the band beyond this with care."
+        f"The mean band temperature exceeds 100 °C from {quantity_text(first, 's')} on and attains {highest}. Water "
+        f"does not boil because {reason}. At low pressure, temperatures and pressures of the band are then unreliable."
     )
 
 
 def _stop_number(run: Run) -> KeyNumber:
-    """Return since when the slide is at rest; of a run whose run.json does not say, when its mean velocity fell."""
-    last = shown(float(run.history["mean_velocity_m_s"][-1]), "m/s")
+    """Return the time of rest, or without it in run.json the time from which on the mean velocity is low."""
+    last = quantity_text(float(run.history["mean_velocity_m_s"][-1]), "m/s")
     since = run.facts.get("rest_since_s")
     if since is not None:
-        return KeyNumber("Stop time", shown(float(since) + run.clock.shift, "s"), "at rest from here on")
-    stopped = None if run.moves_at_end else stop_time(run)
+        return KeyNumber("Stop time", quantity_text(float(since) + run.time_reference.shift, "s"), "at rest afterwards")
+    stopped = None if run.is_moving_at_end else stop_time(run)
     if stopped is None:
         return KeyNumber("Stop time", "not reached", f"mean velocity at {run.last_state}: {last}")
     return KeyNumber(
-        "Stop time", shown(stopped + run.clock.shift, "s"), "mean velocity below 1 % of its peak from here on"
+        "Stop time",
+        quantity_text(stopped + run.time_reference.shift, "s"),
+        "mean velocity below 1 % of its peak afterwards",
     )
 
 
 def _volume_numbers(run: Run) -> list[KeyNumber]:
-    """Return how the volume has changed by dilation, and what has left."""
+    """Return the volume change by dilation, and the removed mass."""
     rows, history, per = [], run.history, "/m of width" if run.per_metre else ""
     if "dilation_volume_m3" in history:
-        change = f"{float(history['dilation_share'][-1]):+.1%}".replace("-", "−").replace("%", " %")
+        change = f"{100.0 * float(history['dilation_share'][-1]):+.1f} %".replace("-", "−")
         volume = volume_text(abs(float(history["dilation_volume_m3"][-1])))
-        rows.append(KeyNumber("Volume change by dilation", change, f"{volume}{per}; without the bed taken up"))
+        rows.append(KeyNumber("Volume change by dilation", change, f"{volume}{per}; without entrained bed material"))
     if "left_mass_kg" in history and history["left_mass_kg"][-1] > 0.0:
         mass = float(history["left_mass_kg"][-1])
-        share = mass / (mass + float(history["mass_kg"][-1]))
-        remark = f"{100.0 * share:.3g} % of the mass: left the domain or the terrain model, or removed by guards"
-        rows.append(KeyNumber("Mass removed", shown(mass / 1e3, f"t{per}"), remark))
+        fraction = mass / (mass + float(history["mass_kg"][-1]))
+        remark = f"{number_text(100.0 * fraction)} % of the mass: left the domain or the DEM, or removed by guards"
+        rows.append(KeyNumber("Mass removed", quantity_text(mass / 1e3, f"t{per}"), remark))
     return rows
 
 
 def _metres(value: float) -> str:
-    return f"{value:,.0f} m".replace("-", "−") if abs(value) >= 1000.0 else shown(float(value), "m")
+    return quantity_text(float(value), "m")
 
 
 def _front_numbers(run: Run) -> list[KeyNumber]:
-    """Return runout and way of the front; without maps.path a 3D run knows neither before its slide has moved."""
+    """Return runout distance and front travel distance; without maps.path a 3D run has neither before it moves."""
     rows = []
     if "runout_m" in run.history:
         runout = run.history["runout_m"]
-        own = f", {_metres(runout[0])} of it before anything moves" if np.isfinite(runout[0]) else ""
-        rows.append(_along_path("Runout", runout[-1], f"front at {run.last_state} less rear at the start{own}"))
-        first = int(np.argmax(np.isfinite(runout)))  # 0 where none is
-        since = "the start" if first == 0 else f"{shown(float(run.shown_time[first]), 's')}, the first known"
-        remark = f"front at {run.last_state} less front at {since}"
-        rows.append(_along_path("Way of the front", runout[-1] - runout[first], remark))
+        initial = f"; initial length {_metres(runout[0])}" if np.isfinite(runout[0]) else ""
+        remark = f"front at {run.last_state} minus initial rear{initial}"
+        rows.append(_along_path("Runout distance", runout[-1], remark))
+        first = int(np.argmax(np.isfinite(runout)))  # 0 if all are unknown
+        since = "the start" if first == 0 else f"{quantity_text(float(run.shown_time[first]), 's')}, the first known"
+        remark = f"front at {run.last_state} minus front at {since}"
+        rows.append(_along_path("Front travel distance", runout[-1] - runout[first], remark))
     return rows
 
 
 def _along_path(words: str, value: float, remark: str) -> KeyNumber:
     if np.isfinite(value):
         return KeyNumber(words, _metres(value), remark)
-    return KeyNumber(
-        words, "not known", "maps.path is not given, and the slide has hardly moved: no path to measure along"
-    )
+    return KeyNumber(words, "not available", "no flow path: maps.path is not specified, and the mass has barely moved")
 
 
 def _force_numbers(run: Run) -> list[KeyNumber]:
-    """Return the largest force on the ground, as it is and as those who inverted seismic waves would have it."""
+    """Return the maximum force on the terrain, unfiltered and in the bands of reported inversions."""
     unit = "N/m of width" if run.per_metre else "N"
     forces = {"": seismic_force(run)[1]}
-    forces |= {f", band-passed {band.words}": force_in_band(run, band) for band in reported_bands(run)}
+    forces |= {f", band-pass {band.words}": force_in_band(run, band) for band in reported_bands(run)}
     rows = []
     for words, magnitude in forces.items():
         if np.isfinite(magnitude).any():
             at = int(np.nanargmax(magnitude))
-            when = f"at {shown(float(run.shown_time[at]), 's')}"
-            rows.append(KeyNumber(f"Largest seismic force{words}", shown(float(magnitude[at]), unit), when))
+            when = f"at {quantity_text(float(run.shown_time[at]), 's')}"
+            rows.append(KeyNumber(f"Maximum seismic force{words}", quantity_text(float(magnitude[at]), unit), when))
     return rows
 
 
 def _map_numbers(run: Run) -> list[KeyNumber]:
-    """Return what run.json says of a slide on a DEM."""
+    """Return the results of a 3D run in run.json."""
     rows = []
-    what, when = ("Deposit", "") if run.facts.get("at_rest") else ("Slide", f" at {run.last_state}")
+    what, when = ("Deposit", "") if run.facts.get("at_rest") else ("Covered", f" at {run.last_state}")
     for words, key, text, remark in (
-        (f"{what} volume{when}", "covered_volume_m3", volume_text, "where thicker than maps.arrival_thickness"),
-        (f"{what} area{when}", "covered_area_m2", area_text, "of the same, horizontal"),
-        ("Affected area", "affected_area_m2", area_text, "ever thicker than maps.arrival_thickness, horizontal"),
-        ("Travel distance", "travel_distance_m", _metres, "along the path, from the release's rear end to the front"),
-        ("Drop height", "drop_height_m", _metres, "of the ground at the front below the highest point of the release"),
-        ("Angle of reach", "angle_of_reach_degrees", lambda value: f"{value:.1f}°", "drop height over travel distance"),
+        (f"{what} volume{when}", "covered_volume_m3", volume_text, "cells thicker than maps.arrival_thickness"),
+        (f"{what} area{when}", "covered_area_m2", area_text, "horizontal, of the same cells"),
+        ("Affected area", "affected_area_m2", area_text, "horizontal, cells ever thicker than maps.arrival_thickness"),
+        (
+            "Travel distance",
+            "travel_distance_m",
+            _metres,
+            "along the flow path, from the rear of the release to the front",
+        ),
+        ("Drop height", "drop_height_m", _metres, "from the highest point of the release to the terrain at the front"),
+        (
+            "Reach angle",
+            "angle_of_reach_degrees",
+            lambda value: f"{value:.1f}°",
+            "arctan(drop height / travel distance)",
+        ),
     ):
         value = run.facts.get(key)
         if isinstance(value, int | float):
@@ -253,27 +257,27 @@ def _map_numbers(run: Run) -> list[KeyNumber]:
 def _band_numbers(run: Run) -> list[KeyNumber]:
     rows = []
     for words, column, unit in (
-        ("Highest mean band temperature", "band_temperature_C", "°C"),
-        ("Hottest column of the band", "band_hottest_C", "°C"),
-        ("Highest mean band pore pressure", "band_pore_pressure_Pa", "Pa"),
-        ("Largest pore pressure over its N", "band_largest_pressure_ratio", ""),
+        ("Maximum mean band temperature", "band_temperature_C", "°C"),
+        ("Maximum column temperature", "band_hottest_C", "°C"),
+        ("Maximum mean band pore pressure", "band_pore_pressure_Pa", "Pa"),
+        ("Maximum pore pressure ratio P/N", "band_largest_pressure_ratio", ""),
     ):
         if column in run.history:
             values = run.history[column]
             if np.isfinite(values).any():
                 at = int(np.nanargmax(values))
-                when = f"at {shown(float(run.shown_time[at]), 's')}"
-                rows.append(KeyNumber(words, shown(float(values[at]), unit), when))
+                when = f"at {quantity_text(float(run.shown_time[at]), 's')}"
+                rows.append(KeyNumber(words, quantity_text(float(values[at]), unit), when))
             else:
-                rows.append(KeyNumber(words, "none", "no particle was ever in the band"))
+                rows.append(KeyNumber(words, "none", "no particles in the band"))
     return rows + _water_numbers(run)
 
 
 def _water_numbers(run: Run) -> list[KeyNumber]:
-    """Return what water the columns of a band lost."""
+    """Return the water lost by band columns."""
     rows = []
-    for words, column in (("Water vented by the band", "column_vented_kg"), ("Water gone as steam", "column_steam_kg")):
+    for words, column in (("Water vented by the band", "column_vented_kg"), ("Water lost as steam", "column_steam_kg")):
         if column in run.history:
             unit = "t/m of width" if run.per_metre else "t"
-            rows.append(KeyNumber(words, shown(float(run.history[column][-1]) / 1e3, unit), "by the end"))
+            rows.append(KeyNumber(words, quantity_text(float(run.history[column][-1]) / 1e3, unit), "until the end"))
     return rows

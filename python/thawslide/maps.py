@@ -1,4 +1,4 @@
-"""The maps of a run: GeoTIFF files as numbers on a grid, parts of them, and values along lines."""
+"""Maps of a run: GeoTIFF files as numbers on a grid, parts of them, and values along lines."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ from thawslide.text_files import is_file
 
 Box = tuple[float, float, float, float]  # west, east, south, north [m]
 
-# How the values of a block become one: of a terrain the mean, of a map of largest values the largest.
-_REDUCTIONS: dict[str, Callable[..., Numbers]] = {"mean": np.nanmean, "largest": np.nanmax}
+# Reduction of the values of a block: the mean of a terrain, the maximum of a map of maxima.
+_REDUCTIONS: dict[str, Callable[..., Numbers]] = {"mean": np.nanmean, "maximum": np.nanmax}
 MOST_CELLS = 100_000_000  # of a map: 0.8 GB of numbers
 _TYPES = ("float32", "float64", "int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64")
 _MOST_CELLS_OF_BLOCK = 25_000_000
-_LARGEST_RATIO = 1100.0  # that DEFLATE can compress by, with some to spare
+_MAX_COMPRESSION = 1100.0  # of DEFLATE, with a margin
 
 
 @dataclass(frozen=True)
 class Grid:
-    """Points over the horizontal plane, each the centre of a cell; the first is in the south-west [m]."""
+    """Cell centres on the horizontal plane; the first is in the south-west [m]."""
 
     x0: float
     y0: float
@@ -80,7 +80,7 @@ class Grid:
         )
 
     def thinned(self, factor: int) -> Grid:
-        """Return the grid whose cells are blocks of factor x factor cells; those at the edge may reach over it."""
+        """Return the grid whose cells are blocks of factor x factor cells; those at the edge can extend over it."""
         return Grid(
             self.x0 + 0.5 * (factor - 1) * self.cell_x,
             self.y0 + 0.5 * (factor - 1) * self.cell_y,
@@ -91,27 +91,27 @@ class Grid:
         )
 
     def factor(self, most: int) -> int:
-        """Return the smallest factor that thins the grid to at most `most` cells a side."""
+        """Return the smallest factor that thins the grid to at most `most` cells per side."""
         return max(1, -(-max(self.columns, self.rows) // most))
 
 
 @dataclass(frozen=True)
 class Map:
-    """Values on a grid, shape (rows, columns), rows from south to north, nan where there is none."""
+    """Values on a grid, shape (rows, columns), rows from south to north, nan for no data."""
 
     grid: Grid
     values: Numbers
     unit: str = ""
     description: str = ""
-    crs: str = ""  # the coordinate reference system in words, "" where none is known
+    crs: str = ""  # name of the coordinate reference system, "" if unknown
 
     def cropped(self, box: Box) -> Map:
         """Return the part whose cells overlap a box."""
         rows, columns = self.grid.part(box)
         return replace(self, grid=self.grid.cropped(box), values=self.values[rows, columns])
 
-    def thinned(self, most: int, reduction: Literal["mean", "largest"] = "mean") -> Map:
-        """Return the map with at most `most` cells a side: blocks of cells become one, places without data aside."""
+    def thinned(self, most: int, reduction: Literal["mean", "maximum"] = "mean") -> Map:
+        """Return the map with at most `most` cells per side: each block of cells is reduced to one value."""
         factor = self.grid.factor(most)
         if factor == 1:
             return self
@@ -119,12 +119,12 @@ class Map:
         missing = ((0, grid.rows * factor - self.grid.rows), (0, grid.columns * factor - self.grid.columns))
         blocks = np.pad(self.values, missing, constant_values=np.nan).reshape(grid.rows, factor, grid.columns, factor)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", RuntimeWarning)  # blocks without any data stay without
+            warnings.simplefilter("ignore", RuntimeWarning)  # blocks without data
             values = _REDUCTIONS[reduction](blocks, axis=(1, 3))
         return replace(self, grid=grid, values=values)
 
     def at(self, x: Numbers, y: Numbers) -> Numbers:
-        """Return the values at places [m], linear between the four points around; nan outside and next to no data."""
+        """Return values at points [m] by bilinear interpolation; nan outside and next to no-data cells."""
         grid = self.grid
         u, v = (np.asarray(x) - grid.x0) / grid.cell_x, (np.asarray(y) - grid.y0) / grid.cell_y
         inside = (u >= 0.0) & (u <= grid.columns - 1) & (v >= 0.0) & (v <= grid.rows - 1)
@@ -144,17 +144,17 @@ class Map:
 
 
 class Maps:
-    """The maps of a run by name; each is read when asked for and not kept, since a whole one may take much memory."""
+    """Maps of a run by name; each is read at every access, because keeping all would need much memory."""
 
     def __init__(self, run: Run) -> None:
         """Find the maps; NotInRunError for a run without any."""
         self.folder = run.folder / "maps"
         if not self.folder.is_dir():
-            raise NotInRunError(f"{self.folder}: no such folder; only a 3D run on a DEM writes maps")
+            raise NotInRunError(f"{self.folder}: no such folder. Only a 3D run on a DEM writes maps.")
 
     @cached_property
     def names(self) -> list[str]:
-        """The names of all maps there are."""
+        """The names of all maps."""
         return sorted(path.stem for path in self.folder.glob("*.tif"))
 
     def __contains__(self, name: object) -> bool:
@@ -162,18 +162,17 @@ class Maps:
 
     def __getitem__(self, name: str) -> Map:
         if name not in self.names:
-            there = ", ".join(self.names) or "none"
-            raise NotInRunError(f"{self.folder / name}.tif: no such map; there are: {there}")
+            raise NotInRunError(f"{self.folder / name}.tif: no such map (found: {', '.join(self.names) or 'none'}).")
         return read_map(self.folder / f"{name}.tif")
 
     def about(self, name: str) -> tuple[str, str]:
-        """Return what a map is and its unit, as its file tells."""
+        """Return description and unit of a map, from its file."""
         with _open(self.folder / f"{name}.tif") as file:
             return file.descriptions[0] or "", file.units[0] or ""
 
 
 def read_map(path: Path) -> Map:
-    """Read the first band of a GeoTIFF; ReportError when it is missing, damaged or not aligned with north."""
+    """Read the first band of a GeoTIFF; ReportError if it is missing, damaged or not aligned with north."""
     try:
         with _open(path) as file:
             _check_size(file, path)
@@ -181,11 +180,11 @@ def read_map(path: Path) -> Map:
             band = file.read(1, masked=True, out_dtype="float64")
             unit, description = file.units[0] or "", file.descriptions[0] or ""
     except (RasterioError, OSError, ValueError, MemoryError) as error:
-        raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}); run the case again") from error
+        raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}). Repeat the run.") from error
     if not np.isfinite(transform[:6]).all():
-        raise ReportError(f"{path}: its coordinates are not finite; run the case again")
+        raise ReportError(f"{path}: coordinates are not finite. Repeat the run.")
     if transform.b != 0.0 or transform.d != 0.0 or transform.a <= 0.0 or transform.e >= 0.0:
-        raise ReportError(f"{path}: rows must go from west to east and columns from north to south")
+        raise ReportError(f"{path}: not aligned with north. Repeat the run.")
     rows, columns = band.shape
     grid = Grid(
         transform.c + 0.5 * transform.a,
@@ -200,37 +199,35 @@ def read_map(path: Path) -> Map:
 
 
 def on_map(run: Run) -> bool:
-    """Whether figures of a run are maps: a 3D run on a DEM."""
+    """Return whether figures of a run are maps: a 3D run on a DEM."""
     return run.dimension == 3 and (run.section("terrain").get("type") == "dem" or (run.folder / "maps").is_dir())
 
 
 def _open(path: Path) -> rasterio.DatasetReader:
-    if not is_file(path) and path.exists():  # a pipe would wait for ever
-        raise ReportError(f"{path}: not a file; run the case again")
+    if not is_file(path) and path.exists():  # a pipe would block forever
+        raise ReportError(f"{path}: not a file. Repeat the run.")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", NotGeoreferencedWarning)
-            file = rasterio.open(path, driver="GTiff")  # no other kind of file, which may name further ones
-            placed = file.transform != rasterio.Affine.identity()
+            file = rasterio.open(path, driver="GTiff")  # no other format, which could refer to further files
+            has_coordinates = file.transform != rasterio.Affine.identity()
     except (RasterioError, OSError) as error:
-        raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}); run the case again") from error
-    if not placed:
-        raise ReportError(f"{path}: has no coordinates; it is not a map the simulator wrote")
+        raise ReportError(f"{path}: cannot be read as a GeoTIFF ({error}). Repeat the run.") from error
+    if not has_coordinates:
+        raise ReportError(f"{path}: no coordinates; not a map of the simulator. Repeat the run.")
     return file
 
 
 def _check_size(file: rasterio.DatasetReader, path: Path) -> None:
-    """Raise ReportError for a map that would take more memory than any, or whose file cannot hold what it claims."""
+    """Raise ReportError for a map that is too large, or larger than its file can contain."""
     kind, cells, block = file.dtypes[0], file.width * file.height, math.prod(file.block_shapes[0])
     if kind not in _TYPES or not 0 < cells <= MOST_CELLS or block > _MOST_CELLS_OF_BLOCK:
         raise ReportError(
-            f"{path}: {file.width} x {file.height} cells of {kind} in blocks of {block}; allowed: {MOST_CELLS:,} cells "
-            f"of plain numbers in blocks of {_MOST_CELLS_OF_BLOCK:,}"
+            f"{path}: not a valid map (found {file.width} x {file.height} cells of {kind} in blocks of {block:,}; "
+            f"allowed {MOST_CELLS:,} cells of numbers in blocks of {_MOST_CELLS_OF_BLOCK:,}). Use larger map cells."
         )
-    if max(cells, block) * np.dtype(kind).itemsize > _LARGEST_RATIO * path.stat().st_size:
-        raise ReportError(
-            f"{path}: {cells} cells are more than the file has room for; it is damaged, run the case again"
-        )
+    if max(cells, block) * np.dtype(kind).itemsize > _MAX_COMPRESSION * path.stat().st_size:
+        raise ReportError(f"{path}: damaged (found {cells:,} cells, more than the file can contain). Repeat the run.")
 
 
 def _overlap(low: float, high: float, start: float, cell: float, count: int) -> slice:
@@ -240,7 +237,7 @@ def _overlap(low: float, high: float, start: float, cell: float, count: int) -> 
 
 
 def _crs_words(crs: rasterio.crs.CRS | None) -> str:
-    """Return a reference system by its name and number, e.g. "MGI / Austria GK West (EPSG:31254)"."""
+    """Return name and number of a reference system, e.g. "MGI / Austria GK West (EPSG:31254)"."""
     if not crs:
         return ""
     name = str(crs.to_dict(projjson=True).get("name", ""))

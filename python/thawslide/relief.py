@@ -1,7 +1,7 @@
-"""Relief of a terrain as maps show it: hill shading, and round numbers for contour lines and scale bars.
+"""Relief of a terrain on maps: hillshade, and round numbers for contour lines and scale bars.
 
-Hill shading (Horn 1981, "Hill shading and the reflectance map", Proceedings of the IEEE 69(1), 14-47): a matt surface
-is as bright as the cosine of the angle between its normal n and the direction of the light l,
+Hillshade (Horn 1981, "Hill shading and the reflectance map", Proceedings of the IEEE 69(1), 14-47): the
+brightness of a matt surface is the cosine of the angle between its normal n and the direction of the light l,
 
     shade = max(0, n . l),   n = (-k dz/dx, -k dz/dy, 1) / |...|,   l = (sin a cos h, cos a cos h, sin h)
 
@@ -17,17 +17,17 @@ import numpy as np
 
 from thawslide.run import Numbers
 
-NORTH_WEST = 315.0  # degrees, the azimuth from which readers of maps expect the light
+NORTH_WEST = 315.0  # degrees, the conventional azimuth of the light on maps
 ALTITUDE = 45.0  # degrees above the horizon
 
 
 def slopes(heights: Numbers, cell_x: float, cell_y: float) -> tuple[Numbers, Numbers]:
     """Return dz/dx and dz/dy of heights [m], shape (rows, columns), rows from south to north.
 
-    At the edge the surface goes on straight; next to a place without data (nan) there is no slope (nan).
+    The surface is extrapolated linearly at the edge. Next to a no-data cell (nan) the slope is nan.
     """
     if min(heights.shape) < 2:
-        raise ValueError(f"slopes need at least 2 x 2 heights, not {heights.shape}")
+        raise ValueError(f"slopes need at least 2 x 2 heights (found {heights.shape})")
     z = np.pad(heights, 1, mode="reflect", reflect_type="odd")
     east, west = z[:, 2:], z[:, :-2]
     north, south = z[2:, :], z[:-2, :]
@@ -57,7 +57,7 @@ def hillshade(
 
 
 def round_number(value: float) -> float:
-    """Return the largest of 1, 2, 5, 10, 20, 50, ... (and their tenths) that is not above a positive value."""
+    """Return the maximum of 1, 2, 5, 10, 20, 50, ... (and their tenths) not above a positive value."""
     if not value > 0.0:
         raise ValueError(f"expected a positive number, found {value}")
     power = 10.0 ** np.floor(np.log10(value))
@@ -68,7 +68,7 @@ def round_number(value: float) -> float:
 
 
 def contour_levels(heights: Numbers, most: int) -> Numbers:
-    """Return at most `most` levels a round interval apart that cross the heights [m]; empty on level ground."""
+    """Return at most `most` levels at a round interval within the heights [m]; empty for level terrain."""
     finite = heights[np.isfinite(heights)]
     if not finite.size or finite.max() - finite.min() < 1e-6:
         return np.zeros(0)

@@ -1,4 +1,4 @@
-"""Draw the figures of a run and write the page that shows them."""
+"""Plot the figures of a run and write their page."""
 
 from __future__ import annotations
 
@@ -11,25 +11,26 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from thawslide.clock import clock_note
+from thawslide.atomic_file import atomic_file
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.figures import FIGURES
-from thawslide.figures.animation import Film
-from thawslide.key_numbers import boiling_note, found_for, key_numbers, shown
+from thawslide.figures.animation import Animation
+from thawslide.key_numbers import boiling_note, found_for, key_numbers
 from thawslide.maps import Maps, on_map
+from thawslide.number_text import exact_text, integer_text, quantity_text
 from thawslide.run import Run
 from thawslide.run_facts import Ending, last_write_age
 from thawslide.targets import KINDS
-from thawslide.whole_file import written_whole
+from thawslide.time_reference import time_note
 
 
 @dataclass
 class Report:
-    """What was written: the page, the figures by name, why others were left out, and which of these for a fault."""
+    """Written files: page, figures by name, reasons for missing figures, and names of those with damaged data."""
 
     page: Path
     figures: dict[str, Path] = field(default_factory=dict)
-    left_out: dict[str, str] = field(default_factory=dict)
+    missing: dict[str, str] = field(default_factory=dict)
     faults: list[str] = field(default_factory=list)
 
 
@@ -42,47 +43,49 @@ def make_report(
 ) -> Report:
     """Write figures/NAME.png and report.html into `output` (default: the run folder).
 
-    Without `names` these are the figures that suit the run. One that it has nothing for, or whose files are damaged, is
-    left out and named on the page; it is an error if `names` asks for it.
+    Without `names` these are the figures that suit the run. The page lists figures without data or with damaged files;
+    these are an error if `names` requests them.
     """
     output = output or run.folder
-    _ = run.history, run.facts, run.targets  # what every page needs: mistakes are told before anything is drawn
+    _ = run.history, run.facts, run.targets  # required by every page: errors precede the figures
     report = Report(output / "report.html")
     if (output / "figures").is_symlink():
-        raise ReportError(f"{output / 'figures'} is a link; figures go into the folder of the report alone")
+        raise ReportError(f"{output / 'figures'}: a link, not a folder. Remove the link.")
     try:
         (output / "figures").mkdir(parents=True, exist_ok=True)
         chosen = list(names or figures_of(run))
         for number, name in enumerate(chosen, 1):
             try:
-                report.figures[name] = _draw(run, name, output / "figures", dpi, progress)
+                report.figures[name] = _write_figure(run, name, output / "figures", dpi, progress)
                 progress(f"[{number}/{len(chosen)}] {name}: {report.figures[name]}")
             except ReportError as error:
                 if names:
                     raise
-                report.left_out[name] = str(error)
+                report.missing[name] = str(error)
                 if not isinstance(error, NotInRunError):
                     report.faults.append(name)
-                progress(f"[{number}/{len(chosen)}] {name}: left out, {error}")
-        with written_whole(report.page) as beside:
-            beside.write_text(_page(run, report), encoding="utf-8")
+                progress(f"[{number}/{len(chosen)}] {name}: not available: {error}")
+        with atomic_file(report.page) as temporary:
+            temporary.write_text(_page(run, report), encoding="utf-8")
     except OSError as error:
-        raise ReportError(f"{error.filename or output}: cannot be written: {error.strerror or error}") from error
+        raise ReportError(
+            f"{error.filename or output}: cannot be written ({error.strerror or error}). Select another --output."
+        ) from error
     return report
 
 
-def _draw(run: Run, name: str, folder: Path, dpi: int, progress: Callable[[str], None]) -> Path:
-    """Draw one figure into a folder; ReportError where its numbers are such that nothing can be drawn of them."""
+def _write_figure(run: Run, name: str, folder: Path, dpi: int, progress: Callable[[str], None]) -> Path:
+    """Write one figure into a folder; ReportError if its numbers cannot be plotted."""
     try:
-        drawn = FIGURES[name].draw(run)
-        path = folder / f"{name}{'.mp4' if isinstance(drawn, Film) else '.png'}"
-        if isinstance(drawn, Film):
-            drawn.write(path, dpi, progress)
+        plotted = FIGURES[name].plot(run)
+        path = folder / f"{name}{'.mp4' if isinstance(plotted, Animation) else '.png'}"
+        if isinstance(plotted, Animation):
+            plotted.write(path, dpi, progress)
         else:
-            with written_whole(path) as beside:
-                drawn.savefig(beside, dpi=dpi)
+            with atomic_file(path) as temporary:
+                plotted.savefig(temporary, dpi=dpi)
     except (ValueError, ArithmeticError, MemoryError) as error:
-        raise ReportError(f"{run.folder}: {name} cannot be drawn of these numbers: {error}") from error
+        raise ReportError(f"{run.folder}: {name} cannot be plotted ({error}). Check the values of the run.") from error
     return path
 
 
@@ -93,7 +96,9 @@ def figures_of(run: Run) -> list[str]:
 
 def _page(run: Run, report: Report) -> str:
     title = html.escape(run.title)
-    damage = f"Could not be drawn: {', '.join(report.faults)}. Why stands under Left out." if report.faults else ""
+    damage = (
+        f"Not plotted: {', '.join(report.faults)}. Section 'Missing figures' has the reasons." if report.faults else ""
+    )
     notes = [
         note
         for note in (
@@ -115,8 +120,8 @@ def _page(run: Run, report: Report) -> str:
     ]
     if run.targets:
         tables = "\n".join(_target_tables(run))
-        note = f'<p class="clock">{html.escape(clock_note(run))}</p>'
-        parts.append(_details("Reported values to compare with", f"{tables}\n{note}"))
+        note = f'<p class="times">{html.escape(time_note(run))}</p>'
+        parts.append(_details("Reported values", f"{tables}\n{note}"))
     for name, path in report.figures.items():
         kind = FIGURES[name]
         heading, link = html.escape(kind.heading), f"figures/{path.name}"
@@ -127,25 +132,25 @@ def _page(run: Run, report: Report) -> str:
         caption = f"<figcaption>{html.escape(kind.caption_of(run))}</figcaption>"
         parts.append(f'<h2 id="{name}">{heading}</h2>\n<figure>{shown_as}\n{caption}</figure>')
     if maps := _map_files(run, report.page.parent):
-        parts += [f'<h2 id="maps">Maps to open in a GIS</h2>\n{maps}']
-    if report.left_out:
-        reasons = ((FIGURES[name].heading, reason) for name, reason in report.left_out.items())
-        parts += ["<h2>Left out</h2>", _table(reasons, "facts")]
-    parts += ["<h2>The run</h2>", *facts_of(run.facts)]
+        parts += [f'<h2 id="maps">Map files</h2>\n{maps}']
+    if report.missing:
+        reasons = ((FIGURES[name].heading, reason) for name, reason in report.missing.items())
+        parts += ["<h2>Missing figures</h2>", _table(reasons, "facts")]
+    parts += ["<h2>Run information</h2>", *facts_of(run.facts)]
     links = " · ".join(f'<a href="#{name}">{html.escape(FIGURES[name].heading)}</a>' for name in report.figures)
     parts.insert(2, f"<nav>{links}</nav>")
     return page_frame(title, "\n".join(parts))
 
 
 def _target_tables(run: Run) -> list[str]:
-    """Return a table of reported values for each kind of them that there is, with what the run has in their place."""
+    """Return a table for each kind of reported values, with the values of the run."""
     tables = []
     for kind, (_, heading) in KINDS.items():
         rows = [
             (
                 t.quantity.replace("_", " "),
-                f"{t.time:g} s",
-                f"{t.in_its_unit(t.value):g} {t.unit_words}",
+                f"{exact_text(t.time)} s",
+                quantity_text(t.in_its_unit(t.value), t.unit_words, _REPORTED_DIGITS),
                 found_for(run, t),
                 t.source,
             )
@@ -153,7 +158,7 @@ def _target_tables(run: Run) -> list[str]:
             if t.kind == kind
         ]
         if rows:
-            head = ("quantity", "time", "reported", "this run", "source of the report")
+            head = ("quantity", "time", "reported", "this run", "source")
             tables.append((f"<h3>{heading}</h3>\n" if kind else "") + _table(rows, "facts", head))
     return tables
 
@@ -165,58 +170,58 @@ def _map_files(run: Run, page_folder: Path) -> str:
     maps = Maps(run)
     rows = [(f"{name}.tif", *_about(maps, name)) for name in maps.names]
     where = html.escape(Path(os.path.relpath(maps.folder, page_folder)).as_posix())
-    return f'<p>In the folder <a href="{where}">{where}</a>.</p>\n' + _table(rows, "facts")
+    return f'<p>Folder: <a href="{where}">{where}</a></p>\n' + _table(rows, "facts")
 
 
 def _about(maps: Maps, name: str) -> tuple[str, str]:
-    """Return what a map is and its unit, or that it cannot be read."""
+    """Return description and unit of a map, or that it is damaged."""
     try:
         return maps.about(name)
     except ReportError:
-        return "damaged: cannot be read", ""
+        return "damaged", ""
 
 
 def page_frame(title: str, body: str) -> str:
     """Return a whole HTML page in the style of all reports; title and body are HTML already."""
-    before, between, after = re.split("TITLE|BODY", _FRAME)  # not one after the other: a title may be "BODY"
+    before, between, after = re.split("TITLE|BODY", _FRAME)  # in one step: a title can contain "BODY"
     return f"{before}{title}{between}{body}{after}"
 
 
 def ending_note(run: Run) -> str:
-    """Return a sentence where the run did not come to its end, or ended before its time, "" otherwise."""
-    told = str(run.facts.get("message") or "")
-    go_on = f"`thawslide resume {shlex.quote(str(run.folder))}` goes on from its last checkpoint."
+    """Return a sentence if the run is incomplete or ended early, "" otherwise."""
+    message = str(run.facts.get("message") or "")
+    command = f"`thawslide resume {shlex.quote(str(run.folder))}`"
+    advice = f"To continue from its last checkpoint: {command}."
     if run.ending is Ending.DONE:
-        return told[:1].upper() + told[1:]
+        return message[:1].upper() + message[1:]
     if run.ending is Ending.UNKNOWN:
-        return "There is no run.json, so whether this run came to its end is not known."
+        return "There is no run.json: it is unknown whether this run is complete."
     if run.ending is Ending.KILLED:
         return (
-            "This run stopped without a word: run.json says that it runs, but no process holds run.lock. It was "
-            f"killed, or its machine went down. {go_on} The figures show what it has written."
+            "This run terminated unexpectedly: its status in run.json is running, but no process holds run.lock. "
+            f"{advice} The figures show the results so far."
         )
-    if run.ending is Ending.UNTOLD:
+    if run.ending is Ending.UNDETERMINED:
         return (
-            "run.json says that this run is running; whether it is cannot be told, as its file system has no locks. "
-            f"Its last file was written {_age(last_write_age(run.folder))} before this page. If nothing writes there "
-            f"any more, {go_on} The figures show what it has written."
+            "The status of this run in run.json is running. It cannot be checked, because the file system has no "
+            f"locks. The last file was written {_age(last_write_age(run.folder))} before this page. If the run has "
+            f"terminated, {command} continues from its last checkpoint. The figures show the results so far."
         )
-    message = f": {told}" if told else ""
-    words = "was still running when this was written" if run.ending is Ending.RUNNING else run.ending.value
-    note = f"This run did not come to its end ({words}){message}. The figures show what it has written."
-    return f"{note} {go_on}" if run.ending is Ending.STOPPED else note
+    words = "was still running when this page was written" if run.ending is Ending.RUNNING else run.ending.value
+    note = f"This run is incomplete ({words}){f': {message}' if message else ''}. The figures show the results so far."
+    return f"{note} {advice}" if run.ending is Ending.STOPPED else note
 
 
 def result_warnings(run: Run) -> list[str]:
-    """Return what run.json warns of in the results, such as a slide that is not at rest."""
+    """Return the warnings of run.json on the results, for example if the mass is not at rest."""
     return [f"Warning: {warning[:1000]}" for warning in run.facts.get("warnings", [])[:20]]
 
 
 def resume_notes(run: Run) -> list[str]:
-    """Return what the parts of a run found damaged when they went on with it, such as rows that are lost."""
+    """Return the damage that parts of a run found when they resumed, for example lost rows."""
     parts = run.facts.get("parts")
-    told = [part.get("warnings") for part in parts if isinstance(part, dict)] if isinstance(parts, list) else []
-    return [str(note)[:1000] for notes in told if isinstance(notes, list) for note in notes[:100]]
+    found = [part.get("warnings") for part in parts if isinstance(part, dict)] if isinstance(parts, list) else []
+    return [str(text)[:1000] for texts in found if isinstance(texts, list) for text in texts[:100]]
 
 
 def _age(seconds: float) -> str:
@@ -242,7 +247,7 @@ def _details(heading: str, inside: str) -> str:
 
 
 def facts_of(facts: dict[str, Any]) -> list[str]:
-    """Return run.json as a table of its single values and one folded table for each value that has parts."""
+    """Return run.json as a table of its single values and one collapsed table for each value with parts."""
     if not facts:
         return ["<p>No run.json: the run was interrupted before it was written.</p>"]
     single = [(_words(key), _value(value)) for key, value in facts.items() if not _has_parts(value)]
@@ -259,7 +264,7 @@ def facts_of(facts: dict[str, Any]) -> list[str]:
 
 
 def _has_parts(value: Any) -> bool:
-    """Whether a value deserves a table of its own: a filled object, or a list of objects or long texts."""
+    """Return whether a value has a separate table: a non-empty object, or a list of objects or long texts."""
     if isinstance(value, dict):
         return bool(value)
     return isinstance(value, list) and any(isinstance(part, dict) or len(str(part)) > 40 for part in value)
@@ -273,9 +278,9 @@ def _value(value: Any) -> str:
     if isinstance(value, bool) or value is None:
         return {True: "yes", False: "no", None: "none"}[value]
     if isinstance(value, float):
-        return shown(value)
+        return integer_text(value)
     if isinstance(value, int):
-        return f"{value:,}" if abs(value) >= 10000 else str(value)
+        return f"{value:,}"
     if isinstance(value, dict):
         return ", ".join(f"{_words(key)}: {_value(part)}" for key, part in value.items()) or "none"
     if isinstance(value, list):
@@ -283,6 +288,7 @@ def _value(value: Any) -> str:
     return str(value) or "none"
 
 
+_REPORTED_DIGITS = 6  # more than of computed values: reported values remain as published
 _FRAME = """<!doctype html>
 <html lang="en">
 <head>
@@ -294,7 +300,7 @@ body { font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; color: #
   max-width: 1080px; margin: 2.5rem auto; padding: 0 1.25rem; }
 h1 { font-size: 1.8rem; line-height: 1.2; margin: 0; }
 h2 { font-size: 1.2rem; margin: 2.4rem 0 .7rem; padding-bottom: .3rem; border-bottom: 1px solid #d8dee4; }
-.where, .clock, figcaption, td:last-child:not(:nth-child(2)) { color: #59636e; }
+.where, .times, figcaption, td:last-child:not(:nth-child(2)) { color: #59636e; }
 .where { margin: .3rem 0 0; }
 nav { margin: .8rem 0; font-size: .9rem; }
 a { color: #0a5fb4; text-decoration: none; }

@@ -1,4 +1,4 @@
-"""The resolved case of a run, case.toml, with the values that figures use checked: their kinds and sizes."""
+"""Resolved case of a run, case.toml, with checks of the types and sizes of the values that figures use."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from thawslide.errors import ReportError
 from thawslide.text_files import MEGABYTE, check_depth, is_number, read_text
 
 Case = dict[str, Any]
+
+_REPEAT = "Repeat the run."
 
 _MOST_CELLS = 1e7  # along an axis of the domain
 
@@ -74,39 +76,41 @@ _PROBE: dict[str, Kind] = {"point": (lambda value: value == [] or _is_corner(val
 
 
 def read_case(path: Path) -> Case:
-    """Read the case; ReportError names a key whose value is of another kind than the simulator writes."""
+    """Read the case; ReportError for a value of a different type than the simulator writes."""
     try:
         case = tomllib.loads(read_text(path, 16 * MEGABYTE))
-    except (ValueError, RecursionError) as error:  # an integer of too many digits is a plain ValueError
-        raise ReportError(f"{path}: not valid TOML: {error}") from error
+    except (ValueError, RecursionError) as error:  # an integer of too many digits is a ValueError
+        raise ReportError(f"{path}: not valid TOML ({error}). {_REPEAT}") from error
     check_depth(case, path)
     for name in (*_KINDS, "body", "material", "probe"):
         if not isinstance(case.get(name, {}), dict):
-            raise ReportError(f"{path}: {name} must be a table")
+            raise ReportError(f"{path}: {name}: not a table. {_REPEAT}")
     for name, kinds in _KINDS.items():
         _check(case.get(name, {}), kinds, name, path)
     for name, probe in case.get("probe", {}).items():
         if not isinstance(probe, dict):
-            raise ReportError(f"{path}: probe.{name} must be a table")
+            raise ReportError(f"{path}: probe.{name}: not a table. {_REPEAT}")
         _check(probe, _PROBE, f"probe.{name}", path)
     _check_domain(case.get("grid", {}), path)
     return case
 
 
 def _check(table: dict[str, Any], kinds: dict[str, Kind], name: str, path: Path) -> None:
-    for key, (holds, words) in kinds.items():
-        if key in table and not holds(table[key]):
-            raise ReportError(f"{path}: {name}.{key} must be {words}, found {str(table[key])[:60]}")
+    for key, (is_valid, words) in kinds.items():
+        if key in table and not is_valid(table[key]):
+            found = str(table[key])[:60]
+            raise ReportError(f"{path}: {name}.{key}: invalid value (found {found}; allowed {words}). {_REPEAT}")
 
 
 def _check_domain(grid: dict[str, Any], path: Path) -> None:
     if not {"cell", "min", "max"} <= set(grid):
         return
     if len(grid["min"]) != len(grid["max"]):
-        raise ReportError(f"{path}: grid.min and grid.max have {len(grid['min'])} and {len(grid['max'])} numbers")
+        lengths = f"{len(grid['min'])} and {len(grid['max'])}"
+        raise ReportError(f"{path}: grid: different lengths of min and max (found {lengths}). {_REPEAT}")
     for low, high in zip(grid["min"], grid["max"], strict=True):
         if not 0.0 < (high - low) / grid["cell"] <= _MOST_CELLS:
             raise ReportError(
-                f"{path}: a domain from {low:g} to {high:g} with cells of {grid['cell']:g}: expected above 0 and at "
-                f"most {_MOST_CELLS:g} cells"
+                f"{path}: grid: invalid domain (found {low:g} to {high:g} with cells of {grid['cell']:g}; allowed more "
+                f"than 0 and at most {_MOST_CELLS:,.0f} cells). {_REPEAT}"
             )

@@ -1,4 +1,4 @@
-"""A run folder as Python sees it: the resolved case, the history, the terrain, the snapshots and the targets."""
+"""Python interface of a run folder: resolved case, history, terrain, snapshots and reported values."""
 
 from __future__ import annotations
 
@@ -10,43 +10,46 @@ from typing import Any
 import numpy as np
 
 from thawslide.arrays import Numbers
-from thawslide.clock import Clock, clock_of
 from thawslide.errors import NotInRunError, ReportError, printable, quoted
 from thawslide.force_record import ForceRecord, read_force_record
 from thawslide.history import History, read_history
+from thawslide.number_text import integer_text
 from thawslide.resolved_case import Case, read_case
 from thawslide.run_facts import Ending, ending_of, read_facts
 from thawslide.snapshot import Snapshot, snapshot_time
 from thawslide.targets import Band, Target, read_targets
 from thawslide.text_files import finite_number, is_file, read_table
+from thawslide.time_reference import TimeReference, time_reference_of
 
 __all__ = ["History", "Numbers", "Run", "Snapshot", "Target"]
 
-_HOW = {
+_ENDING_WORDS = {
     Ending.RUNNING: ("still running", "was still running"),
-    Ending.KILLED: ("killed?", "stopped without a word"),
-    Ending.UNTOLD: ("running or killed", "was running or killed"),
+    Ending.KILLED: ("terminated?", "terminated unexpectedly"),
+    Ending.UNDETERMINED: ("running or terminated", "was running or terminated unexpectedly"),
     Ending.STOPPED: ("stopped", "was stopped"),
     Ending.FAILED: ("failed", "failed"),
-}  # in brackets behind a time, and as a verb
+}  # in brackets after a time, and as a verb
 
 
 class Run:
-    """A run folder; files are read when first asked for."""
+    """A run folder; each file is read at first use."""
 
-    def __init__(self, folder: Path | str, leave_out_damaged: bool = False) -> None:
-        """Open a run folder; ReportError when it is none.
+    def __init__(self, folder: Path | str, skip_damaged: bool = False) -> None:
+        """Open a run folder; ReportError if it is none.
 
-        A damaged snapshot is an error, or left out with a warning.
+        A damaged snapshot is an error, or skipped with a warning.
         """
         self.folder = Path(folder)
         if not self.folder.is_dir():
-            raise ReportError(f"{self.folder}: no such folder; give the folder a run has written, e.g. runs/lamplugh")
+            raise ReportError(f"{self.folder}: no such folder. Select the folder of a run, e.g. runs/lamplugh.")
         absent = [name for name in ("case.toml", "history.csv") if not is_file(self.folder / name)]
         if absent:
-            raise ReportError(f"{self.folder}: not a run folder, {' and '.join(absent)} not found there")
+            raise ReportError(
+                f"{self.folder}: not a run folder (found no {' and no '.join(absent)}). Select the folder of a run."
+            )
         self.warnings: list[str] = []
-        self._leave_out_damaged = leave_out_damaged
+        self._skip_damaged = skip_damaged
 
     @cached_property
     def case(self) -> Case:
@@ -65,17 +68,17 @@ class Run:
 
     @property
     def vertical(self) -> int:
-        """The column of points that is drawn upwards: y in 2D, z in 3D."""
+        """The vertical axis of points: 1 (y) in 2D, 2 (z) in 3D."""
         return 1 if self.dimension == 2 else 2
 
     @property
     def per_metre(self) -> bool:
-        """Whether extensive columns are per metre of width: a 2D case that states no width."""
+        """Whether extensive columns are per metre of width, in a 2D case without a width."""
         return self.dimension == 2 and not self.width
 
     @property
     def width(self) -> float:
-        """The width [m] of a 2D case that extensive columns are multiplied by; 0: none. Volumes are per metre of it."""
+        """The width [m] of a 2D case, a factor of extensive columns; 0: none. Particle volumes are per metre of it."""
         width = self.section("case").get("width", 0.0)
         return float(width["value"][0] if isinstance(width, dict) else width)
 
@@ -85,7 +88,7 @@ class Run:
         return np.asarray(volume / self.relative_width(shot.points[:, 0]))
 
     def relative_width(self, x: Numbers) -> Numbers:
-        """Return the width of the section at places x [m] over `width`, 1 where it does not vary."""
+        """Return the ratio of the width of the section at x [m] to `width`, 1 if it is constant."""
         width = self.section("case").get("width", 0.0)
         if not isinstance(width, dict):
             return np.ones_like(x)
@@ -93,36 +96,36 @@ class Run:
 
     @property
     def report_times(self) -> list[float]:
-        """The times [s] the case asks snapshot figures for; empty when it names none."""
+        """The times [s] of snapshot figures in the case; empty without any."""
         return [float(time) for time in self.section("report").get("times", [])]
 
     def section(self, name: str) -> dict[str, Any]:
-        """Return one table of the case file, empty when it is not there."""
+        """Return one table of the case file, empty if it does not exist."""
         return dict(self.case.get(name, {}))
 
     @cached_property
     def history(self) -> History:
-        """The history; a last row cut off while it was written is left out, with a warning."""
+        """The history; an incomplete last row is skipped with a warning."""
         return read_history(self.folder / "history.csv", self.warnings)
 
     @cached_property
-    def clock(self) -> Clock:
-        """The clock of all figures."""
-        return clock_of(self)
+    def time_reference(self) -> TimeReference:
+        """The time reference of all figures."""
+        return time_reference_of(self)
 
     @property
     def shown_time(self) -> Numbers:
-        """The time [s] of each row of the history on the clock of all figures."""
-        return self.history["time_s"] + self.clock.shift
+        """The time [s] of each row of the history as figures show it."""
+        return self.history["time_s"] + self.time_reference.shift
 
     @property
     def has_band_columns(self) -> bool:
-        """Whether the band is of columns: its figures are then means over the base by area."""
+        """Whether the run has band columns; figures of the band are then area-weighted means over the base."""
         return "band_normal_pressure_Pa" in self.history
 
     @cached_property
     def probes(self) -> History | None:
-        """What probes saw through time, None for a run without any."""
+        """Values of probes over time, None for a run without probes."""
         path = self.folder / "probes.csv"
         if not is_file(path):
             return None
@@ -130,111 +133,125 @@ class Run:
 
     @cached_property
     def terrain(self) -> tuple[Numbers, Numbers] | None:
-        """Distance and elevation [m] of the ground, or None for a run without terrain."""
+        """Distance and elevation [m] of the terrain, or None for a run without terrain."""
         path = self.folder / "terrain.csv"
         if not is_file(path):
             return None
         rows = read_table(path, ("distance_m", "terrain_elevation_m")).rows
         if not rows:
-            raise ReportError(f"{path}: no rows after the header")
+            raise ReportError(f"{path}: no rows after the header. Repeat the run.")
         distance, height = (
             np.array([finite_number(row[name], f"{path}:{line}") for line, row in rows])
             for name in ("distance_m", "terrain_elevation_m")
         )
         back = np.flatnonzero(np.diff(distance) <= 0.0)
         if back.size:
-            raise ReportError(f"{path}:{rows[int(back[0]) + 1][0]}: distance_m must rise from row to row")
+            raise ReportError(f"{path}:{rows[int(back[0]) + 1][0]}: distance_m does not increase. Repeat the run.")
         return distance, height
 
     @cached_property
     def targets(self) -> list[Target]:
-        """The reported values to compare with; empty when the case names none."""
+        """The reported values; empty if the case names none."""
         path = self._report_file("targets")
         return read_targets(path) if path else []
 
     @cached_property
     def force_record(self) -> ForceRecord | None:
-        """The force inverted from seismic waves to compare with, None when the case names none."""
+        """The force inverted from seismic waves, None if the case names none."""
         path, report = self._report_file("force_record"), self.section("report")
         if path is None:
             return None
         if "force_periods" not in report:
             case = self.folder / "case.toml"
-            raise ReportError(f"{case}: [report] force_record needs force_periods. Add the periods of its waves [s].")
+            raise ReportError(
+                f"{case}: report.force_periods: missing for report.force_record. Add the periods of its waves [s]."
+            )
         return read_force_record(path, Band(*map(float, report["force_periods"])), str(report.get("force_source", "")))
 
     def _report_file(self, key: str) -> Path | None:
-        """Return the file in the run folder that a key of [report] names, None for no file."""
+        """Return the file in the run folder named by a key of [report], None for no file."""
         name = str(self.section("report").get(key, ""))
         if not name:
             return None
         path, case = self.folder / name, self.folder / "case.toml"
         try:
             within, there = path.resolve().is_relative_to(self.folder.resolve()), path.is_file()
-        except (OSError, RuntimeError, ValueError) as error:  # too long; links that lead round in a circle; a zero byte
-            raise ReportError(f"{case}: [report] {key} {quoted(name)} cannot be read") from error
+        except (OSError, RuntimeError, ValueError) as error:  # too long; circular links; a zero byte
+            raise ReportError(
+                f"{case}: report.{key}: cannot be read (found {quoted(name)}). Correct the name."
+            ) from error
         if not within:
-            raise ReportError(f"{case}: [report] {key} names {path}, outside the run folder")
+            raise ReportError(
+                f"{case}: report.{key}: outside the run folder (found {path}). Copy the file into the run folder."
+            )
         if not there:
-            raise ReportError(f"{path}: no such file; [report] {key} in {case} names it")
+            raise ReportError(f"{path}: no such file. Correct report.{key} in {case}.")
         return path
 
     @cached_property
     def facts(self) -> dict[str, Any]:
-        """What run.json says of version, machine and speed; empty when it is not there."""
+        """The contents of run.json; empty if it does not exist."""
         return read_facts(self.folder / "run.json")
 
     @cached_property
     def ending(self) -> Ending:
-        """How the run ended, if it has."""
+        """The ending of the run."""
         return ending_of(self.folder, self.facts)
 
     @property
-    def ended(self) -> bool:
-        """Whether the run came to its end; one that no run.json tells of is taken to have, and its page says so."""
+    def is_complete(self) -> bool:
+        """Whether the run is complete; assumed if run.json does not exist, with a note on the page."""
         return self.ending in (Ending.DONE, Ending.UNKNOWN)
 
     @property
     def last_time(self) -> float:
-        """The time [s] that the run has come to."""
-        told = self.facts.get("simulated_time_s")
-        of_its_start = self.ending in (Ending.RUNNING, Ending.KILLED, Ending.UNTOLD)  # run.json is
-        return float(self.history["time_s"][-1] if told is None or of_its_start else told)
+        """The simulated time [s]."""
+        stated = self.facts.get("simulated_time_s")
+        is_outdated = self.ending in (Ending.RUNNING, Ending.KILLED, Ending.UNDETERMINED)  # run.json
+        return float(self.history["time_s"][-1] if stated is None or is_outdated else stated)
 
     @property
-    def moves_at_end(self) -> bool:
-        """Whether the slide was not at rest at the end of the run, as run.json has it."""
+    def is_moving_at_end(self) -> bool:
+        """Whether the sliding mass was not at rest at the end of the run, according to run.json."""
         return self.facts.get("at_rest") is False
 
     @property
     def rest_since(self) -> float:
-        """Time of the run since which the slide has been at rest [s]; inf if it is not."""
+        """The time of the run [s] at which the sliding mass came to rest; inf if it did not."""
         since = self.facts.get("rest_since_s")
         return float(since) if self.facts.get("at_rest") is True and since is not None else float("inf")
 
     def titled(self, words: str) -> str:
-        """Return the title of a figure of the whole run, which names the time if the slide is not at rest."""
-        return f"{self.title}: {words}" + (f", up to {self.last_state}" if self.ended and self.moves_at_end else "")
+        """Return the title of a figure of the whole run, with its last time if the mass is not at rest."""
+        return f"{self.title}: {words}" + (
+            f", up to {self.last_state}" if self.is_complete and self.is_moving_at_end else ""
+        )
 
     @property
     def last_state(self) -> str:
-        """When the last state of the run is, and what keeps it from being a deposit, as "19.5 s (stopped)"."""
-        how = _HOW[self.ending][0] if not self.ended else "not at rest" if self.moves_at_end else ""
-        return f"{self.last_time + self.clock.shift:.4g} s{f' ({how})' if how else ''}"
+        """The time of the last state, and the reason if it is not a deposit, for example "19.5 s (stopped)"."""
+        reason = (
+            _ENDING_WORDS[self.ending][0] if not self.is_complete else "not at rest" if self.is_moving_at_end else ""
+        )
+        return f"{self._shown(self.last_time)} s{f' ({reason})' if reason else ''}"
 
     @property
     def end_note(self) -> str:
-        """A sentence for figures of a run that did not come to its end, or not to rest; "" for others."""
-        last = self.last_time + self.clock.shift
-        if self.ended:
-            return f"The slide is not at rest at {last:.4g} s. " if self.moves_at_end else ""
-        wanted = self.section("time").get("end")
-        of_wanted = f" of {wanted + self.clock.shift:.4g} s" if wanted else ""
-        return f"The run {_HOW[self.ending][1]} at {last:.4g} s{of_wanted}. "
+        """A sentence for figures of a run that is incomplete or not at rest; "" for others."""
+        last = self._shown(self.last_time)
+        if self.is_complete:
+            return f"The sliding mass is not at rest at {last} s. " if self.is_moving_at_end else ""
+        end = self.section("time").get("end")
+        of_end = f" of {self._shown(end)} s" if end else ""
+        return f"The run {_ENDING_WORDS[self.ending][1]} at {last} s{of_end}. "
+
+    def _shown(self, time: float) -> str:
+        """Return a time [s] of the run as figures show it."""
+        return integer_text(time + self.time_reference.shift)
 
     @cached_property
     def snapshot_files(self) -> list[Path]:
-        """The snapshot files in order of their numbers; a gap between these is told in a warning."""
+        """The snapshot files in order of their numbers; a missing number is a warning."""
         folder = self.folder / "snapshots"
         numbered = {
             int(path.stem): path
@@ -243,37 +260,38 @@ class Run:
         }
         missing = next((number for number in range(len(numbered)) if number not in numbered), None)
         if missing is not None:
-            self.warnings.append(f"{folder / f'{missing:06d}.vtkhdf'}: not there; the figures have the others")
-        return [path for _, path in sorted(numbered.items()) if not self._leave_out_damaged or self._is_whole(path)]
+            self.warnings.append(f"{folder / f'{missing:06d}.vtkhdf'}: missing. The figures use the other snapshots.")
+        return [path for _, path in sorted(numbered.items()) if not self._skip_damaged or self._is_readable(path)]
 
     @cached_property
     def times(self) -> Numbers:
         """The time [s] of every snapshot, shape (snapshots,)."""
         return np.array([snapshot_time(path) for path in self.snapshot_files], dtype=np.float64)
 
-    def _is_whole(self, path: Path) -> bool:
-        """Return whether a snapshot can be opened; one that cannot is told in a warning."""
+    def _is_readable(self, path: Path) -> bool:
+        """Return whether a snapshot can be opened; if it cannot, add a warning."""
         try:
             snapshot_time(path)
         except ReportError as error:
-            self.warnings.append(f"{error}; the figures have the others")
+            self.warnings.append(f"{error} The figures use the other snapshots.")
             return False
         return True
 
     def snapshot(
         self, index: int | None = None, *, time: float | None = None, fields: Collection[str] | None = None
     ) -> Snapshot:
-        """Read one snapshot by its place in `times` (negative: from the end), or the one nearest to a time [s].
+        """Read one snapshot by its index in `times` (negative: from the end), or the one nearest to a time [s].
 
-        Without `fields` all fields are read.
+        By default all fields are read.
         """
         if (index is None) == (time is None):
-            raise ValueError("give either an index or a time")
+            raise ValueError("snapshot: either an index or a time is required")
         if not self.snapshot_files:
-            raise NotInRunError(f"{self.folder}: no snapshots; set [time] output_interval and run again")
+            raise NotInRunError(f"{self.folder}: no snapshots. Set time.output_interval and repeat the run.")
         if time is not None:
             index = int(np.argmin(np.abs(self.times - time)))
         assert index is not None
         if not -len(self.snapshot_files) <= index < len(self.snapshot_files):
-            raise ReportError(f"{self.folder}: no snapshot {index}; there are {len(self.snapshot_files)}")
+            count = len(self.snapshot_files)
+            raise ReportError(f"{self.folder}: no snapshot {index} (found {count} snapshots). Select an existing one.")
         return Snapshot(self.snapshot_files[index], fields)

@@ -1,4 +1,4 @@
-"""What run.json says of a run, and whether one that it calls running still is."""
+"""Facts of a run in run.json, and whether a run with the status running still runs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from typing import Any
 from thawslide.errors import ReportError
 from thawslide.text_files import MEGABYTE, is_number, read_json
 
-LOCK = "run.lock"  # held with flock by the process that runs, for as long as it lives
+_REPEAT = "Repeat the run."
+LOCK = "run.lock"  # held with flock by the running process
 STATUSES = ("running", "done", "stopped", "failed")
 NUMBERS = (
     "simulated_time_s",
@@ -29,42 +30,45 @@ NUMBERS = (
     "travel_distance_m",
     "drop_height_m",
     "angle_of_reach_degrees",
-)  # that figures and key numbers use; null: not known
+)  # used by figures and key numbers; null: unknown
 
 
 class Ending(Enum):
-    """How a run ended, or that it has not."""
+    """Ending of a run."""
 
     DONE = "done"
     STOPPED = "stopped"
     FAILED = "failed"
     RUNNING = "running"
     KILLED = "killed"  # run.json says running, and no process holds the lock
-    UNTOLD = "running or killed"  # run.json says running, and the file system has no locks to tell by
+    UNDETERMINED = "running or killed"  # run.json says running, and the file system has no locks
     UNKNOWN = "unknown"  # there is no run.json
 
 
 def read_facts(path: Path) -> dict[str, Any]:
-    """Read run.json, nothing where there is none; ReportError when it is damaged."""
+    """Read run.json, nothing if it does not exist; ReportError if it is damaged."""
     if not os.path.lexists(path):
         return {}
     facts = read_json(path, 16 * MEGABYTE)
     if facts.get("status") not in STATUSES:
-        raise ReportError(f"{path}: status must be {', '.join(STATUSES)}, found {str(facts.get('status'))[:60]}")
+        found = str(facts.get("status"))[:60]
+        raise ReportError(f"{path}: status: invalid value (found {found}; allowed {', '.join(STATUSES)}). {_REPEAT}")
     for name in NUMBERS:
         value = facts.get(name)
         if value is not None and not is_number(value):
-            raise ReportError(f"{path}: {name} must be a number, found {str(value)[:60]}")
+            raise ReportError(f"{path}: {name}: not a number (found {str(value)[:60]}). {_REPEAT}")
     if not isinstance(facts.get("at_rest"), bool | None):
-        raise ReportError(f"{path}: at_rest must be true, false or null, found {str(facts['at_rest'])[:60]}")
+        raise ReportError(
+            f"{path}: at_rest: invalid value (found {str(facts['at_rest'])[:60]}; allowed true, false, null). {_REPEAT}"
+        )
     warnings = facts.get("warnings", [])
     if not isinstance(warnings, list) or not all(isinstance(each, str) for each in warnings):
-        raise ReportError(f"{path}: warnings must be a list of texts, found {str(warnings)[:60]}")
+        raise ReportError(f"{path}: warnings: not a list of texts (found {str(warnings)[:60]}). {_REPEAT}")
     return facts
 
 
 def ending_of(folder: Path, facts: dict[str, Any]) -> Ending:
-    """Return how a run ended. While a process holds its lock it runs, whatever run.json says: it may have resumed."""
+    """Return the ending of a run. It runs while a process holds its lock, because it can have been resumed."""
     held = is_held(folder / LOCK)
     if held:
         return Ending.RUNNING
@@ -73,26 +77,26 @@ def ending_of(folder: Path, facts: dict[str, Any]) -> Ending:
     ending = Ending(facts["status"])
     if ending is not Ending.RUNNING:
         return ending
-    return Ending.UNTOLD if held is None else Ending.KILLED
+    return Ending.UNDETERMINED if held is None else Ending.KILLED
 
 
 def last_write_age(folder: Path) -> float:
-    """Return how long ago [s] the file of a run was written that was written last; nan where there is none."""
+    """Return the time [s] since the last write to a file of a run; nan without files."""
     ages = []
     for file in (*folder.glob("*"), *folder.glob("snapshots/*")):
-        with suppress(OSError):  # a run that lives renames its files
+        with suppress(OSError):  # a running process renames its files
             if file.is_file():
                 ages.append(time.time() - file.stat().st_mtime)
     return min(ages, default=math.nan)
 
 
 def is_held(lock: Path) -> bool | None:
-    """Return whether a process holds a lock file; None where the file system has no locks, as some network disks.
+    """Return whether a process holds a lock file; None if the file system has no locks, as some network disks.
 
-    A shared lock is asked for, so that several can ask at once.
+    The request is for a shared lock, which several processes can hold at once.
     """
     try:
-        # Without O_NONBLOCK a pipe of that name would wait for ever.
+        # Without O_NONBLOCK, opening a pipe of that name would block forever.
         handle = os.open(lock, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
     except OSError:
         return False
@@ -103,5 +107,5 @@ def is_held(lock: Path) -> bool | None:
     except OSError:
         return None
     finally:
-        os.close(handle)  # which lets go of the lock
+        os.close(handle)  # releases the lock
     return False

@@ -1,4 +1,4 @@
-"""A set-up on a DEM from above, before it runs: shaded terrain, domain, release with its thickness, path and probes."""
+"""Map of the setup of a case on a DEM: hillshade, domain, release with its thickness, flow path and probes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
 from thawslide.arrays import Numbers
-from thawslide.figures.colours import THICKNESS, colour_range, number_text
+from thawslide.figures.colours import THICKNESS, colour_range
 from thawslide.figures.map_page import MapPage
 from thawslide.figures.map_panel import (
     HALO,
@@ -22,14 +22,15 @@ from thawslide.figures.map_panel import (
     box_about,
     colour_map,
     covered_box,
+    label_place,
     make_scene,
-    name_place,
     paint,
     quiet_corner,
     scale_bar,
 )
-from thawslide.figures.style import BLACK, BLUE, GREEN, PURPLE, RED, styled, volume_text
+from thawslide.figures.style import BLACK, BLUE, GREEN, PURPLE, RED, styled
 from thawslide.maps import Box, Grid, Map
+from thawslide.number_text import number_text, volume_text
 
 MOST_CELLS = 1e7  # along an axis of the domain
 _BODY_COLOURS = (BLACK, BLUE, GREEN, PURPLE)
@@ -40,7 +41,7 @@ _HATCH = "#5B7F95"
 
 @dataclass(frozen=True)
 class Release:
-    """A body of a set-up: closed outlines, each of shape (n, 2) [m]; volume [m3] and thickness [m] where known."""
+    """A body of a setup: closed outlines, each of shape (n, 2) [m]; volume [m3] and thickness [m] if known."""
 
     name: str
     material: str
@@ -51,7 +52,7 @@ class Release:
 
 @dataclass(frozen=True)
 class Substrates:
-    """Names of the substrates, and which lies where: its place among the names from 1, 0 for none."""
+    """Names of the substrates, and the number of the name in each cell, from 1; 0 for none."""
 
     names: list[str]
     numbers: Map
@@ -59,7 +60,7 @@ class Substrates:
 
 @dataclass(frozen=True)
 class SetupOnMap:
-    """What a case on a DEM sets up; lines are of shape (n, 2) [m]."""
+    """Setup of a case on a DEM; lines are of shape (n, 2) [m]."""
 
     title: str
     cell: float  # m, of the simulator's grid
@@ -72,7 +73,7 @@ class SetupOnMap:
 
 
 def setup_on_map(data: dict[str, Any]) -> SetupOnMap:
-    """Return a set-up from what the simulator wrote; KeyError, TypeError or ValueError where a part is missing."""
+    """Return a setup from the data of the simulator; KeyError, TypeError or ValueError if a part is missing."""
     crs = str(data.get("crs") or "")
     west, south = (float(value) for value in data["min"][:2])
     east, north = (float(value) for value in data["max"][:2])
@@ -101,14 +102,14 @@ def setup_on_map(data: dict[str, Any]) -> SetupOnMap:
 
 
 def check_domain(low: tuple[float, float], high: tuple[float, float], cell: float) -> None:
-    """Raise ValueError for a domain [m] that is none, or has more cells than any."""
+    """Raise ValueError for a domain [m] without extent or with too many cells."""
     for start, end in zip(low, high, strict=True):
         if not (np.isfinite([start, end]).all() and cell > 0.0 and 0.0 < (end - start) / cell <= MOST_CELLS):
-            raise ValueError(f"a domain from {start:g} to {end:g} m with cells of {cell:g} m")
+            raise ValueError(f"domain from {start:g} to {end:g} m with cells of {cell:g} m")
 
 
 def numbers_of(values: Any) -> Numbers:
-    """Return a list as finite numbers; ValueError or TypeError where one is not."""
+    """Return a list as finite numbers; ValueError or TypeError if one is not."""
     numbers = np.array(values, dtype=np.float64)
     if not np.isfinite(numbers).all():
         raise ValueError("a number is missing or not finite")
@@ -130,7 +131,7 @@ def _raster(data: dict[str, Any], crs: str) -> Map:
     )  # fmt: skip
     numbers_of([grid.x0, grid.y0, grid.cell_x, grid.cell_y])
     if min(grid.cell_x, grid.cell_y) <= 0.0 or min(grid.columns, grid.rows) < 1:
-        raise ValueError(f"a raster of {grid.columns} x {grid.rows} cells of {grid.cell_x:g} x {grid.cell_y:g} m")
+        raise ValueError(f"raster of {grid.columns} x {grid.rows} cells of {grid.cell_x:g} x {grid.cell_y:g} m")
     values = np.array(data["heights"], dtype=np.float64)  # null becomes nan
     if values.size != grid.rows * grid.columns:
         raise ValueError(f"{values.size} heights for {grid.columns} columns and {grid.rows} rows")
@@ -138,8 +139,8 @@ def _raster(data: dict[str, Any], crs: str) -> Map:
 
 
 @styled
-def draw_setup_on_map(setup: SetupOnMap) -> Figure:
-    """Draw the whole domain, and a close look at the release with the thickness it starts with."""
+def plot_setup_on_map(setup: SetupOnMap) -> Figure:
+    """Map the whole domain, and the release at a larger scale with its initial thickness."""
     terrain = setup.terrain
     overview = make_scene(terrain, box_about([setup.domain]))
     boxes = [_box_of(outline) for release in setup.releases for outline in release.outlines]
@@ -151,7 +152,7 @@ def draw_setup_on_map(setup: SetupOnMap) -> Figure:
     columns = 4 if len(setup.releases) < 2 else 3
     foot = 0.05 + 0.18 * -(-len(handles) // columns)
     page = MapPage(
-        f"{setup.title}: set-up", overview, len(scenes), note=_note(scenes), foot=foot, bar=0.62, own_scenes=True
+        f"{setup.title}: setup", overview, len(scenes), note=_note(scenes), foot=foot, bar=0.62, has_own_scenes=True
     )
     painter, extend = _painter(setup)
     panels = []
@@ -159,12 +160,12 @@ def draw_setup_on_map(setup: SetupOnMap) -> Figure:
         axes = page.panel(number, labels=True, scene=scene)
         box = "; box: (b)" if number == 0 and len(scenes) > 1 else ""
         panels.append((axes, words + box, f"grid cells of {setup.cell:g} m" if number == 1 else ""))
-        _draw_parts(axes, setup, painter)
+        _plot_parts(axes, setup, painter)
         scale_bar(axes, quiet_corner(_all_thickness(setup), scene.box))
         if number == len(scenes) - 1 and painter is not None:
             bar = page.figure.colorbar(painter, cax=page.panel_bar(axes), extend=extend)
-            bar.set_label("thickness (m)", labelpad=2)
-    page.name(panels)
+            bar.set_label("release thickness (m)", labelpad=2)
+    page.set_titles(panels)
     if len(scenes) > 1:
         _frame(page.figure.axes[0], scenes[1].box, RED, 1.0)
     page.legend(handles, columns)
@@ -172,14 +173,14 @@ def draw_setup_on_map(setup: SetupOnMap) -> Figure:
 
 
 def _note(scenes: list[Scene]) -> str:
-    """Say how the terrain of both maps is drawn, of the second where it differs."""
+    """Return sentences on coordinates and terrain of both maps."""
     note = scenes[0].note()
-    if len(scenes) > 1 and scenes[1].drawn() != scenes[0].drawn():
-        note += f" In (b){scenes[1].drawn() or ' without contour lines'}."
+    if len(scenes) > 1 and scenes[1].hillshade_words() != scenes[0].hillshade_words():
+        note += f" (b): {scenes[1].hillshade_words().removeprefix(', ') or 'no contour lines'}."
     return note
 
 
-def _draw_parts(axes: Axes, setup: SetupOnMap, painter: ScalarMappable | None) -> None:
+def _plot_parts(axes: Axes, setup: SetupOnMap, painter: ScalarMappable | None) -> None:
     if painter is not None:
         for thickness in each_cell_once([each.thickness for each in setup.releases if each.thickness is not None]):
             paint(axes, Map(thickness.grid, np.where(thickness.values > 0.0, thickness.values, np.nan)), painter)
@@ -196,7 +197,7 @@ def _draw_parts(axes: Axes, setup: SetupOnMap, painter: ScalarMappable | None) -
             *points.T, color=PURPLE, marker="D" if len(points) == 1 else "", markeredgecolor="white", markersize=5,
             linewidth=1.6, path_effects=None if len(points) == 1 else HALO, zorder=7,
         )  # fmt: skip
-        name_place(axes, name, (float(points[-1][0]), float(points[-1][1])))
+        label_place(axes, name, (float(points[-1][0]), float(points[-1][1])))
 
 
 def _hatch(axes: Axes, substrates: Substrates) -> None:
@@ -213,11 +214,11 @@ def _hatch(axes: Axes, substrates: Substrates) -> None:
 
 
 def each_cell_once(thicknesses: list[Map]) -> list[Map]:
-    """Return maps no two of which fill a cell: bodies that touch share cells, and the first one gets the sum."""
+    """Return maps of which at most one fills a cell: in cells of adjoining bodies, the first one has the sum."""
     filled = [np.nan_to_num(each.values) for each in thicknesses]
     for number, each in enumerate(thicknesses):
         for before in range(number):
-            cells = _shared_cells(thicknesses[before].grid, each.grid)
+            cells = _common_cells(thicknesses[before].grid, each.grid)
             if cells is not None:
                 first, second = filled[before][cells[0]], filled[number][cells[1]]  # views
                 both = (first > 0.0) & (second > 0.0)
@@ -226,8 +227,8 @@ def each_cell_once(thicknesses: list[Map]) -> list[Map]:
     return [Map(each.grid, values) for each, values in zip(thicknesses, filled, strict=True)]
 
 
-def _shared_cells(one: Grid, other: Grid) -> tuple[tuple[slice, slice], tuple[slice, slice]] | None:
-    """Return rows and columns that two grids share, in the indices of each; None where cells do not coincide."""
+def _common_cells(one: Grid, other: Grid) -> tuple[tuple[slice, slice], tuple[slice, slice]] | None:
+    """Return the common rows and columns of two grids, in the indices of each; None if cells do not coincide."""
     cells: list[tuple[slice, slice]] = []
     for first, second, size, other_size, count, other_count in (
         (one.y0, other.y0, one.cell_y, other.cell_y, one.rows, other.rows),
@@ -262,7 +263,7 @@ def _all_thickness(setup: SetupOnMap) -> Map | None:
 
 
 def _painter(setup: SetupOnMap) -> tuple[ScalarMappable | None, str]:
-    """Return what paints the thickness of all releases on one scale, None where none is known."""
+    """Return the common scale of the thickness of all releases, None if none is known."""
     found = [release.thickness.values.ravel() for release in setup.releases if release.thickness is not None]
     values = np.concatenate(found) if found else np.zeros(0)
     values = values[np.nan_to_num(values) > 0.0]
@@ -279,7 +280,7 @@ def _legend(setup: SetupOnMap) -> list[Patch | Line2D]:
         if release.volume is not None:
             label += f": {volume_text(release.volume)}"
         if release.thickness is not None and np.isfinite(release.thickness.values).any():
-            label += f", up to {number_text(float(np.nanmax(release.thickness.values)))} m thick"
+            label += f", maximum thickness {number_text(float(np.nanmax(release.thickness.values)))} m"
         handles.append(Line2D([], [], color=_BODY_COLOURS[number % len(_BODY_COLOURS)], linewidth=1.2, label=label))
     for number, name in enumerate(setup.substrates.names if setup.substrates is not None else []):
         handles.append(
@@ -287,7 +288,7 @@ def _legend(setup: SetupOnMap) -> list[Patch | Line2D]:
         )
     handles.append(Line2D([], [], color=BLACK, linestyle="--", linewidth=1.4, label="domain"))
     if setup.path is not None:
-        handles.append(Line2D([], [], color=_PATH, linewidth=1.2, label="path"))
+        handles.append(Line2D([], [], color=_PATH, linewidth=1.2, label="flow path"))
     if setup.probes:
         handles.append(Line2D([], [], color=PURPLE, marker="D", markersize=5, label="probe"))
     return handles

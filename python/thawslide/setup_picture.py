@@ -1,4 +1,4 @@
-"""A set-up before it runs, in section: terrain, grid, bodies, boundaries and frames; the whole, and the bodies near."""
+"""Figure of the setup of a 2D case: terrain, grid, bodies, boundaries and frames."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ from thawslide.figures.style import (
     styled,
 )
 from thawslide.figures.window import Window, fill_terrain, fit, squares
-from thawslide.setup_map import SetupOnMap, check_domain, draw_setup_on_map, numbers_of, setup_on_map
+from thawslide.setup_map import SetupOnMap, check_domain, numbers_of, plot_setup_on_map, setup_on_map
 from thawslide.text_files import MEGABYTE, read_json
 
 _BODY_COLOURS = (BLUE, ORANGE, GREEN, PURPLE, SKY)
 _SUBSTRATE_COLOURS = (SKY, RED, GREEN, PURPLE)
 _SIDE_LINES: dict[str, Any] = {"fixed": "-", "roller": "--", "open": ":"}
-_SMALLEST_CELL = 0.05  # inches: where cells are smaller on the page, lines are left out
-_SMALLEST_GAP = 0.05  # inches between particles: where they are closer they are drawn touching
+_SMALLEST_CELL = 0.05  # inches on the page: for smaller cells, grid lines are omitted
+_SMALLEST_GAP = 0.05  # inches between particles: without gaps if they are closer
 _MARGINS = (1.03, 1.1)
 _WIDTH, _LEFT, _RIGHT = 10.0, 0.8, 0.25
 
@@ -64,7 +64,7 @@ class Frame:
 
 @dataclass(frozen=True)
 class Setup:
-    """What a case sets up: cell size [m], corners of the domain [m], and what stands in it."""
+    """Setup of a case: cell size [m], corners of the domain [m], and its contents."""
 
     title: str
     cell: float
@@ -75,13 +75,13 @@ class Setup:
     bodies: list[Body]
     frames: list[Frame]
     substrates: list[str] = field(default_factory=list)
-    substrate_numbers: Numbers | None = None  # of the terrain's points: places among the names from 1, 0 for none
+    substrate_numbers: Numbers | None = None  # at the points of the terrain, from 1; 0 for none
 
 
 def read_setup(path: Path) -> Setup | SetupOnMap:
-    """Read a set-up as the simulator writes it; ReportError when it is missing or lacks a part.
+    """Read a setup file of the simulator; ReportError if it does not exist or is incomplete.
 
-    One whose terrain has heights over the plane is on a DEM.
+    A setup whose terrain has heights over the plane is on a DEM.
     """
     data = read_json(path, 1024 * MEGABYTE)
     try:
@@ -90,13 +90,17 @@ def read_setup(path: Path) -> Setup | SetupOnMap:
             return setup_on_map(data)
         return _setup_in_section(data)
     except KeyError as error:
-        raise ReportError(f"{path}: no key {error}; this is not a set-up the simulator wrote") from error
+        raise ReportError(
+            f"{path}: not a setup of the simulator (found no key {error}). Repeat `thawslide check --picture`."
+        ) from error
     except (ArithmeticError, AttributeError, TypeError, ValueError, IndexError) as error:
-        raise ReportError(f"{path}: not a set-up the simulator wrote: {error}") from error
+        raise ReportError(
+            f"{path}: not a setup of the simulator ({error}). Repeat `thawslide check --picture`."
+        ) from error
 
 
 def _setup_in_section(data: dict[str, Any]) -> Setup:
-    """Return a set-up from what the simulator wrote; KeyError, TypeError or ValueError where a part is missing."""
+    """Return a setup from the data of the simulator; KeyError, TypeError or ValueError if a part is missing."""
     terrain, substrates = data.get("terrain"), data.get("substrates")
     low, high, cell = _pair(data["min"]), _pair(data["max"]), float(data["cell"])
     check_domain(low, high, cell)
@@ -121,25 +125,27 @@ def _setup_in_section(data: dict[str, Any]) -> Setup:
     return Setup(str(data["title"]), cell, low, high, boundary, ground, bodies, frames, names, numbers)
 
 
-def draw_setup_file(setup: Path, picture: Path, dpi: int = 150) -> None:
-    """Draw the set-up in the file `setup` into the file `picture`."""
+def plot_setup_file(setup: Path, picture: Path, dpi: int = 150) -> None:
+    """Plot the setup in the file `setup` into the file `picture`."""
     kinds = FigureCanvasBase.get_supported_filetypes()
     if picture.suffix.lower().removeprefix(".") not in kinds:
-        raise ReportError(f"{picture}: cannot be written: its name must end with one of .{', .'.join(kinds)}")
+        raise ReportError(
+            f"{picture}: unknown file type (allowed: .{', .'.join(kinds)}). Change the ending of the name."
+        )
     found = read_setup(setup)
     try:
-        figure = draw_setup_on_map(found) if isinstance(found, SetupOnMap) else draw_setup(found)
+        figure = plot_setup_on_map(found) if isinstance(found, SetupOnMap) else plot_setup(found)
         picture.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(picture, dpi=dpi)
     except OSError as error:
-        raise ReportError(f"{picture}: cannot be written: {error}") from error
+        raise ReportError(f"{picture}: cannot be written ({error}). Select another file.") from error
     except (ValueError, ArithmeticError, MemoryError) as error:
-        raise ReportError(f"{setup}: cannot be drawn into {picture}: {error}") from error
+        raise ReportError(f"{setup}: cannot be plotted ({error}). Check the values of the case.") from error
 
 
 @styled
-def draw_setup(setup: Setup) -> Figure:
-    """Draw the whole domain above and the bodies with the grid's cells below."""
+def plot_setup(setup: Setup) -> Figure:
+    """Plot the whole domain above, and below it the bodies with the cells of the grid."""
     box_width = _WIDTH - _LEFT - _RIGHT
     shape = (setup.high[1] - setup.low[1]) * _MARGINS[1] / ((setup.high[0] - setup.low[0]) * _MARGINS[0])
     overview_height = float(np.clip(box_width * shape, 1.2, 3.4))
@@ -147,7 +153,7 @@ def draw_setup(setup: Setup) -> Figure:
     legend = _legend(setup)
     height = 0.75 + overview_height + 0.95 + zoom_height + 0.65 + 0.2 * -(-len(legend) // 4)
     figure = Figure(figsize=(_WIDTH, height))
-    figure.suptitle(f"{setup.title}: set-up", x=_LEFT / _WIDTH, y=1 - 0.16 / height, ha="left", va="top", size=12)
+    figure.suptitle(f"{setup.title}: setup", x=_LEFT / _WIDTH, y=1 - 0.16 / height, ha="left", va="top", size=12)
 
     def place(top: float, high: float) -> Axes:
         return figure.add_axes((_LEFT / _WIDTH, 1 - (top + high) / height, box_width / _WIDTH, high / height))
@@ -156,7 +162,7 @@ def draw_setup(setup: Setup) -> Figure:
     whole = _fit_domain(setup, box_width / overview_height)
     near = _fit_bodies(setup, box_width / zoom_height)
     for axes, window, inches in ((overview, whole, overview_height), (zoom, near, zoom_height)):
-        _draw_section(axes, setup, window, (box_width, inches))
+        _plot_section(axes, setup, window, (box_width, inches))
     overview.add_patch(
         Rectangle(
             (near.left, near.bottom),
@@ -192,7 +198,7 @@ def _fit_bodies(setup: Setup, box: float) -> Window:
     return fit((low[0], high[0]), (low[1], high[1]), box, (setup.low[0], setup.high[0]))
 
 
-def _draw_section(axes: Axes, setup: Setup, window: Window, inches: tuple[float, float]) -> None:
+def _plot_section(axes: Axes, setup: Setup, window: Window, inches: tuple[float, float]) -> None:
     fill_terrain(axes, setup.terrain, window.bottom)
     for number, body in enumerate(setup.bodies):
         apart = body.spacing * inches[0] / (window.right - window.left)
@@ -230,7 +236,7 @@ def _draw_substrates(axes: Axes, setup: Setup) -> None:
 
 
 def _draw_grid(axes: Axes, setup: Setup, window: Window, inches: tuple[float, float]) -> str:
-    """Draw the cell borders inside the window; return what was drawn, in words."""
+    """Draw the cell borders in the window; return their description."""
     x = _lines(setup.low[0], setup.high[0], window.left, window.right, setup.cell)
     z = _lines(setup.low[1], setup.high[1], window.bottom, window.top, setup.cell)
     every = _every(setup.cell * min(inches[0] / (window.right - window.left), inches[1] / (window.top - window.bottom)))
@@ -240,11 +246,11 @@ def _draw_grid(axes: Axes, setup: Setup, window: Window, inches: tuple[float, fl
     ]
     axes.add_collection(LineCollection(segments, colors="#9AA0A6", linewidths=0.3, zorder=2.5), autolim=False)
     cells = f"cells of {setup.cell:g} m"
-    return cells if every == 1 else f"{cells}, one line in {every} drawn"
+    return cells if every == 1 else f"{cells}, one grid line per {every} cells"
 
 
 def _every(cell: float) -> int:
-    """Return how many cells of this size on the page [inches] lie between drawn lines: 1, 2, 5, 10, 20, ..."""
+    """Return the number of cells of this size on the page [inches] between grid lines: 1, 2, 5, 10, 20, ..."""
     needed = _SMALLEST_CELL / cell
     power = 1
     while True:
@@ -255,7 +261,7 @@ def _every(cell: float) -> int:
 
 
 def _lines(low: float, high: float, start: float, end: float, cell: float) -> Numbers:
-    """Return the cell borders of low..high that lie in start..end [m]."""
+    """Return the cell borders of low..high within start..end [m]."""
     first = max(0, int(np.ceil((start - low) / cell)))
     last = int(np.floor((min(end, high) - low) / cell + 1e-9))
     return low + cell * np.arange(first, last + 1, dtype=np.float64)
@@ -265,7 +271,7 @@ def _legend(setup: Setup) -> list[Patch | Line2D]:
     handles: list[Patch | Line2D] = []
     for number, body in enumerate(setup.bodies):
         colour = _BODY_COLOURS[number % len(_BODY_COLOURS)]
-        label = f"{body.name} ({body.material}): {len(body.points):,} particles, {body.spacing:g} m apart"
+        label = f"{body.name} ({body.material}): {len(body.points):,} particles, spacing {body.spacing:g} m"
         handles.append(Patch(facecolor=colour, label=label))
     if setup.terrain is not None:
         handles.append(Patch(facecolor=GROUND, edgecolor=GROUND_LINE, label="terrain"))

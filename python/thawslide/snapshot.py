@@ -1,4 +1,4 @@
-"""One snapshot of the particles, as HDF5 holds it: checked before it is read, since a kill or a disk may damage it."""
+"""Snapshot of the particles in HDF5, checked before it is read, because a kill or a disk can damage it."""
 
 from __future__ import annotations
 
@@ -22,27 +22,27 @@ from thawslide.errors import NotInRunError, ReportError, quoted
 from thawslide.text_files import is_file
 
 _COMPONENTS = {"velocity": {3}, "displacement": {3}, "stress": {6}, "mass": {1}, "volume": {1}, "in_band": {1}}
-_ANY = {1, 3, 6}  # of other fields: scalars, vectors and tensors
-_FAULTS = (OSError, RuntimeError, KeyError, ValueError, TypeError, MemoryError)  # what h5py says of a damaged file
-_MOST_MEMORY = 2**29  # bytes that reading may take beside a few times those of the file: HDF5 trusts sizes in it
-_BOUNDING = threading.RLock()  # the bound is the whole process's: the thread that set it lifts it
-_AGAIN = "it is damaged; remove it or run the case again"
+_ANY = {1, 3, 6}  # other fields: scalars, vectors and tensors
+_FAULTS = (OSError, RuntimeError, KeyError, ValueError, TypeError, MemoryError)  # of h5py for a damaged file
+_MOST_MEMORY = 2**29  # bytes, in addition to four times the file size: HDF5 trusts sizes in the file
+_LIMIT_LOCK = threading.RLock()  # the limit applies to the process: the thread that sets it removes it
+_REMEDY = "Remove it, or repeat the run."
 
 
 class Snapshot(Mapping[str, NDArray[Any]]):
-    """Every particle at one time: points [m] of shape (n, 3) and the fields by name, rows sorted by id.
+    """All particles at one time: points [m] of shape (n, 3) and fields by name, rows sorted by id.
 
-    `base` has what each piece of base with a band column holds, by name with its unit, of shape (pieces,), and
-    "position_m" of shape (pieces, 3); it is empty where the band is not of columns.
+    `base` contains the quantities of basal segments, by name with unit, of shape (segments,), and "position_m" of shape
+    (segments, 3). It is empty without band columns.
     """
 
     def __init__(self, path: Path, fields: Collection[str] | None = None) -> None:
-        """Read one snapshot file, all its fields or those named; ReportError when it is damaged or incomplete."""
+        """Read one snapshot file, all its fields or those named; ReportError if it is damaged or incomplete."""
         self.path = path
         with _opened(path) as file:
             self.time, self.step = file.time, file.step
             if not {"Points", "PointData"} <= set(file.names("VTKHDF")):
-                raise ReportError(f"{path}: snapshot without Points or PointData; {_AGAIN}")
+                raise ReportError(f"{path}: damaged (found no Points or PointData). {_REMEDY}")
             self.points: Numbers = file.array("VTKHDF/Points", {3}).astype(np.float64)
             self._fields: dict[str, NDArray[Any]] = {}
             self._units: dict[str, str] = {}
@@ -57,11 +57,11 @@ class Snapshot(Mapping[str, NDArray[Any]]):
                 components = {3} if name == "position_m" else {1}
                 self.base[name] = file.array(f"base/{name}", components).astype(np.float64)
         if len({len(values) for values in self.base.values()}) > 1:
-            raise ReportError(f"{path}: columns of the base differ in their numbers of rows; {_AGAIN}")
+            raise ReportError(f"{path}: damaged (found different numbers of rows in the base). {_REMEDY}")
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name not in self._fields:
-            raise NotInRunError(f"{self.path}: no field {name}; it has {', '.join(self._fields) or 'none'}")
+            raise NotInRunError(f"{self.path}: no field {name} (found: {', '.join(self._fields) or 'none'}).")
         return self._fields[name]
 
     def __contains__(self, name: object) -> bool:
@@ -80,22 +80,22 @@ class Snapshot(Mapping[str, NDArray[Any]]):
         return other
 
     def unit(self, name: str) -> str:
-        """Return the unit of a field as the file states it, "" where it states none."""
+        """Return the unit of a field in the file, "" without one."""
         self[name]
         return self._units[name]
 
 
 def snapshot_time(path: Path) -> float:
-    """Return the time [s] of a snapshot without reading its particles; ReportError when it is damaged."""
+    """Return the time [s] of a snapshot without reading its particles; ReportError if it is damaged."""
     with _opened(path) as file:
         return file.time
 
 
 class _SnapshotFile:
-    """An open snapshot. The simulator writes plain datasets, uncompressed, each in one place.
+    """An open snapshot. The simulator writes plain, uncompressed and contiguous datasets.
 
-    Links to other files, virtual datasets and those larger than their file are refused: they could read any file, or
-    claim any amount of memory.
+    Links to other files, virtual datasets and those larger than their file are errors: they could read any file, or
+    need any amount of memory.
     """
 
     def __init__(self, file: h5py.File, path: Path) -> None:
@@ -104,38 +104,40 @@ class _SnapshotFile:
         self._bytes_left = path.stat().st_size
         group = self._inside(file, "VTKHDF")
         if not isinstance(group, h5py.Group) or "time" not in group.attrs:
-            raise ReportError(f"{path}: not a snapshot, it has no group VTKHDF with an attribute time")
+            raise ReportError(f"{path}: not a snapshot (found no group VTKHDF with an attribute time). {_REMEDY}")
         self.time = float(group.attrs["time"])
         self.step = int(group.attrs.get("step", -1))
         if not math.isfinite(self.time):
-            raise ReportError(f"{path}: its time is {self.time}; {_AGAIN}")
+            raise ReportError(f"{path}: damaged (found the time {self.time}). {_REMEDY}")
 
     def names(self, place: str) -> list[str]:
-        """Return what a group holds, nothing where there is no such group."""
+        """Return the names in a group, none if it does not exist."""
         group = self._at(place)
         return [str(name) for name in group] if isinstance(group, h5py.Group) else []
 
     def array(self, place: str, components: Collection[int], rows: int | None = None) -> NDArray[Any]:
-        """Read a dataset of shape (rows,) or (rows, n), with n, 1 or more, among those that are allowed."""
+        """Read a dataset of shape (rows,) or (rows, n), with an allowed number n of components."""
         data, name = self._at(place), place.rpartition("/")[2]
         if not isinstance(data, h5py.Dataset):
-            raise ReportError(f"{self._path}: {quoted(place)} is no dataset; {_AGAIN}")
+            raise ReportError(f"{self._path}: damaged (found no dataset {quoted(place)}). {_REMEDY}")
         if data.is_virtual or data.external or data.dtype.kind not in "fiu":
-            raise ReportError(f"{self._path}: {quoted(place)} does not hold plain numbers; {_AGAIN}")
+            raise ReportError(f"{self._path}: damaged (found no plain numbers in {quoted(place)}). {_REMEDY}")
         shape: tuple[int, ...] = data.shape or ()
         if not (len(shape) == 1 and 1 in components) and not (
             len(shape) == 2 and shape[1] > 1 and shape[1] in components
         ):
-            raise ReportError(f"{self._path}: {quoted(place)} has the shape {shape}; {_AGAIN}")
+            raise ReportError(f"{self._path}: damaged (found the shape {shape} of {quoted(place)}). {_REMEDY}")
         if rows is not None and shape[0] != rows:
-            raise ReportError(f"{self._path}: field {quoted(name)} has {shape[0]} rows for {rows} particles; {_AGAIN}")
+            raise ReportError(
+                f"{self._path}: damaged (found {shape[0]} rows of {quoted(name)} for {rows} particles). {_REMEDY}"
+            )
         self._bytes_left -= math.prod(shape) * data.dtype.itemsize
         if self._bytes_left < 0:
-            raise ReportError(f"{self._path}: {quoted(place)} has more numbers than the file has room for; {_AGAIN}")
+            raise ReportError(f"{self._path}: damaged (found {quoted(place)} larger than the file). {_REMEDY}")
         return np.asarray(data)
 
     def unit(self, place: str) -> str:
-        """Return the unit that a dataset states, "" where it states none."""
+        """Return the unit of a dataset, "" without one."""
         stated = self._at(place).attrs.get("unit", "")
         return stated.decode() if isinstance(stated, bytes) else str(stated)
 
@@ -150,22 +152,22 @@ class _SnapshotFile:
     def _inside(self, group: h5py.Group, name: str) -> Any:
         link = group.get(name, getlink=True)
         if link is not None and not isinstance(link, h5py.HardLink):
-            raise ReportError(f"{self._path}: {quoted(name)} is a link to another place, which no snapshot has")
+            raise ReportError(f"{self._path}: damaged (found {quoted(name)} as a link). {_REMEDY}")
         return None if link is None else group[name]
 
 
 @contextmanager
-def _bounded_memory(extra: int) -> Iterator[None]:
-    """Let this process take so many bytes more and no further, where that can be asked for (Linux).
+def _limited_memory(extra: int) -> Iterator[None]:
+    """Limit the additional memory of this process to so many bytes (Linux only).
 
-    A damaged file of some kilobytes makes HDF5 ask for tens of gigabytes.
+    With a damaged file of a few kilobytes, HDF5 can allocate tens of gigabytes.
     """
     if sys.platform != "linux":
         yield
         return
-    import resource  # other systems lack it
+    import resource  # not available on other systems
 
-    with _BOUNDING:
+    with _LIMIT_LOCK:
         most = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE") + extra
         before = resource.getrlimit(resource.RLIMIT_AS)
         allowed = [limit for limit in before if limit != resource.RLIM_INFINITY]
@@ -176,28 +178,28 @@ def _bounded_memory(extra: int) -> Iterator[None]:
             resource.setrlimit(resource.RLIMIT_AS, before)
 
 
-def _give_back_memory() -> None:
-    """Give the system back what HDF5 and malloc keep after a damaged file, where they can be asked to (Linux).
+def _release_memory() -> None:
+    """Release the memory that HDF5 and malloc retain after a damaged file (Linux only).
 
-    Kept, it would add to what the bound allows for the next such file, without end.
+    Otherwise it would add to the limit for each further damaged file.
     """
     if sys.platform == "linux":
-        with suppress(OSError, AttributeError), h5py.h5.phil:  # what serialises calls of HDF5
+        with suppress(OSError, AttributeError), h5py.h5.phil:  # serializes calls of HDF5
             ctypes.CDLL(h5py.h5.__file__).H5garbage_collect()
             ctypes.CDLL(None).malloc_trim(0)
 
 
 @contextmanager
 def _opened(path: Path) -> Iterator[_SnapshotFile]:
-    """Open a snapshot; what h5py says of damage, also while it is read, becomes a ReportError."""
-    if not is_file(path) and path.exists():  # a pipe would wait for ever
-        raise ReportError(f"{path}: not a file; {_AGAIN}")
+    """Open a snapshot; errors of h5py, also during reading, become a ReportError."""
+    if not is_file(path) and path.exists():  # a pipe would block forever
+        raise ReportError(f"{path}: not a file. {_REMEDY}")
     try:
-        with _bounded_memory(4 * path.stat().st_size + _MOST_MEMORY), h5py.File(path, "r") as file:
+        with _limited_memory(4 * path.stat().st_size + _MOST_MEMORY), h5py.File(path, "r") as file:
             yield _SnapshotFile(file, path)
     except ReportError:
-        _give_back_memory()
+        _release_memory()
         raise
     except _FAULTS as error:
-        _give_back_memory()
-        raise ReportError(f"{path}: cannot be read as HDF5 ({error}); remove it or run the case again") from error
+        _release_memory()
+        raise ReportError(f"{path}: cannot be read as HDF5 ({error}). {_REMEDY}") from error

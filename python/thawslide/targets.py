@@ -1,6 +1,7 @@
-"""Reported values to compare a run with: the quantities there are, their units, and the CSV file that holds them.
+"""Reported values for comparison with a run: quantities, units, and their CSV file.
 
-Columns: quantity, time_s (or time_min, time_h), value, unit, and source and kind, which may be left out.
+Columns: quantity, time_s (or time_min, time_h), value, unit, and optionally source and kind. Messages are those of the
+simulator (src/config/reported_values.cpp).
 """
 
 from __future__ import annotations
@@ -31,10 +32,10 @@ _VOLUME: Units = {
     "km³": (1e9, 0.0),
 }
 _ANGLE: Units = {"degrees": (1.0, 0.0), "deg": (1.0, 0.0), "°": (1.0, 0.0), "rad": (math.degrees(1.0), 0.0)}
-_SHARE: Units = {"-": (1.0, 0.0), "1": (1.0, 0.0), "": (1.0, 0.0), "%": (1e-2, 0.0)}
-_TIMES = {"time_s": 1.0, "time_min": 60.0, "time_h": 3600.0}  # the column's name: seconds
+_RATIO: Units = {"-": (1.0, 0.0), "1": (1.0, 0.0), "": (1.0, 0.0), "%": (1e-2, 0.0)}
+_TIMES = {"time_s": 1.0, "time_min": 60.0, "time_h": 3600.0}  # name of the column: seconds
 
-# What a value may be, the adjective for it in figures, and what such values are called. Without a column it is "".
+# Kind of a value: its adjective in figures, and the heading of such values. It is "" without a column.
 KINDS: Mapping[str, tuple[str, str]] = {
     "observation": ("observed", "Observations"),
     "model": ("modelled", "Results of other models"),
@@ -43,16 +44,16 @@ KINDS: Mapping[str, tuple[str, str]] = {
 }
 ABSOLUTE_ZERO = -273.15  # C
 FORCE = "max_seismic_force"
-SETS_CLOCK = "start_velocity"  # the quantity whose time and value [m/s] set the clock of the others
+REFERENCE = "start_velocity"  # the quantity whose time and value [m/s] align the times of the others
 SOURCE_VOLUME = "source_volume"
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """What can be reported: its units, the range it may lie in (in the first unit), and what of a run it is.
+    """A quantity: its units, allowed range (in the first unit), and source in a run.
 
-    `column` is one of the history, at the time of the report; `fact` a number of run.json, of the end of the run. What
-    is not compared is shown beside the run without a number of its own.
+    `column` is a column of the history, at the time of the report; `fact` is a number of run.json, at the end of the
+    run. A quantity that is not compared is shown without a value of the run.
     """
 
     units: Units
@@ -64,18 +65,18 @@ class Quantity:
 
 
 QUANTITIES: Mapping[str, Quantity] = {
-    SETS_CLOCK: Quantity(_SPEED),
+    REFERENCE: Quantity(_SPEED),
     "mean_velocity": Quantity(_SPEED, column="mean_velocity_m_s"),
     "mean_displacement": Quantity(_LENGTH, column="mean_displacement_m"),
     "front_distance": Quantity(_LENGTH, column="runout_m"),
-    "band_SL": Quantity(_SHARE, high=1.0, column="band_saturation"),
-    "band_saturation": Quantity(_SHARE, high=1.0, column="band_saturation"),
+    "band_SL": Quantity(_RATIO, high=1.0, column="band_saturation"),
+    "band_saturation": Quantity(_RATIO, high=1.0, column="band_saturation"),
     "band_temperature": Quantity(_TEMPERATURE, low=ABSOLUTE_ZERO, column="band_temperature_C"),
     "band_pore_pressure": Quantity(_PRESSURE, low=float("-inf"), column="band_pore_pressure_Pa"),
-    "band_friction_coefficient": Quantity(_SHARE, column="band_friction_coefficient"),
+    "band_friction_coefficient": Quantity(_RATIO, column="band_friction_coefficient"),
     FORCE: Quantity(_FORCE),
     SOURCE_VOLUME: Quantity(_VOLUME),
-    "source_mean_thickness": Quantity(_LENGTH, is_compared=False),  # of which area, reports rarely say
+    "source_mean_thickness": Quantity(_LENGTH, is_compared=False),  # reports rarely state the area
     "deposit_volume": Quantity(_VOLUME, fact="covered_volume_m3"),
     "deposit_area": Quantity(_AREA, fact="covered_area_m2"),
     "travel_distance": Quantity(_LENGTH, fact="travel_distance_m"),
@@ -83,19 +84,19 @@ QUANTITIES: Mapping[str, Quantity] = {
     "angle_of_reach": Quantity(_ANGLE, low=-90.0, high=90.0, fact="angle_of_reach_degrees"),
 }
 _IN_BAND = re.compile(FORCE + r"_(\d+(?:\.\d+)?)_(\d+(?:\.\d+)?)_s", re.ASCII)
-_PERIODS = (1e-3, 1e5)  # s, that a band may lie between
+_PERIODS = (1e-3, 1e5)  # s, allowed range
 
 
 @dataclass(frozen=True)
 class Band:
-    """Periods [s] between which a force was inverted from seismic waves."""
+    """Band of periods [s] of a force inverted from seismic waves."""
 
     shortest: float
     longest: float
 
     @property
     def words(self) -> str:
-        """The band as texts have it."""
+        """The band in texts."""
         return f"{self.shortest:g} to {self.longest:g} s"
 
 
@@ -106,34 +107,34 @@ class Target:
     quantity: str
     time: float  # s
     value: float  # in the first unit of its quantity: m, m/s, C, N, Pa, m2, m3, degrees, 1
-    unit: str  # as the file has it
+    unit: str  # of the file
     source: str
     kind: str = ""  # of KINDS
 
     @property
     def adjective(self) -> str:
-        """What kind of value it is, as figures have it."""
+        """The kind of the value in figures."""
         return KINDS[self.kind][0]
 
     @property
     def unit_words(self) -> str:
-        """The unit that the file gives the value in, "" for a plain number."""
+        """The unit in the file, "" for a plain number."""
         return "" if self.unit in ("-", "1") else self.unit
 
     def in_its_unit(self, value: float) -> float:
-        """Return a value of the quantity in the unit that the file gives this one in."""
+        """Return a value of the quantity in the unit of the file."""
         factor, offset = quantity_of(self.quantity).units[self.unit]
         return (value - offset) / factor
 
 
 def band_of(target: Target) -> Band | None:
-    """Return the band of a reported largest force, max_seismic_force_35_150_s, say; None for a target without one."""
+    """Return the band of a reported maximum force, e.g. max_seismic_force_35_150_s; None for others."""
     found = _IN_BAND.fullmatch(target.quantity)
     return Band(float(found[1]), float(found[2])) if found else None
 
 
 def read_targets(path: Path) -> list[Target]:
-    """Read the file; ReportError names the line, what was found there and what is allowed."""
+    """Read the file; the ReportError states the line, the found and the allowed value."""
     table = read_table(path, ("quantity", "value", "unit"), (*_TIMES, "source", "kind"), MEGABYTE)
     times = [name for name in _TIMES if name in table.columns]
     if len(times) != 1:
@@ -141,7 +142,7 @@ def read_targets(path: Path) -> list[Target]:
         raise ReportError(f"{path}:{table.line}: give one column of times, {', '.join(_TIMES)}; found {found}")
     targets: list[Target] = []
     lines: dict[tuple[str, float, str], int] = {}
-    clock = 0
+    reference_line = 0
     for line, row in table.rows:
         target = _target(row, times[0], f"{path}:{line}")
         key = (target.quantity, target.time, target.source)
@@ -150,17 +151,19 @@ def read_targets(path: Path) -> list[Target]:
                 f"{path}:{line}: {target.quantity} at this time from this source is in line {lines[key]} already; "
                 "keep one of the two, or give them different sources"
             )
-        if target.quantity == SETS_CLOCK:
-            if clock:
-                raise ReportError(f"{path}:{line}: {SETS_CLOCK} is in line {clock} already; one row sets the clock")
-            clock = line
+        if target.quantity == REFERENCE:
+            if reference_line:
+                raise ReportError(
+                    f"{path}:{line}: {REFERENCE} is in line {reference_line} already; one row sets the clock"
+                )
+            reference_line = line
         lines[key] = line
         targets.append(target)
     return targets
 
 
 def quantity_of(name: str) -> Quantity:
-    """Return a quantity by its name; KeyError where there is none."""
+    """Return a quantity by its name; KeyError if it does not exist."""
     return QUANTITIES[FORCE if _IN_BAND.fullmatch(name) else name]
 
 

@@ -1,4 +1,7 @@
-"""Text files as they come: encodings, line ends, sizes, and tables of comma-separated cells with their line numbers."""
+"""Text files: encodings, line ends, sizes, and tables of comma-separated cells with line numbers.
+
+Messages on tables and numbers are those of the simulator (src/config/table_csv.cpp).
+"""
 
 from __future__ import annotations
 
@@ -23,7 +26,7 @@ _OTHER_ENCODINGS = {
 
 
 def is_file(path: Path) -> bool:
-    """Return whether there is such a file; ReportError where that cannot be told, as of a name that is too long."""
+    """Return whether a file exists; ReportError if that cannot be determined, e.g. for a name that is too long."""
     try:
         return path.is_file()
     except OSError as error:
@@ -31,9 +34,9 @@ def is_file(path: Path) -> bool:
 
 
 def read_text(path: Path, most_bytes: int) -> str:
-    """Read UTF-8 with or without a byte order mark; line ends become one newline each.
+    """Read UTF-8 with or without a byte order mark; line ends become newlines.
 
-    ReportError for another encoding, zero bytes, or a file that is no file, cannot be read or is larger than allowed.
+    ReportError for another encoding, zero bytes, or a file that does not exist, cannot be read or is too large.
     """
     if not is_file(path):
         raise ReportError(f"{path}: {'not a file' if path.exists() else 'no such file'}")
@@ -43,7 +46,7 @@ def read_text(path: Path, most_bytes: int) -> str:
     except OSError as error:
         raise ReportError(f"{path}: cannot be read: {error.strerror or error}") from error
     if len(data) > most_bytes:
-        raise ReportError(f"{path}: larger than {most_bytes / MEGABYTE:g} MB, which no such file should be")
+        raise ReportError(f"{path}: too large (allowed {most_bytes / MEGABYTE:g} MB). Select the correct file.")
     for mark, name in _OTHER_ENCODINGS.items():
         if data.startswith(mark):
             raise ReportError(f"{path}: encoded as {name}; save it as UTF-8")
@@ -62,19 +65,19 @@ def read_text(path: Path, most_bytes: int) -> str:
 
 
 def read_json(path: Path, most_bytes: int) -> dict[str, Any]:
-    """Read a JSON object; ReportError for anything else, and for one with parts too deep inside one another."""
+    """Read a JSON object; ReportError for other values and for excessive nesting."""
     try:
         found = json.loads(read_text(path, most_bytes))
-    except (ValueError, RecursionError) as error:  # an integer of too many digits is a plain ValueError
-        raise ReportError(f"{path}: not valid JSON: {error}") from error
+    except (ValueError, RecursionError) as error:  # an integer of too many digits is a ValueError
+        raise ReportError(f"{path}: not valid JSON ({error}). Select the correct file, or repeat the run.") from error
     if not isinstance(found, dict):
-        raise ReportError(f"{path}: expected a JSON object")
+        raise ReportError(f"{path}: not a JSON object. Select the correct file, or repeat the run.")
     check_depth(found, path)
     return found
 
 
 def check_depth(value: Any, path: Path) -> None:
-    """Raise ReportError where tables and lists lie deeper inside one another than any file of a run has them."""
+    """Raise ReportError if tables and lists are nested more deeply than in any file of a run."""
     level = [value]
     for _ in range(_DEEPEST):
         level = [
@@ -85,7 +88,7 @@ def check_depth(value: Any, path: Path) -> None:
             if isinstance(part, dict | list)
         ]
     if level:
-        raise ReportError(f"{path}: more than {_DEEPEST} levels deep; this is not the file of a run")
+        raise ReportError(f"{path}: too deeply nested (allowed {_DEEPEST} levels). Select the file of a run.")
 
 
 def is_number(value: object) -> bool:
@@ -94,12 +97,12 @@ def is_number(value: object) -> bool:
         return False
     try:
         return math.isfinite(value)
-    except OverflowError:  # an integer that no float holds
+    except OverflowError:  # an integer beyond the range of floats
         return False
 
 
 def number(text: str, where: str) -> float:
-    """Return the number a cell holds, nan and infinities too; ReportError that names the place (file:line)."""
+    """Return the number in a cell, including nan and infinities; the ReportError states file and line."""
     try:
         if "_" in text:
             raise ValueError
@@ -110,7 +113,7 @@ def number(text: str, where: str) -> float:
 
 
 def finite_number(text: str, where: str) -> float:
-    """Return the finite number a cell holds; ReportError that names the place."""
+    """Return the finite number in a cell; the ReportError states file and line."""
     value = number(text, where)
     if not math.isfinite(value):
         raise ReportError(f"{where}: expected a finite number, found {quoted(text)}")
@@ -119,7 +122,7 @@ def finite_number(text: str, where: str) -> float:
 
 @dataclass(frozen=True)
 class Table:
-    """A CSV file: its columns, the line they stand in, and the rows by column, each with its line."""
+    """A CSV file: columns, the line of the header, and rows by column, each with its line."""
 
     columns: list[str]
     line: int
@@ -129,9 +132,9 @@ class Table:
 def read_table(
     path: Path, needed: tuple[str, ...], optional: tuple[str, ...] | None = None, most_bytes: int = 64 * MEGABYTE
 ) -> Table:
-    """Read a CSV file with a header, empty lines and those starting with # left out.
+    """Read a CSV file with a header; empty lines and those starting with # are ignored.
 
-    Columns beyond `needed` must be among `optional`; None allows all.
+    Columns beyond `needed` must be in `optional`; None allows all.
     """
     lines = read_text(path, most_bytes).split("\n")
     kept = [(place, line) for place, line in enumerate(lines, 1) if line.strip() and not line.startswith("#")]

@@ -123,7 +123,7 @@ def picture(
             if field == "thickness":
                 bar.set_label(thickness_words(norm).replace("thickness (m)", "m").replace("; ", "\n"), labelpad=2)
         scale_bar(axes, "lower left")
-    page.name(panels)
+    page.set_titles(panels)
     return page.figure
 
 

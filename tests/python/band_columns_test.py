@@ -1,4 +1,4 @@
-"""What reports show of a run whose band is of columns: stresses, temperatures against boiling, heat and water."""
+"""Reports of runs with band columns: stresses, temperatures, boiling, heat and water."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def column_history(rows: int = 101) -> dict[str, np.ndarray]:
 
 
 def add_base(folder: Path) -> None:
-    """Give each snapshot but the first 20 pieces of base, out of order."""
+    """Add 20 basal segments in random order to each snapshot except the first."""
     x = 20.0 + np.random.default_rng(1).permutation(20)
     for number, path in enumerate(Run(folder).snapshot_files[1:]):
         with h5py.File(path, "a") as file:
@@ -76,7 +76,7 @@ def columns_run(make_run: MakeRun) -> Path:
     return folder
 
 
-# Of the C++ formula, compiled alone: thawslide::physics::boiling_temperature(P).
+# Values of the C++ function thawslide::physics::boiling_temperature(P).
 @pytest.mark.parametrize(
     ("pressure", "temperature"),
     [(0.0, 100.0), (2.0e5, 134.381906373124), (1.0e6, 187.243587897609), (2.0e6, 220.820904072478),
@@ -99,13 +99,13 @@ def test_boiling_follows_clausius_and_clapeyron() -> None:
         assert boiling_temperature(101325.0 * np.expm1(log_of_pressure)) == pytest.approx(end, abs=1e-7)
 
 
-def test_boiling_of_nothing_is_nothing() -> None:
+def test_boiling_temperature_of_nan_is_nan() -> None:
     assert np.isnan(boiling_temperature([np.nan, 0.0])).tolist() == [True, False]
 
 
-def test_stresses_stand_beside_each_other(columns_run: Path) -> None:
+def test_stresses_are_in_one_panel(columns_run: Path) -> None:
     run = Run(columns_run)
-    figure = FIGURES["band"].draw(run)
+    figure = FIGURES["band"].plot(run)
     stresses = titled(figure, "(a)")
     assert stresses.get_ylabel() == "stress (MPa)"
     load, pore_pressure = run.history["band_normal_pressure_Pa"], run.history["band_pore_pressure_Pa"]
@@ -116,14 +116,14 @@ def test_stresses_stand_beside_each_other(columns_run: Path) -> None:
         ("shear traction", run.history["band_shear_Pa"]),
     ):
         np.testing.assert_allclose(line(stresses, label)[1] * 1e6, values)
-    assert 'of the law "coefficient" N alone' in FIGURES["band"].caption_of(run)
+    assert 'or on N alone for substrates with the law "coefficient"' in FIGURES["band"].caption_of(run)
 
 
-def test_no_legend_covers_the_stresses(columns_run: Path) -> None:
+def test_legend_does_not_cover_the_stresses(columns_run: Path) -> None:
     targets = next(columns_run.glob("**/*targets*.csv"))
     for reported in ("", "band_pore_pressure,4,9e5,Pa,some laboratory\n"):
         targets.write_text("quantity,time_s,value,unit,source\n" + reported)
-        figure = FIGURES["band"].draw(Run(columns_run))
+        figure = FIGURES["band"].plot(Run(columns_run))
         figure.draw_without_rendering()
         stresses = titled(figure, "(a)")
         legend = stresses.get_legend()
@@ -132,108 +132,109 @@ def test_no_legend_covers_the_stresses(columns_run: Path) -> None:
         box, panel = legend.get_window_extent(), stresses.get_window_extent()
         assert box.y1 <= panel.y1
         assert panel.x0 <= box.x0 < box.x1 <= panel.x1
-        highest = max(float(np.nanmax(drawn.get_ydata())) for drawn in stresses.lines)
+        highest = max(float(np.nanmax(curve.get_ydata())) for curve in stresses.lines)
         assert box.y0 > stresses.transData.transform((0.0, highest))[1]
 
 
-def test_pieces_of_base_along_the_section(columns_run: Path) -> None:
+def test_basal_segments_are_sorted_along_the_section(columns_run: Path) -> None:
     run = Run(columns_run)
-    figure = FIGURES["base_along"].draw(run)
+    figure = FIGURES["base_along"].plot(run)
     stress, heat = figure.axes[-2], figure.axes[-1]
     x, load = line(stress, "normal pressure N")
     np.testing.assert_array_equal(x, np.arange(20.0, 40.0))
     np.testing.assert_allclose(load, 1.0 + 0.01 * x)
-    np.testing.assert_allclose(line(heat, "mean of the band")[1], 2.0 * x)
-    np.testing.assert_allclose(line(heat, "boils at N")[1], boiling_temperature(1.0e6 + 1e4 * x))
-    assert figure.axes[0].get_title(loc="left") != "t = 0 s", "a time before the first contact has nothing to show"
+    np.testing.assert_allclose(line(heat, "mean T")[1], 2.0 * x)
+    np.testing.assert_allclose(line(heat, "boiling T at N")[1], boiling_temperature(1.0e6 + 1e4 * x))
+    assert figure.axes[0].get_title(loc="left") != "t = 0 s", "times before the first contact have no panel"
     (legend,) = figure.legends
     assert [text.get_text() for text in legend.get_texts()] == [
-        "normal pressure N", "pore pressure P", "N − P", "hottest", "mean of the band", "boils at N",
+        "normal pressure N", "pore pressure P", "N − P", "maximum T", "mean T", "boiling T at N",
     ]  # fmt: skip
 
 
-def test_snapshots_without_base_are_told(make_run: MakeRun) -> None:
+def test_snapshots_without_basal_segments_have_no_such_figure(make_run: MakeRun) -> None:
     run = Run(make_run())
     assert not FIGURES["base_along"].suits(run)
-    with pytest.raises(NotInRunError, match="no snapshot has pieces of base"):
-        FIGURES["base_along"].draw(run)
+    with pytest.raises(NotInRunError, match="no basal segments in the snapshots"):
+        FIGURES["base_along"].plot(run)
 
 
-def test_temperatures_stand_beside_boiling(columns_run: Path) -> None:
+def test_temperatures_and_boiling_are_in_one_panel(columns_run: Path) -> None:
     run = Run(columns_run)
-    figure = FIGURES["band"].draw(run)
+    figure = FIGURES["band"].plot(run)
     heat = titled(figure, "(b)")
     np.testing.assert_allclose(line(heat, "mean")[1], run.history["band_temperature_C"])
-    np.testing.assert_allclose(line(heat, "hottest of any column")[1], run.history["band_hottest_C"])
-    np.testing.assert_allclose(line(heat, "water boils at the mean N")[1], 187.243587897609)
-    assert not any("boiling is not modelled" in text for axes in figure.axes for text in texts(axes))
+    np.testing.assert_allclose(line(heat, "maximum of all columns")[1], run.history["band_hottest_C"])
+    np.testing.assert_allclose(line(heat, "boiling temperature at mean N")[1], 187.243587897609)
+    assert not any("boiling point" in text for axes in figure.axes for text in texts(axes))
     np.testing.assert_allclose(line(titled(figure, "(c)"), "run")[1], run.history["band_saturation"])
     np.testing.assert_allclose(line(titled(figure, "(d)"), "run")[1], 0.55)
     np.testing.assert_allclose(line(titled(figure, "(e)"), "run")[1], run.history["band_largest_pressure_ratio"])
 
 
-def test_thermal_accounts_take_in_columns(columns_run: Path) -> None:
+def test_thermal_terms_include_band_columns(columns_run: Path) -> None:
     run = Run(columns_run)
-    thermal = titled(FIGURES["energy"].draw(run), "(b)")
+    figure = FIGURES["energy"].plot(run)
+    thermal = titled(figure, "(b)")
     t = run.history["time_s"]
-    np.testing.assert_allclose(line(thermal, "laid and taken in by columns")[1], -0.1 * t, atol=1e-9)
-    np.testing.assert_allclose(line(thermal, "out with steam, columns")[1], 0.15 * t, atol=1e-9)
-    assert any("left with columns" in text for text in texts(thermal))  # zero throughout
+    np.testing.assert_allclose(line(thermal, "gained from the body")[1], -0.1 * t, atol=1e-9)
+    np.testing.assert_allclose(line(thermal, "lost with steam")[1], 0.15 * t, atol=1e-9)
+    assert "removed with segments" in figure.get_supxlabel().replace("\n", " ")  # zero throughout
     columns = column_history()
     columns["column_heat_J"] = 1e14 * t
     write_history(columns_run / "history.csv", columns)
     np.testing.assert_allclose(relative_residual(Run(columns_run), "thermal_residual_J"), 2e2 * t / 1e15)
 
 
-def test_water_accounts(columns_run: Path) -> None:
+def test_water_terms_have_their_panels(columns_run: Path) -> None:
     run = Run(columns_run)
-    figure = FIGURES["water"].draw(run)
+    figure = FIGURES["water"].plot(run)
     t = run.history["time_s"]
-    held, lost, spaces = (titled(figure, f"({letter})") for letter in "abc")
-    assert [axes.get_ylabel() for axes in (held, lost, spaces)] == [
+    content, losses, voids = (titled(figure, f"({letter})") for letter in "abc")
+    assert [axes.get_ylabel() for axes in (content, losses, voids)] == [
         "mass (million t)",
         "mass (thousand t)",
         "volume (thousand m³)",
     ]
-    np.testing.assert_allclose(line(held, "laid and taken in")[1], 3.0 + 0.04 * t)
-    np.testing.assert_allclose(line(lost, "gone as steam")[1], 10.0 * t)
-    np.testing.assert_allclose(line(spaces, "opened along the base")[1], 0.05 * t)
+    np.testing.assert_allclose(line(content, "gained from the body")[1], 3.0 + 0.04 * t)
+    np.testing.assert_allclose(line(losses, "steam")[1], 10.0 * t)
+    np.testing.assert_allclose(line(voids, "openings along the base")[1], 0.05 * t)
     residual = relative_water_residual(run)
     assert residual is not None
     np.testing.assert_allclose(residual, 1e-3 * t / 3.4e9)
     assert titled(figure, "(d)").get_yscale() == "log"
 
 
-def test_runs_without_columns_look_as_before(make_run: MakeRun) -> None:
+def test_runs_without_columns_have_no_figures_of_columns(make_run: MakeRun) -> None:
     run = Run(make_run())
     assert "water" not in figures_of(run)
-    with pytest.raises(NotInRunError, match="not of columns"):
-        FIGURES["water"].draw(run)
-    assert len(FIGURES["band"].draw(run).axes) == 4
+    with pytest.raises(NotInRunError, match="found no band columns"):
+        FIGURES["water"].plot(run)
+    assert len(FIGURES["band"].plot(run).axes) == 4
     assert FIGURES["band"].caption_of(run) == FIGURES["band"].caption
-    thermal = titled(FIGURES["energy"].draw(run), "(b)")
+    thermal = titled(FIGURES["energy"].plot(run), "(b)")
     assert not any("column" in str(found.get_label()) for found in thermal.lines)
-    assert "Hottest column of the band" not in [row.words for row in key_numbers(run)]
+    assert "Maximum column temperature" not in [row.words for row in key_numbers(run)]
 
 
-def test_report_of_columns(columns_run: Path) -> None:
+def test_report_of_columns_has_their_figures_and_numbers(columns_run: Path) -> None:
     expected = ["motion", "velocity", "plastic_strain", "force", "band", "base_along", "energy", "water"]
     assert figures_of(Run(columns_run)) == expected
     report = make_report(Run(columns_run), names=["band", "energy", "water"], dpi=40)
     page = report.page.read_text(encoding="utf-8")
-    assert "Nothing in the model boils" not in page and "heat.steam is false" not in page
-    assert "Means over the base by area" in page and "particles next to the ground" not in page
+    assert "Water does not boil" not in page and "heat.steam is false" not in page
+    assert "Area-weighted means over the base" in page and "particles next to the terrain" not in page
     found = {row.words: (row.value, row.remark) for row in key_numbers(Run(columns_run))}
-    assert found["Hottest column of the band"] == ("170 °C", "at 10 s")
-    assert found["Largest pore pressure over its N"] == ("1", "at 10 s")
-    assert found["Water gone as steam"] == ("1e5 t", "by the end")
+    assert found["Maximum column temperature"] == ("170 °C", "at 10 s")
+    assert found["Maximum pore pressure ratio P/N"] == ("1", "at 10 s")
+    assert found["Water lost as steam"] == ("100,000 t", "until the end")
     text = (columns_run / "case.toml").read_text()
     (columns_run / "case.toml").write_text(text.replace("steam = true", "steam = false"))
     page = make_report(Run(columns_run), names=["band"], dpi=40).page.read_text(encoding="utf-8")
-    assert "passes 100 °C at 9.3 s and reaches 110 °C. Nothing boils, as heat.steam is false: where" in page
+    assert "from 9.3 s on and attains 110 °C. Water does not boil because heat.steam is false." in page
 
 
-def test_columns_before_any_contact_draw(columns_run: Path, tmp_path: Path) -> None:
+def test_figures_of_columns_without_contact_are_written(columns_run: Path, tmp_path: Path) -> None:
     columns = column_history(1)
     for name in columns:
         if name.startswith("band_") and not name.endswith("_J"):
@@ -243,12 +244,12 @@ def test_columns_before_any_contact_draw(columns_run: Path, tmp_path: Path) -> N
     write_history(columns_run / "history.csv", columns)
     run = Run(columns_run)
     for name in ("band", "energy", "water"):
-        FIGURES[name].draw(run).savefig(tmp_path / "figure.png")
-    assert texts(titled(FIGURES["band"].draw(run), "(d)")) == ["never in contact"]
-    assert texts(titled(FIGURES["water"].draw(run), "(d)")) == ["no residual: no water yet, or it is exactly zero"]
+        FIGURES[name].plot(run).savefig(tmp_path / "figure.png")
+    assert texts(titled(FIGURES["band"].plot(run), "(d)")) == ["no contact"]
+    assert texts(titled(FIGURES["water"].plot(run), "(d)")) == ["residual is zero"]
 
 
-def test_a_stop_below_a_speed(make_run: MakeRun) -> None:
+def test_stop_time_is_the_last_time_above_a_speed(make_run: MakeRun) -> None:
     run = Run(make_run())  # 12 sin2(pi t/10) in rows of 0.1 s: below 0.1 m/s from 9.709 s on
     assert stop_time(run, 0.1) == pytest.approx(9.8)
     assert stop_time(run, 20.0) is None

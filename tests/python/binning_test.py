@@ -1,4 +1,4 @@
-"""Particles gathered on a grid: volumes are kept, shares are exact, means are those of mass."""
+"""Averages of particles on a grid: volumes are conserved, fractions are exact, means are mass-weighted."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ GRID = Grid(0.5, 1.0, 1.0, 2.0, 20, 12)  # cells of 1 m x 2 m over 0..20 m x 0..
 
 
 @pytest.mark.parametrize("width", [0.1, 1.0, 1.7, 4.0, 5.3])
-def test_sums_are_kept_whatever_the_width(width: float) -> None:
+def test_sums_are_conserved_for_any_width(width: float) -> None:
     random = np.random.default_rng(3)
     x, y = random.uniform(4.0, 16.0, 500), random.uniform(4.0, 20.0, 500)
     amounts = [random.random(500), random.normal(size=500)]
@@ -26,7 +26,7 @@ def test_sums_are_kept_whatever_the_width(width: float) -> None:
         assert total.sum() == pytest.approx(amount.sum(), rel=1e-12)
 
 
-def test_shares_are_areas() -> None:
+def test_fractions_are_areas() -> None:
     (one,) = spread(GRID, np.array([5.75]), np.array([9.0]), 2.0, [np.array([8.0])])
     # 4.75..6.75 m of x: a quarter of a cell, one, three quarters; 8..10 m of y: the fifth row.
     wanted = np.zeros((12, 20))
@@ -34,12 +34,12 @@ def test_shares_are_areas() -> None:
     np.testing.assert_allclose(one, wanted, atol=1e-12)
 
 
-def test_what_lies_outside_is_left_out_by_its_share() -> None:
+def test_fractions_outside_the_grid_are_excluded() -> None:
     (one,) = spread(GRID, np.array([0.0, 20.0, -30.0]), np.array([1.0, 23.0, 1.0]), 2.0, [np.ones(3)])
     assert one.sum() == pytest.approx(1.0)
 
 
-def test_a_slab_is_as_thick_as_its_map(map_run: Path) -> None:
+def test_thickness_of_a_slab_is_exact(map_run: Path) -> None:
     run = Run(map_run)
     grid = Maps(run)["release"].grid
     columns = gather(grid, run.snapshot(0, fields=FIELDS), 10.0)
@@ -51,7 +51,7 @@ def test_a_slab_is_as_thick_as_its_map(map_run: Path) -> None:
     assert np.isnan(columns.speed.values[0, 0])
 
 
-def test_temperature_is_that_of_particles_next_to_the_ground(map_run: Path) -> None:
+def test_temperature_is_that_of_particles_next_to_the_terrain(map_run: Path) -> None:
     run = Run(map_run)
     columns = gather(Maps(run)["release"].grid, run.snapshot(5, fields=FIELDS), 10.0)
     values = columns.temperature.values[np.isfinite(columns.temperature.values)]
@@ -59,7 +59,7 @@ def test_temperature_is_that_of_particles_next_to_the_ground(map_run: Path) -> N
     assert columns.time == 10.0
 
 
-def test_particles_of_a_run_gone_bad_are_left_out(map_run: Path) -> None:
+def test_invalid_particles_are_excluded(map_run: Path) -> None:
     with h5py.File(map_run / "snapshots" / "000000.vtkhdf", "a") as file:
         file["VTKHDF/Points"][0] = np.nan
         file["VTKHDF/PointData/volume"][1] = np.nan
@@ -68,6 +68,6 @@ def test_particles_of_a_run_gone_bad_are_left_out(map_run: Path) -> None:
     assert columns.thickness.volume() == pytest.approx(LENGTH * WIDTH * THICKNESS - 2 * 50.0, rel=1e-12)
 
 
-def test_only_the_fields_asked_for_are_read(map_run: Path) -> None:
+def test_only_requested_fields_are_read(map_run: Path) -> None:
     shot = Run(map_run).snapshot(0, fields=FIELDS)
     assert sorted(shot) == sorted(FIELDS)

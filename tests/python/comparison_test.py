@@ -1,4 +1,4 @@
-"""The script that compares with AvaFrame: its grounds, and the numbers it takes from maps."""
+"""Comparison with AvaFrame: terrains, and results from maps."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from thawslide.maps import Grid, Map, read_map
 SLOPE = math.tan(math.radians(30.0))
 
 
-def test_plane_is_a_slope_a_parabola_and_level_ground_without_a_kink() -> None:
+def test_plane_has_no_kink_between_slope_parabola_and_level_terrain() -> None:
     x = np.arange(0.0, 2_600.0, 0.5)
     slope = np.diff(grounds.plane_profile(x)) / 0.5
     assert slope[:1_699] == pytest.approx(-SLOPE, abs=1e-9)
@@ -29,7 +29,7 @@ def test_plane_is_a_slope_a_parabola_and_level_ground_without_a_kink() -> None:
     assert np.abs(np.diff(slope)).max() == pytest.approx(SLOPE * 0.5 / 300.0, rel=1e-6)
 
 
-def test_grounds_are_written_as_they_are_told(tmp_path: Path) -> None:
+def test_terrains_have_the_specified_values(tmp_path: Path) -> None:
     for ground, place, height in [
         (grounds.PLANE, (400_302.5, 400_502.5), SLOPE * (1_000.0 - 302.5)),
         (grounds.BOWL, (400_302.5, 400_902.5), (597.5**2 + 2.5**2) / 2_000.0),
@@ -40,7 +40,7 @@ def test_grounds_are_written_as_they_are_told(tmp_path: Path) -> None:
         assert "EPSG:31287" in terrain.crs
 
 
-def test_ground_of_the_user_needs_its_folder(tmp_path: Path) -> None:
+def test_terrain_of_the_user_requires_its_folder(tmp_path: Path) -> None:
     with pytest.raises(SystemExit, match="needs --alr FOLDER"):
         grounds.write_ground(grounds.ALR, tmp_path / "alr", None)
 
@@ -84,13 +84,13 @@ def test_point_mass_on_a_straight_slope_up_and_down_follows_the_energy_line() ->
     assert found.way == pytest.approx(500.0 + left / (0.5 + friction), rel=0.02)
 
 
-def test_point_mass_that_does_not_stop_is_told() -> None:
+def test_point_mass_that_does_not_stop_is_an_error() -> None:
     x = 5.0 * np.arange(400)
     with pytest.raises(SystemExit, match="the point mass leaves the DEM"):
         results.point_mass(dem(-0.5 * x), square(500.0), 0.3)
 
 
-def test_numbers_of_a_known_outcome() -> None:
+def test_numbers_of_a_known_outcome_are_exact() -> None:
     x = 5.0 * np.arange(400)
     terrain = dem(-0.5 * x)
     thickness, final = np.full(terrain.values.shape, np.nan), np.full(terrain.values.shape, np.nan)

@@ -1,4 +1,4 @@
-"""Run folders made by hand, with the files and shapes that a run writes."""
+"""Constructed run folders, with the files and shapes of a run."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ SLOPE = 0.5
 
 
 def ground(x: np.ndarray) -> np.ndarray:
-    """Return the elevation [m] of the straight slope all runs slide on."""
+    """Return the elevation [m] of the straight slope of all runs."""
     return 100.0 - SLOPE * x
 
 
 def history_columns(rows: int, dimension: int) -> dict[str, np.ndarray]:
-    """Return every column a run writes, over 0..10 s."""
+    """Return all columns of a history over 0..10 s."""
     t = np.linspace(0.0, 10.0, rows) if rows > 1 else np.zeros(1)
     band = np.where(t < 2.0, np.nan, 1.0)  # no contact in the first two seconds
     columns = {
@@ -164,7 +164,7 @@ def make_run(tmp_path: Path) -> MakeRun:
 @pytest.fixture
 def map_run(tmp_path: Path) -> Path:
     """Return the folder of a 3D run on a DEM, with six snapshots."""
-    import map_runs  # it uses what stands above
+    import map_runs  # which imports this module
 
     folder = tmp_path / "slab"
     map_runs.write_map_run(folder, 6)

@@ -1,4 +1,4 @@
-"""What reports show of a run that takes up an erodible bed, and that its number of particles may change."""
+"""Reports of runs with an erodible bed, in which the number of particles changes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from figures_test import line, titled
 
 from thawslide import NotInRunError, Run
 from thawslide.figures import FIGURES
-from thawslide.figures.entrainment import depth_taken
+from thawslide.figures.entrainment import entrained_depth
 from thawslide.key_numbers import key_numbers
 from thawslide.report import figures_of, make_report
 
@@ -59,30 +59,30 @@ def bed_run(make_run: MakeRun) -> Path:
     return folder
 
 
-def test_depth_taken_is_where_particles_joined(bed_run: Path) -> None:
-    edges, depth = depth_taken(Run(bed_run))
+def test_entrained_depth_is_at_the_place_of_joining(bed_run: Path) -> None:
+    edges, depth = entrained_depth(Run(bed_run))
     cell = int(np.searchsorted(edges, 60.5)) - 1
     assert edges[cell + 1] - edges[cell] == 8.0
     assert depth[cell] == pytest.approx(JOINED * 1.0 / 8.0)  # 1 m3 each per metre of width, in four cells 2 m wide
     assert np.count_nonzero(depth) == 1
 
 
-def test_figure_and_key_number(bed_run: Path) -> None:
+def test_entrainment_has_a_figure_and_a_key_number(bed_run: Path) -> None:
     run = Run(bed_run)
     assert "entrainment" in figures_of(run)
-    figure = FIGURES["entrainment"].draw(run)
-    np.testing.assert_allclose(line(titled(figure, "(b)"), "work that the slide lost")[1][-1], 10.0)  # MJ
+    figure = FIGURES["entrainment"].plot(run)
+    np.testing.assert_allclose(line(titled(figure, "(b)"), "work of entrainment")[1][-1], 10.0)  # MJ
     found = {row.words: row.value for row in key_numbers(run)}
-    assert found["Bed taken up"].startswith("222")
+    assert found["Entrained bed volume"] == "222 m³"
 
 
-def test_report_copes_with_more_particles_at_the_end(bed_run: Path) -> None:
+def test_report_accepts_more_particles_at_the_end(bed_run: Path) -> None:
     report = make_report(Run(bed_run), names=["velocity", "entrainment", "energy"], dpi=40)
     assert set(report.figures) == {"velocity", "entrainment", "energy"}
 
 
-def test_a_run_without_a_bed_has_no_such_figure(make_run: MakeRun) -> None:
+def test_run_without_a_bed_has_no_such_figure(make_run: MakeRun) -> None:
     run = Run(make_run())
     assert "entrainment" not in figures_of(run)
-    with pytest.raises(NotInRunError, match="the case has no bed"):
-        FIGURES["entrainment"].draw(run)
+    with pytest.raises(NotInRunError, match=r"found no \[bed\] in the case"):
+        FIGURES["entrainment"].plot(run)

@@ -1,4 +1,4 @@
-"""What is in the figures: the data of the run, its units, its terrain; and that thin runs still draw."""
+"""Contents of figures: data of the run, units and terrain; and figures of runs with little data."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from matplotlib.figure import Figure
 from reproduction.bars import bars
 from thawslide import NotInRunError, Run
 from thawslide.band_pass import band_passed
-from thawslide.clock import time_of_speed
 from thawslide.figures import FIGURES
 from thawslide.figures.colours import TEMPERATURE, colour_range, label_bar, normalisation
 from thawslide.figures.energy import relative_residual
 from thawslide.figures.moments import chosen_snapshots
-from thawslide.figures.snapshots import Stretch, velocity
-from thawslide.figures.style import prefixed
+from thawslide.figures.snapshots import Zone, velocity
 from thawslide.figures.window import fit
+from thawslide.number_text import prefixed
+from thawslide.time_reference import time_of_speed
 
-OWN_CLOCK = "time (s), 0 at the start of the run"
+UNALIGNED = "time (s), 0 at the start of the run"
 SNAPSHOT_FIGURES = ("velocity", "plastic_strain", "temperature", "pore_pressure")
 
 
@@ -46,8 +46,16 @@ def texts(axes: Axes) -> list[str]:
     return [text.get_text() for text in axes.texts]
 
 
+def legend_notes(axes: Axes) -> list[str]:
+    """Return the notes in a legend on reported values that are not shown."""
+    legend = axes.get_legend()
+    assert legend is not None
+    found = [text.get_text().replace("\n", " ") for text in legend.get_texts()]
+    return [text for text in found if text.endswith(" of the run") or " of the run, " in text]
+
+
 def particles(axes: Axes) -> PolyCollection:
-    """Return the particles of a panel, not the filled ground."""
+    """Return the particles of a panel without the filled terrain."""
     (found,) = [
         c for c in axes.collections if isinstance(c, PolyCollection) and not isinstance(c, FillBetweenPolyCollection)
     ]
@@ -57,37 +65,40 @@ def particles(axes: Axes) -> PolyCollection:
 @pytest.mark.parametrize(
     ("name", "label", "low", "high"),
     [
-        ("velocity", "velocity (m/s), mean over 2 s about each time", 0.0, 6.0 * np.sqrt(5.0)),
+        ("velocity", "velocity (m/s), 2 s mean", 0.0, 6.0 * np.sqrt(5.0)),
         ("plastic_strain", "equivalent plastic strain", 0.0, 0.7 * np.exp(-0.5)),
         ("temperature", "temperature (°C)", -10.0, -10.0 + 14.0 * np.exp(-0.5)),
         ("pore_pressure", "pore pressure (kPa)", 0.0, 1400.0 * np.exp(-0.5)),
     ],
 )
-def test_snapshot_figures(make_run: MakeRun, name: str, label: str, low: float, high: float) -> None:
-    figure = FIGURES[name].draw(Run(make_run()))
+def test_snapshot_figures_have_one_panel_per_time_and_a_common_scale(
+    make_run: MakeRun, name: str, label: str, low: float, high: float
+) -> None:
+    figure = FIGURES[name].plot(Run(make_run()))
     (bar,) = [axes for axes in figure.axes if axes.get_xlabel() == label]
     assert bar.get_xlim() == pytest.approx((low, high))
     panels = [axes for axes in figure.axes if axes.get_title(loc="left").startswith("(")]
     assert [axes.get_title(loc="left") for axes in panels] == [
-        "(a) t = 0 s, true scale",
-        "(b) t = 4 s, true scale",
-        "(c) t = 7 s, true scale",
+        "(a) t = 0 s",
+        "(b) t = 4 s",
+        "(c) t = 7 s",
     ]
+    assert all(texts(axes)[0] == "true scale" for axes in panels)
     values = particles(panels[2]).get_array()
     assert values is not None
     assert np.max(values) == pytest.approx(high)
     assert panels[0].get_ylabel() == "elevation (m)"
 
 
-def test_snapshot_panels_show_particles_at_their_size_over_the_terrain(make_run: MakeRun) -> None:
+def test_snapshot_panels_have_particles_of_their_size_on_the_terrain(make_run: MakeRun) -> None:
     run = Run(make_run())
-    figure = FIGURES["velocity"].draw(run)
+    figure = FIGURES["velocity"].plot(run)
     panel = titled(figure, "(b)")
     shot = run.snapshot(4)
     boxes = [path.get_extents() for path in particles(panel).get_paths()]
     np.testing.assert_allclose([(b.x0 + b.x1) / 2 for b in boxes], shot.points[:, 0])
     np.testing.assert_allclose([(b.y0 + b.y1) / 2 for b in boxes], shot.points[:, 1])
-    # Cubes of 1 m on cells of 2 m: nothing is drawn apart that the grid holds together.
+    # Cubes of 1 m on cells of 2 m: gaps narrower than a cell are closed.
     np.testing.assert_allclose([(b.width, b.height) for b in boxes], [(2.0, 1.0)] * len(boxes))
     (ground_line,) = [found for found in panel.lines if len(found.get_xdata()) == 21]
     np.testing.assert_allclose(ground_line.get_ydata(), ground(np.asarray(ground_line.get_xdata(), dtype=float)))
@@ -102,45 +113,45 @@ def test_snapshot_panels_show_particles_at_their_size_over_the_terrain(make_run:
     )  # true scale
 
 
-def test_strip_shows_height_above_ground(make_run: MakeRun) -> None:
-    figure = FIGURES["velocity"].draw(Run(make_run()))
-    strips = [axes for axes in figure.axes if axes.get_ylabel() == "above\nground (m)"]
+def test_strips_have_heights_above_the_terrain(make_run: MakeRun) -> None:
+    figure = FIGURES["velocity"].plot(Run(make_run()))
+    strips = [axes for axes in figure.axes if axes.get_ylabel() == "height above\nterrain (m)"]
     assert len(strips) == 3
     middles = [0.5 * (box.y0 + box.y1) for box in (path.get_extents() for path in particles(strips[1]).get_paths())]
     np.testing.assert_allclose(np.unique(np.round(middles, 9)), [0.5, 1.5, 2.5, 3.5])
 
 
-def test_overview_says_where_each_panel_looks(make_run: MakeRun) -> None:
-    figure = FIGURES["velocity"].draw(Run(make_run()))
+def test_overview_has_the_range_of_each_panel(make_run: MakeRun) -> None:
+    figure = FIGURES["velocity"].plot(Run(make_run()))
     overview = titled(figure, "whole profile")
     assert overview.get_title(loc="left") == (
         "whole profile, true scale; grey: t = 0 s, red: t = 7 s; time: 0 at the start of the run"
     )
-    (bars,) = [axes for axes in figure.axes if "what each panel shows" in axes.get_xlabel()]
+    (bars,) = [axes for axes in figure.axes if "range of each panel" in axes.get_xlabel()]
     assert bars.get_xlabel().startswith("distance (m)")
     shown = np.asarray(bars.lines[2].get_xdata(), dtype=float)
     assert tuple(shown) == pytest.approx(titled(figure, "(b)").get_xlim())
-    slide = np.asarray(bars.lines[3].get_xdata(), dtype=float)
-    assert tuple(slide) == pytest.approx((68.5, 87.5))
+    covered = np.asarray(bars.lines[3].get_xdata(), dtype=float)
+    assert tuple(covered) == pytest.approx((68.5, 87.5))
 
 
-def test_without_terrain_there_is_no_ground_and_no_strip(make_run: MakeRun) -> None:
-    figure = FIGURES["temperature"].draw(Run(make_run(terrain=False)))
+def test_without_terrain_there_is_no_fill_and_no_strip(make_run: MakeRun) -> None:
+    figure = FIGURES["temperature"].plot(Run(make_run(terrain=False)))
     assert not any("above" in axes.get_ylabel() for axes in figure.axes)
     for axes in figure.axes:
         assert not any(isinstance(c, FillBetweenPolyCollection) for c in axes.collections)
 
 
-def test_three_dimensions_are_seen_from_the_side(make_run: MakeRun) -> None:
+def test_three_dimensions_are_projected_from_the_side(make_run: MakeRun) -> None:
     run = Run(make_run(dimension=3))
-    panel = titled(FIGURES["velocity"].draw(run), "(b)")
+    panel = titled(FIGURES["velocity"].plot(run), "(b)")
     boxes = [path.get_extents() for path in particles(panel).get_paths()]
     across = run.snapshot(4).points[:, 1]
-    order = np.argsort(-across, kind="stable")  # far ones first
+    order = np.argsort(-across, kind="stable")  # distant ones first
     np.testing.assert_allclose([(b.y0 + b.y1) / 2 for b in boxes], run.snapshot(4).points[order, 2])
 
 
-def test_times_that_share_a_snapshot_get_one_panel(make_run: MakeRun) -> None:
+def test_times_with_a_common_snapshot_have_one_panel(make_run: MakeRun) -> None:
     shots = chosen_snapshots(Run(make_run(times="[0.0, 8.9, 9.1, 500.0]")))
     assert [shot.time for shot in shots] == [0.0, 9.0, 10.0]
 
@@ -153,20 +164,20 @@ def test_ticks_of_a_bar_with_two_scales_are_round() -> None:
     assert [label.get_text() for label in bar.ax.get_xticklabels()] == ["−5", "0", "10", "20", "30"]
 
 
-def test_window_stretches_only_long_flat_sections() -> None:
+def test_window_exaggerates_only_long_flat_sections() -> None:
     steep = fit((0.0, 1000.0), (0.0, 1000.0), 2.0, None)
     assert steep.exaggeration == 1
     assert steep.right - steep.left == pytest.approx(2.0 * (steep.top - steep.bottom))
     flat = fit((0.0, 8000.0), (0.0, 200.0), 2.0, None)
     assert flat.exaggeration == 10  # 9280 m over 260 m in a box of 2: 17.8 times would fill it
-    assert flat.note() == "heights ×10"
+    assert flat.note() == "vertical exaggeration 10×"
     assert flat.right - flat.left == pytest.approx(2.0 * 10 * (flat.top - flat.bottom))
-    pushed = fit((0.0, 100.0), (0.0, 100.0), 4.0, (-10.0, 1000.0))
-    assert pushed.left == -10.0
-    assert pushed.right - pushed.left == pytest.approx(4.0 * 130.0)
+    shifted = fit((0.0, 100.0), (0.0, 100.0), 4.0, (-10.0, 1000.0))
+    assert shifted.left == -10.0
+    assert shifted.right - shifted.left == pytest.approx(4.0 * 130.0)
 
 
-def test_colour_range() -> None:
+def test_colour_range_excludes_outliers() -> None:
     values = np.concatenate([np.linspace(0.0, 1.0, 1000), [50.0]])
     low, high, extend = colour_range(values, from_zero=True)
     assert (low, extend) == (0.0, "max")
@@ -178,86 +189,90 @@ def test_colour_range() -> None:
     assert colour_range(np.full(3, np.nan), from_zero=False) == (0.0, 1.0, "neither")
 
 
-def test_motion_against_reported_values(make_run: MakeRun) -> None:
+def test_motion_has_reported_values(make_run: MakeRun) -> None:
     run = Run(make_run())
-    figure = FIGURES["motion"].draw(run)
-    speed, distance = titled(figure, "(a) velocity"), titled(figure, "(b) displacement")
+    figure = FIGURES["motion"].plot(run)
+    speed, distance = titled(figure, "(a) velocity"), titled(figure, "(b) distance")
     np.testing.assert_array_equal(
-        line(speed, "mean (of mass)"), [run.history["time_s"], run.history["mean_velocity_m_s"]]
+        line(speed, "mean (mass-weighted)"), [run.history["time_s"], run.history["mean_velocity_m_s"]]
     )
     np.testing.assert_array_equal(line(speed, "reported: seismic"), [[4.0, 6.0], [9.0, 11.0]])
-    np.testing.assert_array_equal(line(distance, "mean path length (of mass)")[1], run.history["mean_displacement_m"])
+    np.testing.assert_array_equal(
+        line(distance, "mean path length (mass-weighted)")[1], run.history["mean_displacement_m"]
+    )
     front = run.history["front_position_m"]
-    np.testing.assert_array_equal(line(distance, "travel distance of the front")[1], front - front[0])
-    np.testing.assert_array_equal(line(distance, "reported mean: model"), [[10.0], [80.0]])
-    np.testing.assert_array_equal(line(distance, "reported runout: field"), [[10.0], [160.0]])
+    np.testing.assert_array_equal(line(distance, "front travel distance")[1], front - front[0])
+    np.testing.assert_array_equal(line(distance, "reported mean displacement: model"), [[10.0], [80.0]])
+    np.testing.assert_array_equal(line(distance, "reported runout distance: field"), [[10.0], [160.0]])
     assert (speed.get_ylabel(), distance.get_ylabel()) == ("velocity (m/s)", "distance (m)")
-    assert (speed.get_xlabel(), distance.get_xlabel()) == (OWN_CLOCK, OWN_CLOCK)
+    assert (speed.get_xlabel(), distance.get_xlabel()) == (UNALIGNED, UNALIGNED)
 
 
-def test_the_fastest_particle_is_not_drawn_at_rest(make_run: MakeRun) -> None:
+def test_maximum_velocity_ends_at_rest(make_run: MakeRun) -> None:
     folder = make_run()
     facts = json.loads((folder / "run.json").read_text())
-    moving = titled(FIGURES["motion"].draw(Run(folder)), "(a) velocity")
-    assert len(line(moving, "fastest particle")[0]) == len(Run(folder).history["time_s"])
+    moving = titled(FIGURES["motion"].plot(Run(folder)), "(a) velocity")
+    assert len(line(moving, "maximum")[0]) == len(Run(folder).history["time_s"])
     (folder / "run.json").write_text(json.dumps(facts | {"at_rest": True, "rest_since_s": 6.0}))
     run = Run(folder)
     before = run.history["time_s"] <= 6.0
     assert 0 < before.sum() < len(before)
-    drawn = line(titled(FIGURES["motion"].draw(run), "(a) velocity"), "fastest particle, until rest")
-    np.testing.assert_array_equal(drawn, [run.history["time_s"][before], run.history["max_velocity_m_s"][before]])
+    maximum = line(titled(FIGURES["motion"].plot(run), "(a) velocity"), "maximum, until rest")
+    np.testing.assert_array_equal(maximum, [run.history["time_s"][before], run.history["max_velocity_m_s"][before]])
 
 
-def test_travel_of_a_front_that_is_unknown_at_first(make_run: MakeRun) -> None:
+def test_front_travel_distance_begins_at_the_first_known_front(make_run: MakeRun) -> None:
     folder = make_run()
     columns = history_columns(11, 2)
     columns["front_position_m"][:2] = columns["runout_m"][:2] = np.nan
     write_history(folder / "history.csv", columns)
-    drawn = line(titled(FIGURES["motion"].draw(Run(folder)), "(b) displacement"), "travel distance of the front")[1]
-    np.testing.assert_allclose(drawn, [np.nan, np.nan, *(12.0 * np.arange(9.0))], atol=1e-12)
+    front = line(titled(FIGURES["motion"].plot(Run(folder)), "(b) distance"), "front travel distance")[1]
+    np.testing.assert_allclose(front, [np.nan, np.nan, *(12.0 * np.arange(9.0))], atol=1e-12)
 
 
-def test_reported_values_after_the_end_are_counted_not_drawn(make_run: MakeRun) -> None:
+def test_reported_values_after_the_end_are_counted_in_the_legend(make_run: MakeRun) -> None:
     folder = make_run()
     columns = history_columns(101, 2)
     write_history(folder / "history.csv", {name: values[:51] for name, values in columns.items()})  # to 5 s
-    figure = FIGURES["motion"].draw(Run(folder))
-    speed, distance = titled(figure, "(a) velocity"), titled(figure, "(b) displacement")
+    figure = FIGURES["motion"].plot(Run(folder))
+    speed, distance = titled(figure, "(a) velocity"), titled(figure, "(b) distance")
     np.testing.assert_array_equal(line(speed, "reported: seismic"), [[4.0], [9.0]])
-    assert texts(speed) == ["1 reported after the end of the run"]
-    assert texts(distance) == [
-        "1 reported mean after the end of the run",
-        "1 reported runout after the end of the run",
+    assert legend_notes(speed) == ["1 reported value after the end of the run"]
+    assert legend_notes(distance) == [
+        "1 reported value of mean displacement after the end of the run",
+        "1 reported value of runout distance after the end of the run",
     ]
 
 
-def test_reported_values_before_the_start_are_counted_not_drawn(make_run: MakeRun) -> None:
+def test_reported_values_before_the_start_are_counted_in_the_legend(make_run: MakeRun) -> None:
     folder = make_run()
     (folder / "inputs" / "targets.csv").write_text(
         "quantity,time_s,value,unit\nmean_velocity,-100,9,m/s\nmean_velocity,99,9,m/s\n"
     )
-    (speed, _) = FIGURES["motion"].draw(Run(folder)).axes
-    assert not [drawn for drawn in speed.lines if str(drawn.get_label()).startswith("reported")]
-    assert texts(speed) == ["1 reported before the start of the run, 1 reported after the end of the run"]
+    (speed, _) = FIGURES["motion"].plot(Run(folder)).axes
+    assert not [marks for marks in speed.lines if str(marks.get_label()).startswith("reported")]
+    assert legend_notes(speed) == [
+        "1 reported value before the start of the run, 1 reported value after the end of the run"
+    ]
 
 
-def test_motion_without_targets(make_run: MakeRun) -> None:
-    figure = FIGURES["motion"].draw(Run(make_run(targets=False)))
+def test_motion_without_targets_has_curves_only(make_run: MakeRun) -> None:
+    figure = FIGURES["motion"].plot(Run(make_run(targets=False)))
     labels = [str(found.get_label()) for axes in figure.axes for found in axes.lines]
     assert len(labels) == 5
     assert not any("reported" in label for label in labels)
 
 
-def test_seismic_force_and_its_reported_maximum(make_run: MakeRun) -> None:
+def test_seismic_force_has_components_and_reported_maxima(make_run: MakeRun) -> None:
     run = Run(make_run())
-    figure = FIGURES["force"].draw(run)
+    figure = FIGURES["force"].plot(run)
     size, parts = titled(figure, "(a)"), titled(figure, "(b)")
     x, y = run.history["seismic_force_x_N"], run.history["seismic_force_y_N"]
     np.testing.assert_allclose(line(size, "run")[1] * 1e9, np.hypot(x, y))
     np.testing.assert_array_equal(line(size, "reported maximum 280 GN: seismic")[1], [280.0, 280.0])
     t = run.history["time_s"]
     passed = [band_passed(t, part, 2.0, 8.0) for part in (x, y)]
-    np.testing.assert_allclose(line(size, "run, band-passed 2 to 8 s")[1] * 1e9, np.hypot(*passed))
+    np.testing.assert_allclose(line(size, "run, band-pass 2 to 8 s")[1] * 1e9, np.hypot(*passed))
     np.testing.assert_array_equal(line(size, "reported maximum 110 GN (2 to 8 s): waves")[1], [110.0, 110.0])
     np.testing.assert_allclose(line(parts, "x (along)")[1] * 1e9, x)
     np.testing.assert_allclose(line(parts, "y (up)")[1] * 1e9, y)
@@ -266,24 +281,24 @@ def test_seismic_force_and_its_reported_maximum(make_run: MakeRun) -> None:
     np.testing.assert_array_equal(strain.get_ydata(), run.history["mean_plastic_strain"])
 
 
-def test_reported_force_needs_a_width_and_a_target(make_run: MakeRun) -> None:
-    bare = titled(FIGURES["force"].draw(Run(make_run(name="bare", targets=False))), "(a)")
+def test_reported_force_requires_a_width_and_a_target(make_run: MakeRun) -> None:
+    bare = titled(FIGURES["force"].plot(Run(make_run(name="bare", targets=False))), "(a)")
     assert [found.get_label() for found in bare.lines] == ["run"]
-    thin = titled(FIGURES["force"].draw(Run(make_run(name="thin", width=0.0))), "(a)")
+    thin = titled(FIGURES["force"].plot(Run(make_run(name="thin", width=0.0))), "(a)")
     assert thin.get_ylabel() == "force (GN/m of width)"
-    assert [found.get_label() for found in thin.lines] == ["run", "run, band-passed 2 to 8 s"]
-    assert texts(thin) == ["reported force not drawn: the case states no width"]
+    assert [found.get_label() for found in thin.lines] == ["run", "run, band-pass 2 to 8 s"]
+    assert texts(thin) == ["reported force not shown: no case.width"]
 
 
-def test_seismic_force_in_three_dimensions(make_run: MakeRun) -> None:
-    figure = FIGURES["force"].draw(Run(make_run(dimension=3)))
+def test_seismic_force_in_three_dimensions_has_three_components(make_run: MakeRun) -> None:
+    figure = FIGURES["force"].plot(Run(make_run(dimension=3)))
     labels = [found.get_label() for found in titled(figure, "(b)").lines]
     assert labels == ["x (along)", "y (across)", "z (up)"]
 
 
-def test_band_follows_history_with_gaps(make_run: MakeRun) -> None:
+def test_band_has_the_history_with_gaps(make_run: MakeRun) -> None:
     run = Run(make_run())
-    figure = FIGURES["band"].draw(run)
+    figure = FIGURES["band"].plot(run)
     expected = {
         "(a)": ("band_temperature_C", 1.0, "temperature (°C)"),
         "(b)": ("band_pore_pressure_Pa", 1e6, "pore pressure (MPa)"),
@@ -296,82 +311,81 @@ def test_band_follows_history_with_gaps(make_run: MakeRun) -> None:
         np.testing.assert_allclose(line(axes, label)[1] * divisor, run.history[column])
         assert axes.get_ylabel() == axis_label
     np.testing.assert_array_equal(line(titled(figure, "(c)"), "reported: model"), [[4.0], [0.3]])
-    assert texts(titled(figure, "(a)"))[:2] == ["ice melts", "boiling is not modelled"]
+    assert texts(titled(figure, "(a)"))[:2] == ["melting point", "boiling point"]
 
 
-def test_band_says_why_a_panel_is_empty(make_run: MakeRun) -> None:
+def test_empty_panels_of_the_band_state_the_reason(make_run: MakeRun) -> None:
     folder = make_run()
     columns = history_columns(11, 2)
     del columns["band_saturation"]
     columns["band_temperature_C"][:] = np.nan
     columns["band_friction_coefficient"][:] = np.nan
     write_history(folder / "history.csv", columns)
-    figure = FIGURES["band"].draw(Run(folder))
-    assert texts(titled(figure, "(a)")) == ["no particle was ever in the band"]
-    assert texts(titled(figure, "(c)")) == ["history.csv has no column band_saturation"]
-    assert texts(titled(figure, "(d)")) == ["never in contact"]
+    figure = FIGURES["band"].plot(Run(folder))
+    assert texts(titled(figure, "(a)")) == ["no particles in the band"]
+    assert texts(titled(figure, "(c)")) == ["no column band_saturation in history.csv"]
+    assert texts(titled(figure, "(d)")) == ["no contact"]
 
 
-def test_energy_accounts_are_changes_and_residuals_relative(make_run: MakeRun) -> None:
+def test_energy_terms_are_changes_and_residuals_are_relative(make_run: MakeRun) -> None:
     run = Run(make_run())
-    figure = FIGURES["energy"].draw(run)
+    figure = FIGURES["energy"].plot(run)
     mechanical, thermal, residual = (titled(figure, f"({letter})") for letter in "abc")
     t = run.history["time_s"]
     np.testing.assert_allclose(line(mechanical, "potential")[1], -t, atol=1e-12)
     np.testing.assert_allclose(line(mechanical, "kinetic")[1], 0.4 * t)
     np.testing.assert_allclose(line(thermal, "sensible heat")[1] * 1e12, 0.15e12 * t, atol=1.0)
-    assert mechanical.get_ylabel() == "energy (TJ)"
-    assert texts(mechanical) == [
-        "zero throughout:\nviscous work\ndamping\nimpact on the ground\nwork of frames\nnumerical"
-    ]
+    assert mechanical.get_ylabel() == "energy change (TJ)"
+    note = figure.get_supxlabel().replace("\n", " ")
+    assert note.startswith("Zero throughout: viscous work, damping, impact on the terrain, work of frames, numerical")
     assert residual.get_yscale() == "log"
     np.testing.assert_allclose(line(residual, "mechanical")[1][1:], 1e3 * t[1:] / 1e13)
     np.testing.assert_allclose(line(residual, "thermal")[1][1:], 2e2 * t[1:] / 2e12)
 
 
-def test_residual_is_none_where_nothing_changes(make_run: MakeRun) -> None:
+def test_residual_is_none_if_nothing_changes(make_run: MakeRun) -> None:
     run = Run(make_run(rows=1))
     assert relative_residual(run, "mechanical_residual_J") is None
-    assert texts(titled(FIGURES["energy"].draw(run), "(a)")) == ["no account changes"]
+    assert texts(titled(FIGURES["energy"].plot(run), "(a)")) == ["no change of any term"]
 
 
 @pytest.mark.parametrize("name", ["motion", *SNAPSHOT_FIGURES, "force", "band", "energy"])
-def test_a_run_of_one_row_and_one_snapshot_draws(make_run: MakeRun, tmp_path: Path, name: str) -> None:
+def test_figures_of_one_row_and_one_snapshot_are_written(make_run: MakeRun, tmp_path: Path, name: str) -> None:
     run = Run(make_run(rows=1, snapshots=1, targets=False))
-    FIGURES[name].draw(run).savefig(tmp_path / "figure.png")
+    FIGURES[name].plot(run).savefig(tmp_path / "figure.png")
     assert (tmp_path / "figure.png").stat().st_size > 5000
 
 
-def test_one_row_is_drawn_as_a_marker(make_run: MakeRun) -> None:
-    speed = titled(FIGURES["motion"].draw(Run(make_run(rows=1, targets=False))), "(a)")
+def test_one_row_is_a_marker(make_run: MakeRun) -> None:
+    speed = titled(FIGURES["motion"].plot(Run(make_run(rows=1, targets=False))), "(a)")
     assert [found.get_marker() for found in speed.lines] == ["o", "o"]
 
 
 @pytest.mark.parametrize("name", SNAPSHOT_FIGURES)
-def test_snapshot_figures_need_snapshots(make_run: MakeRun, name: str) -> None:
-    with pytest.raises(NotInRunError, match="no snapshots; set"):
-        FIGURES[name].draw(Run(make_run(snapshots=0)))
+def test_snapshot_figures_require_snapshots(make_run: MakeRun, name: str) -> None:
+    with pytest.raises(NotInRunError, match=r"no snapshots\. Set"):
+        FIGURES[name].plot(Run(make_run(snapshots=0)))
 
 
-def test_history_without_ledger_or_force(make_run: MakeRun) -> None:
+def test_history_without_budget_or_force_has_no_such_figures(make_run: MakeRun) -> None:
     folder = make_run()
     write_history(folder / "history.csv", {"time_s": np.arange(3.0)})
-    for name, text in (("energy", "no columns of the energy ledger"), ("force", "no column seismic_force_x_N")):
+    for name, text in (("energy", "no columns of the energy budget"), ("force", "no column seismic_force_x_N")):
         with pytest.raises(NotInRunError, match=text):
-            FIGURES[name].draw(Run(folder))
+            FIGURES[name].plot(Run(folder))
 
 
-def test_prefixes() -> None:
+def test_prefixes_give_numbers_below_1000() -> None:
     assert prefixed([-2.8e11, np.nan], "N") == (1e9, "GN")
     assert prefixed([999.0], "Pa") == (1.0, "Pa")
     assert prefixed([np.nan], "J") == (1.0, "J")
 
 
-def test_temperatures_far_past_boiling_go_by_decades_to_the_hottest_particle(make_run: MakeRun) -> None:
+def test_scale_of_high_temperatures_is_logarithmic_up_to_the_maximum(make_run: MakeRun) -> None:
     values = np.concatenate([np.full(600, -10.0), np.linspace(0.0, 900.0, 400), [5000.0]])
     norm, extend = normalisation(values, TEMPERATURE)
     assert (norm.vmin, norm.vmax, extend) == (-10.0, 5000.0, "neither")
-    # Each decade is as long as the next, and takes a good part of the bar.
+    # Decades have equal and sufficient lengths.
     ends = np.asarray(norm(np.array([10.0, 100.0, 1000.0])))
     assert ends[2] - ends[1] == pytest.approx(ends[1] - ends[0])
     assert ends[1] - ends[0] > 0.15
@@ -379,35 +393,35 @@ def test_temperatures_far_past_boiling_go_by_decades_to_the_hottest_particle(mak
     for path in Run(folder).snapshot_files:
         with h5py.File(path, "r+") as file:
             file["VTKHDF/PointData/temperature"][:3] = 4321.0
-    figure = FIGURES["temperature"].draw(Run(folder))
+    figure = FIGURES["temperature"].plot(Run(folder))
     figure.canvas.draw()
     (bar,) = [axes for axes in figure.axes if axes.get_xlabel() == "temperature (°C)"]
-    assert [label.get_text() for label in bar.get_xticklabels()][-2:] == ["1,000", "4,321 (highest)"]
+    assert [label.get_text() for label in bar.get_xticklabels()][-2:] == ["100", "4,320"]
 
 
-def test_stretches_stand_between_dotted_lines(make_run: MakeRun) -> None:
+def test_zones_are_between_dotted_lines(make_run: MakeRun) -> None:
     run = Run(make_run())
     left, right = titled(velocity(run), "whole profile").get_xlim()
     ends = np.linspace(left, right, 5)
-    names = [Stretch("B", ends[1], ends[2]), Stretch("C", ends[2], ends[3]), Stretch("far", right, right + 10.0)]
+    names = [Zone("B", ends[1], ends[2]), Zone("C", ends[2], ends[3]), Zone("far", right, right + 10.0)]
     profile = titled(velocity(run, names), "whole profile")
     dotted = [line.get_xdata()[0] for line in profile.lines if line.get_linestyle() == ":"]
     assert dotted == pytest.approx(ends[1:4])
     assert texts(profile) == ["B", "C"]
 
 
-def test_bars_mark_how_runs_ended() -> None:
+def test_bars_mark_the_endings_of_runs() -> None:
     quantities = [("stop (s)", [100.0, np.nan, np.nan, 150.0]), ("runout (km)", [6.0, 20.0, np.nan, 7.0])]
-    figure = bars(["the case", "goes on", "bad", "longer"], quantities, ["stopped", "going", "broken", "stopped"])
+    figure = bars(["the case", "moving", "failed", "longer"], quantities, ["stopped", "going", "broken", "stopped"])
     marks = [{line.get_marker(): line.get_xydata().tolist() for line in axes.lines[1:]} for axes in figure.axes]
     assert marks == [{">": [[100.0, -1.0]], "x": [[100.0, -2.0]]}, {">": [[20.0, -1.0]], "x": [[6.0, -2.0]]}]
     (legend,) = figure.legends
     words = [text.get_text() for text in legend.get_texts()]
-    assert words[1] == "the run broke off: no number"
-    assert len(words) == 4  # no word for what no run did
+    assert words[1] == "failed run: no value"
+    assert len(words) == 4  # no entry for endings that do not occur
 
 
-def test_speed_is_reached_between_rows(make_run: MakeRun) -> None:
+def test_time_of_speed_is_interpolated_between_rows(make_run: MakeRun) -> None:
     run = Run(make_run())  # 12 sin2(pi t/10) in rows of 0.1 s: 8 m/s at 3.0409 s
     assert time_of_speed(run, 8.0) == pytest.approx(10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0)), abs=2e-3)
     assert np.isnan(time_of_speed(run, 13.0))

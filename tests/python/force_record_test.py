@@ -1,4 +1,4 @@
-"""The force of a run against one inverted from seismic waves: file, projection, filter, clock, what is drawn."""
+"""Force of a run compared with one inverted from seismic waves: file, projection, filter, alignment, figure."""
 
 from __future__ import annotations
 
@@ -34,18 +34,18 @@ AZIMUTH = 30.0  # of the records made here
 
 
 def pulse(time: np.ndarray, middle: float) -> np.ndarray:
-    """Return a vertical force on the Earth that is first upward, then downward, and 0 in its middle."""
+    """Return a vertical force on the Earth that is first upward, then downward, and 0 in the middle."""
     s = (time - middle) / 6.0
     return np.asarray(-s * np.exp(-0.5 * s * s))
 
 
 def push(time: np.ndarray) -> np.ndarray:
-    """Return a horizontal force on the Earth of a slide that is driven forward and then braked: backward first."""
+    """Return a horizontal force on the Earth of a mass that is accelerated and then braked: backward first."""
     return -pulse(time, 52.0)
 
 
 def write_record(folder: Path, *, lag: float = 7.0, size: float = 0.5, keys: str = "") -> None:
-    """Give a run the force `size` times its own, `lag` seconds earlier on a clock of its own, towards AZIMUTH."""
+    """Add a record to a run: its force times `size`, `lag` seconds earlier, towards AZIMUTH."""
     time = np.arange(-20.0, 121.0)
     up, along = size * 1e11 * pulse(time + lag, 60.0), size * 1e11 * push(time + lag)
     angle = np.radians(AZIMUTH)
@@ -86,18 +86,20 @@ def line(figure: Figure, panel: int, label: str) -> np.ndarray:
     return np.array(found.get_data(), dtype=float)
 
 
-def test_a_force_that_is_the_record_is_drawn_on_it(folder: Path) -> None:
-    """The record is half of the run's force on another clock and in another direction: the curves must coincide."""
+def test_curves_of_equal_forces_coincide(folder: Path) -> None:
+    """The record is half of the force of the run, at shifted times and in another direction."""
     run = Run(folder)
-    figure = FIGURES["force_record"].draw(run)
+    figure = FIGURES["force_record"].plot(run)
     for panel in (0, 1):
-        time, ours = line(figure, panel, "run")
-        record_time, theirs = line(figure, panel, "A survey, clock moved by +7.0 s")
+        time, values = line(figure, panel, "run")
+        record_time, reference = line(figure, panel, "A survey, time shifted by +7.0 s")
         assert record_time[0] == pytest.approx(-13.0, abs=0.01) and record_time[-1] == pytest.approx(127.0, abs=0.26)
         inside = time <= record_time[-1]
-        # The record has one row a second, and straight lines between them.
-        assert np.abs(np.interp(time[inside], record_time, theirs) - 0.5 * ours[inside]).max() < 0.005 * ours.max()
-        assert np.abs(ours).max() > 20.0, "GN"
+        # The record is interpolated linearly between rows one second apart.
+        assert (
+            np.abs(np.interp(time[inside], record_time, reference) - 0.5 * values[inside]).max() < 0.005 * values.max()
+        )
+        assert np.abs(values).max() > 20.0, "GN"
     assert figure.axes[0].get_ylabel() == "force (GN)"
     assert figure.axes[1].get_xlabel() == "time (s), 0 at the start of the run"
     assert figure.axes[1].get_title(loc="left").endswith("(record: azimuth 30°)")
@@ -106,29 +108,29 @@ def test_a_force_that_is_the_record_is_drawn_on_it(folder: Path) -> None:
     assert found.run.reversal is not None and found.record.reversal is not None
     assert found.run.reversal.zero == pytest.approx(60.0, abs=0.02) == found.record.reversal.zero
     assert found.run.reversal.duration == pytest.approx(found.record.reversal.duration, abs=0.05)
-    words = "s from largest upward to largest downward force"
+    words = "s from maximum upward to maximum downward force"
     for name, each in (("inversion", found.record.reversal), ("run", found.run.reversal)):
         assert f"{name}: {each.duration:.1f} {words}" in marks
 
 
-def test_what_is_drawn_is_what_the_filter_leaves_of_the_history(folder: Path) -> None:
+def test_curves_are_the_filtered_history(folder: Path) -> None:
     run = Run(folder)
-    figure = FIGURES["force_record"].draw(run)
+    figure = FIGURES["force_record"].plot(run)
     time = run.history["time_s"]
     for panel, axis in ((0, "y"), (1, "x")):
-        drawn_time, drawn = line(figure, panel, "run")
-        expected = filtered(time, run.history[f"seismic_force_{axis}_N"], drawn_time, BAND)
-        np.testing.assert_allclose(1e9 * drawn, expected, atol=1e-6 * np.abs(expected).max())
-        assert drawn_time[0] >= 0.0 > line(figure, panel, "filter before the run")[0].max()
+        curve_time, curve = line(figure, panel, "run")
+        expected = filtered(time, run.history[f"seismic_force_{axis}_N"], curve_time, BAND)
+        np.testing.assert_allclose(1e9 * curve, expected, atol=1e-6 * np.abs(expected).max())
+        assert curve_time[0] >= 0.0 > line(figure, panel, "filter response before the run")[0].max()
 
 
-def test_a_slide_towards_minus_x_goes_forward_too(folder: Path) -> None:
+def test_motion_towards_minus_x_is_forward(folder: Path) -> None:
     forward = compared(Run(folder)).run.along
     write_long_run(folder, towards=-1.0)
     np.testing.assert_allclose(compared(Run(folder)).run.along, forward)
 
 
-def test_the_range_is_drawn_about_the_record(folder: Path) -> None:
+def test_range_surrounds_the_record(folder: Path) -> None:
     time = np.arange(-20.0, 121.0)
     up = 1e11 * pulse(time, 50.0)
     rows = (
@@ -136,7 +138,7 @@ def test_the_range_is_drawn_about_the_record(folder: Path) -> None:
     )
     (folder / "inputs" / "force.csv").write_text(RANGE + "".join(rows))
     run = Run(folder)
-    figure = FIGURES["force_record"].draw(run)
+    figure = FIGURES["force_record"].plot(run)
     turned = np.radians(compared(run).azimuth)
     assert turned == pytest.approx(0.0)
     away = 3e9, 4e9
@@ -165,7 +167,7 @@ def test_projection_is_the_component_in_a_direction() -> None:
         assert projected(north, east, own)[0] == pytest.approx(5.0)
 
 
-def test_ends_of_a_projected_range_hold_all_that_is_in_it() -> None:
+def test_projected_range_bounds_all_components() -> None:
     low = {"north": np.array([-2.0]), "east": np.array([1.0])}
     high = {"north": np.array([1.0]), "east": np.array([3.0])}
     inside = [(n, e) for n in np.linspace(-2.0, 1.0, 7) for e in np.linspace(1.0, 3.0, 7)]
@@ -176,8 +178,8 @@ def test_ends_of_a_projected_range_hold_all_that_is_in_it() -> None:
 
 
 @pytest.mark.parametrize("azimuth", [-170.0, -45.0, 0.0, 5.0, 90.0, 135.0])
-def test_the_direction_of_travel_is_that_of_the_momentum(azimuth: float) -> None:
-    """A slide that is driven and then braked pushes the Earth back and then forward: 1/2 - 1/2, with a peak between."""
+def test_direction_of_travel_is_that_of_the_momentum(azimuth: float) -> None:
+    """The reaction of a mass that is accelerated and then braked is first backward, then forward."""
     time = np.linspace(0.0, 100.0, 401)
     force = -np.sin(2.0 * np.pi * time / 100.0)
     angle = np.radians(azimuth)
@@ -185,7 +187,7 @@ def test_the_direction_of_travel_is_that_of_the_momentum(azimuth: float) -> None
     assert travel_azimuth(ForceRecord(time, best, {}, {}, BAND, "")) == pytest.approx(azimuth)
 
 
-def test_reversal_is_found_between_rows() -> None:
+def test_reversal_is_interpolated_between_rows() -> None:
     for start in (0.0, 0.1, 0.37):
         time = start + np.arange(0.0, 100.0, 0.5)
         found = reversal(time, np.where((time > 10.0) & (time < 50.0), np.sin(2.0 * np.pi * (time - 10.0) / 40.0), 0.0))
@@ -200,7 +202,7 @@ def test_reversal_is_found_between_rows() -> None:
 
 
 @pytest.mark.parametrize("period", [6.0, 12.0, 30.0, 60.0, 120.0, 300.0])
-def test_a_sinusoid_is_filtered_exactly_where_it_is_long_enough(period: float) -> None:
+def test_long_sinusoid_is_filtered_exactly(period: float) -> None:
     time = np.arange(0.0, 4000.0, 0.25)
     at = np.arange(1500.0, 2500.0, 0.25)
     wave = np.sin(2.0 * np.pi * time / period + 0.3)
@@ -209,21 +211,21 @@ def test_a_sinusoid_is_filtered_exactly_where_it_is_long_enough(period: float) -
     np.testing.assert_allclose(filtered(time, wave, at, BAND), expected, atol=2e-3)
 
 
-def test_a_padded_step_is_filtered_as_one_that_never_ends() -> None:
-    """A force that stays as it ends is no jump back to 0: without padding the end would differ by 0.5."""
+def test_padded_step_is_filtered_as_an_infinite_one() -> None:
+    """Without padding, the jump to 0 at the end would change the result by 0.5."""
     short, long = np.arange(0.0, 100.0, 0.1), np.arange(-3000.0, 3000.0, 0.1)
     step = [np.where(time < 40.0, 0.0, 1.0) for time in (short, long)]
     at = np.arange(-50.0, 150.0, 0.5)
-    ours, whole = (filtered(time, values, at, BAND) for time, values in zip((short, long), step, strict=True))
+    padded, whole = (filtered(time, values, at, BAND) for time, values in zip((short, long), step, strict=True))
     assert np.abs(whole).max() > 0.5
-    np.testing.assert_allclose(ours, whole, atol=0.02)
-    # Exact: 1/2 at the step, as the filter's answer to it is odd about its middle but for the mean that it takes away.
+    np.testing.assert_allclose(padded, whole, atol=0.02)
+    # Exact value at 45 s, from the response of the filter to a step.
     exact = np.trapezoid(response(f := np.linspace(1e-6, 2.0, 400001), 10.0, 200.0) * np.sin(2.0 * np.pi * f * 5.0)
                          / (np.pi * f), f)  # fmt: skip
-    assert np.interp(45.0, at, ours) - 0.0 == pytest.approx(float(exact), abs=0.02)
+    assert np.interp(45.0, at, padded) == pytest.approx(float(exact), abs=0.02)
 
 
-def test_times_before_and_after_the_history_keep_its_ends() -> None:
+def test_history_is_extended_by_its_end_values() -> None:
     time = np.array([0.0, 1.0, 2.0])
     at = np.arange(-100.0, 100.0, 1.0)
     np.testing.assert_allclose(filtered(time, np.full(3, 7.0), at, BAND), 0.0, atol=1e-12)
@@ -231,27 +233,26 @@ def test_times_before_and_after_the_history_keep_its_ends() -> None:
     assert rises[at == 3.0][0] > 0.2 > abs(rises[at == -60.0][0]), "a row without a number counts as 0"
 
 
-def test_without_a_reversal_the_clocks_are_not_aligned(folder: Path) -> None:
+def test_times_without_a_reversal_are_not_aligned(folder: Path) -> None:
     columns = history_columns(2001, 2)
     columns["time_s"] = np.linspace(0.0, 200.0, 2001)
     columns |= {f"seismic_force_{axis}_N": np.zeros(2001) for axis in "xy"}
     write_history(folder / "history.csv", columns)
     run = Run(folder)
     found = compared(run)
-    assert (found.aligned, found.shift) == (False, 0.0)
-    assert "The clocks are not aligned, as one of the vertical forces does not reverse: t = 0 of both is the same." in (
-        FIGURES["force_record"].caption_of(run)
-    )
-    assert line(FIGURES["force_record"].draw(run), 0, "A survey, clocks not aligned")[0][0] == -20.0
+    assert (found.is_aligned, found.shift) == (False, 0.0)
+    words = "Times are not aligned, because one of the vertical forces does not reverse."
+    assert words in FIGURES["force_record"].caption_of(run)
+    assert line(FIGURES["force_record"].plot(run), 0, "A survey, times not aligned")[0][0] == -20.0
 
 
-def test_a_run_that_ends_before_the_record_begins_still_draws(folder: Path) -> None:
+def test_run_before_the_record_is_plotted(folder: Path) -> None:
     columns = {name: values[:3] for name, values in history_columns(2001, 2).items()}
     write_history(folder / "history.csv", columns | {"time_s": np.array([-90.0, -80.0, -70.0])})
-    assert not line(FIGURES["force_record"].draw(Run(folder)), 0, "filter before the run").size
+    assert not line(FIGURES["force_record"].plot(Run(folder)), 0, "filter response before the run").size
 
 
-def test_the_caption_says_where_two_inversions_differ(folder: Path) -> None:
+def test_caption_has_the_difference_of_two_inversions(folder: Path) -> None:
     header = "quantity,time_s,value,unit,source,kind\n"
     (folder / "inputs" / "targets.csv").write_text(
         header + "max_seismic_force_35_150_s,5,280,GN,Others,observation\nmax_seismic_force,5,70,GN,Them,observation\n"
@@ -261,28 +262,29 @@ def test_the_caption_says_where_two_inversions_differ(folder: Path) -> None:
     record = run.force_record
     assert record is not None
     parts = [filtered(record.time, record.best[part], record.time, Band(35.0, 150.0)) for part in record.best]
-    theirs = float(np.sqrt(sum(part**2 for part in parts)).max()) / 1e9
+    of_record = float(np.sqrt(sum(part**2 for part in parts)).max()) / 1e9
     words = FIGURES["force_record"].caption_of(run)
-    assert "(A survey). Both are filtered to periods of 10 to 200 s by the same filter." in words
-    assert "The record's clock is moved by +7.0 s, so that both vertical forces pass 0 between" in words
-    assert "for the record, the azimuth of 30 degrees" in words
+    assert "(A survey). Both are filtered to periods of 10 to 200 s by the same filter" in words
+    assert "Times of the record are shifted by +7.0 s to align the sign reversals" in words
+    assert "for the record, the azimuth of the maximum horizontal momentum, 30°;" in words
     of_others = re.search(
-        r"Largest force in 35 to 150 s \(Others\): 280 GN as reported, ([\d.]+) GN in the record, "
-        r"([\d.]+) GN in the run; the two inversions differ by a factor of ([\d.]+)\.",
+        r"Maximum force in 35 to 150 s \(Others\): 280 GN reported, ([\d.]+) GN in the record, "
+        r"([\d.]+) GN in the run\. The two inversions differ by a factor of ([\d.]+)\.",
         words,
     )
     assert of_others
     assert [float(of_others[number]) for number in (1, 2, 3)] == [
-        pytest.approx(theirs, rel=0.01), pytest.approx(2.0 * theirs, rel=0.03), pytest.approx(280.0 / theirs, rel=0.03),
+        pytest.approx(of_record, rel=0.01), pytest.approx(2.0 * of_record, rel=0.03),
+        pytest.approx(280.0 / of_record, rel=0.03),
     ]  # fmt: skip
-    assert "Largest force without a stated band, compared in 10 to 200 s (Them): 70 GN as reported, " in words
-    assert re.search(r"in 2 to 8 s \(Third\): 1 GN as reported, [\d.]+ GN in the run\.", words), "not in the record"
+    assert "Maximum force without a specified band, compared in 10 to 200 s (Them): 70 GN reported, " in words
+    assert re.search(r"in 2 to 8 s \(Third\): 1 GN reported, [\d.]+ GN in the run\.", words), "not in the record"
     page = make_report(run, names=["force_record"], dpi=50).page.read_text(encoding="utf-8")
     assert 'src="figures/force_record.png"' in page
-    assert "the two inversions differ by a factor of" in page
+    assert "The two inversions differ by a factor of" in page
 
 
-def test_three_dimensions_take_x_as_east(make_run: MakeRun) -> None:
+def test_x_is_east_in_three_dimensions(make_run: MakeRun) -> None:
     made = make_run(dimension=3)
     columns = history_columns(2001, 3)
     time = columns["time_s"] = np.linspace(0.0, 200.0, 2001)
@@ -299,19 +301,19 @@ def test_three_dimensions_take_x_as_east(make_run: MakeRun) -> None:
     assert "with x as east and y as north" in FIGURES["force_record"].caption_of(Run(made))
 
 
-def test_a_case_without_a_record_has_no_such_figure(make_run: MakeRun) -> None:
+def test_case_without_a_record_has_no_such_figure(make_run: MakeRun) -> None:
     run = Run(make_run())
     assert not FIGURES["force_record"].suits(run)
-    with pytest.raises(NotInRunError, match=r"^the case names no report\.force_record$"):
+    with pytest.raises(NotInRunError, match=r"^case\.toml: no force record\. "):
         compared(run)
 
 
-def test_a_run_without_a_width_says_so_in_place_of_the_figure(make_run: MakeRun) -> None:
+def test_run_without_a_width_has_the_reason_on_the_page(make_run: MakeRun) -> None:
     made = make_run(width=0.0)
     write_record(made)
     report = make_report(Run(made), names=None, dpi=40)
-    reason = "the force record is not drawn: the case states no width (case.width)"
-    assert report.left_out["force_record"] == reason and not report.faults
+    reason = "case.toml: the force record cannot be compared without a width. Specify case.width."
+    assert report.missing["force_record"] == reason and not report.faults
 
 
 @pytest.mark.parametrize(
@@ -340,36 +342,39 @@ def test_a_run_without_a_width_says_so_in_place_of_the_figure(make_run: MakeRun)
         ),
     ],
 )
-def test_a_file_that_is_not_understood_is_refused(tmp_path: Path, text: str, message: str) -> None:
+def test_invalid_record_is_an_error(tmp_path: Path, text: str, message: str) -> None:
     (tmp_path / "force.csv").write_text(text)
     with pytest.raises(ReportError) as error:
         read_force_record(tmp_path / "force.csv", BAND, "")
     assert str(error.value) == f"{tmp_path}/{message}"
 
 
-def test_keys_of_the_run_are_checked(make_run: MakeRun) -> None:
+def test_keys_of_the_case_are_checked(make_run: MakeRun) -> None:
     made = make_run()
     case = made / "case.toml"
     text = case.read_text() + 'force_record = "inputs/force.csv"\n'
     (made / "inputs" / "force.csv").write_text(HEADER + "0,0,0,0\n1,0,0,0\n")
     for keys, message in (
-        ("", "[report] force_record needs force_periods. Add the periods of its waves [s]."),
+        ("", "report.force_periods: missing for report.force_record. Add the periods of its waves [s]."),
         (
             "force_periods = [9.0]\n",
-            "report.force_periods must be two numbers above 0, the smaller one first, found [9.0]",
+            "report.force_periods: invalid value (found [9.0]; allowed two numbers above 0, the smaller one first)",
         ),
-        ("force_periods = [9.0, 3.0]\n", "report.force_periods must be two numbers above 0, the smaller one first"),
+        (
+            "force_periods = [9.0, 3.0]\n",
+            "report.force_periods: invalid value (found [9.0, 3.0]; allowed two numbers above 0",
+        ),
     ):
         case.write_text(text + keys)
         with pytest.raises(ReportError, match=re.escape(f"{case}: {message}")):
             _ = Run(made).force_record
     case.write_text(text.replace("inputs/force.csv", "inputs/none.csv") + "force_periods = [3.0, 9.0]\n")
-    with pytest.raises(ReportError, match=re.escape("none.csv: no such file; [report] force_record in")):
+    with pytest.raises(ReportError, match=re.escape("none.csv: no such file. Correct report.force_record in")):
         _ = Run(made).force_record
 
 
-def test_the_record_of_lamplugh_has_the_numbers_that_its_source_shows() -> None:
-    """Read off the figures of the notebook: peaks of the components, and where the force is over."""
+def test_record_of_lamplugh_has_the_values_of_its_source() -> None:
+    """Values from the figures of the notebook: peaks of the components, and the end of the force."""
     texts = [(ROOT / "cases" / name / "lamplugh_force.csv").read_bytes() for name in ("lamplugh", "lamplugh-columns")]
     assert texts[0] == texts[1]
     record = read_force_record(ROOT / "cases" / "lamplugh" / "lamplugh_force.csv", BAND, "")

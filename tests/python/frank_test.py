@@ -1,4 +1,4 @@
-"""The comparisons with SHALTOP and of cells: numbers of deposits, orders of convergence, runs that are done."""
+"""Comparisons with SHALTOP and of cells: deposits, orders of convergence, completed runs."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def block(first: int, last: int, value: float) -> Map:
     return Map(GRID, values, "m")
 
 
-def test_numbers_of_a_known_deposit() -> None:
+def test_numbers_of_a_known_deposit_are_exact() -> None:
     x, _ = np.meshgrid(GRID.x, GRID.y)
     terrain, pile = Map(GRID, 1_000.0 - 0.5 * x), block(2, 6, 30.0)
     final = block(30, 40, 4.0)
@@ -50,7 +50,7 @@ def test_numbers_of_a_known_deposit() -> None:
     assert found.reach_angle == pytest.approx(math.degrees(math.atan2(found.drop, found.travel)))
 
 
-def test_difference_of_deposits_that_half_overlap() -> None:
+def test_difference_of_half_overlapping_deposits_is_exact() -> None:
     empty = block(0, 0, 0.0)
     one, other = (frank.Deposit(block(first, first + 10, 4.0), empty, empty) for first in (10, 15))
     found = frank.difference(one, other)
@@ -61,7 +61,7 @@ def test_difference_of_deposits_that_half_overlap() -> None:
     assert (same.overlap, same.moved, same.thickness) == (1.0, 0.0, 0.0)
 
 
-def test_maps_of_a_run_are_placed_on_the_grid_of_the_other_code() -> None:
+def test_maps_are_on_the_grid_of_the_other_code() -> None:
     part = Map(Grid(10.0, 70.0, 20.0, 20.0, 3, 2), np.array([[1.0, 2.0, np.nan], [4.0, 5.0, 6.0]]))
     placed = frank.on_grid(part, GRID).values
     assert placed[2, :3].tolist() == [2.0, 0.0, 0.0]  # the first column lies outside
@@ -136,7 +136,7 @@ def test_run_is_done_only_with_the_same_changes(tmp_path: Path) -> None:
     assert not jobs.Job(job.case, job.changes, tmp_path / "plane-5.5").is_done
 
 
-def test_command_that_fails_ends_the_program_with_the_place_of_its_output(tmp_path: Path) -> None:
+def test_failed_command_ends_the_program_with_the_path_of_its_output(tmp_path: Path) -> None:
     log = tmp_path / "a.log"
     with pytest.raises(SystemExit, match=r"exit code 3; .*a\.log has the output of the command"):
         jobs.call([sys.executable, "-c", "raise SystemExit(3)"], log)

@@ -1,4 +1,4 @@
-"""Layers of a GeoPackage: every kind of geometry, and the texts for what cannot be read."""
+"""Layers of a GeoPackage: kinds of geometries, and messages of errors."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def points(values: list[list[float]], order: str = "<") -> bytes:
     return struct.pack(f"{order}I", len(values)) + np.array(values, f"{order}f8").tobytes()
 
 
-def test_lines_with_their_attributes(tmp_path: Path) -> None:
+def test_lines_have_their_attributes(tmp_path: Path) -> None:
     line = np.array([[1.0, 2.0], [3.0, 5.0], [7.0, 11.0]])
     write_layer(tmp_path / "a.gpkg", "path", [line_blob(line), line_blob(line + 1.0, envelope=True)])
     first, second = read_layer(tmp_path / "a.gpkg", "path")
@@ -28,7 +28,7 @@ def test_lines_with_their_attributes(tmp_path: Path) -> None:
     assert second.attributes == {"fid": 2, "time_s": 1.5}
 
 
-def test_points_and_polygons_with_holes_of_many_parts() -> None:
+def test_points_and_polygons_with_holes_are_read() -> None:
     point = struct.pack("<BI2d", 1, 1, 4.0, 5.0)
     np.testing.assert_array_equal(geometry_parts(HEAD + point)[0], [[4.0, 5.0]])
     ring, hole = [[0.0, 0.0], [9.0, 0.0], [0.0, 9.0], [0.0, 0.0]], [[1.0, 1.0], [2.0, 1.0], [1.0, 2.0], [1.0, 1.0]]
@@ -39,7 +39,7 @@ def test_points_and_polygons_with_holes_of_many_parts() -> None:
     assert len(geometry_parts(HEAD + struct.pack("<BII", 1, 6, 3) + 3 * polygon)) == 6
 
 
-def test_heights_are_left_out_and_either_byte_order_is_read() -> None:
+def test_heights_are_ignored_in_either_byte_order() -> None:
     line = struct.pack(">BI", 0, 1002) + points([[1.0, 2.0, 800.0], [3.0, 4.0, 900.0]], ">")
     np.testing.assert_array_equal(geometry_parts(HEAD + line)[0], [[1.0, 2.0], [3.0, 4.0]])
 
@@ -48,12 +48,12 @@ def test_no_geometry_has_no_parts() -> None:
     assert geometry_parts(None) == []
 
 
-def test_what_cannot_be_read(tmp_path: Path) -> None:
+def test_unreadable_layers_are_errors(tmp_path: Path) -> None:
     path = tmp_path / "a.gpkg"
-    with pytest.raises(NotInRunError, match=r"a\.gpkg: no such file; only a 3D run on a DEM writes it"):
+    with pytest.raises(NotInRunError, match=r"a\.gpkg: no such file\. Only a 3D run on a DEM writes it"):
         read_layer(path, "path")
     write_layer(path, "path", [line_blob(np.eye(2))[:-4]])
-    with pytest.raises(NotInRunError, match=r"a\.gpkg: no layer front; there are: path"):
+    with pytest.raises(NotInRunError, match=r"a\.gpkg: no layer front \(found: path\)"):
         read_layer(path, "front")
     with pytest.raises(ReportError, match=r"a\.gpkg: cannot be read as a GeoPackage"):
         read_layer(path, "path")
@@ -71,6 +71,6 @@ def test_what_cannot_be_read(tmp_path: Path) -> None:
         (HEAD + struct.pack("<BII", 1, 13, 1), "unknown type 13"),
     ],
 )
-def test_odd_geometries(blob: bytes, text: str) -> None:
+def test_invalid_geometries_are_errors(blob: bytes, text: str) -> None:
     with pytest.raises(ValueError, match=text):
         geometry_parts(blob)

@@ -1,4 +1,4 @@
-"""The laboratory experiments: lines measured in particles, and plotted numbers that are those of the data."""
+"""Laboratory experiments: lines from particles, and values of figures."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import laboratory
 import laboratory_page
 
 
-def test_windows_hold_all_of_the_volume() -> None:
+def test_windows_contain_the_whole_volume() -> None:
     rng = np.random.default_rng(3)
     x, volume = rng.uniform(0.1, 2.0, 200), rng.uniform(0.0, 1.0, 200)
     window = 0.125
@@ -46,14 +46,14 @@ def test_failure_line_of_material_at_rest_is_its_top() -> None:
     assert laboratory.failure_line(start, np.zeros(3), np.array([0.05]), 0.001, 0.02) == [laboratory.BAR_HEIGHT]
 
 
-def test_measured_lines_are_whole() -> None:
+def test_measured_lines_are_complete() -> None:
     x, height = laboratory.read_points(laboratory.MEASURED / "surface.csv")
     assert (len(x), x[-1], height[-1]) == (23, 0.442348498, 0.001519511)
     x, height = laboratory.read_points(laboratory.MEASURED / "failure.csv")
     assert (len(x), x[0], height[0]) == (9, 0.021159264, 0.098901077)
 
 
-def test_runs_differ_in_name_and_repeat_no_key() -> None:
+def test_runs_have_unique_names_and_keys() -> None:
     jobs = laboratory.jobs(Path("runs"))
     assert len({job.output for job in jobs}) == len(jobs) > 60
     for job in jobs:
@@ -77,7 +77,7 @@ def bars(cell: float, offset: float) -> laboratory.Bars:
     )
 
 
-def test_figure_of_bars_plots_the_numbers_of_runs_and_of_measurements() -> None:
+def test_figure_of_bars_has_runs_and_measurements() -> None:
     found = {
         (transfer, cell): bars(cell, 1e-4 * cell + (0.001 if transfer == "apic" else 0.0))
         for transfer in laboratory.TRANSFERS

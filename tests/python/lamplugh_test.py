@@ -1,4 +1,4 @@
-"""What Sec. 4 is measured by, and the rows of the one-at-a-time table, on run folders made by hand."""
+"""Measures of Sec. 4, and rows of the one-at-a-time table, on constructed run folders."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from conftest import MakeRun, history_columns, write_history
 
-from reproduction.lamplugh import FRONT, base_traction, block_measures, near_ground, read_block, zone_shares, zones
+from reproduction.lamplugh import FRONT, base_traction, block_measures, near_ground, read_block, zone_fractions, zones
 from reproduction.one_at_a_time import Outcome, Row, at_rest, end_of, is_current, outcome, run_rows, table, table_row
 from reproduction.runs import LAMPLUGH_BLOCKS
 from thawslide.run import Run
@@ -28,7 +28,7 @@ def write_ground(folder: Path) -> None:
     (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n" + rows)
 
 
-def test_zones_follow_one_another_and_hold_what_lies_in_them(make_run: MakeRun) -> None:
+def test_zones_adjoin_and_contain_their_fraction_of_the_volume(make_run: MakeRun) -> None:
     folder = make_run()
     write_ground(folder)
     found = zones(Run(folder))
@@ -43,12 +43,18 @@ def test_zones_follow_one_another_and_hold_what_lies_in_them(make_run: MakeRun) 
         x = np.repeat([1500.0, 0.5 * (found[2].start + found[2].end), 10000.0, 11000.0], len(points) // 4)
         points[:, 0] = x
         volume = float(np.sum(file["VTKHDF/PointData/volume"]))
-    shares = zone_shares(Run(folder))
-    assert {letter: share for letter, (share, _) in shares.items()} == {"B": 25, "C": 0, "D": 25, "E": 0, "F": 25}
-    assert shares["F"][1] == pytest.approx(0.25 * volume / 1000.0)
+    fractions = zone_fractions(Run(folder))
+    assert {letter: fraction for letter, (fraction, _) in fractions.items()} == {
+        "B": 25,
+        "C": 0,
+        "D": 25,
+        "E": 0,
+        "F": 25,
+    }
+    assert fractions["F"][1] == pytest.approx(0.25 * volume / 1000.0)
 
 
-def test_base_traction_is_what_slows_a_slide_on_level_ground(make_run: MakeRun) -> None:
+def test_base_traction_follows_from_the_deceleration(make_run: MakeRun) -> None:
     folder = make_run(rows=201)
     (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n-1e4,0.0\n1e4,0.0\n")
     columns = history_columns(201, 2)
@@ -61,14 +67,14 @@ def test_base_traction_is_what_slows_a_slide_on_level_ground(make_run: MakeRun) 
     assert math.isnan(base_traction(run))
 
 
-def test_particles_near_the_ground_are_counted_across_it(make_run: MakeRun) -> None:
-    # Rows 0.5, 1.5, 2.5 and 3.5 m up a slope of one half: 0.447, 1.342, 2.236, 3.130 m across it, two a column of 2 m.
+def test_particles_near_the_terrain_are_counted_normal_to_it(make_run: MakeRun) -> None:
+    # Rows 0.5, 1.5, 2.5 and 3.5 m up a slope of one half: 0.447, 1.342, 2.236, 3.130 m normal to it, two per 2 m.
     run = Run(make_run())
     assert near_ground(run, 0.0, height=1.3, column=2.0) == 2.0
     assert near_ground(run, 0.0, height=1.4, column=2.0) == 4.0
 
 
-def test_blocks_are_measured(make_run: MakeRun) -> None:
+def test_measures_of_blocks_are_those_of_their_histories(make_run: MakeRun) -> None:
     folder = make_run()
     header = "time_s,velocity_m_s,displacement_m,sliding_strength_Pa,driving_traction_Pa\n"
     for block in LAMPLUGH_BLOCKS:
@@ -82,7 +88,7 @@ def test_blocks_are_measured(make_run: MakeRun) -> None:
     assert read_block(folder.parent / "lamplugh-block.csv")["time_s"].tolist() == [0, 1, 2, 3]
 
 
-def test_rest_is_told_from_a_pause_at_the_start() -> None:
+def test_rest_differs_from_a_pause_at_the_start() -> None:
     times = [float(t) for t in range(121)]
     moving = [max(0.0, 10.0 - abs(t - 50.0)) for t in times]
     assert not at_rest(times[:30], moving[:30])
@@ -92,7 +98,7 @@ def test_rest_is_told_from_a_pause_at_the_start() -> None:
     assert not at_rest([], [])
 
 
-def test_outcome_of_a_run(make_run: MakeRun) -> None:
+def test_outcome_has_the_results_of_a_run(make_run: MakeRun) -> None:
     found = outcome(make_run())
     assert found.failure == ""
     assert found.peak == pytest.approx(12.0)
@@ -105,7 +111,7 @@ def test_outcome_of_a_run(make_run: MakeRun) -> None:
     assert found.length == pytest.approx(19.0)
 
 
-def test_rows_say_plainly_what_failed() -> None:
+def test_rows_state_failures() -> None:
     row = Row("x", "x", ("a=1", "b=2"), "other.toml")
     empty = "| x | not run | | | | | | | | | [other.toml](other.toml) `a=1` `b=2` |"
     assert table_row(row, Outcome("not run")) == empty
@@ -131,25 +137,25 @@ folder.mkdir(parents=True, exist_ok=True)
 """
 
 
-def test_runs_that_are_there_are_kept(tmp_path: Path) -> None:
+def test_complete_runs_are_not_repeated(tmp_path: Path) -> None:
     program = tmp_path / "program"
     program.write_text(f"#!{sys.executable}\n{PROGRAM}")
     program.chmod(0o755)
     (tmp_path / "case.toml").write_text("")
     rows = (Row("a", "a"), Row("b", "b", ("x=1",)), Row("c", "c", ("bad=1",)))
     time.sleep(0.02)
-    said: list[str] = []
+    lines: list[str] = []
     for _ in range(2):
-        run_rows(rows, program, tmp_path, tmp_path / "runs", ("y=2",), 2, said.append)
-    assert said[0] == "3 runs, 0 of them there already"
-    assert any("min left: c: error: no such key bad" in line for line in said)
-    assert said[4] == "3 runs, 2 of them there already"
+        run_rows(rows, program, tmp_path, tmp_path / "runs", ("y=2",), 2, lines.append)
+    assert lines[0] == "3 runs, 0 of them complete"
+    assert any("min left: c: error: no such key bad" in line for line in lines)
+    assert lines[4] == "3 runs, 2 of them complete"
     assert outcome(tmp_path / "runs" / "c").failure == "error: no such key bad"
     assert outcome(tmp_path / "runs" / "d").failure == "not run"
     words = json.loads((tmp_path / "runs" / "b" / "run.json").read_text())["command"].split(" ")
     assert words[-4:] == ["--set", "y=2", "--set", "x=1"]
     assert is_current(tmp_path / "runs" / "b", words, [program])
-    # One stopped on its way is no result, one stopped at rest is.
+    # A run stopped before rest is not complete.
     facts = {"command": " ".join(words), "status": "stopped", "message": "signal 15"}
     (tmp_path / "runs" / "b" / "run.json").write_text(json.dumps(facts))
     assert not is_current(tmp_path / "runs" / "b", words, [program])

@@ -1,4 +1,4 @@
-"""The parts of a figure on a map that tests look at."""
+"""Parts of maps for tests."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from thawslide import Run
 from thawslide.figures import FIGURES
 
 
-def drawn(name: str, folder: Path) -> Figure:
-    """Draw a figure of a run by its name."""
-    figure = FIGURES[name].draw(Run(folder))
+def plotted(name: str, folder: Path) -> Figure:
+    """Plot a figure of a run by its name."""
+    figure = FIGURES[name].plot(Run(folder))
     assert isinstance(figure, Figure)
     return figure
 
@@ -32,10 +32,10 @@ def field(axes: Axes) -> AxesImage:
 
 
 def labels(figure: Figure) -> set[str]:
-    """Return what the axes are labelled with."""
+    """Return the labels of the axes."""
     return {label for axes in figure.axes for label in (axes.get_xlabel(), axes.get_ylabel()) if label}
 
 
 def notes(figure: Figure) -> str:
-    """Return what stands beside the panels, in one line."""
+    """Return the notes of the figure in one line."""
     return " ".join(" ".join(text.get_text().split()) for text in figure.texts)

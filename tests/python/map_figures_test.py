@@ -1,4 +1,4 @@
-"""Figures of a 3D run on a DEM: what they show is what the files hold, with units, coordinates and terrain."""
+"""Figures of a 3D run on a DEM: values of the files, units, coordinates and terrain."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from pathlib import Path
 import imageio_ffmpeg
 import numpy as np
 import pytest
-from map_figure_parts import drawn, field, labels, maps_of, notes
+from map_figure_parts import field, labels, maps_of, notes, plotted
 from map_runs import SOUTH, SPEED, THICKNESS, WEST, centres, write_layer, write_map
 from matplotlib.figure import Figure
 
 from thawslide import NotInRunError, ReportError, Run
 from thawslide.command_line import main
 from thawslide.figures import FIGURES
-from thawslide.figures.animation import MOST_FRAMES, Film
+from thawslide.figures.animation import MOST_FRAMES, Animation
 from thawslide.figures.map_page import HIGHEST, WIDTH, layout
 from thawslide.figures.map_panel import (
     MOST_CELLS,
@@ -30,6 +30,7 @@ from thawslide.figures.map_panel import (
 from thawslide.figures.site import make_site
 from thawslide.key_numbers import key_numbers
 from thawslide.maps import Grid, Map
+from thawslide.number_text import number_text
 from thawslide.report import figures_of, make_report
 
 ON_MAP = [
@@ -43,15 +44,17 @@ ON_MAP = [
     [
         (
             "slide_speed",
-            "speed, mean over the thickness (m/s), mean over 4 s about each time",
+            "depth-averaged speed (m/s), 4 s mean",
             SPEED * np.hypot(1.0, 0.4),
         ),
-        ("slide_thickness", "thickness (m), square-root scale; blue: below 0.1 m", THICKNESS),
-        ("slide_temperature", "temperature next to the ground (°C)", 10.0),
+        ("slide_thickness", "flow thickness (m), square-root scale; blue: below 0.1 m", THICKNESS),
+        ("slide_temperature", "basal temperature (°C)", 10.0),
     ],
 )
-def test_the_slide_from_above_at_each_time(map_run: Path, name: str, label: str, value: float) -> None:
-    figure = drawn(name, map_run)
+def test_maps_at_report_times_have_the_values_of_the_particles(
+    map_run: Path, name: str, label: str, value: float
+) -> None:
+    figure = plotted(name, map_run)
     panels = maps_of(figure)
     assert [axes.get_title(loc="left") for axes in panels] == [
         f"({letter}) t = {time} s" for letter, time in zip("abcdef", (0, 2, 4, 6, 8, 10), strict=True)
@@ -66,39 +69,39 @@ def test_the_slide_from_above_at_each_time(map_run: Path, name: str, label: str,
     assert start == pytest.approx(WEST + 60.0 + SPEED * 10.0, abs=10.0)
     assert south >= SOUTH
     assert "Coordinates: MGI / Austria Lambert (EPSG:31287)." in notes(figure)
-    assert "light from the north-west" in notes(figure)
+    assert "Hillshade from the north-west" in notes(figure)
 
 
-def test_extent_maps(map_run: Path) -> None:
-    figure = drawn("extent_maps", map_run)
+def test_extent_maps_have_titles_units_and_legend(map_run: Path) -> None:
+    figure = plotted("extent_maps", map_run)
     panels = maps_of(figure)
     assert [(axes.get_title(loc="left"), axes.get_title(loc="right")) for axes in panels] == [
-        ("(a) largest thickness", "max 6 m"),
-        ("(b) largest speed", "max 20 m/s"),
+        ("(a) maximum flow thickness", "max 6 m"),
+        ("(b) maximum velocity", "max 20 m/s"),
         ("(c) arrival time", "0 to 9.8 s"),
-        ("(d) thickness at 10 s", "max 6 m"),
+        ("(d) flow thickness at 10 s", "max 6 m"),
     ]
     assert {"m, square-root scale\nblue: below 0.1 m", "m/s", "s"} <= labels(figure)
     final = field(panels[3]).get_array()
     assert final is not None
     assert np.ma.count(final) == 8 * 6
     (legend,) = figure.legends
-    assert [text.get_text() for text in legend.get_texts()] == ["release", "path", "probe"]
+    assert [text.get_text() for text in legend.get_texts()] == ["release", "flow path", "probe"]
     assert "gate" in {text.get_text() for text in panels[0].texts}
 
 
-def test_impact_maps_leave_out_what_never_happened(map_run: Path) -> None:
-    titles = [axes.get_title(loc="left")[4:] for axes in maps_of(drawn("impact_maps", map_run))]
+def test_impact_maps_exclude_maps_without_values(map_run: Path) -> None:
+    titles = [axes.get_title(loc="left")[4:] for axes in maps_of(plotted("impact_maps", map_run))]
     assert titles == [
-        "largest dynamic pressure", "largest momentum flux", "largest pore pressure", "highest temperature at the base",
-        "change of elevation at 10 s",
+        "maximum dynamic pressure", "maximum momentum flux", "maximum pore pressure", "maximum basal temperature",
+        "elevation change at 10 s",
     ]  # fmt: skip
 
 
-def test_a_metre_gained_has_as_deep_a_colour_as_one_lost(map_run: Path) -> None:
+def test_scale_of_elevation_change_is_symmetric(map_run: Path) -> None:
     x, _ = centres()
     write_map(map_run / "maps" / "elevation_change.tif", np.where(x < WEST + 200.0, -19.3, 45.8), "m")
-    figure = drawn("impact_maps", map_run)
+    figure = plotted("impact_maps", map_run)
     norm = field(maps_of(figure)[-1]).norm
     assert (norm.vmin, norm.vmax) == pytest.approx((-45.8, 45.8))
     assert norm(-10.0) + norm(10.0) == pytest.approx(1.0)
@@ -108,23 +111,23 @@ def test_a_metre_gained_has_as_deep_a_colour_as_one_lost(map_run: Path) -> None:
 
 
 @pytest.mark.parametrize("largest", [THICKNESS, 1.2e27])
-def test_remarks_stand_beside_all_titles_or_in_all_maps(map_run: Path, largest: float) -> None:
+def test_remarks_are_next_to_all_titles_or_in_all_maps(map_run: Path, largest: float) -> None:
     x, _ = centres()
     write_map(map_run / "maps" / "max_momentum_flux.tif", np.full(x.shape, largest), "m3/s2")
-    panels = maps_of(drawn("impact_maps", map_run))
-    beside = [axes.get_title(loc="right") for axes in panels]
+    panels = maps_of(plotted("impact_maps", map_run))
+    titles = [axes.get_title(loc="right") for axes in panels]
     inside = [[text.get_text() for text in axes.texts if "max" in text.get_text()] for axes in panels]
-    assert all(beside) == any(beside)
-    assert any(beside) != any(inside)
-    assert f"{largest:,.0f}" in (beside[1] or inside[1][0])
+    assert all(titles) == any(titles)
+    assert any(titles) != any(inside)
+    assert number_text(largest) in (titles[1] or inside[1][0])
 
 
-def test_probes(map_run: Path) -> None:
-    figure = drawn("probes", map_run)
-    assert {"thickness (m)", "speed (m/s)", "flow area (m²)", "discharge (m³/s)"} <= labels(figure)
+def test_probes_have_one_panel_per_quantity(map_run: Path) -> None:
+    figure = plotted("probes", map_run)
+    assert {"flow thickness (m)", "speed (m/s)", "flow area (m²)", "discharge (m³/s)"} <= labels(figure)
     thickness = maps_of(figure)[0]
-    assert [line.get_label() for line in thickness.lines] == ["gate", "weir (largest)"]
-    assert thickness.get_title(loc="left") == "(a) thickness"
+    assert [line.get_label() for line in thickness.lines] == ["gate", "weir (maximum)"]
+    assert thickness.get_title(loc="left") == "(a) flow thickness"
     speed = maps_of(figure)[1]
     assert [line.get_label() for line in speed.lines] == ["gate", "weir (mean)"]
     np.testing.assert_array_equal(np.asarray(speed.lines[1].get_ydata()), [0.0, 18.0, 0.0])
@@ -136,40 +139,40 @@ def test_probes(map_run: Path) -> None:
     assert panel.get_ylim()[0] < -6480.0 and panel.get_ylim()[1] == 0.0
 
 
-def test_the_film_has_a_frame_for_each_snapshot(map_run: Path, tmp_path: Path) -> None:
-    film = FIGURES["animation"].draw(Run(map_run))
-    assert isinstance(film, Film)
-    film.write(tmp_path / "film.mp4", 40)
-    frames, seconds = imageio_ffmpeg.count_frames_and_secs(str(tmp_path / "film.mp4"))
+def test_animation_has_a_frame_for_each_snapshot(map_run: Path, tmp_path: Path) -> None:
+    video = FIGURES["animation"].plot(Run(map_run))
+    assert isinstance(video, Animation)
+    video.write(tmp_path / "video.mp4", 40)
+    frames, seconds = imageio_ffmpeg.count_frames_and_secs(str(tmp_path / "video.mp4"))
     assert frames == 6
-    assert seconds == pytest.approx(6 / film.frames_per_second, abs=0.1)
-    assert [path.name for path in tmp_path.glob("*.mp4")] == ["film.mp4"]
+    assert seconds == pytest.approx(6 / video.frames_per_second, abs=0.1)
+    assert [path.name for path in tmp_path.glob("*.mp4")] == ["video.mp4"]
 
 
-def test_frames_differ_and_their_sides_are_even(map_run: Path) -> None:
-    film = FIGURES["animation"].draw(Run(map_run))
-    assert isinstance(film, Film)
-    first, *_, last = list(film.frames(41))
+def test_frames_differ_and_have_even_sides(map_run: Path) -> None:
+    video = FIGURES["animation"].plot(Run(map_run))
+    assert isinstance(video, Animation)
+    first, *_, last = list(video.frames(41))
     assert first.shape == last.shape
     assert first.shape[0] % 2 == 0 and first.shape[1] % 2 == 0
     assert np.any(first != last)
 
 
-def test_a_film_that_cannot_be_written_says_so(map_run: Path, tmp_path: Path) -> None:
-    film = Film(Run(map_run))
-    with pytest.raises(ReportError, match=r"film\.mp4: the film cannot be written: "):
-        film.write(tmp_path / "no such folder" / "film.mp4", 40)
+def test_unwritable_animation_is_an_error(map_run: Path, tmp_path: Path) -> None:
+    video = Animation(Run(map_run))
+    with pytest.raises(ReportError, match=r"video\.mp4: cannot be written \("):
+        video.write(tmp_path / "no such folder" / "video.mp4", 40)
 
 
-def test_many_snapshots_are_thinned_to_the_most_frames(map_run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_number_of_frames_is_limited(map_run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     run = Run(map_run)
     monkeypatch.setitem(run.__dict__, "times", np.arange(1000.0))
-    film = Film(run)
-    assert len(film.indices) == MOST_FRAMES
-    assert (film.indices[0], film.indices[-1]) == (0, 999)
+    video = Animation(run)
+    assert len(video.indices) == MOST_FRAMES
+    assert (video.indices[0], video.indices[-1]) == (0, 999)
 
 
-def test_a_report_has_the_figures_the_film_and_the_maps(map_run: Path) -> None:
+def test_report_has_figures_animation_and_maps(map_run: Path) -> None:
     run = Run(map_run)
     assert figures_of(run) == ON_MAP
     lines: list[str] = []
@@ -179,43 +182,43 @@ def test_a_report_has_the_figures_the_film_and_the_maps(map_run: Path) -> None:
     page = report.page.read_text(encoding="utf-8")
     assert '<video controls loop muted src="figures/animation.mp4"' in page
     assert '<th scope="row">max_pressure.tif</th><td>max pressure</td><td>Pa</td>' in page
-    assert '<p>In the folder <a href="maps">maps</a>.</p>' in page
-    assert "Left out" not in page
+    assert '<p>Folder: <a href="maps">maps</a></p>' in page
+    assert "Missing figures" not in page
 
 
-def test_key_numbers_of_the_deposit(map_run: Path) -> None:
+def test_key_numbers_of_the_deposit_are_those_of_run_json(map_run: Path) -> None:
     found = {row.words: row.value for row in key_numbers(Run(map_run))}
     assert found["Deposit volume"] == "28,800 m³"
     assert found["Deposit area"] == "4,800 m²"
     assert found["Travel distance"] == "280 m"
-    assert found["Angle of reach"] == "21.8°"
+    assert found["Reach angle"] == "21.8°"
     assert found["Affected area"] == "16,800 m²"
     assert found["Stop time"] == "8.5 s"
 
 
-def test_a_slide_that_is_not_at_rest_has_no_deposit(map_run: Path) -> None:
-    """Rows, titles, notes and the page name the time, and nothing is called a deposit."""
+def test_mass_that_is_not_at_rest_has_no_deposit(map_run: Path) -> None:
+    """Rows, titles, notes and the page have the time and no word of a deposit."""
     facts = json.loads((map_run / "run.json").read_text())
     warning = "The slide is not at rest at 10 s (mean velocity 20 m/s)."
     facts |= {"at_rest": False, "rest_since_s": None, "simulated_time_s": 10.0, "warnings": [warning]}
     (map_run / "run.json").write_text(json.dumps(facts))
     run = Run(map_run)
-    assert (run.last_state, run.end_note) == ("10 s (not at rest)", "The slide is not at rest at 10 s. ")
+    assert (run.last_state, run.end_note) == ("10 s (not at rest)", "The sliding mass is not at rest at 10 s. ")
     found = {row.words: row for row in key_numbers(run)}
-    assert found["Slide volume at 10 s (not at rest)"].value == "28,800 m³"
-    assert found["Slide area at 10 s (not at rest)"].value == "4,800 m²"
+    assert found["Covered volume at 10 s (not at rest)"].value == "28,800 m³"
+    assert found["Covered area at 10 s (not at rest)"].value == "4,800 m²"
     assert found["Stop time"].value == "not reached"
-    assert "at 10 s (not at rest)" in found["Runout"].remark
+    assert "at 10 s (not at rest)" in found["Runout distance"].remark
     assert not any("eposit" in row.words for row in found.values())
-    figure = drawn("extent_maps", map_run)
-    assert figure._suptitle.get_text() == "Slab on a plane: extent of the slide, up to 10 s (not at rest)"
-    assert any("thickness at 10 s (not at rest)" in axes.get_title(loc="left") for axes in figure.axes)
+    figure = plotted("extent_maps", map_run)
+    assert figure._suptitle.get_text() == "Slab on a plane: extent, up to 10 s (not at rest)"
+    assert any("flow thickness at 10 s (not at rest)" in axes.get_title(loc="left") for axes in figure.axes)
     page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
     assert f'<p class="note">Warning: {warning}</p>' in page
     assert "eposit" not in page
 
 
-def test_the_affected_area_is_drawn_as_its_polygons(map_run: Path) -> None:
+def test_outline_is_the_polygon_of_the_affected_area(map_run: Path) -> None:
     ring = np.array([[0.0, 0.0], [30.0, 0.0], [30.0, 20.0], [0.0, 0.0]])
     blob = b"GP\0\1" + struct.pack("<i", 31287) + struct.pack("<BIII", 1, 3, 1, len(ring)) + ring.tobytes()
     write_layer(map_run / "maps" / "results.gpkg", "affected_area", [blob])
@@ -223,44 +226,44 @@ def test_the_affected_area_is_drawn_as_its_polygons(map_run: Path) -> None:
     assert site.affected is not None and len(site.affected) == 1
     np.testing.assert_array_equal(site.affected[0], ring)
     axes = Figure().subplots()
-    site.draw_reach(axes)
+    site.draw_outline(axes)
     np.testing.assert_array_equal(np.column_stack(axes.lines[0].get_data()), ring)
 
 
-def test_missing_maps_have_their_words(map_run: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_missing_maps_are_errors(map_run: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (map_run / "maps" / "results.gpkg").unlink()
-    with pytest.raises(NotInRunError, match=r"results\.gpkg: no path line, so there is nothing to cut along"):
-        drawn("cross_sections", map_run)
+    with pytest.raises(NotInRunError, match=r"results\.gpkg: no flow path\. Specify maps\.path"):
+        plotted("cross_sections", map_run)
     (map_run / "maps" / "max_speed.tif").unlink()
-    with pytest.raises(NotInRunError, match=r"max_speed\.tif: no such map; there are: "):
-        list(Film(Run(map_run)).frames(40))
+    with pytest.raises(NotInRunError, match=r"max_speed\.tif: no such map \(found: "):
+        list(Animation(Run(map_run)).frames(40))
     (map_run / "maps" / "terrain.tif").unlink()
     assert main([str(map_run), "--only", "slide_speed"]) == 2
-    assert "terrain.tif: no such map; without it no map can be drawn" in capsys.readouterr().err
+    assert "terrain.tif: no such map. Repeat the run." in capsys.readouterr().err
 
 
-def test_without_snapshots_or_heat(map_run: Path) -> None:
+def test_maps_require_snapshots_and_heat(map_run: Path) -> None:
     case = (map_run / "case.toml").read_text()
     (map_run / "case.toml").write_text(case.replace("enabled = true", "enabled = false"))
-    with pytest.raises(NotInRunError, match=r"heat\.enabled is false"):
-        drawn("slide_temperature", map_run)
+    with pytest.raises(NotInRunError, match=r"heat\.enabled: temperatures are constant"):
+        plotted("slide_temperature", map_run)
     for path in (map_run / "snapshots").iterdir():
         path.unlink()
-    with pytest.raises(NotInRunError, match="no snapshots; set"):
-        drawn("slide_speed", map_run)
-    with pytest.raises(NotInRunError, match="an animation needs two snapshots; set"):
-        Film(Run(map_run))
+    with pytest.raises(NotInRunError, match=r"no snapshots\. Set"):
+        plotted("slide_speed", map_run)
+    with pytest.raises(NotInRunError, match=r"too few snapshots for an animation \(found 0; allowed 2 or more\)"):
+        Animation(Run(map_run))
 
 
-def test_a_slide_that_never_moved_still_draws(map_run: Path) -> None:
+def test_maps_of_a_run_without_motion_are_plotted(map_run: Path) -> None:
     x, _ = centres()
     for name in ("max_thickness", "final_thickness", "max_speed", "release"):
         write_map(map_run / "maps" / f"{name}.tif", np.zeros(x.shape))
     assert make_site(Run(map_run)).scene.box == pytest.approx((WEST, WEST + 600.0, SOUTH, SOUTH + 300.0))
-    assert [axes.get_title(loc="left") for axes in maps_of(drawn("extent_maps", map_run))] == ["(a) arrival time"]
+    assert [axes.get_title(loc="left") for axes in maps_of(plotted("extent_maps", map_run))] == ["(a) arrival time"]
 
 
-def test_large_terrain_is_thinned_for_drawing() -> None:
+def test_large_terrain_is_thinned() -> None:
     heights = np.add.outer(np.arange(3000.0), np.arange(3000.0))
     scene = make_scene(Map(Grid(5.0, 5.0, 10.0, 10.0, 3000, 3000), heights), (0.0, 30_000.0, 0.0, 30_000.0))
     assert max(scene.shade.shape) <= MOST_CELLS
@@ -270,7 +273,7 @@ def test_large_terrain_is_thinned_for_drawing() -> None:
 @pytest.mark.parametrize("bar", [0.0, 0.72])
 @pytest.mark.parametrize("aspect", [0.45, 0.7, 1.0, 1.6, 2.4])
 @pytest.mark.parametrize("count", [1, 2, 4, 5, 6])
-def test_maps_fill_a_page_without_reaching_over_it(count: int, aspect: float, bar: float) -> None:
+def test_maps_fill_a_page_within_its_margins(count: int, aspect: float, bar: float) -> None:
     found = layout(count, aspect, bar, 0.3, 1.5)
     rows = -(-count // found.columns)
     assert found.width == pytest.approx(found.height * aspect)
@@ -282,19 +285,19 @@ def test_maps_fill_a_page_without_reaching_over_it(count: int, aspect: float, ba
 
 @pytest.mark.parametrize("inches", [0.6, 0.9, 1.2, 2.0, 3.5, 6.8])
 @pytest.mark.parametrize(("low", "high"), [(5_199_140.0, 5_199_690.0), (380_000.0, 389_000.0), (-210.0, 130.0)])
-def test_labels_of_coordinates_stand_apart(low: float, high: float, inches: float) -> None:
+def test_labels_of_coordinates_do_not_overlap(low: float, high: float, inches: float) -> None:
     found = coordinates(low, high, inches)
     assert 1 <= len(found) <= 5
     assert low <= found[0] and found[-1] <= high
     texts = [coordinate_text(place) for place in found]
     for before, after, text, following in zip(found, found[1:], texts, texts[1:], strict=False):
-        room = (after - before) * inches / (high - low)
-        assert room > 0.07 * 0.5 * (len(text) + len(following))
+        space = (after - before) * inches / (high - low)
+        assert space > 0.07 * 0.5 * (len(text) + len(following))
     if inches >= 2.0:
         assert len(found) >= 2
 
 
-def test_boxes_fit_a_page_and_stay_on_the_terrain() -> None:
+def test_boxes_fit_a_page_and_the_terrain() -> None:
     whole = (0.0, 1000.0, 0.0, 2000.0)
     west, east, south, north = page_box((900.0, 1100.0, 0.0, 2000.0), whole)
     assert (east, south, north) == (1000.0, 0.0, 2000.0)
@@ -302,7 +305,7 @@ def test_boxes_fit_a_page_and_stay_on_the_terrain() -> None:
     assert page_box((100.0, 500.0, 100.0, 400.0), whole) == (100.0, 500.0, 100.0, 400.0)
 
 
-def test_the_scale_bar_stands_where_nothing_is() -> None:
+def test_scale_bar_is_in_the_empty_corner() -> None:
     values = np.zeros((30, 30))
     values[:12, :] = 1.0
     values[12:, 12:] = 1.0

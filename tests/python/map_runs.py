@@ -1,4 +1,4 @@
-"""Run folders of 3D runs on a DEM made by hand: a slab that slides down a plane to the east."""
+"""Constructed run folders of 3D runs on a DEM: a slab that slides down a plane to the east."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Maps: what is read is what was written; parts, thinning and values along lines; every fault has its text."""
+"""Maps: reading, cropping, thinning, interpolation, and messages of errors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from thawslide.maps import Grid, Map, Maps, on_map, read_map
 from thawslide.relief import hillshade
 
 
-def test_a_map_is_read_with_its_grid_unit_and_reference_system(tmp_path: Path) -> None:
+def test_map_has_grid_unit_and_reference_system(tmp_path: Path) -> None:
     x, y = centres()
     values = ground(x, y)
     values[2, 5] = np.nan
@@ -30,12 +30,12 @@ def test_a_map_is_read_with_its_grid_unit_and_reference_system(tmp_path: Path) -
     assert found.crs == "MGI / Austria Lambert (EPSG:31287)"
 
 
-def test_a_map_without_reference_system(tmp_path: Path) -> None:
+def test_reference_system_can_be_missing(tmp_path: Path) -> None:
     write_map(tmp_path / "a.tif", np.ones((3, 4)), crs=None)
     assert read_map(tmp_path / "a.tif").crs == ""
 
 
-def test_part_of_a_map_holds_the_cells_a_box_touches() -> None:
+def test_cropped_map_has_the_cells_of_the_box() -> None:
     x, y = centres()
     whole = Map(Grid(WEST + 5.0, SOUTH + 5.0, CELL, CELL, COLUMNS, ROWS), ground(x, y))
     part = whole.cropped((WEST + 20.0, WEST + 41.0, SOUTH - 100.0, SOUTH + 10.0))
@@ -46,17 +46,17 @@ def test_part_of_a_map_holds_the_cells_a_box_touches() -> None:
     assert outside.values.shape == (1, 1)
 
 
-def test_thinning_keeps_means_or_largest_values_and_what_has_data() -> None:
+def test_thinning_keeps_means_or_maxima_of_cells_with_data() -> None:
     values = np.arange(35, dtype=float).reshape(5, 7)
     values[0, 0] = np.nan
     values[2:4, 2:4] = np.nan
     whole = Map(Grid(0.5, 0.5, 1.0, 1.0, 7, 5), values)
-    mean, largest = whole.thinned(4), whole.thinned(4, "largest")
+    mean, maximum = whole.thinned(4), whole.thinned(4, "maximum")
     assert mean.grid == Grid(1.0, 1.0, 2.0, 2.0, 4, 3)
     assert mean.values[0, 0] == pytest.approx((1.0 + 7.0 + 8.0) / 3.0)
     assert np.isnan(mean.values[1, 1])
-    assert largest.values[2, 3] == 34.0
-    assert largest.values.shape == (3, 4)
+    assert maximum.values[2, 3] == 34.0
+    assert maximum.values.shape == (3, 4)
     assert whole.thinned(7) is whole
 
 
@@ -66,7 +66,7 @@ def test_thinning_a_full_map_keeps_its_volume() -> None:
     assert whole.thinned(6).volume() == pytest.approx(whole.volume(), rel=1e-12)
 
 
-def test_values_between_points_are_linear_and_end_with_the_map() -> None:
+def test_interpolation_is_linear_and_ends_with_the_map() -> None:
     x, y = centres()
     field = Map(Grid(WEST + 5.0, SOUTH + 5.0, CELL, CELL, COLUMNS, ROWS), ground(x, y))
     at_x, at_y = (
@@ -76,26 +76,26 @@ def test_values_between_points_are_linear_and_end_with_the_map() -> None:
     np.testing.assert_allclose(field.at(at_x, at_y), ground(at_x, at_y), rtol=1e-12)
     assert np.isnan(field.at(np.array([WEST + 4.0]), np.array([SOUTH + 50.0]))).all()
     field.values[3, 4] = np.nan
-    beside = field.at(np.array([WEST + 40.0, WEST + 35.0]), np.array([SOUTH + 35.0, SOUTH + 35.0]))
-    assert np.isnan(beside[0]) and np.isfinite(beside[1])
+    near = field.at(np.array([WEST + 40.0, WEST + 35.0]), np.array([SOUTH + 35.0, SOUTH + 35.0]))
+    assert np.isnan(near[0]) and np.isfinite(near[1])
 
 
-def test_maps_of_a_run(map_run: Path) -> None:
+def test_maps_of_a_run_are_read_by_name(map_run: Path) -> None:
     maps = Maps(Run(map_run))
     assert "max_thickness" in maps and "depth" not in maps
     assert maps["release"].volume() == pytest.approx(80.0 * 60.0 * 6.0)
     assert maps.about("max_pressure") == ("max pressure", "Pa")
-    with pytest.raises(NotInRunError, match=r"depth\.tif: no such map; there are: arrival_time, elevation_change, "):
+    with pytest.raises(NotInRunError, match=r"depth\.tif: no such map \(found: arrival_time, elevation_change, "):
         maps["depth"]
 
 
-def test_which_runs_are_on_a_map(map_run: Path) -> None:
+def test_runs_on_a_dem_are_on_a_map(map_run: Path) -> None:
     assert on_map(Run(map_run))
     for path in [*(map_run / "maps").iterdir()]:
         path.unlink()
     (map_run / "maps").rmdir()
     assert on_map(Run(map_run))
-    with pytest.raises(NotInRunError, match="maps: no such folder; only a 3D run on a DEM writes maps"):
+    with pytest.raises(NotInRunError, match=r"maps: no such folder\. Only a 3D run on a DEM writes maps"):
         Maps(Run(map_run))
     case = (map_run / "case.toml").read_text()
     (map_run / "case.toml").write_text(case.replace('"dem"', '"plane"'))
@@ -114,7 +114,7 @@ def fails(path: Path, text: str) -> None:
         read_map(path)
 
 
-def test_faulty_files(tmp_path: Path) -> None:
+def test_damaged_files_are_errors(tmp_path: Path) -> None:
     path = tmp_path / "a.tif"
     fails(path, "a.tif: cannot be read as a GeoTIFF (")
     path.write_text("no map")
@@ -124,13 +124,13 @@ def test_faulty_files(tmp_path: Path) -> None:
     fails(path, "a.tif: cannot be read as a GeoTIFF (")
     path.unlink()
     write_raw(path, rasterio.Affine(1.0, 0.2, 0.0, 0.0, -1.0, 5.0))
-    fails(path, "a.tif: rows must go from west to east and columns from north to south")
+    fails(path, "a.tif: not aligned with north. Repeat the run.")
     with pytest.warns(NotGeoreferencedWarning):
         write_raw(path, rasterio.Affine.identity())
-    fails(path, "a.tif: has no coordinates; it is not a map the simulator wrote")
+    fails(path, "a.tif: no coordinates; not a map of the simulator.")
 
 
-def test_real_terrain_with_holes_is_shaded_where_it_has_data() -> None:
+def test_terrain_with_gaps_is_shaded_in_cells_with_data() -> None:
     path = Path(__file__).resolve().parents[3] / "shared" / "data" / "alr" / "alr.tif"
     if not path.is_file():
         pytest.skip("the shared terrain alr.tif is not here")

@@ -1,4 +1,4 @@
-"""The page of members of starting noise: what a run gives, what is met, what variants are, on one clock."""
+"""Page of members with initial noise: results of a run, met rows, variants, aligned times."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from conftest import MakeRun, write_history
 from force_record_test import pulse, write_record
 
 from reproduction.lamplugh import INVERSION
-from reproduction.member_figures import MEMBER, members_over_time, on_one_clock
+from reproduction.member_figures import MEMBER, aligned, members_over_time
 from reproduction.members import (
     QUANTITIES,
     Observed,
@@ -29,7 +29,7 @@ from reproduction.members import (
     variants_table,
     verdict,
 )
-from reproduction.one_at_a_time import Row, commit_of, is_of_commit, words_to_start
+from reproduction.one_at_a_time import Row, command_line, commit_of, is_of_commit
 from thawslide import Run
 from thawslide.figures.force import force_in_band
 from thawslide.figures.force_record import compared
@@ -40,7 +40,7 @@ GOOD = Observed(
     dilation=5.0, hottest=190.0,
     ratio=1.0,
 )  # fmt: skip
-WANTED = {each.name: each for each in QUANTITIES}
+ACCEPTED = {each.name: each for each in QUANTITIES}
 CASE = {
     "material": {"rock_ice": {"hydraulic_conductivity": 1e-7}},
     "substrate": {"glacier": {"friction_coefficient": 0.1}},
@@ -55,7 +55,7 @@ def changed(**values: float | str) -> Observed:
     return Observed(**(vars(GOOD) | values))  # type: ignore[arg-type]
 
 
-def test_what_a_run_gives(make_run: MakeRun) -> None:
+def test_observed_has_the_results_of_a_run(make_run: MakeRun) -> None:
     folder = make_run()
     write_history(folder / "history.csv", column_history())
     found = observed(folder)
@@ -68,10 +68,10 @@ def test_what_a_run_gives(make_run: MakeRun) -> None:
     assert found.force == pytest.approx(np.nanmax(force_in_band(Run(folder), INVERSION)) / 1e12)
     assert (found.hottest, found.ratio) == (pytest.approx(170.0), pytest.approx(1.0))
     assert found.dilation == pytest.approx(3.0)
-    assert np.isnan(found.reversal), "the case names no record"
+    assert np.isnan(found.reversal), "no record in the case"
 
 
-def test_the_reversal_is_that_of_the_force_figure(make_run: MakeRun) -> None:
+def test_reversal_is_that_of_the_force_figure(make_run: MakeRun) -> None:
     folder = make_run()
     time = np.linspace(0.0, 200.0, 2001)
     force = {
@@ -86,7 +86,7 @@ def test_the_reversal_is_that_of_the_force_figure(make_run: MakeRun) -> None:
     assert observed(folder).reversal == found.duration
 
 
-def test_a_run_that_goes_on_does_not_stop(make_run: MakeRun) -> None:
+def test_moving_run_has_no_stop(make_run: MakeRun) -> None:
     folder = make_run()
     columns = column_history()
     columns["mean_velocity_m_s"] = 1.0 * columns["time_s"]
@@ -97,14 +97,14 @@ def test_a_run_that_goes_on_does_not_stop(make_run: MakeRun) -> None:
     assert observed(folder.parent / "none").failure == "not run"
 
 
-def test_a_row_is_met_by_the_median_but_pressure_by_every_member() -> None:
+def test_rows_are_met_by_the_median_and_pressure_by_every_member() -> None:
     found = [changed(peak=peak) for peak in (60.0, 75.0, 80.0, 87.0, 120.0)]
-    assert median(found, WANTED["peak"]) == 80.0
+    assert median(found, ACCEPTED["peak"]) == 80.0
     assert all(is_met(found, each) for each in QUANTITIES)
-    assert is_met([changed(ratio=1.0 + 1e-12)], WANTED["ratio"])
+    assert is_met([changed(ratio=1.0 + 1e-12)], ACCEPTED["ratio"])
     pressed = [*found[:4], changed(ratio=1.01)]
-    assert not is_met(pressed, WANTED["ratio"])
-    assert not is_met([changed(failure="bad"), GOOD], WANTED["ratio"])
+    assert not is_met(pressed, ACCEPTED["ratio"])
+    assert not is_met([changed(failure="bad"), GOOD], ACCEPTED["ratio"])
     assert "- maximum P over averaged N: not every member ended" in verdict([changed(failure="bad"), GOOD])
     table = members_table(found).splitlines()
     peak = "| model | peak of the mean velocity [m/s] | 80 | 72 to 88 | 80.0 | 60.0 to 120.0 | 3 of 5 | yes |"
@@ -113,7 +113,7 @@ def test_a_row_is_met_by_the_median_but_pressure_by_every_member() -> None:
     assert table[0].count("|") == table[2].count("|") == 9
 
 
-def test_the_verdict_is_plain() -> None:
+def test_verdict_lists_rows_that_are_met_and_not_met() -> None:
     assert verdict([GOOD, GOOD]).endswith("Not met: none.")
     assert verdict([GOOD, GOOD]).startswith(
         "Met:\n\n- observations: 3 of 3 (runout; force, band-passed 35 to 150 s (the band is assumed); vertical force, 10 "
@@ -131,22 +131,22 @@ def test_the_verdict_is_plain() -> None:
     assert "- runout: no member has it (accepted: 9 to 11.5)" in verdict([Observed("not run")])
 
 
-def test_the_member_in_the_middle_is_nearest_to_the_medians() -> None:
+def test_middle_member_is_nearest_to_the_medians() -> None:
     found = [changed(peak=78.0), changed(peak=79.0, failure="bad"), changed(peak=81.0, runout=11.0), changed(peak=80.0)]
     assert middle_member(found) == 3
 
 
-def test_members_differ_in_their_seed_alone() -> None:
+def test_members_differ_only_in_their_seed() -> None:
     rows = member_rows()
     assert [row.sets for row in rows] == [("initial.noise=0.1", f"initial.seed={seed}") for seed in range(1, 21)]
     assert len({row.key for row in rows}) == 20
 
 
-def test_variants_are_told_against_the_case() -> None:
+def test_variants_differ_from_the_case() -> None:
     sets = [row.sets[0] for row in variant_rows(CASE)]
     assert len(sets) == 16
     assert "band.growth_per_slip=1e-12" not in sets
-    assert "substrate.glacier.friction_coefficient=0.10" not in sets  # as it is in this case
+    assert "substrate.glacier.friction_coefficient=0.10" not in sets  # value of this case
     assert {"pressure.frozen_rows=sealed", "band.load_time=2", "heat.steam=false", "band.growth=inertial"} < set(sets)
     grown = [row.sets[0] for row in variant_rows(CASE | {"band": CASE["band"] | {"growth": "slip"}})]
     assert "band.growth_per_slip=1e-12" in grown and "band.growth=inertial" not in grown
@@ -156,7 +156,7 @@ def test_variants_are_told_against_the_case() -> None:
     assert not {"heat.steam=false", "pressure.skeleton_compressibility=1e-8"} & set(found)
 
 
-def test_variants_outside_the_intervals_are_bold() -> None:
+def test_values_outside_the_intervals_are_bold() -> None:
     rows = [Row("a", "the case"), Row("b", "hot", ("x=1",)), Row("c", "gone", ("y=2",))]
     found = {"a": GOOD, "b": changed(hottest=300.0, failure="it left", stop=float("inf")), "c": Observed("not run")}
     head, _, case, hot, gone, _, broken = variants_table(rows, found).splitlines()
@@ -171,13 +171,13 @@ def test_variants_outside_the_intervals_are_bold() -> None:
     assert broken == "- hot failed: it left"
 
 
-def test_words_may_name_medians_and_variants() -> None:
+def test_numbers_have_names_of_medians_and_variants() -> None:
     named = numbers([GOOD, changed(peak=70.0)], {"e-0.35": changed(runout=8.0)})
     assert (named["median_peak"], named["least_peak"], named["most_peak"]) == (75.0, 70.0, 80.0)
     assert named["e_0_35_runout"] == 8.0
 
 
-def test_members_are_drawn_on_one_clock(make_run: MakeRun) -> None:
+def test_members_have_aligned_times(make_run: MakeRun) -> None:
     folders = [make_run(name=name) for name in ("one", "two")]
     columns = column_history()
     for folder, late in zip(folders, (0.0, 1.0), strict=True):
@@ -188,31 +188,31 @@ def test_members_are_drawn_on_one_clock(make_run: MakeRun) -> None:
             "mean_velocity,42,11,m/s,x\n"
         )
     runs = [Run(folder) for folder in folders]
-    time, values = on_one_clock(runs, "mean_velocity_m_s")
+    time, values = aligned(runs, "mean_velocity_m_s")
     assert (time[0], time[-1]) == (pytest.approx(40.0 - START, abs=1e-3), pytest.approx(49.0 - START, abs=0.11))
     np.testing.assert_allclose(values[0], values[1], atol=0.05)
     np.testing.assert_allclose(np.interp(40.0, time, values[0]), 8.0, atol=0.05)
-    speed, way = members_over_time(runs).axes
+    speed, distance = members_over_time(runs).axes
     middle = next(line for line in speed.lines if line.get_label() == "median")
     wide = [line for line in speed.lines if line.get_color() == MEMBER]
     np.testing.assert_allclose([line.get_ydata() for line in wide], values)
     assert all(middle.get_zorder() > line.get_zorder() for line in wide)
     assert all(middle.get_linewidth() < line.get_linewidth() for line in wide)
-    assert speed.get_xlabel() == way.get_xlabel() == "time (s), mean velocity 8 m/s at 40 s"
+    assert speed.get_xlabel() == distance.get_xlabel() == "time (s), mean velocity 8 m/s at 40 s"
     np.testing.assert_allclose(middle.get_ydata(), np.median(values, axis=0))
-    assert way.get_ylabel() == "mean displacement (km)"
+    assert distance.get_ylabel() == "mean displacement (km)"
     (marks,) = [line for line in speed.lines if line.get_label() == "reported: x"]
     np.testing.assert_allclose(marks.get_data(), [[40.0, 42.0], [8.0, 11.0]], atol=2e-3)
 
 
-def test_runs_of_the_same_commit_and_files_are_kept(tmp_path: Path) -> None:
+def test_runs_of_the_same_commit_and_files_are_complete(tmp_path: Path) -> None:
     program = tmp_path / "program"
     program.write_text(f"#!{sys.executable}\nprint('thawslide 0.1.0 (commit 0123abcd, g++ 12.2.0)')\n")
     program.chmod(0o755)
     assert commit_of(program) == "0123abcd"
     case = tmp_path / "case.toml"
     case.write_text("# one")
-    words = words_to_start(program, case, tmp_path / "run", ())
+    words = command_line(program, case, tmp_path / "run", ())
     facts = {
         "command": " ".join(words), "status": "done", "commit": "0123abcd",
         "inputs": [{"path": str(case), "sha256": hashlib.sha256(b"# one").hexdigest()}],

@@ -1,4 +1,4 @@
-"""Moments that figures show, and velocities from displacement."""
+"""Times of snapshots in figures, and velocities from displacement."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from matplotlib.colors import PowerNorm, to_rgba
 from thawslide import Run
 from thawslide.figures import FIGURES
 from thawslide.figures.colours import THIN, painted_values
-from thawslide.figures.largest import _EXTENT, _norm
+from thawslide.figures.maximum_maps import _EXTENT, _norm
 from thawslide.figures.moments import chosen_snapshots, moments, shown_snapshot
 from thawslide.maps import Maps
 
@@ -27,11 +27,11 @@ def move(folder: Path, number: int, points: np.ndarray | None = None, **fields: 
             file[f"VTKHDF/PointData/{name}"][:] = values
 
 
-def test_moments_are_shares_of_the_mean_displacement(make_run: MakeRun) -> None:
+def test_moments_are_fractions_of_the_mean_displacement(make_run: MakeRun) -> None:
     folder = make_run(times="[]")
     columns = history_columns(101, 2)
-    gone = np.minimum(columns["time_s"] ** 2, 36.0)  # it stops at 6 s
-    write_history(folder / "history.csv", columns | {"mean_displacement_m": gone})
+    displacement = np.minimum(columns["time_s"] ** 2, 36.0)  # stop at 6 s
+    write_history(folder / "history.csv", columns | {"mean_displacement_m": displacement})
     run = Run(folder)
     assert moments(run) == pytest.approx([0.0, *(np.ceil(60.0 * np.sqrt(0.2 * n)) / 10.0 for n in range(1, 6))])
     assert [shot.time for shot in chosen_snapshots(run)] == [0.0, 3.0, 4.0, 5.0, 6.0]  # 2.7, 3.8, 4.7, 5.4, 6
@@ -40,45 +40,45 @@ def test_moments_are_shares_of_the_mean_displacement(make_run: MakeRun) -> None:
         assert moments(Run(folder)) == [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]
 
 
-def test_times_of_the_case_come_first(make_run: MakeRun) -> None:
+def test_times_of_the_case_have_priority(make_run: MakeRun) -> None:
     assert [shot.time for shot in chosen_snapshots(Run(make_run(times="[1.0, 9.0]")))] == [1.0, 9.0]
 
 
 def test_velocities_are_those_of_displacement(make_run: MakeRun) -> None:
-    """The file's velocities grow with time; its points go (12, -6) m/s throughout."""
+    """The velocities of the file increase with time; its points move at (12, -6) m/s."""
     run = Run(make_run())
     for index in (1, 5, 10):
         np.testing.assert_allclose(shown_snapshot(run, index)["velocity"], [[12.0, -6.0, 0.0]] * 80, atol=1e-9)
     np.testing.assert_array_equal(shown_snapshot(run, 0)["velocity"], run.snapshot(0)["velocity"])
-    figure = FIGURES["velocity"].draw(run)
-    drawn = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("(b)"))
-    values = [c.get_array() for c in drawn.collections if c.get_array() is not None]
+    figure = FIGURES["velocity"].plot(run)
+    panel = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("(b)"))
+    values = [c.get_array() for c in panel.collections if c.get_array() is not None]
     np.testing.assert_allclose(values[0], 6.0 * np.sqrt(5.0))
-    assert drawn.get_title(loc="right") == "max 13.4 m/s"
+    assert panel.get_title(loc="right") == "max 13.4 m/s"
 
 
-def test_a_slide_at_rest_that_vibrates_has_no_velocity(make_run: MakeRun) -> None:
+def test_vibration_at_rest_has_no_velocity(make_run: MakeRun) -> None:
     folder = make_run(times="[10.0]")
     points = Run(folder).snapshot(8).points
     for number in (9, 10):
         move(folder, number, points=points, velocity=1.2)
-    figure = FIGURES["velocity"].draw(Run(folder))
+    figure = FIGURES["velocity"].plot(Run(folder))
     (title,) = [axes.get_title(loc="right") for axes in figure.axes if axes.get_title(loc="left").startswith("(a)")]
     assert title == "max 0 m/s"
 
 
-def test_particles_that_come_or_go_are_followed_as_far_as_they_are_there(make_run: MakeRun) -> None:
+def test_velocities_of_particles_in_one_neighbouring_snapshot(make_run: MakeRun) -> None:
     folder = make_run()
     ids = np.arange(80)
-    move(folder, 4, id=np.where(ids == 79, 500, ids))  # 79 is not there yet
-    move(folder, 6, id=np.where(ids == 79, 500, np.where(ids == 78, 400, ids)))  # nor 78 any more
+    move(folder, 4, id=np.where(ids == 79, 500, ids))  # without 79
+    move(folder, 6, id=np.where(ids == 79, 500, np.where(ids == 78, 400, ids)))  # without 78 and 79
     run = Run(folder)
     found = shown_snapshot(run, 5)["velocity"]
     np.testing.assert_allclose(found[:79], [[12.0, -6.0, 0.0]] * 79, atol=1e-9)
     np.testing.assert_array_equal(found[79], run.snapshot(5)["velocity"][79])
 
 
-def test_maps_have_the_same_velocities(map_run: Path) -> None:
+def test_maps_have_velocities_of_displacement(map_run: Path) -> None:
     run = Run(map_run)
     shot = shown_snapshot(run, 3)
     before, after = run.snapshot(2), run.snapshot(4)
@@ -86,26 +86,28 @@ def test_maps_have_the_same_velocities(map_run: Path) -> None:
     np.testing.assert_allclose(painted_values(shot, "velocity"), expected)
 
 
-def test_a_strip_states_how_much_its_heights_are_stretched(make_run: MakeRun) -> None:
-    figure = FIGURES["velocity"].draw(Run(make_run()))
-    strips = [axes for axes in figure.axes if axes.get_ylabel() == "above\nground (m)"]
+def test_strips_state_their_vertical_exaggeration(make_run: MakeRun) -> None:
+    figure = FIGURES["velocity"].plot(Run(make_run()))
+    strips = [axes for axes in figure.axes if axes.get_ylabel() == "height above\nterrain (m)"]
     assert len(strips) == 3
     for axes in strips:
         width, height = figure.get_size_inches() * axes.get_position().size
         (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
         times = (right - left) / width / ((high - low) / height)
-        assert [text.get_text() for text in axes.texts] == [f"heights ×{times:.2g}"]
+        assert [text.get_text() for text in axes.texts] == [f"vertical exaggeration {times:.2g}×"]
 
 
-def test_thin_margins_have_a_colour_of_their_own(map_run: Path) -> None:
-    figure = FIGURES["slide_thickness"].draw(Run(map_run))
+def test_thin_margins_have_a_separate_colour(map_run: Path) -> None:
+    figure = FIGURES["slide_thickness"].plot(Run(map_run))
     image = next(axes.images[-1] for axes in figure.axes if len(axes.images) > 1)
     norm, colours = image.norm, image.get_cmap()
     assert (norm.vmin, norm.vmax) == (0.1, pytest.approx(6.0))
     np.testing.assert_array_equal(colours(norm(0.05)), to_rgba(THIN))
     for thickness in (0.5, 1.5, 6.0):
-        assert norm(thickness) == pytest.approx(np.sqrt((thickness - 0.1) / 5.9)), "thin ones take a good part"
-    (bar,) = [axes for axes in figure.axes if axes.get_xlabel().startswith("thickness")]
+        assert norm(thickness) == pytest.approx(np.sqrt((thickness - 0.1) / 5.9)), (
+            "thin margins have a sufficient part of the scale"
+        )
+    (bar,) = [axes for axes in figure.axes if axes.get_xlabel().startswith("flow thickness")]
     assert [label.get_text() for label in bar.get_xticklabels()] == ["0.1", "0.2", "0.5", "1", "2", "5"]
     for name in ("max_thickness", "final_thickness"):
         values = Maps(Run(map_run))[name].values

@@ -23,7 +23,7 @@ from reproduction.numerics import (
 from reproduction.one_at_a_time import Row
 
 
-def test_rows_scale_the_step_and_keep_the_domain() -> None:
+def test_rows_scale_the_step_and_shift_the_domain() -> None:
     rows = {row.key: row.sets for row in cell_rows()}
     assert len(rows) == 9
     assert rows["e-0.21-cell-5"] == ("band.thickness=0.21", "grid.cell=5", "time.step=0.005")
@@ -32,7 +32,7 @@ def test_rows_scale_the_step_and_keep_the_domain() -> None:
     assert shifted["quarter-shift"] == ("grid.min=[-202.5,197.5]", "grid.max=[13997.5,2397.5]")
 
 
-def test_table_of_cells_gives_what_the_finer_two_differ_by() -> None:
+def test_table_of_cells_has_the_difference_of_the_finer_two() -> None:
     found = {
         row.key: Observed(peak=80.0, displacement=5.0 if row.key.endswith("-5") else 4.0, runout=9.0, dilation=15.0)
         for row in cell_rows()
@@ -45,7 +45,7 @@ def test_table_of_cells_gives_what_the_finer_two_differ_by() -> None:
     assert lines[10] == "| 0.4 | mean displacement [km] | 4.00 | 4.00 | none | none |"
 
 
-def test_table_of_numerics_gives_differences_from_the_case() -> None:
+def test_table_of_numerics_has_differences_from_the_case() -> None:
     base = Observed(peak=80.0, displacement=5.0, runout=9.0)
     rows = numerics_rows()[:2]
     found = {
@@ -58,7 +58,7 @@ def test_table_of_numerics_gives_differences_from_the_case() -> None:
     assert lines[3] == "| half of Young's modulus | broke off at 3 s | | | |"
 
 
-def test_variants_run_on_the_cells_that_the_case_does_not_have() -> None:
+def test_variants_run_on_the_other_cells() -> None:
     thin, thick = Row("thin", "a thin band", ("band.thickness=0.15",)), Row("thick", "a thick band")
     rows = {row.key: row.sets for row in variant_cell_rows([thin, thick])}
     assert list(rows) == ["thin-on-5", "thick-on-5", "thin-on-20", "thick-on-20"], "the long runs first"
@@ -74,7 +74,7 @@ def test_variants_run_on_the_cells_that_the_case_does_not_have() -> None:
     assert len(of_thin) == len(of_thick) == 7
 
 
-def test_rows_have_the_multiples_of_the_case_that_they_name() -> None:
+def test_rows_have_the_multiples_in_their_names() -> None:
     path = Path(__file__).resolve().parents[2] / "cases" / "lamplugh-columns" / "case.toml"
     case = tomllib.loads(path.read_text(encoding="utf-8"))
     rock = case["material"]["rock_ice"]

@@ -1,4 +1,4 @@
-"""Numbers of pages against runs: what agrees, what is found wrong, and where."""
+"""Comparison of numbers of pages with runs."""
 
 from __future__ import annotations
 
@@ -44,18 +44,18 @@ def page_of(*checked: Phrase, given: tuple[str, ...] = ()) -> Page:
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_number_agrees_with_what_rounds_to_it_and_with_nothing_else(seed: int) -> None:
+def test_number_agrees_only_with_values_that_round_to_it(seed: int) -> None:
     chosen = random.Random(seed)
     for _ in range(200):
         digits, decimals = chosen.randint(1, 10**6), chosen.randint(0, 5)
-        said = Decimal(digits).scaleb(-decimals) * chosen.choice((1, -1))
-        text = f"{said:,.{decimals}f}"
+        stated = Decimal(digits).scaleb(-decimals) * chosen.choice((1, -1))
+        text = f"{stated:,.{decimals}f}"
         number = number_of(text, "x")
         step = 10.0**-decimals
         assert shown_step(text) == pytest.approx(step, rel=1e-12)
         apart = chosen.uniform(-3.0, 3.0)
         if abs(abs(apart) - 0.5) > 1e-3:
-            assert number.agrees(float(said) + apart * step) == (abs(apart) < 0.5), (text, apart)
+            assert number.agrees(float(stated) + apart * step) == (abs(apart) < 0.5), (text, apart)
 
 
 @pytest.mark.parametrize(
@@ -82,7 +82,7 @@ def test_number_agrees_by_its_rule(
     assert [number.agrees(value) for value in wrong] == [False] * len(wrong)
 
 
-def test_right_numbers_give_no_line_and_a_wrong_one_is_named_with_its_line() -> None:
+def test_wrong_number_is_reported_with_its_line() -> None:
     assert differences(page_of(PEAK), SOURCE, {"peak": 84.4, "rise": 30.9}) == ([], 2)
     wrong, compared = differences(page_of(PEAK), SOURCE, {"peak": 80.27, "rise": 30.9})
     assert compared == 2
@@ -91,7 +91,7 @@ def test_right_numbers_give_no_line_and_a_wrong_one_is_named_with_its_line() -> 
     ]
 
 
-def test_bound_that_is_passed_is_named() -> None:
+def test_violated_bound_is_reported() -> None:
     page = page_of(phrase_of(["a peak of {84} m/s", "peak at most"]))
     wrong, _ = differences(page, SOURCE, {"peak": 84.5})
     assert [str(each) for each in wrong] == [
@@ -99,14 +99,14 @@ def test_bound_that_is_passed_is_named() -> None:
     ]
 
 
-def test_number_of_an_absent_run_is_not_compared_and_one_of_an_unknown_name_is_named() -> None:
+def test_unknown_name_is_reported_and_absent_run_is_not() -> None:
     assert differences(page_of(PEAK), SOURCE, {"peak": 84.4}, {"rise"}) == ([], 1)
     wrong, compared = differences(page_of(PEAK), SOURCE, {"peak": 84.4})
     assert compared == 2
     assert [str(each) for each in wrong] == ["page.md:3: 'rise' has no value: name 'rise' is not defined"]
 
 
-def test_expression_without_a_value_is_named() -> None:
+def test_expression_without_a_value_is_reported() -> None:
     page = page_of(phrase_of(["a peak of {84} m/s", 'peak["speed"]']))
     wrong, compared = differences(page, SOURCE, {"peak": {}})
     assert compared == 1
@@ -114,7 +114,7 @@ def test_expression_without_a_value_is_named() -> None:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_corrected_page_agrees_and_is_the_same_but_for_its_numbers(seed: int) -> None:
+def test_corrected_page_differs_only_in_its_numbers(seed: int) -> None:
     chosen = random.Random(seed)
     phrases = [
         phrase_of(
@@ -151,12 +151,12 @@ def test_corrected_page_agrees_and_is_the_same_but_for_its_numbers(seed: int) ->
         ("84", "x", float("inf"), "84"),
     ],
 )
-def test_value_is_written_as_the_page_writes_its_number(text: str, expression: str, found: float, written: str) -> None:
+def test_value_has_the_format_of_the_number_in_the_page(text: str, expression: str, found: float, written: str) -> None:
     assert number_of(text, expression).written(found) == written
 
 
 @pytest.mark.parametrize(("text", "count"), [("a peak of {85} m/s", 0), ("{1} km", 1), ("{10} m", 1)])
-def test_checked_phrase_has_to_stand_in_the_page_once(text: str, count: int) -> None:
+def test_checked_phrase_must_occur_once(text: str, count: int) -> None:
     wrong = misplaced(page_of(phrase_of([text, "x"])), SOURCE)
     assert len(wrong) == 1 - count
     assert all(f"as declared (found {count} times; allowed 1)" in line for line in wrong)
@@ -164,7 +164,7 @@ def test_checked_phrase_has_to_stand_in_the_page_once(text: str, count: int) -> 
     assert len(twice) == 1
 
 
-def test_given_phrase_may_stand_more_than_once_and_not_never() -> None:
+def test_given_phrase_must_occur_at_least_once() -> None:
     assert misplaced(page_of(given=("Cells of 10 m",)), SOURCE + SOURCE) == []
     assert misplaced(page_of(given=("Cells of 20 m",)), SOURCE) == [
         "page.md: the page does not state 'Cells of 20 m' as declared (found 0 times; allowed 1 or more). Write in the "
@@ -172,7 +172,7 @@ def test_given_phrase_may_stand_more_than_once_and_not_never() -> None:
     ]
 
 
-def test_number_that_no_declaration_covers_is_found() -> None:
+def test_undeclared_number_is_reported() -> None:
     assert undeclared(page_of(PEAK, given=("Cells of 10 m",)), SOURCE) == []
     assert undeclared(page_of(PEAK, given=("## Inputs",)), SOURCE) == []
     assert undeclared(page_of(PEAK), SOURCE) == ["page.md:8: '10 m' is not declared"]
@@ -182,7 +182,7 @@ def test_number_that_no_declaration_covers_is_found() -> None:
     ]
 
 
-def test_words_of_a_number_have_to_match_its_braces() -> None:
+def test_expressions_must_match_the_braces() -> None:
     with pytest.raises(DeclarationError, match=r"do not match \(found 1 and 2\). Give one expression for each number"):
         phrase_of(["a peak of {84} m/s", "peak", "rise"])
 
@@ -221,7 +221,7 @@ def test_number_of_a_table_is_found_by_column_and_row() -> None:
         from_table(TABLES, "band", "0.3")
 
 
-def test_script_refuses_a_page_that_is_not_declared(tmp_path: Path) -> None:
+def test_undeclared_page_is_an_error(tmp_path: Path) -> None:
     program = tmp_path / "thawslide"
     program.touch()
     done = subprocess.run(

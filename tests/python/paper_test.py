@@ -1,4 +1,4 @@
-"""The references the paper's figures are held against, and the table of sentences."""
+"""Reference solutions of the figures of the paper, and the table of sentences."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from reproduction.old_capacity import Bar, error
 from reproduction.page import NAMES
 from reproduction.runs import all_runs
 from reproduction.sentences import claims, filled, holds, table, verdict
-from reproduction.stages import balance, balance_cohesion, rubbing
+from reproduction.stages import balance, balance_cohesion, basal_resistance
 from thawslide.run import Run
 
 
-def test_heat_table_is_the_closed_form_and_inverts() -> None:
+def test_heat_table_has_the_closed_form_and_its_inverse() -> None:
     found = HeatTable(FREEZING_BAR, linear_saturation(0.5), COLD_END, True)
     # H(0) - H(-2): frozen capacity and half of its rise over 2 K, and all latent heat.
     frozen, thawed = FREEZING_BAR.capacity(np.array([0.0, 1.0]))
@@ -36,10 +36,10 @@ def test_heat_table_is_the_closed_form_and_inverts() -> None:
 
 
 def neumann(x: np.ndarray, time: float, mixture: Mixture, slope: float) -> np.ndarray:
-    """Return T [C] of a half space at 0 C whose end is held at COLD_END, capacity and conductivity the same throughout.
+    """Return T [C] of a half space at 0 C with COLD_END at its end and uniform capacity and conductivity.
 
-    Frozen below -1/m, freezing above it with the constant apparent capacity C + rho_I n L_f m: two zones of Neumann's
-    solution (Lunardini 1985), the far one without end.
+    It is frozen below -1/m and freezing above, with the constant apparent capacity C + rho_I n L_f m: two zones of
+    Neumann's solution (Lunardini 1985), the second one infinite.
     """
     capacity = float(mixture.capacity(np.zeros(1))[0])
     conductivity = float(mixture.conductivity(np.zeros(1))[0])
@@ -71,53 +71,53 @@ def test_freezing_reference_converges_to_neumann(slope: float) -> None:
     rms = []
     for cells in (100, 800):
         x, found = reference(slope, True, time, cells, mixture)
-        wrong = found - neumann(x, time, mixture, slope)
-        rms.append(float(np.sqrt(np.mean(wrong**2))))
-    assert np.max(np.abs(wrong)) < 0.003  # K, on the mesh the figure uses
-    # First order on average: one mesh after the other it wavers with the front's place within its cell.
+        difference = found - neumann(x, time, mixture, slope)
+        rms.append(float(np.sqrt(np.mean(difference**2))))
+    assert np.max(np.abs(difference)) < 0.003  # K, on the mesh of the figure
+    # First order on average: the error depends on the position of the front within its cell.
     assert rms[1] < rms[0] / 8.0
 
 
-def test_linear_shape_functions_of_two_rows_a_cell_weigh_three_quarters_and_one() -> None:
+def test_linear_shape_functions_of_two_rows_have_weights_of_three_quarters_and_one() -> None:
     column = Column(3, 0.1)
     assert np.allclose(column.weights.sum(axis=0), 1.0)
     assert column.weights[0, :3].tolist() == [0.75, 0.25, 0.0]
     assert np.allclose(column.slopes.T @ np.array([0.0, 0.1, 0.2, 0.3]), 1.0)
 
 
-def test_melted_band_weakens_exponentially_with_the_factor_of_two_rows() -> None:
+def test_strength_of_a_melted_band_decreases_exponentially() -> None:
     drive = Drive(0.05, 1.5, temperature=1e-9)
     found = solve(drive, 0.0005)
     normal = TABLE_1.density() * GRAVITY * drive.height
     start = TABLE_1.water_density * GRAVITY * drive.height
     capacity = float(TABLE_1.capacity(np.ones(1))[0])
     rate = 1.25 * drive.friction * TABLE_1.pressurization() / (capacity * drive.thickness)
-    # Mean pressure of the band: the rows rise as 3/4 and 1/4, the base as (9 + 1)/16 of their sum.
+    # Mean pressure of the band: the rows increase as 3/4 and 1/4, the base as (9 + 1)/16 of their sum.
     base_rise = (normal - start) * (1.0 - np.exp(-rate * found.time))
     assert np.allclose(found.pressure - start, base_rise / 1.25, rtol=2e-3, atol=50.0)
     assert base_rise[-1] / (normal - start) > 0.5
 
 
-def test_band_keeps_all_the_heat_of_friction() -> None:
-    # So thick a band stays far from melting: pressure and with it friction hardly change.
+def test_band_conserves_the_heat_of_friction() -> None:
+    # A thick band remains far from melting: pressure and friction are nearly constant.
     drive = Drive(2.0, 4.0, conduction=True)
     found = solve(drive, 0.01)
     normal = TABLE_1.density() * GRAVITY * drive.height
     ice = TABLE_1.ice_density * GRAVITY * drive.height
     content = HeatTable(TABLE_1, power_saturation, -11.0, True)
-    # With conduction off all heat is in the two rows; with it next to all, over so short a time.
+    # With conduction, nearly all heat remains in the two rows over this short time.
     rows = content.content(found.temperature[-1:])[0] - content.content(np.array([-10.0]))[0]
     assert rows * drive.thickness == pytest.approx(0.2 * (normal - ice) * found.time[-1], rel=2e-3)
 
 
-def test_seepage_lowers_pressure_and_keeps_heating() -> None:
+def test_seepage_lowers_pressure_and_prolongs_heating() -> None:
     tight = solve(Drive(0.05, 45.0), 0.02)
     loose = solve(Drive(0.05, 45.0, hydraulic_conductivity=1e-8), 0.02)
     assert loose.pressure[-1] < 0.8 * tight.pressure[-1]
     assert loose.temperature[-1] > tight.temperature[-1] + 2.0
 
 
-def test_comparisons_and_verdicts() -> None:
+def test_verdicts_follow_from_comparisons() -> None:
     measures = {"a": 1.0, "b": 2.0, "none": math.nan}
     assert holds(["a", "<", "b"], measures) is True
     assert holds(["a", ">", "b"], measures) is False
@@ -135,25 +135,25 @@ def test_comparisons_and_verdicts() -> None:
     assert filled("{x:.1f}", {"x": -2.0}) == "−2.0"
 
 
-def test_figures_and_sentences_are_whole() -> None:
+def test_figures_and_sentences_are_complete() -> None:
     assert sorted(row["name"] for row in table("figures")) == sorted(NAMES)
     for row in table("figures"):
-        assert all(row[key].strip() for key in ("heading", "paper", "ours", "why"))
+        assert all(row[key].strip() for key in ("heading", "paper", "result", "why"))
     for row in claims():
         assert re.fullmatch(r"Abstract|3\.[123]|4\.[12]", row["section"])
-        assert row["text"] and row["reported"] and row["ours"]
+        assert row["text"] and row["reported"] and row["result"]
         for test in row.get("tests", []):
             assert test[1] in ("<", ">", "within") and len(test) in (3, 4)
             assert (test[1] == "within") <= (len(test) == 4)
 
 
-def test_runs_have_names_of_their_own() -> None:
+def test_runs_have_unique_names() -> None:
     names = [run.name for run in all_runs()]
     assert len(set(names)) == len(names) == 39
 
 
-def test_numbers_in_sentences_are_held_to_a_tenth() -> None:
-    # The page says so for all rows alike; saturations are held to 0.1.
+def test_numbers_in_sentences_have_a_tolerance_of_a_tenth() -> None:
+    # The page states it for all rows; the tolerance of saturations is 0.1.
     for row in claims():
         for left, kind, right, *width in row.get("tests", []):
             if kind == "within" and isinstance(right, float) and right > 1.0:
@@ -163,7 +163,7 @@ def test_numbers_in_sentences_are_held_to_a_tenth() -> None:
                 )
 
 
-def test_band_frozen_in_equilibrium_has_less_pressure_in_its_water() -> None:
+def test_water_in_frozen_equilibrium_has_lower_pressure() -> None:
     # Eq. 4 with the usual sign: rho_L L_f ln(263.15/273.15) at -10 C, nothing at 0 C.
     assert clapeyron(-10.0) == pytest.approx(-12.4387, abs=1e-3)
     assert clapeyron(0.0) == 0.0
@@ -180,7 +180,7 @@ def short_run(folder: Path, columns: dict[str, list[float]]) -> Run:
     return Run(folder)
 
 
-def test_differences_crossing_and_drag_by_hand(tmp_path: Path) -> None:
+def test_differences_crossing_and_drag_have_the_closed_form(tmp_path: Path) -> None:
     time = [0.0, 10.0, 20.0, 30.0]
     one = short_run(tmp_path / "one", {
         "time_s": time, "band_saturation": [0.0, 0.3, 0.5, 0.5], "mass_kg": [2.0] * 4,
@@ -195,8 +195,8 @@ def test_differences_crossing_and_drag_by_hand(tmp_path: Path) -> None:
     assert drag(one) == pytest.approx(2.0 / (2.0 * 9.81 * math.cos(math.radians(40.0))))
 
 
-def test_cohesion_of_he_et_al_is_that_of_a_slab_of_50_metres() -> None:
-    # 2062.625 kg/m3: 752.1 kPa down the slope, 677.2 kPa of load of which ice carries 449.8 kPa, tan 40 = 0.8391.
+def test_cohesion_of_he_et_al_is_that_of_a_slab_of_50_m() -> None:
+    # 2062.625 kg/m3: 752.1 kPa down the slope, 677.2 kPa of load minus 449.8 kPa of ice pressure, tan 40 = 0.8391.
     assert balance_cohesion(50.0) == pytest.approx(0.561, abs=5e-4)
     assert balance_cohesion(100.0) == pytest.approx(2.0 * balance_cohesion(50.0))
     block = {"driving_traction_Pa": np.array([8e5, 0.0]), "sliding_strength_Pa": np.array([7.9e5, 0.0])}
@@ -205,32 +205,32 @@ def test_cohesion_of_he_et_al_is_that_of_a_slab_of_50_metres() -> None:
     assert found["lamplugh_short"] == pytest.approx(100.0 * (1.0 - 0.751 / 0.8))
 
 
-def test_coefficient_of_eq_25_at_its_ends() -> None:
+def test_coefficient_of_eq_25_has_its_limits() -> None:
     assert friction_coefficient(0.95, 1.0) == pytest.approx(0.0, abs=1e-12)
     assert friction_coefficient(0.225, 0.0) == pytest.approx(math.tan(math.radians(40.0)))
-    assert friction_coefficient(0.375, 0.0) == pytest.approx(0.82599, abs=1e-5)  # what D starts with
+    assert friction_coefficient(0.375, 0.0) == pytest.approx(0.82599, abs=1e-5)  # initial value of D
 
 
-def test_rubbing_force_is_work_over_way(tmp_path: Path) -> None:
+def test_basal_resistance_is_work_over_displacement(tmp_path: Path) -> None:
     time = [0.0, 35.0, 40.0]
     columns = {"time_s": time, "friction_work_J": [0.0, 1e12, 4e12], "mean_displacement_m": [0.0, 10.0, 40.0]}
-    assert rubbing(short_run(tmp_path / "run", columns)) == pytest.approx(100.0)
-    assert math.isnan(rubbing(short_run(tmp_path / "still", columns | {"mean_displacement_m": [0.0] * 3})))
+    assert basal_resistance(short_run(tmp_path / "run", columns)) == pytest.approx(100.0)
+    assert math.isnan(basal_resistance(short_run(tmp_path / "still", columns | {"mean_displacement_m": [0.0] * 3})))
 
 
-def test_old_capacity_overshoots_where_the_jump_leaves_the_freezing_branch() -> None:
-    # The first particle falls by 3/4 of 3 K at C + m L_f rho_I n, of which only the part above -1/m freezes.
+def test_old_capacity_overshoots_past_the_freezing_branch() -> None:
+    # The first particle is cooled by 3/4 of 3 K at C + m L_f rho_I n, although freezing ends at -1/m.
     water = FREEZING_BAR.capacity(np.ones(1))[0]
     for slope, frozen in ((0.25, False), (1.0, True)):
-        bar = Bar(slope, pulled=False)
+        bar = Bar(slope, is_prescribed=False)
         bar.advance("carried")
-        taken = (water + slope * FREEZING_BAR.melting_heat()) * 2.25
-        assert bar.content[0] - bar.table.content(np.zeros(1))[0] == pytest.approx(-taken, rel=2e-3)  # and conduction
+        removed = (water + slope * FREEZING_BAR.melting_heat()) * 2.25
+        assert bar.content[0] - bar.table.content(np.zeros(1))[0] == pytest.approx(-removed, rel=2e-3)  # and conduction
         assert (bar.temperature[0] < -100.0) == frozen
-        bar = Bar(slope, pulled=False)
+        bar = Bar(slope, is_prescribed=False)
         bar.advance("secant")
         assert bar.temperature[0] == pytest.approx(-2.25, abs=0.01)
-    # An hour later the printed update and the secant agree; carried heat has not come back.
-    errors = {way: error(1.0, way, time=3600.0, cell=0.02) for way in ("printed", "secant", "carried")}
+    # After one hour the published update and the secant agree; the heat content remains wrong.
+    errors = {update: error(1.0, update, time=3600.0, cell=0.02) for update in ("printed", "secant", "carried")}
     assert errors["carried"] > 100.0
     assert errors["printed"] == pytest.approx(errors["secant"], rel=0.2)

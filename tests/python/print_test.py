@@ -1,4 +1,4 @@
-"""Figures as journals print them: both columns wide, letters in order, type that can be read, 150 dots an inch."""
+"""Figures for journals: width of two columns, letters in order, readable type, 150 dots per inch."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SMALLEST = 6.0  # points
 
 
 def check(figure: Figure) -> None:
-    """Refuse a figure wider than a page, with type too small to read, or letters out of order."""
+    """Check that a figure is not wider than a page and has readable type and ordered letters."""
     assert 4.0 <= figure.get_size_inches()[0] <= COLUMN_WIDTH
     figure.draw_without_rendering()
     small = {
@@ -37,38 +37,38 @@ def check(figure: Figure) -> None:
     assert letters == list("abcdefghijklmnopqrstuvwxyz"[: len(letters)])
 
 
-def test_figures_fit_both_columns_of_a_page(make_run: MakeRun, map_run: Path) -> None:
+def test_figures_have_the_width_of_two_columns(make_run: MakeRun, map_run: Path) -> None:
     folder = make_run()
     names = [name for name, kind in FIGURES.items() if kind.suits(Run(folder))]
     assert len(names) > 5
     for name in names:
-        check(FIGURES[name].draw(Run(folder)))
+        check(FIGURES[name].plot(Run(folder)))
     write_history(folder / "history.csv", column_history())
     for name in ("band", "water"):
-        check(FIGURES[name].draw(Run(folder)))
+        check(FIGURES[name].plot(Run(folder)))
     for name in ("extent_maps", "slide_speed", "cross_sections", "impact_maps"):
-        check(FIGURES[name].draw(Run(map_run)))
+        check(FIGURES[name].plot(Run(map_run)))
 
 
-def test_pages_with_captions_have_no_titles_in_figures(make_run: MakeRun) -> None:
-    figure = FIGURES["band"].draw(Run(make_run()))
+def test_figures_without_title_have_larger_panels(make_run: MakeRun) -> None:
+    figure = FIGURES["band"].plot(Run(make_run()))
     assert figure.get_suptitle()
     figure.draw_without_rendering()
     high = figure.axes[0].get_position().y1
     assert without_title(figure).get_suptitle() == ""
     figure.draw_without_rendering()
-    assert figure.axes[0].get_position().y1 > high, "its room goes to the panels"
+    assert figure.axes[0].get_position().y1 > high, "the panels use the space of the title"
 
 
 @pytest.mark.parametrize("name", ["motion", "velocity"])
-def test_pictures_have_150_dots_an_inch(make_run: MakeRun, name: str) -> None:
+def test_images_have_150_dots_per_inch(make_run: MakeRun, name: str) -> None:
     run = Run(make_run())
-    picture = make_report(run, names=[name]).figures[name].read_bytes()
-    width = struct.unpack(">I", picture[16:20])[0]  # of a PNG's first block
+    image = make_report(run, names=[name]).figures[name].read_bytes()
+    width = struct.unpack(">I", image[16:20])[0]  # of a PNG's first block
     assert width == int(150 * COLUMN_WIDTH)
 
 
-def test_the_profile_of_a_deposit_states_how_it_is_stretched(
+def test_profile_of_a_deposit_states_its_vertical_exaggeration(
     make_run: MakeRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(lamplugh, "deposit", lambda run: (np.array([50.0, 150.0]), np.array([3.0, 4.0])))
@@ -78,4 +78,4 @@ def test_the_profile_of_a_deposit_states_how_it_is_stretched(
     width, height = figure.get_size_inches() * section.get_position().size
     (left, right), (low, top) = section.get_xlim(), section.get_ylim()
     times = 1e3 * (right - left) / width * height / (top - low)
-    assert section.get_title(loc="left") == f"(a) profile, heights ×{times:.2g}"
+    assert section.get_title(loc="left") == f"(a) profile, vertical exaggeration {times:.2g}×"

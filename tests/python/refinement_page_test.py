@@ -44,5 +44,5 @@ def test_orders_and_limits_are_those_of_the_cells_that_halve(order: float) -> No
     assert refinement_page.order_and_limit(values, 0) == (f"{order:.1f}", "100")
 
 
-def test_a_value_that_does_not_converge_evenly_has_no_order() -> None:
+def test_value_without_monotonic_convergence_has_no_order() -> None:
     assert refinement_page.order_and_limit([1.0, 2.0, 1.5], 1) == ("not monotonic", "")

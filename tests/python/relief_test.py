@@ -1,4 +1,4 @@
-"""Hill shading against Horn's formula, and the round numbers of contour lines and scale bars."""
+"""Hillshade compared with Horn's formula, and round numbers of contour lines and scale bars."""
 
 from __future__ import annotations
 
@@ -16,27 +16,25 @@ def plane(slope_x: float, slope_y: float) -> np.ndarray:
 @pytest.mark.parametrize("slope_x", [-1.0, 0.0, 0.3])
 @pytest.mark.parametrize("slope_y", [-0.5, 0.0, 2.0])
 @pytest.mark.parametrize("exaggeration", [1.0, 3.0])
-def test_a_plane_is_as_bright_as_its_normal_faces_the_light(
-    slope_x: float, slope_y: float, exaggeration: float
-) -> None:
+def test_brightness_of_a_plane_is_the_cosine_to_the_light(slope_x: float, slope_y: float, exaggeration: float) -> None:
     normal = np.array([-exaggeration * slope_x, -exaggeration * slope_y, 1.0])
     light = np.array([-0.5, 0.5, np.sqrt(0.5)])  # from the north-west, 45 degrees high
     wanted = max(0.0, float(normal @ light) / float(np.linalg.norm(normal)))
     np.testing.assert_allclose(hillshade(plane(slope_x, slope_y), 10.0, 5.0, exaggeration), wanted, atol=1e-12)
 
 
-def test_level_ground_slopes_that_face_the_light_and_slopes_in_shadow() -> None:
+def test_brightness_depends_on_the_aspect() -> None:
     assert hillshade(np.zeros((4, 4)), 1.0, 1.0) == pytest.approx(np.sin(np.pi / 4))
     towards = plane(np.sqrt(0.5), -np.sqrt(0.5))  # falls to the north-west by 45 degrees
     assert hillshade(towards, 10.0, 5.0) == pytest.approx(1.0)
     assert hillshade(-2.0 * towards, 10.0, 5.0) == pytest.approx(0.0)
 
 
-def test_light_from_the_east() -> None:
+def test_light_from_the_east_is_on_eastern_slopes() -> None:
     assert hillshade(plane(-1.0, 0.0), 10.0, 5.0, azimuth=90.0, altitude=45.0) == pytest.approx(1.0)
 
 
-def test_horn_weighs_the_neighbours_one_two_one() -> None:
+def test_slopes_have_weights_one_two_one() -> None:
     heights = np.zeros((3, 3))
     heights[0, 2], heights[1, 2], heights[2, 2] = 8.0, 80.0, 800.0
     slope_x, slope_y = slopes(heights, 2.0, 4.0)
@@ -52,19 +50,19 @@ def test_no_shade_next_to_missing_data() -> None:
     assert np.isfinite(shade[:2]).all()
 
 
-def test_a_single_row_has_no_slope() -> None:
-    with pytest.raises(ValueError, match=r"at least 2 x 2 heights, not \(1, 5\)"):
+def test_single_row_is_an_error() -> None:
+    with pytest.raises(ValueError, match=r"at least 2 x 2 heights \(found \(1, 5\)\)"):
         slopes(np.zeros((1, 5)), 1.0, 1.0)
 
 
 @pytest.mark.parametrize(
     ("value", "found"), [(1.0, 1.0), (1.99, 1.0), (2.0, 2.0), (49.0, 20.0), (730.0, 500.0), (0.07, 0.05)]
 )
-def test_round_numbers(value: float, found: float) -> None:
+def test_round_number_is_not_above_the_value(value: float, found: float) -> None:
     assert round_number(value) == pytest.approx(found)
 
 
-def test_nothing_round_below_zero() -> None:
+def test_round_number_of_zero_is_an_error() -> None:
     with pytest.raises(ValueError, match="expected a positive number, found 0"):
         round_number(0.0)
 
@@ -81,6 +79,6 @@ def test_contour_levels_are_few_round_and_inside(span: float, most: int) -> None
         assert len(levels) > most / 6
 
 
-def test_level_ground_has_no_contour_lines() -> None:
+def test_level_terrain_has_no_contour_lines() -> None:
     assert not contour_levels(np.full((3, 3), 7.0), 10).size
     assert not contour_levels(np.full((3, 3), np.nan), 10).size

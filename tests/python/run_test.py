@@ -1,4 +1,4 @@
-"""Reading a run folder: what comes back is what the files hold, and every fault has its text."""
+"""Reading a run folder: values of the files, and messages of errors."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from conftest import MakeRun, ground, history_columns
 from thawslide import NotInRunError, ReportError, Run
 
 
-def test_history_holds_every_column_and_nan(make_run: MakeRun) -> None:
+def test_history_has_all_columns_and_nan(make_run: MakeRun) -> None:
     history = Run(make_run()).history
     written = history_columns(101, 2)
     assert list(history) == list(written)
@@ -23,7 +23,7 @@ def test_history_holds_every_column_and_nan(make_run: MakeRun) -> None:
     assert np.isnan(history["band_temperature_C"][0])
 
 
-def test_terrain_case_and_targets(make_run: MakeRun) -> None:
+def test_terrain_case_and_targets_are_read(make_run: MakeRun) -> None:
     run = Run(make_run())
     assert run.title == "Block on a slope & <more>"
     assert run.report_times == [0.0, 4.0, 7.4]
@@ -37,7 +37,7 @@ def test_terrain_case_and_targets(make_run: MakeRun) -> None:
     assert run.targets[-1].value == 1.1e11
 
 
-def test_what_a_run_may_lack(make_run: MakeRun) -> None:
+def test_optional_files_can_be_missing(make_run: MakeRun) -> None:
     folder = make_run(terrain=False, targets=False, width=0.0, times="[]")
     (folder / "run.json").unlink()
     run = Run(folder)
@@ -48,7 +48,7 @@ def test_what_a_run_may_lack(make_run: MakeRun) -> None:
     assert run.per_metre
 
 
-def test_snapshot_by_index_and_by_nearest_time(make_run: MakeRun) -> None:
+def test_snapshots_are_read_by_index_and_by_nearest_time(make_run: MakeRun) -> None:
     run = Run(make_run())
     np.testing.assert_array_equal(run.times, np.arange(11.0))
     assert run.snapshot(3).time == 3.0
@@ -62,7 +62,7 @@ def test_snapshot_by_index_and_by_nearest_time(make_run: MakeRun) -> None:
     np.testing.assert_allclose(np.linalg.norm(snapshot["velocity"], axis=1), 50.0)
 
 
-def test_vertical_axis_by_dimension(make_run: MakeRun) -> None:
+def test_vertical_axis_depends_on_the_dimension(make_run: MakeRun) -> None:
     assert Run(make_run(name="flat")).vertical == 1
     assert Run(make_run(name="solid", dimension=3)).vertical == 2
 
@@ -74,28 +74,28 @@ def expect(folder: Path, text: str, kind: type[ReportError] = ReportError) -> No
         _ = run.case, run.history, run.terrain, run.targets, run.facts, run.times, run.snapshot(0)
 
 
-def test_no_such_folder(tmp_path: Path) -> None:
-    expect(tmp_path / "nowhere", "no such folder; give the folder a run has written")
+def test_missing_folder_is_an_error(tmp_path: Path) -> None:
+    expect(tmp_path / "nowhere", "no such folder. Select the folder of a run, e.g. runs/lamplugh.")
 
 
-def test_not_a_run_folder(tmp_path: Path) -> None:
-    expect(tmp_path, "not a run folder, case.toml and history.csv not found there")
+def test_other_folder_is_an_error(tmp_path: Path) -> None:
+    expect(tmp_path, "not a run folder (found no case.toml and no history.csv). Select the folder of a run.")
 
 
 def test_only_the_missing_file_is_named(make_run: MakeRun) -> None:
     folder = make_run()
     (folder / "history.csv").unlink()
-    expect(folder, "not a run folder, history.csv not found there")
+    expect(folder, "not a run folder (found no history.csv).")
 
 
 @pytest.mark.parametrize(
     ("file", "content", "text"),
     [
-        ("case.toml", "[case\n", "case.toml: not valid TOML: "),
-        ("history.csv", "", "history.csv: empty; the run has not written its first row"),
+        ("case.toml", "[case\n", "case.toml: not valid TOML ("),
+        ("history.csv", "", "history.csv: empty. Wait for the first row of the run."),
         ("history.csv", "time_s,step\n", "history.csv: no rows after the header"),
-        ("history.csv", "a,b\n1,2\n", "history.csv:1: no column time_s; this is not the history of a run"),
-        ("history.csv", "time_s,step\n0,0\n1\n", "history.csv:3: 1 values for 2 columns"),
+        ("history.csv", "a,b\n1,2\n", "history.csv:1: no column time_s. Select the folder of a run."),
+        ("history.csv", "time_s,step\n0,0\n1\n", "history.csv:3: damaged row (found 1 values for 2 columns)."),
         ("history.csv", "time_s,step\n0,none\n", "history.csv:2: expected a number, found 'none'"),
         (
             "terrain.csv",
@@ -104,12 +104,12 @@ def test_only_the_missing_file_is_named(make_run: MakeRun) -> None:
         ),
         ("terrain.csv", "", "terrain.csv: empty; expected the columns distance_m, terrain_elevation_m"),
         ("inputs/targets.csv", "# x\nquantity,time_s\na,b\n", "targets.csv:2: no column value; found"),
-        ("run.json", "{", "run.json: not valid JSON: "),
-        ("run.json", "[]", "run.json: expected a JSON object"),
+        ("run.json", "{", "run.json: not valid JSON ("),
+        ("run.json", "[]", "run.json: not a JSON object."),
         ("snapshots/000003.vtkhdf", "cut", "000003.vtkhdf: cannot be read as HDF5"),
     ],
 )
-def test_damaged_files(make_run: MakeRun, file: str, content: str, text: str) -> None:
+def test_damaged_files_are_errors(make_run: MakeRun, file: str, content: str, text: str) -> None:
     folder = make_run()
     (folder / file).write_text(content)
     expect(folder, text)
@@ -118,49 +118,51 @@ def test_damaged_files(make_run: MakeRun, file: str, content: str, text: str) ->
 def test_missing_targets_file_names_the_key(make_run: MakeRun) -> None:
     folder = make_run()
     (folder / "inputs" / "targets.csv").unlink()
-    expect(folder, "targets.csv: no such file; [report] targets in ")
+    expect(folder, "targets.csv: no such file. Correct report.targets in ")
 
 
 @pytest.mark.parametrize("name", ["x" * 300, "zero\\u0000byte", "loop"])
-def test_name_of_targets_that_no_file_has(make_run: MakeRun, name: str) -> None:
+def test_invalid_name_of_targets_is_an_error(make_run: MakeRun, name: str) -> None:
     folder = make_run()
     (folder / "loop").symlink_to("loop")
     case = folder / "case.toml"
     case.write_text(case.read_text().replace("inputs/targets.csv", name))
-    expect(folder, "case.toml: [report] targets '" + name[:4])
+    expect(folder, "case.toml: report.targets: cannot be read (found '" + name[:4])
 
 
-def test_row_cut_off_at_the_end_is_left_out_with_a_warning(make_run: MakeRun) -> None:
+def test_incomplete_last_row_is_ignored_with_a_warning(make_run: MakeRun) -> None:
     folder = make_run(rows=11)
     text = (folder / "history.csv").read_text()
     (folder / "history.csv").write_text(text[:-20])
     run = Run(folder)
     assert run.history.rows == 10
     assert run.history["time_s"][-1] == 9.0
-    assert run.warnings == [f"{folder / 'history.csv'}: the last row was cut off and is left out"]
+    assert run.warnings == [f"{folder / 'history.csv'}: the last row is incomplete and is ignored"]
 
 
-def test_header_cut_off_while_written(make_run: MakeRun) -> None:
+def test_incomplete_header_is_an_error(make_run: MakeRun) -> None:
     folder = make_run()
     (folder / "history.csv").write_text("time_s,st")
-    expect(folder, "history.csv: empty; the run has not written its first row")
+    expect(folder, "history.csv: empty. Wait for the first row of the run.")
 
 
-def test_missing_column_and_field_name_what_is_near(make_run: MakeRun) -> None:
+def test_messages_on_missing_names_have_the_nearest_one(make_run: MakeRun) -> None:
     run = Run(make_run())
     with pytest.raises(NotInRunError, match=r"no column runout \(nearest: runout_m\)"):
         run.history["runout"]
-    with pytest.raises(NotInRunError, match="no field speed; it has body, displacement, "):
+    with pytest.raises(NotInRunError, match=r"no field speed \(found: body, displacement, "):
         run.snapshot(0)["speed"]
 
 
-def test_no_snapshots_and_no_such_snapshot(make_run: MakeRun) -> None:
-    expect(make_run(name="none", snapshots=0), "no snapshots; set [time] output_interval and run again", NotInRunError)
-    with pytest.raises(ReportError, match="no snapshot 11; there are 11"):
+def test_missing_snapshots_are_errors(make_run: MakeRun) -> None:
+    expect(
+        make_run(name="none", snapshots=0), "no snapshots. Set time.output_interval and repeat the run.", NotInRunError
+    )
+    with pytest.raises(ReportError, match=r"no snapshot 11 \(found 11 snapshots\)"):
         Run(make_run(name="some")).snapshot(11)
 
 
-def test_snapshot_without_group_points_or_with_a_short_field(make_run: MakeRun) -> None:
+def test_incomplete_snapshots_are_errors(make_run: MakeRun) -> None:
     folder = make_run(snapshots=3)
     paths = [folder / "snapshots" / f"{number:06d}.vtkhdf" for number in range(3)]
     with h5py.File(paths[0], "a") as file:
@@ -171,7 +173,7 @@ def test_snapshot_without_group_points_or_with_a_short_field(make_run: MakeRun) 
         del file["VTKHDF/PointData/mass"]
         file["VTKHDF/PointData/mass"] = np.ones(3)
     for path, text in zip(
-        paths, ("no group VTKHDF with", "without Points", "field 'mass' has 3 rows for 80 particles"), strict=True
+        paths, ("no group VTKHDF with", "found no Points", "found 3 rows of 'mass' for 80 particles"), strict=True
     ):
         with pytest.raises(ReportError, match=text):
             Run(folder).snapshot(paths.index(path))

@@ -1,4 +1,4 @@
-"""The picture of a set-up on a DEM: what the file says is what is drawn."""
+"""Figure of the setup of a case on a DEM: contents of its file."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from matplotlib.patches import Rectangle
 
 from thawslide.command_line import main
 from thawslide.maps import Grid, Map
-from thawslide.setup_map import SetupOnMap, draw_setup_on_map, each_cell_once
+from thawslide.setup_map import SetupOnMap, each_cell_once, plot_setup_on_map
 from thawslide.setup_picture import read_setup
 
 
@@ -62,7 +62,7 @@ def read(path: Path) -> SetupOnMap:
     return found
 
 
-def test_a_set_up_on_a_dem_is_read(write: Any) -> None:
+def test_setup_on_a_dem_is_read(write: Any) -> None:
     found = read(write(setup()))
     x, y = centres()
     assert np.isnan(found.terrain.values[:3, :3]).all()
@@ -73,12 +73,12 @@ def test_a_set_up_on_a_dem_is_read(write: Any) -> None:
     assert release.thickness.volume() == pytest.approx(28800.0)
 
 
-def test_both_views_hold_domain_release_path_and_probes(write: Any) -> None:
-    figure = draw_setup_on_map(read(write(setup())))
+def test_both_maps_have_domain_release_path_and_probes(write: Any) -> None:
+    figure = plot_setup_on_map(read(write(setup())))
     overview, near, bar = figure.axes
     assert overview.get_title(loc="left") == "(a) whole domain; box: (b)"
     assert (near.get_title(loc="left"), near.get_title(loc="right")) == ("(b) release", "grid cells of 10 m")
-    assert bar.get_ylabel() == "thickness (m)"
+    assert bar.get_ylabel() == "release thickness (m)"
     frames = [patch for patch in overview.patches if isinstance(patch, Rectangle)]
     assert (WEST + 20.0, 560.0, 260.0) in [(f.get_x(), f.get_width(), f.get_height()) for f in frames]
     (left, right), (low, high) = near.get_xlim(), near.get_ylim()
@@ -86,17 +86,15 @@ def test_both_views_hold_domain_release_path_and_probes(write: Any) -> None:
     assert low < MIDDLE - 30.0 and high > MIDDLE + 30.0
     (legend,) = figure.legends
     words = [text.get_text() for text in legend.get_texts()]
-    assert words == ["slab (ice): 28,800 m³, up to 6 m thick", "domain", "path", "probe"]
+    assert words == ["slab (ice): 28,800 m³, maximum thickness 6 m", "domain", "flow path", "probe"]
     assert {"gate", "weir"} <= {text.get_text() for text in overview.texts}
     note = figure.texts[-1].get_text().replace("\n", " ")
-    assert note.startswith(
-        "Coordinates: EPSG:31287. Terrain: light from the north-west and above, contour lines every 20"
-    )
-    assert note.endswith("In (b), contour lines every 5 m.")
+    assert note.startswith("Coordinates: EPSG:31287. Hillshade from the north-west, contour interval 20")
+    assert note.endswith("(b): contour interval 5 m.")
 
 
-def test_cells_that_bodies_share_are_painted_once() -> None:
-    """With the sum of both; the others stay as they are, and maps of other cells too."""
+def test_common_cells_of_bodies_are_painted_once() -> None:
+    """Their value is the sum; other cells and maps with other grids are unchanged."""
     west = Map(Grid(0.0, 0.0, 10.0, 10.0, 3, 2), np.array([[4.0, 4.0, 2.0], [4.0, 4.0, 2.0]]))
     east = Map(Grid(20.0, 10.0, 10.0, 10.0, 2, 2), np.array([[1.0, 3.0], [1.0, 3.0]]))
     coarse = Map(Grid(0.0, 0.0, 20.0, 20.0, 1, 1), np.array([[7.0]]))
@@ -116,7 +114,7 @@ def test_cells_that_bodies_share_are_painted_once() -> None:
         {"bodies": [{"name": "a", "material": "ice", "outlines": [], "volume_m3": 2e7, "thickness": None}]},
     ],
 )
-def test_parts_may_be_absent(write: Any, tmp_path: Path, changes: dict[str, Any]) -> None:
+def test_optional_parts_can_be_missing(write: Any, tmp_path: Path, changes: dict[str, Any]) -> None:
     picture = tmp_path / "out.png"
     assert main(["--setup", str(write(setup(**changes))), "--picture", str(picture), "--dpi", "50"]) == 0
     assert picture.read_bytes().startswith(b"\x89PNG")
@@ -125,32 +123,32 @@ def test_parts_may_be_absent(write: Any, tmp_path: Path, changes: dict[str, Any]
 @pytest.mark.parametrize(
     ("changes", "text"),
     [
-        ({"terrain": {"heights": []}}, "setup.json: no key 'x0'; this is not a set-up the simulator wrote"),
+        ({"terrain": {"heights": []}}, "setup.json: not a setup of the simulator (found no key 'x0')."),
         (
             {"terrain": grid_form(np.ones((3, 4))) | {"rows": 5}},
-            "setup.json: not a set-up the simulator wrote: 12 heights for 4 columns and 5 rows",
+            "setup.json: not a setup of the simulator (12 heights for 4 columns and 5 rows).",
         ),
-        ({"bodies": [{"name": "a"}]}, "setup.json: no key 'material'"),
+        ({"bodies": [{"name": "a"}]}, "setup.json: not a setup of the simulator (found no key 'material')"),
     ],
 )
-def test_faulty_set_ups(
+def test_invalid_setups_are_errors(
     write: Any, tmp_path: Path, changes: dict[str, Any], text: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["--setup", str(write(setup(**changes))), "--picture", str(tmp_path / "out.png")]) == 2
     assert text in capsys.readouterr().err
 
 
-def test_substrates_are_hatched_where_they_lie(write: Any) -> None:
+def test_substrates_are_hatched_in_their_cells(write: Any) -> None:
     x, y = centres()
     numbers = np.where(x > WEST + 300.0, 2.0, 0.0) + 0.0 * y
     data = setup(substrates={"names": ["debris", "glacier"], "numbers": grid_form(numbers)})
-    figure = draw_setup_on_map(read(write(data)))
+    figure = plot_setup_on_map(read(write(data)))
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
     assert "substrate debris" in labels and "substrate glacier" in labels
-    (hatched,) = hatched_areas(figure.axes[0])  # the debris lies nowhere on the map
+    (hatched,) = hatched_areas(figure.axes[0])  # no cell has debris
     ends = np.concatenate([path.vertices for path in hatched.get_paths() if len(path.vertices)])
     assert ends[:, 0].min() == pytest.approx(WEST + 300.0, abs=10.0)
-    assert not hatched_areas(draw_setup_on_map(read(write(setup()))).axes[0])
+    assert not hatched_areas(plot_setup_on_map(read(write(setup()))).axes[0])
 
 
 def hatched_areas(axes: Axes) -> list[QuadContourSet]:

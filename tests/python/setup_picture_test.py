@@ -1,4 +1,4 @@
-"""The picture of a set-up: what the file says is what is drawn."""
+"""Figure of the setup of a 2D case: contents of its file."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from matplotlib.collections import FillBetweenPolyCollection, LineCollection, Po
 from matplotlib.patches import Rectangle
 
 from thawslide.command_line import main
-from thawslide.setup_picture import draw_setup, read_setup
+from thawslide.setup_picture import plot_setup, read_setup
 
 
 def setup(**changes: Any) -> dict[str, Any]:
@@ -41,8 +41,8 @@ def write(tmp_path: Path) -> Any:
     return write_setup
 
 
-def test_both_views_hold_bodies_terrain_and_frame(write: Any) -> None:
-    figure = draw_setup(read_setup(write(setup())))
+def test_both_panels_have_bodies_terrain_and_frame(write: Any) -> None:
+    figure = plot_setup(read_setup(write(setup())))
     overview, zoom = figure.axes
     assert overview.get_title(loc="left") == "(a) whole domain, true scale; box: (b)"
     assert zoom.get_title(loc="left") == "(b) bodies, true scale, cells of 0.2 m"
@@ -59,8 +59,8 @@ def test_both_views_hold_bodies_terrain_and_frame(write: Any) -> None:
     assert (box.get_x(), box.get_x() + box.get_width()) == pytest.approx(zoom.get_xlim())
 
 
-def test_grid_lines_stand_on_the_cells(write: Any) -> None:
-    _, zoom = draw_setup(read_setup(write(setup()))).axes
+def test_grid_lines_are_the_borders_of_cells(write: Any) -> None:
+    _, zoom = plot_setup(read_setup(write(setup()))).axes
     (grid,) = [c for c in zoom.collections if isinstance(c, LineCollection)]
     upright = sorted(s[0][0] for s in (np.asarray(p.vertices) for p in grid.get_paths()) if s[0][0] == s[1][0])
     left, right = zoom.get_xlim()
@@ -70,17 +70,17 @@ def test_grid_lines_stand_on_the_cells(write: Any) -> None:
     assert left - 1e-9 <= upright[0] and upright[-1] <= right and len(upright) > 10
 
 
-def test_small_cells_thin_the_lines_and_say_so(write: Any) -> None:
-    _, zoom = draw_setup(read_setup(write(setup(cell=0.002)))).axes
-    assert zoom.get_title(loc="left").startswith("(b) bodies, true scale, cells of 0.002 m, one line in ")
+def test_grid_lines_of_small_cells_are_thinned(write: Any) -> None:
+    _, zoom = plot_setup(read_setup(write(setup(cell=0.002)))).axes
+    assert zoom.get_title(loc="left").startswith("(b) bodies, true scale, cells of 0.002 m, one grid line per ")
     (grid,) = [c for c in zoom.collections if isinstance(c, LineCollection)]
     assert len(grid.get_paths()) < 500
 
 
-def test_legend_names_everything(write: Any) -> None:
-    (legend,) = draw_setup(read_setup(write(setup()))).legends
+def test_legend_has_all_parts(write: Any) -> None:
+    (legend,) = plot_setup(read_setup(write(setup()))).legends
     assert [text.get_text() for text in legend.get_texts()] == [
-        "block (ice): 50 particles, 0.1 m apart",
+        "block (ice): 50 particles, spacing 0.1 m",
         "terrain",
         "frame pusher, 2 m/s along x",
         "roller: x min, x max",
@@ -89,8 +89,8 @@ def test_legend_names_everything(write: Any) -> None:
     ]
 
 
-def test_boundaries_have_their_line_styles(write: Any) -> None:
-    overview, _ = draw_setup(read_setup(write(setup()))).axes
+def test_boundaries_have_line_styles(write: Any) -> None:
+    overview, _ = plot_setup(read_setup(write(setup()))).axes
     sides = [found for found in overview.lines if found.get_color() == "black"]
     assert [found.get_linestyle() for found in sides] == ["--", "--", "-", ":"]
     assert list(sides[2].get_ydata()) == [-0.4, -0.4]
@@ -99,7 +99,7 @@ def test_boundaries_have_their_line_styles(write: Any) -> None:
 @pytest.mark.parametrize(
     "changes", [{"terrain": None}, {"bodies": []}, {"bodies": None, "frames": None, "boundary": None}]
 )
-def test_parts_may_be_absent(write: Any, tmp_path: Path, changes: dict[str, Any]) -> None:
+def test_optional_parts_can_be_missing(write: Any, tmp_path: Path, changes: dict[str, Any]) -> None:
     picture = tmp_path / "new" / "out.png"
     assert main(["--setup", str(write(setup(**changes))), "--picture", str(picture)]) == 0
     assert picture.read_bytes().startswith(b"\x89PNG")
@@ -109,32 +109,39 @@ def test_parts_may_be_absent(write: Any, tmp_path: Path, changes: dict[str, Any]
     ("content", "text"),
     [
         ("{", "setup.json: not valid JSON"),
-        ({"title": "Block"}, "setup.json: no key 'min'; this is not a set-up the simulator wrote"),
-        ([], "setup.json: expected a JSON object"),
-        (setup(cell="wide"), "setup.json: not a set-up the simulator wrote"),
-        (setup(cell=0.0), "a domain from -1 to 6 m with cells of 0 m"),
+        (
+            {"title": "Block"},
+            "setup.json: not a setup of the simulator (found no key 'min'). Repeat `thawslide check --picture`.",
+        ),
+        ([], "setup.json: not a JSON object."),
+        (setup(cell="wide"), "setup.json: not a setup of the simulator"),
+        (setup(cell=0.0), "domain from -1 to 6 m with cells of 0 m"),
         (setup(cell=1e-9), "m with cells of 1e-09 m"),
-        (setup(max=[1e400, 20.0]), "a domain from -1 to inf m"),
+        (setup(max=[1e400, 20.0]), "domain from -1 to inf m"),
         (setup(terrain={"x": [0.0, 1.0], "z": [0.0]}), "x, z and substrates of the terrain differ in length"),
         (setup(terrain={"x": [0.0, None], "z": [0.0, 1.0]}), "a number is missing or not finite"),
     ],
 )
-def test_bad_set_ups(write: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str], content: Any, text: str) -> None:
+def test_invalid_setups_are_errors(
+    write: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str], content: Any, text: str
+) -> None:
     assert main(["--setup", str(write(content)), "--picture", str(tmp_path / "out.png")]) == 2
     assert text in capsys.readouterr().err
 
 
-def test_missing_set_up_and_unwritable_picture(write: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_missing_setup_and_unknown_image_type_are_errors(
+    write: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["--setup", str(tmp_path / "none.json"), "--picture", str(tmp_path / "out.png")]) == 2
     assert "none.json: no such file" in capsys.readouterr().err
     assert main(["--setup", str(write(setup())), "--picture", str(tmp_path / "out.nothing")]) == 2
-    assert "out.nothing: cannot be written: " in capsys.readouterr().err
+    assert "out.nothing: unknown file type (allowed: ." in capsys.readouterr().err
 
 
-def test_substrates_are_drawn_along_the_ground(write: Any) -> None:
+def test_substrates_are_lines_on_the_terrain(write: Any) -> None:
     terrain = {"x": [-1.0, 1.0, 3.0, 6.0], "z": [0.0, 0.0, -1.0, -1.0]}
     data = setup(terrain=terrain, substrates={"names": ["glacier"], "numbers": [0, 0, 1, 1]})
-    figure = draw_setup(read_setup(write(data)))
+    figure = plot_setup(read_setup(write(data)))
     assert "substrate glacier" in [text.get_text() for text in figure.legends[0].get_texts()]
     (line,) = [each for each in figure.axes[0].lines if each.get_linewidth() == 3.0]
     shown = ~np.isnan(np.asarray(line.get_ydata(), float))

@@ -1,4 +1,4 @@
-"""Reported values: every unit is converted, and what is not understood is refused with its line."""
+"""Reported values: conversion of units, and messages of errors with lines."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def test_units_are_converted_and_back(tmp_path: Path, row: str, value: float) ->
     assert target.in_its_unit(target.value) == pytest.approx(float(row.split(",")[2]), rel=1e-12, abs=1e-12)
 
 
-def test_every_unit_of_every_quantity_goes_there_and_back() -> None:
+def test_conversion_of_each_unit_is_invertible() -> None:
     for name, quantity in QUANTITIES.items():
         assert next(iter(quantity.units.values())) == (1.0, 0.0), name
         for unit, (factor, offset) in quantity.units.items():
@@ -56,7 +56,7 @@ def test_every_unit_of_every_quantity_goes_there_and_back() -> None:
 
 
 @pytest.mark.parametrize(("column", "seconds"), [("time_s", 1.5), ("time_min", 90.0), ("time_h", 5400.0)])
-def test_times_may_be_in_minutes_and_hours(tmp_path: Path, column: str, seconds: float) -> None:
+def test_times_can_be_in_minutes_and_hours(tmp_path: Path, column: str, seconds: float) -> None:
     (target,) = read(tmp_path, f"quantity,{column},value,unit\nmean_velocity,1.5,1,m/s\n")
     assert (target.time, target.source) == (seconds, "")
 
@@ -72,7 +72,7 @@ def test_times_may_be_in_minutes_and_hours(tmp_path: Path, column: str, seconds:
     ],
     ids=["plain", "mark", "windows", "old mac", "spaces"],
 )
-def test_line_ends_marks_and_spaces_do_not_matter(tmp_path: Path, text: bytes) -> None:
+def test_line_ends_marks_and_spaces_are_ignored(tmp_path: Path, text: bytes) -> None:
     (target,) = read(tmp_path, text.replace(b', "M', b',"M'))
     assert (target.quantity, target.time, target.value, target.source) == ("mean_displacement", 5.0, 600.0, "Müller")
 
@@ -139,20 +139,20 @@ def test_line_ends_marks_and_spaces_do_not_matter(tmp_path: Path, text: bytes) -
         (HEADER.encode() + b"mean_velocity,4,8,m/s,M\xfcller\n", "targets.csv:2: byte 0xfc is not UTF-8"),
         (HEADER.encode("utf-16"), "targets.csv: encoded as UTF-16; save it as UTF-8"),
         (HEADER + "mean_velocity,4,8,m/s,\0\n", "targets.csv:2: a zero byte; this is not a text file"),
-        (b"x" * (1024 * 1024 + 1), "targets.csv: larger than 1 MB"),
+        (b"x" * (1024 * 1024 + 1), "targets.csv: too large (allowed 1 MB)"),
     ],
 )
-def test_what_is_not_understood_is_refused_with_its_line(tmp_path: Path, text: str | bytes, message: str) -> None:
+def test_invalid_rows_are_errors_with_their_line(tmp_path: Path, text: str | bytes, message: str) -> None:
     with pytest.raises(ReportError, match=re.escape(message)):
         read(tmp_path, text)
 
 
-def test_a_range_is_told_whatever_the_unit(tmp_path: Path) -> None:
+def test_message_on_the_range_is_in_the_first_unit(tmp_path: Path) -> None:
     with pytest.raises(ReportError, match=re.escape("band_SL is 130 %; allowed: at least 0, at most 1")):
         read(tmp_path, HEADER + "band_SL,4,130,%,x\n")
 
 
-def test_the_report_compares_in_the_unit_of_the_file(make_run: MakeRun) -> None:
+def test_report_compares_in_the_unit_of_the_file(make_run: MakeRun) -> None:
     folder = make_run()
     (folder / "inputs" / "targets.csv").write_text(
         HEADER + "mean_displacement,5,0.06,km,model\nmean_velocity,5,36,km/h,seismic\nsource_mean_thickness,0,4,m,x\n"
@@ -161,13 +161,13 @@ def test_the_report_compares_in_the_unit_of_the_file(make_run: MakeRun) -> None:
     assert [found_for(run, target) for target in run.targets] == ["0.04 km", "43.2 km/h", "not compared"]
     page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
     assert '<th scope="row">mean displacement</th><td>5 s</td><td>0.06 km</td><td>0.04 km</td><td>model</td>' in page
-    speed, distance = FIGURES["motion"].draw(run).axes
+    speed, distance = FIGURES["motion"].plot(run).axes
     marks = {str(line.get_label()): line.get_ydata() for axes in (speed, distance) for line in axes.lines}
     assert list(marks["reported: seismic"]) == [10.0]
-    assert list(marks["reported mean: model"]) == [60.0]
+    assert list(marks["reported mean displacement: model"]) == [60.0]
 
 
-def test_observations_are_shown_apart_from_results_of_other_models(make_run: MakeRun) -> None:
+def test_observations_and_results_of_other_models_are_separate(make_run: MakeRun) -> None:
     folder = make_run()
     rows = (
         "mean_velocity,4,9,m/s,radar,observation\nmean_velocity,6,11,m/s,blocks,model\n"
@@ -185,17 +185,20 @@ def test_observations_are_shown_apart_from_results_of_other_models(make_run: Mak
         ["blocks", "blocks"],
         ["guess"],
     ]
-    speed, distance = FIGURES["motion"].draw(run).axes
+    speed, distance = FIGURES["motion"].plot(run).axes
     marks = {str(line.get_label()): line for axes in (speed, distance) for line in axes.lines}
     assert list(marks["observed: radar"].get_ydata()) == [9.0]
     assert list(marks["modelled: blocks"].get_ydata()) == [11.0]
-    assert list(marks["observed mean: survey"].get_ydata()) == [70.0]
-    assert list(marks["assumed runout: guess"].get_ydata()) == [150.0]
+    assert list(marks["observed mean displacement: survey"].get_ydata()) == [70.0]
+    assert list(marks["assumed runout distance: guess"].get_ydata()) == [150.0]
     filled = {label: line.get_markerfacecolor() != "white" for label, line in marks.items() if ": " in label}
-    assert [label for label, is_filled in filled.items() if is_filled] == ["observed: radar", "observed mean: survey"]
+    assert [label for label, is_filled in filled.items() if is_filled] == [
+        "observed: radar",
+        "observed mean displacement: survey",
+    ]
 
 
-def test_values_of_the_cases_have_kinds() -> None:
+def test_reported_values_of_cases_have_kinds() -> None:
     root = Path(__file__).resolve().parents[2]
     for name in ("lamplugh", "lamplugh-columns"):
         found = read_targets(root / "cases" / name / "lamplugh_targets.csv")
@@ -207,7 +210,7 @@ def test_values_of_the_cases_have_kinds() -> None:
         assert {target.kind for target in found} == {"observation", "model"}
 
 
-def test_numbers_of_the_end_are_compared(make_run: MakeRun) -> None:
+def test_results_of_the_end_are_compared(make_run: MakeRun) -> None:
     folder = make_run()
     facts = '{"status": "done", "covered_volume_m3": 5e7, "angle_of_reach_degrees": 14.5'
     (folder / "run.json").write_text(f"{facts}}}")
@@ -215,18 +218,22 @@ def test_numbers_of_the_end_are_compared(make_run: MakeRun) -> None:
         HEADER + "deposit_volume,0,52,million m3,x\nangle_of_reach,0,14,degrees,x\ndrop_height,0,1,km,x\n"
     )
     run = Run(folder)
-    assert [found_for(run, target) for target in run.targets] == ["50 million m3", "14.5 degrees", "not known in 2D"]
+    assert [found_for(run, target) for target in run.targets] == [
+        "50 million m³",
+        "14.5 degrees",
+        "not available in 2D",
+    ]
     (folder / "run.json").write_text(f'{facts}, "at_rest": false, "simulated_time_s": 9.0}}')
     run = Run(folder)
     when = "at 9 s (not at rest)"
     assert [found_for(run, target) for target in run.targets] == [
-        f"50 million m3 {when}",
+        f"50 million m³ {when}",
         f"14.5 degrees {when}",
-        "not known in 2D",
+        "not available in 2D",
     ]
 
 
-def test_mistakes_are_told_before_anything_is_drawn(make_run: MakeRun) -> None:
+def test_errors_precede_the_figures(make_run: MakeRun) -> None:
     folder = make_run()
     (folder / "inputs" / "targets.csv").write_text(HEADER + "mean_displacement,5,0.6,miles,x\n")
     with pytest.raises(ReportError, match="the unit 'miles' for mean_displacement"):
@@ -235,7 +242,7 @@ def test_mistakes_are_told_before_anything_is_drawn(make_run: MakeRun) -> None:
 
 
 @pytest.mark.parametrize("name", ["../outside.csv", "/etc/hostname", "inputs/link.csv"])
-def test_a_file_outside_the_run_folder_is_not_read(make_run: MakeRun, name: str) -> None:
+def test_file_outside_the_run_folder_is_an_error(make_run: MakeRun, name: str) -> None:
     folder = make_run()
     (folder.parent / "outside.csv").write_text(HEADER)
     (folder / "inputs" / "link.csv").symlink_to(folder.parent / "outside.csv")
@@ -245,7 +252,7 @@ def test_a_file_outside_the_run_folder_is_not_read(make_run: MakeRun, name: str)
         _ = Run(folder).targets
 
 
-def test_the_targets_of_the_cases_are_understood() -> None:
+def test_targets_of_the_cases_are_valid() -> None:
     root = Path(__file__).resolve().parents[2]
     found = {path.parent.name: read_targets(path) for path in root.glob("cases/*/*targets.csv")}
     assert {"lamplugh", "lamplugh-columns"} <= set(found)
@@ -253,17 +260,17 @@ def test_the_targets_of_the_cases_are_understood() -> None:
     assert displacement == [5612.0, 5929.0]
 
 
-def test_the_reference_has_every_quantity_with_its_units() -> None:
+def test_reference_has_all_quantities_with_units() -> None:
     page = Path(__file__).resolve().parents[2] / "docs" / "reference" / "reported-values.md"
     text = page.read_text(encoding="utf-8")
     table = text[text.index("| quantity | unit |") :].split("\n\n")[0]
-    told: dict[str, set[str]] = {}
+    stated: dict[str, set[str]] = {}
     for row in table.splitlines()[2:]:
         names, units, _ = row.strip("|").split("|")
         for name in re.findall(r"`(\w+)`", names):
-            told[name] = {unit.strip() for unit in units.split(",")}
-    assert set(told) == {*QUANTITIES, "max_seismic_force_35_150_s"}
+            stated[name] = {unit.strip() for unit in units.split(",")}
+    assert set(stated) == {*QUANTITIES, "max_seismic_force_35_150_s"}
     for name, quantity in QUANTITIES.items():
         # Other spellings of the same, as m² and deg, are not listed.
-        assert told[name] <= set(quantity.units)
-        assert {quantity.units[unit] for unit in told[name]} == set(quantity.units.values()), name
+        assert stated[name] <= set(quantity.units)
+        assert {quantity.units[unit] for unit in stated[name]} == set(quantity.units.values()), name

@@ -1,4 +1,4 @@
-"""Warnings inside figures: where they stand, and that their numbers are those of the run."""
+"""Warnings inside figures: panels and numbers."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from thawslide import Run
 from thawslide.boiling import boiling_temperature
 from thawslide.figures import FIGURES
 from thawslide.figures.load import load_on_band, overburden
+from thawslide.number_text import number_text
 
 
 def warnings(figure: Figure) -> dict[str, str]:
@@ -35,61 +36,61 @@ def change_snapshot(folder: Path, number: int, **fields: float) -> None:
             file[f"VTKHDF/PointData/{name}"][:3] = value
 
 
-def test_values_that_can_be_have_no_warning(make_run: MakeRun) -> None:
+def test_physical_values_have_no_warning(make_run: MakeRun) -> None:
     folder = make_run()
     columns = history_columns(101, 2)
     columns["band_pore_pressure_Pa"] *= 0.01
     columns["band_temperature_C"] = np.minimum(columns["band_temperature_C"], 99.0)
     write_history(folder / "history.csv", columns)
     for name in ("band", "temperature"):
-        assert warnings(FIGURES[name].draw(Run(folder))) == {}
+        assert warnings(FIGURES[name].plot(Run(folder))) == {}
 
 
-def test_a_band_hotter_than_its_water_boils_has_one(make_run: MakeRun) -> None:
+def test_band_above_the_boiling_point_has_a_warning(make_run: MakeRun) -> None:
     folder = make_run()
     columns = history_columns(101, 2)
     columns["band_temperature_C"][-1] = 1262.0
     write_history(folder / "history.csv", columns)
-    words = "⚠ unphysical: up to 1,262 °C, where water boils at its pressure; the model has no boiling here"
-    found = warnings(FIGURES["band"].draw(Run(folder)))
+    words = "⚠ unphysical: 1,260 °C exceeds the boiling point of water; boiling is not modelled"
+    found = warnings(FIGURES["band"].plot(Run(folder)))
     time, load = load_on_band(Run(folder))
     ratio = np.interp(time, columns["time_s"], columns["band_pore_pressure_Pa"]) / load
-    over = f"⚠ unphysical: P is up to {np.nanmax(ratio):.3g} times the weight above"
+    over = f"⚠ unphysical: P/overburden up to {number_text(np.nanmax(ratio))}"
     assert found == {"(a)": words, "(b)": over}
-    # Pressure that holds the water down takes the warning away.
+    # Higher pressure raises the boiling point.
     hot = 1.002 * float(boiling_temperature(columns["band_pore_pressure_Pa"][50]))
     for temperature, warned in ((hot, True), (0.999 * hot, False)):
         columns["band_temperature_C"][:] = np.nan
         columns["band_temperature_C"][50] = temperature
         write_history(folder / "history.csv", columns)
-        assert ("(a)" in warnings(FIGURES["band"].draw(Run(folder)))) is warned
+        assert ("(a)" in warnings(FIGURES["band"].plot(Run(folder)))) is warned
 
 
-def test_columns_that_boil_may_be_as_hot_as_rock_bears(make_run: MakeRun) -> None:
+def test_limit_of_boiling_columns_is_the_melting_point_of_rock(make_run: MakeRun) -> None:
     folder = make_run()
     columns = column_history()
     write_history(folder / "history.csv", columns)
-    assert warnings(FIGURES["band"].draw(Run(folder))) == {}
+    assert warnings(FIGURES["band"].plot(Run(folder))) == {}
     columns["band_hottest_C"][-1] = 1262.0
     columns["band_largest_pressure_ratio"][-1] = 1.25
     write_history(folder / "history.csv", columns)
-    assert warnings(FIGURES["band"].draw(Run(folder))) == {
-        "(b)": "⚠ unphysical: up to 1,262 °C, where rock melts (1,000 °C); the model has no melting of rock",
-        "(e)": "⚠ unphysical: P exceeds N, by up to a factor of 1.25",
+    assert warnings(FIGURES["band"].plot(Run(folder))) == {
+        "(b)": "⚠ unphysical: 1,260 °C exceeds the melting point of rock (1,000 °C); rock melting is not modelled",
+        "(e)": "⚠ unphysical: P/N up to 1.25",
     }
 
 
-def test_a_panel_of_hot_particles_has_one(make_run: MakeRun) -> None:
+def test_panel_of_hot_particles_has_a_warning(make_run: MakeRun) -> None:
     folder = make_run()
     change_snapshot(folder, 4, temperature=4321.0)
-    found = warnings(FIGURES["temperature"].draw(Run(folder)))
+    found = warnings(FIGURES["temperature"].plot(Run(folder)))
     assert list(found) == ["(b)"]
-    assert "up to 4,321 °C" in found["(b)"]
+    assert "4,320 °C exceeds" in found["(b)"]
     change_snapshot(folder, 4, liquid_saturation=0.0)
-    assert warnings(FIGURES["temperature"].draw(Run(folder))) == {}, "dry"
+    assert warnings(FIGURES["temperature"].plot(Run(folder))) == {}, "dry"
 
 
-def test_pore_pressure_is_compared_with_the_weight_above(make_run: MakeRun) -> None:
+def test_pore_pressure_is_compared_with_the_overburden(make_run: MakeRun) -> None:
     folder = make_run()
     run = Run(folder)
     shot = run.snapshot(4)
@@ -101,19 +102,19 @@ def test_pore_pressure_is_compared_with_the_weight_above(make_run: MakeRun) -> N
         assert weight[number] == pytest.approx(9.81 / 2.0 * (shot["mass"][higher].sum() + 0.5 * 2000.0))
     for factor, words in (
         (1.9, {}),
-        (6.0, "⚠ unphysical: in 5 % of particles P is at least 6 times the weight above"),
+        (6.0, "⚠ unphysical: P/overburden at least 6 in 5 % of particles"),
     ):
         for path in run.snapshot_files:
             with h5py.File(path, "r+") as file:
                 pressure = 0.5 * overburden(run, run.snapshot(int(path.stem)))
                 pressure[-8:] *= 2.0 * factor if path.stem.endswith("7") else 1.0
                 file["VTKHDF/PointData/pore_pressure"][:] = pressure
-        assert warnings(FIGURES["pore_pressure"].draw(Run(folder))) == ({"(c)": words} if words else {})
+        assert warnings(FIGURES["pore_pressure"].plot(Run(folder))) == ({"(c)": words} if words else {})
 
 
-def test_normal_pressure_stands_next_to_pore_pressure(make_run: MakeRun) -> None:
+def test_normal_pressure_is_next_to_pore_pressure(make_run: MakeRun) -> None:
     run = Run(make_run())
-    pressure = next(axes for axes in FIGURES["band"].draw(run).axes if axes.get_title(loc="left").startswith("(b)"))
+    pressure = next(axes for axes in FIGURES["band"].plot(run).axes if axes.get_title(loc="left").startswith("(b)"))
     lines = {str(line.get_label()): line for line in pressure.lines}
     assert pressure.get_ylabel() == "pore pressure (MPa)"
     np.testing.assert_allclose(
@@ -121,7 +122,7 @@ def test_normal_pressure_stands_next_to_pore_pressure(make_run: MakeRun) -> None
     )
     time, load = load_on_band(run)
     np.testing.assert_array_equal(time, run.times)
-    np.testing.assert_allclose(1e6 * lines["normal pressure N, weight above"].get_ydata(), load)
+    np.testing.assert_allclose(1e6 * lines["static normal pressure N"].get_ydata(), load)
     for index in (0, 5, 10):
         shot = run.snapshot(index)
         expected = 0.8 * overburden(run, shot)[shot["in_band"] == 1].mean()  # cos2 of a slope of 1/2
@@ -129,7 +130,7 @@ def test_normal_pressure_stands_next_to_pore_pressure(make_run: MakeRun) -> None
     assert not len(load_on_band(Run(make_run(name="space", dimension=3)))[0])
 
 
-def test_the_band_of_the_paper_has_the_same_warnings(make_run: MakeRun) -> None:
+def test_figure_20_of_the_paper_has_the_same_warnings(make_run: MakeRun) -> None:
     run = Run(make_run())
     columns = run.history
     figure = figure_20({"lamplugh": run})
@@ -137,11 +138,11 @@ def test_the_band_of_the_paper_has_the_same_warnings(make_run: MakeRun) -> None:
     hottest = float(np.nanmax(columns["band_temperature_C"]))
     time, load = load_on_band(run)
     ratio = np.nanmax(np.interp(time, columns["time_s"], columns["band_pore_pressure_Pa"]) / load)
-    assert f"up to {hottest:,.0f} °C, where water boils" in words
-    assert f"P is up to {ratio:.3g} times the weight above" in words
+    assert f"{number_text(hottest)} °C exceeds the boiling point" in words
+    assert f"P/overburden up to {number_text(ratio)}" in words
 
 
-def test_the_weight_above_is_that_over_the_width_of_the_section(make_run: MakeRun) -> None:
+def test_overburden_depends_on_the_width_of_the_section(make_run: MakeRun) -> None:
     folder = make_run()
     before = overburden(Run(folder), Run(folder).snapshot(4))
     case = folder / "case.toml"

@@ -33,9 +33,7 @@ def one_particle(x: float, y: float, direction: float, speed: float) -> tuple[np
 
 @pytest.mark.parametrize("direction", [0.0, 22.5, 45.0, 130.0])
 @pytest.mark.parametrize("motion", [0.0, 60.0, 90.0])
-def test_on_a_plane_the_wedge_factor_is_that_of_the_angle_between_motion_and_fall(
-    direction: float, motion: float
-) -> None:
+def test_wedge_factor_on_a_plane_depends_on_the_angle_to_the_fall_line(direction: float, motion: float) -> None:
     along, _ = turned(direction)
     slope = 0.7
     ground = wedge.derivatives(Map(GRID, -slope * along))
@@ -49,9 +47,7 @@ def test_on_a_plane_the_wedge_factor_is_that_of_the_angle_between_motion_and_fal
 @pytest.mark.parametrize("opening", [60.0, 90.0, 120.0])
 @pytest.mark.parametrize("slope", [0.0, 20.0, 35.0])
 @pytest.mark.parametrize("direction", [0.0, 30.0, 90.0])
-def test_in_a_v_channel_it_is_one_over_the_sine_of_half_the_opening(
-    opening: float, slope: float, direction: float
-) -> None:
+def test_wedge_factor_in_a_v_channel_is_exact(opening: float, slope: float, direction: float) -> None:
     along, across = turned(direction)
     half, fall = math.radians(0.5 * opening), math.radians(slope)
     # Walls of a channel that falls: half the opening is measured across the thalweg.
@@ -62,7 +58,7 @@ def test_in_a_v_channel_it_is_one_over_the_sine_of_half_the_opening(
     assert wedged / load == pytest.approx(1.0 / math.sin(half), rel=1e-9)
 
 
-def test_curved_ground_adds_the_centrifugal_force() -> None:
+def test_curved_terrain_adds_the_centrifugal_force() -> None:
     radius, speed = 1_000.0, 20.0
     height = radius - np.sqrt(radius**2 - X**2)
     ground = wedge.derivatives(Map(GRID, height))
@@ -73,7 +69,7 @@ def test_curved_ground_adds_the_centrifugal_force() -> None:
     assert wedged == pytest.approx(load, rel=1e-12)
 
 
-def test_bumps_of_the_ground_cancel_out_in_the_load() -> None:
+def test_bumps_cancel_in_the_load() -> None:
     # Bumps along the motion, a whole number of waves below particles that lie evenly.
     length = 40.0
     ground = wedge.derivatives(Map(GRID, 0.2 * np.sin(2.0 * math.pi * X / length)))

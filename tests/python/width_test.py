@@ -1,4 +1,4 @@
-"""A section whose width varies along x: what is per metre of it, and how large particles are drawn."""
+"""Section with a variable width: extensive columns, and sizes of particles."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from thawslide.targets import Target
 WIDENING = "{ x = [20.0, 40.0], value = [10.0, 40.0] }"
 
 
-def test_width_over_that_which_results_are_per_metre_of(make_run: MakeRun) -> None:
+def test_relative_width_is_one_at_the_first_place(make_run: MakeRun) -> None:
     run = Run(make_run(width=WIDENING))
     assert (run.width, run.per_metre) == (10.0, False)
     assert run.relative_width(np.array([0.0, 20.0, 30.0, 40.0, 900.0])).tolist() == [
@@ -31,21 +31,21 @@ def test_width_over_that_which_results_are_per_metre_of(make_run: MakeRun) -> No
     assert Run(make_run(name="none", width=0.0)).per_metre
 
 
-def test_volume_of_the_source_is_that_of_the_width(make_run: MakeRun) -> None:
+def test_volume_of_the_source_includes_the_width(make_run: MakeRun) -> None:
     volume = Target("source_volume", 0.0, 1.0, "m3", "survey")
-    assert found_for(Run(make_run(width=WIDENING)), volume) == "800 m3", "80 particles of 1 m3 per metre of 10 m"
+    assert found_for(Run(make_run(width=WIDENING)), volume) == "800 m³", "80 particles of 1 m3 per metre of 10 m"
 
 
-def test_particles_are_drawn_as_large_as_their_area(make_run: MakeRun) -> None:
+def test_size_of_particles_is_that_of_their_area(make_run: MakeRun) -> None:
     run = Run(make_run(width=WIDENING))
     shot = run.snapshot(0)
     one = Run(make_run(name="one"))
     expected = particle_size(one, one.snapshot(0)) / np.sqrt(run.relative_width(shot.points[:, 0]))
     assert particle_size(run, shot) == pytest.approx(expected, rel=1e-15)
-    assert expected.min() < 0.6 * expected.max(), "it lies across the widening"
+    assert expected.min() < 0.6 * expected.max(), "the body is across the widening"
 
 
-def test_deposit_is_as_thick_as_its_area_over_its_length(make_run: MakeRun) -> None:
+def test_thickness_of_the_deposit_is_area_over_length(make_run: MakeRun) -> None:
     run = Run(make_run(width=WIDENING, snapshots=1))  # a block 4 m high and 20 m long at its start
     x, thickness = deposit(run)
     assert x[0] == 50.0

@@ -1,4 +1,4 @@
-"""The figures of a report: one entry a figure, in the order the page shows them."""
+"""Figures of a report: one entry for each, in the order of the page."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from matplotlib.figure import Figure
 
-from thawslide.figures.animation import Film, animation
+from thawslide.figures.animation import Animation, animation
 from thawslide.figures.band import band
 from thawslide.figures.base import base_along, base_pressure, base_temperature
 from thawslide.figures.cross_sections import cross_sections
@@ -16,7 +16,7 @@ from thawslide.figures.entrainment import entrainment
 from thawslide.figures.force import force
 from thawslide.figures.force_record import caption as force_record_caption
 from thawslide.figures.force_record import force_record
-from thawslide.figures.largest import extent_maps, impact_maps
+from thawslide.figures.maximum_maps import extent_maps, impact_maps
 from thawslide.figures.motion import motion
 from thawslide.figures.probes import probes
 from thawslide.figures.slide_on_map import slide_speed, slide_temperature, slide_thickness
@@ -28,37 +28,29 @@ from thawslide.run import Run
 
 @dataclass(frozen=True)
 class FigureKind:
-    """One figure: its heading and caption on the page, the function that draws it, and which runs it is for."""
+    """One figure: its heading and caption on the page, the function that plots it, and the runs it suits."""
 
     heading: str
     caption: str | Callable[[Run], str]
-    draw: Callable[[Run], Figure | Film]
+    plot: Callable[[Run], Figure | Animation]
     suits: Callable[[Run], bool] = lambda run: True
-    of_columns: str = ""  # the caption where the band is of columns, if it is another
+    columns_caption: str = ""  # for runs with band columns, if different
 
     def caption_of(self, run: Run) -> str:
         """Return the caption for a run."""
-        if self.of_columns and run.has_band_columns:
-            return self.of_columns
+        if self.columns_caption and run.has_band_columns:
+            return self.columns_caption
         return self.caption if isinstance(self.caption, str) else self.caption(run)
 
 
 _PANELS = (
-    "Top: the whole profile and which stretch each panel shows. Under each panel: the slide peeled off the terrain, by "
-    "height above the ground right below. Particles have their real height and at least the width of a grid cell, as "
-    "the model has no narrower gaps, or are just large enough to be seen."
+    "Top: whole profile, and the range of each panel. Below each panel: height of the particles above the terrain. "
+    "Particles have their true height and at least the width of a grid cell, because the model does not resolve "
+    "narrower gaps; very small ones are enlarged."
 )
 
-_FROM_ABOVE = (
-    "From above at chosen times, particles gathered on the cells of the maps. Contour lines and shading: the ground "
-    "below the slide."
-)
-
-
-_BASE_FROM_ABOVE = (
-    "From above at chosen times: means over the pieces of base on each cell of the maps. At 1 of pore pressure over "
-    "normal pressure the base floats."
-)
+_ON_MAP = "Means over the particles in each map cell, at the report times. Contour lines and hillshade: terrain."
+_BASE_ON_MAP = "Area-weighted means over the basal segments in each map cell, at the report times."
 
 
 def _in_section(run: Run) -> bool:
@@ -78,53 +70,53 @@ def _base_in_section(run: Run) -> bool:
 
 
 def _with_heat_in_section(run: Run) -> bool:
-    """Where particles heat up; with band columns these do, and particles stay as they were."""
+    """Return whether temperature and pore pressure of particles change; with band columns they are constant."""
     return _in_section(run) and not run.has_band_columns
 
 
 FIGURES: dict[str, FigureKind] = {
     "extent_maps": FigureKind(
-        "Extent of the slide",
-        "Largest thickness and speed, arrival, and the thickness at the last time, gathered in every step of the run. "
-        "White lines: equal arrival time.",
+        "Extent of the avalanche",
+        "Maximum flow thickness and velocity, arrival time, and flow thickness at the last time, from every time step. "
+        "White lines: arrival time.",
         extent_maps,
         on_map,
     ),
-    "animation": FigureKind(
-        "The slide in motion",
-        "Speed as mean over the thickness, one frame a snapshot.",
-        animation,
-        on_map,
+    "animation": FigureKind("Animation", "Depth-averaged speed, one frame per snapshot.", animation, on_map),
+    "slide_speed": FigureKind("Depth-averaged speed", _ON_MAP, slide_speed, on_map),
+    "slide_thickness": FigureKind("Flow thickness", _ON_MAP, slide_thickness, on_map),
+    "slide_temperature": FigureKind("Basal temperature", _ON_MAP, slide_temperature, _with_heat_on_map),
+    "base_temperature": FigureKind("Band temperature", _BASE_ON_MAP, base_temperature, _base_on_map),
+    "base_pressure": FigureKind(
+        "Pore pressure ratio of the band",
+        f"{_BASE_ON_MAP} At a ratio of 1, pore pressure carries the full load.",
+        base_pressure,
+        _base_on_map,
     ),
-    "slide_speed": FigureKind("Speed from above", _FROM_ABOVE, slide_speed, on_map),
-    "slide_thickness": FigureKind("Thickness from above", _FROM_ABOVE, slide_thickness, on_map),
-    "slide_temperature": FigureKind("Temperature from above", _FROM_ABOVE, slide_temperature, _with_heat_on_map),
-    "base_temperature": FigureKind("Temperature of the band", _BASE_FROM_ABOVE, base_temperature, _base_on_map),
-    "base_pressure": FigureKind("Pore pressure of the band", _BASE_FROM_ABOVE, base_pressure, _base_on_map),
     "cross_sections": FigureKind(
-        "Sections",
-        "Through terrain and slide along the path line, and across it; where thin, the slide is drawn thicker than it "
-        "is, by the factor each panel names.",
+        "Cross sections",
+        "Terrain and sliding mass along the flow path and across it. Small thicknesses are exaggerated by a factor "
+        "stated in the panel.",
         cross_sections,
         on_map,
     ),
     "impact_maps": FigureKind(
-        "Pressures, heat and change of the ground",
-        "The largest values of the whole run. Dynamic pressure is density times speed squared; momentum flux is "
-        "thickness times speed squared.",
+        "Pressure, temperature and elevation change",
+        "Maximum values of the whole run, and elevation change at its last time. Dynamic pressure: density times speed "
+        "squared. Momentum flux: thickness times speed squared.",
         impact_maps,
         on_map,
     ),
     "probes": FigureKind(
         "Probes",
-        "Thickness and speed at points; flow area and discharge through cross sections.",
+        "Flow thickness and speed at points; flow area and discharge through cross sections.",
         probes,
         lambda run: run.probes is not None,
     ),
     "motion": FigureKind(
         "Velocity and displacement",
-        "Mass means over the slide; the runout is the front (99.5 % of the mass lies behind it) less the rear at the "
-        "start. Open markers: reported values, where the case names any.",
+        "Mass-weighted means. Runout distance: front (99.5 % of the mass is behind it) minus initial rear. Markers: "
+        "reported values, filled if observed.",
         motion,
     ),
     "velocity": FigureKind("Velocity", _PANELS, velocity, _in_section),
@@ -133,50 +125,50 @@ FIGURES: dict[str, FigureKind] = {
     "pore_pressure": FigureKind("Pore pressure", _PANELS, pore_pressure, _with_heat_in_section),
     "force": FigureKind(
         "Seismic force and plastic strain",
-        "The force of the slide on the ground less its static weight, which is what seismic waves are inverted for.",
+        "Force on the terrain minus static weight: the force that inversions of seismic waves determine.",
         force,
     ),
     "force_record": FigureKind(
-        "Force against its inversion from seismic waves",
+        "Force compared with seismic inversion",
         force_record_caption,
         force_record,
         lambda run: bool(run.section("report").get("force_record")),
     ),
     "band": FigureKind(
-        "The shear band",
-        "Means over the particles next to the ground; the friction coefficient is the mean over nodes in contact. "
-        "N is the weight above them on the slope, at rest. Gaps: no particle there at that time.",
+        "Shear band",
+        "Means over the particles next to the terrain; friction coefficient: mean over nodes in contact. N: normal "
+        "component of the overburden, without dynamic terms. Gaps: no particles in the band. Boiling is not modelled.",
         band,
-        of_columns="Means over the base by area, as its columns have it. The shear traction is what the base resists "
-        "with, cohesion and friction, over the area in contact: friction follows the effective normal stress N − P, "
-        'and on substrates of the law "coefficient" N alone. Under its own N no column\'s water gets hotter than where '
-        "it boils; the line is for the mean N. P and N of each column are compared with N averaged over "
-        "band.load_time.",
+        columns_caption="Area-weighted means over the base. Shear traction: resistance by cohesion and friction per "
+        "contact area. Friction depends on the effective normal stress N − P, or on N alone for substrates with the "
+        'law "coefficient". The temperature of each column is limited by the boiling temperature at its own N; the '
+        "dashed line is for the mean N. N is averaged over band.load_time for P/N.",
     ),
     "base_along": FigureKind(
-        "Along the base",
-        "Left: what presses on each piece of base, averaged over band.load_time, and the mean pore pressure of its "
-        "band; friction acts on what is left, in green. Right: the hottest cell of each column, the mean of its band, "
-        "and where water boils under its N.",
+        "Basal stresses and temperatures",
+        "Left: normal pressure N of each basal segment, averaged over band.load_time, and mean pore pressure P of its "
+        "column. Green: N − P, on which friction acts. Right: maximum and mean temperature T of each column, and "
+        "boiling temperature at its N.",
         base_along,
         _base_in_section,
     ),
     "energy": FigureKind(
-        "Energy ledger",
-        "Every account as its change since the start; the residual is what the accounts of a ledger leave over.",
+        "Energy budget",
+        "Change of each budget term since the start. Relative residual: imbalance of a budget over the maximum change "
+        "of its terms.",
         energy,
     ),
     "entrainment": FigureKind(
-        "Bed taken up",
-        "Mass that the slide took off the erodible bed, the work that it lost to setting it in motion, and the depth "
-        "that was taken up along x, by where particles joined.",
+        "Entrainment",
+        "Mass entrained from the erodible bed, work needed to accelerate it, and entrained depth along x where "
+        "particles joined.",
         entrainment,
         lambda run: "entrained_mass_kg" in run.history,
     ),
     "water": FigureKind(
-        "Water of the band",
-        "Ice and water of the band's columns: what they hold, took in and lost; the volume that water at P = N has "
-        "opened along the base, and that of pores which water has left.",
+        "Water budget of the band",
+        "Ice and water in band columns with gains and losses; volume of openings along the base where P = N, and of "
+        "gas in pores. Relative residual: imbalance over the largest term.",
         water,
         lambda run: run.has_band_columns,
     ),

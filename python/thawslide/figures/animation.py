@@ -1,4 +1,4 @@
-"""A film of the slide over its terrain, from every snapshot: speed, the ground it has passed, and a clock."""
+"""Animation of the sliding mass on a map, from every snapshot: speed, covered area and time."""
 
 from __future__ import annotations
 
@@ -17,61 +17,66 @@ from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.image import AxesImage
 from numpy.typing import NDArray
 
+from thawslide.atomic_file import atomic_file
 from thawslide.errors import NotInRunError, ReportError
 from thawslide.figures.colours import THICKNESS, Painting, colour_range, label_bar, thickness_norm, thickness_words
 from thawslide.figures.map_page import WIDTH, MapPage
 from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_bar
 from thawslide.figures.site import Site, make_site
 from thawslide.figures.slide_on_map import SPEED, columns_on, where_thick
-from thawslide.figures.style import BLUE, RED, STYLE, time_axis, time_line, write_plainly
+from thawslide.figures.style import BLUE, RED, STYLE, disable_formulas, time_axis, time_line
 from thawslide.maps import Map
 from thawslide.run import Run
-from thawslide.whole_file import written_whole
 
 MOST_FRAMES = 240
-_SECONDS = 12.0  # that a film lasts, where its frames are neither too slow nor too fast
-_TELL_EVERY = 3.0  # s
+_SECONDS = 12.0  # duration, within the limits of the frame rate
+_PROGRESS_EVERY = 3.0  # s
 _LARGEST_DPI = 128  # 1280 pixels wide
-_SLIM = 1.2  # width over height of a map, below which two stand side by side
-_FOOT = 1.3  # inches below the maps, for the course of the speed
+_SLIM = 1.2  # width over height of a map, below which two are placed side by side
+_FOOT = 1.3  # inches below the maps, for the mean velocity over time
 
-_PASSED = "#8A4B2A66"
+_COVERED = "#8A4B2A66"
 
 Pixels = NDArray[np.uint8]
 
 
-class Film:
-    """A film still to be written: one frame for each snapshot, or for evenly chosen ones where there are many."""
+class Animation:
+    """Animation to be written: one frame for each snapshot, or for evenly spaced ones if there are many."""
 
     def __init__(self, run: Run) -> None:
-        """Choose the frames; NotInRunError for a run without maps or without snapshots to move between."""
+        """Select the frames; NotInRunError for a run without maps or with fewer than two snapshots."""
         self.site: Site = make_site(run)
         if len(run.times) < 2:
-            raise NotInRunError(f"{run.folder}: an animation needs two snapshots; set [time] output_interval")
+            raise NotInRunError(
+                f"{run.folder}: too few snapshots for an animation (found {len(run.times)}; allowed 2 or more). "
+                "Set a shorter time.output_interval and repeat the run."
+            )
         count = min(len(run.times), MOST_FRAMES)
         self.indices = [int(index) for index in np.round(np.linspace(0, len(run.times) - 1, count))]
         self.frames_per_second = int(np.clip(round(count / _SECONDS), 2, 25))
 
     def frames(self, dpi: int) -> Iterator[Pixels]:
-        """Yield the frames in order, each of shape (height, width, 3), both even as films need it."""
+        """Yield the frames in order, each of shape (height, width, 3), with even height and width for the codec."""
         with mpl.rc_context(cast(Any, STYLE)):
-            picture = _Picture(self.site, min(dpi, _LARGEST_DPI))
-            write_plainly(picture.page.figure)
+            image = _Image(self.site, min(dpi, _LARGEST_DPI))
+            disable_formulas(image.page.figure)
             for index in self.indices:
-                pixels = picture.show(index)
+                pixels = image.show(index)
                 yield np.ascontiguousarray(pixels[: pixels.shape[0] // 2 * 2, : pixels.shape[1] // 2 * 2])
 
     def write(self, path: Path, dpi: int, progress: Callable[[str], None] = lambda line: None) -> None:
-        """Write an mp4 file (H.264, which browsers and slides play); progress tells every few seconds how far it is."""
+        """Write an mp4 file (H.264); `progress` receives the number of frames every few seconds."""
         try:
-            with written_whole(path) as beside:
-                self._write_frames(beside, dpi, lambda text: progress(f"      {path.name}: {text}"))
+            with atomic_file(path) as temporary:
+                self._write_frames(temporary, dpi, lambda text: progress(f"      {path.name}: {text}"))
         except (OSError, RuntimeError) as error:
-            raise ReportError(f"{path}: the film cannot be written: {error}") from error
+            raise ReportError(
+                f"{path}: cannot be written ({error}). Free space on the disk, or select another --output."
+            ) from error
 
-    def _write_frames(self, path: Path, dpi: int, tell: Callable[[str], None]) -> None:
+    def _write_frames(self, path: Path, dpi: int, report: Callable[[str], None]) -> None:
         writer = None
-        told = time.monotonic()
+        reported = time.monotonic()
         try:
             for number, frame in enumerate(self.frames(dpi), 1):
                 if writer is None:
@@ -87,55 +92,54 @@ class Film:
                     )
                     writer.send(None)
                 writer.send(frame)
-                if time.monotonic() - told > _TELL_EVERY:
-                    told = time.monotonic()
-                    tell(f"frame {number} of {len(self.indices)}")
+                if time.monotonic() - reported > _PROGRESS_EVERY:
+                    reported = time.monotonic()
+                    report(f"frame {number} of {len(self.indices)}")
         finally:
             if writer is not None:
                 writer.close()
 
 
-class _Picture:
-    """The maps of a film, of which only the slide, the clock and what it has passed change from frame to frame."""
+class _Image:
+    """Maps of an animation; only the sliding mass, the covered area and the time change from frame to frame."""
 
     def __init__(self, site: Site, dpi: int) -> None:
         run = site.run
         self.site = site
-        # The thickness is shown as well where that leaves the map of speeds no smaller.
+        # The thickness is shown as well if the map of speeds does not become smaller.
         self.paintings = (SPEED, THICKNESS) if site.scene.aspect < _SLIM else (SPEED,)
-        note = (
-            f"{run.end_note}Dashed: release. Brown: passed by the slide. Time: {run.clock.words}. {site.scene.note()}"
-        )
-        title = f"{run.title}: {' and '.join(painting.words.split(',')[0] for painting in self.paintings)}"
+        legend = "Dashed: release. Brown: previously covered area."
+        note = f"{run.end_note}{legend} Time: {run.time_reference.words}. {site.scene.note()}"
+        title = f"{run.title}: {' and '.join(painting.words for painting in self.paintings)}"
         count = len(self.paintings)
         self.page = page = MapPage(title, site.scene, count, note=note, foot=_FOOT, bar=0.72, narrowest=WIDTH)
-        self.passed = np.zeros((site.grid.rows, site.grid.columns), dtype=bool)
+        self.covered = np.zeros((site.grid.rows, site.grid.columns), dtype=bool)
         panels = [self._panel(number, painting) for number, painting in enumerate(self.paintings)]
         self.slides = [slide for _, slide in panels]
         self.traces = [trace for trace, _ in panels]
-        self.clock = page.figure.axes[0].set_title("", loc="left", size=10)
+        self.time_title = page.figure.axes[0].set_title("", loc="left", size=10)
         course = page.place(page.left, page.below + 0.1, page.width - page.left - 0.25, 0.68)
         time_line(course, run.shown_time, run.history["mean_velocity_m_s"], color=BLUE)
-        time_axis(course, run.shown_time, run.clock.label)
+        time_axis(course, run.shown_time, run.time_reference.label)
         course.set_ylim(bottom=0.0)
-        course.set_ylabel("mean\nspeed (m/s)")
-        self.hand = course.axvline(0.0, color=RED, linewidth=1.2)
+        course.set_ylabel("mean veloc-\nity (m/s)")
+        self.marker = course.axvline(0.0, color=RED, linewidth=1.2)
         page.figure.set_dpi(dpi)
-        self._draw_what_stays()
+        self._draw_background()
 
     def _panel(self, number: int, painting: Painting) -> tuple[AxesImage, AxesImage]:
-        """Draw a map of the film; return what the slide has passed and the slide itself, both still empty."""
+        """Draw a map; return the images of the covered area and of the sliding mass, both empty."""
         site, page = self.site, self.page
-        largest = site.part("max_speed").values if painting is SPEED else site.reached.values
-        values = largest[np.nan_to_num(largest) > 0.0]
+        maximum = site.part("max_speed").values if painting is SPEED else site.reached.values
+        values = maximum[np.nan_to_num(maximum) > 0.0]
         _, high, extend = colour_range(values, from_zero=True)
         norm: Normalize = Normalize(0.0, high)
         if painting is THICKNESS:
             norm, extend = thickness_norm(values)
         painter = ScalarMappable(norm, colour_map(painting.colours))
         axes = page.panel(number, labels=True)
-        empty = Map(site.grid, np.full(self.passed.shape, np.nan))
-        trace = paint(axes, empty, ScalarMappable(Normalize(0.0, 1.0), ListedColormap([_PASSED])))
+        empty = Map(site.grid, np.full(self.covered.shape, np.nan))
+        trace = paint(axes, empty, ScalarMappable(Normalize(0.0, 1.0), ListedColormap([_COVERED])))
         slide = paint(axes, empty, painter)
         site.draw_release(axes)
         site.draw_probes(axes)
@@ -143,14 +147,14 @@ class _Picture:
             scale_bar(axes, quiet_corner(site.reached, site.scene.box))
         bar = page.figure.colorbar(painter, cax=page.panel_bar(axes), extend=extend)
         label_bar(bar, norm)
-        words = f"{painting.words.split(',')[0]} ({painting.unit})"
+        words = f"{painting.words} ({painting.unit})"
         bar.set_label(thickness_words(norm).replace("; ", "\n") if painting is THICKNESS else words, labelpad=2)
         return trace, slide
 
-    def _draw_what_stays(self) -> None:
-        """Draw once what does not change: drawing all anew would take most of the time of a film."""
+    def _draw_background(self) -> None:
+        """Draw the constant parts once: redrawing them would take most of the time."""
         self.canvas = cast(Any, FigureCanvasAgg(self.page.figure))  # its methods are untyped
-        self.changing: list[Artist] = [self.clock, self.hand]
+        self.changing: list[Artist] = [self.time_title, self.marker]
         for trace, slide in zip(self.traces, self.slides, strict=True):
             axes = slide.axes
             above = [artist for artist in axes.get_children() if artist.get_zorder() > slide.get_zorder()]
@@ -159,25 +163,25 @@ class _Picture:
         for artist in self.changing:
             artist.set_animated(True)
         self.canvas.draw()
-        self.still = self.canvas.copy_from_bbox(self.page.figure.bbox)
+        self.background = self.canvas.copy_from_bbox(self.page.figure.bbox)
 
     def show(self, index: int) -> Pixels:
-        """Return the picture of a snapshot, shape (height, width, 3)."""
+        """Return the frame of a snapshot, shape (height, width, 3)."""
         columns = columns_on(self.site, index)
-        self.passed |= columns.thickness.values > self.site.threshold
+        self.covered |= columns.thickness.values > self.site.threshold
         for trace, slide, painting in zip(self.traces, self.slides, self.paintings, strict=True):
-            trace.set_data(np.ma.masked_invalid(np.where(self.passed, 1.0, np.nan)))
+            trace.set_data(np.ma.masked_invalid(np.where(self.covered, 1.0, np.nan)))
             field = columns.speed if painting is SPEED else columns.thickness
             slide.set_data(np.ma.masked_invalid(where_thick(field, columns, self.site.threshold).values))
-        time = columns.time + self.site.run.clock.shift
-        self.clock.set_text(f"t = {time:.1f} s")
-        self.hand.set_xdata([time, time])
-        self.canvas.restore_region(self.still)
+        time = columns.time + self.site.run.time_reference.shift
+        self.time_title.set_text(f"t = {time:.1f} s")
+        self.marker.set_xdata([time, time])
+        self.canvas.restore_region(self.background)
         for artist in self.changing:
             self.page.figure.draw_artist(artist)
         return np.asarray(self.canvas.buffer_rgba())[:, :, :3]
 
 
-def animation(run: Run) -> Film:
-    """Return the film of a run."""
-    return Film(run)
+def animation(run: Run) -> Animation:
+    """Return the animation of a run."""
+    return Animation(run)

@@ -1,6 +1,6 @@
 """Temperature, pore pressure, saturation and friction of the shear band over time (paper Fig. 20).
 
-For a band of columns: basal stresses, temperature, and how near it is to boiling.
+For band columns: basal stresses, temperatures and the boiling temperature.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from thawslide.boiling import boiling_temperature
 from thawslide.figures.load import load_on_band
-from thawslide.figures.motion import draw_targets
+from thawslide.figures.motion import plot_targets
 from thawslide.figures.style import (
     BLACK,
     BLUE,
@@ -22,19 +22,21 @@ from thawslide.figures.style import (
     PURPLE,
     RED,
     SKY,
-    give_title,
-    letters,
-    prefixed,
-    say,
+    explain_empty,
+    mark_level,
+    note_below,
     styled,
     time_axis,
     time_line,
+    title_figure,
+    title_panels,
     warn,
 )
+from thawslide.number_text import prefixed
 from thawslide.run import Run
-from thawslide.unphysical import too_hot, too_much_for_weight, too_much_pressure
+from thawslide.unphysical import too_hot, too_much_for_overburden, too_much_pressure
 
-# Column, words, unit, colour, names of the reported quantity.
+# Column, label, unit, colour, names of the reported quantity.
 _PANELS = (
     ("band_temperature_C", "temperature", "°C", RED, ("band_temperature",)),
     ("band_pore_pressure_Pa", "pore pressure", "Pa", BLUE, ("band_pore_pressure",)),
@@ -45,24 +47,25 @@ _PANELS = (
 
 @styled
 def band(run: Run) -> Figure:
-    """Draw the four mass means over the band, or the means over band columns; a panel without data says why."""
-    return _of_columns(run) if run.has_band_columns else _of_particles(run)
+    """Plot mass-weighted means over the band, or means over band columns; a panel without data states the reason."""
+    return _plot_columns(run) if run.has_band_columns else _plot_particles(run)
 
 
-def _of_particles(run: Run) -> Figure:
+def _plot_particles(run: Run) -> Figure:
     time = run.shown_time
     figure = Figure(figsize=(COLUMN_WIDTH, 5.1), layout="constrained")
-    give_title(figure, run.titled("the shear band"))
+    title_figure(figure, run.titled("shear band"))
     panels: list[Axes] = list(figure.subplots(2, 2, sharex=True).flat)
+    notes: list[str] = []
     for axes, (column, words, unit, colour, quantities) in zip(panels, _PANELS, strict=True):
         axes.set_ylabel(words)
-        time_axis(axes, time, run.clock.label if axes in panels[2:] else "")
+        time_axis(axes, time, run.time_reference.label if axes in panels[2:] else "")
         if column not in run.history:
-            say(axes, f"history.csv has no column {column}")
+            explain_empty(axes, f"no column {column} in history.csv")
             continue
         values = run.history[column]
         if not np.isfinite(values).any():
-            say(axes, "never in contact" if "friction" in column else "no particle was ever in the band")
+            explain_empty(axes, "no contact" if "friction" in column else "no particles in the band")
             continue
         is_pressure = unit == "Pa"
         when, load = load_on_band(run) if is_pressure else (time[:0], time[:0])
@@ -70,65 +73,81 @@ def _of_particles(run: Run) -> Figure:
         axes.set_ylabel(words + (f" ({shown})" if shown else ""))
         time_line(axes, time, values / divisor, color=colour, label="pore pressure P" if is_pressure else "run")
         if np.isfinite(load).any():
-            time_line(axes, when, load / divisor, color=BLACK, linestyle="--", label="normal pressure N, weight above")
-            warn(axes, too_much_for_weight(np.interp(when, time, values) / load))
-        if draw_targets(axes, run, quantities, divisor, colour) or is_pressure:
+            time_line(axes, when, load / divisor, color=BLACK, linestyle="--", label="static normal pressure N")
+            warn(axes, too_much_for_overburden(np.interp(when, time, values) / load))
+        notes += [f"{words}: {note}" for note in plot_targets(axes, run, quantities, divisor, colour)]
+        if len(axes.get_legend_handles_labels()[1]) > 1 or is_pressure:
             warned = any(text.get_gid() == "warning" for text in axes.texts)
-            # A warning lies at the top; P is then far above N, and there is room between them.
-            axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.08)) if warned else axes.legend(loc="best")
+            # A warning is at the top; P is then much larger than N, and the legend fits between them.
+            axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.08), handlelength=1.2) if warned else axes.legend(
+                loc="best"
+            )
         _finish(axes, column, values / divisor)
         if column == "band_temperature_C" and "band_pore_pressure_Pa" in run.history:
             warn(axes, too_hot(run, values, run.history["band_pore_pressure_Pa"]))
-    letters(panels, [words for _, words, *_ in _PANELS])
+    title_panels(panels, [words for _, words, *_ in _PANELS])
+    _note_targets(figure, notes)
     return figure
 
 
-def _of_columns(run: Run) -> Figure:
+def _plot_columns(run: Run) -> Figure:
     figure = Figure(figsize=(COLUMN_WIDTH, 6.9), layout="constrained")
-    give_title(figure, run.titled("the band along the base"))
+    title_figure(figure, run.titled("shear band, means over the base"))
     panels: list[Axes] = list(figure.subplots(3, 2, sharex=True).flat)
     pressure, heat, saturation, thickness, ratio, friction = panels
-    _draw_stresses(pressure, run)
-    _draw_temperatures(heat, run)
-    _draw_mean(saturation, run, "band_saturation", "liquid saturation", GREEN, ("band_SL", "band_saturation"))
+    notes = [f"pore pressure: {note}" for note in _plot_stresses(pressure, run)]
+    notes += [f"temperature: {note}" for note in _plot_temperatures(heat, run)]
+    found = _plot_mean(saturation, run, "band_saturation", "liquid saturation", GREEN, ("band_SL", "band_saturation"))
+    notes += [f"liquid saturation: {note}" for note in found]
     saturation.set_ylim(0.0, 1.02)
-    _draw_mean(thickness, run, "band_thickness_m", "thickness (m)", ORANGE)
-    _draw_mean(ratio, run, "band_largest_pressure_ratio", "largest P over N", BLUE)
+    _plot_mean(thickness, run, "band_thickness_m", "thickness (m)", ORANGE)
+    _plot_mean(ratio, run, "band_largest_pressure_ratio", "maximum P/N", BLUE)
     ratio.axhline(1.0, color=NOTE, linewidth=0.8, linestyle=":")
-    _draw_mean(friction, run, "band_friction_coefficient", "friction coefficient", PURPLE)
+    _plot_mean(friction, run, "band_friction_coefficient", "friction coefficient", PURPLE)
     for axes in (thickness, ratio, friction):
         axes.set_ylim(0.0, max(1.08 * axes.dataLim.y1, 1e-3) if np.isfinite(axes.dataLim.y1) else 1.0)
     warn(ratio, too_much_pressure(run.history["band_largest_pressure_ratio"]))
     for axes in panels:
-        time_axis(axes, run.shown_time, run.clock.label if axes in panels[4:] else "")
-    letters(
+        time_axis(axes, run.shown_time, run.time_reference.label if axes in panels[4:] else "")
+    title_panels(
         panels,
         (
             "basal stresses",
             "temperature",
             "liquid saturation",
             "thickness",
-            "largest P of any column, over its N",
+            "maximum pore pressure ratio P/N",
             "friction coefficient",
         ),
     )
+    _note_targets(figure, notes)
     return figure
 
 
-def _draw_mean(axes: Axes, run: Run, column: str, words: str, colour: str, quantities: tuple[str, ...] = ()) -> None:
-    """Draw one column of the history, or say why there is nothing to draw."""
+def _plot_mean(
+    axes: Axes, run: Run, column: str, words: str, colour: str, quantities: tuple[str, ...] = ()
+) -> list[str]:
+    """Plot one column of the history, or state why it is empty; return notes on reported values."""
     axes.set_ylabel(words)
     values = run.history[column]
     if not np.isfinite(values).any():
-        say(axes, "never in contact")
-        return
+        explain_empty(axes, "no contact")
+        return []
     time_line(axes, run.shown_time, values, color=colour, label="run")
-    if draw_targets(axes, run, quantities, 1.0, colour):
+    notes = plot_targets(axes, run, quantities, 1.0, colour)
+    if len(axes.get_legend_handles_labels()[1]) > 1:
         axes.legend(loc="best")
+    return notes
 
 
-def _draw_stresses(axes: Axes, run: Run) -> None:
-    """Draw N, P, what is left between them, and the shear traction on one axis."""
+def _note_targets(figure: Figure, notes: list[str]) -> None:
+    """Write notes on reported values below the panels."""
+    if notes:
+        note_below(figure, " ".join(f"{note[:1].upper()}{note[1:]}." for note in notes))
+
+
+def _plot_stresses(axes: Axes, run: Run) -> list[str]:
+    """Plot N, P, the effective stress and the shear traction; return notes on reported values."""
     load, pore_pressure = run.history["band_normal_pressure_Pa"], run.history["band_pore_pressure_Pa"]
     lines = (
         (load, "normal pressure N", BLACK),
@@ -140,40 +159,39 @@ def _draw_stresses(axes: Axes, run: Run) -> None:
     axes.set_ylabel(f"stress ({unit})")
     for values, words, colour in lines:
         time_line(axes, run.shown_time, values / divisor, color=colour, label=words)
-    draw_targets(axes, run, ("band_pore_pressure",), divisor, BLUE)
+    notes = plot_targets(axes, run, ("band_pore_pressure",), divisor, BLUE)
     legend = axes.legend(loc="upper center", ncols=2, columnspacing=0.7, handlelength=1.2, handletextpad=0.4)
     rows = (len(legend.get_texts()) + 1) // 2
-    highest = axes.dataLim.y1 if np.isfinite(axes.dataLim.y1) else 1.0  # before any contact there is nothing
+    highest = axes.dataLim.y1 if np.isfinite(axes.dataLim.y1) else 1.0  # no values before the first contact
     axes.set_ylim(0.0, highest / (1.0 - 0.06 - 0.13 * rows))  # the lines end below the legend
+    return notes
 
 
-def _draw_temperatures(axes: Axes, run: Run) -> None:
+def _plot_temperatures(axes: Axes, run: Run) -> list[str]:
+    """Plot mean, maximum and boiling temperature; return notes on reported values."""
     time = run.shown_time
     boiling = boiling_temperature(run.history["band_normal_pressure_Pa"])
     axes.set_ylabel("temperature (°C)")
-    time_line(axes, time, run.history["band_hottest_C"], color=ORANGE, label="hottest of any column")
+    time_line(axes, time, run.history["band_hottest_C"], color=ORANGE, label="maximum of all columns")
     time_line(axes, time, run.history["band_temperature_C"], color=RED, label="mean")
-    time_line(axes, time, boiling, color=SKY, linestyle="--", label="water boils at the mean N")
+    time_line(axes, time, boiling, color=SKY, linestyle="--", label="boiling temperature at mean N")
     axes.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")
-    draw_targets(axes, run, ("band_temperature",), 1.0, RED)
+    notes = plot_targets(axes, run, ("band_temperature",), 1.0, RED)
     low, top = axes.get_ylim()
-    axes.set_ylim(top=top + 0.4 * (top - low))  # room for the legend
+    axes.set_ylim(top=top + 0.4 * (top - low))  # space for the legend
     warn(axes, too_hot(run, run.history["band_hottest_C"], run.history["band_pore_pressure_Pa"]), high=False)
     axes.legend(loc="upper right")
+    return notes
 
 
 def _finish(axes: Axes, column: str, values: np.ndarray) -> None:
-    """Give each panel its natural limits, and the temperatures that mean something their lines."""
+    """Set the limits of a panel, and mark the melting and the boiling point."""
     if column == "band_saturation":
         axes.set_ylim(0.0, 1.02)
     elif column == "band_friction_coefficient":
         axes.set_ylim(0.0, 1.08 * np.nanmax(values))
     elif column == "band_temperature_C":
         low, high = np.nanmin(values), np.nanmax(values)
-        for level, words in ((0.0, "ice melts"), (100.0, "boiling is not modelled")):
+        for level, words in ((0.0, "melting point"), (100.0, "boiling point")):
             if low < level < high:
-                axes.axhline(level, color=NOTE, linewidth=0.8, linestyle=":")
-                axes.annotate(
-                    words, (1.0, level), xycoords=("axes fraction", "data"), xytext=(-4, 3), textcoords="offset points",
-                    ha="right", size=7.5, color=NOTE,
-                )  # fmt: skip
+                mark_level(axes, values, level, words)

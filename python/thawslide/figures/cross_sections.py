@@ -1,8 +1,7 @@
-"""Sections through terrain and slide of a 3D run: along the path line, and across it at chosen places."""
+"""Sections through terrain and sliding mass of a 3D run: along the flow path, and across it."""
 
 from __future__ import annotations
 
-import textwrap
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -14,33 +13,45 @@ from matplotlib.patches import Patch
 
 from thawslide.errors import NotInRunError
 from thawslide.figures.site import Site, distances, make_site
-from thawslide.figures.style import COLUMN_WIDTH, GROUND, GROUND_LINE, NOTE, ORANGE, RED, SKY, length_unit, styled
+from thawslide.figures.style import (
+    COLUMN_WIDTH,
+    GROUND,
+    GROUND_LINE,
+    NOTE,
+    ORANGE,
+    RED,
+    SKY,
+    styled,
+    wrapped,
+)
 from thawslide.figures.window import Window, fill_terrain, fit
 from thawslide.maps import Map
+from thawslide.number_text import length_unit, number_text
 from thawslide.relief import round_number
 from thawslide.run import Numbers, Run
 
-_MOST_STEPS = 500  # along what the slide covered beyond the path
-_MOST_STRETCHES = 4  # beside the slide, that a note tells
+_MOST_STEPS = 500  # of the extension of the path over the covered area
+_MOST_RANGES = 4  # outside the covered area, in a note
 _PLACES = 4  # sections across the path
 _POINTS = 600  # of a section
-_SEEN = 0.06  # of the height of a panel: thinner bodies are drawn thicker than they are
-_RELEASE, _LAST, _LARGEST = SKY, ORANGE, RED
+_VISIBLE = 0.06  # of the height of a panel: smaller thicknesses are exaggerated
+_RELEASE, _LAST, _MAXIMUM = SKY, ORANGE, RED
 _CHORD = 0.02  # of the path, to either side of a place: its direction there
 _MARGINS = (1.0, 1.3)
-_FIRST = (1.3, 4.2)  # inches, least and most height of the section along the path
+_FIRST = (1.3, 4.2)  # inches, minimum and maximum height of the section along the path
 _WIDTH, _LEFT, _RIGHT, _GAP, _ROW, _HIGH, _LINE = COLUMN_WIDTH, 0.65, 0.12, 0.65, 2.15, 1.35, 0.15  # inches
 _NOTE_CHARACTERS = 17.0  # of a note in one inch
+_TITLE_CHARACTERS, _TITLE_LINE = 12.5, 0.17  # characters in one inch; inches
 
 
 @dataclass(frozen=True)
 class Section:
-    """Heights along a line: distance from its start, ground, and thicknesses upon it, shape (n,) [m]."""
+    """Values along a line: distance from its start, elevation of the terrain, and thicknesses, shape (n,) [m]."""
 
     distance: Numbers
     ground: Numbers
     release: Numbers
-    largest: Numbers
+    maximum: Numbers
     final: Numbers
 
 
@@ -48,7 +59,7 @@ class Section:
 class _Fields:
     terrain: Map
     release: Map | None
-    largest: Map
+    maximum: Map
     final: Map
 
 
@@ -60,9 +71,9 @@ def along(line: Numbers, count: int = _POINTS) -> tuple[Numbers, Numbers]:
 
 
 def across(line: Numbers, place: float, half_width: float, chord: float) -> Numbers:
-    """Return the ends, left then right as one looks along the line, of a section across it at a distance [m].
+    """Return the left and the right end of a section across a line at a distance [m] along it.
 
-    Its direction is normal to the chord of the line that reaches `chord` [m] to either side of the place.
+    Its direction is normal to the chord of the line that extends `chord` [m] to either side.
     """
     reached = distances(line)
     before, at, after = (
@@ -74,22 +85,22 @@ def across(line: Numbers, place: float, half_width: float, chord: float) -> Numb
     return np.stack([at + half_width * left, at - half_width * left])
 
 
-def reaching(line: Numbers, touched: Numbers, step: float) -> Numbers:
-    """Return a line that goes on at both ends along the middle of places of shape (n, 2) [m], to the last of them.
+def extended(line: Numbers, covered: Numbers, step: float) -> Numbers:
+    """Return a line extended at both ends along the middle of points of shape (n, 2) [m], to the last of them.
 
-    The way of a centre of mass begins and ends in the middle of the slide. The places that lie from half a step [m] to
-    one and a half of it ahead, no more than 60 degrees off, have their middle where the next step leads.
+    The track of a centre of mass begins and ends in the middle of the sliding mass. Each step leads to the middle of
+    the points from half a step [m] to one and a half of it ahead, within 60 degrees of the direction.
     """
-    front = _onward(line[-1], line[-1] - line[-2], touched, step)
-    rear = _onward(line[0], line[0] - line[1], touched, step)
+    front = _onward(line[-1], line[-1] - line[-2], covered, step)
+    rear = _onward(line[0], line[0] - line[1], covered, step)
     return np.array([*rear[::-1], *line, *front])
 
 
-def _onward(end: Numbers, direction: Numbers, touched: Numbers, step: float) -> list[Numbers]:
+def _onward(end: Numbers, direction: Numbers, covered: Numbers, step: float) -> list[Numbers]:
     corners: list[Numbers] = []
     for _ in range(_MOST_STEPS):
         direction = direction / np.hypot(*direction)
-        offset = touched - end
+        offset = covered - end
         away, forward = np.hypot(*offset.T), offset @ direction
         near = (forward > 0.5 * away) & (away < 1.5 * step)
         ahead = near & (away > 0.5 * step)
@@ -103,7 +114,7 @@ def _onward(end: Numbers, direction: Numbers, touched: Numbers, step: float) -> 
 
 
 def section(fields: _Fields, line: Numbers, start: float = 0.0) -> Section:
-    """Return what lies under evenly spaced points of a line; its distances [m] count from `start`."""
+    """Return the values at evenly spaced points of a line; its distances [m] begin at `start`."""
     points, distance = along(line)
     x, y = points.T
 
@@ -114,174 +125,186 @@ def section(fields: _Fields, line: Numbers, start: float = 0.0) -> Section:
         start + distance,
         fields.terrain.at(x, y),
         thickness(fields.release),
-        thickness(fields.largest),
+        thickness(fields.maximum),
         thickness(fields.final),
     )
 
 
 @styled
 def cross_sections(run: Run) -> Figure:
-    """Draw the section along the path, thicknesses along it, and sections across it where the slide went."""
+    """Plot the section along the path, thicknesses along it, and cross sections within the covered area."""
     site = make_site(run)
     if site.path is None:
-        raise NotInRunError(f"{site.maps.folder / 'results.gpkg'}: no path line, so there is nothing to cut along")
+        raise NotInRunError(f"{site.maps.folder / 'results.gpkg'}: no flow path. Specify maps.path in the case.")
     fields = _whole(site)
-    touched_rows, touched_columns = np.nonzero(fields.largest.values > site.threshold)
-    touched = np.stack([fields.largest.grid.x[touched_columns], fields.largest.grid.y[touched_rows]], axis=1)
-    path = site.path if site.path_is_given else reaching(site.path, touched, _step(fields.largest, touched, site.path))
+    covered_rows, covered_columns = np.nonzero(fields.maximum.values > site.threshold)
+    covered = np.stack([fields.maximum.grid.x[covered_columns], fields.maximum.grid.y[covered_rows]], axis=1)
+    path = site.path if site.has_given_path else extended(site.path, covered, _step(fields.maximum, covered, site.path))
     profile = section(fields, path)
     if not np.isfinite(profile.ground).any():
-        raise NotInRunError("the path line lies outside the terrain")
+        raise NotInRunError("maps.path: the flow path is outside the terrain. Specify a path within the DEM.")
     places = _places(profile, site.threshold)
     full = _WIDTH - _LEFT - _RIGHT
     broad, first = _size(profile, full)
-    about = run.end_note + ("" if site.path_is_given else _about_way(profile, site.threshold))
-    told = textwrap.wrap(about, int(_NOTE_CHARACTERS * full), break_on_hyphens=False)
-    top = 0.7 + _LINE * len(told)
+    about = run.end_note + ("" if site.has_given_path else _path_note(profile, site.threshold))
+    note = wrapped(about, _NOTE_CHARACTERS * full)
+    title = wrapped(run.titled("cross sections"), _TITLE_CHARACTERS * full)
+    extra = _TITLE_LINE * (len(title) - 1)
+    top = 0.7 + extra + _LINE * len(note)
     head = top + first + 0.35
     rows = -(-len(places) // 2)
     height = head + 1.2 + 0.85 + rows * _ROW + 0.3
     figure = Figure(figsize=(_WIDTH, height))
-    figure.suptitle(run.titled("sections"), x=_LEFT / _WIDTH, y=1 - 0.14 / height, ha="left", va="top", size=10)
+    figure.suptitle("\n".join(title), x=_LEFT / _WIDTH, y=1 - 0.14 / height, ha="left", va="top", size=10)
 
-    figure.text(_LEFT / _WIDTH, 1 - 0.4 / height, "\n".join(told), size=7.5, color=NOTE, va="top", linespacing=1.3)
+    figure.text(
+        _LEFT / _WIDTH, 1 - (0.4 + extra) / height, "\n".join(note), size=7.5, color=NOTE, va="top", linespacing=1.3
+    )
 
     def place(left: float, top: float, wide: float, high: float) -> Axes:
         return figure.add_axes((left / _WIDTH, 1 - (top + high) / height, wide / _WIDTH, high / height))
 
     upper, lower = place(_LEFT, top, broad, first), place(_LEFT, head, broad, 1.2)
     window = _window(profile, broad / first, _MARGINS)
-    _draw_profile(upper, profile, window, "(a) along the path")
+    _plot_profile(upper, profile, window, "(a) flow path")
     upper.set_xlabel("")
     upper.tick_params(labelbottom=False)
     _mark_places(upper, profile, places)
-    _draw_thicknesses(lower, profile, window)
+    _plot_thicknesses(lower, profile, window)
     wide = 0.5 * (full - _GAP)
     for number, at in enumerate(places):
         row, column = divmod(number, 2)
         axes = place(_LEFT + column * (wide + _GAP), head + 2.05 + row * _ROW, wide, _HIGH)
-        _draw_across(axes, fields, path, at, wide / _HIGH, chr(ord("c") + number))
+        _plot_across(axes, fields, path, at, wide / _HIGH, chr(ord("c") + number))
     figure.legend(handles=_legend(site), loc="lower center", ncols=4, bbox_to_anchor=(0.5, 0.0), borderaxespad=0.5)
     return figure
 
 
 def _whole(site: Site) -> _Fields:
-    """Return the maps at their own resolution, cut to the scene; the path may lead on over the terrain around."""
+    """Return the maps at their own resolution, cropped to the scene; the path may extend over the terrain around."""
     box = site.scene.box
 
     def thickness(name: str) -> Map:
         found = site.maps[name].cropped(box)
-        return replace(found, values=np.nan_to_num(found.values, nan=0.0))  # no data: the slide never was there
+        return replace(found, values=np.nan_to_num(found.values, nan=0.0))  # no data: never covered
 
     release = thickness("release") if site.release is not None else None
     return _Fields(site.maps["terrain"], release, thickness("max_thickness"), thickness("final_thickness"))
 
 
 def _places(profile: Section, threshold: float) -> list[float]:
-    """Return distances [m] along the path for sections across it, evenly over where the slide was."""
-    touched = np.flatnonzero((profile.largest > threshold) & np.isfinite(profile.ground))
-    if touched.size < 2:
+    """Return distances [m] along the path for cross sections, evenly spaced over the covered area."""
+    covered = np.flatnonzero((profile.maximum > threshold) & np.isfinite(profile.ground))
+    if covered.size < 2:
         return []
-    start, end = (float(profile.distance[index]) for index in (touched[0], touched[-1]))
+    start, end = (float(profile.distance[index]) for index in (covered[0], covered[-1]))
     return [start + (number + 0.5) / _PLACES * (end - start) for number in range(_PLACES)]
 
 
-def _step(largest: Map, touched: Numbers, line: Numbers) -> float:
-    """Return about how wide the slide was [m], four cells at least: how far one looks ahead for where it went."""
-    width = len(touched) * largest.grid.cell_area / float(distances(line)[-1])
-    return max(width, 4.0 * max(largest.grid.cell_x, largest.grid.cell_y))
+def _step(maximum: Map, covered: Numbers, line: Numbers) -> float:
+    """Return the step [m] of the extension: about the width of the covered area, four cells at least."""
+    width = len(covered) * maximum.grid.cell_area / float(distances(line)[-1])
+    return max(width, 4.0 * max(maximum.grid.cell_x, maximum.grid.cell_y))
 
 
-def _about_way(profile: Section, threshold: float) -> str:
-    """Say what line the path is, and where it runs beside what the slide covered."""
-    told = "Path: the way of the centre of mass, at its ends on along the middle of what the slide covered."
-    covered = np.flatnonzero(profile.largest > threshold)
-    beside = [
-        f"{profile.distance[before]:,.0f} to {profile.distance[after]:,.0f} m"
+def _path_note(profile: Section, threshold: float) -> str:
+    """Return a sentence on the path, and the ranges in which it is outside the covered area."""
+    words = "Path: track of the centre of mass, extended at both ends along the middle of the covered area."
+    covered = np.flatnonzero(profile.maximum > threshold)
+    outside = [
+        f"{number_text(round(profile.distance[before]))} to {number_text(round(profile.distance[after]))} m"
         for before, after in pairwise(covered)
         if after - before > 1
     ]
-    shown = ", ".join(beside[:_MOST_STRETCHES]) + (" and further on" if len(beside) > _MOST_STRETCHES else "")
-    return told + (f" It runs beside that at {shown}." if beside else "")
+    shown = ", ".join(outside[:_MOST_RANGES]) + (" and beyond" if len(outside) > _MOST_RANGES else "")
+    return words + (f" It is outside the covered area at {shown}." if outside else "")
 
 
 def _size(profile: Section, full: float) -> tuple[float, float]:
-    """Return width and height [inches] of the section along the path: as wide as the page, narrower for a steep one.
+    """Return width and height [inches] of the section along the path.
 
-    So that a panel of bounded height shows no more than the path.
+    It is as wide as the page, or narrower for a steep path, because the height is bounded.
     """
-    (start, end), (low, high) = _reach(profile)
+    (start, end), (low, high) = _ranges(profile)
     high_over_wide = _MARGINS[1] * (high - low) / (end - start)
     height = float(np.clip(full * high_over_wide, *_FIRST))
     return min(full, height / high_over_wide) if high_over_wide > 0.0 else full, height
 
 
 def _window(cut: Section, box: float, margins: tuple[float, float]) -> Window:
-    return fit(*_reach(cut), box, None, margins)
+    return fit(*_ranges(cut), box, None, margins)
 
 
-def _reach(cut: Section) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the ends of what is known of the ground, and the lowest and highest of ground and slide [m]."""
+def _ranges(cut: Section) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the ends of the known terrain, and the minimum and maximum elevation of terrain and sliding mass [m]."""
     shown = np.isfinite(cut.ground)
     x, ground = cut.distance[shown], cut.ground[shown]
-    return (float(x[0]), float(x[-1])), (float(ground.min()), float((ground + cut.largest[shown]).max()))
+    return (float(x[0]), float(x[-1])), (float(ground.min()), float((ground + cut.maximum[shown]).max()))
 
 
-def _draw_profile(axes: Axes, cut: Section, window: Window, title: str) -> None:
-    """Draw ground, release, last and largest thickness over it; thin ones are drawn thicker, as told."""
+def _plot_profile(axes: Axes, cut: Section, window: Window, title: str) -> None:
+    """Plot terrain, release, last and maximum thickness; small thicknesses are exaggerated, which a note states."""
     shown = np.isfinite(cut.ground)
     x, ground = cut.distance[shown], cut.ground[shown]
-    release, final, largest = cut.release[shown], cut.final[shown], cut.largest[shown]
-    thickest = float(np.max(np.maximum(release, largest)))
-    times = max(1.0, round_number(max(_SEEN * (window.top - window.bottom) / thickest, 1.0))) if thickest > 0.0 else 1.0
+    release, final, maximum = cut.release[shown], cut.final[shown], cut.maximum[shown]
+    thickest = float(np.max(np.maximum(release, maximum)))
+    times = (
+        max(1.0, round_number(max(_VISIBLE * (window.top - window.bottom) / thickest, 1.0))) if thickest > 0.0 else 1.0
+    )
     fill_terrain(axes, (x, ground), window.bottom)
     axes.fill_between(x, ground, ground + times * release, color=_RELEASE, linewidth=0, zorder=2)
     axes.fill_between(x, ground, ground + times * final, color=_LAST, linewidth=0, zorder=3)
-    axes.plot(x, np.where(largest > 0.0, ground + times * largest, np.nan), color=_LARGEST, linewidth=1.0, zorder=5)
+    axes.plot(x, np.where(maximum > 0.0, ground + times * maximum, np.nan), color=_MAXIMUM, linewidth=1.0, zorder=5)
     window.apply(axes)
-    thicker = f", thickness ×{times:g}" if times > 1.0 else ""
-    axes.set_title(f"{title}, {window.note()}{thicker}", loc="left")
+    notes = [window.note(), f"thickness exaggeration {times:g}×"] if times > 1.0 else [window.note()]
+    axes.text(0.99, 0.97, "\n".join(notes), transform=axes.transAxes, ha="right", va="top", size=7, color=NOTE)
+    axes.set_title(title, loc="left")
 
 
 def _mark_places(axes: Axes, profile: Section, places: list[float]) -> None:
-    """Name the sections across where they are."""
+    """Mark the places of the cross sections with their letters."""
     for number, at in enumerate(places):
-        top = float(np.interp(at, profile.distance, np.nan_to_num(profile.ground + profile.largest)))
+        top = float(np.interp(at, profile.distance, np.nan_to_num(profile.ground + profile.maximum)))
         axes.annotate(
             f"({chr(ord('c') + number)})", (at, top), xytext=(0, 12), textcoords="offset points", ha="center", size=8,
             color=NOTE, arrowprops={"arrowstyle": "-", "color": NOTE, "linewidth": 0.7},
         )  # fmt: skip
 
 
-def _draw_thicknesses(axes: Axes, cut: Section, window: Window) -> None:
+def _plot_thicknesses(axes: Axes, cut: Section, window: Window) -> None:
     axes.fill_between(cut.distance, 0.0, cut.release, color=_RELEASE, linewidth=0)
     axes.fill_between(cut.distance, 0.0, cut.final, color=_LAST, linewidth=0, alpha=0.9)
-    axes.plot(cut.distance, cut.largest, color=_LARGEST, linewidth=1.0)
+    axes.plot(cut.distance, cut.maximum, color=_MAXIMUM, linewidth=1.0)
     axes.axhline(0.0, color=GROUND_LINE, linewidth=0.9)
-    Window(window.left, window.right, 0.0, max(1.12 * float(cut.largest.max()), 1e-6), 1).apply(axes)
-    axes.set_xlabel(f"distance along the path ({length_unit(window.right - window.left)[1]})")
-    axes.set_ylabel("thickness (m)")
-    axes.set_title("(b) thickness along the path", loc="left")
+    Window(window.left, window.right, 0.0, max(1.12 * float(cut.maximum.max()), 1e-6), 1).apply(axes)
+    axes.set_xlabel(f"distance along the flow path ({length_unit(window.right - window.left)[1]})")
+    axes.set_ylabel("flow thickness (m)")
+    axes.set_title("(b) flow thickness along the path", loc="left")
 
 
-def _draw_across(axes: Axes, fields: _Fields, path: Numbers, place: float, box: float, letter: str) -> None:
-    """Draw a section as wide as the slide was there and half as much again, and the terrain beside it."""
+def _plot_across(axes: Axes, fields: _Fields, path: Numbers, place: float, box: float, letter: str) -> None:
+    """Plot a cross section 1.5 times as wide as the covered area."""
     length = float(distances(path)[-1])
 
     def cut(half_width: float) -> Section:
         return section(fields, across(path, place, half_width, _CHORD * length), -half_width)
 
     whole = cut(0.25 * length)
-    reach = np.abs(whole.distance[whole.largest > 0.0])
+    reach = np.abs(whole.distance[whole.maximum > 0.0])
     window = _window(cut(1.5 * float(reach.max(initial=_CHORD * length))), box, _MARGINS)
-    _draw_profile(axes, cut(0.5 * (window.right - window.left)), window, f"({letter}) across, at {place:,.0f} m")
+    _plot_profile(
+        axes,
+        cut(0.5 * (window.right - window.left)),
+        window,
+        f"({letter}) cross section at {number_text(round(place))} m",
+    )
     axes.set_xlabel(f"distance to the right of the path ({length_unit(window.right - window.left)[1]})")
 
 
 def _legend(site: Site) -> list[Patch | Line2D]:
-    handles: list[Patch | Line2D] = [Patch(facecolor=GROUND, edgecolor=GROUND_LINE, label="ground")]
+    handles: list[Patch | Line2D] = [Patch(facecolor=GROUND, edgecolor=GROUND_LINE, label="terrain")]
     if site.release is not None:
         handles.append(Patch(color=_RELEASE, label="release"))
     handles.append(Patch(color=_LAST, label=f"at {site.run.last_state}"))
-    handles.append(Line2D([], [], color=_LARGEST, label="largest thickness"))
+    handles.append(Line2D([], [], color=_MAXIMUM, label="maximum flow thickness"))
     return handles

@@ -1,4 +1,4 @@
-"""The energy budget: every mechanical and thermal term since the start, and the residuals."""
+"""Energy budget: mechanical and thermal terms since the start, and residuals."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from thawslide.figures.style import (
     BLUE,
     COLUMN_WIDTH,
     GREEN,
-    NOTE,
     ORANGE,
     PURPLE,
     RED,
     SKY,
     YELLOW,
-    give_title,
-    letters,
-    prefixed,
-    say,
+    explain_empty,
+    note_below,
     styled,
     time_axis,
     time_line,
+    title_figure,
+    title_panels,
 )
+from thawslide.number_text import prefixed
 from thawslide.run import Numbers, Run
 
 MECHANICAL = {
@@ -37,115 +37,95 @@ MECHANICAL = {
     "damping_J": ("damping", "#8C564B"),
     "pore_work_J": ("work on pore water", "#BCBD22"),
     "friction_work_J": ("basal friction", RED),
-    "contact_loss_J": ("impact on the ground", PURPLE),
-    "entrained_work_J": ("lost to bed taken up", "#17BECF"),
+    "contact_loss_J": ("impact on the terrain", PURPLE),
+    "entrained_work_J": ("entrainment", "#17BECF"),
     "frame_work_J": ("work of frames", GREEN),
     "numerical_J": ("numerical", "#999999"),
 }
 THERMAL = {
     "sensible_J": ("sensible heat", RED),
     "latent_J": ("latent heat (melt)", BLUE),
-    "friction_heat_J": ("friction heat in", BLACK),
-    "boundary_heat_J": ("through boundaries", GREEN),
+    "friction_heat_J": ("friction heat", BLACK),
+    "boundary_heat_J": ("boundary heat flow", GREEN),
     "band_rescale_J": ("band rescaling", ORANGE),
     "advection_J": ("advection", PURPLE),
-    "capacity_heat_J": ("made by the old capacity", YELLOW),
-    "porosity_heat_J": ("made by changed masses", "#999999"),
-    "drained_heat_J": ("out with drained water", SKY),
+    "capacity_heat_J": ("capacity error", YELLOW),
+    "porosity_heat_J": ("change of phase masses", "#999999"),
+    "drained_heat_J": ("advected by drainage", SKY),
 }
-# Of band columns: their own heat, and what came into them and left besides friction heat.
+# Band columns: heat content, gains and losses. Friction heat is a term of THERMAL.
 COLUMNS = {
     "column_heat_J": ("heat in band columns", "#8C564B"),
-    "column_intake_J": ("laid and taken in by columns", SKY),
-    "column_vented_J": ("out with water, columns", "#17BECF"),
-    "column_steam_J": ("out with steam, columns", "#E377C2"),
-    "column_left_J": ("left with columns", "#7F7F7F"),
+    "column_intake_J": ("gained from the body", SKY),
+    "column_vented_J": ("lost with vented water", "#17BECF"),
+    "column_steam_J": ("lost with steam", "#E377C2"),
+    "column_left_J": ("removed with segments", "#7F7F7F"),
 }
 RESIDUALS = {"mechanical_residual_J": (MECHANICAL, BLUE), "thermal_residual_J": (THERMAL | COLUMNS, RED)}
 
 
-def changes(run: Run, accounts: dict[str, tuple[str, str]]) -> dict[str, Numbers]:
-    """Return each account [J, or J per metre of width] less its first value, those the history has."""
-    return {name: run.history[name] - run.history[name][0] for name in accounts if name in run.history}
+def term_changes(run: Run, terms: dict[str, tuple[str, str]]) -> dict[str, Numbers]:
+    """Return each term [J, or J per metre of width] minus its first value, if the history has it."""
+    return {name: run.history[name] - run.history[name][0] for name in terms if name in run.history}
 
 
 def relative_residual(run: Run, column: str) -> Numbers | None:
-    """Return |residual| over the largest change of any account of its ledger, or None where nothing changes."""
+    """Return |residual| over the maximum change of any term of its budget, or None if nothing changes."""
     if column not in run.history:
         return None
-    accounts = changes(run, RESIDUALS[column][0])
-    largest = max((float(np.nanmax(np.abs(values))) for values in accounts.values()), default=0.0)
+    changes = term_changes(run, RESIDUALS[column][0])
+    largest = max((float(np.nanmax(np.abs(values))) for values in changes.values()), default=0.0)
     return np.abs(run.history[column]) / largest if largest > 0.0 else None
 
 
 @styled
 def energy(run: Run) -> Figure:
-    """Draw (a) mechanical and (b) thermal accounts as changes since the start, (c) the residuals on a log axis."""
+    """Plot changes of (a) mechanical and (b) thermal terms since the start, (c) residuals on a logarithmic axis."""
     if not any(name in run.history for name in (*MECHANICAL, *THERMAL)):
-        raise NotInRunError("history.csv has no columns of the energy ledger")
+        raise NotInRunError("history.csv: no columns of the energy budget.")
     time = run.shown_time
     figure = Figure(figsize=(COLUMN_WIDTH, 7.2), layout="constrained")
-    give_title(figure, run.titled("energy ledger"))
+    title_figure(figure, run.titled("energy budget"))
     mechanical, thermal, residual = figure.subplots(3, 1, sharex=True, height_ratios=(1.3, 1.0, 0.8))
-    _draw_accounts(mechanical, run, MECHANICAL)
-    _draw_accounts(thermal, run, THERMAL | COLUMNS)
-    _draw_residuals(residual, run)
+    zero = [*_plot_terms(mechanical, run, MECHANICAL), *_plot_terms(thermal, run, THERMAL | COLUMNS)]
+    _plot_residuals(residual, run)
     for axes in (mechanical, thermal, residual):
-        time_axis(axes, time, run.clock.label if axes is residual else "")
-    letters(
-        (mechanical, thermal, residual),
-        (
-            "mechanical accounts, change since the start",
-            "thermal accounts, change since the start",
-            "residual, relative to the largest change of any account",
-        ),
-    )
+        time_axis(axes, time, run.time_reference.label if axes is residual else "")
+    title_panels((mechanical, thermal, residual), ("mechanical energy budget", "thermal energy budget", "residual"))
+    if zero:
+        note_below(figure, f"Zero throughout: {', '.join(zero)}.")
     return figure
 
 
-def _draw_accounts(axes: Axes, run: Run, accounts: dict[str, tuple[str, str]]) -> None:
-    found = changes(run, accounts)
-    moving = {name: values for name, values in found.items() if np.nanmax(np.abs(values)) > 0.0}
-    still = [accounts[name][0] for name in found if name not in moving]
-    divisor, unit = prefixed([np.nanmax(np.abs(values)) for values in moving.values()] or [0.0], "J")
-    axes.set_ylabel(f"energy ({unit}{'/m of width' if run.per_metre else ''})")
-    if not moving:
-        say(axes, "no account changes" if found else "history.csv has none of these columns")
-        return
-    for name, values in moving.items():
-        words, colour = accounts[name]
-        time_line(axes, run.shown_time, values / divisor, color=colour, label=words)
-    axes.axhline(0.0, color="#BBBBBB", linewidth=0.8, zorder=0)
-    title = "zero throughout:\n" + "\n".join(still) if still else ""
-    legend = axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    if title:
-        # Below the legend, so that an account that stays empty is named and not missed.
-        figure = axes.get_figure()
-        rows = len(legend.get_texts())
-        assert figure is not None
-        axes.annotate(
-            title, (1.0, 1.0), xycoords="axes fraction", xytext=(10, -12.5 * rows - 14), textcoords="offset points",
-            va="top", size=7.5, color=NOTE,
-        )  # fmt: skip
+def _plot_terms(axes: Axes, run: Run, terms: dict[str, tuple[str, str]]) -> list[str]:
+    """Plot the terms that change; return the names of the others."""
+    found = term_changes(run, terms)
+    changing = {name: values for name, values in found.items() if np.nanmax(np.abs(values)) > 0.0}
+    divisor, unit = prefixed([np.nanmax(np.abs(values)) for values in changing.values()] or [0.0], "J")
+    axes.set_ylabel(f"energy change ({unit}{'/m of width' if run.per_metre else ''})")
+    if changing:
+        for name, values in changing.items():
+            words, colour = terms[name]
+            time_line(axes, run.shown_time, values / divisor, color=colour, label=words)
+        axes.axhline(0.0, color="#BBBBBB", linewidth=0.8, zorder=0)
+        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    else:
+        explain_empty(axes, "no change of any term" if found else "no columns of this budget in history.csv")
+    return [terms[name][0] for name in found if name not in changing]
 
 
-def _draw_residuals(axes: Axes, run: Run) -> None:
-    axes.set_ylabel("|residual| / largest change")
-    drawn = False
+def _plot_residuals(axes: Axes, run: Run) -> None:
+    axes.set_ylabel("relative residual")
+    has_values = False
     for column, (_, colour) in RESIDUALS.items():
         values = relative_residual(run, column)
         if values is None or not np.any(values > 0.0):
             continue
-        time_line(
-            axes,
-            run.shown_time,
-            np.where(values > 0.0, values, np.nan),
-            color=colour,
-            label=column.split("_")[0],
-        )
-        drawn = True
-    if drawn:
+        shown = np.where(values > 0.0, values, np.nan)
+        time_line(axes, run.shown_time, shown, color=colour, label=column.split("_")[0])
+        has_values = True
+    if has_values:
         axes.set_yscale("log")
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     else:
-        say(axes, "no residual: nothing has changed yet, or it is exactly zero")
+        explain_empty(axes, "residual is zero")

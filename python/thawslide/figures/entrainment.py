@@ -1,4 +1,4 @@
-"""What a slide takes up of an erodible bed: how much over time, from where along the ground, and what it costs."""
+"""Entrainment of an erodible bed: mass and work over time, and depth along x."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ from thawslide.figures.style import (
     GREEN,
     ORANGE,
     RED,
-    give_title,
-    letters,
-    prefixed,
-    say,
+    explain_empty,
     styled,
     time_axis,
     time_line,
+    title_figure,
+    title_panels,
 )
 from thawslide.figures.water import MASSES, scaled
+from thawslide.number_text import prefixed
 from thawslide.run import Numbers, Run
 
 
-def depth_taken(run: Run) -> tuple[Numbers, Numbers]:
-    """Return edges along x [m], four cells apart, and the depth [m] between them that particles of the bed stood for.
+def entrained_depth(run: Run) -> tuple[Numbers, Numbers]:
+    """Return edges along x [m], four cells apart, and the entrained depth [m] between them.
 
-    Those of the last snapshot; where each of them joined, half a cell out at most, follows from its displacement. The
-    depth is a mean over the width in 3D too.
+    The particles of the bed are those of the last snapshot. Their displacement gives the place where they joined, to
+    half a cell. The depth is a mean over the width, in 3D too.
     """
     wide = 4.0 * float(run.section("grid")["cell"])
     low, high = float(run.section("grid")["min"][0]), float(run.section("grid")["max"][0])
@@ -38,52 +38,52 @@ def depth_taken(run: Run) -> tuple[Numbers, Numbers]:
     shot = run.snapshot(len(run.times) - 1)
     of_bed = np.asarray(shot["body"]) == len(run.section("body"))
     joined_at = shot.points[of_bed, 0] - np.asarray(shot["displacement"])[of_bed, 0]
-    mass, volume_taken = run.history["entrained_mass_kg"][-1], run.history["entrained_volume_m3"][-1]
-    volume = np.asarray(shot["mass"])[of_bed] * (volume_taken / mass if mass > 0.0 else 0.0)
+    mass, entrained = run.history["entrained_mass_kg"][-1], run.history["entrained_volume_m3"][-1]
+    volume = np.asarray(shot["mass"])[of_bed] * (entrained / mass if mass > 0.0 else 0.0)
     across = 1.0 if run.dimension == 2 else float(run.section("grid")["max"][1]) - float(run.section("grid")["min"][1])
     return edges, np.histogram(joined_at, edges, weights=volume)[0] / (wide * across)
 
 
 @styled
 def entrainment(run: Run) -> Figure:
-    """Draw (a) mass taken up and still loose, (b) work lost to it and heat, (c) depth taken up along x."""
+    """Plot (a) entrained and loose mass, (b) work and heat of entrainment, (c) entrained depth along x."""
     if "entrained_mass_kg" not in run.history:
-        raise NotInRunError("the case has no bed: history.csv has no account of what was taken up")
+        raise NotInRunError("history.csv: no entrained mass (found no [bed] in the case).")
     time = run.shown_time
     figure = Figure(figsize=(COLUMN_WIDTH, 6.4), layout="constrained")
-    give_title(figure, run.titled("entrained bed material"))
+    title_figure(figure, run.titled("entrained bed material"))
     mass, work, depth = figure.subplots(3, 1)
     per = "/m of width" if run.per_metre else ""
     divisor, unit = scaled(float(np.nanmax(run.history["mass_kg"])), MASSES)
     for name, words, colour in (
-        ("mass_kg", "mass of the slide", BLACK),
-        ("entrained_mass_kg", "taken up", BLUE),
-        ("loose_mass_kg", "of that, not joined yet", ORANGE),
+        ("mass_kg", "sliding mass", BLACK),
+        ("entrained_mass_kg", "entrained", BLUE),
+        ("loose_mass_kg", "entrained, not yet joined", ORANGE),
     ):
         time_line(mass, time, run.history[name] / divisor, color=colour, label=words)
     mass.set_ylabel(f"mass ({unit}{per})")
     divisor, unit = prefixed([float(np.nanmax(run.history["entrained_work_J"]))], "J")
-    time_line(work, time, run.history["entrained_work_J"] / divisor, color=RED, label="work that the slide lost")
-    time_line(work, time, run.history["entrained_heat_J"] / divisor, color=GREEN, label="of that, heat in what joined")
+    time_line(work, time, run.history["entrained_work_J"] / divisor, color=RED, label="work of entrainment")
+    time_line(work, time, run.history["entrained_heat_J"] / divisor, color=GREEN, label="heat in joined particles")
     work.set_ylabel(f"energy ({unit}{per})")
     for axes in (mass, work):
-        time_axis(axes, time, run.clock.label if axes is work else "")
+        time_axis(axes, time, run.time_reference.label if axes is work else "")
         axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    _draw_depth(depth, run)
-    letters(
+    _plot_depth(depth, run)
+    title_panels(
         (mass, work, depth),
-        ("mass of the slide, and what it took up", "what taking it up cost", "depth taken up, by where it joined"),
+        ("sliding and entrained mass", "work of entrainment", "entrained depth"),
     )
     return figure
 
 
-def _draw_depth(axes: Axes, run: Run) -> None:
-    edges, depth = depth_taken(run)
-    taken = np.flatnonzero(depth > 0.0)
+def _plot_depth(axes: Axes, run: Run) -> None:
+    edges, depth = entrained_depth(run)
+    entrained = np.flatnonzero(depth > 0.0)
     axes.set_xlabel("x (m)")
     axes.set_ylabel("depth (m)")
-    if not taken.size:
-        say(axes, "nothing has been taken up")
+    if not entrained.size:
+        explain_empty(axes, "no entrainment")
         return
-    window = slice(max(int(taken[0]) - 3, 0), int(taken[-1]) + 4)
+    window = slice(max(int(entrained[0]) - 3, 0), int(entrained[-1]) + 4)
     axes.stairs(depth[window], edges[window.start : window.start + len(depth[window]) + 1], fill=True, color=BLUE)

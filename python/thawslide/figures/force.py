@@ -1,4 +1,4 @@
-"""What seismometers would feel, and the mean plastic strain (paper Fig. 17)."""
+"""Seismic force and mean plastic strain (paper Fig. 17)."""
 
 from __future__ import annotations
 
@@ -17,24 +17,26 @@ from thawslide.figures.style import (
     ORANGE,
     PURPLE,
     RED,
-    give_title,
-    letters,
-    prefixed,
     styled,
     time_axis,
     time_line,
+    title_figure,
+    title_panels,
 )
+from thawslide.number_text import number_text, prefixed
 from thawslide.run import Numbers, Run
 from thawslide.targets import FORCE, Band, Target, band_of
 
+_LEGEND_ROW = 0.16  # inches
+
 
 def reported_forces(run: Run) -> list[Target]:
-    """Return the reported largest forces, with a band or without."""
+    """Return the reported maximum forces, with or without a band."""
     return [target for target in run.targets if target.quantity == FORCE or band_of(target) is not None]
 
 
 def reported_bands(run: Run) -> list[Band]:
-    """Return the bands that reported forces have, each once."""
+    """Return the bands of the reported forces, each once."""
     bands = (band_of(target) for target in reported_forces(run))
     return list(dict.fromkeys(band for band in bands if band is not None))
 
@@ -48,14 +50,14 @@ def seismic_force(run: Run) -> tuple[dict[str, Numbers], Numbers]:
 
 
 def force_in_band(run: Run, band: Band) -> Numbers:
-    """Return the magnitude [N, or N per metre of width] of the force with its components band-passed, shape (rows,)."""
+    """Return the magnitude [N, or N per metre of width] of the band-passed force, shape (rows,)."""
     parts, _ = seismic_force(run)
     passed = (band_passed(run.history["time_s"], part, band.shortest, band.longest) for part in parts.values())
     return np.asarray(np.sqrt(sum(np.square(part) for part in passed)))
 
 
 def _mark_start(axes: Axes, time: Numbers, magnitude: Numbers) -> None:
-    """Label the force of the initial stress adjustment, if it is of the size of the rest."""
+    """Label the force of the initial stress adjustment if it exceeds half of the maximum."""
     start = time <= time[0] + 0.01 * (time[-1] - time[0])
     if not np.isfinite(magnitude[start]).any() or np.nanmax(magnitude[start]) < 0.5 * np.nanmax(magnitude):
         return
@@ -68,7 +70,7 @@ def _mark_start(axes: Axes, time: Numbers, magnitude: Numbers) -> None:
 
 @styled
 def force(run: Run) -> Figure:
-    """Draw the force on the ground less the static weight, (a) its size, (b) its components; (c) plastic strain."""
+    """Plot the force on the terrain minus the static weight, (a) magnitude, (b) components; (c) plastic strain."""
     time = run.shown_time
     parts, magnitude = seismic_force(run)
     reported = reported_forces(run)
@@ -76,27 +78,28 @@ def force(run: Run) -> Figure:
     divisor, unit = prefixed([np.nanmax(np.abs(magnitude)), *(t.value for t in comparable)], "N")
     unit += "/m of width" if run.per_metre else ""
 
-    figure = Figure(figsize=(COLUMN_WIDTH, 6.1), layout="constrained")
-    give_title(figure, run.titled("seismic force and internal deformation"))
+    rows = 1 + len(reported_bands(run)) + len(comparable)
+    figure = Figure(figsize=(COLUMN_WIDTH, 6.1 + _LEGEND_ROW * rows), layout="constrained")
+    title_figure(figure, run.titled("seismic force and plastic strain"))
     size, components, strain = panels = list(figure.subplots(3, 1, sharex=True, height_ratios=(1.2, 1.2, 1.0)))
     time_line(size, time, magnitude / divisor, color=BLACK, linewidth=1.1, label="run")
     bands = reported_bands(run)
     colours = dict(zip(bands, (BLUE, GREEN, PURPLE, ORANGE), strict=False))
     for band, colour in colours.items():
-        words = f"run, band-passed {band.words}"
+        words = f"run, band-pass {band.words}"
         time_line(size, time, force_in_band(run, band) / divisor, color=colour, linewidth=1.3, label=words)
     for number, target in enumerate(comparable):
         found = band_of(target)
         of_band = f" ({found.words})" if found else ""
-        # In the colour of what it is compared with; dashes of equal values fall between one another.
-        look = {"color": colours.get(found, RED) if found else RED, "linestyle": (4.0 * number, (4.0, 4.0))}
-        label = f"{target.adjective} maximum {target.value / divisor:g} {unit}{of_band}: {target.source}"
-        size.axhline(target.value / divisor, linewidth=1.4, label=label, **look)
+        # The colour is that of the compared curve; dashes of equal values do not coincide.
+        style = {"color": colours.get(found, RED) if found else RED, "linestyle": (4.0 * number, (4.0, 4.0))}
+        label = f"{target.adjective} maximum {number_text(target.value / divisor)} {unit}{of_band}: {target.source}"
+        size.axhline(target.value / divisor, linewidth=1.4, label=label, **style)
     if reported and run.per_metre:
-        note = "reported force not drawn: the case states no width"
+        note = "reported force not shown: no case.width"
         size.text(0.01, 0.96, note, transform=size.transAxes, va="top", size=8, color=NOTE)
     _mark_start(size, time, magnitude / divisor)
-    size.set_ylim(0.0, (1.25 + 0.15 * len(bands)) * size.get_ylim()[1])  # room for the legend
+    size.set_ylim(0.0, 1.15 * size.get_ylim()[1])  # space for notes
 
     vertical = "xyz"[run.vertical]
     for (axis, values), colour in zip(parts.items(), (BLUE, ORANGE, PURPLE), strict=False):
@@ -104,19 +107,21 @@ def force(run: Run) -> Figure:
         time_line(components, time, values / divisor, color=colour, linewidth=0.9, label=f"{axis} ({direction})")
     for axes in (size, components):
         axes.set_ylabel(f"force ({unit})")
-        axes.legend(loc="upper right")
+    # Legends below the panels do not cover curves.
+    size.legend(loc="upper left", bbox_to_anchor=(0.0, -0.03))
+    components.legend(loc="upper left", bbox_to_anchor=(0.0, -0.03), ncols=3)
 
     time_line(strain, time, run.history["mean_plastic_strain"], color=GREEN)
     strain.set_ylabel("mean plastic strain")
     strain.set_ylim(bottom=0.0)
     for axes in panels:
-        time_axis(axes, time, run.clock.label if axes is strain else "")
-    letters(
+        time_axis(axes, time, run.time_reference.label if axes is strain else "")
+    title_panels(
         panels,
         (
-            "force on the ground less the static weight, magnitude",
-            "its components, positive along the axis",
-            "equivalent plastic strain, mean of mass",
+            "magnitude of the force on the terrain minus static weight",
+            "components, positive along the axes",
+            "equivalent plastic strain, mass-weighted mean",
         ),
     )
     return figure

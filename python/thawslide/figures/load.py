@@ -1,4 +1,4 @@
-"""The static load on particles of a 2D run, with which pore pressure is compared."""
+"""Static load on particles of a 2D run, for comparison with pore pressure."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _MOST_SNAPSHOTS = 60  # used for a curve of the load
 
 
 def overburden(run: Run, shot: Snapshot) -> Numbers:
-    """Return the weight [Pa] of what lies above each particle of a 2D run, and of half of itself, over a grid cell."""
+    """Return the overburden [Pa] at each particle of a 2D run, with half of its own weight, over a grid cell."""
     cell, gravity = float(run.section("grid")["cell"]), float(run.section("case").get("gravity", 9.81))
     mass = np.asarray(shot["mass"], dtype=np.float64) / run.relative_width(shot.points[:, 0])
     column = np.floor(shot.points[:, 0] / cell)
@@ -25,10 +25,10 @@ def overburden(run: Run, shot: Snapshot) -> Numbers:
 
 
 def load_on_band(run: Run) -> tuple[Numbers, Numbers]:
-    """Return times [s] and the normal pressure N [Pa] of the weight above the band, mean of its mass; none in 3D.
+    """Return times [s] and the normal pressure N [Pa] of the overburden of the band, mass-weighted mean.
 
-    N = w cos2(a), with the weight w above and the slope a of the ground: static, without what bends or impact add.
-    Both are empty, too, if snapshots lack fields or are damaged.
+    N = w cos2(a), with the overburden w and the slope a of the terrain, without centrifugal and impact terms. Both
+    are empty in 3D, and if snapshots lack fields or are damaged.
     """
     if run.dimension != 2 or run.terrain is None or run.section("case").get("gravity_tilt", 0.0) or not len(run.times):
         return np.empty(0), np.empty(0)
@@ -44,4 +44,4 @@ def load_on_band(run: Run) -> tuple[Numbers, Numbers]:
         squared = 1.0 / (1.0 + np.interp(shot.points[band, 0], run.terrain[0], slope) ** 2)
         load = overburden(run, shot)[band] * squared
         loads.append(np.average(load, weights=mass[band]) if mass[band].sum() > 0.0 else np.nan)
-    return run.times[chosen] + run.clock.shift, np.array(loads)
+    return run.times[chosen] + run.time_reference.shift, np.array(loads)

@@ -1,8 +1,7 @@
-"""A page of maps of equal size: how many stand side by side, where colourbars, titles and notes go."""
+"""Layout of a page of maps of equal size, with colour bars, titles and notes."""
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -11,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from thawslide.figures.map_panel import HALO, Scene, draw_scene
-from thawslide.figures.style import COLUMN_WIDTH, NOTE
+from thawslide.figures.style import COLUMN_WIDTH, NOTE, wrapped
 
 # Inches.
 WIDTH, HIGHEST, NARROWEST = COLUMN_WIDTH, 9.2, COLUMN_WIDTH  # of a page
@@ -24,25 +23,25 @@ _TITLE_CHARACTERS = 12.8  # of a panel's titles in one inch
 
 @dataclass(frozen=True)
 class Layout:
-    """How many maps stand side by side, and the size of each [inches]."""
+    """Number of columns, and size of each map [inches]."""
 
     columns: int
     width: float
     height: float
 
 
-def layout(count: int, aspect: float, bar: float, head: float, beside: float) -> Layout:
-    """Return the arrangement that makes `count` maps of an aspect (width over height) largest on a page.
+def layout(count: int, aspect: float, bar: float, head: float, reserved: float) -> Layout:
+    """Return the layout that maximizes `count` maps of an aspect (width over height) on a page.
 
-    `bar` inches right of each map, `head` above it and `beside` inches of the page's height are for other things.
+    The page needs `bar` inches right of each map, `head` above it, and `reserved` inches of its height.
     """
     found: list[Layout] = []
     for columns in range(1, count + 1):
         rows = -(-count // columns)
         width = (WIDTH - _LEFT - _RIGHT - (columns - 1) * _GAP) / columns - bar
-        height = min(width / aspect, TALLEST, (HIGHEST - beside) / rows - head)
+        height = min(width / aspect, TALLEST, (HIGHEST - reserved) / rows - head)
         found.append(Layout(columns, height * aspect, height))
-    # Somewhat smaller maps are better than empty places, and than a long page.
+    # Slightly smaller maps are better than empty places or a long page.
     largest = max(each.width for each in found)
     return min(
         (each for each in found if each.width > 0.65 * largest),
@@ -51,7 +50,7 @@ def layout(count: int, aspect: float, bar: float, head: float, beside: float) ->
 
 
 class MapPage:
-    """A page of maps; places are in inches from its top left corner."""
+    """A page of maps; positions are in inches from its top left corner."""
 
     def __init__(
         self,
@@ -63,26 +62,26 @@ class MapPage:
         foot: float,
         bar: float = 0.0,
         narrowest: float = NARROWEST,
-        own_scenes: bool = False,
+        has_own_scenes: bool = False,
     ) -> None:
-        """Lay out `count` maps with `bar` inches for a colourbar right of each, `foot` inches below, then the note.
+        """Place `count` maps with `bar` inches for a colour bar right of each, `foot` inches below, then the note.
 
-        With `own_scenes` each map has its own coordinates, and room for them.
+        With `has_own_scenes`, each map has its own coordinates and space for their labels.
         """
-        self.own_scenes = own_scenes
-        self.head = _TITLE + (0.18 if own_scenes else 0.0)
+        self.has_own_scenes = has_own_scenes
+        self.head = _TITLE + (0.18 if has_own_scenes else 0.0)
         self.scene, self.count, self.bar, self.left = scene, count, bar, _LEFT
         lines = 2  # of the note, on a page of common width
         found = layout(count, scene.aspect, bar, self.head, _HEAD + _TICKS + foot + lines * _LINE)
         self.columns, self.map_width, self.map_height = found.columns, found.width, found.height
         needed = _LEFT + found.columns * (found.width + bar + _GAP) - _GAP + _RIGHT
         self.width = max(needed, narrowest)
-        wrapped = textwrap.wrap(note, int(_NOTE_CHARACTERS * (self.width - _LEFT - _RIGHT)), break_on_hyphens=False)
-        self.note_height = 0.06 + len(wrapped) * _LINE
+        note_lines = wrapped(note, _NOTE_CHARACTERS * (self.width - _LEFT - _RIGHT))
+        self.note_height = 0.06 + len(note_lines) * _LINE
         rows = -(-count // found.columns)
-        titles = textwrap.wrap(title, int(_NAME_CHARACTERS * (self.width - _LEFT - _RIGHT)))
+        titles = wrapped(title, _NAME_CHARACTERS * (self.width - _LEFT - _RIGHT))
         self.top = _HEAD + 0.17 * (len(titles) - 1)
-        self.below = self.top + rows * (found.height + self.head) + _TICKS  # where the maps end
+        self.below = self.top + rows * (found.height + self.head) + _TICKS  # end of the maps
         self.height = self.below + foot + self.note_height
         self.figure = Figure(figsize=(self.width, self.height))
         self.figure.suptitle(
@@ -91,7 +90,7 @@ class MapPage:
         self.figure.text(
             _LEFT / self.width,
             0.06 / self.height,
-            "\n".join(wrapped),
+            "\n".join(note_lines),
             size=7.5,
             color=NOTE,
             va="bottom",
@@ -99,15 +98,15 @@ class MapPage:
         )
 
     def place(self, left: float, top: float, width: float, height: float) -> Axes:
-        """Return axes at a place."""
+        """Return axes at a position."""
         return self.figure.add_axes(
             (left / self.width, 1 - (top + height) / self.height, width / self.width, height / self.height)
         )
 
     def panel(self, number: int, labels: bool, scene: Scene | None = None) -> Axes:
-        """Return the map of a number with the terrain of the page, or of a scene of its own.
+        """Return the axes of a map with the terrain of the page, or of a separate scene.
 
-        Coordinates that all maps share stand at the left and lower ends of the page only.
+        Coordinates common to all maps are labelled at the left and lower edges of the page only.
         """
         row, column = divmod(number, self.columns)
         left = _LEFT + column * (self.map_width + self.bar + _GAP)
@@ -116,25 +115,25 @@ class MapPage:
         draw_scene(axes, scene or self.scene, labels)
         if column == 0:
             axes.set_ylabel("northing (km)")
-        elif not self.own_scenes:
+        elif not self.has_own_scenes:
             axes.tick_params(labelleft=False)
         if number + self.columns >= self.count:
             axes.set_xlabel("easting (km)")
-        elif not self.own_scenes:
+        elif not self.has_own_scenes:
             axes.tick_params(labelbottom=False)
         return axes
 
-    def name(self, panels: Sequence[tuple[Axes, str, str]]) -> None:
-        """Title maps (axes, words, remark) with their letters; remarks stand beside titles, or all in the maps.
+    def set_titles(self, panels: Sequence[tuple[Axes, str, str]]) -> None:
+        """Set titles of maps (axes, words, remark) with letters.
 
-        In the maps where the title line of one of them has no room.
+        Remarks are right of the titles, or inside all maps if one of the titles is too long.
         """
         titles = [f"({chr(ord('a') + number)}) {words}" for number, (_, words, _) in enumerate(panels)]
-        room = _TITLE_CHARACTERS * self.map_width
-        beside = all(len(title) + len(panel[2]) + 2 <= room for title, panel in zip(titles, panels, strict=True))
+        space = _TITLE_CHARACTERS * self.map_width
+        fits = all(len(title) + len(panel[2]) + 2 <= space for title, panel in zip(titles, panels, strict=True))
         for title, (axes, _, remark) in zip(titles, panels, strict=True):
             axes.set_title(title, loc="left")
-            if beside:
+            if fits:
                 axes.set_title(remark, loc="right", color=NOTE, size=8)
             else:
                 axes.text(
@@ -143,13 +142,13 @@ class MapPage:
                 )  # fmt: skip
 
     def panel_bar(self, axes: Axes) -> Axes:
-        """Return axes for the colourbar right of a map."""
+        """Return axes for the colour bar right of a map."""
         box = axes.get_position()
         width = 0.13 / self.width
         return self.figure.add_axes((box.x1 + 0.08 / self.width, box.y0 + 0.1 * box.height, width, 0.8 * box.height))
 
     def common_bar(self) -> Axes:
-        """Return axes for one colourbar below all maps."""
+        """Return axes for a common colour bar below all maps."""
         width = min(4.8, self.width - 2.0)
         return self.place(0.5 * (self.width - width), self.below + 0.12, width, 0.14)
 

@@ -1,4 +1,4 @@
-"""What all maps share: shaded terrain with contour lines, coordinates, scale bar, north arrow."""
+"""Common parts of maps: hillshade with contour lines, coordinates, scale bar, north arrow."""
 
 from __future__ import annotations
 
@@ -20,17 +20,18 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 from thawslide.figures.colours import THICKNESS, THIN
 from thawslide.figures.style import BLACK
 from thawslide.maps import Box, Map
+from thawslide.number_text import exact_text, number_text
 from thawslide.relief import contour_levels, hillshade, round_number
 from thawslide.run import Numbers
 
-MOST_CELLS = 800  # a side of what is drawn: as fine as the page shows
-COVER = 0.82  # opacity of a field over the terrain: the relief below still shows
+MOST_CELLS = 800  # per side: the resolution of a page
+COVER = 0.82  # opacity of a field over the terrain, whose relief remains visible
 ASPECTS = (0.45, 2.4)  # width over height of a map, narrowest and widest
 _MOST_CONTOURS = 24
 _MOST_INTERVALS = 4  # between coordinates on a side of a map
 _DIGIT, _BETWEEN_LABELS, _OVERHANG = 0.071, 0.12, 0.14  # inches, of a coordinate's label
-_MARGIN = 0.12  # of the longer side of what a map is about, left free around it
-_ABOVE = 0.35  # share of the light that comes from above, so that steep slopes in the shadow are not one even grey
+_MARGIN = 0.12  # of the longer side of the mapped boxes, on each side
+_VERTICAL_LIGHT = 0.35  # fraction of the light from above, which gives contrast to steep slopes in the shadow
 _SHADES = LinearSegmentedColormap.from_list("shades", ["#8B867D", "#B5B0A7", "#DFDBD3", "#FAF9F6"])
 CONTOUR = "#5B4B37"
 HALO: list[patheffects.AbstractPathEffect] = [patheffects.withStroke(linewidth=2.2, foreground="white")]
@@ -38,12 +39,12 @@ HALO: list[patheffects.AbstractPathEffect] = [patheffects.withStroke(linewidth=2
 
 @dataclass(frozen=True)
 class Scene:
-    """The stretch of terrain a map shows, thinned to what the page shows, and its hill shading."""
+    """Visible part of the terrain, thinned to the resolution of the page, and its hillshade."""
 
     box: Box
     terrain: Map  # elevation [m]
     shade: Numbers  # 0..1, shape (rows, columns) of the terrain
-    exaggeration: float  # of heights in the shading
+    exaggeration: float  # vertical, of the hillshade
 
     @property
     def aspect(self) -> float:
@@ -52,15 +53,16 @@ class Scene:
         return (east - west) / (north - south)
 
     def note(self) -> str:
-        """Say what the coordinates are, and how the terrain is drawn."""
-        crs = f"Coordinates: {self.terrain.crs}." if self.terrain.crs else "No coordinate reference system is known."
-        return f"{crs} Terrain: light from the north-west and above{self.drawn()}."
+        """Return a sentence on the coordinates, and one on the terrain."""
+        crs = self.terrain.crs or "unknown reference system"
+        return f"Coordinates: {crs}. Hillshade from the north-west{self.hillshade_words()}."
 
-    def drawn(self) -> str:
-        """Say what exaggeration and contour lines the terrain is drawn with."""
-        heights = "" if self.exaggeration == 1.0 else f", on heights ×{self.exaggeration:g}"
+    def hillshade_words(self) -> str:
+        """Return exaggeration and contour interval of the terrain."""
+        exaggeration = "" if self.exaggeration == 1.0 else f", vertical exaggeration {self.exaggeration:g}×"
         levels = contour_levels(self.terrain.values, _MOST_CONTOURS)
-        return heights + (f", contour lines every {levels[1] - levels[0]:g} m" if len(levels) > 1 else "")
+        interval = f", contour interval {number_text(levels[1] - levels[0])} m" if len(levels) > 1 else ""
+        return exaggeration + interval
 
 
 def make_scene(terrain: Map, box: Box, aspects: tuple[float, float] = ASPECTS) -> Scene:
@@ -69,16 +71,16 @@ def make_scene(terrain: Map, box: Box, aspects: tuple[float, float] = ASPECTS) -
     part = terrain.cropped(box).thinned(MOST_CELLS)
     finite = part.values[np.isfinite(part.values)]
     relief = float(np.ptp(finite)) / max(box[1] - box[0], box[3] - box[2]) if finite.size else 0.0
-    # Gentle ground would be one even grey.
+    # Without exaggeration, gentle terrain would be an even grey.
     exaggeration = float(np.clip(round_number(0.25 / relief), 1.0, 10.0)) if relief > 0.0 else 1.0
     cells = part.grid.cell_x, part.grid.cell_y
     aside = hillshade(part.values, *cells, exaggeration)
     above = hillshade(part.values, *cells, exaggeration, altitude=90.0)
-    return Scene(box, part, (1.0 - _ABOVE) * aside + _ABOVE * above, exaggeration)
+    return Scene(box, part, (1.0 - _VERTICAL_LIGHT) * aside + _VERTICAL_LIGHT * above, exaggeration)
 
 
 def box_about(places: Sequence[Box]) -> Box:
-    """Return the box about boxes, with a margin for what surrounds them."""
+    """Return the box around boxes, with a margin."""
     west, east = min(box[0] for box in places), max(box[1] for box in places)
     south, north = min(box[2] for box in places), max(box[3] for box in places)
     margin = _MARGIN * max(east - west, north - south)
@@ -86,7 +88,7 @@ def box_about(places: Sequence[Box]) -> Box:
 
 
 def page_box(box: Box, whole: Box, aspects: tuple[float, float] = ASPECTS) -> Box:
-    """Return the box cut to the whole, then its shorter side made longer where it is too slim for a page."""
+    """Return the box cropped to the whole, with its shorter side extended if it is too narrow for a page."""
     west, east, south, north = (
         max(box[0], whole[0]), min(box[1], whole[1]), max(box[2], whole[2]), min(box[3], whole[3]),
     )  # fmt: skip
@@ -104,7 +106,7 @@ def _longer(low: float, high: float, length: float, least: float, most: float) -
 
 
 def covered_box(field: Map, threshold: float = 0.0) -> Box | None:
-    """Return the box about the cells whose value is above a threshold, None where there is none."""
+    """Return the box around the cells whose value is above a threshold, None without such cells."""
     rows, columns = np.nonzero(np.nan_to_num(field.values, nan=-np.inf) > threshold)
     if not rows.size:
         return None
@@ -119,7 +121,7 @@ def covered_box(field: Map, threshold: float = 0.0) -> Box | None:
 
 
 def draw_scene(axes: Axes, scene: Scene, labels: bool = True, lines: bool = True) -> None:
-    """Draw the shaded terrain, its contour lines (with elevations where `labels`) and coordinates in km."""
+    """Draw the hillshade, contour lines (with elevations if `labels`) and coordinates in km."""
     axes.imshow(
         scene.shade, cmap=_SHADES, vmin=0.0, vmax=1.0, extent=scene.terrain.grid.box, origin="lower",
         interpolation="bilinear", zorder=1,
@@ -134,7 +136,7 @@ def draw_scene(axes: Axes, scene: Scene, labels: bool = True, lines: bool = True
             linewidths=np.where(heavy, 0.7, 0.35).tolist(), alpha=0.75, zorder=4,
         )  # fmt: skip
         if labels:
-            texts = axes.clabel(drawn, levels=levels[::2], fontsize=6, fmt="%g", inline_spacing=2)
+            texts = axes.clabel(drawn, levels=levels[::2], fontsize=6, fmt=exact_text, inline_spacing=2)
             for text in texts:
                 text.set_zorder(4.5)
     west, east, south, north = scene.box
@@ -155,13 +157,13 @@ def draw_scene(axes: Axes, scene: Scene, labels: bool = True, lines: bool = True
 
 def coordinate_text(value: float) -> str:
     """Return a coordinate [m] in km."""
-    return f"{value / 1000.0:.10g}".replace("-", "−")
+    return exact_text(value / 1000.0)
 
 
 def coordinates(low: float, high: float, inches: float) -> list[float]:
-    """Return round coordinates [m] from low to high whose labels have room along so many inches: five at most.
+    """Return at most five round coordinates [m] from low to high whose labels fit along so many inches.
 
-    The labels run along the axis. They reach over its ends by no more than half of what two maps stand apart.
+    The labels are parallel to the axis. They extend over its ends by at most half of the gap between two maps.
     """
     for intervals in range(_MOST_INTERVALS, 0, -1):
         places = np.array(MaxNLocator(intervals, steps=[1, 2, 5, 10], min_n_ticks=1).tick_values(low, high))
@@ -174,7 +176,7 @@ def coordinates(low: float, high: float, inches: float) -> list[float]:
 
 
 def paint(axes: Axes, field: Map, painter: ScalarMappable) -> AxesImage:
-    """Draw a field over the terrain; cells without a value stay free."""
+    """Paint a field over the terrain; cells without a value are transparent."""
     return axes.imshow(
         np.ma.masked_invalid(field.values), cmap=painter.get_cmap(), norm=cast(Normalize, painter.norm),
         extent=field.grid.box, origin="lower", interpolation="nearest", alpha=COVER, zorder=3,
@@ -182,7 +184,7 @@ def paint(axes: Axes, field: Map, painter: ScalarMappable) -> AxesImage:
 
 
 def outline(axes: Axes, field: Map, level: float, **style: Any) -> None:
-    """Draw the line along which a field passes a level; places without data count as below it."""
+    """Draw the contour of a field at a level; cells without data count as below it."""
     grid = field.grid
     values = np.pad(np.nan_to_num(field.values, nan=0.0), 1)
     if values.max() <= level:
@@ -193,7 +195,7 @@ def outline(axes: Axes, field: Map, level: float, **style: Any) -> None:
 
 
 def quiet_corner(field: Map | None, box: Box) -> str:
-    """Return the corner of a box in which a field covers least, as matplotlib names it; remarks stand upper right."""
+    """Return the corner of a box that a field covers least, in matplotlib's words; the upper right is for remarks."""
     corners = {"lower left": (0, 0), "lower right": (1, 0), "upper left": (0, 1)}
     if field is None:
         return "lower left"
@@ -210,12 +212,12 @@ def quiet_corner(field: Map | None, box: Box) -> str:
 
 
 def scale_bar(axes: Axes, corner: str) -> None:
-    """Draw a bar of a round length and an arrow to grid north in a corner."""
+    """Draw a scale bar of a round length and a north arrow in a corner."""
     west, east = axes.get_xlim()
     length = round_number(0.3 * (east - west))
     bar = AuxTransformBox(axes.transData)
     bar.add_artist(Rectangle((0, 0), length, 0, fill=False, linewidth=2.2, edgecolor=BLACK))
-    words = f"{length / 1000:g} km" if length >= 1000.0 else f"{length:g} m"
+    words = f"{exact_text(length / 1000)} km" if length >= 1000.0 else f"{exact_text(length)} m"
     ruler = VPacker(children=[TextArea(words, textprops={"size": 7.5}), bar], align="center", pad=0, sep=2)
     north = TextArea("N\n▲", textprops={"size": 7.5, "ha": "center", "linespacing": 0.95, "multialignment": "center"})
     anchored = AnchoredOffsetbox(
@@ -226,8 +228,8 @@ def scale_bar(axes: Axes, corner: str) -> None:
     axes.add_artist(anchored)
 
 
-def name_place(axes: Axes, name: str, place: tuple[float, float]) -> None:
-    """Write the name of a place beside it, on the side away from the nearer edge of the map; nothing outside."""
+def label_place(axes: Axes, name: str, place: tuple[float, float]) -> None:
+    """Write the name of a place next to it, on the side away from the nearer edge; nothing outside the map."""
     west, east = axes.get_xlim()
     left = place[0] > 0.5 * (west + east)
     axes.annotate(

@@ -1,50 +1,43 @@
-"""Mean velocity, mean displacement and runout over time, against reported values (paper Fig. 16)."""
+"""Mean velocity, mean displacement and runout distance over time, with reported values (paper Fig. 16)."""
 
 from __future__ import annotations
+
+import textwrap
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from thawslide.clock import has_clock
 from thawslide.figures.style import (
     BLUE,
     COLUMN_WIDTH,
     GREEN,
-    NOTE,
     RED,
-    give_title,
-    letters,
-    prefixed,
     styled,
     time_axis,
     time_line,
+    title_figure,
+    title_panels,
 )
+from thawslide.number_text import prefixed
 from thawslide.run import Run
 from thawslide.targets import KINDS
+from thawslide.time_reference import has_time_reference
 
 _MARKERS = "osD^vP*X"
+_NOTE_WIDTH = 40  # characters
 
 
-def draw_targets(
+def plot_targets(
     axes: Axes, run: Run, quantities: tuple[str, ...], divisor: float, colour: str, words: str = ""
-) -> int:
-    """Mark the reported values within the run's time, one marker a source, filled if observed; return their number.
+) -> list[str]:
+    """Mark the reported values within the run's time, one marker a source, filled if observed.
 
-    A note says how many lie outside of it.
+    Return a note on values outside the time of the run, if there are any.
     """
     begin, end = (float(run.shown_time[row]) for row in (0, -1))
     asked = [target for target in run.targets if target.quantity in quantities]
-    found = [target for target in asked if begin <= target.time <= end and has_clock(run)]
-    if len(found) < len(asked):
-        # One line of note for each call on the same panel.
-        height = 0.02 + 0.06 * len(axes.texts)
-        early = sum(target.time < begin for target in asked)
-        counts = {"before the start": early, "after the end": len(asked) - len(found) - early}
-        note = ", ".join(f"{count} reported{words} {when} of the run" for when, count in counts.items() if count)
-        if not has_clock(run):
-            note = f"{len(asked)} reported{words} not drawn: the run never reaches the speed that sets the clock"
-        axes.text(0.98, height, note, transform=axes.transAxes, ha="right", size=7.5, color=NOTE)
+    found = [target for target in asked if begin <= target.time <= end and has_time_reference(run)]
     groups = list(dict.fromkeys((target.adjective, target.source) for target in found))
     for number, (adjective, source) in enumerate(groups):
         of_source = [target for target in found if (target.adjective, target.source) == (adjective, source)]
@@ -57,43 +50,63 @@ def draw_targets(
             markeredgewidth=1.4,
             markersize=6.5,
             linestyle="",
-            label=f"{adjective}{words}: {source or 'no source given'}",
+            label=f"{adjective}{words}: {source or 'no source'}",
             clip_on=False,
             zorder=5,
         )
-    return len(found)
+    if len(found) == len(asked):
+        return []
+    of_words = f" of{words}" if words else ""
+    if not has_time_reference(run):
+        return [f"{_reported(len(asked))}{of_words} not shown: no time reference"]
+    early = sum(target.time < begin for target in asked)
+    counts = {"before the start": early, "after the end": len(asked) - len(found) - early}
+    return [", ".join(f"{_reported(count)}{of_words} {when} of the run" for when, count in counts.items() if count)]
+
+
+def _reported(count: int) -> str:
+    return f"{count} reported value{'' if count == 1 else 's'}"
+
+
+def add_to_legend(axes: Axes, notes: list[str]) -> None:
+    """Add notes to the legend of a panel."""
+    for note in notes:
+        axes.plot([], [], linestyle="", label=textwrap.fill(note, _NOTE_WIDTH))
 
 
 @styled
 def motion(run: Run) -> Figure:
-    """Draw (a) mean and largest velocity, (b) mean displacement, runout and the travel distance of the front.
+    """Plot (a) mean and maximum velocity, (b) mean displacement, runout distance and front travel distance.
 
-    Particles of a slide at rest vibrate without net motion. The largest velocity is therefore drawn until rest only.
+    Particles at rest vibrate without net motion. The maximum velocity is therefore plotted until rest only.
     """
     history = run.history
     time = run.shown_time
     figure = Figure(figsize=(COLUMN_WIDTH, 4.3), layout="constrained")
-    give_title(figure, run.titled("motion of the slide"))
+    title_figure(figure, run.titled("motion"))
     speed, distance = figure.subplots(1, 2)
 
     if "max_velocity_m_s" in history:
-        moves = history["time_s"] <= run.rest_since
+        moving = history["time_s"] <= run.rest_since
         time_line(
             speed,
-            time[moves],
-            history["max_velocity_m_s"][moves],
+            time[moving],
+            history["max_velocity_m_s"][moving],
             color="#B5B5B5",
             linewidth=1.0,
-            label="fastest particle" if moves.all() else "fastest particle, until rest",
+            label="maximum" if moving.all() else "maximum, until rest",
         )
-    time_line(speed, time, history["mean_velocity_m_s"], color=BLUE, label="mean (of mass)")
-    draw_targets(speed, run, ("mean_velocity",), 1.0, BLUE)
+    time_line(speed, time, history["mean_velocity_m_s"], color=BLUE, label="mean (mass-weighted)")
+    add_to_legend(speed, plot_targets(speed, run, ("mean_velocity",), 1.0, BLUE))
     speed.set_ylabel("velocity (m/s)")
 
     lengths = [history[name] for name in ("mean_displacement_m", "runout_m") if name in history]
     divisor, unit = prefixed(np.concatenate(lengths) if lengths else 0.0, "m")
-    time_line(distance, time, history["mean_displacement_m"] / divisor, color=GREEN, label="mean path length (of mass)")
-    draw_targets(distance, run, ("mean_displacement",), divisor, GREEN, " mean")
+    time_line(
+        distance, time, history["mean_displacement_m"] / divisor, color=GREEN, label="mean path length (mass-weighted)"
+    )
+    notes = plot_targets(distance, run, ("mean_displacement",), divisor, GREEN, " mean displacement")
+    add_to_legend(distance, notes)
     if "runout_m" in history:
         time_line(
             distance,
@@ -101,20 +114,21 @@ def motion(run: Run) -> Figure:
             history["runout_m"] / divisor,
             color=RED,
             linestyle="--",
-            label="runout (front − rear at the start)",
+            label="runout distance (front minus initial rear)",
         )
         if "front_position_m" in history:
             front = history["front_position_m"]
-            first = int(np.argmax(np.isfinite(front)))  # without maps.path there is none before the slide moves
-            way = (history["runout_m"] - history["runout_m"][first]) / divisor  # in 2D slides go towards -x too
-            time_line(distance, time, way, color=RED, linestyle=":", label="travel distance of the front")
-        draw_targets(distance, run, ("front_distance",), divisor, RED, " runout")
+            first = int(np.argmax(np.isfinite(front)))  # without maps.path there is no front before the first motion
+            travelled = (history["runout_m"] - history["runout_m"][first]) / divisor  # in 2D also towards -x
+            time_line(distance, time, travelled, color=RED, linestyle=":", label="front travel distance")
+        notes = plot_targets(distance, run, ("front_distance",), divisor, RED, " runout distance")
+        add_to_legend(distance, notes)
     distance.set_ylabel(f"distance ({unit})")
 
     for axes in (speed, distance):
-        time_axis(axes, time, run.clock.label)
+        time_axis(axes, time, run.time_reference.label)
         axes.set_ylim(bottom=0.0)
-        # Below the panel: with many reported values it would hide the curves.
-        axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.2))
-    letters((speed, distance), ("velocity", "displacement"))
+        # Legends below the panels do not cover curves.
+        axes.legend(loc="upper left", bbox_to_anchor=(-0.14, -0.2), handlelength=1.5)
+    title_panels((speed, distance), ("velocity", "distance"))
     return figure

@@ -1,4 +1,4 @@
-"""What the probes of a 3D run saw through time: thickness and speed at points, flow through sections."""
+"""Probes of a 3D run over time: thickness and speed at points, flow through cross sections."""
 
 from __future__ import annotations
 
@@ -17,22 +17,23 @@ from thawslide.figures.style import (
     PURPLE,
     RED,
     SKY,
-    give_title,
-    letters,
     styled,
     time_axis,
     time_line,
+    title_figure,
+    title_panels,
 )
+from thawslide.number_text import exact_text
 from thawslide.run import Run
 
 _COLOURS = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY, BLACK)
-_OF_SECTION = {"_max": "largest", "_mean": "mean"}  # before the ending, and what of a section it says
+_OF_SECTION = {"_max": "maximum", "_mean": "mean"}  # before the ending: statistics over a cross section
 _DASHES = ("-", "--", ":")
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """One quantity of probes: how its columns in probes.csv end, words for it and its unit."""
+    """One quantity of probes: the ending of its columns in probes.csv, its label and unit."""
 
     ending: str
     words: str
@@ -40,7 +41,7 @@ class Quantity:
 
 
 QUANTITIES = (
-    Quantity("_thickness_m", "thickness", "m"),
+    Quantity("_thickness_m", "flow thickness", "m"),
     Quantity("_speed_m_s", "speed", "m/s"),
     Quantity("_flow_area_m2", "flow area", "m²"),
     Quantity("_discharge_m3_s", "discharge", "m³/s"),
@@ -49,11 +50,11 @@ QUANTITIES = (
 
 @styled
 def probes(run: Run) -> Figure:
-    """Draw a panel for each quantity that probes hold, with a line a probe."""
+    """Plot a panel for each quantity, with a line for each probe."""
     columns = run.probes
     if columns is None:
-        raise NotInRunError(f"{run.folder / 'probes.csv'}: no such file; the case has no [probe.NAME]")
-    time = columns["time_s"] + run.clock.shift
+        raise NotInRunError(f"{run.folder / 'probes.csv'}: no such file. Specify [probe.NAME] in the case.")
+    time = columns["time_s"] + run.time_reference.shift
     found = {
         quantity: {
             name.removesuffix(quantity.ending): values
@@ -65,12 +66,12 @@ def probes(run: Run) -> Figure:
     found = {quantity: lines for quantity, lines in found.items() if lines}
     if not found:
         endings = ", ".join(quantity.ending for quantity in QUANTITIES)
-        raise NotInRunError(f"probes.csv: no column ends with {endings}")
+        raise NotInRunError(f"probes.csv: no column of a probe (allowed endings: {endings}).")
     names = list(dict.fromkeys(_probe(name)[0] for lines in found.values() for name in lines))
     rows = -(-len(found) // 2)
     across = min(len(found), 2)
     figure = Figure(figsize=(COLUMN_WIDTH if across == 2 else 4.5, 0.9 + 2.2 * rows), layout="constrained")
-    give_title(figure, run.titled("probes"))
+    title_figure(figure, run.titled("probes"))
     panels = list(figure.subplots(rows, across, squeeze=False, sharex=True).flat)
     for axes, (quantity, lines) in zip(panels, found.items(), strict=False):
         for name, values in lines.items():
@@ -83,19 +84,19 @@ def probes(run: Run) -> Figure:
         axes.set_ylabel(f"{quantity.words} ({quantity.unit})")
         low = min(float(np.nanmin(values, initial=0.0)) for values in lines.values())
         high = max(float(np.nanmax(values, initial=0.0)) for values in lines.values())
-        # A discharge to the left of its section is negative.
+        # Discharge towards the left of a section is negative.
         axes.set_ylim(None if low < 0.0 else 0.0, None if high > 0.0 else 1.0 if low == 0.0 else 0.0)
-        axes.yaxis.set_major_formatter(lambda value, _: f"{value:,.10g}".replace("-", "−"))
+        axes.yaxis.set_major_formatter(lambda value, _: exact_text(value))
         axes.legend(loc="best")
-        time_axis(axes, time, run.clock.label)
+        time_axis(axes, time, run.time_reference.label)
     for axes in panels[len(found) :]:
         axes.remove()
-    letters(panels[: len(found)], [quantity.words for quantity in found])
+    title_panels(panels[: len(found)], [quantity.words for quantity in found])
     return figure
 
 
 def _probe(name: str) -> tuple[str, str]:
-    """Return the name of a probe, of a column without its ending, and its label in the legend."""
+    """Return the name of a probe and its label in the legend, from a column without its ending."""
     for ending, words in _OF_SECTION.items():
         if name.endswith(ending):
             probe = name.removesuffix(ending)

@@ -1,4 +1,4 @@
-"""What the figures of a 3D run on a DEM share: its terrain, where the slide was, outlines and lines over it."""
+"""Common data of the maps of a 3D run on a DEM: terrain, covered area, outlines and lines."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from thawslide.figures.map_panel import (
     Scene,
     box_about,
     covered_box,
+    label_place,
     make_scene,
-    name_place,
     outline,
 )
 from thawslide.figures.style import BLACK, BLUE, PURPLE
@@ -30,14 +30,14 @@ RELEASE, PATH = BLACK, BLUE
 
 @dataclass
 class Site:
-    """A run's terrain and maps, cut to what the slide touched and thinned to what a page shows."""
+    """Terrain and maps of a run, cropped to the covered area and thinned to the resolution of a page."""
 
     run: Run
     maps: Maps
 
     @cached_property
     def scene(self) -> Scene:
-        """The terrain under and around all that the slide touched."""
+        """The terrain of the covered area and its surroundings."""
         about = [
             covered_box(self.maps["max_thickness"], self.threshold),
             covered_box(self.maps["release"]) if "release" in self.maps else None,
@@ -48,32 +48,32 @@ class Site:
 
     @property
     def threshold(self) -> float:
-        """Thickness [m] from which on the slide counts as being there."""
+        """Thickness [m] above which a cell counts as covered."""
         return float(self.run.section("maps").get("arrival_thickness", 0.0))
 
     @cached_property
     def grid(self) -> Grid:
-        """The grid of the maps, cut to the scene and thinned; particles are gathered on it."""
+        """The grid of the maps, cropped to the scene and thinned; particles are averaged on it."""
         grid = self.maps["max_thickness"].grid.cropped(self.scene.box)
         return grid.thinned(grid.factor(MOST_CELLS))
 
     @cached_property
     def reached(self) -> Map:
-        """The largest thickness [m], in the scene."""
+        """The maximum thickness [m], in the scene."""
         return self.part("max_thickness")
 
     @cached_property
     def release(self) -> Map | None:
-        """The thickness [m] at t = 0, in the scene, None where the run has not written it."""
+        """The thickness [m] at t = 0, in the scene; None if the run has not written it."""
         return self.part("release") if "release" in self.maps else None
 
     def part(self, name: str) -> Map:
-        """Return a map cut to the scene and thinned, the largest value of each block of cells."""
-        return self.maps[name].cropped(self.scene.box).thinned(MOST_CELLS, "largest")
+        """Return a map cropped to the scene and thinned to the maximum of each block of cells."""
+        return self.maps[name].cropped(self.scene.box).thinned(MOST_CELLS, "maximum")
 
     @cached_property
     def path(self) -> Numbers | None:
-        """The line along which the front is measured, shape (n, 2) [m], None where there is none."""
+        """The flow path, shape (n, 2) [m]; None without one."""
         try:
             features = read_layer(self.maps.folder / "results.gpkg", "path")
         except NotInRunError:
@@ -83,7 +83,7 @@ class Site:
 
     @cached_property
     def affected(self) -> list[Numbers] | None:
-        """The outlines of the affected area, each of shape (n, 2) [m], None where the run has not written it."""
+        """The outlines of the affected area, each of shape (n, 2) [m]; None if the run has not written them."""
         try:
             features = read_layer(self.maps.folder / "results.gpkg", "affected_area")
         except NotInRunError:
@@ -91,13 +91,13 @@ class Site:
         return [part for feature in features for part in feature.parts]
 
     @property
-    def path_is_given(self) -> bool:
-        """Whether the case names the path; else it is the way of the centre of mass."""
+    def has_given_path(self) -> bool:
+        """Whether the case specifies the path; otherwise it is the track of the centre of mass."""
         return bool(self.run.section("maps").get("path"))
 
     @cached_property
     def probes(self) -> dict[str, tuple[float, float]]:
-        """Where the probes of the case stand that are points, by name."""
+        """Positions of the point probes of the case, by name."""
         points = {name: probe.get("point") for name, probe in self.run.section("probe").items()}
         return {name: (float(point[0]), float(point[1])) for name, point in points.items() if point}
 
@@ -106,8 +106,8 @@ class Site:
         if self.release is not None:
             outline(axes, self.release, 1e-6, colors=RELEASE, linewidths=width, linestyles="--")
 
-    def draw_reach(self, axes: Axes) -> None:
-        """Draw the outline of the affected area, or without it the line of the least thickness."""
+    def draw_outline(self, axes: Axes) -> None:
+        """Draw the outline of the affected area, or without it the contour of the threshold thickness."""
         if self.affected is None:
             outline(axes, self.reached, self.threshold, colors=BLACK, linewidths=0.6)
             return
@@ -123,15 +123,15 @@ class Site:
         """Mark the probes with their names."""
         for name, (x, y) in self.probes.items():
             axes.plot([x], [y], marker="D", color=PURPLE, markeredgecolor="white", markersize=5, zorder=7)
-            name_place(axes, name, (x, y))
+            label_place(axes, name, (x, y))
 
     def legend(self, *, path: bool = True, probes: bool = True) -> list[Line2D]:
-        """Return what the lines mean, of those that are there."""
+        """Return legend entries of the existing lines."""
         handles = []
         if self.release is not None:
             handles.append(Line2D([], [], color=RELEASE, linestyle="--", linewidth=1.3, label="release"))
         if path and self.path is not None:
-            handles.append(Line2D([], [], color=PATH, linewidth=1.3, label="path"))
+            handles.append(Line2D([], [], color=PATH, linewidth=1.3, label="flow path"))
         if probes and self.probes:
             handles.append(Line2D([], [], color=PURPLE, marker="D", linestyle="", markersize=5, label="probe"))
         return handles
@@ -142,11 +142,11 @@ def make_site(run: Run) -> Site:
     site = Site(run, Maps(run))
     for name in ("terrain", "max_thickness"):
         if name not in site.maps:
-            raise NotInRunError(f"{site.maps.folder / name}.tif: no such map; without it no map can be drawn")
+            raise NotInRunError(f"{site.maps.folder / name}.tif: no such map. Repeat the run.")
     return site
 
 
 def distances(line: Numbers) -> Numbers:
-    """Return how far along a line each of its points lies, shape (n,) [m]."""
+    """Return the distance of each point from the start of a line, along it, shape (n,) [m]."""
     steps = np.hypot(*np.diff(line, axis=0).T)
     return np.concatenate(([0.0], np.cumsum(steps)))

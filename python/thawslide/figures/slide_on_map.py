@@ -1,4 +1,4 @@
-"""The slide over its terrain from above at chosen times: speed, thickness, temperature next to the ground."""
+"""Maps of the sliding mass at the report times: speed, thickness, basal temperature."""
 
 from __future__ import annotations
 
@@ -18,7 +18,6 @@ from thawslide.figures.colours import (
     Painting,
     label_bar,
     normalisation,
-    number_text,
     thickness_words,
 )
 from thawslide.figures.map_page import MapPage
@@ -28,15 +27,16 @@ from thawslide.figures.site import Site, make_site
 from thawslide.figures.snapshots import time_text
 from thawslide.figures.style import styled
 from thawslide.maps import Grid, Map
+from thawslide.number_text import number_text
 from thawslide.run import Run, Snapshot
 
-SPEED = replace(VELOCITY, words="speed, mean over the thickness")
-BASE_TEMPERATURE = replace(TEMPERATURE, words="temperature next to the ground")
+SPEED = replace(VELOCITY, words="depth-averaged speed")
+BASE_TEMPERATURE = replace(TEMPERATURE, words="basal temperature")
 _FOOT = 0.7  # inches below the maps, for the colourbar
 
 
 def columns_on(site: Site, index: int) -> Columns:
-    """Return what stands on the cells of the site in one snapshot."""
+    """Return thickness, speed and temperature on the cells of the site in one snapshot."""
     return gather(site.grid, site.run.snapshot(index, fields=FIELDS), cell_of(site.run))
 
 
@@ -52,30 +52,30 @@ def where_thick(field: Map, columns: Columns, threshold: float) -> Map:
 
 @styled
 def slide_speed(run: Run) -> Figure:
-    """Draw the speed of the slide, mean over its thickness."""
-    return _draw(run, SPEED, lambda columns: columns.speed)
+    """Map the depth-averaged speed."""
+    return _plot(run, SPEED, lambda columns: columns.speed)
 
 
 @styled
 def slide_thickness(run: Run) -> Figure:
-    """Draw the thickness of the slide."""
-    return _draw(run, THICKNESS, lambda columns: columns.thickness)
+    """Map the thickness."""
+    return _plot(run, THICKNESS, lambda columns: columns.thickness)
 
 
 @styled
 def slide_temperature(run: Run) -> Figure:
-    """Draw the temperature of the slide next to the ground."""
+    """Map the temperature next to the terrain."""
     if not run.section("heat").get("enabled", True):
-        raise NotInRunError("heat.enabled is false: temperatures do not change")
-    return _draw(run, BASE_TEMPERATURE, lambda columns: columns.temperature)
+        raise NotInRunError("heat.enabled: temperatures are constant (found false).")
+    return _plot(run, BASE_TEMPERATURE, lambda columns: columns.temperature)
 
 
-def _draw(run: Run, painting: Painting, field_of: Callable[[Columns], Map]) -> Figure:
-    return draw_on_map(run, painting, lambda grid, shot: field_of(gather(grid, shot, cell_of(run))))
+def _plot(run: Run, painting: Painting, field_of: Callable[[Columns], Map]) -> Figure:
+    return plot_on_map(run, painting, lambda grid, shot: field_of(gather(grid, shot, cell_of(run))))
 
 
-def draw_on_map(run: Run, painting: Painting, field_of: Callable[[Grid, Snapshot], Map]) -> Figure:
-    """Draw a field at chosen times from above, where the slide is thick enough to be drawn."""
+def plot_on_map(run: Run, painting: Painting, field_of: Callable[[Grid, Snapshot], Map]) -> Figure:
+    """Map a field at the report times in cells above the threshold of thickness."""
     site = make_site(run)
     shots = chosen_snapshots(run, FIELDS)
     gathered = [gather(site.grid, shot, cell_of(run)) for shot in shots]
@@ -85,12 +85,12 @@ def draw_on_map(run: Run, painting: Painting, field_of: Callable[[Grid, Snapshot
     ]
     values = np.concatenate([field.values.ravel() for field in fields])
     if not np.isfinite(values).any():
-        raise NotInRunError(f"no snapshot has a {painting.words} to show on the map")
+        raise NotInRunError(f"{run.folder}: no {painting.words} in any snapshot.")
     norm, extend = normalisation(values, painting)
     painter = ScalarMappable(norm, colour_map(painting.colours))
-    lines = f"Dashed: release. Thinner than {site.threshold:g} m is not drawn."
-    note = f"{run.end_note}{lines} Time: {run.clock.words}. {site.scene.note()}"
-    title = f"{run.title}: {painting.words.split(',')[0]}"
+    lines = f"Dashed: release. Cells below {site.threshold:g} m are not shown."
+    note = f"{run.end_note}{lines} Time: {run.time_reference.words}. {site.scene.note()}"
+    title = f"{run.title}: {painting.words}"
     page = MapPage(title, site.scene, len(fields), note=note, foot=_FOOT)
     corner = quiet_corner(site.reached, site.scene.box)
     panels = []
@@ -104,7 +104,7 @@ def draw_on_map(run: Run, painting: Painting, field_of: Callable[[Grid, Snapshot
         panels.append((axes, time_text(run, shot), remark))
         if number == 0:
             scale_bar(axes, corner)
-    page.name(panels)
+    page.set_titles(panels)
     bar = page.figure.colorbar(painter, cax=page.common_bar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
     over = f", {window_words(run)}" if painting is SPEED and window_words(run) else ""

@@ -1,4 +1,4 @@
-"""The slide over its terrain at chosen times, coloured by one field (paper Figs. 14, 15, 18 and 19)."""
+"""Particles on the terrain at the report times, coloured by one field (paper Figs. 14, 15, 18 and 19)."""
 
 from __future__ import annotations
 
@@ -19,20 +19,29 @@ from thawslide.figures.colours import (
     Painting,
     label_bar,
     normalisation,
-    number_text,
     painted_values,
 )
 from thawslide.figures.load import overburden
+from thawslide.figures.map_panel import HALO
 from thawslide.figures.moments import LETTERS, chosen_snapshots, window_words
-from thawslide.figures.style import COLUMN_WIDTH, GROUND_LINE, NOTE, prefixed, stretch, styled, warn
+from thawslide.figures.style import (
+    COLUMN_WIDTH,
+    GROUND_LINE,
+    NOTE,
+    styled,
+    vertical_exaggeration,
+    warn,
+    wrapped,
+)
 from thawslide.figures.window import Window, extent, fill_terrain, fit, squares
+from thawslide.number_text import exact_text, number_text, prefixed
 from thawslide.run import Numbers, Run, Snapshot
-from thawslide.unphysical import EDGES, too_hot, too_much_for_weight
+from thawslide.unphysical import EDGES, too_hot, too_much_for_overburden
 
 
 @dataclass(frozen=True)
-class Stretch:
-    """A named stretch of the way [m], which figures set off by dotted lines."""
+class Zone:
+    """A named range of distance [m], with dotted lines at its ends in figures."""
 
     name: str
     start: float
@@ -41,45 +50,46 @@ class Stretch:
 
 _OF_WARNINGS = {"temperature": ("liquid_saturation", "pore_pressure"), "pore_pressure": ("mass",)}
 
-# The page, in inches.
+# Layout of the page, in inches.
 _WIDTH, _LEFT, _RIGHT, _GAP = COLUMN_WIDTH, 0.65, 0.12, 0.7
 _PANEL_HEIGHT, _STRIP_HEIGHT, _ROW_GAP, _BAR_HEIGHT = 1.45, 0.65, 0.75, 0.13
 _OVERVIEW_MARGINS = (1.0, 1.15)
+_TITLE_LINE, _TITLE_CHARACTERS = 0.17, 12.5  # inches; characters in one inch
 
 
 def time_text(run: Run, shot: Snapshot) -> str:
-    """Write the time of a snapshot on the clock of all figures."""
-    return f"t = {round(shot.time + run.clock.shift, 1):g} s".replace("-", "−")
+    """Return the time of a snapshot as figures show it."""
+    return f"t = {exact_text(round(shot.time + run.time_reference.shift, 1))} s"
 
 
 @styled
-def velocity(run: Run, stretches: Sequence[Stretch] = ()) -> Figure:
-    """Draw the speed of the slide (Fig. 14)."""
-    return draw(run, VELOCITY, stretches)
+def velocity(run: Run, zones: Sequence[Zone] = ()) -> Figure:
+    """Plot the magnitude of velocity (Fig. 14)."""
+    return plot_field(run, VELOCITY, zones)
 
 
 @styled
-def plastic_strain(run: Run, stretches: Sequence[Stretch] = ()) -> Figure:
-    """Draw the equivalent plastic strain (Fig. 15)."""
-    return draw(run, PLASTIC_STRAIN, stretches)
+def plastic_strain(run: Run, zones: Sequence[Zone] = ()) -> Figure:
+    """Plot the equivalent plastic strain (Fig. 15)."""
+    return plot_field(run, PLASTIC_STRAIN, zones)
 
 
 @styled
 def temperature(run: Run) -> Figure:
-    """Draw the temperature (Fig. 18)."""
-    return draw(run, TEMPERATURE)
+    """Plot the temperature (Fig. 18)."""
+    return plot_field(run, TEMPERATURE)
 
 
 @styled
 def pore_pressure(run: Run) -> Figure:
-    """Draw the pore pressure (Fig. 19)."""
-    return draw(run, PORE_PRESSURE)
+    """Plot the pore pressure (Fig. 19)."""
+    return plot_field(run, PORE_PRESSURE)
 
 
-def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Figure:
-    """Draw an overview of the whole profile, a panel for each chosen time and one colourbar.
+def plot_field(run: Run, painting: Painting, zones: Sequence[Zone] = ()) -> Figure:
+    """Plot an overview of the whole profile, a panel for each report time and one colour bar.
 
-    Stretches stand between grey dotted lines, with their names in the overview and in the panels that show them.
+    Zones are between grey dotted lines, with their names in the overview and in panels.
     """
     shots = chosen_snapshots(run, ("volume", *_OF_WARNINGS.get(painting.field, ()), painting.field))
     values = [painted_values(shot, painting.field) for shot in shots]
@@ -89,23 +99,22 @@ def draw(run: Run, painting: Painting, stretches: Sequence[Stretch] = ()) -> Fig
     norm, extend = normalisation(np.concatenate(values), painting)
     painter = ScalarMappable(norm, painting.colours)
 
-    page = _Page(run, shots)
+    page = _Page(run, shots, painting.words)
     figure = page.figure
-    title = f"{run.title}: {painting.words}" + (f". {run.end_note.rstrip()}" if run.end_note else "")
-    figure.suptitle(title, x=_LEFT / _WIDTH, y=1 - 0.16 / page.height, ha="left", va="top", size=10)
+    figure.suptitle("\n".join(page.title), x=_LEFT / _WIDTH, y=1 - 0.16 / page.height, ha="left", va="top", size=10)
     windows = [_window(run, shot, page.panel_width / _PANEL_HEIGHT) for shot in shots]
-    _draw_stretches(_draw_overview(page, run, shots, windows), stretches)
+    _draw_zones(_plot_overview(page, run, shots, windows), zones)
     highest = max(extent(heights)[1] for heights in (above_ground(run, shot) for shot in shots))
     for number, (shot, value, window) in enumerate(zip(shots, values, windows, strict=True)):
         panel, strip = page.panel(number)
-        _draw_particles(panel, run, shot, value, window, painter, page.panel_width, _PANEL_HEIGHT)
-        panel.set_title(f"({LETTERS[number]}) {time_text(run, shot)}, {window.note()}", loc="left")
-        _draw_stretches(panel, stretches)
+        _plot_particles(panel, run, shot, value, window, painter, page.panel_width, _PANEL_HEIGHT)
+        panel.set_title(f"({LETTERS[number]}) {time_text(run, shot)}", loc="left")
+        _draw_zones(panel, zones)
         warn(panel, _warning(run, shot, painting), high=False)
         largest = f"max {number_text(np.nanmax(value))} {unit}" if np.isfinite(value).any() else "no values"
         panel.set_title(largest.strip().replace("-", "−"), loc="right", color=NOTE, size=8)
         if strip is not None:
-            _draw_strip(strip, run, shot, value, window, painter, page.panel_width, highest)
+            _plot_strip(strip, run, shot, value, window, painter, page.panel_width, highest)
             panel.set_xlabel("")
             panel.tick_params(labelbottom=False)
     bar = figure.colorbar(painter, cax=page.colourbar(), orientation="horizontal", extend=extend)
@@ -122,14 +131,14 @@ def _warning(run: Run, shot: Snapshot, painting: Painting) -> str:
         return too_hot(run, np.asarray(shot["temperature"])[wet], np.asarray(shot["pore_pressure"])[wet])
     if painting is PORE_PRESSURE and run.dimension == 2:
         ratio = np.asarray(shot["pore_pressure"]) / np.maximum(overburden(run, shot), 1.0)
-        return too_much_for_weight(ratio, EDGES)
+        return too_much_for_overburden(ratio, EDGES)
     return ""
 
 
 class _Page:
-    """Where everything stands on the page: sizes in inches from the top left corner."""
+    """Positions on the page, in inches from the top left corner."""
 
-    def __init__(self, run: Run, shots: list[Snapshot]) -> None:
+    def __init__(self, run: Run, shots: list[Snapshot], words: str) -> None:
         columns = 1 if len(shots) == 1 else 2
         self.columns = columns
         self.full = _WIDTH - _LEFT - _RIGHT
@@ -139,7 +148,10 @@ class _Page:
         shape = (high - low) * _OVERVIEW_MARGINS[1] / ((right - left) * _OVERVIEW_MARGINS[0])
         self.overview_height = float(np.clip(self.full * shape, 0.75, 1.7))
         self.bars_height = _BAR_HEIGHT * len(shots)
-        self.head = 0.6 + self.overview_height + self.bars_height + 0.95
+        title = f"{run.title}: {words}" + (f". {run.end_note.rstrip()}" if run.end_note else "")
+        self.title = wrapped(title, _TITLE_CHARACTERS * self.full)
+        self.top = 0.6 + _TITLE_LINE * (len(self.title) - 1)
+        self.head = self.top + self.overview_height + self.bars_height + 0.95
         self.row = _PANEL_HEIGHT + _ROW_GAP + (_STRIP_HEIGHT + 0.08 if self.strips else 0.0)
         self.foot = self.head + self.row * -(-len(shots) // columns)
         self.height = self.foot + 0.55
@@ -164,7 +176,7 @@ class _Page:
 
 
 def _domain(run: Run) -> tuple[float, float] | None:
-    """Return the stretch of x [m] a panel may show: where there is terrain, within the grid."""
+    """Return the range of x [m] that has terrain and is within the grid."""
     grid = run.section("grid")
     ends = []
     if isinstance(grid.get("min"), list) and isinstance(grid.get("max"), list):
@@ -188,7 +200,7 @@ def particle_size(run: Run, shot: Snapshot) -> Numbers:
 
 
 def above_ground(run: Run, shot: Snapshot) -> Numbers:
-    """Return how high [m] each particle stands above the terrain right below it; its elevation without terrain."""
+    """Return the height [m] of each particle above the terrain below it; its elevation without terrain."""
     heights: Numbers = shot.points[:, run.vertical]
     return heights if run.terrain is None else heights - np.interp(shot.points[:, 0], *run.terrain)
 
@@ -202,9 +214,9 @@ def _painted(
     painter: ScalarMappable,
     inches: tuple[float, float],
 ) -> PolyCollection:
-    # The material is one body across gaps narrower than a cell.
+    # Gaps narrower than a cell are not resolved by the model.
     cell = float(run.section("grid").get("cell", 0.0))
-    # In 3D the nearest particles (smallest y) are drawn last.
+    # In 3D the nearest particles (smallest y) are in front.
     order = np.argsort(-shot.points[:, 1], kind="stable") if run.dimension == 3 else np.arange(len(heights))
     particles = squares(shot.points[order, 0], heights[order], particle_size(run, shot)[order], window, inches, cell)
     particles.set_array(values[order])
@@ -213,7 +225,7 @@ def _painted(
     return particles
 
 
-def _draw_particles(
+def _plot_particles(
     axes: Axes,
     run: Run,
     shot: Snapshot,
@@ -228,12 +240,11 @@ def _draw_particles(
     axes.add_collection(_painted(run, shot, z, values, window, painter, (width, height)), autolim=False)
     window.apply(axes)
     outside = int(np.sum((x < window.left) | (x > window.right) | (z < window.bottom) | (z > window.top)))
-    if outside:
-        words = f"{outside} of {len(x)} particles outside"
-        axes.text(0.99, 0.97, words, transform=axes.transAxes, ha="right", va="top", size=7, color=NOTE)
+    words = window.note() + (f"\n{outside:,} of {len(x):,} particles outside" if outside else "")
+    axes.text(0.99, 0.97, words, transform=axes.transAxes, ha="right", va="top", size=7, color=NOTE, path_effects=HALO)
 
 
-def _draw_strip(
+def _plot_strip(
     axes: Axes,
     run: Run,
     shot: Snapshot,
@@ -243,7 +254,7 @@ def _draw_strip(
     width: float,
     highest: float,
 ) -> None:
-    """Draw the slide peeled off its terrain, so that its layers can be told apart however long it is."""
+    """Plot particles by their height above the terrain, which shows the layers of a long and thin deposit."""
     heights = above_ground(run, shot)
     lowest = min(0.0, extent(heights)[0])
     highest = max(highest, lowest + 1e-6)
@@ -251,19 +262,27 @@ def _draw_strip(
     axes.add_collection(_painted(run, shot, heights, values, flat, painter, (width, _STRIP_HEIGHT)), autolim=False)
     axes.axhline(0.0, color=GROUND_LINE, linewidth=0.9)
     flat.apply(axes)
-    axes.set_ylabel("above\nground (m)")
+    axes.set_ylabel("height above\nterrain (m)")
     axes.text(
-        0.99, 0.95, f"heights ×{stretch(axes):.2g}", transform=axes.transAxes, ha="right", va="top", size=7, color=NOTE
+        0.99,
+        0.95,
+        f"vertical exaggeration {vertical_exaggeration(axes):.2g}×",
+        transform=axes.transAxes,
+        ha="right",
+        va="top",
+        size=7,
+        color=NOTE,
+        path_effects=HALO,
     )
 
 
-def _draw_stretches(axes: Axes, stretches: Sequence[Stretch]) -> None:
-    """Draw a grey dotted line where a stretch begins and ends, and its name at the top of what is seen of it."""
+def _draw_zones(axes: Axes, zones: Sequence[Zone]) -> None:
+    """Draw a grey dotted line at each end of a zone, and its name at the top of its visible part."""
     left, right = axes.get_xlim()
-    for place in sorted({end for each in stretches for end in (each.start, each.end)}):
+    for place in sorted({end for each in zones for end in (each.start, each.end)}):
         if left < place < right:
             axes.axvline(place, color="#8A8A8A", linestyle=":", linewidth=1.1, zorder=2)
-    for each in stretches:
+    for each in zones:
         low, high = max(left, each.start), min(right, each.end)
         if high - low > 0.03 * (right - left):
             middle = 0.5 * (low + high)
@@ -272,7 +291,7 @@ def _draw_stretches(axes: Axes, stretches: Sequence[Stretch]) -> None:
 
 
 def _whole(run: Run, shots: list[Snapshot]) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the stretch of x and of height [m] that the overview shows."""
+    """Return the ranges of x and of elevation [m] of the overview."""
     ends = [extent(shot.points[:, 0]) for shot in shots]
     domain = _domain(run) or (min(end[0] for end in ends), max(end[1] for end in ends))
     heights = [extent(shot.points[:, run.vertical]) for shot in shots]
@@ -284,10 +303,10 @@ def _whole(run: Run, shots: list[Snapshot]) -> tuple[tuple[float, float], tuple[
     return (domain[0], max(domain[1], domain[0] + 1e-9)), (low, high)
 
 
-def _draw_overview(page: _Page, run: Run, shots: list[Snapshot], views: list[Window]) -> Axes:
-    """Draw the whole profile with the first and last state, and below it what each panel shows; return the profile."""
-    axes = page.place(_LEFT, 0.6, page.full, page.overview_height)
-    bars = page.place(_LEFT, 0.6 + page.overview_height, page.full, page.bars_height)
+def _plot_overview(page: _Page, run: Run, shots: list[Snapshot], views: list[Window]) -> Axes:
+    """Plot the profile with the first and last state, and below it the range of each panel; return its axes."""
+    axes = page.place(_LEFT, page.top, page.full, page.overview_height)
+    bars = page.place(_LEFT, page.top + page.overview_height, page.full, page.bars_height)
     inches = (page.full, page.overview_height)
     domain, heights = _whole(run, shots)
     window = fit(domain, heights, inches[0] / inches[1], None, _OVERVIEW_MARGINS)
@@ -301,19 +320,19 @@ def _draw_overview(page: _Page, run: Run, shots: list[Snapshot], views: list[Win
     axes.tick_params(labelbottom=False)
     states = f"grey: {time_text(run, shots[0])}, red: {time_text(run, shots[-1])}" if len(shots) > 1 else ""
     axes.set_title(
-        "; ".join(filter(None, (f"whole profile, {window.note()}", states, f"time: {run.clock.words}"))),
+        "; ".join(filter(None, (f"whole profile, {window.note()}", states, f"time: {run.time_reference.words}"))),
         loc="left",
         color=NOTE,
     )
 
     for number, (shot, view) in enumerate(zip(shots, views, strict=True)):
-        slide = extent(shot.points[:, 0])
+        covered = extent(shot.points[:, 0])
         bars.plot([view.left, view.right], [number, number], color="#D0D0D0", linewidth=4, solid_capstyle="butt")
-        bars.plot(slide, [number, number], color=GROUND_LINE, linewidth=4, solid_capstyle="butt")
+        bars.plot(covered, [number, number], color=GROUND_LINE, linewidth=4, solid_capstyle="butt")
     window.apply(bars)
     bars.set_ylim(len(shots) - 0.4, -0.6)
     bars.set_yticks(range(len(shots)), [f"({LETTERS[number]})" for number in range(len(shots))], size=6.5)
     bars.tick_params(axis="y", length=0)
     bars.set_ylabel("")
-    bars.xaxis.label.set_text(f"{bars.get_xlabel()}; bars: what each panel shows (light), where the slide is (dark)")
+    bars.xaxis.label.set_text(f"{bars.get_xlabel()}; bars: range of each panel (light), sliding mass (dark)")
     return axes

@@ -1,7 +1,8 @@
-"""What all figures share: type sizes, colours, units with prefixes, a line that one row can draw."""
+"""Common style of figures: type sizes, colours, titles, ticks with commas, lines over time, warnings."""
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Callable, Sequence
 from functools import wraps
@@ -14,13 +15,14 @@ from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from matplotlib.ticker import ScalarFormatter
 from numpy.typing import ArrayLike
 
 from thawslide.run import Numbers
 
 Arguments = ParamSpec("Arguments")
 
-# Okabe and Ito's colours, told apart by colour-blind readers.
+# Colours of Okabe and Ito, which colour-blind readers can distinguish.
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY, YELLOW, BLACK = (
     "#0072B2",
     "#E69F00",
@@ -33,6 +35,7 @@ BLUE, ORANGE, GREEN, RED, PURPLE, SKY, YELLOW, BLACK = (
 )
 COLUMN_WIDTH = 7.1  # inches: 180 mm, both columns of a journal's page; type keeps its size in print
 _TITLE_CHARACTER = 0.085  # inches, mean width at 10 points
+_NOTE_CHARACTER = 0.06  # inches, mean width at 7.5 points
 GROUND = "#D9D4CB"
 GROUND_LINE = "#6B6459"
 NOTE = "#555555"
@@ -63,58 +66,47 @@ STYLE: dict[str, Any] = {
 
 
 def styled(draw: Callable[Arguments, Figure]) -> Callable[Arguments, Figure]:
-    """Draw a figure in the common style, texts as they are, without touching matplotlib's settings outside."""
+    """Return a function that plots in the common style and leaves matplotlib's own settings as they are."""
 
     @wraps(draw)
     def inside(*arguments: Arguments.args, **named: Arguments.kwargs) -> Figure:
         with mpl.rc_context(cast(Any, STYLE)):
             figure = draw(*arguments, **named)
-            write_plainly(figure)
+            disable_formulas(figure)
+            for axes in figure.axes:
+                set_comma_ticks(axes)
             return figure
 
     return inside
 
 
-def write_plainly(artist: Artist) -> None:
-    """Write names and titles as they are: a pair of dollar signs in them is no formula. Labels of ticks may be one."""
+class CommaFormatter(ScalarFormatter):
+    """Format ticks with commas between thousands."""
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        """Return the label of a tick."""
+        text = str(super().__call__(x, pos))
+        return re.sub(r"^(\D*)(\d{4,})", lambda found: f"{found[1]}{int(found[2]):,}", text)
+
+
+def set_comma_ticks(axes: Axes) -> None:
+    """Put commas between thousands on the linear axes that have matplotlib's own ticks."""
+    for axis in (axes.xaxis, axes.yaxis):
+        if type(axis.get_major_formatter()) is ScalarFormatter:
+            axis.set_major_formatter(CommaFormatter(useOffset=False))
+
+
+def disable_formulas(artist: Artist) -> None:
+    """Show a pair of dollar signs in names and titles as such, not as a formula. Labels of ticks may be formulas."""
     for part in [artist.label] if isinstance(artist, Axis) else artist.get_children():
         if isinstance(part, Text):
             part.set_parse_math(False)
         else:
-            write_plainly(part)
-
-
-_PREFIXES = ((1e15, "P"), (1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"))
-
-
-def prefixed(values: ArrayLike, unit: str) -> tuple[float, str]:
-    """Return (divisor, unit with its SI prefix) that bring the largest finite value below 1000."""
-    numbers = np.abs(np.asarray(values, dtype=np.float64)).ravel()
-    numbers = numbers[np.isfinite(numbers)]
-    largest = float(numbers.max()) if numbers.size else 0.0
-    for size, prefix in _PREFIXES:
-        if largest >= size:
-            return size, prefix + unit
-    return 1.0, unit
-
-
-def volume_text(value: float) -> str:
-    """Return a volume [m3] in words."""
-    return f"{value / 1e6:.3g} million m³" if value >= 1e6 else f"{value:,.0f} m³"
-
-
-def area_text(value: float) -> str:
-    """Return an area [m2] in words."""
-    return f"{value / 1e6:.3g} km²" if value >= 1e5 else f"{value:,.0f} m²"
-
-
-def length_unit(span: float) -> tuple[float, str]:
-    """Return (divisor, unit) for an axis over `span` metres: km from 3 km up."""
-    return (1000.0, "km") if span >= 3000.0 else (1.0, "m")
+            disable_formulas(part)
 
 
 def time_line(axes: Axes, time: Numbers, values: ArrayLike, **style: Any) -> None:
-    """Draw values over time; a history of one row, or a value between gaps, gets a marker and so stays visible."""
+    """Plot values over time; a history of one row, or a value between gaps, has a marker to be visible."""
     numbers = np.asarray(values, dtype=np.float64)
     finite = np.concatenate(([False], np.isfinite(numbers), [False]))
     alone = finite[1:-1] & ~finite[:-2] & ~finite[2:]
@@ -134,15 +126,42 @@ def time_axis(axes: Axes, time: Numbers, label: str = "") -> None:
         axes.set_xlabel(label)
 
 
-def say(axes: Axes, text: str) -> None:
-    """Write why a panel is empty in its middle."""
+def explain_empty(axes: Axes, text: str) -> None:
+    """Write in the middle of a panel why it is empty."""
     axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=NOTE, wrap=True)
 
 
-def give_title(figure: Figure, words: str) -> None:
+def wrapped(words: str, characters: float) -> list[str]:
+    """Return lines of at most so many characters; a number is not separated from what follows it."""
+    joined = re.sub(r"(?<=\d) (?=\S)", "\N{NO-BREAK SPACE}", words)
+    lines = textwrap.wrap(joined, int(characters), break_on_hyphens=False)
+    return [line.replace("\N{NO-BREAK SPACE}", " ") for line in lines]
+
+
+def title_figure(figure: Figure, words: str) -> None:
     """Set the title of a figure with constrained layout, wrapped to its width."""
-    characters = int(figure.get_figwidth() / _TITLE_CHARACTER)
-    figure.suptitle("\n".join(textwrap.wrap(words, characters)), x=0.01, ha="left", size=10)
+    lines = wrapped(words, figure.get_figwidth() / _TITLE_CHARACTER)
+    figure.suptitle("\n".join(lines), x=0.01, ha="left", size=10)
+
+
+def mark_level(axes: Axes, values: Numbers, level: float, words: str) -> None:
+    """Draw a level as a dotted line with words at the end at which the values are farther from it."""
+    axes.axhline(level, color=NOTE, linewidth=0.8, linestyle=":")
+    span = max(int(_LABEL_SPAN * len(values)), 1)
+    left, right = (
+        float(np.min(np.abs(part - level), initial=np.inf, where=np.isfinite(part)))
+        for part in (values[:span], values[-span:])
+    )
+    axes.annotate(
+        words, (0.0 if left > right else 1.0, level), xycoords=("axes fraction", "data"), size=7.5, color=NOTE,
+        xytext=(4 if left > right else -4, 3), textcoords="offset points", ha="left" if left > right else "right",
+    )  # fmt: skip
+
+
+def note_below(figure: Figure, words: str) -> None:
+    """Write a note below the panels of a figure with constrained layout, wrapped to its width."""
+    lines = wrapped(words, figure.get_figwidth() / _NOTE_CHARACTER)
+    figure.supxlabel("\n".join(lines), x=0.01, ha="left", size=7.5, color=NOTE)
 
 
 def without_title(figure: Figure) -> Figure:
@@ -151,8 +170,8 @@ def without_title(figure: Figure) -> Figure:
     return figure
 
 
-def stretch(axes: Axes, unit: float = 1.0) -> float:
-    """Return how many times heights [m] are larger on the page than distances, in units of `unit` [m]."""
+def vertical_exaggeration(axes: Axes, unit: float = 1.0) -> float:
+    """Return the scale of heights [m] on the page over that of distances, which are in units of `unit` [m]."""
     figure = axes.get_figure()
     assert isinstance(figure, Figure)
     width, height = figure.get_size_inches() * axes.get_position().size
@@ -160,25 +179,27 @@ def stretch(axes: Axes, unit: float = 1.0) -> float:
     return float((right - left) * unit / width / ((top - low) / height))
 
 
-_WARNING = 0.3  # of the height of curves: room for a warning above them
+_LABEL_SPAN = 0.35  # of a panel, for the label of a level
+_WARNING = 0.3  # of the height of curves: space for a warning above them
 
 
 def warn(axes: Axes, words: str, high: bool = True) -> None:
-    """Write a warning across the top, or the bottom, of a panel, inside it; nothing for no words.
+    """Write a warning across the top or the bottom inside a panel; nothing for no words.
 
-    Above curves there is room made for it.
+    At the top, the limits of the panel are widened to make space above the curves.
     """
     if words:
         low, top = axes.get_ylim()
         axes.set_ylim(low, low + (1.0 + _WARNING * high) * (top - low))
+        text = "\n".join(wrapped(f"⚠ {words}", 46))
         axes.text(
-            0.5, 0.97 if high else 0.04, textwrap.fill(f"⚠ {words}", 46), transform=axes.transAxes, ha="center", size=8,
+            0.5, 0.97 if high else 0.04, text, transform=axes.transAxes, ha="center", size=8,
             va="top" if high else "bottom", color="#B00020", zorder=12, gid="warning",
             bbox={"facecolor": "white", "edgecolor": "#B00020", "alpha": 0.92, "linewidth": 0.8, "pad": 2.5},
         )  # fmt: skip
 
 
-def letters(axes: Sequence[Axes], titles: Sequence[str]) -> None:
-    """Title panels (a), (b), ... at their left."""
+def title_panels(axes: Sequence[Axes], titles: Sequence[str]) -> None:
+    """Give panels titles that begin with (a), (b), ..."""
     for letter, (panel, title) in zip("abcdefghijkl", zip(axes, titles, strict=True), strict=False):
         panel.set_title(f"({letter}) {title}", loc="left")

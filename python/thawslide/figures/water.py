@@ -1,4 +1,4 @@
-"""The water budget of band columns: content, intake, losses and the residual."""
+"""Water budget of band columns: content, gains, losses and residual."""
 
 from __future__ import annotations
 
@@ -16,33 +16,33 @@ from thawslide.figures.style import (
     PURPLE,
     RED,
     SKY,
-    give_title,
-    letters,
-    say,
+    explain_empty,
     styled,
     time_axis,
     time_line,
+    title_figure,
+    title_panels,
 )
 from thawslide.run import Numbers, Run
 
-HELD = {"column_intake_kg": ("laid and taken in", BLACK), "column_water_kg": ("ice and water in columns", BLUE)}
-LOST = {
+CONTENT = {"column_water_kg": ("ice and water in columns", BLUE), "column_intake_kg": ("gained from the body", BLACK)}
+LOSSES = {
     "column_vented_kg": ("vented", GREEN),
-    "column_steam_kg": ("gone as steam", RED),
-    "column_left_kg": ("left with columns", PURPLE),
+    "column_steam_kg": ("steam", RED),
+    "column_left_kg": ("removed with segments", PURPLE),
 }
-SPACES = {"column_opening_m3": ("opened along the base", SKY), "column_void_m3": ("gas in pores", ORANGE)}
+VOIDS = {"column_opening_m3": ("openings along the base", SKY), "column_void_m3": ("gas in pores", ORANGE)}
 RESIDUAL = "column_water_residual_kg"
 
 
 def relative_water_residual(run: Run) -> Numbers | None:
-    """Return |residual| over the largest amount of any account, or None where nothing is in any."""
-    largest = max(float(np.nanmax(np.abs(run.history[name]))) for name in HELD | LOST)
+    """Return |residual| over the maximum of any term, or None if all are zero."""
+    largest = max(float(np.nanmax(np.abs(run.history[name]))) for name in CONTENT | LOSSES)
     return np.abs(run.history[RESIDUAL]) / largest if largest > 0.0 else None
 
 
 def scaled(largest: float, steps: tuple[tuple[float, str], ...]) -> tuple[float, str]:
-    """Return (divisor, unit) of the first step that a value reaches, or of the last."""
+    """Return (divisor, unit) of the first step that a value attains, or of the last."""
     return next((step for step in steps if largest >= step[0]), steps[-1])
 
 
@@ -50,14 +50,16 @@ MASSES = ((1e9, "million t"), (1e6, "thousand t"), (1e3, "t"), (1.0, "kg"))
 VOLUMES = ((1e6, "million m³"), (1e3, "thousand m³"), (1.0, "m³"))
 
 
-def _draw(
-    axes: Axes, run: Run, accounts: dict[str, tuple[str, str]], quantity: str, steps: tuple[tuple[float, str], ...]
+def _plot_terms(
+    axes: Axes, run: Run, terms: dict[str, tuple[str, str]], quantity: str, steps: tuple[tuple[float, str], ...]
 ) -> None:
-    """Draw accounts over time, each in its colour, in a unit that suits the largest of them."""
-    largest = max(float(np.nanmax(np.abs(run.history[name]))) for name in accounts)
+    """Plot terms over time in a unit that suits the largest of them."""
+    largest = max(float(np.nanmax(np.abs(run.history[name]))) for name in terms)
     divisor, unit = scaled(largest, steps)
-    for name, (words, colour) in accounts.items():
-        time_line(axes, run.shown_time, run.history[name] / divisor, color=colour, label=words)
+    for number, (name, (words, colour)) in enumerate(terms.items()):
+        # Later lines are dashed, because they can coincide with earlier ones.
+        style = {"color": colour, "linestyle": (0, (4, 2)) if number and terms is CONTENT else "-", "label": words}
+        time_line(axes, run.shown_time, run.history[name] / divisor, **style)
     axes.set_ylabel(f"{quantity} ({unit}{'/m of width' if run.per_metre else ''})")
     axes.axhline(0.0, color="#BBBBBB", linewidth=0.8, zorder=0)
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
@@ -65,32 +67,28 @@ def _draw(
 
 @styled
 def water(run: Run) -> Figure:
-    """Draw (a) what columns hold and took in, (b) what they lost, (c) openings and voids, (d) the residual."""
+    """Plot (a) content and gain of columns, (b) losses, (c) openings and gas in pores, (d) the residual."""
     if not run.has_band_columns:
-        raise NotInRunError("the band is not of columns: history.csv has no account of its water")
+        raise NotInRunError("history.csv: no water budget (found no band columns).")
     time = run.shown_time
     figure = Figure(figsize=(COLUMN_WIDTH, 7.2), layout="constrained")
-    give_title(figure, run.titled("water of the band"))
-    held, lost, spaces, residual = panels = list(figure.subplots(4, 1, sharex=True, height_ratios=(1.2, 1.0, 1.0, 0.7)))
-    _draw(held, run, HELD, "mass", MASSES)
-    _draw(lost, run, LOST, "mass", MASSES)
-    _draw(spaces, run, SPACES, "volume", VOLUMES)
+    title_figure(figure, run.titled("water budget of the band"))
+    panels = list(figure.subplots(4, 1, sharex=True, height_ratios=(1.2, 1.0, 1.0, 0.7)))
+    content, losses, voids, residual = panels
+    _plot_terms(content, run, CONTENT, "mass", MASSES)
+    _plot_terms(losses, run, LOSSES, "mass", MASSES)
+    _plot_terms(voids, run, VOIDS, "volume", VOLUMES)
     relative = relative_water_residual(run)
-    residual.set_ylabel("|residual| / largest")
+    residual.set_ylabel("relative residual")
     if relative is not None and np.any(relative > 0.0):
         time_line(residual, time, np.where(relative > 0.0, relative, np.nan), color=BLUE, linewidth=0.8, markersize=2)
         residual.set_yscale("log")
     else:
-        say(residual, "no residual: no water yet, or it is exactly zero")
+        explain_empty(residual, "residual is zero")
     for axes in panels:
-        time_axis(axes, time, run.clock.label if axes is residual else "")
-    letters(
+        time_axis(axes, time, run.time_reference.label if axes is residual else "")
+    title_panels(
         panels,
-        (
-            "ice and water that columns hold, and what they took in",
-            "what they lost",
-            "openings along the base where P = N, and pores that water has left",
-            "residual, relative to the largest account",
-        ),
+        ("water content and gain", "losses", "openings along the base (P = N) and gas in pores", "residual"),
     )
     return figure

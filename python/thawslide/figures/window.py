@@ -1,4 +1,4 @@
-"""The part of a section a panel shows, and how terrain and particles are drawn in it."""
+"""Visible part of a section, and terrain and particles in it."""
 
 from __future__ import annotations
 
@@ -10,16 +10,17 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 
-from thawslide.figures.style import GROUND, GROUND_LINE, length_unit
+from thawslide.figures.style import GROUND, GROUND_LINE
+from thawslide.number_text import exact_text, length_unit
 from thawslide.run import Numbers
 
 _EXAGGERATIONS = (1, 2, 3, 5, 10, 20, 50, 100)
-_SMALLEST_DRAWN = 0.8 / 72.0  # inches: below this a particle would vanish between pixels
+_SMALLEST_DRAWN = 0.8 / 72.0  # inches: smaller particles would vanish between pixels
 
 
 @dataclass(frozen=True)
 class Window:
-    """A rectangle of the section [m], drawn with its heights stretched `exaggeration` times."""
+    """A rectangle of the section [m] with a vertical exaggeration."""
 
     left: float
     right: float
@@ -28,8 +29,8 @@ class Window:
     exaggeration: int
 
     def note(self) -> str:
-        """Say how heights are drawn."""
-        return "true scale" if self.exaggeration == 1 else f"heights ×{self.exaggeration}"
+        """Return the vertical exaggeration in words."""
+        return "true scale" if self.exaggeration == 1 else f"vertical exaggeration {self.exaggeration}×"
 
     def apply(self, axes: Axes) -> None:
         """Set the limits, the tick labels in m or km and their names."""
@@ -45,11 +46,11 @@ class Window:
 
 
 def _divided_by(divisor: float) -> Callable[[float, float], str]:
-    return lambda value, place: f"{value / divisor:g}".replace("-", "−")
+    return lambda value, place: exact_text(value / divisor)
 
 
 def extent(values: Numbers) -> tuple[float, float]:
-    """Return the range that all but the outermost 0.1 % of values on either side lie in."""
+    """Return the range of values without the outermost 0.1 % on either side."""
     finite = values[np.isfinite(values)]
     if not finite.size:
         return 0.0, 1.0
@@ -64,16 +65,16 @@ def fit(
     domain: tuple[float, float] | None,
     margins: tuple[float, float] = (1.16, 1.3),
 ) -> Window:
-    """Return the window of width : height `box` on the page that shows x and z [m], each widened by its margin.
+    """Return the window of width : height `box` on the page that contains x and z [m], each widened by its margin.
 
-    Heights are stretched only where the section is so long and flat that it would otherwise be a hairline. A window
-    that reaches past an end of the domain is pushed back in.
+    The vertical exaggeration is above 1 only for sections too long and flat to be visible at true scale. A window
+    that extends past an end of the domain is shifted into it.
     """
     width = max(x[1] - x[0], 1e-9) * margins[0]
     height = max(z[1] - z[0], 0.02 * width) * margins[1]
-    stretch = width / (height * box)
-    exaggeration = max([1] + [e for e in _EXAGGERATIONS if e <= stretch * (1 + 1e-9)])
-    if stretch >= 1.0:
+    flatness = width / (height * box)
+    exaggeration = max([1] + [e for e in _EXAGGERATIONS if e <= flatness * (1 + 1e-9)])
+    if flatness >= 1.0:
         height = width / (box * exaggeration)
     else:
         width = height * box
@@ -85,7 +86,7 @@ def fit(
 
 
 def fill_terrain(axes: Axes, terrain: tuple[Numbers, Numbers] | None, floor: float) -> None:
-    """Fill the ground from its surface down to `floor` [m]; nothing without terrain."""
+    """Fill the terrain from its surface down to `floor` [m]; nothing without terrain."""
     if terrain is None:
         return
     x, z = terrain
@@ -96,9 +97,9 @@ def fill_terrain(axes: Axes, terrain: tuple[Numbers, Numbers] | None, floor: flo
 def squares(
     x: Numbers, z: Numbers, size: Numbers, window: Window, inches: tuple[float, float], widest_gap: float = 0.0
 ) -> PolyCollection:
-    """Return particles as squares of their real size [m], but never too small to be seen on `inches` of page.
+    """Return particles as squares of their size [m], enlarged if necessary to be visible on `inches` of page.
 
-    They are at least `widest_gap` [m] wide: narrower gaps between them would look like cracks.
+    Their minimum width is `widest_gap` [m]: narrower gaps between them would look like cracks.
     """
     size_across = np.maximum(size, widest_gap)
     half_width = 0.5 * np.maximum(size_across, _SMALLEST_DRAWN * (window.right - window.left) / inches[0])

@@ -1,4 +1,4 @@
-"""One clock for all figures of a run: what a target start_velocity sets, and the run's own otherwise."""
+"""Common time reference of all figures of a run: a target start_velocity, or the start of the run."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SHIFT = 40.0 - 10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0))  # s: 12 sin2(pi t/
 
 @pytest.fixture
 def folder(make_run: MakeRun) -> Path:
-    """Return a run whose targets set the clock."""
+    """Return a run whose targets align its times."""
     made = make_run()
     (made / "inputs" / "targets.csv").write_text(
         "quantity,time_s,value,unit,source\nstart_velocity,40,8,m/s,x\nmean_velocity,42,9,m/s,x\n"
@@ -36,47 +36,51 @@ def labels_of_time(figure: Figure) -> set[str]:
 
 
 @pytest.mark.parametrize("name", OVER_TIME)
-def test_all_curves_of_a_run_are_on_the_clock_of_its_reported_values(folder: Path, name: str) -> None:
+def test_all_curves_have_aligned_times(folder: Path, name: str) -> None:
     run = Run(folder)
-    figure = FIGURES[name].draw(run)
+    figure = FIGURES[name].plot(run)
     assert labels_of_time(figure) == {"time (s), mean velocity 8 m/s at 40 s"}
-    drawn = [line for axes in figure.axes for line in axes.lines if len(line.get_xdata()) == run.history.rows]
-    assert drawn
-    for line in drawn:
+    curves = [line for axes in figure.axes for line in axes.lines if len(line.get_xdata()) == run.history.rows]
+    assert curves
+    for line in curves:
         np.testing.assert_allclose(line.get_xdata(), run.history["time_s"] + SHIFT, atol=2e-3)
 
 
-def test_reported_values_are_drawn_at_their_own_times(folder: Path) -> None:
-    speed = FIGURES["motion"].draw(Run(folder)).axes[0]
+def test_reported_values_have_their_own_times(folder: Path) -> None:
+    speed = FIGURES["motion"].plot(Run(folder)).axes[0]
     (marks,) = [line for line in speed.lines if str(line.get_label()).startswith("reported")]
     np.testing.assert_array_equal(marks.get_data(), [[42.0], [9.0]])
-    (curve,) = [line for line in speed.lines if line.get_label() == "mean (of mass)"]
+    (curve,) = [line for line in speed.lines if line.get_label() == "mean (mass-weighted)"]
     assert np.interp(40.0, *curve.get_data()) == pytest.approx(8.0, abs=0.01)
 
 
-def test_snapshots_name_the_times_of_the_same_clock(folder: Path) -> None:
+def test_snapshots_have_aligned_times(folder: Path) -> None:
     case = folder / "case.toml"
     case.write_text(case.read_text().replace("times = [0.0, 4.0, 7.4]", "times = [0.0, 41.0, 44.4]"))
     run = Run(folder)
-    titles = [axes.get_title(loc="left") for axes in FIGURES["velocity"].draw(run).axes]
+    titles = [axes.get_title(loc="left") for axes in FIGURES["velocity"].plot(run).axes]
     assert any(title.endswith("; time: mean velocity 8 m/s at 40 s") for title in titles)
     found = [float(match[1]) for title in titles if (match := re.match(r"\(.\) t = ([\d.]+) s", title))]
     assert found == pytest.approx([SHIFT, SHIFT + 4.0, SHIFT + 7.0], abs=0.05)
 
 
-def test_the_page_has_the_clock_of_its_figures(folder: Path) -> None:
+def test_page_has_the_times_of_its_figures(folder: Path) -> None:
     (peak,) = [row for row in key_numbers(Run(folder)) if row.words == "Peak mean velocity"]
     assert float(peak.remark.split()[1]) == pytest.approx(5.0 + SHIFT, abs=0.06)
 
 
-def test_columns_of_a_band_are_on_the_same_clock(folder: Path) -> None:
+def test_figures_of_band_columns_have_aligned_times(folder: Path) -> None:
     write_history(folder / "history.csv", column_history())
     run = Run(folder)
     for name in ("band", "water"):
-        assert labels_of_time(FIGURES[name].draw(run)) == {run.clock.label} == {"time (s), mean velocity 8 m/s at 40 s"}
+        assert (
+            labels_of_time(FIGURES[name].plot(run))
+            == {run.time_reference.label}
+            == {"time (s), mean velocity 8 m/s at 40 s"}
+        )
 
 
-def test_without_such_a_target_or_speed_times_count_from_the_start(
+def test_times_begin_at_the_start_without_a_target_or_its_velocity(
     make_run: MakeRun,
 ) -> None:
     for value in ("mean_velocity,42,9", "start_velocity,40,99"):
@@ -84,7 +88,7 @@ def test_without_such_a_target_or_speed_times_count_from_the_start(
         (folder / "inputs" / "targets.csv").write_text(f"quantity,time_s,value,unit\n{value},m/s\n")
         run = Run(folder)
         np.testing.assert_array_equal(run.shown_time, run.history["time_s"])
-        assert labels_of_time(FIGURES["motion"].draw(run)) == {"time (s), 0 at the start of the run"}
+        assert labels_of_time(FIGURES["motion"].plot(run)) == {"time (s), 0 at the start of the run"}
 
 
 @pytest.mark.parametrize(
@@ -92,7 +96,7 @@ def test_without_such_a_target_or_speed_times_count_from_the_start(
     sorted((ROOT / "cases").glob("**/*targets*.csv")),
     ids=lambda path: path.parent.name,
 )
-def test_sources_of_cases_are_publications_and_legends_name_them(make_run: MakeRun, path: Path) -> None:
+def test_sources_of_cases_are_publications_in_legends(make_run: MakeRun, path: Path) -> None:
     targets = read_targets(path)
     assert targets
     for target in targets:
@@ -105,7 +109,7 @@ def test_sources_of_cases_are_publications_and_legends_name_them(make_run: MakeR
     )
     write_history(folder / "history.csv", columns)
     (folder / "inputs" / "targets.csv").write_text(path.read_text(encoding="utf-8"), encoding="utf-8")
-    speed, _ = FIGURES["motion"].draw(Run(folder)).axes
+    speed, _ = FIGURES["motion"].plot(Run(folder)).axes
     of_speed = {target.source for target in targets if target.quantity == "mean_velocity"}
     marks = {str(line.get_label()) for line in speed.lines if str(line.get_label()).startswith("modelled: ")}
     assert marks == {f"modelled: {source}" for source in of_speed}
@@ -116,9 +120,9 @@ def test_two_reported_forces_of_one_value_can_be_distinguished(make_run: MakeRun
     (folder / "inputs" / "targets.csv").write_text(
         "quantity,time_s,value,unit,source\nmax_seismic_force,5,280,GN,One\nmax_seismic_force_2_8_s,5,280,GN,Two\n"
     )
-    size = FIGURES["force"].draw(Run(folder)).axes[0]
+    size = FIGURES["force"].plot(Run(folder)).axes[0]
     one, two = (found for found in size.lines if "maximum" in str(found.get_label()))
     np.testing.assert_array_equal(one.get_ydata(), two.get_ydata())
-    (passed,) = (found for found in size.lines if "band-passed" in str(found.get_label()))
+    (passed,) = (found for found in size.lines if "band-pass" in str(found.get_label()))
     assert one.get_color() != two.get_color() == passed.get_color()
     assert one._unscaled_dash_pattern == (0.0, (4.0, 4.0)) and two._unscaled_dash_pattern == (4.0, (4.0, 4.0))
