@@ -116,8 +116,8 @@ def test_rows_are_met_by_the_median_and_pressure_by_every_member() -> None:
 def test_verdict_lists_rows_that_are_met_and_not_met() -> None:
     assert verdict([GOOD, GOOD]).endswith("Not met: none.")
     assert verdict([GOOD, GOOD]).startswith(
-        "Met:\n\n- observations: 3 of 3 (runout; force, band-passed 35 to 150 s (the band is assumed); vertical force, 10 "
-        "to 200 s)\n- results of other models: 4 of 4 (peak "
+        "Met:\n\n- observations: 3 of 3 (runout; force, band-passed 35 to 150 s (the band is assumed); vertical force, "
+        "10 to 200 s)\n- results of other models: 4 of 4 (peak "
     )
     words = verdict([changed(peak=60.0, ratio=1.2), GOOD, changed(peak=70.0, failure="it\nleft")])
     assert "- results of other models: 3 of 4 (from 8 m/s to the peak; " in words
