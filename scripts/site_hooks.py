@@ -94,7 +94,7 @@ def styled(match):
 
 
 def formula(match):
-    """Return a formula in MathML, its number beside it."""
+    """Return a formula in MathML, followed by its number."""
     kind, latex = match[1], html.unescape(match[2])
     tag = TAG.search(latex)
     latex = TAG.sub("", latex).replace("{aligned}", "{split}").strip()

@@ -45,8 +45,7 @@ std::string of_hot(double time) {
   const double load = physics::saturation_pressure(beyond_belief) - physics::Steam<double>::atmosphere;
   return fmt::format(
       "warning: at {:g} s the hottest column of the base passes {:g} C, where water boils under {:.1f} MPa: there the "
-      "load "
-      "is more than that, or the water is gone; docs/choosing-the-base.md.",
+      "load is more than that, or the water is gone; docs/choosing-the-base.md.",
       time, beyond_belief, load / 1e6);
 }
 

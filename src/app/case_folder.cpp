@@ -137,10 +137,11 @@ config::EdgeTaper taper_edges(config::Case& trial, const config::Site& site) {
   if (taper.is_cramped()) {
     const auto degrees = [](double rise) { return std::atan(rise) * 180.0 / std::numbers::pi; };
     fmt::print(
-        "warning: --cut: the edges of the cut should be ramps {:g} m wide, and there is room for {:g} m, as the "
-        "release "
-        "is narrow or near the end of what the DEM knows; they rise by up to {:.0f} degrees against the "
-        "terrain, which falls by {:.0f}, and may hold the slide back. --on-top has no such edges\n",
+        "warning: --cut: the edges of the cut are too narrow, because the release is narrow or near the edge of the "
+        "known "
+        "terrain (found {1:g} m; needed {0:g} m). They rise by up to {2:.0f} degrees against the terrain, which falls "
+        "by "
+        "{3:.0f} degrees, and may stop the slide. Use --on-top, which has no such edges\n",
         taper.wanted, taper.width, degrees(taper.steepest), degrees(taper.slope));
   }
   trial.bodies.at(body_name).taper = taper.width;

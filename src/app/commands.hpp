@@ -79,7 +79,7 @@ struct SectionOptions {
 int make_section(const SectionOptions& options);
 
 struct DescribeOptions {
-  bool json = false, markdown = false, schema = false;
+  bool json = false, markdown = false, schema = false, outputs = false;
 };
 int describe_parameters(const DescribeOptions& options);
 

@@ -28,7 +28,7 @@ void require_no_input_in(const fs::path& folder, const config::Case& parameters)
     if (!relative.empty() && *relative.begin() != "..") {
       throw UserError(fmt::format("{} lies in the output folder {}. Give another --output{}.", input.string(),
                                   folder.string(),
-                                  fs::exists(folder / "run.json") ? ", or go on with that run: thawslide resume" : ""));
+                                  fs::exists(folder / "run.json") ? ", or continue that run: thawslide resume" : ""));
     }
   }
 }

@@ -1,4 +1,4 @@
-// Command line: options, commands and exit codes (listed in ARCHITECTURE.md).
+// Command line: options, commands and exit codes (listed in docs/reference/command-line.md).
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cmath>
@@ -205,11 +205,12 @@ int run_program(int count, char** arguments) {
   section->callback([&] { exit_code = make_section(section_options); });
 
   DescribeOptions describe_options;
-  CLI::App* describe = program.add_subcommand("describe", "The reference of the case file");
+  CLI::App* describe = program.add_subcommand("describe", "The reference of the case file, or of the output of a run");
   auto* forms = describe->add_option_group("form");
   forms->add_flag("--json", describe_options.json, "As JSON");
   forms->add_flag("--md", describe_options.markdown, "As Markdown");
   forms->add_flag("--schema", describe_options.schema, "As a JSON schema, for editors");
+  forms->add_flag("--outputs", describe_options.outputs, "Columns, datasets and maps of a run, as Markdown");
   forms->require_option(0, 1);
   describe->callback([&] { exit_code = describe_parameters(describe_options); });
 

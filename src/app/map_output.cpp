@@ -92,7 +92,7 @@ void write_ground_maps(const fs::path& folder, const config::Site& site) {
   if (site.ground == nullptr) {
     return;
   }
-  write_map(folder, "terrain", *site.ground, {"m", "ground that the slide moves on"});
+  write_map(folder, terrain_map.name, *site.ground, {terrain_map.unit, terrain_map.description});
   Raster release = site.ground->filled(0.0);
   for (const auto& [name, body] : site.releases) {
     const Raster& thickness = body.thickness;
@@ -105,8 +105,8 @@ void write_ground_maps(const fs::path& folder, const config::Site& site) {
       }
     }
   }
-  write_map(folder, "release", release, {"m", "thickness of the release, vertical"});
-  write_style(folder, "release", release, "m", 0.0);
+  write_map(folder, release_map.name, release, {release_map.unit, release_map.description});
+  write_style(folder, release_map.name, release, release_map.unit, 0.0);
 }
 
 void write_maps(const fs::path& folder, const sim::RunRecords<3>& records, const std::vector<FrontAt>& fronts,

@@ -18,7 +18,16 @@ struct FrontAt {
 // True if this build can write maps, which requires GDAL.
 [[nodiscard]] bool can_write_maps();
 
-// Writes terrain and release thickness; nothing without a ground raster.
+// A map on the points of the DEM, written at the start.
+struct GroundMap {
+  const char* name;
+  const char* unit;
+  const char* description;
+};
+inline constexpr GroundMap terrain_map{"terrain", "m", "elevation of the terrain on which the material slides"};
+inline constexpr GroundMap release_map{"release", "m", "vertical thickness of the release"};
+
+// Writes both of these; nothing without a ground raster.
 void write_ground_maps(const std::filesystem::path& folder, const config::Site& site);
 
 // Writes the current maps and replaces earlier ones. Each file is replaced atomically. when: label of the last state

@@ -1,4 +1,4 @@
-// Output files of a run, written during the run (ARCHITECTURE.md lists them).
+// Output files of a run, written during the run (docs/reference/outputs.md lists them).
 #pragma once
 
 #include <chrono>

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "app/commands.hpp"
+#include "app/describe_outputs.hpp"
 #include "app/input_guard.hpp"
 #include "app/map_files.hpp"
 #include "base/error.hpp"
@@ -102,8 +103,7 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Wa
   if (beyond != rows.end()) {
     fmt::print(
         "warning: the path's ground is known for {:.6g} m; the front leaves it at {:.4g} s, and the rows end before. "
-        "Give "
-        "{} to follow it further\n",
+        "Give {} to follow it further\n",
         end, value_of(*beyond, "time_s"), section.path_given ? "a longer maps.path, or a larger DEM," : "a larger DEM");
     // The first row is kept: the ground is known below the whole release.
     rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
@@ -127,8 +127,7 @@ std::vector<sim::HistoryRow> block_on_profile(const config::Case& parameters) {
   if (beyond != rows.end()) {
     fmt::print(
         "warning: the profile is known from {:.6g} to {:.6g} m; the front leaves it at {:.4g} s, and the rows end "
-        "before. "
-        "Give a longer profile, or set terrain.extend = true, to follow it further\n",
+        "before. Give a longer profile, or set terrain.extend = true, to follow it further\n",
         first, last, value_of(*beyond, "time_s"));
     rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
   }
@@ -169,6 +168,7 @@ int describe_parameters(const DescribeOptions& options) {
   fmt::print("{}", options.json       ? config::describe_json()
                    : options.markdown ? config::describe_markdown()
                    : options.schema   ? config::schema_json()
+                   : options.outputs  ? describe_outputs()
                                       : config::describe_text());
   return static_cast<int>(ExitCode::done);
 }

@@ -16,7 +16,7 @@ THAWSLIDE_HD Real pressure_change(const Sums& sums, Real dt) {
              : Real(0);
 }
 
-// Seepage taken up by frozen pores at a node [Pa m3]: pressure change of the node times their pore space.
+// Seepage absorbed by frozen pores at a node [Pa m3]: pressure change of the node times their pore space.
 template <class Real, class Sums>
 THAWSLIDE_HD Real taken_by_frozen(const Sums& sums, Real change) {
   return (sums[mpm::Seepage::pore_space] - sums[mpm::Seepage::seeping]) * change;

@@ -12,7 +12,7 @@
 
 namespace thawslide {
 
-// Exit codes of the program (ARCHITECTURE.md).
+// Exit codes of the program.
 enum class ExitCode : int {
   done = 0,
   user_mistake = 2,

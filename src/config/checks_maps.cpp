@@ -22,8 +22,7 @@ void check_dem(const Case& checked, Reading& reading) {
   if (checked.general.dimension != 3) {
     reading.report_misfit({"terrain.type", "case.dimension"},
                           "terrain.type is \"dem\", and case.dimension is 2; a DEM is the ground of a 3D case. Set "
-                          "case.dimension = 3, or "
-                          "cut a 2D case out of the DEM with `thawslide section`.");
+                          "case.dimension = 3, or cut a 2D case out of the DEM with `thawslide section`.");
   }
   if (reading.sound({"terrain.representation"}) && checked.terrain.form == TerrainForm::rigid_points) {
     reading.report_misfit(

@@ -106,14 +106,14 @@ std::vector<Parameter<Guards>> guard_parameters() {
                 {.key = "removed_mass",
                  .range = between(0, 1),
                  .text = "share of all mass that guards may remove before the run ends after all"}),
-      parameter(&Guards::energy_growth,
-                {.key = "energy_growth",
-                 .range = {.low = 0, .low_open = true, .infinity_allowed = true},
-                 .text = "growth of energy without a cause within some 500 steps, as a share of the energy so far (at "
-                         "least of a fall by a "
-                         "cell), that ends the run, looked at every 10 steps; inf: any. The step makes "
-                         "such energy, not a particle: there is none to "
-                         "remove"}),
+      parameter(
+          &Guards::energy_growth,
+          {.key = "energy_growth",
+           .range = {.low = 0, .low_open = true, .infinity_allowed = true},
+           .text = "growth of energy without a cause within some 500 steps, as a share of the energy so far (at "
+                   "least of a fall by a cell), that ends the run, looked at every 10 steps; inf: any. The step makes "
+                   "such energy, not a particle: there is none to "
+                   "remove"}),
       parameter(&Guards::smallest_step,
                 {.key = "smallest_step",
                  .range = {.low = 0, .high = 1, .high_open = true},

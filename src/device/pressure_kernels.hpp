@@ -45,7 +45,7 @@ struct SetSeepingPressure {
   }
 };
 
-// Nodal pressure change by seepage; sums the water taken up by frozen pores. If no particle in reach of a node seeps,
+// Nodal pressure change by seepage; sums the water absorbed by frozen pores. If no particle in reach of a node seeps,
 // the sums contain only pore space, and the change is zero.
 template <int Dim, class Real>
 struct SolveSeepage {

@@ -321,8 +321,7 @@ std::string place_warning(const Located& raster, const std::string& wkt) {
   }
   return fmt::format(
       "the middle of {} would be at longitude {:.4g}, latitude {:.4g} in {}, which is for longitudes {:.4g} to {:.4g} "
-      "and "
-      "latitudes {:.4g} to {:.4g}: is it the right system? If not, set terrain.crs to the one the numbers are in",
+      "and latitudes {:.4g} to {:.4g}: is it the right system? If not, set terrain.crs to the one the numbers are in",
       std::filesystem::path(raster.file).filename().string(), longitude, latitude, name_of(wkt), west, east, south,
       north);
 }

@@ -65,7 +65,7 @@ Snapshot take_snapshot(const mpm::Particles<Dim, Real>& particles, const Vector<
     }
   }
   for (const mpm::FieldBase* field : particles.fields.all()) {
-    if (field->info().in_snapshot) {
+    if (field->info().in_snapshot()) {
       snapshot.fields.push_back(copy_field(*field, order));
     }
   }
@@ -116,7 +116,7 @@ std::size_t snapshot_bytes_of_particle() {
   const mpm::Particles<Dim, double> particles;
   std::size_t numbers = 3 + 2;  // coordinates, and two numbers of the vertex
   for (const mpm::FieldBase* field : particles.fields.all()) {
-    numbers += field->info().in_snapshot ? written_components(field->info().shape) : 0;
+    numbers += field->info().in_snapshot() ? written_components(field->info().shape) : 0;
   }
   return numbers * sizeof(double);
 }

@@ -28,8 +28,10 @@ struct FieldInfo {
   const char* name;
   const char* unit;
   FieldShape shape = FieldShape::scalar;
-  bool in_snapshot = false;
+  const char* meaning = nullptr;  // for the reference of snapshots; null: the field is not in snapshots
   bool in_checkpoint = true;
+
+  [[nodiscard]] bool in_snapshot() const { return meaning != nullptr; }
 };
 
 class FieldBase {

@@ -73,8 +73,8 @@ void require_volume(const config::Case& parameters, const std::string& name, con
   if (shape.release() && !(seeded >= (1.0 - release_tolerance) * shape.volume())) {
     throw UserError(fmt::format(
         "{}: body '{}' has a volume of {:.6g} m3, and {:.3g} % of it lies at its rim or where it is thinner than a "
-        "tenth "
-        "of the distance of its particles, which is {} m: they cannot hold it there. Allowed: {:g} %. Make grid.cell "
+        "tenth of the distance of its particles, which is {} m: they cannot hold it there. Allowed: {:g} %. Make "
+        "grid.cell "
         "smaller or particles_per_axis larger, or the body thicker.",
         config::place_of(parameters, "body." + name), name, shape.volume(), 100.0 * (1.0 - seeded / shape.volume()),
         spacing, 100.0 * release_tolerance));
@@ -82,8 +82,8 @@ void require_volume(const config::Case& parameters, const std::string& name, con
   if (!(std::abs(1.0 / share - 1.0) <= volume_tolerance)) {
     throw UserError(fmt::format(
         "{}: body '{}' has a volume of {:.6g} {}, and its {} particles, which stand {} m apart, {:.6g}; allowed: "
-        "within "
-        "{:g} %. Put its corners on multiples of the spacing, or make grid.cell smaller or particles_per_axis larger.",
+        "within {:g} %. Put its corners on multiples of the spacing, or make grid.cell smaller or particles_per_axis "
+        "larger.",
         config::place_of(parameters, "body." + name), name, shape.volume(), Dim == 2 ? "m3 per m" : "m3",
         seeds.size() - first, spacing, seeded, 100.0 * volume_tolerance));
   }

@@ -33,8 +33,7 @@ std::string volume_warning(const config::Case& parameters, const BodyFigures& bo
   const std::string key = "body." + body.name;
   return fmt::format(
       "{}: {} has {:.6g} {}; its particles, which stand {:g} m apart and are what slides, have {:.6g}, {:.2g} % {}. "
-      "Put its "
-      "corners on multiples of that distance, or make grid.cell smaller.",
+      "Put its corners on multiples of that distance, or make grid.cell smaller.",
       config::place_of(parameters, key), key, body.shape_volume,
       parameters.general.dimension == 2 ? "m3 per m of width" : "m3", body.spacing, body.volume, 100.0 * std::abs(more),
       more > 0.0 ? "more" : "less");
@@ -93,8 +92,7 @@ std::string band_warning(const config::Case& parameters, const BodyFigures& body
   }
   return fmt::format(
       "{}: band.thickness is {} m: more than the body {}, {:.3g} m thick in the median. The band is the part of a "
-      "slide "
-      "that shears at its base: usual is 0.01 to 2 m.",
+      "slide that shears at its base: usual is 0.01 to 2 m.",
       config::place_of(parameters, "band.thickness"), thickest, body.name, body.median_thickness);
 }
 

@@ -186,8 +186,7 @@ std::string warning_of_path(const config::Case& parameters, const config::Site& 
   }
   return fmt::format(
       "maps.path: {} passes the release by, {:.3g} m away. Front, travel distance and reach angle are measured along "
-      "it "
-      "all the same. Draw it through the release.",
+      "it all the same. Draw it through the release.",
       config::shown(std::filesystem::path(parameters.maps.path).filename().string()), least);
 }
 

@@ -1,4 +1,4 @@
-// One row of history.csv (ARCHITECTURE.md defines each column).
+// One row of history.csv (output_columns.cpp describes each column).
 #pragma once
 
 #include <string>

@@ -202,8 +202,8 @@ std::string Simulation<Dim, Real>::energy_warning() const {
   }
   return fmt::format(
       "warning: by t = {:.6g} s the steps have made {:.3g} % of all energy, little by little and without a cause: do "
-      "not "
-      "trust what the slide does from here on. A body without viscosity flutters: give its material a viscosity_time "
+      "not trust what the slide does from here on. A body without viscosity flutters: give its material a "
+      "viscosity_time "
       "(0.001 to 0.02 s), or take smaller steps",
       time_, 100.0 * monitor_.made_share);
 }

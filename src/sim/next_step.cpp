@@ -28,8 +28,7 @@ std::string advice_on(LimitKind kind) {
     case LimitKind::conduction:
     case LimitKind::seepage:
       return "The band has become thin, or its hydraulic conductivity is large: try a larger band.thickness, or "
-             "band.model = "
-             "\"columns\", whose steps have no such limit.";
+             "band.model = \"columns\", whose steps have no such limit.";
     case LimitKind::none:
       break;
   }

@@ -138,12 +138,11 @@ Descent descent_from(const config::Case& parameters, const config::Release& rele
   const double width = std::max(parameters.grid.cell, 2.0 * std::max(ground.cell_x, ground.cell_y));
   Descent descent = steepest_descent(ground, centre, width);
   if (descent.line.empty()) {
-    throw UserError(
-        fmt::format("{}: no way leads down from the release's centre at x = {:.10g}, y = {:.10g}: over {:g} m the "
-                    "ground is {} there. "
-                    "Give maps.path, a file with a line from the release down the way it will take.",
-                    config::place_of(parameters, "maps"), centre[0], centre[1], width,
-                    descent.pit ? "level, or a pit," : "not known all about"));
+    throw UserError(fmt::format(
+        "{}: no way leads down from the release's centre at x = {:.10g}, y = {:.10g}: over {:g} m the "
+        "ground is {} there. Give maps.path, a file with a line from the release down the way it will take.",
+        config::place_of(parameters, "maps"), centre[0], centre[1], width,
+        descent.pit ? "level, or a pit," : "not known all about"));
   }
   return descent;
 }

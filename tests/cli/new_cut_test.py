@@ -55,9 +55,9 @@ def test_a_cut_without_room_for_its_ramps(thawslide: Program, tmp_path: Path, sl
     outcome = made(thawslide, folder, slope(), release, "--thickness", THICK, "--cut")
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stdout.startswith(
-        "warning: --cut: the edges of the cut should be ramps 70 m wide, and there is room for 40 m, as the release is "
-        "narrow or near the end of what the DEM knows; they rise by up to 45 degrees against the terrain, "
-        "which falls by 30, and may hold the slide back. --on-top has no such edges\n"
+        "warning: --cut: the edges of the cut are too narrow, because the release is narrow or near the edge of the "
+        "known terrain (found 40 m; needed 70 m). They rise by up to 45 degrees against the terrain, which falls by 30 "
+        "degrees, and may stop the slide. Use --on-top, which has no such edges\n"
     ), outcome.stdout
     assert (
         "they rise 45.0 degrees against the DEM, which falls 30.0\n"

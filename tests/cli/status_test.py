@@ -175,7 +175,7 @@ def test_a_run_does_not_take_its_own_case_away(thawslide: Program, small_case: P
     outcome = thawslide("run", run, "--output", run, "--overwrite")
     assert outcome.returncode == 2
     assert outcome.stderr == (
-        f"error: {run / 'case.toml'} lies in the output folder {run}. Give another --output, or go on with that run: "
+        f"error: {run / 'case.toml'} lies in the output folder {run}. Give another --output, or continue that run: "
         "thawslide resume.\n"
     )
     assert (run / "case.toml").exists() and (run / "history.csv").exists()

@@ -110,12 +110,12 @@ def commands_of(block: Block) -> list[Command]:
 
 
 def line_fits(expected: str, actual: str) -> bool:
-    """Return whether a line is as expected: [..] stands for any text."""
+    """Return whether a line is as expected: [..] matches any text."""
     return re.fullmatch(".*".join(map(re.escape, expected.split("[..]"))), actual) is not None
 
 
 def missing_line(expected: list[str], actual: list[str]) -> str | None:
-    """Return the first expected line that does not come, if any; a line ... stands for any lines."""
+    """Return the first expected line that does not come, if any; a line ... matches any lines."""
     after = {0}  # numbers of actual lines that the expected lines so far can cover
     for line in expected:
         if line == "...":

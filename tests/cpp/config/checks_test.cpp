@@ -306,8 +306,7 @@ TEST(Values, GiveOneAnotherAMeaning) {
   EXPECT_EQ(
       error_of_changed({{"[basal]", "[mechanics]\neffective_stress = true\n[basal]"}}, {"pressure.enabled=false"}),
       "--set pressure.enabled=false: mechanics.effective_stress is true, and pressure.enabled is false; there is no "
-      "pore "
-      "pressure to take off. Set pressure.enabled = true, or mechanics.effective_stress = false.");
+      "pore pressure to take off. Set pressure.enabled = true, or mechanics.effective_stress = false.");
   EXPECT_EQ(error_of_changed({{"[basal]", "[heat]\nadvection_form = \"conservative\"\nmasses = \"current\"\n[basal]"}},
                              {"material.rock.hydraulic_conductivity=1e-7"}),
             "FOLDER/case.toml:21:18: heat.advection_form is \"conservative\", and heat.update or heat.masses is as "

@@ -257,8 +257,7 @@ TEST_F(Maps, AreSmoothedByANumberOrAsTheirNoiseNeeds) {
   EXPECT_EQ(error_on_dem({{"[terrain]", "[terrain]\nsmooth = -1.0"}}),
             "FOLDER/case.toml:11:10: terrain.smooth is -1; allowed: >= 0 m (standard deviation of a Gaussian filter "
             "over the DEM; 0: no filter; auto: what the DEM's noise and short bumps need, none on smooth ground). "
-            "Correct it, or leave "
-            "it out for the default \"auto\".");
+            "Correct it, or leave it out for the default \"auto\".");
 }
 
 TEST_F(Maps, TellTheNewNameOfTheRepresentation) {

@@ -11,8 +11,8 @@ using namespace case_messages;
 
 const std::string all_tables =
     "[case], [time], [grid], [grid.boundary], [guards], [terrain], [checkpoint], [maps], [probe.NAME], [report], "
-    "[phases], "
-    "[freezing], [material.NAME], [body.NAME], [frame.NAME], [initial], [mechanics], [basal], [substrate.NAME], "
+    "[phases], [freezing], [material.NAME], [body.NAME], [frame.NAME], [initial], [mechanics], [basal], "
+    "[substrate.NAME], "
     "[bed], [contact], [contact_pair.NAME], [mechanisms], [band], "
     "[heat], [heat.boundary], [pressure], [block].";
 

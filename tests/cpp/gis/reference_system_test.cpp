@@ -86,8 +86,7 @@ TEST(ReferenceSystemTest, Degrees) {
 TEST(ReferenceSystemTest, TagOfDegreesOverMetricNumbers) {
   EXPECT_EQ(error_of_system(metric_raster, "EPSG:4326"),
             "dem.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric (x from 49280 to 52280, y from "
-            "193490 to "
-            "195690). Set terrain.crs = \"EPSG:...\" to the system the numbers are in; its maker states it.");
+            "193490 to 195690). Set terrain.crs = \"EPSG:...\" to the system the numbers are in; its maker states it.");
 }
 
 TEST(ReferenceSystemTest, Feet) {

@@ -214,8 +214,7 @@ TEST(ReleaseFaultsTest, SurfacesBeforeTheSlide) {
             std::string(at_thickness) +
                 "FOLDER/before.tif: at 400300, 300300, within the release, the surface before the slide lies 3 "
                 "m below the DEM; allowed: above it, or below by up to 0.01 m. Are the two files swapped? "
-                "Else draw "
-                "the release smaller, or set body.rock.surface_tolerance to the noise of the two.");
+                "Else draw the release smaller, or set body.rock.surface_tolerance to the noise of the two.");
   body.surface_tolerance = 3.5;
   EXPECT_EQ(with(-3.0), std::string(at_thickness) +
                             "FOLDER/release.geojson: the release has no volume: its thickness is 0 everywhere. Needed: "

@@ -145,8 +145,7 @@ TEST(ReleaseVolume, IsThatOfThePolygonsTimesTheThickness) {
       "Volume and mass of a release",
       "Two irregular polygons are on undulating ground that falls by 27 degrees. The release is placed on the DEM or "
       "cut out of it. Its thickness is vertical or normal, and a number, an attribute or a raster. Points each 5 m, "
-      "cells of 6 m. Maps "
-      "after 20 steps.",
+      "cells of 6 m. Maps after 20 steps.",
       "the integral of the thickness, along the normal over the cosine of the slope, over the polygons; maps hold the "
       "particles' volume",
       "midpoint rule on the formulas of ground and thickness");

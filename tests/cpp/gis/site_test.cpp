@@ -67,8 +67,8 @@ TEST(SiteTest, KeyOverrulesTheFile) {
 TEST(SiteTest, WrongTagIsToldAtTheKey) {
   EXPECT_EQ(error_of_site(plain_case(ground("EPSG:4326"))),
             "case.toml:5:8: terrain.file: FOLDER/dem.tif: the tag specifies degrees (EPSG:4326), but the numbers are "
-            "metric (x "
-            "from 399997.5 to 401002.5, y from 299997.5 to 300802.5). Set terrain.crs = \"EPSG:...\" to the system the "
+            "metric (x from 399997.5 to 401002.5, y from 299997.5 to 300802.5). Set terrain.crs = \"EPSG:...\" to the "
+            "system the "
             "numbers are in; its maker states it.");
   config::Case parameters = plain_case(ground(""));
   parameters.terrain.crs = "EPSG:31278x";

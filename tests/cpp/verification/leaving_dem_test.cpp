@@ -135,8 +135,7 @@ Place expect_error(Simulation<3, double> simulation) {
       "the run failed at t = ([0-9.]+) s \\(step [0-9]+\\): particle [0-9]+ of body 'slide' at \\((-?[0-9.]+), "
       "(-?[0-9.]+), (-?[0-9.]+)\\) m: the terrain below it is not known: the DEM ends or has a hole there\\. .*Give a "
       "DEM that .*, or set grid\\.leaving = \"remove\" to let such particles go\\. `thawslide new` crops the DEM to "
-      "the "
-      "domain: create the case again with a smaller --reach-angle, which uses more of the DEM, or from a larger "
+      "the domain: create the case again with a smaller --reach-angle, which uses more of the DEM, or from a larger "
       "DEM\\.");
   std::smatch found;
   EXPECT_TRUE(std::regex_match(text, found, expected)) << text;

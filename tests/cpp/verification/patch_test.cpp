@@ -141,8 +141,7 @@ TEST(Patch, LinearVelocityStrainsUniformly) {
   }
   record.explain(
       "FLIP carries velocities, not their gradients, to the nodes: it reproduces a linear field where the particles "
-      "lie "
-      "evenly about the nodes, as they are seeded. APIC does anywhere.");
+      "lie evenly about the nodes, as they are seeded. APIC does anywhere.");
 }
 
 }  // namespace

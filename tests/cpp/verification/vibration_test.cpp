@@ -39,8 +39,7 @@ TEST(Vibration, ManufacturedWithLargeDisplacements) {
   record.explain(
       "Linear shape functions, whose slopes jump, cause an error at each crossing that does not fall with the cell "
       "size. They do not converge (Steffen, Kirby and Berzins 2008). uGIMP's undeformed squares overlap or leave gaps "
-      "in "
-      "proportion to the stretch: order 1. Splines are of order 2 until the particles' uneven spacing, an error of "
+      "in proportion to the stretch: order 1. Splines are of order 2 until the particles' uneven spacing, an error of "
       "quadrature in first order (Steffen et al. 2010), is what is left. The next refinement, which ./test --full "
       "runs, is nearer to 1.");
 }

@@ -1,0 +1,11 @@
+// The reference of the tables, datasets and maps of a run, from their declarations.
+#pragma once
+
+#include <string>
+
+namespace thawslide::app {
+
+// As Markdown: the page docs/reference/outputs-columns.md.
+[[nodiscard]] std::string describe_outputs();
+
+}  // namespace thawslide::app

@@ -1,0 +1,83 @@
+"""The pages on output files describe the files that the program writes."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+from conftest import ROOT, Program, datasets, run_facts, sets, snapshot_files
+from slope_files import Slope
+
+REFERENCE = ROOT / "docs" / "reference"
+NAME = re.compile(r"`([^`\n]+)`")
+
+
+def names_in(text: str) -> set[str]:
+    """Return the names in the first column of the tables of a text."""
+    return {name for row in re.findall(r"^\|([^|]*)\|", text, re.MULTILINE) for name in NAME.findall(row)}
+
+
+def section(title: str) -> str:
+    """Return a section of the page on output files."""
+    text = (REFERENCE / "outputs.md").read_text()
+    level = re.search(rf"^(#+) {re.escape(title)}$", text, re.MULTILINE)
+    assert level
+    return re.split(rf"^#{{1,{len(level[1])}}} ", text[level.end() :], maxsplit=1, flags=re.MULTILINE)[0]
+
+
+def keys_in(value: Any) -> set[str]:
+    """Return all keys of a JSON value and of the values in it."""
+    if isinstance(value, list):
+        return set().union(*map(keys_in, value))
+    return set(value).union(*map(keys_in, value.values())) if isinstance(value, dict) else set()
+
+
+@pytest.fixture
+def case_on_dem(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> Path:
+    folder = tmp_path / "case"
+    outcome = thawslide("new", folder, "--dem", slope(), "--release", release, "--thickness", "20", "--cell", "10")
+    assert outcome.returncode == 0, outcome.stderr
+    return folder
+
+
+def test_columns_datasets_and_maps_of_runs_are_described(
+    thawslide: Program, small_case: Path, case_on_dem: Path, tmp_path: Path
+) -> None:
+    outcome = thawslide("describe", "--outputs")
+    assert outcome.returncode == 0
+    described = names_in(outcome.stdout)
+    for case in (small_case, case_on_dem):
+        run = tmp_path / f"run-{case.name}"
+        outcome = thawslide("run", case, "--output", run, *sets(time__end=0.02, time__rest_time=0.01))
+        assert outcome.returncode == 0, outcome.stderr
+        with (run / "history.csv").open(newline="") as file:
+            columns = next(csv.reader(file))
+        names = [Path(name).name for name in datasets(snapshot_files(run)[-1]) if re.search("PointData|^base", name)]
+        maps = [path.stem for path in run.glob("maps/*.tif")]
+        assert len(columns) > 60 and len(names) >= 18 and bool(maps) == (case is case_on_dem)
+        assert {*columns, *names, *maps} - described == set()
+
+
+def test_keys_of_run_json_are_described(thawslide: Program, case_on_dem: Path, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    assert thawslide("run", case_on_dem, "--output", run, *sets(time__end=0.01)).returncode == 0
+    facts = run_facts(run)
+    main, parts, roughness = re.split(r"^Keys of `\w+`:$", section("run.json"), flags=re.MULTILINE)
+    assert names_in(main) == set(facts)
+    assert names_in(parts) == set(facts["parts"][0])
+    assert names_in(roughness) == set(facts["roughness"])
+    assert set(facts["inputs"][0]) | set(facts["removed_particles"]) <= set(NAME.findall(main))
+
+
+def test_keys_of_json_of_commands_are_described(thawslide: Program, case_on_dem: Path, done: Path) -> None:
+    checked = json.loads(thawslide("check", case_on_dem, "--json").stdout)
+    text = section("check --json")
+    assert names_in(text) == set(checked)
+    roughness = set(checked.pop("roughness"))
+    assert keys_in(checked) <= set(NAME.findall(text)) | roughness
+    status = json.loads(thawslide("status", done, "--json").stdout)
+    assert names_in(section("status --json")) == set(status)
