@@ -56,7 +56,7 @@ def test_rows_change_no_step_and_snapshots_are_on_time(thawslide: Program, whole
 
 
 @pytest.mark.parametrize("percent", [10, 40])
-def test_a_stopped_run_goes_on_to_the_same_bits(
+def test_a_stopped_run_continues_to_the_same_bits(
     thawslide: Program, interrupted: Interrupted, whole: Path, tmp_path: Path, percent: int
 ) -> None:
     run = tmp_path / "run"

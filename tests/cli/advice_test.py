@@ -23,9 +23,9 @@ HEAP_AND_BLANKET = sets(
 def test_a_modulus_that_is_advised_is_enough(thawslide: Program, small_case: Path, modulus: float) -> None:
     tall = sets(grid__max="[60,40]", body__block__max="[34,30]")
     said = thawslide("check", small_case, *tall, *sets(material__rock__youngs_modulus=modulus)).stdout
-    told = re.search(r"squeezes it by \d % there\. Give it (\S+) Pa or more\.\n", said)
-    assert told and float(told[1]) > modulus, said
-    enough = thawslide("check", small_case, *tall, *sets(material__rock__youngs_modulus=told[1]))
+    reported = re.search(r"squeezes it by \d % there\. Give it (\S+) Pa or more\.\n", said)
+    assert reported and float(reported[1]) > modulus, said
+    enough = thawslide("check", small_case, *tall, *sets(material__rock__youngs_modulus=reported[1]))
     assert enough.returncode == 0 and "squeezes it" not in enough.stdout
 
 
@@ -37,7 +37,7 @@ def test_the_median_is_by_area_and_so_is_the_note(thawslide: Program, small_case
 
 
 @pytest.mark.parametrize(("end", "steps", "rows"), [(0.2005, 200, 5), (0.2006, 201, 6), (0.2503, 250, 6)])
-def test_steps_that_are_told_are_taken(
+def test_steps_that_are_reported_are_taken(
     thawslide: Program,
     small_case: Path,
     tmp_path: Path,
@@ -46,28 +46,28 @@ def test_steps_that_are_told_are_taken(
     rows: int,
 ) -> None:
     """A fixed step that would end more than half a step after the end is not taken."""
-    told = json.loads(thawslide("check", small_case, "--json", *sets(time__end=end)).stdout)
+    reported = json.loads(thawslide("check", small_case, "--json", *sets(time__end=end)).stdout)
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run, *sets(time__end=end)).returncode == 0
-    assert told["steps"] == run_facts(run)["steps"] == steps
-    assert told["disk"]["snapshots"] == len(snapshot_files(run)) == rows
+    assert reported["steps"] == run_facts(run)["steps"] == steps
+    assert reported["disk"]["snapshots"] == len(snapshot_files(run)) == rows
 
 
-def test_checkpoints_that_are_told_hold_maps_and_columns(thawslide: Program, tmp_path: Path) -> None:
+def test_checkpoints_that_are_reported_hold_maps_and_columns(thawslide: Program, tmp_path: Path) -> None:
     """Of cells so coarse that particles are few; the first step lays the columns."""
     run = tmp_path / "run"
     words = sets(grid__cell=40, maps__cell=10, body__slide__particles_per_axis=1, time__end=0.1)
     case = VALLEY / "columns.toml"
     said = thawslide("check", case, *words).stdout
-    told = re.search(
+    reported = re.search(
         r", 3 checkpoints of (\S+) MB at the start and some (\S+) MB once the slide has spread, ",
         said,
     )
-    assert told, said
+    assert reported, said
     assert thawslide("run", case, "--output", run, *words).returncode == 0
     written = (run / "checkpoint.bin").stat().st_size / 1e6
-    assert float(told[1]) == pytest.approx(written, rel=0.15)
-    assert float(told[2]) > 2.5 * float(told[1])
+    assert float(reported[1]) == pytest.approx(written, rel=0.15)
+    assert float(reported[2]) > 2.5 * float(reported[1])
 
 
 def test_particles_are_blamed_for_what_they_take(binary: Path, plain_environment: dict[str, str]) -> None:

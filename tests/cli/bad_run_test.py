@@ -19,9 +19,9 @@ def went_bad(thawslide: Program, case: Path, run: Path, *words: str) -> re.Match
     """Run a case that must fail; check what is left of it; return the parts of the text."""
     outcome = thawslide("run", case, "--output", run, *words)
     assert outcome.returncode == 3, outcome.stderr
-    told = re.fullmatch(PATTERN, outcome.stderr)
-    assert told, outcome.stderr
-    time, step, particle = float(told[1]), int(told[2]), int(told[3])
+    reported = re.fullmatch(PATTERN, outcome.stderr)
+    assert reported, outcome.stderr
+    time, step, particle = float(reported[1]), int(reported[2]), int(reported[3])
     facts = run_facts(run)
     assert facts["status"] == "failed"
     assert f"error: {facts['message']}\n" == outcome.stderr
@@ -32,34 +32,36 @@ def went_bad(thawslide: Program, case: Path, run: Path, *words: str) -> re.Match
         assert last["VTKHDF"].attrs["step"] == step
         place = last["VTKHDF/Points"][particle]
         assert last["VTKHDF/PointData/id"][particle] == particle
-    assert place[:2] == pytest.approx([float(told[5]), float(told[6])], rel=1e-4)
+    assert place[:2] == pytest.approx([float(reported[5]), float(reported[6])], rel=1e-4)
     with h5py.File(run / "particles.vtkhdf") as index:
         assert index["VTKHDF/Steps"].attrs["NSteps"] == len(snapshot_files(run))
     assert not (run / "checkpoint.previous.bin").exists(), "only the one before the first step"
-    return told
+    return reported
 
 
 def test_body_thrown_out_of_the_domain(thawslide: Program, tmp_path: Path) -> None:
-    told = went_bad(thawslide, LAMPLUGH, tmp_path / "run", *sets(time__end=20, body__slide__velocity="[0,300]"))
+    reported = went_bad(thawslide, LAMPLUGH, tmp_path / "run", *sets(time__end=20, body__slide__velocity="[0,300]"))
     # The highest surface, 2146 m, rises 254 m at 300 m/s less gravity: about 0.87 s to the top of the domain at 2400 m.
-    assert 0.8 < float(told[1]) < 0.95
-    assert told[4] == "slide" and 2390.0 < float(told[6]) < 2400.0
-    assert told[7] == "it left the domain"
-    assert told[8] == "the slide ran further than [grid] min and max allow; widen them in its direction."
+    assert 0.8 < float(reported[1]) < 0.95
+    assert reported[4] == "slide" and 2390.0 < float(reported[6]) < 2400.0
+    assert reported[7] == "it left the domain"
+    assert reported[8] == "the slide ran further than [grid] min and max allow; widen them in its direction."
 
 
 def test_matter_as_soft_as_air(thawslide: Program, tmp_path: Path) -> None:
-    told = went_bad(thawslide, LAMPLUGH, tmp_path / "run", *sets(time__end=20, material__rock_ice__youngs_modulus=0.5))
-    assert told[8] == (
+    reported = went_bad(
+        thawslide, LAMPLUGH, tmp_path / "run", *sets(time__end=20, material__rock_ice__youngs_modulus=0.5)
+    )
+    assert reported[8] == (
         "material 'rock_ice' is too soft (youngs_modulus 0.5 Pa), and its own weight squeezes it flat; broken rock and "
         "ice have 1e7 Pa and more."
     )
 
 
 def test_domain_too_short_for_the_slide(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    told = went_bad(thawslide, small_case, tmp_path / "run", *sets(time__end=1, body__block__velocity="[30,0]"))
-    assert told[4] == "block" and 19.9 < float(told[5]) < 20.0
-    assert told[7] == "it left the domain"
+    reported = went_bad(thawslide, small_case, tmp_path / "run", *sets(time__end=1, body__block__velocity="[30,0]"))
+    assert reported[4] == "block" and 19.9 < float(reported[5]) < 20.0
+    assert reported[7] == "it left the domain"
 
 
 def test_load_beyond_the_step(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
@@ -79,6 +81,6 @@ def test_load_beyond_the_step(thawslide: Program, small_case: Path, tmp_path: Pa
         r"mechanics\.pic_share = 0\.02\.\n",
         outcome.stderr,
     ), outcome.stderr
-    told = went_bad(thawslide, small_case, tmp_path / "run", *fall, *sets(guards__energy_growth="inf"))
-    assert told[7] == "its volume ratio is not positive"
-    assert told[8].startswith("the step is too long for what the material does")
+    reported = went_bad(thawslide, small_case, tmp_path / "run", *fall, *sets(guards__energy_growth="inf"))
+    assert reported[7] == "its volume ratio is not positive"
+    assert reported[8].startswith("the step is too long for what the material does")

@@ -38,7 +38,7 @@ def said(thawslide: Program, small_case: Path, tmp_path: Path) -> Said:
     return run
 
 
-def test_columns_that_boil_dry_are_told_once(said: Said) -> None:
+def test_columns_that_boil_dry_are_reported_once(said: Said) -> None:
     (note,) = said(*FAST)
     found = re.match(r"warning: at [\d.]+ s (\d+ columns|a column) .*boiled dry, and the hottest is at (\d+) C", note)
     assert found, note

@@ -120,16 +120,16 @@ def test_no_output_goes_over_an_input(thawslide: Program, small_case: Path) -> N
     assert thawslide("block", small_case, "--output", small_case / "rows.csv").returncode == 0
 
 
-def test_facts_are_told_of_a_case_that_goes_bad_in_its_first_steps(thawslide: Program, small_case: Path) -> None:
+def test_facts_are_reported_of_a_case_that_goes_bad_in_its_first_steps(thawslide: Program, small_case: Path) -> None:
     words = [
         *sets(time__step=0.004, case__gravity=1e5, mechanics__initial_stress='"none"'),
         *sets(body__block__min="[10,4]", body__block__max="[14,8]"),
     ]
-    told = thawslide("check", small_case, "--json", *words)
-    assert told.returncode == 3
-    facts = json.loads(told.stdout)
+    reported = thawslide("check", small_case, "--json", *words)
+    assert reported.returncode == 3
+    facts = json.loads(reported.stdout)
     assert facts["particles"] == 64 and facts["wall_s"] is None and len(facts["warnings"]) > 1 and facts["gpu"] is None
-    assert told.stderr == f"error: {facts['error']}\n" and "the run failed at t = " in facts["error"]
+    assert reported.stderr == f"error: {facts['error']}\n" and "the run failed at t = " in facts["error"]
     said = thawslide("check", small_case, *words)
     assert said.returncode == 3
     assert "case.toml: the run fails in its first steps\n" in said.stdout and "  particles   64\n" in said.stdout
@@ -166,7 +166,7 @@ def test_a_cell_that_is_proposed_fits_the_domain(thawslide: Program, small_case:
 
 
 @pytest.mark.skipif(not Path("/proc/self/mem").exists(), reason="the system has no file whose first byte is an error")
-def test_an_error_amid_reading_is_told_with_file_and_reason(thawslide: Program, small_case: Path) -> None:
+def test_an_error_during_reading_is_reported_with_file_and_reason(thawslide: Program, small_case: Path) -> None:
     broken = small_case / "broken.csv"
     broken.symlink_to("/proc/self/mem")
     said = f"{broken}: cannot be read: Input/output error. Check that the file is whole and may be read.\n"

@@ -30,7 +30,7 @@ def by_shell(binary: Path, environment: dict[str, str], script: str, *words: obj
 
 
 @pytest.mark.parametrize("closed", ["<&- >&-", "<&- >&- 2>&-", ">&-", ">&- 2>&-", "<&-", "2>&-"])
-def test_nothing_that_is_told_goes_into_files(
+def test_nothing_that_is_reported_goes_into_files(
     binary: Path, plain_environment: dict[str, str], thawslide: Program, small_case: Path, tmp_path: Path, closed: str
 ) -> None:
     """The files of a run took the places of closed streams, and its progress was written into them."""
@@ -47,14 +47,14 @@ def test_nothing_that_is_told_goes_into_files(
         assert (run / file).read_bytes() == (known / file).read_bytes(), file
 
 
-def test_results_for_a_closed_stream_are_lost_and_told(binary: Path, plain_environment: dict[str, str]) -> None:
+def test_results_for_a_closed_stream_are_lost_and_reported(binary: Path, plain_environment: dict[str, str]) -> None:
     done = by_shell(binary, plain_environment, '"$@" >&-', "describe")
     assert done.returncode == 5
     assert done.stderr.startswith("error: the output cannot be written: Bad file descriptor.")
 
 
 @pytest.mark.parametrize("words", [["describe", "--md"], ["check", "--json"]])
-def test_a_file_above_its_size_limit_is_told(
+def test_a_file_above_its_size_limit_is_reported(
     binary: Path, plain_environment: dict[str, str], small_case: Path, tmp_path: Path, words: list[str]
 ) -> None:
     command = [*words, small_case] if words[0] == "check" else words
@@ -63,7 +63,7 @@ def test_a_file_above_its_size_limit_is_told(
     assert "error: the output cannot be written: File too large." in done.stderr
 
 
-def test_memory_that_runs_out_amid_a_run(
+def test_memory_that_runs_out_during_a_run(
     binary: Path, plain_environment: dict[str, str], thawslide: Program, small_case: Path, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"
@@ -78,13 +78,13 @@ def test_memory_that_runs_out_amid_a_run(
         pages = int(Path(f"/proc/{process.pid}/statm").read_text().split()[0])
         bound = pages * os.sysconf("SC_PAGE_SIZE") + 2**21  # the stack may grow; a snapshot needs far more
         resource.prlimit(process.pid, resource.RLIMIT_AS, (bound, resource.RLIM_INFINITY))
-        told = process.stderr.read()
-    assert process.returncode == 2, told
+        reported = process.stderr.read()
+    assert process.returncode == 2, reported
     assert re.search(
         r"error: the memory of this machine, or its limit \(ulimit -v\), was exhausted during the run\n"
         rf"stopped at t = \S+ s\. All files are intact: `thawslide resume {re.escape(str(run))}` ",
-        told,
-    ), told
+        reported,
+    ), reported
     assert run_facts(run)["status"] == "stopped"
     assert "was exhausted during the run" in thawslide("status", run).stdout
     end = run_facts(run)["simulated_time_s"] + 0.02

@@ -65,7 +65,7 @@ def lose_the_header(rows: list[str]) -> list[str]:
 
 
 @pytest.mark.parametrize(
-    ("damage", "left", "told"),
+    ("damage", "left", "reported"),
     [
         (cut, [*range(5), *range(16, 21)], "lacks 11 of the 16 rows {upto}: between t = 0.04 and 0.15 s; {kept}"),
         (garble, [*range(6), *range(7, 21)], "lacks 1 of the 16 rows {upto}: between t = 0.05 and 0.07 s; {kept}"),
@@ -73,18 +73,18 @@ def lose_the_header(rows: list[str]) -> list[str]:
         (lose_the_header, list(range(21)), "is not as the run wrote it; its rows are whole and stay"),
     ],
 )
-def test_rows_that_are_lost_are_told(
+def test_rows_that_are_lost_are_reported(
     thawslide: Program,
     whole: Path,
     killed: Path,
     damage: Callable[[list[str]], list[str]],
     left: list[int],
-    told: str,
+    reported: str,
 ) -> None:
     file, kept = killed / "history.csv", killed / "history.damaged.csv"
     file.write_text("".join(damage(file.read_text().splitlines(keepends=True))))
     found = file.read_bytes()
-    words = told.format(
+    words = reported.format(
         upto="up to t = 0.15 s, which are missing or damaged", kept="what there was is kept as history.damaged.csv"
     )
     assert resumed(thawslide, killed) == [f"history.csv {words}"]
@@ -98,7 +98,7 @@ def test_rows_that_are_lost_are_told(
     assert outcome.returncode == 0 and "history.csv" not in outcome.stdout
 
 
-def test_a_lost_history_begins_anew(thawslide: Program, killed: Path) -> None:
+def test_a_lost_history_begins_again(thawslide: Program, killed: Path) -> None:
     (killed / "history.csv").unlink()
     assert resumed(thawslide, killed) == [
         "history.csv was missing: it starts again, without the 16 rows up to t = 0.15 s"
@@ -121,7 +121,7 @@ def index_times(run: Path) -> list[float]:
         return [round(float(time), 9) for time in file["VTKHDF/Steps/Values"][()]]
 
 
-def test_a_snapshot_after_the_checkpoint_is_written_anew(thawslide: Program, whole: Path, killed: Path) -> None:
+def test_a_snapshot_after_the_checkpoint_is_written_again(thawslide: Program, whole: Path, killed: Path) -> None:
     last = snapshot_files(killed)[-1]
     last.write_bytes(b"")
     assert resumed(thawslide, killed) == []
@@ -138,7 +138,7 @@ def test_a_snapshot_after_the_checkpoint_is_written_anew(thawslide: Program, who
     ],
 )
 @pytest.mark.parametrize("is_there", [True, False])
-def test_earlier_snapshots_that_are_lost_are_told(
+def test_earlier_snapshots_that_are_lost_are_reported(
     thawslide: Program, whole: Path, killed: Path, numbers: list[int], words: str, times: list[float], is_there: bool
 ) -> None:
     for number in numbers:
@@ -173,7 +173,9 @@ def test_a_run_that_has_lost_all_snapshots_at_its_end_is_closed(
     ("text", "found"),
     [("", "it is empty"), ("{\n", "it is no JSON from byte 3 on"), ("{}", "key 'parts' not found")],
 )
-def test_a_damaged_run_json_is_told_with_what_to_do(thawslide: Program, killed: Path, text: str, found: str) -> None:
+def test_a_damaged_run_json_is_reported_with_what_to_do(
+    thawslide: Program, killed: Path, text: str, found: str
+) -> None:
     (killed / "run.json").write_text(text)
     for command in ("resume", "status"):
         outcome = thawslide(command, killed)

@@ -9,7 +9,7 @@ import pytest
 from conftest import Program
 
 
-def test_no_card_is_told_before_anything_is_written(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_no_card_is_reported_before_anything_is_written(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     outcome = thawslide("run", small_case, "--output", run, "--device", "gpu")
     if outcome.returncode == 0:
@@ -25,8 +25,8 @@ def test_auto_takes_the_processor_where_nothing_else_is(thawslide: Program, smal
     for device in ("auto", "cpu"):
         run = tmp_path / device
         assert thawslide("run", small_case, "--output", run, "--device", device).returncode == 0
-        told = json.loads((run / "run.json").read_text())["parts"][0]["device"]
-        assert device == "auto" or told == ""
+        reported = json.loads((run / "run.json").read_text())["parts"][0]["device"]
+        assert device == "auto" or reported == ""
         assert thawslide("resume", run, "--device", device).returncode == 0
 
 

@@ -75,7 +75,7 @@ def test_bodies_part_without_drag(thawslide: Program, fault: Path, tmp_path: Pat
 
 def test_a_case_that_does_not_say_is_warned_of(thawslide: Program, fault: Path, tmp_path: Path) -> None:
     """Bodies that start apart and share one velocity field are told of, by check and by run."""
-    told = "body.b stands apart from body.a, and contact.between_bodies is"
-    assert told in thawslide("check", fault / "case.toml").stdout
+    reported = "body.b stands apart from body.a, and contact.between_bodies is"
+    assert reported in thawslide("check", fault / "case.toml").stdout
     short = thawslide("run", fault / "case.toml", "--output", tmp_path / "run", *sets(time__end=0.02))
-    assert told in short.stdout
+    assert reported in short.stdout

@@ -114,8 +114,8 @@ def test_run_block_and_probes_are_the_same_for_whatever_was_drawn_the_other_way_
         run = tmp_path / f"run-{is_reversed}"
         done = thawslide("run", case, "--output", run, "--threads", 1, *sets(**COULOMB))
         assert done.returncode == 0, done.stderr
-        told = "maps.path: path.geojson was drawn against the direction of the slide; distances count from its last"
-        assert (told in done.stdout) == is_reversed
+        reported = "maps.path: path.geojson was drawn against the direction of the slide; distances count from its last"
+        assert (reported in done.stdout) == is_reversed
         slid = thawslide("block", case, "--output", tmp_path / "block.csv", *sets(**COULOMB, time__end=20))
         assert slid.returncode == 0, slid.stderr
         runs[is_reversed] = {
@@ -319,7 +319,7 @@ def test_fault_of_path_starts_slides_alike(thawslide: Program, tmp_path: Path) -
         assert slide["velocity_m_s"].max() == pytest.approx(expected["velocity_m_s"].max(), rel=0.01)
 
 
-def test_fault_of_a_path_beside_the_release(thawslide: Program, tmp_path: Path) -> None:
+def test_fault_of_a_path_next_to_the_release(thawslide: Program, tmp_path: Path) -> None:
     """A line parallel to the slide measures its front; a block and a section along it are refused."""
     folder = fault("g03-path-uphill")
     side, ends = folder / "line-side.gpkg", {}

@@ -79,7 +79,7 @@ def test_what_a_mask_hides_is_no_thickness_within_polygons(maker: Maker, name: s
 
 
 @pytest.mark.parametrize("name", ["dem-masked.tif", "dem-alpha.tif"])
-def test_ground_beside_a_mask_is_known(maker: Maker, name: str) -> None:
+def test_ground_next_to_a_mask_is_known(maker: Maker, name: str) -> None:
     maker.made(MASKS / name, MASKS / "release.gpkg", "--thickness", 10)
     assert maker.volume() == pytest.approx(BLOCK, rel=1e-6)
     with rasterio.open(MASKS / name) as file:

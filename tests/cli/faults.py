@@ -40,7 +40,7 @@ class Trial:
     subject: str
     disturbance: str
     code: int  # of the disturbed process
-    told: str  # its last line of errors
+    reported: str  # its last line of errors
     same: bool  # whether it ended with the files of the undisturbed run
     remarks: list[str] = field(default_factory=list)
 
@@ -194,15 +194,17 @@ def failing(
         command_of(program, subject, run), env=environment, capture_output=True, text=True, check=False
     )
     lines = outcome.stderr.strip().splitlines()
-    told = lines[0] if lines else ""
+    reported = lines[0] if lines else ""
     remarks = []
-    if outcome.returncode not in (0, 2, 5) or (outcome.returncode != 0 and not told.startswith("error: ")):
+    if outcome.returncode not in (0, 2, 5) or (outcome.returncode != 0 and not reported.startswith("error: ")):
         remarks.append(f"ended with {outcome.returncode}: {outcome.stderr.strip()}")
-    if outcome.returncode != 0 and str(run) not in told:
-        remarks.append(f"the error names no file of the run: {told}")
+    if outcome.returncode != 0 and str(run) not in reported:
+        remarks.append(f"the error names no file of the run: {reported}")
     remarks += go_on(program, subject, run)
     changed = changed_files(expected, digest(run))
-    return Trial(subject.name, f"{kind}, {reason}, call {at}", outcome.returncode, told, not changed, remarks + changed)
+    return Trial(
+        subject.name, f"{kind}, {reason}, call {at}", outcome.returncode, reported, not changed, remarks + changed
+    )
 
 
 def limited(program: Path, subject: Subject, run: Path, expected: dict[str, str], size: int) -> Trial:
@@ -217,9 +219,9 @@ def limited(program: Path, subject: Subject, run: Path, expected: dict[str, str]
     remarks = [] if outcome.returncode in (2, 5) and "File too large" in outcome.stderr else [outcome.stderr]
     remarks += go_on(program, subject, run)
     changed = changed_files(expected, digest(run))
-    told = outcome.stderr.splitlines()[0] if outcome.stderr else ""
+    reported = outcome.stderr.splitlines()[0] if outcome.stderr else ""
     return Trial(
-        subject.name, f"files of {size} bytes at most", outcome.returncode, told, not changed, remarks + changed
+        subject.name, f"files of {size} bytes at most", outcome.returncode, reported, not changed, remarks + changed
     )
 
 
@@ -241,7 +243,9 @@ def on_small_disk(
         subprocess.run(["mount", "-o", f"remount,size={sizes[1]}k", str(disk)], check=True)
         remarks += go_on(program, subject, run)
         changed = changed_files(expected, digest(run))
-        told = outcome.stderr.splitlines()[0] if outcome.stderr else ""
-        return Trial(subject.name, f"a disk of {sizes[0]} kB", outcome.returncode, told, not changed, remarks + changed)
+        reported = outcome.stderr.splitlines()[0] if outcome.stderr else ""
+        return Trial(
+            subject.name, f"a disk of {sizes[0]} kB", outcome.returncode, reported, not changed, remarks + changed
+        )
     finally:
         subprocess.run(["umount", str(disk)], check=True)

@@ -60,13 +60,13 @@ def test_a_full_disk_loses_nothing(binary: Path, small_case: Path, tmp_path: Pat
     assert trial.sound, trial
 
 
-def test_a_folder_that_is_read_only_is_told_before_anything_is_computed(
+def test_a_folder_that_is_read_only_is_reported_before_anything_is_computed(
     binary: Path, small_case: Path, tmp_path: Path
 ) -> None:
     subject = Subject("small", small_case)
     expected, _ = undisturbed(binary, subject, tmp_path / "whole")
     trial = failing(binary, subject, tmp_path / "run", expected, 1, "onwards", "denied")
-    assert trial.code == 5 and "Permission denied" in trial.told and trial.sound, trial
+    assert trial.code == 5 and "Permission denied" in trial.reported and trial.sound, trial
 
 
 @pytest.mark.parametrize("size", [8, 60])

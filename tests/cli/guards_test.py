@@ -29,16 +29,16 @@ def test_a_run_ends_at_rest(thawslide: Program, small_case: Path, tmp_path: Path
     outcome = thawslide("run", small_case, "--output", run, *RESTS)
     assert outcome.returncode == 0, outcome.stderr
     facts = run_facts(run)
-    told = re.fullmatch(
+    reported = re.fullmatch(
         r"the slide is at rest: since t = (\S+) s no more than 0\.5 % of its mass has moved faster than 0\.1 m/s "
         r"\(time\.stop_at_rest\)",
         facts["message"],
     )
-    assert told, facts["message"]
+    assert reported, facts["message"]
     assert outcome.stdout.endswith(facts["message"] + "\n")
     assert facts["status"] == "done"
     end = facts["simulated_time_s"]
-    assert end == pytest.approx(float(told[1]) + 0.4, abs=0.0101) and 1.0 < end < 2.0
+    assert end == pytest.approx(float(reported[1]) + 0.4, abs=0.0101) and 1.0 < end < 2.0
     # All outputs are of that moment; up to there the run is the one without the key.
     columns = history(run)
     assert columns["time_s"][-1] == end
@@ -53,14 +53,14 @@ def test_a_run_at_rest_is_left_as_it_is(thawslide: Program, small_case: Path, tm
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0
     end = run_facts(run)["simulated_time_s"]
-    told = run_facts(run)["message"]
-    assert told.startswith("the slide is at rest: ")
-    assert outcome.stdout == f"{run} has reached its end at {end:g} s: {told}; nothing to do\n"
+    reported = run_facts(run)["message"]
+    assert reported.startswith("the slide is at rest: ")
+    assert outcome.stdout == f"{run} has reached its end at {end:g} s: {reported}; nothing to do\n"
     assert content_of(run) == before
 
 
 @pytest.mark.parametrize("slides", [True, False])
-def test_a_run_that_lies_still_already_ends_when_it_is_told_to(
+def test_a_run_that_lies_still_already_ends_when_it_is_reported_to(
     thawslide: Program, small_case: Path, tmp_path: Path, slides: bool
 ) -> None:
     """What has gone further than a cell counts as having moved, and what never moved does not."""
@@ -74,7 +74,7 @@ def test_a_run_that_lies_still_already_ends_when_it_is_told_to(
     assert end == pytest.approx(2.91, abs=0.02) if slides else end == pytest.approx(4)
 
 
-def test_a_stop_amid_the_rest_changes_no_end(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_a_stop_during_the_rest_changes_no_end(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run, whole = tmp_path / "run", tmp_path / "whole"
     assert thawslide("run", small_case, "--output", whole, *RESTS).returncode == 0
     end = run_facts(whole)["simulated_time_s"]
@@ -93,7 +93,7 @@ def test_a_stop_amid_the_rest_changes_no_end(thawslide: Program, small_case: Pat
     assert (run / "checkpoint.bin").read_bytes()[state] == (whole / "checkpoint.bin").read_bytes()[state]
 
 
-def test_an_explosion_is_not_told_to_widen_the_domain(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_an_explosion_is_not_reported_to_widen_the_domain(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     """Felt a cell early, the ground throws the falling block back with more energy than it had."""
     run = tmp_path / "run"
     fall = sets(
@@ -121,7 +121,7 @@ def test_what_guards_remove_is_counted(thawslide: Program, tmp_path: Path) -> No
     )
     outcome = thawslide("run", LAMPLUGH, "--output", run, *words)
     assert outcome.returncode == 3
-    told = re.fullmatch(
+    reported = re.fullmatch(
         r"error: the run failed at t = \S+ s \(step (\d+)\): \[guards\] has removed (\d+) particles: 0 not finite, "
         r"(\d+) by their volume, (\S+) % of all mass, where guards\.removed_mass allows 5 %; among the last: particle "
         r"\d+ of body 'slide' at \(\S+, \S+\) m: its volume is 0\.2\d+ of that at t = 0, where guards\.smallest_volume "
@@ -129,25 +129,27 @@ def test_what_guards_remove_is_counted(thawslide: Program, tmp_path: Path) -> No
         r"squeezes it flat; broken rock and ice have 1e7 Pa and more\.\n",
         outcome.stderr,
     )
-    assert told, outcome.stderr
-    assert told[2] == told[3] and 5.0 < float(told[4]) < 10.0
+    assert reported, outcome.stderr
+    assert reported[2] == reported[3] and 5.0 < float(reported[4]) < 10.0
     assert re.search(
         r"warning: at t = \S+ s guards have removed \d+ particles?: 0 not finite, \d+ by their volume; history\.csv "
         r"has "
         r"their mass, run\.json their number\n",
         outcome.stdout,
     )
-    assert f"guards have removed {told[2]} particles: 0 not finite, {told[2]} by their volume\n" in outcome.stdout
+    assert (
+        f"guards have removed {reported[2]} particles: 0 not finite, {reported[2]} by their volume\n" in outcome.stdout
+    )
     facts, columns = run_facts(run), history(run)
     assert facts["removed_particles"] == {
         "left": 0,
         "not_finite": 0,
-        "volume": int(told[2]),
+        "volume": int(reported[2]),
     }
     assert 0.0 < columns["removed_mass_kg"][-1] == pytest.approx(columns["left_mass_kg"][-1], rel=1e-12)
 
 
-def test_a_run_with_particles_removed_goes_on_to_the_same_bits(
+def test_a_run_with_particles_removed_continues_to_the_same_bits(
     thawslide: Program, interrupted: Interrupted, tmp_path: Path
 ) -> None:
     run, whole = tmp_path / "run", tmp_path / "whole"

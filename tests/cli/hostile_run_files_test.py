@@ -166,7 +166,7 @@ def test_a_checkpoint_that_cannot_be_read_gives_way_to_the_one_before(thawslide:
     assert (killed / "checkpoint.damaged.bin").is_dir() and last.is_file()
 
 
-def test_a_checkpoint_that_is_missing_is_told(thawslide: Program, killed: Path) -> None:
+def test_a_checkpoint_that_is_missing_is_reported(thawslide: Program, killed: Path) -> None:
     last = killed / "checkpoint.bin"
     last.unlink()
     said = thawslide("status", killed).stdout
@@ -218,7 +218,7 @@ def test_pipes_and_devices_keep_nobody_waiting(
     assert f"{killed / file} is {kind}" in status.stdout + status.stderr
 
 
-def test_status_tells_what_it_can_where_rows_cannot_be_read(thawslide: Program, killed: Path) -> None:
+def test_status_reports_what_it_can_where_rows_cannot_be_read(thawslide: Program, killed: Path) -> None:
     rows = killed / "history.csv"
     rows.unlink()
     rows.mkdir()
@@ -248,7 +248,7 @@ def test_an_answer_that_is_lost_is_a_failure(binary: Path, done: Path) -> None:
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
-def test_a_part_that_cannot_be_removed_is_told_as_a_failure_to_write(thawslide: Program, killed: Path) -> None:
+def test_a_part_that_cannot_be_removed_is_reported_as_a_failure_to_write(thawslide: Program, killed: Path) -> None:
     torn = killed / "snapshots" / ".000001.vtkhdf.7.thawslide-part"
     torn.write_text("half")
     (killed / "snapshots").chmod(0o555)

@@ -64,7 +64,7 @@ def test_key_of_many_parts(thawslide: Program, tmp_path: Path, text: str) -> Non
     )
 
 
-def test_many_problems_are_not_all_told(thawslide: Program, small_case: Path) -> None:
+def test_many_problems_are_not_all_reported(thawslide: Program, small_case: Path) -> None:
     file = small_case / "case.toml"
     file.write_text(file.read_text() + "".join(f"wrong{k} = 1\n" for k in range(80)))
     said = refusal(thawslide, "check", file).splitlines()

@@ -105,7 +105,7 @@ def test_unknown_table_with_its_nearest_neighbour(thawslide: Program, small_case
     assert "table [terain] is not known; did you mean 'terrain'?" in refused(thawslide, small_case)
 
 
-def test_every_problem_is_told_at_once(thawslide: Program, small_case: Path) -> None:
+def test_every_problem_is_reported_at_once(thawslide: Program, small_case: Path) -> None:
     text = refused(thawslide, small_case, *sets(time__end=-1, body__block__porosity=2, time__stp=1))
     assert "time.end is -1" in text and "body.block.porosity is 2" in text and "did you mean 'step'?" in text
 

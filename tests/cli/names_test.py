@@ -144,7 +144,7 @@ def test_what_a_command_that_was_killed_left_is_called_that(
     assert f"{other}: a `thawslide new` was cut off while it made this folder" in again.stderr
 
 
-def test_no_place_in_a_file_that_was_not_made_is_told(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+def test_no_place_in_a_file_that_was_not_made_is_reported(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     release = write_release(tmp_path / "release.geojson", WEST + 203.0, SOUTH + 252.0)
     outcome = made(
         thawslide,

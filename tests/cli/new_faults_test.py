@@ -291,21 +291,21 @@ def test_a_slide_that_leaves_the_known_ground_stops_there(
     words = sets(basal__friction_angle=1, basal__friction="constant", grid__leaving="stop")
     done = thawslide("run", folder, "--output", run, *words)
     assert done.returncode == 3, done.stderr
-    told = re.fullmatch(NO_GROUND, done.stderr)
+    reported = re.fullmatch(NO_GROUND, done.stderr)
     if not hole:
-        told = told or re.fullmatch(LEFT_DOMAIN + DEM_ENDS, done.stderr)
-    assert told, done.stderr
+        reported = reported or re.fullmatch(LEFT_DOMAIN + DEM_ENDS, done.stderr)
+    assert reported, done.stderr
     east = WEST + CELL * ((hole.start if hole else COLUMNS) - 1)
-    assert east - 3.0 * CELL < float(told[1]) < east + CELL
-    assert SOUTH + 200.0 < float(told[2]) < SOUTH + 400.0
-    assert float(told[3]) > 20.0
-    assert float(told[4]) == pytest.approx(at_rest_after(told[3]), abs=10.0)  # of a speed told in four digits
+    assert east - 3.0 * CELL < float(reported[1]) < east + CELL
+    assert SOUTH + 200.0 < float(reported[2]) < SOUTH + 400.0
+    assert float(reported[3]) > 20.0
+    assert float(reported[4]) == pytest.approx(at_rest_after(reported[3]), abs=10.0)  # of a speed told in four digits
     assert run_facts(run)["status"] == "failed"
     with rasterio.open(run / "maps" / "max_speed.tif") as file:
         assert file.read(1, masked=True).max() > 40.0
 
 
-def test_a_slide_that_leaves_a_steep_dem_is_told_where_to_and_how_far(
+def test_a_slide_that_leaves_a_steep_dem_is_reported_where_to_and_how_far(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path
 ) -> None:
     """On 38 degrees it falls nearly as fast as it goes: its way over the map counts, and the DEM ends there."""
@@ -317,11 +317,11 @@ def test_a_slide_that_leaves_a_steep_dem_is_told_where_to_and_how_far(
     words = sets(basal__friction_angle=5, basal__friction="constant", grid__leaving="stop")
     done = thawslide("run", folder, "--output", tmp_path / "run", *words)
     assert done.returncode == 3, done.stderr
-    told = re.fullmatch(LEFT_DOMAIN + DEM_ENDS, done.stderr)
-    assert told, done.stderr
-    assert float(told[3]) > 60.0
-    assert float(told[4]) == pytest.approx(at_rest_after(told[3]), abs=10.0)
-    assert float(told[5]) == pytest.approx(WEST + CELL * (COLUMNS - 1) - float(told[1]), abs=2.0)
+    reported = re.fullmatch(LEFT_DOMAIN + DEM_ENDS, done.stderr)
+    assert reported, done.stderr
+    assert float(reported[3]) > 60.0
+    assert float(reported[4]) == pytest.approx(at_rest_after(reported[3]), abs=10.0)
+    assert float(reported[5]) == pytest.approx(WEST + CELL * (COLUMNS - 1) - float(reported[1]), abs=2.0)
 
 
 def test_a_domain_that_ends_before_its_dem_is_to_be_widened(
@@ -338,6 +338,6 @@ def test_a_domain_that_ends_before_its_dem_is_to_be_widened(
     words = sets(basal__friction_angle=5, basal__friction="constant", grid__max=grid["max"], grid__leaving="stop")
     done = thawslide("run", folder, "--output", tmp_path / "run", *words)
     assert done.returncode == 3, done.stderr
-    told = re.fullmatch(LEFT_DOMAIN + r"The DEM ends (\d+) m ahead of it: widen \[grid\] that way\.\n", done.stderr)
-    assert told, done.stderr
-    assert float(told[4]) < float(told[5]) == pytest.approx(end - float(told[1]), abs=5.0)
+    reported = re.fullmatch(LEFT_DOMAIN + r"The DEM ends (\d+) m ahead of it: widen \[grid\] that way\.\n", done.stderr)
+    assert reported, done.stderr
+    assert float(reported[4]) < float(reported[5]) == pytest.approx(end - float(reported[1]), abs=5.0)

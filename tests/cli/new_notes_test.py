@@ -163,7 +163,7 @@ def test_crs_by_a_bare_number(thawslide: Program, tmp_path: Path, slope: Slope, 
     )
 
 
-def test_resampling_a_made_case_tells_the_domain_that_fits(
+def test_resampling_a_made_case_reports_the_domain_that_fits(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path
 ) -> None:
     folder = tmp_path / "slide"
@@ -171,8 +171,8 @@ def test_resampling_a_made_case_tells_the_domain_that_fits(
     words = ("--set", "terrain.resample=40")
     outcome = thawslide("check", folder, *words)
     assert outcome.returncode == 2
-    told = outcome.stderr.partition("Set ")[2].partition(", or take a larger")[0]
-    low, _, high = told.partition(" and ")
+    reported = outcome.stderr.partition("Set ")[2].partition(", or take a larger")[0]
+    low, _, high = reported.partition(" and ")
     assert low.startswith("grid.min = [") and high.startswith("grid.max = ["), outcome.stderr
     done = thawslide(
         "check",

@@ -130,7 +130,7 @@ def test_release_cut_out_of_the_dem(thawslide: Program, tmp_path: Path, slope: S
 
 
 @pytest.mark.parametrize(("number", "percent"), [(signal.SIGTERM, 20), (signal.SIGINT, 50)])
-def test_a_run_stopped_by_a_signal_goes_on_to_the_same_bits(
+def test_a_run_stopped_by_a_signal_continues_to_the_same_bits(
     thawslide: Program,
     interrupted: Interrupted,
     tmp_path: Path,
@@ -216,14 +216,14 @@ def test_check_says_what_maps_take(thawslide: Program, tmp_path: Path, slope: Sl
         assert outcome.returncode == 0, outcome.stderr
         assert (note in outcome.stdout) == (cell == 5)
         said = dict(re.findall(r"^  (\w+) +(\S.*)$", outcome.stdout, re.MULTILINE))
-        told = re.fullmatch(
+        reported = re.fullmatch(
             rf"(\d+) x (\d+) cells of {cell} x {cell} m \({re.escape(reason)}\); "
             r"memory (\d+\.\d) MB for the release, at most (\d+\.\d) MB",
             said["maps"],
         )
-        assert told, said["maps"]
-        assert 0.0 < float(told[3]) < float(told[4])
-        one = int(told[1]) * int(told[2]) * 8
+        assert reported, said["maps"]
+        assert 0.0 < float(reported[3]) < float(reported[4])
+        one = int(reported[1]) * int(reported[2]) * 8
         assert (
             f", 12 maps (10 of {one / 1e6:.1f} MB, 2 of {of_ground / 1e6:.1f} MB) before they are compressed; "
         ) in said["disk"]

@@ -47,8 +47,8 @@ def test_a_second_process_is_refused_while_the_first_lives(
 
     at_work.kill()
     at_work.communicate(timeout=LIMIT)
-    told = json.loads(thawslide("status", run, "--json", environment=without_locks).stdout)
-    assert (told["state"], told["process"]) == ("killed", "")
+    reported = json.loads(thawslide("status", run, "--json", environment=without_locks).stdout)
+    assert (reported["state"], reported["process"]) == ("killed", "")
     end = run_facts(run)["parts"][0]
     assert end["from_s"] == 0
     outcome = thawslide(
@@ -64,8 +64,8 @@ def test_a_run_that_is_stopped_takes_its_name_out(
     at_work.communicate(timeout=LIMIT)
     assert at_work.returncode == 4
     assert not (tmp_path / "run" / "run.lock").exists()
-    told = json.loads(thawslide("status", tmp_path / "run", "--json", environment=without_locks).stdout)
-    assert told["state"] == "stopped"
+    reported = json.loads(thawslide("status", tmp_path / "run", "--json", environment=without_locks).stdout)
+    assert reported["state"] == "stopped"
 
 
 def test_a_process_of_another_machine_is_taken_to_live(
@@ -91,8 +91,8 @@ def test_a_process_of_another_machine_is_taken_to_live(
         "begun to write it; its last file was written "
     )
     assert said.endswith(f"  if that has surely ended: remove {lock}, then thawslide resume {done}\n")
-    told = json.loads(thawslide("status", done, "--json", environment=without_locks).stdout)
-    assert (told["state"], told["process"]) == ("unknown", "process 12 on elsewhere")
+    reported = json.loads(thawslide("status", done, "--json", environment=without_locks).stdout)
+    assert (reported["state"], reported["process"]) == ("unknown", "process 12 on elsewhere")
     lock.unlink()
     outcome = thawslide("resume", done, environment=without_locks)
     assert outcome.returncode == 0, outcome.stderr

@@ -33,12 +33,12 @@ def printed_to_full_disk(binary: Path, environment: dict[str, str], *words: obje
     "words",
     [["describe"], ["describe", "--md"], ["version"], ["--help"], ["check", "--help"]],
 )
-def test_results_that_are_lost_are_told(binary: Path, plain_environment: dict[str, str], words: list[str]) -> None:
+def test_results_that_are_lost_are_reported(binary: Path, plain_environment: dict[str, str], words: list[str]) -> None:
     assert printed_to_full_disk(binary, plain_environment, *words) == (5, LOST)
 
 
 @pytest.mark.parametrize("words", [["check"], ["check", "--json"], ["block"]])
-def test_results_of_a_case_that_are_lost_are_told(
+def test_results_of_a_case_that_are_lost_are_reported(
     binary: Path, plain_environment: dict[str, str], small_case: Path, words: list[str]
 ) -> None:
     command, *more = words
@@ -76,7 +76,7 @@ def test_a_reader_that_has_enough_is_no_error(binary: Path, plain_environment: d
     assert done.returncode == (0 if trap else -13)
 
 
-def test_a_mistake_that_cannot_be_told_keeps_its_code(binary: Path, plain_environment: dict[str, str]) -> None:
+def test_a_mistake_that_cannot_be_reported_keeps_its_code(binary: Path, plain_environment: dict[str, str]) -> None:
     with FULL.open("w") as full:
         done = subprocess.run(
             [str(binary), "check", "nowhere"],

@@ -68,7 +68,7 @@ def test_a_run_whose_folder_is_moved_leaves_its_successor_alone(
     assert outcome.returncode == 0, outcome.stderr
 
 
-def test_a_run_whose_folder_is_removed_does_not_make_it_anew(started: Start, tmp_path: Path) -> None:
+def test_a_run_whose_folder_is_removed_does_not_make_it_again(started: Start, tmp_path: Path) -> None:
     run = tmp_path / "run"
     process = started(run)
     run.rename(tmp_path / "to be removed")

@@ -36,7 +36,7 @@ def test_paper_shortened(binary: Path, report_environment: dict[str, str], tmp_p
     assert math.isclose(float(rows["block_e050_pressure_start"]), 917 * 9.81 * 50 / 1e3, rel_tol=1e-3)
 
 
-def test_paper_tells_of_a_program_that_computes_nothing(tmp_path: Path) -> None:
+def test_paper_reports_of_a_program_that_computes_nothing(tmp_path: Path) -> None:
     words = [sys.executable, "-m", "reproduction", "--program", "false", "--cases", str(tmp_path), "--output"]
     environment = dict(os.environ) | {"PYTHONPATH": f"{ROOT}:{ROOT / 'python'}"}
     done = subprocess.run(

@@ -28,10 +28,10 @@ def plain_case(small_case: Path) -> Path:
 def notes_of(thawslide: Program, case: Path, *words: str) -> list[str]:
     """Return what `check` notes; fails where it is not the same as JSON."""
     said = thawslide("check", case, *words)
-    told = thawslide("check", case, "--json", *words)
-    assert said.returncode == told.returncode == 0, said.stderr + told.stderr
+    reported = thawslide("check", case, "--json", *words)
+    assert said.returncode == reported.returncode == 0, said.stderr + reported.stderr
     notes = re.findall(r"^warning: (.*)$", said.stdout, re.MULTILINE)
-    assert notes == json.loads(told.stdout)["warnings"]
+    assert notes == json.loads(reported.stdout)["warnings"]
     return notes
 
 
@@ -110,14 +110,14 @@ COARSE = (
         ),
     ],
 )
-def test_what_is_hardly_meant_is_told(thawslide: Program, plain_case: Path, words: list[str], note: str) -> None:
+def test_what_is_barely_meant_is_reported(thawslide: Program, plain_case: Path, words: list[str], note: str) -> None:
     """Once each, with place, what was found and what to do; and `run` tells the same."""
     cell = [] if note == COARSE else sets(grid__cell=0.5)
     words = [*cell, *sets(time__step=0.0005), *words]
-    told = note.format(case=plain_case / "case.toml")
-    assert notes_of(thawslide, plain_case, *words) == [told]
+    reported = note.format(case=plain_case / "case.toml")
+    assert notes_of(thawslide, plain_case, *words) == [reported]
     run = thawslide("run", plain_case, "--output", plain_case.parent / "run", *sets(time__end=0.001), *words)
-    assert f"warning: {told}\n".replace("0.2 s, which", "0.001 s, which") in run.stdout
+    assert f"warning: {reported}\n".replace("0.2 s, which", "0.001 s, which") in run.stdout
 
 
 def test_nothing_is_doubted_of_the_example_of_the_how_to_page(thawslide: Program, tmp_path: Path) -> None:
@@ -150,7 +150,7 @@ def test_a_side_of_the_domain_that_holds_carries_a_body(thawslide: Program, plai
     assert notes_of(thawslide, plain_case, *words) == []
 
 
-def test_a_default_without_drainage_is_told_by_run_too(thawslide: Program, small_case: Path) -> None:
+def test_a_default_without_drainage_is_reported_by_run_too(thawslide: Program, small_case: Path) -> None:
     file = small_case / "case.toml"
     file.write_text(file.read_text() + '\n[band]\nmodel = "columns"\nthickness = 0.2\n')
     note = (
@@ -165,19 +165,19 @@ def test_a_default_without_drainage_is_told_by_run_too(thawslide: Program, small
 
 
 def test_json_holds_what_the_text_says(thawslide: Program, plain_case: Path) -> None:
-    told = json.loads(thawslide("check", plain_case, "--json").stdout)
-    (body,) = told["bodies"]
+    reported = json.loads(thawslide("check", plain_case, "--json").stdout)
+    (body,) = reported["bodies"]
     # 4 m x 3 m on cells of 1 m; 70 % rock and 30 % ice are 2200.1 kg/m3, with little water.
-    assert body["name"] == "block" and body["particles"] == told["particles"] == 48
+    assert body["name"] == "block" and body["particles"] == reported["particles"] == 48
     assert body["volume_m3"] == pytest.approx(12.0, rel=1e-12) and body["area_m2"] == pytest.approx(4.0, rel=1e-12)
     assert body["mass_kg"] == pytest.approx(12.0 * 2200.1, rel=1e-6)
     assert body["mean_thickness_m"] == body["median_thickness_m"] == body["largest_thickness_m"] == 3.0
     assert body["spacing_m"] == 0.5 and body["particles_across"] == 6.0
     assert body["clearance_m"] == pytest.approx(0.0, abs=1e-12) and body["standing_share"] == 1.0
     assert body["coldest_C"] == body["warmest_C"] == -10.0
-    assert told["cells"] == 240 and told["steps"] == 200 and told["step_s"] == 0.001
-    assert told["memory"]["particles_bytes"] == 48 * 631 and told["memory"]["available_bytes"] > 1e6
-    disk = told["disk"]
+    assert reported["cells"] == 240 and reported["steps"] == 200 and reported["step_s"] == 0.001
+    assert reported["memory"]["particles_bytes"] == 48 * 631 and reported["memory"]["available_bytes"] > 1e6
+    disk = reported["disk"]
     assert disk["snapshots"] == 5 and disk["history_rows"] == 21 and disk["checkpoints"] == 3
     assert disk["need_bytes"] == pytest.approx(
         5 * disk["snapshot_bytes"] + 3 * disk["checkpoint_bytes"] + disk["history_bytes"] + disk["inputs_bytes"]
@@ -233,7 +233,7 @@ def test_what_cannot_fit_into_memory_is_refused_at_once(
     assert outcome(str(coarser)).returncode == 0
 
 
-def test_a_step_that_is_refused_tells_the_matter_it_is_too_long_for(thawslide: Program, plain_case: Path) -> None:
+def test_a_step_that_is_refused_reports_the_matter_it_is_too_long_for(thawslide: Program, plain_case: Path) -> None:
     outcome = thawslide("check", plain_case, *sets(phases__rock_density=2.75, time__step=0.002))
     assert outcome.returncode == 2 and "time.step is 0.002 s, above the limit of" in outcome.stderr
     assert "with a Young's modulus of 1e+08 Pa and 277 kg/m3. Use a smaller time.step" in outcome.stderr

@@ -41,22 +41,22 @@ def test_plain_lines_tell_share_speed_time_left_and_front(said: tuple[list[str],
     for line in said[0][1:]:
         if "%" in line and "left" in line:
             # Two places of the front make a speed.
-            told = re.fullmatch(rf" *(\d+) % \| {STATE}{SPEED if shares else ''}", line)
-            assert told, line
-            shares.append(int(told[1]))
+            reported = re.fullmatch(rf" *(\d+) % \| {STATE}{SPEED if shares else ''}", line)
+            assert reported, line
+            shares.append(int(reported[1]))
     assert shares[0] == 10 and 8 <= len(shares) <= 10
     assert shares == sorted(set(shares)) and shares[-1] <= 100
 
 
-def test_summary_tells_throughput_stages_and_result(said: tuple[list[str], Path]) -> None:
+def test_summary_reports_throughput_stages_and_result(said: tuple[list[str], Path]) -> None:
     lines, run = said
     facts = run_facts(run)
     first = next(k for k, line in enumerate(lines) if "particle-steps per second" in line)
-    told = re.fullmatch(
+    reported = re.fullmatch(
         r"(\d+) particles, 200 steps in \d+ s: (\S+) million particle-steps per second on 1 thread", lines[first]
     )
-    assert told and int(told[1]) == facts["particles"]
-    assert told[2] == f"{facts['particle_steps_per_second'] / 1e6:.3g}"
+    assert reported and int(reported[1]) == facts["particles"]
+    assert reported[2] == f"{facts['particle_steps_per_second'] / 1e6:.3g}"
     where = next(number for number, line in enumerate(lines) if line.startswith("at 2 s"))
     stages = [re.fullmatch(r"  (\w+) +(\d+\.\d\d) s +(\d+\.\d) %", line) for line in lines[first + 1 : where]]
     assert all(stages)
@@ -111,7 +111,7 @@ def test_bar_on_a_terminal(binary: Path, plain_environment: dict[str, str], tmp_
     assert re.search(r"m( at -?\d+\.\d m/s)?\r\n\d+ particles, 2000 steps in ", shown[last:])
 
 
-def test_a_slide_that_hardly_moved_has_no_front(
+def test_a_slide_that_barely_moved_has_no_front(
     thawslide: Program, slope: Slope, release: Path, tmp_path: Path
 ) -> None:
     made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24)
@@ -139,13 +139,13 @@ def test_a_run_whose_whole_slide_has_left_is_done(
     )  # fmt: skip
     assert outcome.returncode == 0, outcome.stderr
     facts, columns = run_facts(run), history(run)
-    told = re.fullmatch(
+    reported = re.fullmatch(
         r"the whole slide has left the domain or the known ground at t = (\S+) s \(step \d+\); the last (\S+) kg of "
         r"it, which left in this step, still stand in mass_kg\. Widen \[grid\] min and max, or give a DEM that reaches "
         r"further, to follow it on\.",
         facts["message"],
     )
-    assert told and facts["status"] == "done"
+    assert reported and facts["status"] == "done"
     assert outcome.stdout.splitlines()[-1] == facts["message"]
     work = re.search(
         r"^(\d+) particles, (\d+) of them at the end, \d+ steps in .*: (\S+) million particle-steps per second on 1 "
@@ -156,9 +156,9 @@ def test_a_run_whose_whole_slide_has_left_is_done(
     assert work and int(work[1]) == facts["particles"] > int(work[2])
     assert work[3] == f"{facts['particle_steps_per_second'] / 1e6:.3g}"
     assert facts["particle_steps_per_second"] * facts["wall_s"] < facts["particles"] * facts["steps"]
-    assert columns["time_s"][-1] == pytest.approx(float(told[1]), rel=1e-5)
+    assert columns["time_s"][-1] == pytest.approx(float(reported[1]), rel=1e-5)
     assert columns["time_s"][-1] < 60.0
-    assert columns["mass_kg"][-1] == pytest.approx(float(told[2]), rel=1e-3)
+    assert columns["mass_kg"][-1] == pytest.approx(float(reported[2]), rel=1e-3)
     np.testing.assert_allclose(columns["mass_kg"] + columns["left_mass_kg"], columns["mass_kg"][0], rtol=1e-12)
     # Nothing lies there at the end, and what was largest is kept.
     assert facts["covered_volume_m3"] == facts["covered_area_m2"] == 0.0

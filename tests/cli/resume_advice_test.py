@@ -40,7 +40,7 @@ def test_a_run_that_failed_is_not_resumed_without_a_word(thawslide: Program, fai
     assert outcome.returncode == 0 and "the run failed" not in outcome.stdout, outcome.stderr
 
 
-def test_what_a_finished_run_has_lost_of_its_results_is_told(thawslide: Program, done: Path) -> None:
+def test_what_a_finished_run_has_lost_of_its_results_is_reported(thawslide: Program, done: Path) -> None:
     sound = (done / "history.csv").read_text()
     (done / "snapshots" / "000001.vtkhdf").unlink()
     (done / "particles.vtkhdf").unlink()
@@ -54,9 +54,9 @@ def test_what_a_finished_run_has_lost_of_its_results_is_told(thawslide: Program,
     ]
     shutil.rmtree(done / "snapshots")
     (done / "history.csv").write_text("")
-    told = thawslide("resume", done).stdout
-    assert f"warning: {done / 'history.csv'} holds no rows\n" in told
-    assert f"warning: {done / 'snapshots'} holds no snapshots\n" in told
+    reported = thawslide("resume", done).stdout
+    assert f"warning: {done / 'history.csv'} holds no rows\n" in reported
+    assert f"warning: {done / 'snapshots'} holds no snapshots\n" in reported
 
 
 def test_what_does_not_fit_a_change_is_changed_on_the_command_line(

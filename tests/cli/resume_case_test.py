@@ -82,7 +82,7 @@ def test_a_new_end_in_the_case_file_is_answered_with_the_command(
     assert run_facts(done)["parts"][1]["changes"] == ["time.end=0.4"]
 
 
-def test_what_a_finished_run_has_lost_is_told(thawslide: Program, done: Path) -> None:
+def test_what_a_finished_run_has_lost_is_reported(thawslide: Program, done: Path) -> None:
     for name in ("checkpoint.bin", "checkpoint.previous.bin", "history.csv"):
         (done / name).unlink()
     outcome = thawslide("resume", done)

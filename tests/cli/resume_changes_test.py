@@ -34,7 +34,7 @@ def test_a_change_that_no_step_is_left_for_is_refused(thawslide: Program, done: 
     assert run_facts(done)["parts"][-1]["changes"] == ["basal.friction_angle=5", "time.end=0.3"]
 
 
-def test_a_run_at_rest_goes_on_with_what_is_changed(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_a_run_at_rest_continues_with_what_is_changed(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run, *RESTS).returncode == 0
     rest = run_facts(run)["simulated_time_s"]

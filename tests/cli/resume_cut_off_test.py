@@ -22,24 +22,24 @@ RESTS = sets(
 
 def cut_off(thawslide: Program, run: Path, *words: object) -> None:
     """Leave a run as a resume does that is killed between telling of its changes and making them."""
-    told = run.with_name(run.name + "-told")
-    shutil.copytree(run, told)
-    outcome = thawslide("resume", told, *words)
+    reported = run.with_name(run.name + "-told")
+    shutil.copytree(run, reported)
+    outcome = thawslide("resume", reported, *words)
     assert outcome.returncode == 0, outcome.stderr
-    as_killed(told)
-    shutil.copy(told / "run.json", run / "run.json")
-    shutil.rmtree(told)
+    as_killed(reported)
+    shutil.copy(reported / "run.json", run / "run.json")
+    shutil.rmtree(reported)
 
 
 def taken(thawslide: Program, run: Path, *words: object) -> None:
     """Leave a run as a resume does that is killed after its changes are in case.toml, before its first checkpoint."""
-    told = run.with_name(run.name + "-told")
-    shutil.copytree(run, told)
-    assert thawslide("resume", told, *words).returncode == 0
-    as_killed(told)
+    reported = run.with_name(run.name + "-told")
+    shutil.copytree(run, reported)
+    assert thawslide("resume", reported, *words).returncode == 0
+    as_killed(reported)
     for name in ("run.json", "case.toml"):
-        shutil.copy(told / name, run / name)
-    shutil.rmtree(told)
+        shutil.copy(reported / name, run / name)
+    shutil.rmtree(reported)
 
 
 def changes_asked_for(thawslide: Program, run: Path, *words: object) -> str:
@@ -78,11 +78,11 @@ def test_a_change_on_a_change_is_asked_for_alone(thawslide: Program, done: Path)
     """The first has taken hold, and no checkpoint tells of it yet."""
     taken(thawslide, done, *sets(basal__friction_angle=5, time__end=0.3))
     changed = (done / "case.toml").read_text()
-    told = done.with_name("second")
-    shutil.copytree(done, told)
-    assert thawslide("resume", told, "--end", 0.4).returncode == 0
-    as_killed(told)
-    shutil.copy(told / "run.json", done / "run.json")
+    reported = done.with_name("second")
+    shutil.copytree(done, reported)
+    assert thawslide("resume", reported, "--end", 0.4).returncode == 0
+    as_killed(reported)
+    shutil.copy(reported / "run.json", done / "run.json")
     assert changes_asked_for(thawslide, done) == "time.end=0.4"
     # Without the file, which is written again from the checkpoint, both are.
     (done / "case.toml").unlink()
@@ -110,7 +110,7 @@ def test_changes_cut_off_twice_before_the_first_checkpoint(thawslide: Program, d
 
 
 @pytest.mark.parametrize("killed", [True, False])
-def test_a_run_that_lost_its_checkpoints_is_not_begun_anew(thawslide: Program, done: Path, killed: bool) -> None:
+def test_a_run_that_lost_its_checkpoints_is_not_begun_again(thawslide: Program, done: Path, killed: bool) -> None:
     if killed:
         as_killed(done)
     for name in ("checkpoint.bin", "checkpoint.previous.bin"):
@@ -133,8 +133,8 @@ def test_what_a_run_at_rest_advises_works(thawslide: Program, small_case: Path, 
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run, *RESTS).returncode == 0
     rest = run_facts(run)["simulated_time_s"]
-    told = thawslide("resume", run, "--end", 5.5).stdout
-    assert told.endswith("nothing to do. To continue it, add --set time.stop_at_rest=0\n")
+    reported = thawslide("resume", run, "--end", 5.5).stdout
+    assert reported.endswith("nothing to do. To continue it, add --set time.stop_at_rest=0\n")
     outcome = thawslide("resume", run, "--end", rest + 0.5, "--set", "time.stop_at_rest=0")
     assert outcome.returncode == 0, outcome.stderr
     assert run_facts(run)["simulated_time_s"] == pytest.approx(rest + 0.5)

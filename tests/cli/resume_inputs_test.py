@@ -17,7 +17,7 @@ def require_refused(thawslide: Program, run: Path, copy: Path) -> None:
     )
 
 
-def test_a_changed_input_is_refused_and_a_changed_original_told(
+def test_a_changed_input_is_refused_and_a_changed_original_reported(
     thawslide: Program, small_case: Path, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"
@@ -27,14 +27,16 @@ def test_a_changed_input_is_refused_and_a_changed_original_told(
     original.write_text(original.read_text() + "# a remark\n")
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
-    told = f"warning: {original} has changed since the run began. The run continues with its copy, inputs/case.toml\n"
-    assert told in outcome.stdout
+    warning = f"{original} has changed since the run began. The run continues with its copy, inputs/case.toml\n"
+        f"warning: {original} has changed since the run began. The run continues with its copy, inputs/case.toml\n"
+    )
+    assert reported in outcome.stdout
     as_killed(run)
     copy.write_text("other")
     require_refused(thawslide, run, copy)
 
 
-def test_a_changed_input_that_is_no_profile_any_more_is_told_as_changed(
+def test_a_changed_input_that_is_no_profile_any_more_is_reported_as_changed(
     thawslide: Program, small_case: Path, tmp_path: Path
 ) -> None:
     file, run = small_case / "case.toml", tmp_path / "run"

@@ -8,7 +8,7 @@ from conftest import LAMPLUGH, Program, sets
 from faults import as_killed
 
 
-def test_what_stands_from_the_start_is_written_anew(thawslide: Program, done: Path) -> None:
+def test_what_stands_from_the_start_is_written_again(thawslide: Program, done: Path) -> None:
     as_killed(done)
     ground = (done / "terrain.csv").read_bytes()
     (done / "terrain.csv").unlink()
@@ -16,7 +16,7 @@ def test_what_stands_from_the_start_is_written_anew(thawslide: Program, done: Pa
     assert (done / "terrain.csv").read_bytes() == ground
 
 
-def test_maps_of_the_ground_are_written_anew(thawslide: Program, tmp_path: Path) -> None:
+def test_maps_of_the_ground_are_written_again(thawslide: Program, tmp_path: Path) -> None:
     run = tmp_path / "run"
     words = sets(grid__cell=60, time__end=0.1, time__output_interval=0.1)
     assert thawslide("run", LAMPLUGH.parent / "valley3d", "--output", run, *words).returncode == 0

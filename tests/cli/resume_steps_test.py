@@ -21,7 +21,7 @@ RESTS = sets(
 
 
 @pytest.mark.parametrize(("step", "steps"), [(0.002, 25), (0.0005, 100), (0.0007, 71)])
-def test_time_goes_on_from_where_it_is_with_other_steps(
+def test_time_continues_from_where_it_is_with_other_steps(
     thawslide: Program, done: Path, step: float, steps: int
 ) -> None:
     outcome = thawslide("resume", done, "--end", 0.25, *sets(time__step=step, time__history_interval=0))
@@ -35,7 +35,7 @@ def test_time_goes_on_from_where_it_is_with_other_steps(
     assert np.diff(times) == pytest.approx(step, rel=1e-9)
 
 
-def test_time_goes_on_where_steps_become_adaptive_and_fixed_again(thawslide: Program, done: Path) -> None:
+def test_time_continues_where_steps_become_adaptive_and_fixed_again(thawslide: Program, done: Path) -> None:
     changes = sets(time__stepping="adaptive", time__history_interval=0)
     assert thawslide("resume", done, "--end", 0.25, *changes).returncode == 0
     assert run_facts(done)["simulated_time_s"] == 0.25

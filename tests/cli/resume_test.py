@@ -36,7 +36,7 @@ def whole(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize(("number", "percent"), [(signal.SIGTERM, 10), (signal.SIGINT, 30)])
-def test_a_stopped_run_goes_on_to_the_same_bits(
+def test_a_stopped_run_continues_to_the_same_bits(
     thawslide: Program, interrupted: Interrupted, whole: Path, tmp_path: Path, number: int, percent: int
 ) -> None:
     run = tmp_path / "run"
@@ -64,7 +64,7 @@ def test_a_stopped_run_goes_on_to_the_same_bits(
     assert after["particle_steps_per_second"] == pytest.approx(after["particles"] * 300 / after["wall_s"])
 
 
-def test_a_stopped_run_on_band_columns_goes_on_to_the_same_bits(
+def test_a_stopped_run_on_band_columns_continues_to_the_same_bits(
     thawslide: Program, interrupted: Interrupted, tmp_path: Path
 ) -> None:
     case, whole, run = LAMPLUGH.parent / "lamplugh-columns", tmp_path / "whole", tmp_path / "run"
@@ -75,7 +75,7 @@ def test_a_stopped_run_on_band_columns_goes_on_to_the_same_bits(
     assert (run / "checkpoint.bin").read_bytes() == (whole / "checkpoint.bin").read_bytes()
 
 
-def test_a_killed_run_goes_on_from_its_last_checkpoint(
+def test_a_killed_run_continues_from_its_last_checkpoint(
     thawslide: Program, interrupted: Interrupted, whole: Path, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"
@@ -84,12 +84,12 @@ def test_a_killed_run_goes_on_from_its_last_checkpoint(
     rows = history(run)["time_s"]
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
-    told = re.match(
+    reported = re.match(
         r"continuing from t = (\S+) s; it had reached (\S+) s: rows and snapshots after (\S+) s are written again\n",
         outcome.stdout,
     )
-    assert told and told[1] == told[3] and float(told[2]) == pytest.approx(rows[-1], rel=1e-5)
-    checkpoint = float(told[1])
+    assert reported and reported[1] == reported[3] and float(reported[2]) == pytest.approx(rows[-1], rel=1e-5)
+    checkpoint = float(reported[1])
     assert 0.8 <= checkpoint <= rows[-1] + 0.07 and checkpoint / 0.4 == pytest.approx(round(checkpoint / 0.4))
     assert_same_bits(whole, run)
 
@@ -108,7 +108,7 @@ def test_what_a_stop_says(binary: Path, plain_environment: dict[str, str], tmp_p
     assert errors == f"interrupted by signal 15 at t = {stop:g} s. To continue: thawslide resume {run}\n"
 
 
-def test_a_finished_run_goes_on_when_its_end_is_moved(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_a_finished_run_continues_when_its_end_is_moved(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     # 11 steps of 0.9 ms end at 9.9 ms, where the row and the snapshot of 10 ms are due: they must not come twice.
     words = sets(time__step=0.0009, time__history_interval=0.01, time__output_interval=0.01)
     whole, longer = tmp_path / "whole", tmp_path / "longer"
@@ -124,7 +124,7 @@ def test_a_finished_run_goes_on_when_its_end_is_moved(thawslide: Program, small_
     assert first["case_sha256"] != second["case_sha256"] == run_facts(whole)["parts"][0]["case_sha256"]
 
 
-def test_a_run_that_particles_have_left_goes_on(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_a_run_that_particles_have_left_continues(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     words = sets(grid__leaving="remove", grid__max=[15.0, 10.0], body__block__velocity=[20.0, 0.0])
     whole, longer = tmp_path / "whole", tmp_path / "longer"
     assert thawslide("run", small_case, "--output", whole, *words).returncode == 0

@@ -61,8 +61,8 @@ def test_new_keeps_the_terrain_model_as_it_is(thawslide: Program, rough_case: Pa
 def test_check_reports_noise_filter_and_what_is_left(thawslide: Program, rough_case: Path) -> None:
     checked = thawslide("check", rough_case)
     assert checked.returncode == 0, checked.stderr
-    told = f"smoothed with a standard deviation of {WIDTH:g} m; remaining friction by noise and bumps about "
-    assert told in checked.stdout
+    reported = f"smoothed with a standard deviation of {WIDTH:g} m; remaining friction by noise and bumps about "
+    assert reported in checked.stdout
     assert (
         f"In V valleys of 90 degrees filled less than {40 * WIDTH:g} m wide the filter takes more than 3 % of the "
         "friction of their sides" in checked.stdout

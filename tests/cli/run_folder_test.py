@@ -125,7 +125,7 @@ def test_particles_file_shows_all_snapshots_as_one(lamplugh: Path) -> None:
                 assert root["PointData"][name][rows].tobytes() == alone[f"VTKHDF/PointData/{name}"].tobytes(), name
 
 
-def test_run_json_tells_inputs_with_their_hashes_and_speed(lamplugh: Path) -> None:
+def test_run_json_reports_inputs_with_their_hashes_and_speed(lamplugh: Path) -> None:
     facts = run_facts(lamplugh)
     assert facts["status"] == "done" and facts["message"] == ""
     assert facts["steps"] == 100 and facts["simulated_time_s"] == pytest.approx(END)

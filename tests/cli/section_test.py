@@ -147,7 +147,7 @@ def test_corners_are_kept_and_a_line_uphill_is_turned_round(thawslide: Program, 
     assert terrain[-1] == pytest.approx(1000.0 - SLOPE * 703.0)
 
 
-def test_mistakes_are_told(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+def test_mistakes_are_reported(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     folder = tmp_path / "case"
 
     def error(*words: object) -> str:
@@ -235,18 +235,18 @@ def test_block_slides_a_case_in_space_along_its_path(thawslide: Program, maps: M
 
     far = thawslide("block", folder, "--output", file, *coulomb, *sets(time__end=40))
     assert far.returncode == 0, far.stderr
-    told = re.search(
+    reported = re.search(
         r"warning: the path's ground is known for 760 m; the front leaves it at (\S+) s, and the rows end before\. "
         r"Give a "
         r"longer maps\.path, or a larger DEM, to follow it further\n",
         far.stdout,
     )
-    assert told and float(told[1]) == pytest.approx(
+    assert reported and float(reported[1]) == pytest.approx(
         np.sqrt(2.0 * (760.0 - 190.0) * np.hypot(1.0, SLOPE) / acceleration), rel=0.05
     )
     columns = {name: values for name, values in zip(*read_csv(file), strict=True)}
     assert 700.0 < columns["front_position_m"][-1] <= 760.0
-    assert columns["time_s"][-1] < float(told[1])
+    assert columns["time_s"][-1] < float(reported[1])
 
 
 def read_csv(file: Path) -> tuple[list[str], np.ndarray]:

@@ -65,7 +65,7 @@ def test_a_signal_ends_the_settling(binary: Path, thawslide: Program, small_case
     assert thawslide("status", run).stdout.startswith(f"{run}: stopped")
 
 
-def test_energy_that_comes_slowly_is_told_once(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_energy_that_comes_slowly_is_reported_once(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     slow = sets(time__end=30, time__history_interval=1, time__output_interval=10, guards__energy_growth=0.02)
     outcome = thawslide("run", small_case, "--output", tmp_path / "run", *slow, "--set", "body.block.max=[15.0, 5.0]")
     assert outcome.returncode == 0, outcome.stderr

@@ -91,7 +91,7 @@ def test_a_second_signal_stops_at_once(
         assert json.loads(thawslide("status", tmp_path / "run", "--json").stdout)["state"] == "killed"
 
 
-def test_where_there_are_no_locks_it_cannot_be_told_whether_a_run_lives(
+def test_where_there_are_no_locks_it_cannot_be_reported_whether_a_run_lives(
     thawslide: Program, plain_environment: dict[str, str], small_case: Path, tmp_path: Path
 ) -> None:
     if not FAILING_WRITES.exists():
@@ -115,8 +115,8 @@ def test_where_there_are_no_locks_it_cannot_be_told_whether_a_run_lives(
         said,
     ), said
     assert said.endswith(f"  if nothing writes there any more: thawslide resume {run}\n")
-    told = json.loads(thawslide("status", run, "--json", environment=without).stdout)
-    assert told["state"] == "unknown" and told["last_write_age_s"] == pytest.approx(300, abs=60)
+    reported = json.loads(thawslide("status", run, "--json", environment=without).stdout)
+    assert reported["state"] == "unknown" and reported["last_write_age_s"] == pytest.approx(300, abs=60)
     assert json.loads(thawslide("status", run, "--json").stdout)["state"] == "killed"
 
 

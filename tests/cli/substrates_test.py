@@ -36,7 +36,7 @@ def test_check_lists_substrates_and_gaps(thawslide: Program, small_case: Path) -
     ) in outcome.stdout
 
 
-def test_gaps_are_told_by_every_command_that_uses_the_base(
+def test_gaps_are_reported_by_every_command_that_uses_the_base(
     thawslide: Program, small_case: Path, tmp_path: Path
 ) -> None:
     case = small_case / "case.toml"

@@ -26,17 +26,17 @@ def refusals(thawslide: Program, case: Path, text: str) -> list[str]:
     """Return what `check` finds wrong with reported values, each behind its line."""
     file = case / "targets.csv"
     file.write_text(text)
-    told = thawslide("check", case)
-    assert told.returncode == (2 if told.stderr else 0)
-    return re.findall(rf"report\.targets: {re.escape(str(file))}:(\d+: .*)$", told.stderr, re.MULTILINE)
+    printed = thawslide("check", case)
+    assert printed.returncode == (2 if printed.stderr else 0)
+    return re.findall(rf"report\.targets: {re.escape(str(file))}:(\d+: .*)$", printed.stderr, re.MULTILINE)
 
 
 def test_both_know_the_same_quantities(thawslide: Program, case: Path) -> None:
-    (told,) = refusals(thawslide, case, HEADER + "qqq,0,1,m,x\n")
+    (printed,) = refusals(thawslide, case, HEADER + "qqq,0,1,m,x\n")
     with pytest.raises(ReportError) as error:
         read_targets(case / "targets.csv")
-    assert str(error.value) == f"{case / 'targets.csv'}:{told}"
-    assert told.split("There are: ")[1].split(";")[0].split(", ") == list(QUANTITIES)
+    assert str(error.value) == f"{case / 'targets.csv'}:{printed}"
+    assert printed.split("There are: ")[1].split(";")[0].split(", ") == list(QUANTITIES)
 
 
 def test_both_know_the_same_units(thawslide: Program, case: Path) -> None:
@@ -44,13 +44,13 @@ def test_both_know_the_same_units(thawslide: Program, case: Path) -> None:
     rows = [row for row in rows if not row.startswith("start_velocity") or row.endswith("x0")]  # one sets the clock
     assert refusals(thawslide, case, HEADER + "\n".join(rows) + "\n") == []
     assert len(read_targets(case / "targets.csv")) == len(rows)
-    for told, name in zip(
+    for printed, name in zip(
         refusals(thawslide, case, HEADER + "".join(f"{name},0,1,qq,x\n" for name in QUANTITIES)),
         QUANTITIES,
         strict=True,
     ):
         units = ", ".join(filter(None, QUANTITIES[name].units))
-        assert told.endswith(f": the unit 'qq' for {name}; allowed: {units}")
+        assert printed.endswith(f": the unit 'qq' for {name}; allowed: {units}")
 
 
 def test_both_convert_and_bound_alike(thawslide: Program, case: Path) -> None:
@@ -71,7 +71,7 @@ def test_both_convert_and_bound_alike(thawslide: Program, case: Path) -> None:
     found: list[str] = []
     for start in range(0, len(rows), 40):  # no more are told at once than 50
         found += refusals(thawslide, case, HEADER + "\n".join(rows[start : start + 40]) + "\n")
-    assert [told.split(": ", 1)[1] for told in found] == expected
+    assert [printed.split(": ", 1)[1] for printed in found] == expected
 
 
 @pytest.mark.parametrize(
@@ -102,13 +102,13 @@ def test_both_convert_and_bound_alike(thawslide: Program, case: Path) -> None:
     ],
 )
 def test_both_say_the_same(thawslide: Program, case: Path, text: str) -> None:
-    (told,) = refusals(thawslide, case, text)
+    (printed,) = refusals(thawslide, case, text)
     with pytest.raises(ReportError) as error:
         read_targets(case / "targets.csv")
-    assert str(error.value) == f"{case / 'targets.csv'}:{told}"
+    assert str(error.value) == f"{case / 'targets.csv'}:{printed}"
 
 
-def test_values_beyond_the_run_are_told_before_it(thawslide: Program, case: Path) -> None:
+def test_values_beyond_the_run_are_reported_before_it(thawslide: Program, case: Path) -> None:
     assert refusals(thawslide, case, HEADER + "mean_velocity,-100,8,m/s,x\n") == [
         "2: mean_velocity is of -100 s, before the run; allowed: 0 s and later, or a row start_velocity that sets "
         "their clock"

@@ -140,9 +140,9 @@ def test_valley_turned_and_shifted_is_within_the_spread_of_starting_noise(thawsl
     for column, value in by_plain.items():
         spread = max(abs(noisy[column] - value) for noisy in by_noise)
         assert 0.0 < spread < CELL, column
-        told = f"{column}: {value}, with noise {[noisy[column] for noisy in by_noise]}"
-        assert abs(by_turn[column] - value) <= spread, f"{told}, turned {by_turn[column]}"
-        assert abs(by_shift[column] - value) <= spread, f"{told}, shifted {by_shift[column]}"
+        reported = f"{column}: {value}, with noise {[noisy[column] for noisy in by_noise]}"
+        assert abs(by_turn[column] - value) <= spread, f"{reported}, turned {by_turn[column]}"
+        assert abs(by_shift[column] - value) <= spread, f"{reported}, shifted {by_shift[column]}"
 
 
 @pytest.mark.long

@@ -96,9 +96,9 @@ def find_nvcc() -> str:
     nvcc = shutil.which("nvcc") or shutil.which("nvcc", path=f"{beside}/bin")
     if not nvcc:
         pytest.skip(f"no nvcc on the path or in {beside}/bin: device code is not compiled here")
-    told = subprocess.run([nvcc, "--version"], capture_output=True, text=True, timeout=60, check=True).stdout
-    version = re.search(r"release (\d+)\.(\d+)", told)
-    assert version, told
+    reported = subprocess.run([nvcc, "--version"], capture_output=True, text=True, timeout=60, check=True).stdout
+    version = re.search(r"release (\d+)\.(\d+)", reported)
+    assert version, reported
     if int(version.group(1)) < OLDEST:
         pytest.skip(f"{nvcc} is of version {version.group(1)}.{version.group(2)}; C++20 needs {OLDEST}.0")
     return nvcc
@@ -114,9 +114,9 @@ def compiled(nvcc: str, source: Path, folder: Path) -> str:
     options += ["-diag-suppress", "20012"]  # Eigen 3.4 marks functions that need no mark
     command = [nvcc, *options, "-c", str(source), "-o", str(folder / "kernels.o")]
     done = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, check=False)
-    told = done.stdout + done.stderr
-    assert done.returncode == 0, f"{' '.join(command)}\n{told}"
-    return subprocess.run(["c++filt"], input=told, capture_output=True, text=True, check=True).stdout
+    reported = done.stdout + done.stderr
+    assert done.returncode == 0, f"{' '.join(command)}\n{reported}"
+    return subprocess.run(["c++filt"], input=reported, capture_output=True, text=True, check=True).stdout
 
 
 def short_name(demangled: str) -> str:
@@ -125,10 +125,10 @@ def short_name(demangled: str) -> str:
     return name.replace("> >", ">>").split("(")[0]
 
 
-def resources(told: str) -> dict[str, tuple[int, int]]:
+def resources(reported: str) -> dict[str, tuple[int, int]]:
     """Return registers and spilled bytes of each kernel."""
     found = {}
-    for part in told.split("Compiling entry function '")[1:]:
+    for part in reported.split("Compiling entry function '")[1:]:
         spilled = [int(number) for number in re.findall(r"(\d+) bytes spill", part)]
         registers = re.search(r"Used (\d+) registers", part)
         assert spilled and registers, part
