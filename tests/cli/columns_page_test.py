@@ -25,13 +25,13 @@ def test_columns_page_shortened(binary: Path, report_environment: dict[str, str]
         assert done.returncode == 0, done.stderr
         return done.stdout
 
-    assert "4 runs, 0 of them there already" in call()
+    assert "4 runs, 0 of them complete" in call()
     text = page.read_text(encoding="utf-8")
     assert max(len(line) for line in text.splitlines() if not line.startswith("|")) <= 120
     assert "## 3 members" in text
     assert "| model | peak of the mean velocity [m/s] | 80 | 72 to 88 |" in text
     # A second of sliding is not enough for 8 m/s.
-    assert "- from 8 m/s to the peak: no member has it; 28 to 42 is wanted" in text
+    assert "- from 8 m/s to the peak: no member has it (accepted: 28 to 42)" in text
     assert "| bound | largest P over averaged N |  | at most 1 | 0.000 | 0.000 | 3 of 3 | yes |" in text
     assert "| `band.thickness=" in text and "not run" not in text
     assert "@" not in text and "{" not in text

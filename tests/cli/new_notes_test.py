@@ -233,7 +233,7 @@ def test_a_release_at_rest_has_the_area_that_was_drawn(
     assert state == "at 0.01 s, not at rest"
     with rasterio.open(run / "maps" / "final_thickness.tif") as file:
         thickness = file.read(1, masked=True)
-        assert file.descriptions == ("at 0.01 s, not at rest: vertical thickness of the slide",)
+        assert file.descriptions == ("at 0.01 s, not at rest: vertical thickness of the sliding mass",)
     assert thickness.sum() * CELL**2 == pytest.approx(8000.0 * THICKNESS, rel=0.01)
     whole_cells = (thickness > 0.1).sum() * CELL**2
     assert whole_cells > 1.25 * 8000.0, "the DEM makes ramps of the outline"

@@ -52,7 +52,7 @@ def test_columns_datasets_and_maps_of_runs_are_described(
     described = names_in(outcome.stdout)
     for case in (small_case, case_on_dem):
         run = tmp_path / f"run-{case.name}"
-        outcome = thawslide("run", case, "--output", run, *sets(time__end=0.02, time__rest_time=0.01))
+        outcome = thawslide("run", case, "--output", run, *sets(time__end=0.02))
         assert outcome.returncode == 0, outcome.stderr
         with (run / "history.csv").open(newline="") as file:
             columns = next(csv.reader(file))
