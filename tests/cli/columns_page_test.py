@@ -32,7 +32,7 @@ def test_columns_page_shortened(binary: Path, report_environment: dict[str, str]
     assert "| model | peak of the mean velocity [m/s] | 80 | 72 to 88 |" in text
     # A second of sliding is not enough for 8 m/s.
     assert "- from 8 m/s to the peak: no member has it (accepted: 28 to 42)" in text
-    assert "| bound | largest P over averaged N |  | at most 1 | 0.000 | 0.000 | 3 of 3 | yes |" in text
+    assert "| bound | maximum P over averaged N |  | at most 1 | 0.000 | 0.000 | 3 of 3 | yes |" in text
     assert "| `band.thickness=" in text and "not run" not in text
     assert "@" not in text and "{" not in text
     page.unlink()
