@@ -104,10 +104,10 @@ void require_memory(const config::Proposal& proposal, const NewOptions& options)
   const AvailableMemory available = available_memory();
   if (need.total() > available.bytes) {
     throw UserError(
-        fmt::format("{} and {:.3g} particles; they need about {:.3g} GB of memory, and {:.3g} GB {}. Set --cell {:g} "
+        fmt::format("{} and {} particles; they need about {:.2g} GB of memory, and {:.2g} GB {}. Set --cell {:g} "
                     "or more, which is coarser{}.{}",
-                    reason_for_cell(proposal, options), proposal.particles, need.total() / 1e9, available.bytes / 1e9,
-                    available.bound, sim::smallest_cell<3>(need, proposal.cell, available.bytes),
+                    reason_for_cell(proposal, options), with_digits(proposal.particles, 2), need.total() / 1e9,
+                    available.bytes / 1e9, available.bound, sim::smallest_cell<3>(need, proposal.cell, available.bytes),
                     options.resolution.empty() ? "" : ", instead of --resolution",
                     options.cell > 0.0 ? "" : " Is the thickness in metres?"));
   }
@@ -132,8 +132,8 @@ void require_nothing_unfinished(const fs::path& folder) {
   if (fs::exists(folder / unfinished_mark) ||
       std::any_of(begin(entries), end(entries), [](const fs::path& entry) { return io::is_unfinished(entry); })) {
     throw UserError(fmt::format(
-        "{}: a `thawslide new` was cut off while it made this folder, or is at it now: its mark {} is there, and no "
-        "whole case. Remove the folder, or give the name of another one.",
+        "{}: the folder is incomplete: a `thawslide new` was interrupted, or is still running (found {}). Delete the "
+        "folder, or choose another name.",
         folder.string(), unfinished_mark));
   }
 }
@@ -292,7 +292,9 @@ int make_new_case(const NewOptions& options) {
     fmt::print("warning: {}\n", warning);
   }
   if (proposal.particles > many_particles) {
-    fmt::print("warning: that will take long; a larger grid.cell in the case file is quicker and coarser\n");
+    fmt::print(
+        "warning: grid.cell: the run takes long, with {} particles. Set a larger --cell for a coarser, shorter run\n",
+        with_commas(proposal.particles, 2));
   }
   print_next_commands(options.program, folder);
   return static_cast<int>(ExitCode::done);

@@ -234,8 +234,8 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
   }
   if (failed && next.earlier.parts.back().changes.empty()) {
     print_text(
-        "note: the run failed, and nothing is changed: it fails again unless what failed was not of the case. A key "
-        "is changed by --set KEY=VALUE, an end before that by --end T\n");
+        "warning: the run failed, and resume changes nothing: it will probably fail again. Change a key with --set "
+        "KEY=VALUE, or end before the failure with --end T\n");
   }
   if (next.earlier.status == "done" &&
       !takes_changes_at_its_end<Dim>(folder, next, !checkpoint.warning.empty(), simulation)) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/progress.hpp"
+#include "base/rounding.hpp"
 
 namespace thawslide::app {
 
@@ -25,12 +26,13 @@ std::string text_of(const sim::BodyFigures& body, const SetupFacts& facts) {
                                     ? fmt::format(" per metre of the width at x = {:g} m", *facts.width_varies_from)
                                     : " per metre of width";
   return fmt::format(
-      "  body        {}: {:.4g} m3 and {:.4g} kg{}, {} {:.4g} {}; {:.3g} m thick on average, {:.3g} m in the median "
+      "  body        {}: {} m3 and {} kg{}, {} {} {}; {:.3g} m thick on average, {:.3g} m in the median "
       "and {:.3g} m at most (vertical)\n"
       "              {} particles {:.3g} m apart; {:.3g} across in the median and {:.3g} at most; {}\n",
-      body.name, body.volume, body.mass, is_plane ? per_metre : "", is_plane ? "along" : "over", body.area,
-      is_plane ? "m" : "m2", body.mean_thickness, body.median_thickness, body.largest_thickness, body.particles,
-      body.spacing, body.particles_across, body.most_particles_across,
+      body.name, with_digits(body.volume, 4), with_digits(body.mass, 4), is_plane ? per_metre : "",
+      is_plane ? "along" : "over", with_digits(body.area, 4), is_plane ? "m" : "m2", body.mean_thickness,
+      body.median_thickness, body.largest_thickness, body.particles, body.spacing, body.particles_across,
+      body.most_particles_across,
       body.coldest == body.warmest ? fmt::format("{:.4g} C", body.coldest)
                                    : fmt::format("{:.4g} to {:.4g} C", body.coldest, body.warmest));
 }
@@ -40,8 +42,9 @@ std::string text_of(const SubstrateFacts& substrate, int dimension) {
     return fmt::format("              {}, {:.3g} % of the domain; {}\n", substrate.place, 100.0 * substrate.share,
                        substrate.strength);
   }
-  return fmt::format("  substrate   {}: {}, {:.4g} {} or {:.3g} % of the domain; {}\n", substrate.name, substrate.place,
-                     substrate.covered, dimension == 3 ? "m2" : "m", 100.0 * substrate.share, substrate.strength);
+  return fmt::format("  substrate   {}: {}, {} {} or {:.3g} % of the domain; {}\n", substrate.name, substrate.place,
+                     with_digits(substrate.covered, 4), dimension == 3 ? "m2" : "m", 100.0 * substrate.share,
+                     substrate.strength);
 }
 
 std::string text_of(const config::Roughness& ground) {
@@ -56,10 +59,10 @@ std::string text_of(const config::Roughness& ground) {
                 ground.narrow_valley)
           : "";
   return fmt::format(
-      "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; bumps shorter than {:.2g} m have an "
+      "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; bumps shorter than {} m have an "
       "rms slope of {:.2g}\n              {}; remaining friction by noise and bumps about {:.2g} %\n{}",
-      ground.noise, ground.noise / ground.cell, ground.spacing, ground.bump_length, ground.bump_slope, filter,
-      100.0 * ground.apparent_friction, valleys);
+      ground.noise, ground.noise / ground.cell, ground.spacing, with_digits(ground.bump_length, 2), ground.bump_slope,
+      filter, 100.0 * ground.apparent_friction, valleys);
 }
 
 // Text such as "3 checkpoints of 1.2 MB", and their growth, if any.
@@ -67,8 +70,7 @@ std::string checkpoints_text(const DiskNeed& need) {
   std::string text =
       fmt::format("{:.0f} checkpoints of {:.1f} MB", need.checkpoints, need.checkpoint_at_start / megabyte);
   return need.checkpoint > need.checkpoint_at_start
-             ? text +
-                   fmt::format(" at the start and some {:.1f} MB once the slide has spread", need.checkpoint / megabyte)
+             ? text + fmt::format(" at the start and about {:.1f} MB after spreading", need.checkpoint / megabyte)
              : text;
 }
 

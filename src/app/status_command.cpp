@@ -161,8 +161,7 @@ std::string status_text(const RunStatus& status) {
     return "running, by " + status.process;
   }
   if (status.state == "killed") {
-    return "its process is gone without a word: it was killed, the machine went down, or its disk was too full to say "
-           "why";
+    return "terminated unexpectedly: the process was killed, the machine stopped, or the disk was full";
   }
   if (status.state == "unknown") {
     return fmt::format(

@@ -39,4 +39,13 @@ inline std::string with_commas(double number, int digits) {
   return text;
 }
 
+// Formats a number with this number of significant digits: "0.012", "-1.5", "84,000"; never in scientific notation from
+// 0.001 on.
+inline std::string with_digits(double number, int digits) {
+  if (!(std::abs(number) >= 1000.0) || !std::isfinite(number)) {
+    return fmt::format("{:.{}g}", number, std::max(digits, std::abs(number) >= 100.0 ? 3 : 1));
+  }
+  return (number < 0.0 ? "-" : "") + with_commas(std::abs(number), digits);
+}
+
 }  // namespace thawslide

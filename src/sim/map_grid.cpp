@@ -101,7 +101,7 @@ std::string reason_for_map_cell(const config::Case& parameters, const config::Si
   const double across = cell[0] / site.ground->cell_x, along = cell[1] / site.ground->cell_y;
   return across * along < 1.5
              ? "the DEM's"
-             : fmt::format("{:.0f} x {:.0f} of the DEM's, so as to be {:g} m wide at least: {}", across, along, least,
+             : fmt::format("{:.0f} x {:.0f} of the DEM's, to be at least {:g} m wide: {}", across, along, least,
                            least > parameters.grid.cell ? "three particle distances" : "grid.cell");
 }
 

@@ -66,9 +66,10 @@ std::string parts_of(const MemoryNeed& need) {
   const double fixed = bytes_of_program + need.maps + need.ground;
   if (need.total() > 2.0 * fixed) {
     throw UserError(fmt::format(
-        "{}: grid.cell is {} m, which makes {:.3g} particles: {}. Make grid.cell larger; the rest, {:.3g} GB, needs "
+        "{}: grid.cell is {} m, which makes {} particles: {}. Make grid.cell larger; the rest, {:.3g} GB, needs "
         "more memory, or a higher limit of it, whatever the cell.",
-        config::place_of(parameters, "grid.cell"), parameters.grid.cell, bodies.particles, amounts, fixed / gigabyte));
+        config::place_of(parameters, "grid.cell"), parameters.grid.cell, with_digits(bodies.particles, 2), amounts,
+        fixed / gigabyte));
   }
   if (bytes_of_program >= std::max(need.maps, need.ground)) {
     throw UserError(fmt::format("{}: {}. The program alone takes {:.2g} GB: give it more memory, or a higher limit.",
@@ -166,10 +167,10 @@ const config::Case& require_memory(const config::Case& parameters, const config:
   if (bodies.particles > most_particles) {
     const double countable = 1.05 * cell * std::pow(bodies.particles / most_particles, 1.0 / Dim);
     throw UserError(fmt::format(
-        "{}: grid.cell is {} m, which makes {:.3g} particles; allowed: {:.3g}. Make grid.cell {:.9g} m or more, or "
+        "{}: grid.cell is {} m, which makes {} particles; allowed: {}. Make grid.cell {:.9g} m or more, or "
         "particles_per_axis smaller.",
-        config::place_of(parameters, "grid.cell"), cell, bodies.particles, most_particles,
-        config::fitting_cell_from(std::max(smallest, countable), cell, lengths)));
+        config::place_of(parameters, "grid.cell"), cell, with_digits(bodies.particles, 2),
+        with_digits(most_particles, 2), config::fitting_cell_from(std::max(smallest, countable), cell, lengths)));
   }
   if (need.total() <= available.bytes) {
     return parameters;
@@ -181,9 +182,9 @@ const config::Case& require_memory(const config::Case& parameters, const config:
     refuse_whatever_the_cell(parameters, bodies, need, amounts);
   }
   throw UserError(fmt::format(
-      "{}: grid.cell is {} m, which makes {:.3g} particles: {}. Make grid.cell {:.9g} m or more, or particles_per_axis "
+      "{}: grid.cell is {} m, which makes {} particles: {}. Make grid.cell {:.9g} m or more, or particles_per_axis "
       "smaller.",
-      config::place_of(parameters, "grid.cell"), cell, bodies.particles, amounts,
+      config::place_of(parameters, "grid.cell"), cell, with_digits(bodies.particles, 2), amounts,
       config::fitting_cell_from(smallest, cell, lengths)));
 }
 

@@ -88,7 +88,7 @@ void Simulation<Dim, Real>::post_step() {
     stop_for_or_remove_particles();
   }
   if (bed_in_reach() != nullptr) {
-    stopwatch_.time("take_up_bed", [&] { entrain_bed(); });
+    stopwatch_.time("entrain_bed", [&] { entrain_bed(); });
   }
 }
 

@@ -114,7 +114,7 @@ def test_names_alone_make_no_run(thawslide: Program, small_case: Path, tmp_path:
     outcome = thawslide("run", small_case, "--output", folder, "--overwrite")
     assert outcome.returncode == 2
     assert outcome.stderr == (
-        f"error: the output folder {folder} holds other files and no run. Give another --output.\n"
+        f"error: the output folder {folder} contains other files, and no run. Specify another --output.\n"
     )
     (folder / "run.json").write_text('{"km": 12}')
     outcome = thawslide("run", small_case, "--output", folder, "--overwrite")

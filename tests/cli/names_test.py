@@ -56,8 +56,8 @@ def test_the_next_commands_can_be_pasted(
     folder = tmp_path / name
     outcome = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
     assert outcome.returncode == 0, outcome.stderr
-    look = next(line for line in outcome.stdout.splitlines() if line.startswith("look at it:"))
-    command = look.removeprefix("look at it:").removesuffix("--picture").strip()
+    look = next(line for line in outcome.stdout.splitlines() if line.startswith("preview:"))
+    command = look.removeprefix("preview:").removesuffix("--picture").strip()
     if "\n" not in name and "\t" not in name:
         assert shlex.split(command) == [str(binary), "check", str(folder)]
     pasted = subprocess.run(
@@ -132,7 +132,7 @@ def test_what_a_command_that_was_killed_left_is_called_that(
     again = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
     assert again.returncode == 2
     assert again.stderr == (
-        f"error: {folder}: a `thawslide new` was cut off while it made this folder, or is at it now: its mark "
+        f"error: {folder}: the folder is incomplete: a `thawslide new` was interrupted, or is still running (found "
         ".unfinished-case is there, and no whole case. Remove the folder, or give the name of another one.\n"
     )
     # Killed while it wrote its very mark.
@@ -141,7 +141,7 @@ def test_what_a_command_that_was_killed_left_is_called_that(
     (other / "..unfinished-case.30828.thawslide-part").write_text("")
     again = made(thawslide, other, slope(), release, "--thickness", THICKNESS)
     assert again.returncode == 2
-    assert f"{other}: a `thawslide new` was cut off while it made this folder" in again.stderr
+    assert f"{other}: the folder is incomplete: a `thawslide new` was interrupted" in again.stderr
 
 
 def test_no_place_in_a_file_that_was_not_made_is_reported(thawslide: Program, tmp_path: Path, slope: Slope) -> None:

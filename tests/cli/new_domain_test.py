@@ -92,7 +92,7 @@ def test_more_particles_than_memory(thawslide: Program, tmp_path: Path, slope: S
     refused = thawslide("check", tmp_path / "slide", "--set", "grid.cell=0.04")
     assert refused.returncode == 2
     assert re.fullmatch(
-        r"error: --set grid\.cell=0\.04: grid\.cell is 0\.04 m, which makes 3\.6e\+10 particles; allowed: 2\.3e\+08\. "
+        r"error: --set grid\.cell=0\.04: grid\.cell is 0\.04 m, which makes 36,000,000,000 particles; allowed: 230,000,000\. "
         r"Make grid\.cell 0\.\d+ m or more, or particles_per_axis smaller\.\n",
         refused.stderr,
     ), refused.stderr
@@ -150,4 +150,4 @@ def test_options_that_exclude_each_other(thawslide: Program, tmp_path: Path, slo
 def test_next_commands(thawslide: Program, binary: Path, tmp_path: Path, slope: Slope, release: Path) -> None:
     folder = tmp_path / "a slide"
     outcome = made(thawslide, folder, slope(), release, "--thickness", 24)
-    assert f"look at it:  {binary} check '{folder}' --picture\nrun it:      {binary} run '{folder}'\n" in outcome.stdout
+    assert f"preview:  {binary} check '{folder}' --picture\nrun:      {binary} run '{folder}'\n" in outcome.stdout

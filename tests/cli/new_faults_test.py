@@ -48,7 +48,7 @@ def test_raster_releases_that_cannot_be_used(thawslide: Program, tmp_path: Path,
     assert_refused(
         made(thawslide, folder, dem, write_thickness(raster, dem, 0.0)),
         tmp_path,
-        "--release: thick.tif: the thickness is nowhere above 0: there is no release.",
+        "--release: thick.tif: the thickness is not above 0 at any point: there is no release.",
     )
 
 
@@ -58,7 +58,7 @@ def test_dem_without_a_system(thawslide: Program, tmp_path: Path, slope: Slope, 
         made(thawslide, folder, bare, release, "--thickness", THICKNESS),
         tmp_path,
         "--dem: bare.tif: the file names no coordinate reference system (x from 411995 to 412895, y from 5159995 to "
-        '5160595). Set --crs to the one its maker states, such as --crs "EPSG:31287".',
+        '5160595). Set --crs to the one that the data provider states, such as --crs "EPSG:31287".',
     )
     assert_refused(
         made(thawslide, folder, bare, release, "--thickness", THICKNESS, "--crs", "EPSG:4326"),
@@ -76,7 +76,7 @@ def test_dem_with_a_wrong_tag(thawslide: Program, tmp_path: Path, slope: Slope, 
         tmp_path,
         "--dem: wrong.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric (x from 411995 to "
         "412895, y from "
-        '5159995 to 5160595). Set --crs "EPSG:..." to the system the numbers are in; its maker states it.',
+        '5159995 to 5160595). Set --crs "EPSG:..." to the system of the coordinates, which the data provider states.',
     )
     given = made(thawslide, folder, wrong, release, "--thickness", THICKNESS, "--crs", "EPSG:32632")
     assert given.returncode == 0, given.stderr
@@ -228,7 +228,7 @@ def test_bodies_that_overlap(thawslide: Program, tmp_path: Path, slope: Slope, r
     line = 1 + (folder / "case.toml").read_text().splitlines().index('release = "toe.geojson"')
     assert outcome.returncode == 2 and not run.exists()
     assert said(outcome.stderr, tmp_path) == (
-        f"error: slide/case.toml:{line}:11: body.toe.release: the bodies 'slide' and 'toe' overlap by 1000 m2 about "
+        f"error: slide/case.toml:{line}:11: body.toe.release: the bodies 'slide' and 'toe' overlap by 1,000 m2 about "
         "412315, 5160300; allowed: bodies that touch or lie apart, but for slivers up to 12 m2, 0.1 % of the smaller "
         "one. Draw them apart (QGIS: Vector > Geoprocessing Tools > Difference).\n"
     )

@@ -206,7 +206,7 @@ def test_check_says_what_maps_take(thawslide: Program, tmp_path: Path, slope: Sl
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
     with rasterio.open(folder / "dem.tif") as file:
         of_ground = file.width * file.height * 8
-    usual = "2 x 2 of the DEM's, so as to be 12 m wide at least: three particle distances"
+    usual = "2 x 2 of the DEM's, to be at least 12 m wide: three particle distances"
     note = (
         "warning: maps.cell is 5 m, and grid.cell 8 m: a cell of the maps holds few particles or one, and the largest "
         "speeds and pressures are those of single particles. Without maps.cell they take cells of 20 m.\n"

@@ -35,7 +35,7 @@ def test_a_run_that_failed_is_not_resumed_without_a_word(thawslide: Program, fai
     )
     outcome = thawslide("resume", failed)
     assert outcome.returncode == 3
-    assert "note: the run failed, and nothing is changed: it fails again unless" in outcome.stdout
+    assert "warning: the run failed, and resume changes nothing: it will probably fail again" in outcome.stdout
     outcome = thawslide("resume", failed, *sets(grid__leaving="remove", time__end=1.2))
     assert outcome.returncode == 0 and "the run failed" not in outcome.stdout, outcome.stderr
 

@@ -225,11 +225,11 @@ def test_block_slides_a_case_in_space_along_its_path(thawslide: Program, maps: M
     assert acceleration > 0.5
     assert columns["velocity_m_s"] == pytest.approx(acceleration * columns["time_s"], abs=1e-6)
     assert columns["front_position_m"][0] == pytest.approx(190.0, abs=10.0)
-    assert "the path's ground is known for" not in slid.stdout
+    assert "the front leaves the DEM" not in slid.stdout
 
     down = thawslide("block", folder, "--output", file, *coulomb, *sets(maps__path='""'))
     assert down.returncode == 0, down.stderr
-    assert "the way of steepest descent from the release's centre, as maps.path is not given" in down.stdout
+    assert "the line of steepest descent from the centre of the release, because maps.path is not set" in down.stdout
     columns = {name: values for name, values in zip(*read_csv(file), strict=True)}
     assert columns["velocity_m_s"] == pytest.approx(acceleration * columns["time_s"], abs=1e-6)
 

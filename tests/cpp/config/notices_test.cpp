@@ -293,7 +293,7 @@ TEST(Notices, OneTellsAFileOfEarlierVersionsWhatChanged) {
   const Case found = testing_support::case_from_text(changed(with_band));
   EXPECT_EQ(without_folder(notices(found)),
             (std::vector<std::string>{
-                "FOLDER/case.toml: the file gives none of these keys, whose defaults are no longer the paper's forms:\n"
+                "FOLDER/case.toml: defaults of these keys have changed, and the file sets none of them:\n"
                 "  band.model = \"columns\"  # was \"scaled\"\n"
                 "  band.thickness_change = \"conserving\"  # was \"as_printed\"\n"
                 "  heat.advection_form = \"conservative\"  # was \"as_printed\"\n"

@@ -130,7 +130,7 @@ TEST(ReleaseFaultsTest, PolygonsOfDifferentThicknessMayNotOverlap) {
   parameters.bodies["rock"].thickness = {config::MapValue::From::attribute, 0.0, "thickness"};
   EXPECT_EQ(error_of_site(parameters),
             std::string(at_thickness) +
-                "FOLDER/release.geojson: polygon 1 (upper) and polygon 2 overlap by 2000 m2 about 400390, 300350, and "
+                "FOLDER/release.geojson: polygon 1 (upper) and polygon 2 overlap by 2,000 m2 about 400390, 300350, and "
                 "their 'thickness' differs: 5 and 7. Give them the same value, or draw them apart.");
 }
 
@@ -176,7 +176,7 @@ TEST(ReleaseFaultsTest, RasterAsTheRelease) {
   };
   EXPECT_EQ(
       with(raster_of([](double, double) { return 0.0; }, west, south, 5.0, 201, 161)),
-      "case.toml: body.rock.thickness: FOLDER/release.tif: the thickness is nowhere above 0: there is no release.");
+      "case.toml: body.rock.thickness: FOLDER/release.tif: the thickness is not above 0 at any point: there is no release.");
   EXPECT_EQ(with(raster_of([](double x, double) { return x > west + 300.0 ? 2.0 : -0.5; }, west + 200.0, south + 200.0,
                            5.0, 60, 40)),
             "case.toml: body.rock.thickness: FOLDER/release.tif: the thickness at 400200, 300200 is -0.5 m; allowed: 0 "

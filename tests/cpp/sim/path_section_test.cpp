@@ -352,7 +352,7 @@ TEST(PathSection, WithoutAWayDownItSaysWhatToGive) {
       "case.toml: no way leads down from the release's centre at x = 200, y = 0: over 10 m the ground is level, or "
       "a pit, there. Give maps.path, a file with a line from the release down the way it will take.");
   reshape(bowl_about(260.0));
-  EXPECT_NE(error_of(made).find("case.toml: the way straight down from the release's centre ends in a pit at x = "),
+  EXPECT_NE(error_of(made).find("case.toml: the line of steepest descent from the centre of the release ends in a pit at x = "),
             std::string::npos)
       << error_of(made);
   reshape(bowl_about(900.0));
