@@ -200,7 +200,7 @@ void Simulation<Dim, Real>::rescale_band() {
     return;
   }
   Real added = 0;
-  const bool depends_on_place = model_.band.region != band::ScaledRegion::all || model_.layer_thickness;
+  const bool depends_on_place = model_.band.region != band::BandRegion::all || model_.layer_thickness;
   if (depends_on_place || band_thickness() != current_band_thickness_) {
     current_band_thickness_ = band_thickness();
     added = band::rescale_band(grid_, model_.band, static_cast<Real>(current_band_thickness_), model_.layer_thickness,

@@ -132,7 +132,7 @@ template <int Dim>
 void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int sorted_before, const Host& with) {
   constexpr double dt = 0.002;
   Simulation<Dim, double> simulation(parameters);
-  ASSERT_EQ(simulation.model().motion.shape, mpm::ShapeKind::ugimp);
+  ASSERT_EQ(simulation.model().motion.shape, mpm::ShapeFunction::ugimp);
   Host host = with;
   device::Step<Host, mpm::Ugimp<double>, Dim, double> mechanics(
       host, step_model_of(simulation), mpm::view_of(simulation.particles()), simulation.particles().size(),
