@@ -268,7 +268,7 @@ struct Mechanisms {  // Sec. 3.3
 
 struct Band {
   BandKind model = BandKind::scaled;  // default of a case file: parameters_model.cpp
-  Table thickness;                    // m over time; empty: no band, xi = 1
+  BandThickness thickness;            // m over time; not given: no band, xi = 1
   BandRegion region = BandRegion::all;
   CutCells cut_cells = CutCells::as_they_are;
   ThicknessChange thickness_change = ThicknessChange::conserving;

@@ -1,5 +1,5 @@
 // Options that a case selects and that laws and kernels branch on. The headers of the laws give the equations and
-// sources; docs/theory/ compares the options. For host and device.
+// sources, as does docs/theory/. For host and device.
 #pragma once
 
 namespace thawslide::physics {

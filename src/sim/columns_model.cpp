@@ -1,6 +1,5 @@
 #include "sim/columns_model.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/instances.hpp"
@@ -13,7 +12,6 @@ template <class Real, class Curve>
 physics::ColumnModel<Real, Curve> column_model(const config::Case& parameters, const physics::Phases<Real>& phases,
                                                const Curve& curve, const ColumnMaterial& material) {
   const config::Pressure& pressure = parameters.pressure;
-  const Table& thickness = parameters.band.thickness;
   physics::ColumnModel<Real, Curve> column;
   column.phases = phases;
   column.curve = curve;
@@ -33,8 +31,7 @@ physics::ColumnModel<Real, Curve> column_model(const config::Case& parameters, c
   column.steam = parameters.heat.steam;
   column.ground_conductivity = phases.rock_conductivity;
   column.ground_capacity = phases.rock_density * phases.rock_heat_capacity;
-  column.ground_cell =
-      static_cast<Real>(*std::min_element(thickness.value.begin(), thickness.value.end())) / physics::ColumnCells::band;
+  column.ground_cell = static_cast<Real>(parameters.band.thickness.smallest()) / physics::ColumnCells::band;
   return column;
 }
 

@@ -288,7 +288,7 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::
   seed();
   if (parameters_.time.stepping == config::Stepping::fixed) {
     const StepLimit limit =
-        sim::step_limit(parameters_, model_, smallest_thickness(parameters_), extremes_of(model_, particles_));
+        sim::step_limit(parameters_, model_, parameters_.band.thickness.smallest(), extremes_of(model_, particles_));
     if (parameters_.time.step > limit.step) {
       throw UserError(
           fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}{}. Use a smaller time.step, or "
@@ -374,11 +374,6 @@ void Simulation<Dim, Real>::start_ledger() {
     rear = std::min(rear, direction * static_cast<double>(particles_.position(p, 0)) - static_cast<double>(half));
   }
   rear_at_start_ = direction * rear + model_.origin[0];
-}
-
-template <int Dim, class Real>
-double Simulation<Dim, Real>::band_thickness() const {
-  return parameters_.band.thickness.value.empty() ? 0.0 : parameters_.band.thickness.at(time_);
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real) template class Simulation<Dim, Real>;

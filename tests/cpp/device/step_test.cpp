@@ -166,7 +166,7 @@ void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int 
   mechanics.copy_to(mpm::view_of(found));
   expect_the_same_particles(simulation.particles(), found, heat || pressure, "at the end");
   EXPECT_EQ(heat, brought.friction_heat > 0.0);
-  EXPECT_EQ(brought.band_rescale != 0.0, parameters.band.thickness.value.size() > 1);
+  EXPECT_EQ(brought.band_rescale != 0.0, parameters.band.thickness.table.value.size() > 1);
   if (pressure) {
     expect_water_to_work(simulation, first);
   }
