@@ -100,7 +100,7 @@ std::vector<Parameter<Band>> band_parameters() {
               "\"columns\" where there is a terrain, band.thickness is given, and mechanics and heat are enabled; "
               "\"scaled\" elsewhere",
               [](const Case& read, Band& band) {
-                const bool have_a_base = read.terrain.kind != TerrainKind::none && !band.thickness.value.empty() &&
+                const bool have_a_base = read.terrain.kind != TerrainKind::none && band.thickness.is_given() &&
                                          read.mechanics.enabled && read.heat.enabled;
                 band.model = have_a_base ? BandKind::columns : BandKind::scaled;
               }),

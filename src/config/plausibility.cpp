@@ -95,7 +95,7 @@ void warn_about_width(const Case& parameters, Warnings& warnings) {
 void warn_about_materials(const Case& parameters, Warnings& warnings) {
   const bool deforms = parameters.mechanics.enabled && parameters.mechanisms.deformation;
   const bool is_pressed = has_pore_water(parameters) && parameters.mechanisms.pressurization &&
-                          parameters.pressure.seepage && !parameters.band.thickness.value.empty();
+                          parameters.pressure.seepage && parameters.band.thickness.is_given();
   for (const auto& [name, material] : parameters.materials) {
     const std::string table = "material." + name + ".";
     if (deforms && material.youngs_modulus < softest_modulus) {
@@ -124,7 +124,7 @@ void warn_about_band(const Case& parameters, Warnings& warnings) {
   const bool rubs = parameters.mechanics.enabled && parameters.terrain.kind != TerrainKind::none;
   const bool is_felt = parameters.heat.enabled && parameters.basal.heat_fraction > 0.0 &&
                        (parameters.mechanisms.lubrication || parameters.mechanisms.pressurization);
-  if (rubs && is_felt && parameters.band.thickness.value.empty()) {
+  if (rubs && is_felt && !parameters.band.thickness.is_given()) {
     warnings.add_absent("band.thickness",
                         fmt::format("friction then heats the lowest cells as a whole, {:g} m thick, which barely warm "
                                     "or melt. Set the thickness of the shear band: usual is 0.01 to 2 m. Without "

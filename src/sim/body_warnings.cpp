@@ -84,9 +84,7 @@ std::string stiffness_warning(const config::Case& parameters, const BodyFigures&
 }
 
 std::string band_warning(const config::Case& parameters, const BodyFigures& body) {
-  const Table& thickness = parameters.band.thickness;
-  const double thickest =
-      thickness.value.empty() ? 0.0 : *std::max_element(thickness.value.begin(), thickness.value.end());
+  const double thickest = parameters.band.thickness.largest();
   if (!parameters.mechanics.enabled || !(thickest > body.median_thickness)) {
     return "";
   }

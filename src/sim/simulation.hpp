@@ -251,7 +251,7 @@ class Simulation {
                                                        const terrain::LooseMaterial<Dim, Real>& material,
                                                        std::int64_t number) const;
   void stop_if_invalid();
-  [[nodiscard]] double band_thickness() const;
+  [[nodiscard]] double band_thickness() const { return parameters_.band.thickness.at(time_); }
 
   config::Case parameters_;
   config::Site site_;
