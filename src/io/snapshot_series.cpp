@@ -9,8 +9,9 @@
 #include <iterator>
 #include <map>
 
+#include "base/atomic_file.hpp"
 #include "config/input_limits.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files.hpp"
 #include "io/probe_in_subprocess.hpp"
 #include "io/vtkhdf.hpp"
 
