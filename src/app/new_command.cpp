@@ -19,6 +19,7 @@
 
 #ifdef THAWSLIDE_WITH_GIS
 
+#include "base/atomic_file.hpp"
 #include "config/case_proposal.hpp"
 #include "config/input_files.hpp"
 #include "config/read_case.hpp"
@@ -26,7 +27,6 @@
 #include "gis/point_window.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/site.hpp"
-#include "io/atomic_file.hpp"
 #include "sim/memory_need.hpp"
 #include "sim/run_records.hpp"
 
@@ -130,7 +130,7 @@ void require_nothing_unfinished(const fs::path& folder) {
   std::error_code unknown;
   const fs::directory_iterator entries(folder, unknown);
   if (fs::exists(folder / unfinished_mark) ||
-      std::any_of(begin(entries), end(entries), [](const fs::path& entry) { return io::is_unfinished(entry); })) {
+      std::any_of(begin(entries), end(entries), [](const fs::path& entry) { return is_unfinished(entry); })) {
     throw UserError(fmt::format(
         "{}: the folder is incomplete: a `thawslide new` was interrupted, or is still running (found {}). Delete the "
         "folder, or choose another name.",
@@ -144,7 +144,7 @@ class NewFolder {
   explicit NewFolder(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)) {
     require_nothing_unfinished(path_);
     make_new_folder(path_);
-    io::write_file_atomically(path_ / unfinished_mark, "");
+    write_file_atomically(path_ / unfinished_mark, "");
   }
   ~NewFolder() {
     std::error_code ignored;
@@ -271,7 +271,7 @@ int make_new_case(const NewOptions& options) {
   const fs::path& folder = new_folder.path();
   write_cropped_dem(folder / input.dem_file, *site.ground, proposal);
   copy_release(folder, trial);
-  io::write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
+  write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
   const std::optional<RunCost> cost = cost_of_run(folder);
   new_folder.keep();
 

@@ -5,13 +5,14 @@
 #include <set>
 
 #include "app/print.hpp"
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/shell_quote.hpp"
 #include "config/case_changes.hpp"
 #include "config/input_limits.hpp"
 #include "config/read_case.hpp"
-#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
+#include "io/files.hpp"
 #include "io/history_writer.hpp"
 #include "io/sha256.hpp"
 #include "io/snapshot_series.hpp"
@@ -162,7 +163,7 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
                        const std::vector<std::string>& sets) {
   const fs::path file = folder / "case.toml";
   if (!fs::exists(file)) {
-    io::write_file_atomically(file, before);
+    write_file_atomically(file, before);
     print_text("note: {} was missing. It was written again from the checkpoint\n", file.string());
   }
   const std::string now = io::read_file(file);

@@ -10,6 +10,7 @@
 #include "app/resume_checks.hpp"
 #include "app/run_loop.hpp"
 #include "app/signals.hpp"
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/shell_quote.hpp"
@@ -18,8 +19,8 @@
 #include "config/describe.hpp"
 #include "config/notices.hpp"
 #include "config/read_case.hpp"
-#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
+#include "io/files.hpp"
 #include "io/history_writer.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_lock.hpp"
@@ -108,7 +109,7 @@ Continuation continuation_of(const fs::path& folder, const std::vector<std::stri
 // run.json must record a change first, so that no change is unrecorded if the process is killed in between.
 void apply_changes(const fs::path& folder, const Continuation& next) {
   if (const std::vector<std::string>& changes = next.earlier.parts.back().changes; !changes.empty()) {
-    io::write_file_atomically(folder / "case.toml", next.case_text);
+    write_file_atomically(folder / "case.toml", next.case_text);
     print_text("changed: {}\n", fmt::join(changes, ", "));
   }
 }

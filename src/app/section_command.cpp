@@ -8,11 +8,11 @@
 
 #ifdef THAWSLIDE_WITH_GIS
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/rounding.hpp"
 #include "config/input_limits.hpp"
 #include "config/section_proposal.hpp"
-#include "io/atomic_file.hpp"
 #include "io/terrain_csv.hpp"
 #include "sim/section.hpp"
 
@@ -161,7 +161,7 @@ int make_section(const SectionOptions& options) {
   check_body(options, cut.profile, body, proposal);
   make_new_folder(folder);
   io::write_profile_csv(folder / profile_name, cut.profile, comments);
-  io::write_file_atomically(folder / "case.toml", config::section_text(title_of(folder), profile_name, proposal));
+  write_file_atomically(folder / "case.toml", config::section_text(title_of(folder), profile_name, proposal));
   fmt::print("{}: a release of {} m3 per metre of width, {:.3g} m thick, on {} m cells: about {} particles\n",
              (folder / "case.toml").string(), with_digits(proposal.volume, 3), proposal.thickness, proposal.cell,
              with_digits(proposal.particles, 2));

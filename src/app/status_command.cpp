@@ -10,7 +10,6 @@
 #include "base/error.hpp"
 #include "base/shell_quote.hpp"
 #include "config/read_case.hpp"
-#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
 #include "io/history_writer.hpp"
 #include "io/provenance.hpp"

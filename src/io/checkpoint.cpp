@@ -3,8 +3,9 @@
 #include <cstring>
 #include <numeric>
 
+#include "base/atomic_file.hpp"
 #include "config/input_limits.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files.hpp"
 #include "io/sha256.hpp"
 #include "io/snapshot.hpp"
 

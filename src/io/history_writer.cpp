@@ -11,8 +11,9 @@
 #include <numeric>
 #include <string_view>
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files.hpp"
 
 namespace thawslide::io {
 

@@ -9,9 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/shell_quote.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files.hpp"
 #include "io/sha256.hpp"
 #include "version.hpp"
 
@@ -21,8 +22,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-constexpr std::uintmax_t cloned_from = 1'000'000;  // bytes, below which sharing saves nothing
 
 std::string host_name() {
   char name[256] = "";
@@ -190,12 +189,7 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
     }
     THAWSLIDE_ASSERT(names.insert(name).second, "two inputs are called {}, which a case may not have", name);
     const std::string content = read_file(file);
-    const fs::path copy = folder / "inputs" / name;
-    if (content.size() > cloned_from) {
-      copy_file_atomically(file, copy, content);
-    } else {
-      write_file_atomically(copy, content);
-    }
+    write_file_atomically(folder / "inputs" / name, content);
     inputs.push_back({file.string(), "inputs/" + name, sha256_hex(content.data(), content.size()), content.size()});
   }
   return inputs;

@@ -3,7 +3,7 @@
 #include "io/checkpoint.hpp"
 
 #include "changes.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files.hpp"
 #include "io/sha256.hpp"
 #include "target.hpp"
 

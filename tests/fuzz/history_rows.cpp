@@ -4,8 +4,9 @@
 
 #include <sstream>
 
+#include "base/atomic_file.hpp"
 #include "changes.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files.hpp"
 #include "io/history_writer.hpp"
 #include "target.hpp"
 
@@ -56,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   std::filesystem::remove_all(folder);  // with what was kept as damaged
   std::filesystem::create_directories(folder);
   const std::filesystem::path file = folder / "history.csv";
-  io::write_file_atomically(file, text);
+  write_file_atomically(file, text);
   fuzz::gives_value(file, [&] {
     static_cast<void>(io::last_time_in_history(file));
     std::vector<std::string> warnings;

@@ -135,8 +135,7 @@ def test_physics_reaches_nothing_that_devices_cannot_compile() -> None:
 def test_core_neither_prints_nor_exits_nor_catches_signals() -> None:
     word = re.compile(r"\bstd::(cout|cerr|clog)\b|\bfmt::print\b|\bprintf\(|\b(exit|_exit|abort|signal|sigaction)\(")
     for path in code_files("src"):
-        # A process of its own, which is there to crash, ends by itself.
-        if path.relative_to(SOURCE).parts[0] == "app" or path.name == "probe_in_subprocess.cpp":
+        if path.relative_to(SOURCE).parts[0] == "app":
             continue
         found = word.search(path.read_text())
         assert not found, f"{place(path)}: {found.group() if found else ''} belongs in src/app"

@@ -1,4 +1,6 @@
 // Files of a run: whole or absent, exact numbers, damage refused.
+#include "io/files.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -6,8 +8,8 @@
 #include <fstream>
 #include <random>
 
+#include "base/atomic_file.hpp"
 #include "folder_of_test.hpp"
-#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/history_writer.hpp"

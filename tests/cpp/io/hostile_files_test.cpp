@@ -4,9 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/atomic_file.hpp"
 #include "folder_of_test.hpp"
-#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
+#include "io/files.hpp"
 #include "io/history_writer.hpp"
 #include "io/provenance.hpp"
 #include "io/run_lock.hpp"
@@ -73,7 +74,7 @@ TEST_F(HostileFiles, ALongNameIsWrittenAllTheSame) {
 }
 
 TEST_F(HostileFiles, WhatWaitsInThePlaceOfAnUnfinishedOneIsReplaced) {
-  const fs::path adjacent = folder_ / fmt::format(".a.txt.{}.thawslide-part", getpid()), victim = folder_ / "victim";
+  const fs::path adjacent = folder_ / fmt::format(".a.{}.thawslide-part.txt", getpid()), victim = folder_ / "victim";
   put(victim, "mine");
   const auto expect_replaced = [&] {
     write_file_atomically(folder_ / "a.txt", "text");

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "folder_of_test.hpp"
-#include "io/atomic_file.hpp"
 #include "io/run_folder.hpp"
 
 namespace thawslide::io {

@@ -11,8 +11,8 @@
 
 #include "../support/slide_in_space.hpp"
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
+#include "io/files.hpp"
 #include "io/sha256.hpp"
 #include "sim/run_records.hpp"
 #include "sim/simulation.hpp"
