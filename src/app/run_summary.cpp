@@ -15,7 +15,7 @@ namespace {
 // Final position of the front as text.
 std::string front_text(double front, double runout) {
   return std::isfinite(front) ? fmt::format("front at {:.0f} m, runout {:.0f} m", front, runout)
-                              : "no front: without maps.path, the flow path is unknown until the slide has moved";
+                              : "no front: maps.path is not set, and the slide has barely moved";
 }
 
 }  // namespace

@@ -18,12 +18,12 @@ bool has_bends(const Case& parameters) {
   return parameters.terrain.kind == TerrainKind::profile || parameters.terrain.kind == TerrainKind::dem;
 }
 
-bool is_given(const Case& parameters, const ChangedDefault& each) {
-  if (each.table != "material.NAME") {
-    return parameters.places.count(each.table + "." + each.key) > 0;
+bool is_given(const Case& parameters, const ChangedDefault& changed) {
+  if (changed.table != "material.NAME") {
+    return parameters.places.count(changed.table + "." + changed.key) > 0;
   }
   return std::any_of(parameters.materials.begin(), parameters.materials.end(), [&](const auto& each) {
-    return parameters.places.count("material." + each.first + "." + each.key) > 0;
+    return parameters.places.count("material." + each.first + "." + changed.key) > 0;
   });
 }
 

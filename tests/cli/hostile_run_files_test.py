@@ -120,7 +120,7 @@ def test_names_alone_make_no_run(thawslide: Program, small_case: Path, tmp_path:
     outcome = thawslide("run", small_case, "--output", folder, "--overwrite")
     assert outcome.returncode == 2
     assert (
-        "its run.json is damaged, or was written by another program. Give another --output, or remove yourself"
+        "its run.json is damaged, or was written by another program. Specify another --output, or delete the folder."
         in outcome.stderr
     )
     (folder / "run.json").unlink()
@@ -226,8 +226,7 @@ def test_status_reports_what_it_can_where_rows_cannot_be_read(thawslide: Program
     assert (outcome.returncode, outcome.stderr) == (0, "")
     first, second, third, fourth, fifth = outcome.stdout.splitlines(keepends=True)
     assert first == (
-        f"{killed}: its process is gone without a word: it was killed, the machine went down, or its disk was too full "
-        "to say why\n"
+        f"{killed}: terminated unexpectedly: the process was killed, the machine stopped, or the disk was full\n"
     )
     assert second == "  0.2 of 0.2 s simulated (100 %)\n"
     assert third == f"  it may have come further: {rows} is a folder, {NO_FILE}"

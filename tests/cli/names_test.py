@@ -133,7 +133,7 @@ def test_what_a_command_that_was_killed_left_is_called_that(
     assert again.returncode == 2
     assert again.stderr == (
         f"error: {folder}: the folder is incomplete: a `thawslide new` was interrupted, or is still running (found "
-        ".unfinished-case is there, and no whole case. Remove the folder, or give the name of another one.\n"
+        ".unfinished-case). Delete the folder, or choose another name.\n"
     )
     # Killed while it wrote its very mark.
     other = tmp_path / "other"

@@ -41,8 +41,8 @@ def test_raster_releases_that_cannot_be_used(thawslide: Program, tmp_path: Path,
     assert_refused(
         made(thawslide, folder, dem, write_thickness(raster, dem, 1000.0 * THICKNESS)),
         tmp_path,
-        "--release: thick.tif: the release has 2.88e+08 m3, up to 2.4e+04 m thick, and --largest-volume allows 2e+08 "
-        "m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
+        "--release: thick.tif: the release has 288,000,000 m3, is up to 24,000 m thick, and --largest-volume allows "
+        "200,000,000 m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
         "larger --largest-volume.",
     )
     assert_refused(
@@ -146,8 +146,8 @@ def test_thickness_in_the_wrong_unit(thawslide: Program, tmp_path: Path, slope: 
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(), release, *words),
         tmp_path,
-        "--release: release.geojson: the release has 2.88e+08 m3, up to 2.4e+04 m thick, and --largest-volume allows "
-        "2e+08 m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
+        "--release: release.geojson: the release has 288,000,000 m3, is up to 24,000 m thick, and --largest-volume "
+        "allows 200,000,000 m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
         "larger --largest-volume.",
     )
 
@@ -181,8 +181,8 @@ def test_release_outside_the_dem(thawslide: Program, tmp_path: Path, slope: Slop
             made(thawslide, tmp_path / "slide", slope(), beside, "--thickness", THICKNESS),
             tmp_path,
             f"--release: beside.geojson: the release lies {place}; found: {found}, y from 5160000 to 5160100; allowed: "
-            "x from 412000 to 412890, y from 5160000 to 5160590. Check that both have the same place and reference "
-            "system (the ground's is EPSG:32632), or take a larger DEM.",
+            "x from 412000 to 412890, y from 5160000 to 5160590. Check that both have the same location and "
+            "reference system (the DEM has EPSG:32632), or use a larger DEM.",
         )
 
 
@@ -246,7 +246,7 @@ def test_folder_that_is_there(thawslide: Program, tmp_path: Path, slope: Slope, 
     assert_refused(
         made(thawslide, folder, slope(), release, "--thickness", THICKNESS),
         tmp_path,
-        "full: there is something already; give the name of a folder that is not there yet, or an empty one.",
+        "full: it exists and is not an empty folder. Choose another name.",
     )
 
 

@@ -90,8 +90,8 @@ COARSE = (
         ),
         (
             sets(material__rock__youngs_modulus=0.5),
-            "--set material.rock.youngs_modulus=0.5: material.rock.youngs_modulus is 0.5 Pa: so soft that a slide is "
-            "squeezed flat by its own weight, or bursts. Broken rock and ice have 1e7 Pa and more.",
+            "--set material.rock.youngs_modulus=0.5: material.rock.youngs_modulus is 0.5 Pa: too soft: the slide "
+            "collapses under its own weight. Broken rock and ice have 1e7 Pa and more.",
         ),
         (
             sets(basal__friction_angle=0.4),
@@ -154,10 +154,9 @@ def test_a_default_without_drainage_is_reported_by_run_too(thawslide: Program, s
     file = small_case / "case.toml"
     file.write_text(file.read_text() + '\n[band]\nmodel = "columns"\nthickness = 0.2\n')
     note = (
-        f"warning: {file}: material.rock.hydraulic_conductivity is 0 m/s, its default: pore water never drains, and "
-        f"what "
-        "is under pressure may never stop. Of the base of a slide 1e-8 to 1e-5 m/s is said. Give it, and if 0 is meant "
-        "0, and this note goes.\n"
+        f"warning: {file}: material.rock.hydraulic_conductivity is 0 m/s, its default: pore water cannot drain, and "
+        "the avalanche may never stop. Typical values at the base are 1e-8 to 1e-5 m/s. Set a value, or set 0 "
+        "explicitly to silence this warning.\n"
     )
     run = thawslide("run", small_case, "--output", small_case.parent / "run", *sets(time__end=0.01))
     assert note in run.stdout and note in thawslide("check", small_case).stdout

@@ -198,10 +198,7 @@ def test_an_existing_folder_is_left_alone(thawslide: Program, maps: Maps, tmp_pa
     (folder / "mine.txt").write_text("mine")
     outcome = thawslide(*maps.words_with_release(folder))
     assert outcome.returncode == 2
-    assert outcome.stderr == (
-        f"error: {folder}: there is something already; give the name of a folder that is not there yet, or an empty "
-        "one.\n"
-    )
+    assert outcome.stderr == (f"error: {folder}: it exists and is not an empty folder. Choose another name.\n")
     assert [file.name for file in folder.iterdir()] == ["mine.txt"]
 
 
@@ -236,8 +233,7 @@ def test_block_slides_a_case_in_space_along_its_path(thawslide: Program, maps: M
     far = thawslide("block", folder, "--output", file, *coulomb, *sets(time__end=40))
     assert far.returncode == 0, far.stderr
     reported = re.search(
-        r"warning: the path's ground is known for 760 m; the front leaves it at (\S+) s, and the rows end before\. "
-        r"Give a "
+        r"warning: maps\.path: the front leaves the DEM after 760 m, at (\S+) s, and the table ends there\. Use a "
         r"longer maps\.path, or a larger DEM, to follow it further\n",
         far.stdout,
     )

@@ -47,8 +47,7 @@ def test_a_living_and_a_killed_run(thawslide: Program, at_work: subprocess.Popen
     outcome = thawslide("status", run)
     assert outcome.returncode == 0
     assert outcome.stdout.startswith(
-        f"{run}: its process is gone without a word: it was killed, the machine went down, or its disk was too full "
-        "to say why\n"
+        f"{run}: terminated unexpectedly: the process was killed, the machine stopped, or the disk was full\n"
     )
     assert outcome.stdout.endswith(f"  to continue: thawslide resume {run}\n")
     assert json.loads(thawslide("status", run, "--json").stdout)["state"] == "killed"

@@ -45,10 +45,10 @@ TEST(EdgeWarning, ComesWhereTheEdgeIsNearerThanTheReleaseIsLong) {
       EXPECT_EQ(edge_warning(proposal).empty(), distance >= 110.0) << first;
     }
   }
-  EXPECT_EQ(
-      edge_warning(propose(dem, release_at(dem, 4, 25), 20.0)),
-      "--dem: the release is close to the edge of the known terrain (found 30 m; needed its own length, 110 m, or "
-      "more). Particles that pass the edge are removed, and the results lack them. Use a larger DEM");
+  EXPECT_EQ(edge_warning(propose(dem, release_at(dem, 4, 25), 20.0)),
+            "--dem: the release is close to the edge of the known terrain (found 30 m; needed at least its own length, "
+            "110 m). "
+            "Particles that pass the edge are removed, and the results lack them. Use a larger DEM");
 }
 
 TEST(EdgeWarning, ComesForPointsWithoutDataToo) {

@@ -78,9 +78,8 @@ TEST(VectorFileTest, ShapefileWithoutPrjIsInTheSystemOfTheGround) {
   const std::string file = foreign_polygon("ESRI Shapefile", "bare.shp", "");
   const VectorLayer layer = read_polygons(file, ground());
   EXPECT_EQ(layer.features.front().polygons.front().outline.front()[0], 400000.0);
-  EXPECT_EQ(layer.warnings,
-            std::vector<std::string>{"bare.shp specifies no coordinate reference system: that of the "
-                                     "ground's, EPSG:31287"});
+  EXPECT_EQ(layer.warnings, std::vector<std::string>{"bare.shp specifies no coordinate reference system: that of the "
+                                                     "DEM, EPSG:31287, is assumed"});
 }
 
 TEST(VectorFileTest, OtherSystemsAreReprojectedAndSaid) {
@@ -97,10 +96,8 @@ TEST(VectorFileTest, OtherSystemsAreReprojectedAndSaid) {
 TEST(VectorFileTest, DegreesThatCannotBeAreSaid) {
   const VectorLayer layer =
       read_polygons(geojson("r.geojson", {{"", box_json(400000, 300000, 400100, 300050)}}, "4326"), ground());
-  EXPECT_EQ(layer.warnings,
-            std::vector<std::string>{"r.geojson says that its coordinates are degrees (EPSG:4326), which "
-                                     "400000, 300000 cannot be: taken to be in the ground's system, "
-                                     "EPSG:31287"});
+  EXPECT_EQ(layer.warnings, std::vector<std::string>{"r.geojson specifies degrees (EPSG:4326), which 400000, 300000 "
+                                                     "cannot be: the system of the DEM, EPSG:31287, is assumed"});
 }
 
 TEST(VectorFileTest, FeaturesAreChosenByName) {
