@@ -104,10 +104,11 @@ void require_memory(const config::Proposal& proposal, const NewOptions& options)
   const AvailableMemory available = available_memory();
   if (need.total() > available.bytes) {
     throw UserError(
-        fmt::format("{} and {:.3g} particles; they need about {:.3g} GB of memory, and {:.3g} GB {}. Set --cell {:g} "
+        fmt::format("{} and {} particles; they need about {} GB of memory, and {} GB {}. Set --cell {:g} "
                     "or more, which is coarser{}.{}",
-                    reason_for_cell(proposal, options), proposal.particles, need.total() / 1e9, available.bytes / 1e9,
-                    available.bound, sim::smallest_cell<3>(need, proposal.cell, available.bytes),
+                    reason_for_cell(proposal, options), rounded_text(proposal.particles),
+                    rounded_text(need.total() / 1e9), rounded_text(available.bytes / 1e9), available.bound,
+                    sim::smallest_cell<3>(need, proposal.cell, available.bytes),
                     options.resolution.empty() ? "" : ", instead of --resolution",
                     options.cell > 0.0 ? "" : " Is the thickness in metres?"));
   }
@@ -211,8 +212,8 @@ std::string resolution_text(const config::Proposal& proposal, const std::string&
   return fmt::format(
       "resolution:  {}cells of {:g} m{}\n             about {} particles, {} steps to time.end, and {} on {} "
       "thread{}\n{}",
-      chosen.empty() ? "" : chosen + ", ", proposal.cell, purpose, with_commas(proposal.particles, 3),
-      with_commas(cost.steps, 3), duration_text(cost.seconds), cost.threads, cost.threads == 1 ? "" : "s", others);
+      chosen.empty() ? "" : chosen + ", ", proposal.cell, purpose, rounded_text(proposal.particles),
+      rounded_text(cost.steps), duration_text(cost.seconds), cost.threads, cost.threads == 1 ? "" : "s", others);
 }
 
 // Runs the first steps of the case and returns the cost of a run, or nothing if these steps fail. Throws the errors
@@ -276,7 +277,7 @@ int make_new_case(const NewOptions& options) {
   new_folder.keep();
 
   fmt::print("{}: a release of {} m3, {:.3g} m thick, on {} m cells\n", (folder / "case.toml").string(),
-             with_commas(proposal.volume, 4), proposal.thickness, proposal.cell);
+             rounded_text(proposal.volume, 4), proposal.thickness, proposal.cell);
   if (cost) {
     fmt::print("{}", resolution_text(proposal, resolution, *cost));
   } else {

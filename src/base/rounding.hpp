@@ -39,4 +39,12 @@ inline std::string with_commas(double number, int digits) {
   return text;
 }
 
+// Formats a number for people with commas between thousands and without an exponent up to 1e10: "0.35", "13,000". Two
+// significant digits are those of an estimate.
+inline std::string rounded_text(double number, int digits = 2) {
+  constexpr double most = 1e10;
+  return number >= std::pow(10.0, digits - 1) && number < most ? with_commas(number, digits)
+                                                               : fmt::format("{:.{}g}", number, digits);
+}
+
 }  // namespace thawslide
