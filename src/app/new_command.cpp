@@ -123,54 +123,28 @@ void copy_release(const fs::path& folder, const config::Case& trial) {
   }
 }
 
-// Marks a folder until its case is complete.
-constexpr const char* unfinished_mark = ".unfinished-case";
-
-// Reports the remains of a killed command, which a user could not identify otherwise.
-void require_nothing_unfinished(const fs::path& folder) {
-  std::error_code unknown;
-  const fs::directory_iterator entries(folder, unknown);
-  if (fs::exists(folder / unfinished_mark) ||
-      std::any_of(begin(entries), end(entries), [](const fs::path& entry) { return is_unfinished(entry); })) {
-    throw UserError(fmt::format(
-        "{}: a `thawslide new` was cut off while it made this folder, or is at it now: its mark {} is there, and no "
-        "whole case. Remove the folder, or give the name of another one.",
-        folder.string(), unfinished_mark));
-  }
-}
-
 // New folder that is removed again if its case is invalid.
 class NewFolder {
  public:
-  explicit NewFolder(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)) {
-    require_nothing_unfinished(path_);
-    make_new_folder(path_);
-    write_file_atomically(path_ / unfinished_mark, "");
-  }
+  explicit NewFolder(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)) { make_new_folder(path_); }
   ~NewFolder() {
     std::error_code ignored;
-    if (!keeps_ && !was_there_) {
-      fs::remove_all(path_, ignored);
+    if (keeps_) {
+      return;
     }
-    // The folder existed and was empty. It may be a link to another folder, so only its contents are removed.
-    std::vector<fs::path> made;
-    for (fs::directory_iterator entry(path_, ignored), end; !keeps_ && was_there_ && !ignored && entry != end;
-         entry.increment(ignored)) {
-      made.push_back(entry->path());
+    // A folder that existed was empty. It may be a link to another folder, so only its contents are removed.
+    for (fs::directory_iterator entry(path_, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
+      fs::remove_all(entry->path(), ignored);
     }
-    for (const fs::path& each : made) {
-      fs::remove_all(each, ignored);
+    if (!was_there_) {
+      fs::remove(path_, ignored);
     }
   }
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;
 
   [[nodiscard]] const fs::path& path() const { return path_; }
-  void keep() {
-    std::error_code ignored;
-    fs::remove(path_ / unfinished_mark, ignored);
-    keeps_ = true;
-  }
+  void keep() { keeps_ = true; }
 
  private:
   fs::path path_;
@@ -241,7 +215,6 @@ int make_new_case(const NewOptions& options) {
   const std::string release_name = fs::path(options.maps.release).filename().string();
   require_utf8("the folder to make", title_of(options.folder));
   require_utf8("--release", release_name);
-  require_nothing_unfinished(options.folder);
   config::Case trial = trial_case(options.folder, options.maps);
   config::Site site = open_site(trial);
   require_ground_about(options.maps.release, *site.ground, site.releases.at(body_name).thickness);
