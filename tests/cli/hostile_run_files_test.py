@@ -40,23 +40,6 @@ def begin_anew(run: Path) -> None:
         (run / name).unlink(missing_ok=True)
 
 
-@pytest.mark.parametrize("leads_to", ["victim", "nothing"])
-def test_a_link_in_place_of_the_lock_is_refused(
-    thawslide: Program, small_case: Path, killed: Path, victim: Path, leads_to: str
-) -> None:
-    lock = killed / "run.lock"
-    lock.symlink_to(victim.with_name(leads_to))
-    said = (
-        f"error: {lock} is a link, but must be a regular file: the lock of a run. Remove it once no run is at work in "
-        f"{killed}.\n"
-    )
-    for words in (["resume", killed], ["run", small_case, "--output", killed, "--overwrite"], ["status", killed]):
-        outcome = thawslide(*words)
-        assert (outcome.returncode, outcome.stderr) == (2, said)
-    assert victim.read_text() == "mine\n" and not victim.with_name("nothing").exists()
-    assert (killed / "history.csv").exists()
-
-
 def test_a_link_in_place_of_the_rows_is_replaced(
     thawslide: Program, small_case: Path, killed: Path, victim: Path
 ) -> None:

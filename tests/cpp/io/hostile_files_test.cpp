@@ -10,7 +10,6 @@
 #include "io/files.hpp"
 #include "io/history_writer.hpp"
 #include "io/provenance.hpp"
-#include "io/run_lock.hpp"
 
 namespace thawslide::io {
 namespace {
@@ -109,30 +108,6 @@ TEST_F(HostileFiles, AHistoryThatAUserHasNamedGoesWhereALinkLeads) {
   HistoryWriter(file).add({{"time_s", 0.0}});
   EXPECT_TRUE(fs::is_symlink(file));
   EXPECT_EQ(content(disk), "time_s\n0\n");
-}
-
-TEST_F(HostileFiles, ALockIsAFileOfItsFolder) {
-  const fs::path lock = folder_ / lock_name, victim = folder_ / "victim";
-  const auto expect_refusal = [&](const std::string& found) {
-    const std::string message =
-        lock.string() + " is " + found +
-        ", but must be a regular file: the lock of a run. Remove it once no run is at work in " + folder_.string() +
-        ".";
-    EXPECT_EQ(failure_of([&] { const RunLock taken(folder_); }), message);
-    EXPECT_EQ(failure_of([&] { (void)process_at_work(folder_); }), message);
-    fs::remove(lock);
-  };
-  put(victim, "mine");
-  fs::create_symlink(victim, lock);
-  expect_refusal("a link");
-  EXPECT_EQ(content(victim), "mine");
-  fs::create_symlink(folder_ / "nothing", lock);
-  expect_refusal("a link");
-  EXPECT_FALSE(fs::exists(folder_ / "nothing"));
-  ASSERT_EQ(mkfifo(lock.c_str(), 0600), 0);
-  expect_refusal("a pipe");
-  fs::create_directory(lock);
-  expect_refusal("a folder");
 }
 
 class HostileCheckpoints : public HostileFiles {
