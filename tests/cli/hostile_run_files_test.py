@@ -218,13 +218,6 @@ def test_status_reports_what_it_can_where_rows_cannot_be_read(thawslide: Program
     assert json.loads(thawslide("status", killed, "--json").stdout)["state"] == "killed"
 
 
-def test_status_steers_no_terminal(thawslide: Program, done: Path) -> None:
-    facts = run_facts(done) | {"status": "stopped\x1b[2J", "message": "a\x1b]0;b\x07\nc"}
-    (done / "run.json").write_text(json.dumps(facts))
-    said = thawslide("status", done).stdout
-    assert said.startswith(f"{done}: stopped?[2J: a?]0;b??c\n") and "\x1b" not in said
-
-
 def test_an_answer_that_is_lost_is_a_failure(binary: Path, done: Path) -> None:
     shell = f'"{binary}" status "{done}" > /dev/full'
     assert os.waitstatus_to_exitcode(os.system(shell + " 2>/dev/null")) == 5

@@ -185,16 +185,5 @@ TEST_F(HostileFiles, WhatCannotBeRemovedIsAFailureToWrite) {
             "cannot remove " + torn.string() + ": Permission denied. Check that the folder may be written to.");
 }
 
-TEST_F(HostileFiles, ProvenanceSteersNoTerminal) {
-  Provenance provenance;
-  provenance.parts.push_back(part_of_this_process());
-  provenance.status = "do\x1b[2Jne";
-  provenance.message = "it\nis\x07 so";
-  write_provenance(folder_ / "run.json", provenance);
-  const Provenance specified = read_provenance(folder_);
-  EXPECT_EQ(specified.status, "do?[2Jne");
-  EXPECT_EQ(specified.message, "it?is? so");
-}
-
 }  // namespace
 }  // namespace thawslide::io
