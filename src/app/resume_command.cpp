@@ -61,9 +61,6 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
   }
   print_text("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
              facts.message.empty() ? "" : ": " + facts.message);
-  for (const std::string& gap : gaps_in_results(folder, facts)) {
-    print_text("warning: {}\n", gap);
-  }
   if (!is_known) {
     print_text("note: {} holds no checkpoint: it cannot be given a later end\n", folder.string());
   }

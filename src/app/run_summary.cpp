@@ -37,7 +37,7 @@ void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutp
              front_text(value("front_position_m"), value("runout_m")));
   for (const auto& [name, number] : output.figures()) {
     if (std::isfinite(number)) {
-      print_text("  {:<30}{:>12}\n", name, with_digits(number, 4));
+      print_text("  {:<30}{:>12}\n", name, rounded_text(number, 4));
     }
   }
   if (simulation.removed().by_guards() > 0) {

@@ -163,8 +163,8 @@ int make_section(const SectionOptions& options) {
   io::write_profile_csv(folder / profile_name, cut.profile, comments);
   write_file_atomically(folder / "case.toml", config::section_text(title_of(folder), profile_name, proposal));
   fmt::print("{}: a release of {} m3 per metre of width, {:.3g} m thick, on {} m cells: about {} particles\n",
-             (folder / "case.toml").string(), with_digits(proposal.volume, 3), proposal.thickness, proposal.cell,
-             with_digits(proposal.particles, 2));
+             (folder / "case.toml").string(), rounded_text(proposal.volume, 4), proposal.thickness, proposal.cell,
+             rounded_text(proposal.particles));
   print_next_commands(options.program, folder);
   return static_cast<int>(ExitCode::done);
 }

@@ -39,13 +39,14 @@ inline std::string with_commas(double number, int digits) {
   return text;
 }
 
-// Formats a number with this number of significant digits: "0.012", "-1.5", "84,000"; never in scientific notation from
-// 0.001 on.
-inline std::string with_digits(double number, int digits) {
-  if (!(std::abs(number) >= 1000.0) || !std::isfinite(number)) {
-    return fmt::format("{:.{}g}", number, std::max(digits, std::abs(number) >= 100.0 ? 3 : 1));
-  }
-  return (number < 0.0 ? "-" : "") + with_commas(std::abs(number), digits);
+<<<<<<< ours
+// Formats a number for people with commas between thousands and without an exponent up to 1e10: "0.35", "-1.5",
+// "13,000". Two significant digits are those of an estimate.
+inline std::string rounded_text(double number, int digits = 2) {
+  constexpr double most = 1e10;
+  const double size = std::abs(number);
+  return size >= std::pow(10.0, digits - 1) && size < most ? (number < 0.0 ? "-" : "") + with_commas(size, digits)
+                                                           : fmt::format("{:.{}g}", number, digits);
 }
 
 }  // namespace thawslide

@@ -175,7 +175,7 @@ std::string edge_warning(const Proposal& proposal) {
       "--dem: the release is close to the edge of the known terrain (found {} m; needed at least its own length, {} "
       "m). "
       "Particles that pass the edge are removed, and the results lack them. Use a larger DEM",
-      with_digits(proposal.edge_distance, 2), with_digits(proposal.length, 2));
+      rounded_text(proposal.edge_distance, 2), rounded_text(proposal.length, 2));
 }
 
 BodyOnCells release_on_cells(const Proposal& proposal) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/rounding.hpp"
 #include "physics/basal/laws.hpp"
 
 namespace thawslide::config {
@@ -195,9 +196,9 @@ void warn_about_step(const Case& parameters, Warnings& warnings) {
   const double steps = time.end / time.step;
   if (time.stepping == Stepping::fixed && steps > most_steps) {
     warnings.add("time.step", time.step, " s",
-                 fmt::format("that is {:.4g} steps, from days to years of computing. `thawslide check` estimates the "
+                 fmt::format("that is {} steps, from days to years of computing. `thawslide check` estimates the "
                              "time and prints the limit of the step.",
-                             steps));
+                             rounded_text(steps)));
   }
 }
 

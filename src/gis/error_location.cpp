@@ -22,7 +22,7 @@ std::string describe_overhang(const Rectangle& inner, const Rectangle& outer) {
   const auto add = [&](double distance, const char* side) {
     constexpr double rounding = 1e-6;  // m, of coordinates computed from files
     if (distance > rounding) {
-      sides.push_back(fmt::format("{} m in the {}", with_digits(distance, 3), side));
+      sides.push_back(fmt::format("{} m in the {}", rounded_text(distance, 3), side));
     }
   };
   add(outer.min_x - inner.min_x, "west");

@@ -54,8 +54,8 @@ void check_volume(const config::Case& parameters, const std::string& name, const
             fmt::format("{}: the release has {} m3, is up to {} m thick, and body.{}.largest_volume allows {} m3. Is "
                         "the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
                         "larger body.{}.largest_volume.",
-                        file_of_place(parameters, name), with_digits(volume, 3), with_digits(most, 3), name,
-                        with_digits(largest, 3), name));
+                        file_of_place(parameters, name), rounded_text(volume, 3), rounded_text(most, 3), name,
+                        rounded_text(largest, 3), name));
   }
 }
 

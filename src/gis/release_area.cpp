@@ -89,7 +89,7 @@ void check_size(const config::Case& parameters, const std::string& body, double 
             fmt::format("{}: the release is smaller than a cell of the DEM ({} m2; {} m2), over which it would be "
                         "distributed and become too thin. Draw it larger, or resample the DEM "
                         "(gdalwarp -tr {:.1g} {:.1g} -r bilinear {} finer.tif).",
-                        parameters.bodies.at(body).release, with_digits(size, 3), with_digits(cell, 3), finer, finer,
+                        parameters.bodies.at(body).release, rounded_text(size, 3), rounded_text(cell, 3), finer, finer,
                         shell_quote(parameters.terrain.file)));
   }
 }

@@ -334,7 +334,7 @@ std::string roughness_warning(const config::Case& parameters, const config::Site
   return fmt::format(
       "terrain.smooth: noise and bumps shorter than {} m add about {:.2g} % to the friction, with a filter of "
       "{:g} m (rms slope {:.2g}; at most {:g} is intended). {}",
-      with_digits(found.bump_length, 2), 100.0 * found.apparent_friction, found.width, found.slope_left, largest_slope,
+      rounded_text(found.bump_length, 2), 100.0 * found.apparent_friction, found.width, found.slope_left, largest_slope,
       remedy);
 }
 

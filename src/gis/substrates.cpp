@@ -111,8 +111,8 @@ void check_overlap(const config::Case& parameters, const std::string& first, con
           fmt::format("the substrates {} and {} overlap by {} m2 about {:.10g}, {:.10g}; a place has one substrate. "
                       "Allowed: slivers up to {} m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > "
                       "Geoprocessing Tools > Difference).",
-                      first, second, with_digits(shared, 3), 0.5 * (place.min_x + place.max_x),
-                      0.5 * (place.min_y + place.max_y), with_digits(allowed, 3), 100.0 * overlap_tolerance));
+                      first, second, rounded_text(shared, 3), 0.5 * (place.min_x + place.max_x),
+                      0.5 * (place.min_y + place.max_y), rounded_text(allowed, 3), 100.0 * overlap_tolerance));
 }
 
 // Substrates of one raster cannot overlap; those along x were compared when the case was read. `polygons`: of those

@@ -163,8 +163,8 @@ void check_overlaps(const config::Case& parameters, const Releases& releases) {
               fmt::format("the bodies '{}' and '{}' overlap by {} m2 about {:.10g}, {:.10g}; allowed: bodies that "
                           "touch or lie apart, but for slivers up to {} m2, {:g} % of the smaller one. Draw them "
                           "apart (QGIS: Vector > Geoprocessing Tools > Difference).",
-                          first->first, second->first, with_digits(shared, 3), 0.5 * (place.min_x + place.max_x),
-                          0.5 * (place.min_y + place.max_y), with_digits(allowed, 3), 100.0 * overlap_tolerance));
+                          first->first, second->first, rounded_text(shared, 3), 0.5 * (place.min_x + place.max_x),
+                          0.5 * (place.min_y + place.max_y), rounded_text(allowed, 3), 100.0 * overlap_tolerance));
     }
   }
 }

@@ -35,7 +35,7 @@ void check_apart(const VectorLayer& layer, const std::string& attribute, const F
   throw UserError(fmt::format(
       "{}: {} and {} overlap by {} m2 about {:.10g}, {:.10g}, and their '{}' differs: {:g} and {:g}. Give "
       "them the same value, or draw them apart.",
-      layer.file, first.title, second.title, with_digits(shared, 3), 0.5 * (place.min_x + place.max_x),
+      layer.file, first.title, second.title, rounded_text(shared, 3), 0.5 * (place.min_x + place.max_x),
       0.5 * (place.min_y + place.max_y), attribute, first.numbers.at(attribute), second.numbers.at(attribute)));
 }
 

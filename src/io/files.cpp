@@ -1,12 +1,8 @@
 #include "io/files.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <vector>
 
 #include "base/atomic_file.hpp"
@@ -15,29 +11,7 @@
 
 namespace thawslide::io {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-// Appends the rest of a file of approximately `bytes`. Returns the system's error number on failure, 0 otherwise.
-int read_to_end(int descriptor, std::size_t bytes, std::string& text) {
-  constexpr std::size_t segment = 65536;
-  std::size_t length = 0;
-  text.resize(bytes + 1);  // detects the end of the file without another segment
-  while (true) {
-    const ssize_t got = read(descriptor, text.data() + length, text.size() - length);
-    if (got == 0 || (got < 0 && errno != EINTR)) {
-      text.resize(length);
-      return got == 0 ? 0 : errno;
-    }
-    length += got > 0 ? static_cast<std::size_t>(got) : 0;
-    if (length == text.size()) {
-      text.resize(length + std::max(segment, length / 2));
-    }
-  }
-}
-
-}  // namespace
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
@@ -81,21 +55,13 @@ void remove_or_throw(const fs::path& file) {
 }
 
 std::string read_file(const fs::path& file) {
-  const auto fail_to_read = [&file](int reason) {
-    throw UserError(fmt::format("cannot read {}: {}", file.string(), std::strerror(reason)));
-  };
   require_regular(file);
-  const int descriptor = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor < 0) {
-    fail_to_read(errno);
-  }
-  struct stat facts {};
-  const bool is_regular = fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode);
-  std::string text;
-  const int reason = is_regular ? read_to_end(descriptor, static_cast<std::size_t>(facts.st_size), text) : EINVAL;
-  close(descriptor);
-  if (reason != 0) {
-    fail_to_read(reason);
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  std::string text(stream ? static_cast<std::size_t>(stream.tellg()) : 0, '\0');
+  stream.seekg(0).read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream) {
+    throw UserError(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
   }
   return text;
 }

@@ -95,13 +95,6 @@ RunPart part_of(const Json& json) {
   return part;
 }
 
-// Removes control characters from text for terminals.
-std::string without_control_letters(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; }, '?');
-  return text;
-}
-
 [[noreturn]] void fail_as_damaged(const fs::path& file, const std::string& what) {
   throw UserError(fmt::format(
       "{} is damaged: {}. Without it, the run cannot continue. Put back a copy of it, or run the case again into "
@@ -207,8 +200,8 @@ Provenance read_provenance(const fs::path& folder) {
     for (const Json& input : facts.at("inputs")) {
       provenance.inputs.push_back({input.at("path"), input.at("copy"), input.at("sha256"), input.at("bytes")});
     }
-    provenance.status = without_control_letters(facts.at("status"));
-    provenance.message = without_control_letters(facts.at("message"));
+    provenance.status = facts.at("status");
+    provenance.message = facts.at("message");
     provenance.simulated_time = facts.at("simulated_time_s");
     provenance.steps = facts.at("steps");
   } catch (const Json::parse_error& error) {

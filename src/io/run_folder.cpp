@@ -2,8 +2,6 @@
 
 #include <unistd.h>
 
-#include <climits>
-
 #include "base/error.hpp"
 #include "io/run_files.hpp"
 
@@ -46,17 +44,6 @@ fs::path existing_part(const fs::path& folder) {
     part = part.parent_path();
   }
   return part;
-}
-
-void require_possible_names(const fs::path& folder) {
-  for (const fs::path& name : folder) {
-    if (name.string().size() > NAME_MAX) {
-      throw UserError(
-          fmt::format("the output folder cannot be made: a name of its path has {} bytes, and may have {}. Give a "
-                      "shorter --output.",
-                      name.string().size(), NAME_MAX));
-    }
-  }
 }
 
 void require_usable(const fs::path& folder, bool overwrite) {

@@ -87,18 +87,6 @@ std::map<std::size_t, fs::path> numbered_files(const fs::path& folder) {
 
 }  // namespace
 
-std::string gap_in_snapshots(const fs::path& folder) {
-  const fs::path snapshots = folder / "snapshots";
-  const auto files = fs::is_directory(snapshots) ? numbered_files(snapshots) : std::map<std::size_t, fs::path>();
-  if (files.empty()) {
-    return fmt::format("{} holds no snapshots", snapshots.string());
-  }
-  const std::size_t missing = files.rbegin()->first + 1 - files.size();
-  return missing > 0 ? fmt::format("{} of the snapshots in {} {} missing", missing, snapshots.string(),
-                                   missing == 1 ? "is" : "are")
-                     : "";
-}
-
 SnapshotSeries::SnapshotSeries(const fs::path& folder) : folder_(folder), indexed_() {
   make_folder(folder / "snapshots");
 }

@@ -77,7 +77,7 @@ void require_volume(const config::Case& parameters, const std::string& name, con
         "lies at its rim (allowed: {:g} %). Set a smaller grid.cell or a larger particles_per_axis, or check the unit "
         "of the thickness.",
         config::place_of(parameters, "body." + name), name, spacing, 100.0 * (1.0 - seeded / shape.volume()),
-        with_digits(shape.volume(), 3), 100.0 * release_tolerance));
+        rounded_text(shape.volume(), 3), 100.0 * release_tolerance));
   }
   if (!(std::abs(1.0 / share - 1.0) <= volume_tolerance)) {
     throw UserError(fmt::format(

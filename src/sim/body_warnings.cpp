@@ -162,8 +162,8 @@ std::string softening_warning(const config::Case& parameters, const BodyFigures&
   return fmt::format(
       "{}: {} is {} m: in a cell of {:g} m the strength falls faster than the elastic strain can follow, and breaking "
       "depends on grid.cell. Set grid.cell to at most {} m, or {} to at least {} m.",
-      config::place_of(parameters, key), key, material.softening_slip, parameters.grid.cell, with_digits(widest, 2),
-      key, with_digits(material.softening_slip * parameters.grid.cell / widest, 2));
+      config::place_of(parameters, key), key, material.softening_slip, parameters.grid.cell, rounded_text(widest, 2),
+      key, rounded_text(material.softening_slip * parameters.grid.cell / widest, 2));
 }
 
 // Checks temperatures from maps; temperatures given as numbers are checked when the case is read.

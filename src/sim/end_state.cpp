@@ -60,7 +60,7 @@ std::vector<std::string> warnings_of(const EndState& state, bool is_over) {
         fmt::format("Dilation has changed the volume of the slide by {:+.1f} %, {} m3 (expected: at most {:g} %). "
                     "Thicknesses, areas and volumes are too {} by about as much. Check dilation_angle and "
                     "gaps_close_first of the materials.",
-                    100.0 * state.dilation_share, with_digits(state.dilation_volume, 2), 100.0 * noticed_dilation,
+                    100.0 * state.dilation_share, rounded_text(state.dilation_volume, 2), 100.0 * noticed_dilation,
                     state.dilation_share > 0.0 ? "large" : "small"));
   }
   if (state.left_particles > 0) {

@@ -40,23 +40,6 @@ def begin_anew(run: Path) -> None:
         (run / name).unlink(missing_ok=True)
 
 
-@pytest.mark.parametrize("leads_to", ["victim", "nothing"])
-def test_a_link_in_place_of_the_lock_is_refused(
-    thawslide: Program, small_case: Path, killed: Path, victim: Path, leads_to: str
-) -> None:
-    lock = killed / "run.lock"
-    lock.symlink_to(victim.with_name(leads_to))
-    said = (
-        f"error: {lock} is a link, but must be a regular file: the lock of a run. Remove it once no run is at work in "
-        f"{killed}.\n"
-    )
-    for words in (["resume", killed], ["run", small_case, "--output", killed, "--overwrite"], ["status", killed]):
-        outcome = thawslide(*words)
-        assert (outcome.returncode, outcome.stderr) == (2, said)
-    assert victim.read_text() == "mine\n" and not victim.with_name("nothing").exists()
-    assert (killed / "history.csv").exists()
-
-
 def test_a_link_in_place_of_the_rows_is_replaced(
     thawslide: Program, small_case: Path, killed: Path, victim: Path
 ) -> None:
@@ -232,13 +215,6 @@ def test_status_reports_what_it_can_where_rows_cannot_be_read(thawslide: Program
     assert third == f"  it may have come further: {rows} is a folder, {NO_FILE}"
     assert fourth.startswith("  last checkpoint ") and fifth == f"  to continue: thawslide resume {killed}\n"
     assert json.loads(thawslide("status", killed, "--json").stdout)["state"] == "killed"
-
-
-def test_status_steers_no_terminal(thawslide: Program, done: Path) -> None:
-    facts = run_facts(done) | {"status": "stopped\x1b[2J", "message": "a\x1b]0;b\x07\nc"}
-    (done / "run.json").write_text(json.dumps(facts))
-    said = thawslide("status", done).stdout
-    assert said.startswith(f"{done}: stopped?[2J: a?]0;b??c\n") and "\x1b" not in said
 
 
 def test_an_answer_that_is_lost_is_a_failure(binary: Path, done: Path) -> None:

@@ -117,33 +117,6 @@ def test_a_name_that_is_no_utf8_is_refused_before_anything_is_made(
     assert not Path(folder).exists()
 
 
-def test_what_a_command_that_was_killed_left_is_called_that(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
-    folder = tmp_path / "slide"
-    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
-    assert sorted(file.name for file in folder.iterdir()) == [
-        "case.toml",
-        "dem.tif",
-        "release.geojson",
-    ]
-    (folder / "case.toml").unlink()
-    (folder / ".unfinished-case").write_text("")
-    again = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
-    assert again.returncode == 2
-    assert again.stderr == (
-        f"error: {folder}: the folder is incomplete: a `thawslide new` was interrupted, or is still running (found "
-        ".unfinished-case). Delete the folder, or choose another name.\n"
-    )
-    # Killed while it wrote its very mark.
-    other = tmp_path / "other"
-    other.mkdir()
-    (other / "..unfinished-case.30828.thawslide-part").write_text("")
-    again = made(thawslide, other, slope(), release, "--thickness", THICKNESS)
-    assert again.returncode == 2
-    assert f"{other}: the folder is incomplete: a `thawslide new` was interrupted" in again.stderr
-
-
 def test_no_place_in_a_file_that_was_not_made_is_reported(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     release = write_release(tmp_path / "release.geojson", WEST + 203.0, SOUTH + 252.0)
     outcome = made(

@@ -152,6 +152,17 @@ def test_thickness_in_the_wrong_unit(thawslide: Program, tmp_path: Path, slope: 
     )
 
 
+def test_release_too_thin_for_its_area(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 0.3)
+    assert outcome.returncode == 2 and not (tmp_path / "slide").exists()
+    assert re.search(
+        r"^error: --thickness: a release 0\.3 m thick asks for cells of 0\.\d+ m and \S+ particles; allowed without "
+        r"--cell: 5,000,000\. Is the thickness in metres\? If it is, set --cell 0\.\d+ or more, which is coarser, or use "
+        r"a depth-averaged program",
+        outcome.stderr,
+    ), outcome.stderr
+
+
 @pytest.mark.parametrize("content", ["", '{"type": "FeatureColl'])
 def test_release_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: Slope, content: str) -> None:
     broken, folder = tmp_path / "broken.geojson", tmp_path / "slide"

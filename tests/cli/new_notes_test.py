@@ -35,7 +35,7 @@ def test_particles_across_the_thickness(thawslide: Program, tmp_path: Path, slop
     assert outcome.returncode == 0 and "too few particles" not in outcome.stdout, outcome.stderr
     checked = thawslide("check", tmp_path / "fine")
     assert (
-        "  body        slide: 2.88e+05 m3 and 5.94e+08 kg, over 1.2e+04 m2; 24 m thick on average, 24 m in the "
+        "  body        slide: 288,000 m3 and 5.94e+08 kg, over 12,000 m2; 24 m thick on average, 24 m in the "
         "median and 24 m at most (vertical)\n"
         "              4512 particles 4 m apart; 6 across in the median and 6 at most; -5 C\n"
         "  roughness   noise of 0 m rms"

@@ -14,7 +14,7 @@ import rasterio
 from conftest import LAMPLUGH, LIMIT, Program, history, run_facts, sets
 from slope_files import DEPTH, SOUTH, WEST, WIDTH, Slope, made
 
-STATE = r"\d+\.\d of 2 s \| \d+ steps/s \| (\d+ min )?\d+ s left \| front \d+ m"
+STATE = r"\d+\.\d of 2 s \| \d+ steps/s \| \S+ (s|min) left \| front \d+ m"
 SPEED = r" at -?\d+\.\d m/s"
 
 

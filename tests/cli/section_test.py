@@ -57,7 +57,7 @@ def test_section_of_a_plane_runs_as_it_is(thawslide: Program, maps: Maps, tmp_pa
     made = thawslide(*maps.words_with_release(folder))
     assert made.returncode == 0, made.stderr
     assert sorted(file.name for file in folder.iterdir()) == ["case.toml", "profile.csv"]
-    assert "a release of 2000 m3 per metre of width, 18.7 m thick, on 6 m cells: about 222 particles" in made.stdout
+    assert "a release of 2,000 m3 per metre of width, 18.7 m thick, on 6 m cells: about 220 particles" in made.stdout
     comments, columns = profile(folder)
     assert comments == [
         "# Cut by `thawslide section` out of dem.tif along line.geojson: its triangles below the line.",

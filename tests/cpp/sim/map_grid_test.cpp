@@ -98,8 +98,8 @@ TEST(MapGrid, OfTooManyCellsIsRefused) {
     FAIL();
   } catch (const UserError& error) {
     EXPECT_STREQ(error.what(),
-                 "case.toml: maps of 1000000 x 1000000 cells of 0.1 x 0.1 m are too many: each would take 8e+03 GB of "
-                 "memory while it is written. Allowed: 2.5e+08 cells, 2 GB. Give maps.cell, 6.4 m or more.");
+                 "case.toml: maps of 1000000 x 1000000 cells of 0.1 x 0.1 m are too many: each would take 8,000 GB of "
+                 "memory while it is written. Allowed: 250,000,000 cells, 2 GB. Give maps.cell, 6.4 m or more.");
   }
   parameters.maps.cell = 6.4;
   const MapGrid grid = map_grid_of(parameters, {});
