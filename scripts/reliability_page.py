@@ -27,7 +27,7 @@ def head() -> str:
     """Return what the page begins with."""
     return "# Reliability\n\n" + paragraph(
         "This page reports how a run behaves when its process is killed, its disk fills up, or its files are damaged. "
-        "`scripts/reliability` runs the tests and generates the page in about 1.5 hours on two cores, mostly fuzzing. "
+        "`scripts/reliability` runs the tests and generates the page in about 90 minutes on two cores, mostly fuzzing. "
         "`./test` contains a sample of each part. [Stop and resume](reference/stop-and-resume.md) explains how to "
         "continue a run that has stopped."
     )
@@ -141,8 +141,8 @@ def fuzzing_text(found: dict[str, Any]) -> str:
     return (
         "## Fuzzing\n\n"
         + paragraph(
-            "Each reader of files that users write gets random bytes, guided by code coverage. libFuzzer is used "
-            "with the address and undefined-behaviour sanitizers, and atheris for the readers in Python. The [developer "
+            "Readers of files that users write get random bytes, guided by code coverage. The programs are built with "
+            "libFuzzer and the address and undefined-behaviour sanitizers; readers in Python use atheris. The [developer "
             "guide](developer-guide.md#fuzzing) lists the targets. A reader must return a value, or an error that "
             "names the file, within a few seconds and a few gigabytes."
         )
