@@ -42,7 +42,8 @@ def test_raster_releases_that_cannot_be_used(thawslide: Program, tmp_path: Path,
         made(thawslide, folder, dem, write_thickness(raster, dem, 1000.0 * THICKNESS)),
         tmp_path,
         "--release: thick.tif: the release has 288,000,000 m3, is up to 24,000 m thick, and --largest-volume allows "
-        "200,000,000 m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
+        "200,000,000 m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, "
+        "confirm it by a "
         "larger --largest-volume.",
     )
     assert_refused(
@@ -147,7 +148,8 @@ def test_thickness_in_the_wrong_unit(thawslide: Program, tmp_path: Path, slope: 
         made(thawslide, tmp_path / "slide", slope(), release, *words),
         tmp_path,
         "--release: release.geojson: the release has 288,000,000 m3, is up to 24,000 m thick, and --largest-volume "
-        "allows 200,000,000 m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
+        "allows 200,000,000 m3. Is the thickness in the wrong unit? Metres are needed. If the volume is "
+        "right, confirm it by a "
         "larger --largest-volume.",
     )
 
@@ -157,7 +159,8 @@ def test_release_too_thin_for_its_area(thawslide: Program, tmp_path: Path, slope
     assert outcome.returncode == 2 and not (tmp_path / "slide").exists()
     assert re.search(
         r"^error: --thickness: a release 0\.3 m thick asks for cells of 0\.\d+ m and \S+ particles; allowed without "
-        r"--cell: 5,000,000\. Is the thickness in metres\? If it is, set --cell 0\.\d+ or more, which is coarser, or use "
+        r"--cell: 5,000,000\. Is the thickness in metres\? If it is, set --cell 0\.\d+ or more, which is "
+        r"coarser, or use "
         r"a depth-averaged program",
         outcome.stderr,
     ), outcome.stderr

@@ -113,7 +113,8 @@ def test_a_slide_that_barely_moved_has_no_front(
     assert outcome.returncode == 0, outcome.stderr
     assert "nan" not in outcome.stdout
     assert re.search(
-        r"\nat 0\.05 s, not at rest: mean velocity 0\.\d\d m/s, mean displacement 0 m, no front: maps\.path is not set, "
+        r"\nat 0\.05 s, not at rest: mean velocity 0\.\d\d m/s, mean displacement 0 m, no front: "
+        r"maps\.path is not set, "
         r"and the slide has barely moved\n",
         outcome.stdout,
     )
