@@ -39,7 +39,6 @@ inline std::string with_commas(double number, int digits) {
   return text;
 }
 
-<<<<<<< ours
 // Formats a number for people with commas between thousands and without an exponent up to 1e10: "0.35", "-1.5",
 // "13,000". Two significant digits are those of an estimate.
 inline std::string rounded_text(double number, int digits = 2) {
