@@ -1,4 +1,4 @@
-"""Writes docs/reliability.md from what scripts/reliability has found."""
+"""Writes docs/reliability.md from the results of scripts/reliability."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ KINDS = {
 
 
 def paragraph(text: str) -> str:
-    """Return a paragraph in lines of a page."""
+    """Return a paragraph, wrapped for a page."""
     return textwrap.fill(text, 118, break_on_hyphens=False, break_long_words=False) + "\n"
 
 
 def head() -> str:
-    """Return what the page begins with."""
+    """Return the introduction of the page."""
     return "# Reliability\n\n" + paragraph(
         "This page reports how a run behaves when its process is killed, its disk fills up, or its files are damaged. "
         "`scripts/reliability` runs the tests and generates the page in about 90 minutes on two cores, mostly fuzzing. "
@@ -34,7 +34,7 @@ def head() -> str:
 
 
 def findings_text(rows: list[dict[str, Any]]) -> str:
-    """Return what was not as it should be; empty: nothing."""
+    """Return the list of findings; empty if there are none."""
     findings = [finding for row in rows for finding in row["findings"]]
     if not findings:
         return ""
@@ -43,13 +43,13 @@ def findings_text(rows: list[dict[str, Any]]) -> str:
 
 
 def kills_text(found: dict[str, Any]) -> str:
-    """Return the part on runs that were killed."""
+    """Return the section on killed runs."""
     rows = found["rows"]
     lines = [
-        f"| {row['subject']} | {row['seconds']:.0f} | {row['trials']} | {row['killed']} | {row['sound']} |\n"
+        f"| {row['subject']} | {row['seconds']:.0f} | {row['trials']} | {row['killed']} | {row['passed']} |\n"
         for row in rows
     ]
-    trials, sound = sum(row["trials"] for row in rows), sum(row["sound"] for row in rows)
+    trials, passed = sum(row["trials"] for row in rows), sum(row["passed"] for row in rows)
     return (
         "## Kills\n\n"
         + paragraph(
@@ -61,17 +61,17 @@ def kills_text(found: dict[str, Any]) -> str:
         + "\n| case | seconds a run | runs | killed before their end | ended bitwise identical |\n"
         + "|---|---|---|---|---|\n"
         + "".join(lines)
-        + f"\n{sound} of {trials} ended with bitwise identical files, without any manual repair.\n"
+        + f"\n{passed} of {trials} ended with bitwise identical files, without any manual repair.\n"
         + findings_text(rows)
     )
 
 
 def writes_text(found: dict[str, Any]) -> str:
-    """Return the part on calls that fail."""
+    """Return the section on calls that fail."""
     rows = found["rows"]
     lines = [
         f"| {row['subject']} | {KINDS[(row['kind'], row['reason'])]} | {row['trials']} of {row['calls']:,} |"
-        f" {row['sound']} |\n"
+        f" {row['passed']} |\n"
         for row in rows
     ]
     return (
@@ -89,7 +89,7 @@ def writes_text(found: dict[str, Any]) -> str:
 
 
 def corruption_text(found: dict[str, Any]) -> str:
-    """Return the part on damaged checkpoints."""
+    """Return the section on damaged checkpoints."""
     row = found["rows"][0]
     return (
         "## Damaged checkpoints\n\n"
@@ -103,7 +103,7 @@ def corruption_text(found: dict[str, Any]) -> str:
 
 
 def mistakes_text(found: dict[str, Any]) -> str:
-    """Return the part on wrong case files."""
+    """Return the section on wrong case files."""
     row = found["rows"][0]
     return (
         "## Wrong case files\n\n"
@@ -119,22 +119,22 @@ def mistakes_text(found: dict[str, Any]) -> str:
 
 
 def commit_of(version: str) -> str:
-    """Return the commit that a version names."""
+    """Return the commit of a version."""
     named = re.search(r"commit (\w+)", version)
     return named.group(1)[:7] if named else version
 
 
 def fuzzing_text(found: dict[str, Any]) -> str:
-    """Return the part on random input."""
+    """Return the section on random input."""
     rows = found["rows"]
     lines = [
         f"| `{row['target']}` | {row['seconds'] / 60:.1f} | {row['executions']:,} | {row['covered']:,} |"
-        f" {len(row['ours'])} | {len(row['foreign'])} | {commit_of(row.get('version', found['version']))} |\n"
+        f" {len(row['own'])} | {len(row['library'])} | {commit_of(row.get('version', found['version']))} |\n"
         for row in rows
     ]
-    told = [
+    findings = [
         f"- `{row['target']}`, {whose}, {count} times: {words}\n"
-        for whose, of in (("in Thawslide", "ours"), ("in a library", "foreign"))
+        for whose, of in (("in Thawslide", "own"), ("in a library", "library"))
         for row in rows
         for words, count in row[of].items()
     ]
@@ -149,12 +149,12 @@ def fuzzing_text(found: dict[str, Any]) -> str:
         + "\n| target | processor minutes | inputs tried | edges covered | findings in Thawslide | in libraries | commit |\n"
         + "|---|---|---|---|---|---|---|\n"
         + "".join(lines)
-        + ("\n" + "".join(told) if told else "")
+        + ("\n" + "".join(findings) if findings else "")
     )
 
 
 def soak_text(found: dict[str, Any]) -> str:
-    """Return the part on a million steps."""
+    """Return the section on a million steps."""
     row = found["rows"][0]
     same = "bitwise identical" if row["same_bits"] else "NOT bitwise identical"
     lines = [
@@ -201,7 +201,7 @@ TEXTS = {
 
 
 def duration_text(seconds: float) -> str:
-    """Say how long something took, in whole minutes."""
+    """Return a duration in whole minutes."""
     minutes = round(seconds / 60)
     if minutes == 0:
         return "less than a minute"
@@ -209,14 +209,14 @@ def duration_text(seconds: float) -> str:
 
 
 def made_text(name: str, found: dict[str, Any]) -> str:
-    """Say by what a part was found, and how long it took."""
-    if name == "fuzzing":  # one target after the other, some of them by other versions
-        return f"{sum(row['seconds'] for row in found['rows']) / 3600:.1f} hours of a processor"
+    """Return the version of the program and the run time of a part."""
+    if name == "fuzzing":  # targets can be of different versions
+        return f"{sum(row['seconds'] for row in found['rows']) / 3600:.1f} hours of processor time"
     return f"{found['version']}, {duration_text(found['wall_s'])}"
 
 
 def write_page(results: Path, page: Path) -> None:
-    """Write the page; a part that never ran says so."""
+    """Write the page; it names parts that have not been run."""
     parts = [head()]
     for name, text in TEXTS.items():
         file = results / f"{name}.json"

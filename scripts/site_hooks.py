@@ -1,6 +1,6 @@
-"""What mkdocs needs for pages that stay where the repository has them: their files, lists as on GitHub, formulas.
+"""Hooks of mkdocs for pages at their paths in the repository: files of the site, lists as on GitHub, formulas.
 
-mkdocs.yml names this file. The site has the tree of the repository, and the same relative links work in both.
+mkdocs.yml names this file. The site has the folders of the repository, and the same relative links work in both.
 """
 
 import html
@@ -60,8 +60,8 @@ def on_files(files, config):
 
 
 def on_page_markdown(markdown, **_):
-    """Indent what belongs to an item of a list by four columns a level, as Python-Markdown needs it."""
-    depths = []  # columns in which the text of the items begins that are open
+    """Indent the contents of list items by four columns per level, as Python-Markdown requires."""
+    depths = []  # columns at which the text of the open items begins
     fence = False
     lines = []
     for line in markdown.splitlines():
@@ -80,7 +80,7 @@ def on_page_markdown(markdown, **_):
 
 
 def styled(match):
-    """Return an element whose variant is in the character: browsers ignore the attribute."""
+    """Return an element with a character of the variant, because browsers ignore the attribute."""
     name, variant, text = match.groups()
     letter = html.unescape(text)
     described = unicodedata.name(letter).replace(" LETTER", "").removeprefix("LATIN ").removeprefix("GREEK ")
@@ -101,7 +101,7 @@ def formula(match):
     latex = re.sub(r"\\mathrm\s*(?:\{(\w)\}|(\w)\b)", r"\\text{\1\2}", latex)
     drawn = convert(latex, display="block" if kind == "div" else "inline")
     if "\\" in drawn or "&</mi>" in drawn:
-        raise PluginError(f"latex2mathml does not know all of this formula: {latex}")
+        raise PluginError(f"latex2mathml cannot convert this formula: {latex}")
     drawn = VARIANT.sub(styled, drawn)
     drawn = CAPITAL.sub(r'<mi mathvariant="normal">\1</mi>', drawn)  # upright, as in LaTeX
     drawn = FUNCTION.sub(r'<mo lspace="0.17em" rspace="0.17em">\1</mo>', drawn)

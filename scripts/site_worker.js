@@ -1,4 +1,4 @@
-// Search in pages that are opened as files. Browsers start no worker there: its script runs in a hidden frame instead.
+// Search in pages that are opened as files. Browsers start no worker for files: the script runs in a hidden frame.
 if (location.protocol === "file:") {
   window.IFrameWorker = window.Worker = class extends EventTarget {
     constructor(url) {

@@ -1,4 +1,4 @@
-"""The Frank slide of SHALTOP and of Thawslide: which runs there are, and their deposits as numbers."""
+"""The Frank slide with SHALTOP and Thawslide: runs, and numbers of their deposits."""
 
 import math
 from dataclasses import dataclass
@@ -14,12 +14,12 @@ from thawslide.run import Numbers, Run
 HERE = Path(__file__).resolve().parent
 ANGLES = (10, 15, 20, 25)  # degrees, of SHALTOP's runs
 STUDIED = 15  # degrees: the angle of the runs that isolate causes
-EDGE = 1.0  # m, vertical: least thickness of the deposit and of the area passed
+EDGE = 1.0  # m, vertical: minimum thickness of the deposit and of the area passed
 
 
 @dataclass(frozen=True)
 class Variant:
-    """What a run changes of frank.toml."""
+    """Changes of a run to frank.toml."""
 
     name: str
     words: str
@@ -28,8 +28,8 @@ class Variant:
 
 BASE = Variant("base", "internal friction 35 degrees")
 FLUID = Variant("fluid", "internal friction 5 degrees", ("material.grains.friction_angle=5",))
-STEEP = ("time.step=0.04",)  # of FLUID on more friction than STUDIED: the body is pressed together harder
-# Of the studied angle alone.
+STEEP = ("time.step=0.04",)  # of FLUID on more friction than STUDIED: the body is compressed more
+# For the studied angle only.
 CAUSES = (
     Variant("alike", "internal friction 15 degrees", ("material.grains.friction_angle=15", "time.step=0.05")),
     Variant("stiff", "Young's modulus 400 MPa", ("material.grains.youngs_modulus=4e8", "time.step=0.036")),
@@ -39,11 +39,11 @@ CAUSES = (
 
 @dataclass(frozen=True)
 class Deposit:
-    """A deposit with what led to it; all maps on SHALTOP's grid."""
+    """A deposit, and peak values; all maps are on SHALTOP's grid."""
 
     final: Map  # vertical thickness at the end [m]
-    highest: Map  # largest vertical thickness [m]
-    speed: Map  # largest depth-averaged speed [m/s]
+    highest: Map  # maximum vertical thickness [m]
+    speed: Map  # maximum depth-averaged speed [m/s]
 
 
 @dataclass(frozen=True)
@@ -54,23 +54,23 @@ class Figures:
     y: float
     area: float  # of the deposit [km2]
     passed: float  # area passed, deposit included [km2]
-    farthest: float  # largest x of the deposit [m]
-    travel: float  # horizontal, from the top of the pile to the farthest place of the deposit [m]
+    farthest: float  # maximum x of the deposit [m]
+    travel: float  # horizontal, from the top of the pile to the farthest point of the deposit [m]
     drop: float  # between the two [m]
-    speed: float  # largest where the slide was at least EDGE thick [m/s]
-    high_speed: float  # that 95 % of the area passed stayed below [m/s]
+    speed: float  # maximum over the area with a thickness of EDGE or more [m/s]
+    high_speed: float  # 95th percentile over the area passed [m/s]
     usual_speed: float  # median of the same [m/s]
-    thickness: float  # largest of the deposit [m]
-    volume: float  # of the deposit and of what is thinner [million m3]
+    thickness: float  # maximum of the deposit [m]
+    volume: float  # of the deposit and of thinner areas [million m3]
 
     @property
     def reach_angle(self) -> float:
-        """Angle of the line between the top of the pile and the farthest place [degrees]."""
+        """Angle of the line between the top of the pile and the farthest point [degrees]."""
         return math.degrees(math.atan2(self.drop, self.travel))
 
 
 def jobs(data: Path, runs: Path, angles: tuple[int, ...] = ANGLES, extra: tuple[str, ...] = ()) -> list[Job]:
-    """Return all runs, the cheap ones first; `extra` changes apply to each."""
+    """Return all runs, short ones first; `extra` changes apply to each."""
     pairs = [(BASE, angle) for angle in angles] + [(FLUID, angle) for angle in angles]
     pairs += [(variant, STUDIED) for variant in CAUSES]
     return [job(variant, angle, data, runs, extra) for variant, angle in pairs]
@@ -106,10 +106,10 @@ def read_grid(path: Path) -> Map:
 
 
 def on_grid(field: Map, grid: Grid) -> Map:
-    """Return a map on another grid of the same cells, 0 where it has none; its own cells must coincide with these."""
+    """Return a map on another grid of the same cells, 0 outside the map; the cells must coincide."""
     column, row = (field.grid.x0 - grid.x0) / grid.cell_x, (field.grid.y0 - grid.y0) / grid.cell_y
     if field.grid.cell_x != grid.cell_x or abs(column - round(column)) > 1e-6 or abs(row - round(row)) > 1e-6:
-        raise SystemExit(f"the cells of a map ({field.grid}) are not those of SHALTOP ({grid})")
+        raise SystemExit(f"the cells of a map ({field.grid}) differ from those of SHALTOP ({grid})")
     values = np.zeros((grid.rows, grid.columns))
     rows, columns = (
         round(row) + np.arange(field.grid.rows)[:, None],
@@ -122,7 +122,7 @@ def on_grid(field: Map, grid: Grid) -> Map:
 
 
 def read_shaltop(data: Path, angle: int, terrain: Map) -> Deposit:
-    """Read SHALTOP's results; its largest thickness, which is along the normal, becomes vertical."""
+    """Read SHALTOP's results; its maximum thickness is converted from normal to vertical."""
     folder = data / "shaltop"
     final, highest, speed = (
         read_map(folder / f"delta{angle}_{kind}.tif") for kind in ("hfinal_vertical", "hmax_normal", "umax")
@@ -167,11 +167,11 @@ def figures(deposit: Deposit, terrain: Map, pile: Map) -> Figures:
 
 @dataclass(frozen=True)
 class Difference:
-    """How far one deposit is from another."""
+    """Difference between two deposits."""
 
     overlap: float  # area of both over area of either
-    thickness: float  # root mean square difference where either lies [m]
-    moved: float  # volume that lies in another place, over the volume
+    thickness: float  # root mean square difference over the area of either [m]
+    moved: float  # volume at a different location, over the volume
 
 
 def difference(one: Deposit, other: Deposit) -> Difference:

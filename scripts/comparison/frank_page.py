@@ -1,4 +1,4 @@
-"""The page of the Frank slide: tables, two pictures, and the text of frank.md with the numbers filled in."""
+"""The page of the Frank slide: tables, two figures, and the text of frank.md with its numbers."""
 
 from pathlib import Path
 
@@ -12,9 +12,9 @@ from thawslide.maps import Map
 from thawslide.run import Run
 
 HERE = Path(__file__).resolve().parent
-SHALTOP, OURS = "SHALTOP", "Thawslide"
-COLOURS = {SHALTOP: BLUE, OURS: RED}
-MARKS = {SHALTOP: "o", OURS: "^"}
+SHALTOP, THAWSLIDE = "SHALTOP", "Thawslide"
+COLTHAWSLIDE = {SHALTOP: BLUE, THAWSLIDE: RED}
+MARKS = {SHALTOP: "o", THAWSLIDE: "^"}
 PUBLISHED = {"drop": 760.0, "travel": 3080.0, "area": 3.57, "volume": 36.5}  # Mitchell et al. (2019)
 
 ROWS = {
@@ -43,9 +43,9 @@ def main_table(found: dict[tuple[str, int], frank.Figures]) -> str:
     """Return the numbers of both codes for each angle."""
     head = [""]
     for angle in frank.ANGLES:
-        head += [f"{SHALTOP} {angle}", f"{OURS} {angle}"]
+        head += [f"{SHALTOP} {angle}", f"{THAWSLIDE} {angle}"]
     rows = [
-        [words, *(text(found[code, angle]) for angle in frank.ANGLES for code in (SHALTOP, OURS))]
+        [words, *(text(found[code, angle]) for angle in frank.ANGLES for code in (SHALTOP, THAWSLIDE))]
         for words, text in ROWS.items()
     ]
     return markdown([head, *rows])
@@ -54,7 +54,7 @@ def main_table(found: dict[tuple[str, int], frank.Figures]) -> str:
 def difference_table(
     found: dict[tuple[int, str], frank.Figures], differences: dict[tuple[int, str], frank.Difference]
 ) -> str:
-    """Return single runs by the angle along the ground, and how far their deposits are from SHALTOP's."""
+    """Return single runs by friction angle, and the differences of their deposits from SHALTOP's."""
     head = ["angle (degrees)", "run", "centroid, x (m)", "area (km2)", "farthest x (m)", "median speed (m/s)"]
     lines = [[*head, "overlap", "moved volume"]]
     for (angle, name), figures in found.items():
@@ -75,7 +75,7 @@ def difference_table(
 
 
 def end_table(runs: dict[str, Run], processor: dict[str, float]) -> str:
-    """Return how each run ended."""
+    """Return a table of the ends of the runs."""
     lines = [
         [
             "run",
@@ -110,13 +110,13 @@ def deposits(
     fluid: dict[int, frank.Deposit],
     pile: Map,
 ) -> Figure:
-    """Return the outlines of the deposits, one panel an angle."""
+    """Return the outlines of the deposits, one panel per angle."""
     figure = Figure(figsize=(COLUMN_WIDTH, 7.0), layout="constrained")
     panels = figure.subplots(2, 2, sharex=True, sharey=True).ravel()
     for panel, angle, letter in zip(panels, frank.ANGLES, "abcd", strict=True):
         outline(panel, pile, 0.5, colors=BLACK, linewidths=0.9, linestyles="dotted")
         outline(panel, fluid[angle].final, frank.EDGE, colors=RED, linewidths=1.0, linestyles="dashed")
-        for code, colour in COLOURS.items():
+        for code, colour in COLTHAWSLIDE.items():
             outline(panel, found[code, angle].final, frank.EDGE, colors=colour, linewidths=1.6)
             centre = numbers[code, angle]
             panel.plot(centre.x, centre.y, MARKS[code], color=colour, markeredgecolor="white", ms=8)
@@ -133,12 +133,12 @@ def deposits(
         panel.set_ylabel("northing, local (km)")
     scale_bar(panels[0], "lower right")
     handles = []
-    for code, colour in COLOURS.items():
+    for code, colour in COLTHAWSLIDE.items():
         handles.append(Line2D([], [], color=colour, label=f"{code}, deposit"))
         handles.append(
             Line2D([], [], color=colour, marker=MARKS[code], ls="", mec="white", ms=8, label=f"{code}, centroid")
         )
-    words = f"{OURS}, {frank.FLUID.words}, deposit"
+    words = f"{THAWSLIDE}, {frank.FLUID.words}, deposit"
     handles.append(Line2D([], [], color=RED, linestyle="dashed", linewidth=1.0, label=words))
     handles.append(Line2D([], [], color=BLACK, linestyle="dotted", linewidth=0.9, label="release"))
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
@@ -147,17 +147,17 @@ def deposits(
 
 @styled
 def sections(found: dict[tuple[str, int], frank.Deposit], fluid: dict[int, frank.Deposit], pile: Map) -> Figure:
-    """Return the section area of the deposits along x, one panel an angle."""
+    """Return the section area of the deposits along x, one panel per angle."""
     figure = Figure(figsize=(COLUMN_WIDTH, 5.2), layout="constrained")
     panels = figure.subplots(2, 2, sharex=True).ravel()
     for panel, angle, letter in zip(panels, frank.ANGLES, "abcd", strict=True):
         x = pile.grid.x / 1e3
         panel.plot(x, frank.volume_along(pile) / 1e3, color=BLACK, linestyle="dotted", linewidth=1.0, label="release")
-        for code, colour in COLOURS.items():
+        for code, colour in COLTHAWSLIDE.items():
             panel.plot(x, frank.volume_along(found[code, angle].final) / 1e3, color=colour, label=code)
         panel.plot(
             x, frank.volume_along(fluid[angle].final) / 1e3, color=RED, linestyle="dashed", linewidth=1.1,
-            label=f"{OURS}, {frank.FLUID.words}",
+            label=f"{THAWSLIDE}, {frank.FLUID.words}",
         )  # fmt: skip
         panel.set_title(f"({letter}) friction angle {angle}°", loc="left")
         panel.set_xlim(0.2, 4.0)
@@ -179,14 +179,14 @@ def draw(
     pile: Map,
     folder: Path,
 ) -> None:
-    """Write both pictures."""
+    """Write both figures."""
     folder.mkdir(exist_ok=True)
     deposits(found, numbers, fluid, pile).savefig(folder / "frank-deposits.png", dpi=150)
     sections(found, fluid, pile).savefig(folder / "frank-sections.png", dpi=150)
 
 
 def published_table(found: dict[tuple[str, int], frank.Figures]) -> str:
-    """Return the published slide and, of both codes, what can be set against it."""
+    """Return the published values, and comparable values of both codes."""
     lines = [["", "drop (m)", "travel distance (m)", "H/L", "area (km2)", "volume (million m3)"]]
     lines.append(
         [
@@ -214,25 +214,25 @@ def published_table(found: dict[tuple[str, int], frank.Figures]) -> str:
 
 
 def write(data: Path, jobs: list[Job], folder: Path) -> None:
-    """Write frank.md and its pictures into a folder, from the runs that are there."""
+    """Write frank.md and its figures into a folder, from existing runs."""
     terrain, pile = (frank.read_grid(data / f"Frankslide_{kind}.asc") for kind in ("topography", "pile"))
-    ours = {job.output.name: frank.read_run(job.output, terrain.grid) for job in jobs if job.is_done}
+    own = {job.output.name: frank.read_run(job.output, terrain.grid) for job in jobs if job.is_done}
     deposits = {
-        (code, angle): frank.read_shaltop(data, angle, terrain) if code == SHALTOP else ours[f"base-{angle}"]
+        (code, angle): frank.read_shaltop(data, angle, terrain) if code == SHALTOP else own[f"base-{angle}"]
         for angle in frank.ANGLES
-        for code in COLOURS
+        for code in COLTHAWSLIDE
     }
     numbers = {key: frank.figures(deposit, terrain, pile) for key, deposit in deposits.items()}
-    fluid = {angle: ours[f"fluid-{angle}"] for angle in frank.ANGLES}
+    fluid = {angle: own[f"fluid-{angle}"] for angle in frank.ANGLES}
     draw(deposits, numbers, fluid, pile, folder / "comparison")
     rows, apart = {}, {}
     for angle in frank.ANGLES:
         rows[angle, SHALTOP] = numbers[SHALTOP, angle]
         for variant in (frank.BASE, frank.FLUID, *frank.CAUSES):
-            deposit = ours.get(f"{variant.name}-{angle}")
+            deposit = own.get(f"{variant.name}-{angle}")
             if deposit is not None:
-                rows[angle, f"{OURS}, {variant.words}"] = frank.figures(deposit, terrain, pile)
-                apart[angle, f"{OURS}, {variant.words}"] = frank.difference(deposit, deposits[SHALTOP, angle])
+                rows[angle, f"{THAWSLIDE}, {variant.words}"] = frank.figures(deposit, terrain, pile)
+                apart[angle, f"{THAWSLIDE}, {variant.words}"] = frank.difference(deposit, deposits[SHALTOP, angle])
     done = {job.output.name: job for job in jobs if job.is_done}
     parts = [
         (HERE / "frank.md").read_text().strip(),

@@ -1,4 +1,4 @@
-"""The three grounds of the comparison with AvaFrame: DEMs and releases, written into a folder each."""
+"""The three terrains of the comparison with AvaFrame: DEMs and releases, each written into a folder."""
 
 import json
 import math
@@ -11,9 +11,9 @@ import numpy as np
 import rasterio
 from rasterio.transform import from_origin
 
-CRS = "EPSG:31287"  # of the alr DEM; the two synthetic grounds take it too
-WEST, SOUTH = 400_000.0, 400_000.0  # lower left corner of the synthetic DEMs [m], made up
-POINT = 5.0  # distance of the DEMs' points [m]
+CRS = "EPSG:31287"  # of the alr DEM, also used for the two synthetic terrains
+WEST, SOUTH = 400_000.0, 400_000.0  # lower left corner of the synthetic DEMs [m], arbitrary
+POINT = 5.0  # spacing of the points of the DEMs [m]
 THICKNESS = 10.0  # of the releases, along the normal [m]
 
 
@@ -21,22 +21,22 @@ THICKNESS = 10.0  # of the releases, along the normal [m]
 class Variant:
     """A run that differs in single settings, to isolate a cause."""
 
-    name: str  # of its folder
+    name: str  # name of its folder
     words: str
     changes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class Ground:
-    """What the two programs are given, and how the page tells it."""
+    """Input of the two programs, and its description on the page."""
 
     name: str
     title: str
     text: str
     friction_angle: float  # along the ground [degrees]
-    is_straight: bool  # whether the middle of the slide goes due east
-    avaframe: tuple[Variant, ...] = ()  # besides the run by AvaFrame's defaults
-    thawslide: tuple[Variant, ...] = ()  # besides the run of the case file
+    is_straight: bool  # whether the centre of the slide moves due east
+    avaframe: tuple[Variant, ...] = ()  # in addition to the run with AvaFrame's defaults
+    thawslide: tuple[Variant, ...] = ()  # in addition to the run of the case file
 
 
 INVISCID = Variant("avaframe-inviscid", "no artificial viscosity", ("viscOption=0",))
@@ -75,8 +75,8 @@ GROUNDS = {ground.name: ground for ground in (PLANE, BOWL, ALR)}
 def plane_profile(x: np.ndarray) -> np.ndarray:
     """Return the elevation [m] of the plane that runs out, over the distance [m] from its upper edge."""
     slope, foot, half = math.tan(math.radians(30.0)), 1_000.0, 150.0
-    way = np.clip(x - (foot - half), 0.0, 2.0 * half)
-    rounded = slope * half - slope * way + slope * way**2 / (4.0 * half)
+    bend = np.clip(x - (foot - half), 0.0, 2.0 * half)
+    rounded = slope * half - slope * bend + slope * bend**2 / (4.0 * half)
     return np.where(x < foot - half, slope * (foot - x), rounded)
 
 
@@ -90,7 +90,7 @@ def write_dem(file: Path, elevation: np.ndarray) -> None:
 
 
 def write_release(folder: Path, corners: list[list[float]]) -> None:
-    """Write the outline [m] for AvaFrame's side (release.json) and for ours (release.geojson)."""
+    """Write the outline [m] for AvaFrame (release.json) and for Thawslide (release.geojson)."""
     (folder / "release.json").write_text(json.dumps({"corners": corners, "thickness": THICKNESS}))
     feature = {
         "type": "Feature",
@@ -103,7 +103,7 @@ def write_release(folder: Path, corners: list[list[float]]) -> None:
 
 
 def rectangle(x: float, y: float, long: float, wide: float) -> list[list[float]]:
-    """Return the closed corners of a rectangle about a place [m]."""
+    """Return the closed corners of a rectangle around a point [m]."""
     signs = [(-1, -1), (-1, 1), (1, 1), (1, -1), (-1, -1)]
     return [[WEST + x + a * long / 2.0, SOUTH + y + b * wide / 2.0] for a, b in signs]
 
@@ -113,7 +113,7 @@ def first_polygon(shapefile: Path) -> list[list[float]]:
     content = shapefile.read_bytes()[108:]
     kind, _, _, _, _, parts, points = struct.unpack_from("<i4d2i", content)
     if kind % 10 != 5:
-        raise SystemExit(f"{shapefile}: its first shape is of kind {kind}; a polygon is needed")
+        raise SystemExit(f"{shapefile}: its first shape is of kind {kind}; a polygon is required")
     starts = struct.unpack_from(f"<{parts}i", content, 44)
     end = starts[1] if parts > 1 else points
     return np.frombuffer(content, dtype="<f8", count=2 * end, offset=44 + 4 * parts).reshape(-1, 2).tolist()
@@ -134,7 +134,7 @@ def write_bowl(folder: Path) -> None:
 
 
 def write_ground(ground: Ground, folder: Path, alr: Path | None) -> None:
-    """Write dem.tif and both releases of a ground into a folder; `alr` is where alr.tif and release.shp lie."""
+    """Write dem.tif and both releases of a terrain into a folder; `alr` is the folder of alr.tif and release.shp."""
     folder.mkdir(parents=True, exist_ok=True)
     if ground is PLANE:
         write_plane(folder)

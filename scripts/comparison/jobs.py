@@ -1,4 +1,4 @@
-"""Runs of programs with one thread each, two at a time at most; the processor time of each is kept next to its log."""
+"""Runs of programs with one thread each, several at a time; each processor time is written next to the log."""
 
 import json
 import os
@@ -23,12 +23,12 @@ class Job:
 
     @property
     def log(self) -> Path:
-        """The file of what the program printed."""
+        """The file with the output of the program."""
         return self.output.parent / f"{self.output.name}.log"
 
     @property
     def is_done(self) -> bool:
-        """Whether the run has come to its end with these changes."""
+        """Whether the run has finished with these changes."""
         facts = self.log.with_suffix(".json")
         return facts.exists() and json.loads(facts.read_text()).get("changes") == list(self.changes)
 
@@ -53,7 +53,7 @@ def processor_time(file: Path) -> float:
 
 
 def run_job(job: Job) -> None:
-    """Run a case, unless it has been run."""
+    """Run a case, unless it is finished."""
     if job.is_done:
         return
     job.output.parent.mkdir(parents=True, exist_ok=True)
@@ -64,7 +64,7 @@ def run_job(job: Job) -> None:
 
 
 def run_jobs(jobs: Sequence[Job], at_a_time: int) -> None:
-    """Run cases, some at a time; the first that fails ends the program."""
+    """Run cases, several at a time; exit at the first failure."""
     with ThreadPoolExecutor(at_a_time) as pool:
         for done in [pool.submit(run_job, job) for job in jobs]:
             done.result()

@@ -13,7 +13,7 @@ HERE = Path(__file__).resolve().parent
 MEASURED = HERE.parents[1] / "tests" / "cpp" / "verification" / "bar_collapse"
 
 BAR_CELLS = (20.0, 10.0, 5.0, 2.5)  # mm
-BAR_STUDIED = 5.0  # mm: cell of the runs that differ in one thing
+BAR_STUDIED = 5.0  # mm: cell of the runs that change one parameter
 BAR_FRICTION = "material.bars.friction_angle=21.1"  # degrees: asin(tan(19.8 degrees))
 BAR_HEIGHT = 0.1  # m
 BAR_WINDOW = 0.01  # m, over which surface and failure line are averaged along x
@@ -24,7 +24,7 @@ RADIUS = 10.0  # m
 AXIS = 0.02  # m: width of a section at the axis, which must not be 0
 ACROSS = (8, 16, 32, 64)  # cells across the radius
 ACROSS_STUDIED = 32
-ACROSS_FINEST = 128  # with APIC alone, for the text
+ACROSS_FINEST = 128  # with APIC only, for the text
 OTHER_ASPECTS = (0.5, 2.0)  # on cells no finer than those
 EDGE = 0.01 * RADIUS  # m: thickness at the edge of the deposit
 EDGE_WINDOW = 0.05 * RADIUS  # m
@@ -194,7 +194,7 @@ def read_points(file: Path) -> tuple[Numbers, Numbers]:
 
 
 def thickness(x: Numbers, share: Numbers, at: Numbers, window: float, size: float) -> Numbers:
-    """Return volume per width of windows about places: particles are `size` wide, the wall is at x = 0."""
+    """Return volume per width of windows around positions: particles are `size` wide, the wall is at x = 0."""
     start, end = (
         np.maximum(at - 0.5 * window, 0.0)[:, None],
         (at + 0.5 * window)[:, None],
@@ -205,12 +205,12 @@ def thickness(x: Numbers, share: Numbers, at: Numbers, window: float, size: floa
 
 @dataclass(frozen=True)
 class Bars:
-    """The bars after their collapse at the measured places; lengths in m."""
+    """The bars after their collapse at the measured positions; lengths in m."""
 
     cell: float
-    surface: Numbers  # at the measured places
+    surface: Numbers  # at the measured positions
     profile: tuple[Numbers, Numbers]
-    failure: dict[float, Numbers]  # at the measured places, by the displacement of moved material [mm]
+    failure: dict[float, Numbers]  # at the measured positions, by the displacement of moved material [mm]
     failure_profile: tuple[Numbers, Numbers]
     toe: float
     dilation: float
@@ -235,21 +235,21 @@ def inclination(x: Numbers, height: Numbers) -> float:
 
 
 def failure_line(start: Numbers, moved: Numbers, at: Numbers, threshold: float, spacing: float) -> Numbers:
-    """Return the height [m] at places above which rows of particles have moved by more than a threshold [m]."""
+    """Return the height [m] at positions above which rows of particles have moved by more than a threshold [m]."""
     heights = []
     for place in at:
         here = np.abs(start[:, 0] - place) <= 0.5 * BAR_WINDOW
         _, rows = np.unique(np.floor(start[here, 1] / spacing), return_inverse=True)
         mean = np.bincount(rows, weights=moved[here]) / np.bincount(rows)
         height = np.concatenate(([0.0], (np.arange(len(mean)) + 0.5) * spacing))
-        way = np.concatenate(([0.0], mean))
-        above = np.flatnonzero(way > threshold)
+        displacement = np.concatenate(([0.0], mean))
+        above = np.flatnonzero(displacement > threshold)
         if not above.size:
             heights.append(BAR_HEIGHT)
             continue
         k = above[0]
-        share = (threshold - way[k - 1]) / (way[k] - way[k - 1])
-        heights.append(height[k - 1] + share * (height[k] - height[k - 1]))
+        fraction = (threshold - displacement[k - 1]) / (displacement[k] - displacement[k - 1])
+        heights.append(height[k - 1] + fraction * (height[k] - height[k - 1]))
     return np.array(heights)
 
 
@@ -259,9 +259,9 @@ def read_bars(job: Job, cell: float, particles: int = 2) -> Bars:
     size = cell * 1e-3 / particles
     volume = shot["mass"] / 2650.0
     x = shot.points[:, 0]
-    way = shot["displacement"]
-    start = (shot.points - way)[:, :2]
-    moved = np.asarray(np.linalg.norm(way, axis=1))
+    displacement = shot["displacement"]
+    start = (shot.points - displacement)[:, :2]
+    moved = np.asarray(np.linalg.norm(displacement, axis=1))
     places, _ = read_points(MEASURED / "surface.csv")
     fine = np.arange(0.0, 0.7, 0.001)
     depth = thickness(x, volume, fine, BAR_WINDOW, size)
@@ -284,9 +284,9 @@ class Column:
 
     bulk: float  # of 95 % of the mass
     runout: float  # of 99.5 %
-    edge: float  # to where the deposit is EDGE thick
+    edge: float  # up to a thickness of EDGE
     profile: tuple[Numbers, Numbers]
-    beyond: float  # fraction of the mass where the deposit is thinner than a 16th of the radius
+    beyond: float  # fraction of the mass in areas thinner than a 16th of the radius
     gained: float  # energy added by transfers and steps, over the potential energy released
 
 

@@ -51,7 +51,7 @@ def rms(values: np.ndarray) -> float:
 
 
 def largest(values: np.ndarray) -> float:
-    """Return the value with the largest magnitude."""
+    """Return the value with the maximum magnitude."""
     return float(values[np.abs(values).argmax()])
 
 
@@ -388,8 +388,8 @@ def write(jobs: list[Job], folder: Path) -> None:
         beyond=f"{100.0 * columns['cylinder', 'flip', ACROSS[-1]].beyond:.0f}",
         **numbers(bars | {("strong", BAR_CELLS[-1]): fine}, columns | finest),
     )
-    pictures = folder / "laboratory"
-    pictures.mkdir(exist_ok=True)
-    bar_figure(bars).savefig(pictures / "bars.png", dpi=150)
-    column_figure(columns).savefig(pictures / "cylinder.png", dpi=150)
+    figures = folder / "laboratory"
+    figures.mkdir(exist_ok=True)
+    bar_figure(bars).savefig(figures / "bars.png", dpi=150)
+    column_figure(columns).savefig(figures / "cylinder.png", dpi=150)
     (folder / "laboratory.md").write_text(filled(text))

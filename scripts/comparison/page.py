@@ -53,16 +53,16 @@ PAINTINGS = {"thickness": THICKNESS, "speed": VELOCITY}
 ROWS = {
     "travel distance (m)": lambda found: f"{found.travel:,.0f}",
     "reach angle (degrees)": lambda found: f"{found.reach_angle:.1f}",
-    "displacement of the centre (m)": lambda found: f"{found.centre_way:,.0f}",
-    "maximum speed (m/s)": lambda found: f"{found.largest_speed:.1f}",
+    "displacement of the centre (m)": lambda found: f"{found.centre_displacement:,.0f}",
+    "maximum speed (m/s)": lambda found: f"{found.max_speed:.1f}",
     "maximum speed, median of places reached (m/s)": lambda found: f"{found.usual_speed:.1f}",
-    "maximum thickness (m, vertical)": lambda found: f"{found.largest_thickness:.1f}",
+    "maximum thickness (m, vertical)": lambda found: f"{found.max_thickness:.1f}",
     "area reached (m2)": lambda found: f"{found.area:,.0f}",
 }
 
 
 def table(outcomes: list[Outcome], found: list[Numbered], point: PointMass | None) -> str:
-    """Return the table of a ground, one column a program, and one of the point mass where there is one."""
+    """Return the table of a terrain: a column per program, and one of the point mass if available."""
     columns = [outcome.program for outcome in outcomes]
     rows = [[what, *(text(each) for each in found)] for what, text in ROWS.items()]
     rows += [
@@ -75,8 +75,8 @@ def table(outcomes: list[Outcome], found: list[Numbered], point: PointMass | Non
     if point is not None:
         columns.append("point mass")
         told = {
-            "displacement of the centre (m)": f"{point.way:,.0f}",
-            "maximum speed (m/s)": f"{point.largest_speed:.1f}",
+            "displacement of the centre (m)": f"{point.travel:,.0f}",
+            "maximum speed (m/s)": f"{point.max_speed:.1f}",
         }
         rows = [[*row, told.get(row[0], "")] for row in rows]
     lines = [["", *columns], ["---"] * (len(columns) + 1), *rows]
@@ -84,16 +84,16 @@ def table(outcomes: list[Outcome], found: list[Numbered], point: PointMass | Non
 
 
 def differences(first: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Return other less first where either was reached (nan elsewhere); a place that one never reached counts as 0."""
+    """Return other minus first; nan in cells that neither reached, 0 for the program that did not reach a cell."""
     both = np.nan_to_num(other) - np.nan_to_num(first)
     return np.where(np.isfinite(first) | np.isfinite(other), both, np.nan)
 
 
 @styled
-def picture(
+def comparison_figure(
     ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome], field: str, words: str
 ) -> Figure:
-    """Draw a field as each program has it over the terrain, and how each differs from the first."""
+    """Plot a field of each program over the terrain, and the differences from the first."""
     places = [covered_box(outcome.thickness, AFFECTED) for outcome in outcomes]
     scene = make_scene(terrain, box_about([place for place in places if place is not None]))
     note = f"Reached: at least {AFFECTED} m thick. Blue line: the release. Differences count 0 where a program has not "
@@ -107,7 +107,7 @@ def picture(
     change_painter = ScalarMappable(Normalize(-most, most), "RdBu_r")
     names = [outcome.program.split(", ")[-1] for outcome in outcomes]
     drawn = [(values, painter, name) for values, name in zip(shown, names, strict=True)]
-    # By letters: names of two would not fit above a narrow panel.
+    # Letters, because two names do not fit above a narrow panel.
     drawn += [(change, change_painter, f"{letter} − a") for change, letter in zip(changes, "bcdefg", strict=False)]
     panels = []
     for number, (values, colours, name) in enumerate(drawn):
@@ -130,12 +130,12 @@ def picture(
 def draw(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome], folder: Path) -> None:
     """Write two figures, of maximum thickness and of maximum speed."""
     for field, words in FIELDS:
-        drawn = picture(ground, terrain, corners, outcomes, field, words)
+        drawn = comparison_figure(ground, terrain, corners, outcomes, field, words)
         drawn.savefig(folder / f"{ground.name}-{field}.png", dpi=150)
 
 
 def section(ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome]) -> str:
-    """Return the section of a ground."""
+    """Return the section of a terrain."""
     coefficient = math.tan(math.radians(ground.friction_angle))
     found = [numbers(outcome, terrain, corners) for outcome in outcomes]
     point = point_mass(terrain, corners, coefficient) if ground.is_straight else None

@@ -25,7 +25,7 @@ CAUSES = (
     Variant("alr-weak", "default filter, internal friction 25 degrees", ("material.grains.friction_angle=25",)),
 )
 ALR_LOW, ALR_SIZE = (255215.0, 377350.0, 540.0), (2046.0, 4521.0, 2059.2)  # m, of the domain
-STEP_PER_CELL = 0.0045  # s/m: three quarters of what the elastic wave allows
+STEP_PER_CELL = 0.0045  # s/m: three quarters of the limit of the elastic wave
 
 
 @dataclass(frozen=True)
@@ -36,24 +36,24 @@ class Found:
     travel: float  # along the path, from the rear of the release to the front with 99.5 % of the mass behind it [m]
     reach_angle: float  # [degrees]
     centre: float  # horizontal, of the centre of mass, straight [m]
-    speed: float  # largest mean speed [m/s]
+    speed: float  # maximum mean speed [m/s]
     end_speed: float  # mean speed at the end [m/s]
     simulated: float  # [s]
-    left: float  # share of the mass that left the DEM
+    left: float  # fraction of the mass that left the DEM
     particles: int
     processor: float  # [s]
 
 
 @dataclass(frozen=True)
 class Deposit:
-    """The numbers of a run's deposit that maps show."""
+    """The numbers of a deposit, from maps."""
 
     cell: float  # [m]
     covered: float  # area at the end [m2]
     affected: float  # area that was covered at any time [m2]
-    thickness: float  # largest on the map [m]
+    thickness: float  # maximum on the map [m]
     width: float  # standard deviation of the mass across the slope [m]
-    dilation: float  # share by which the volume has grown
+    dilation: float  # relative increase of the volume
     map_cell: float  # [m]
 
 
@@ -81,7 +81,7 @@ def alr_job(cell: float, runs: Path, variant: Variant = FILTERED, extra: tuple[s
 
 
 def jobs(runs: Path, extra: tuple[str, ...] = ()) -> list[Job]:
-    """Return all runs, the cheap ones first."""
+    """Return all runs, short ones first."""
     result = [plane_job(cell, runs, extra) for cell in PLANE_CELLS]
     *coarse, finest = ALR_CELLS
     result += [alr_job(cell, runs, variant, extra) for variant in (FILTERED, WIDE, ROUGH) for cell in coarse]
@@ -90,7 +90,7 @@ def jobs(runs: Path, extra: tuple[str, ...] = ()) -> list[Job]:
 
 
 def write_inputs(runs: Path, alr: Path | None) -> None:
-    """Write grounds and case files into the folders of the two grounds."""
+    """Write DEMs, releases and case files of the two terrains."""
     for ground, names in ((PLANE, ("refined-plane.toml",)), (ALR, ("alr.toml",))):
         folder = runs / ground.name
         if not (folder / "dem.tif").exists():
@@ -120,7 +120,7 @@ def read_found(job: Job) -> Found:
 
 
 def read_deposit(job: Job) -> Deposit:
-    """Read what the maps of a run on the plane, which falls along x, show of its deposit."""
+    """Read the deposit of a run on the plane, which falls along x, from its maps."""
     run = Run(job.output)
     thickness = read_map(job.output / "maps" / "final_thickness.tif")
     last = run.snapshot(-1, fields=["mass"])
@@ -137,13 +137,13 @@ def read_deposit(job: Job) -> Deposit:
 
 
 def order(coarse: float, middle: float, fine: float, ratio: float = 2.0) -> float:
-    """Return the observed order of convergence of a value on three grids; nan where it does not converge evenly."""
+    """Return the observed order of convergence of a value on three grids; nan if it does not converge monotonically."""
     first, second = middle - coarse, fine - middle
     return math.log(first / second) / math.log(ratio) if first * second > 0.0 else math.nan
 
 
 def limit(middle: float, fine: float, order: float, ratio: float = 2.0) -> float:
-    """Return the value that Richardson extrapolation gives for cells of no size."""
+    """Return the Richardson extrapolation to cells of size zero."""
     return fine + (fine - middle) / (ratio**order - 1.0)
 
 

@@ -29,9 +29,9 @@ from thawslide.run import Run
 from wedge import Interval, intervals
 
 LENGTH = 10.0  # s, of the intervals of apparent friction
-SLOWEST = 2.0  # m/s: mean speed from which on an interval is compared
+SLOWEST = 2.0  # m/s: minimum mean speed of an interval that is compared
 COLOURS = (BLUE, ORANGE, GREEN, RED)
-HALVING = (20.0, 10.0, 5.0)  # m: the cells of the plane that orders and limits follow from
+HALVING = (20.0, 10.0, 5.0)  # m: the cells of the plane for orders and limits
 
 ROWS = {
     "travel distance (m)": lambda found: f"{found.travel:,.0f}",
@@ -115,7 +115,7 @@ def deposit_table(found: list[Deposit]) -> str:
 
 
 def spread_words(found: list[Found]) -> str:
-    """Return a sentence on how far runs that differ by their cell are apart."""
+    """Return a sentence on the spread of runs that differ by their cell."""
     parts = [
         f"{words} {100.0 * spread([getattr(each, name) for each in found]):.1f} %"
         for words, name in (
@@ -128,7 +128,7 @@ def spread_words(found: list[Found]) -> str:
 
 
 def friction_rows(job: Job, terrain: Map) -> list[Interval]:
-    """Return the intervals of a run in which it moves fast enough for a friction."""
+    """Return the intervals of a run in which it moves fast enough to evaluate friction."""
     run = Run(job.output)
     speed, time = run.history["mean_velocity_m_s"], run.history["time_s"]
     found = intervals(run, terrain, math.tan(math.radians(ALR.friction_angle)), LENGTH)
@@ -150,8 +150,8 @@ def friction_table(rows: list[Interval]) -> str:
 
 
 @styled
-def friction_picture(runs: dict[Variant, dict[float, list[Interval]]]) -> Figure:
-    """Return apparent friction over time, a panel for each way to filter the DEM."""
+def friction_figure(runs: dict[Variant, dict[float, list[Interval]]]) -> Figure:
+    """Return apparent friction over time, a panel for each filter of the DEM."""
     figure = Figure(figsize=(COLUMN_WIDTH, 3.8), layout="constrained")
     panels = figure.subplots(1, len(runs), sharey=True, sharex=True)
     for panel, (variant, cells), letter in zip(panels, runs.items(), "abc", strict=True):
@@ -175,7 +175,7 @@ def friction_picture(runs: dict[Variant, dict[float, list[Interval]]]) -> Figure
 
 
 def write(jobs: list[Job], runs: Path, folder: Path) -> None:
-    """Write refinement.md and its picture into a folder, from the runs that are there."""
+    """Write refinement.md and its figure into a folder, from existing runs."""
     done = {job.output.name: job for job in jobs if job.is_done}
 
     def found(start: str) -> list[Found]:
@@ -194,7 +194,7 @@ def write(jobs: list[Job], runs: Path, folder: Path) -> None:
     causes = {each: job for each, job in causes.items() if job}
     studied = {each.words: friction(each.name)[STUDIED] for each in causes}
     (folder / "comparison").mkdir(exist_ok=True)
-    friction_picture({each: friction(each.name) for each in (WIDE, FILTERED, ROUGH)}).savefig(
+    friction_figure({each: friction(each.name) for each in (WIDE, FILTERED, ROUGH)}).savefig(
         folder / "comparison" / "alr-friction.png", dpi=150
     )
     parts = [

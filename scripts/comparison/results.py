@@ -1,4 +1,4 @@
-"""What the two programs found on a ground, as maps and numbers that can be set side by side."""
+"""Results of the two programs on a terrain, as comparable maps and numbers."""
 
 import json
 import math
@@ -13,31 +13,31 @@ from thawslide.relief import slopes
 from thawslide.run import Numbers, Run
 
 GRAVITY = 9.81  # m/s2
-AFFECTED = 0.5  # m, vertical: from that thickness on a place counts as reached
+AFFECTED = 0.5  # m, vertical: minimum thickness of the area reached
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one program found: maps on the DEM's grid, and facts about its run."""
+    """Results of one program: maps on the DEM's grid, and facts about its run."""
 
     program: str
-    thickness: Map  # largest, vertical [m]
-    speed: Map  # largest [m/s]
+    thickness: Map  # maximum, vertical [m]
+    speed: Map  # maximum [m/s]
     final_thickness: Map  # vertical [m]
     particles: int
     simulated: float  # time at the end [s]
     released: float  # volume [m3]
-    left_share: float  # share of it that left the DEM
+    left_share: float  # fraction of it that left the DEM
     processor: float  # time on one core [s]
 
 
 def without_gaps(field: Map) -> Numbers:
-    """Return the values of a map, 0 where the slide never was."""
+    """Return the values of a map, 0 in cells that the slide did not reach."""
     return np.nan_to_num(field.values, nan=0.0)
 
 
 def read_avaframe(folder: Path, terrain: Map, name: str = "avaframe", words: str = "") -> Outcome:
-    """Read AvaFrame's results; its thickness, which is along the normal, is turned to the vertical."""
+    """Read AvaFrame's results; its thickness is converted from normal to vertical."""
     facts = json.loads((folder / f"{name}.facts.json").read_text())
     peaks = folder / name / "Outputs" / "com1DFA" / "peakFiles"
     found = {kind: read_map(next(iter(peaks.glob(f"*_{kind}.tif")))) for kind in ("pft", "pfv", "FT")}
@@ -61,7 +61,7 @@ def read_avaframe(folder: Path, terrain: Map, name: str = "avaframe", words: str
 
 
 def on_grid(field: Map, terrain: Map) -> Map:
-    """Return a map, whose cells are whole blocks of the terrain's, over all of that; nothing where it has no cell."""
+    """Return a map on the grid of the terrain, whose cells subdivide those of the map; nan outside the map."""
     grid = terrain.grid
     times = round(field.grid.cell_x / grid.cell_x)
     west, _, south, _ = field.grid.box
@@ -75,7 +75,7 @@ def on_grid(field: Map, terrain: Map) -> Map:
 
 
 def read_thawslide(folder: Path, terrain: Map, name: str = "thawslide", words: str = "") -> Outcome:
-    """Read the results of our own run, whose maps cover the domain."""
+    """Read the results of a run of Thawslide, whose maps cover the domain."""
     run = Run(folder / name)
     thickness, speed, final = (
         on_grid(read_map(run.folder / "maps" / f"{name}.tif"), terrain)
@@ -99,12 +99,12 @@ def read_thawslide(folder: Path, terrain: Map, name: str = "thawslide", words: s
 class Numbered:
     """The numbers of one outcome that the page shows."""
 
-    travel: float  # horizontal, from the top of the release to the farthest place reached [m]
+    travel: float  # horizontal, from the top of the release to the farthest point reached [m]
     reach_angle: float  # of the line between the two [degrees]
-    centre_way: float  # horizontal, of the centre of the slide, straight from release to deposit [m]
-    largest_speed: float  # where the slide was thick enough [m/s]
-    usual_speed: float  # largest speed of the median place reached [m/s]
-    largest_thickness: float  # vertical [m]
+    centre_displacement: float  # horizontal, of the centre of the slide, straight from release to deposit [m]
+    max_speed: float  # over the area reached [m/s]
+    usual_speed: float  # median of the maximum speed over the area reached [m/s]
+    max_thickness: float  # vertical [m]
     area: float  # reached [m2]
 
 
@@ -127,24 +127,24 @@ def numbers(outcome: Outcome, terrain: Map, corners: list[list[float]]) -> Numbe
     return Numbered(
         travel=float(apart[farthest]),
         reach_angle=math.degrees(math.atan2(drop, apart[farthest])),
-        centre_way=math.hypot(deposit[0] - x[source].mean(), deposit[1] - y[source].mean()),
-        largest_speed=float(speed[reached].max()),
+        centre_displacement=math.hypot(deposit[0] - x[source].mean(), deposit[1] - y[source].mean()),
+        max_speed=float(speed[reached].max()),
         usual_speed=float(np.median(speed[reached])),
-        largest_thickness=float(thickness.max()),
+        max_thickness=float(thickness.max()),
         area=float(np.count_nonzero(reached)) * terrain.grid.cell_area,
     )
 
 
 @dataclass(frozen=True)
 class PointMass:
-    """What a point mass does that slides due east from the middle of the release."""
+    """Motion of a point mass that slides due east from the centre of the release."""
 
-    way: float  # horizontal [m]
-    largest_speed: float  # [m/s]
+    travel: float  # horizontal [m]
+    max_speed: float  # [m/s]
 
 
 def point_mass(terrain: Map, corners: list[list[float]], friction: float) -> PointMass:
-    """Return what a point mass does on the DEM with a coefficient of friction.
+    """Return the motion of a point mass on the DEM with a coefficient of friction.
 
     Its energy head E = v2/(2 g) over the horizontal distance x on a profile z(x), with friction on the weight across
     the ground and on the centrifugal force: dE/dx = -z' - friction (1 + 2 E z''/(1 + z'2)).

@@ -1,6 +1,6 @@
 """Runs AvaFrame's com1DFA with plain Coulomb friction: run_com1dfa.py FOLDER FRICTION_ANGLE NAME [KEY=VALUE ...].
 
-scripts/compare-avaframe starts it with the Python that AvaFrame is installed in. FOLDER holds dem.tif and release.json:
+scripts/compare-avaframe starts it with the Python of AvaFrame. FOLDER contains dem.tif and release.json:
 the corners of the outline [m] and the thickness along the normal [m]. Writes FOLDER/NAME (AvaFrame's own folders) and
 FOLDER/NAME.facts.json (version, particles, times and volumes, AvaFrame's report). KEY=VALUE are settings of com1DFA.
 """
@@ -17,12 +17,12 @@ import shapefile
 from avaframe.com1DFA import com1DFA
 from avaframe.in3Utils import cfgUtils, logUtils
 
-# What differs from AvaFrame's own choices. Everything else is left as practitioners have it: cells of 5 m, SPH kernels
-# of 5 m, steps of 0.1 s, the end at 1 % of the largest kinetic energy.
+# Changes to AvaFrame's defaults, which are: cells of 5 m, SPH kernels of 5 m, steps of 0.1 s, and an end at 1 % of the
+# maximum kinetic energy.
 SETTINGS = {
     "simTypeList": "null",  # no entrainment, no resistance
     "frictModel": "Coulomb",
-    "rho": "2063",  # kg/m3: rock with 37.5 % of ice, as in our case
+    "rho": "2063",  # kg/m3: rock with 37.5 % of ice, as in the case of Thawslide
     "relThFromFile": "True",
     "secRelArea": "False",
     "dam": "False",
@@ -31,7 +31,7 @@ SETTINGS = {
 
 
 def prepare(folder: Path, friction_angle: float, name: str, changes: list[str]) -> Path:
-    """Write AvaFrame's folders; return the one it runs in."""
+    """Write AvaFrame's folders; return the one of the run."""
     place = folder / name
     shutil.rmtree(place, ignore_errors=True)
     inputs = place / "Inputs"
@@ -52,13 +52,13 @@ def prepare(folder: Path, friction_angle: float, name: str, changes: list[str]) 
 
 
 def particles_in(place: Path) -> int:
-    """Return the number of particles, which AvaFrame tells in its log alone."""
+    """Return the number of particles, which only the log of AvaFrame contains."""
     log = next(iter(place.glob("*.log"))).read_text()
     return int(re.search(r"MTot = .* kg, (\d+) particles", log).group(1))
 
 
 def main() -> None:
-    """Run it and write what the comparison needs to know besides the maps."""
+    """Run AvaFrame and write the facts that the comparison needs in addition to the maps."""
     folder, friction_angle, name = Path(sys.argv[1]).resolve(), float(sys.argv[2]), sys.argv[3]
     place = prepare(folder, friction_angle, name, sys.argv[4:])
     general = cfgUtils.getGeneralConfig()

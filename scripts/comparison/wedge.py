@@ -41,7 +41,7 @@ class Interval:
     end: float
     wedge: float
     ground: float  # apparent friction over the coefficient: friction and impacts on the ground
-    inside: float  # the same measure of what yielding and viscosity dissipated
+    inside: float  # the same measure of the dissipation by yielding and viscosity
 
 
 def derivatives(terrain: Map) -> Ground:

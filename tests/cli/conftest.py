@@ -1,4 +1,4 @@
-"""The real program on real cases: how it is started, a small case of its own, and what a run wrote."""
+"""Fixtures that run the program: its start, a small case, and readers of its output."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from slope_files import SOUTH, WEST, Slope, write_release, write_slope
 
 ROOT = Path(__file__).resolve().parents[2]
 LAMPLUGH = ROOT / "cases" / "lamplugh"
-LIMIT = 60.0  # s, of one command that is not said to be long
+LIMIT = 60.0  # s, of a command without a longer limit
 
-# A block that rests on flat ground: 48 particles, sound as it stands.
+# A block that rests on flat ground: a valid case with 48 particles.
 SMALL_CASE = """[case]
 title = "Block on flat ground"
 
@@ -61,7 +61,7 @@ friction_angle = 10.0
 cohesion = 0.0
 """
 
-# A shell that starts tests in the background has them ignore SIGINT, and programs would go on ignoring it.
+# Tests in the background of a shell ignore SIGINT, and the programs that they start would inherit it.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
@@ -74,13 +74,13 @@ Interrupted = Callable[[Path, Path, list[str], int, int], int]
 def binary() -> Path:
     path = ROOT / os.environ.get("THAWSLIDE_BINARY", "build/release/thawslide")
     if not path.is_file():
-        pytest.skip(f"there is no program at {path}: build it, or name one in THAWSLIDE_BINARY")
+        pytest.skip(f"program not found: {path}. Build it, or set THAWSLIDE_BINARY.")
     return path
 
 
 @pytest.fixture(scope="session")
 def plain_environment() -> dict[str, str]:
-    """Return an environment on whose PATH there is no thawslide-report."""
+    """Return an environment whose PATH excludes thawslide-report."""
     environment = dict(os.environ)
     folders = environment.get("PATH", "/usr/bin:/bin").split(os.pathsep)
     environment["PATH"] = os.pathsep.join(each for each in folders if not shutil.which("thawslide-report", path=each))
@@ -89,16 +89,16 @@ def plain_environment() -> dict[str, str]:
 
 @pytest.fixture(scope="session")
 def report_environment(plain_environment: dict[str, str]) -> dict[str, str]:
-    """Return an environment that finds thawslide-report."""
+    """Return an environment whose PATH includes thawslide-report."""
     folder = str(Path(sys.executable).parent)
     if not shutil.which("thawslide-report", path=folder):
-        pytest.skip(f"thawslide-report is not in {folder}: ./run --setup installs it")
+        pytest.skip(f"thawslide-report not found in {folder}. Run ./run --setup.")
     return plain_environment | {"PATH": folder + os.pathsep + plain_environment["PATH"], "MPLBACKEND": "Agg"}
 
 
 @pytest.fixture(scope="session")
 def thawslide(binary: Path, plain_environment: dict[str, str]) -> Program:
-    """Return a function that runs the program with these words and returns what came of it."""
+    """Return a function that runs the program with arguments and returns its outcome."""
 
     def start(
         *words: object,
@@ -122,7 +122,7 @@ def thawslide(binary: Path, plain_environment: dict[str, str]) -> Program:
 
 @pytest.fixture(scope="session")
 def interrupted(binary: Path, plain_environment: dict[str, str]) -> Interrupted:
-    """Return a function that runs a case into a folder, sends a signal after so many percent, and returns the code."""
+    """Return a function that runs a case, sends a signal at a percentage, and returns the exit code."""
 
     def start(case: Path, run: Path, words: list[str], number: int, percent: int) -> int:
         command = [str(binary), "run", str(case), "--output", str(run), *words]
@@ -130,8 +130,8 @@ def interrupted(binary: Path, plain_environment: dict[str, str]) -> Interrupted:
         with subprocess.Popen(command, env=plain_environment, stdout=pipe, stderr=pipe, text=True) as process:
             assert process.stdout and process.stderr
             for line in process.stdout:
-                share = line.split("%")[0].strip()
-                if "%" in line and share.isdigit() and int(share) >= percent:
+                progress = line.split("%")[0].strip()
+                if "%" in line and progress.isdigit() and int(progress) >= percent:
                     process.send_signal(number)
                     break
             process.communicate(timeout=LIMIT)
@@ -150,7 +150,7 @@ def small_case(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def done(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
-    """Return the folder of a run of that case which has come to its end, of 0.2 s."""
+    """Return the folder of a finished run of that case, of 0.2 s."""
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0
     return run
@@ -172,7 +172,7 @@ def release(tmp_path: Path) -> Path:
 
 
 def sets(**values: object) -> list[str]:
-    """Return the words of --set; two underscores stand for the dot: time__end=1."""
+    """Return options --set; two underscores represent the dot: time__end=1."""
     return [word for key, value in values.items() for word in ("--set", f"{key.replace('__', '.')}={value}")]
 
 
@@ -182,12 +182,12 @@ def run_facts(run: Path) -> dict[str, Any]:
 
 
 def content_of(run: Path) -> dict[Path, bytes]:
-    """Return every file of a run by its path."""
+    """Return the content of each file of a run by its path."""
     return {path: path.read_bytes() for path in run.rglob("*") if path.is_file()}
 
 
 def history(run: Path) -> dict[str, np.ndarray]:
-    """Return the columns of history.csv; fails on a field that is no number."""
+    """Return the columns of history.csv; fail if a field is not a number."""
     with (run / "history.csv").open(newline="") as file:
         header, *rows = csv.reader(file)
     numbers = np.array([[float(field) for field in row] for row in rows])
@@ -202,17 +202,17 @@ def datasets(file: Path) -> dict[str, np.ndarray]:
     """Return every dataset of an HDF5 file by its path."""
     found: dict[str, np.ndarray] = {}
 
-    def take(name: str, thing: h5py.Group | h5py.Dataset) -> None:
-        if isinstance(thing, h5py.Dataset):
-            found[name] = thing[()]
+    def collect(name: str, item: h5py.Group | h5py.Dataset) -> None:
+        if isinstance(item, h5py.Dataset):
+            found[name] = item[()]
 
     with h5py.File(file) as opened:
-        opened.visititems(take)
+        opened.visititems(collect)
     return found
 
 
 def assert_same_bits(one: Path, other: Path) -> None:
-    """Fail unless two runs have the same history, byte for byte, and the same snapshots, bit for bit."""
+    """Fail unless histories and snapshots of two runs are bitwise identical."""
     assert (one / "history.csv").read_bytes() == (other / "history.csv").read_bytes()
     names = [file.name for file in snapshot_files(one)]
     assert names == [file.name for file in snapshot_files(other)]

@@ -45,7 +45,7 @@ class Trial:
     remarks: list[str] = field(default_factory=list)
 
     @property
-    def sound(self) -> bool:
+    def passed(self) -> bool:
         """Whether nothing was lost and nothing went wrong on the way."""
         return self.same and not self.remarks
 

@@ -209,6 +209,15 @@ def test_document_lines_and_links(path: Path) -> None:
             assert anchor in {heading_anchor(title) for title in titles}, f"{place(path)} links to {target}"
 
 
+@pytest.mark.parametrize("folder", sorted(path for path in (ROOT / "cases").iterdir() if path.is_dir()), ids=place)
+def test_case_pages_have_the_same_sections_and_a_sketch(folder: Path) -> None:
+    text = (folder / "README.md").read_text()
+    sections = ["Set-up", "Running", "Results to expect", "Reasons for the differences", "What to try"]
+    assert re.findall(r"^## (.+)$", text, re.MULTILINE) == sections
+    assert "](setup.svg)" in text and (folder / "setup.svg").is_file()
+    assert f"- {place(folder)}/README.md" in (ROOT / "mkdocs.yml").read_text()
+
+
 def test_code_cites_sections_that_the_theory_has() -> None:
     pages = [ROOT / "docs" / "theory.md", *sorted((ROOT / "docs" / "theory").glob("*.md"))]
     assert len(pages) > 10

@@ -59,7 +59,7 @@ def test_first_ring_of_a_shapefile_is_read(tmp_path: Path) -> None:
     file.write_bytes(shapefile(5, [0, 4], outer + hole))
     assert grounds.first_polygon(file) == [list(point) for point in outer]
     file.write_bytes(shapefile(3, [0], outer))
-    with pytest.raises(SystemExit, match="of kind 3; a polygon is needed"):
+    with pytest.raises(SystemExit, match="of kind 3; a polygon is required"):
         grounds.first_polygon(file)
 
 
@@ -79,9 +79,9 @@ def test_point_mass_on_a_straight_slope_up_and_down_follows_the_energy_line() ->
     # On a V of slopes 0.5 its one bend takes energy too: from there on only the share exp(-2 friction turn) is left.
     found = results.point_mass(dem(0.5 * np.abs(x - 1_000.0)), square(500.0), friction)
     head = (0.5 - friction) * 500.0
-    assert found.largest_speed == pytest.approx(math.sqrt(2.0 * 9.81 * head), rel=0.02)
+    assert found.max_speed == pytest.approx(math.sqrt(2.0 * 9.81 * head), rel=0.02)
     left = head * math.exp(-2.0 * friction * 2.0 * math.atan(0.5))
-    assert found.way == pytest.approx(500.0 + left / (0.5 + friction), rel=0.02)
+    assert found.travel == pytest.approx(500.0 + left / (0.5 + friction), rel=0.02)
 
 
 def test_point_mass_that_does_not_stop_is_an_error() -> None:
@@ -105,13 +105,13 @@ def test_numbers_of_a_known_outcome_are_exact() -> None:
     )
     found = results.numbers(outcome, terrain, square(502.5))
     assert found.area == 25.0 * 5 * 105
-    assert found.largest_speed == 30.0
+    assert found.max_speed == 30.0
     assert found.usual_speed == 10.0
-    assert found.largest_thickness == 2.0
+    assert found.max_thickness == 2.0
     # From the top of the release, x = 485, its first row at y = 85, to the farthest corner of what was reached.
     assert found.travel == pytest.approx(math.hypot(1_000.0 - 485.0, 110.0 - 85.0))
     assert found.reach_angle == pytest.approx(math.degrees(math.atan2(0.5 * (1_000.0 - 485.0), found.travel)))
-    assert found.centre_way == pytest.approx(975.0 - 502.5, abs=1e-9)
+    assert found.centre_displacement == pytest.approx(975.0 - 502.5, abs=1e-9)
 
 
 def test_coarser_map_covers_the_cells_of_the_terrain_in_blocks() -> None:
@@ -142,7 +142,7 @@ def test_each_pair_of_maps_has_its_difference() -> None:
     ]
     corners = [[50.0, 50.0], [90.0, 50.0], [90.0, 90.0], [50.0, 50.0]]
     for field, factor in (("thickness", 1.0), ("speed", 2.0)):
-        figure = page.picture(grounds.PLANE, terrain, corners, found, field, "words")
+        figure = page.comparison_figure(grounds.PLANE, terrain, corners, found, field, "words")
         maps = [axes for axes in figure.axes if len(axes.images) > 1]
         assert [axes.get_title(loc="left") for axes in maps] == ["(a) A 1", "(b) B 2", "(c) b − a"]
         first, other, change = (axes.images[-1].get_array() for axes in maps)

@@ -154,7 +154,7 @@ def make_run(tmp_path: Path) -> MakeRun:
             rows_of_terrain = "".join(f"{a!r},{b!r}\n" for a, b in zip(x.tolist(), ground(x).tolist(), strict=True))
             (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n" + rows_of_terrain)
         facts = {"version": "0.1.0", "status": "done", "threads": 2, "particle_steps_per_second": 3.1e6}
-        stages = {"stage_seconds": {"momentum_to_grid": 1.25}}
+        stages = {"seconds_per_stage": {"momentum_to_grid": 1.25}}
         (folder / "run.json").write_text(json.dumps(facts | stages))
         return folder
 

@@ -67,7 +67,7 @@ def test_maps_are_on_the_grid_of_the_other_code() -> None:
     assert placed[2, :3].tolist() == [2.0, 0.0, 0.0]  # the first column lies outside
     assert placed[3, :3].tolist() == [5.0, 6.0, 0.0]
     assert placed.sum() == 13.0
-    with pytest.raises(SystemExit, match=r"the cells of a map .* are not those of SHALTOP"):
+    with pytest.raises(SystemExit, match=r"the cells of a map .* differ from those of SHALTOP"):
         frank.on_grid(Map(Grid(35.0, 70.0, 20.0, 20.0, 3, 2), part.values), GRID)
 
 
