@@ -168,7 +168,6 @@ def soak_text(found: dict[str, Any]) -> str:
     ]
     bounded = "bounded" if row["energies"]["bounded"] else "NOT bounded"
     without = "bounded" if row["without_viscosity"]["bounded"] else "not bounded"
-    note = row["note_without_viscosity"]
     return (
         "## A million steps\n\n"
         + paragraph(
@@ -184,9 +183,12 @@ def soak_text(found: dict[str, Any]) -> str:
             f"With viscosity, energy is {bounded}. The criterion is at most 1.5 times the energy of the first tenth in "
             "the second half. "
             f"Without viscosity it is {without}: an undamped elastic body flutters, and its energy grows with the steps. "
-            + ("The run prints:" if note else f"That run ended with code {row['code_without_viscosity']}.")
+            + (
+                "The run warns of energy growth without a physical cause ([guards](reference/guards.md))."
+                if row["warning_without_viscosity"]
+                else f"That run ended with code {row['code_without_viscosity']}."
+            )
         )
-        + (f"\n```\n{paragraph(note)}```\n" if note else "")
     )
 
 

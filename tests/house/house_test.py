@@ -246,6 +246,28 @@ def names_in_backticks(path: Path) -> set[str]:
     return set(re.findall(r"`([^`\n]+)`", path.read_text()))
 
 
+def gtest_names() -> set[str]:
+    """Return the C++ tests as `Suite.Test`."""
+    macro = re.compile(r"\b(?:TYPED_)?TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\s*\)")
+    texts = (path.read_text() for path in code_files("tests"))
+    return {f"{suite}.{test}" for text in texts for suite, test in macro.findall(text)}
+
+
+def test_code_files_and_tests_that_pages_name_exist() -> None:
+    files = {f"/{place(path)}" for path in code_files("src", "tests", "benchmarks")}
+    tests = gtest_names()
+    assert len(tests) > 500
+    recipe = {"src/physics/basal/weakening_friction.hpp"}  # the reader writes it
+    wrong = []
+    for page in documents():
+        words = " ".join(names_in_backticks(page))
+        named = set(re.findall(r"[\w/.]*\w\.(?:hpp|cpp|cu)\b", words)) - recipe
+        wrong += [f"{place(page)}: {name}" for name in named if not any(file.endswith(f"/{name}") for file in files)]
+        named = {name for name in names_in_backticks(page) if re.fullmatch(r"[A-Z]\w+\.[A-Z]\w+", name)}
+        wrong += [f"{place(page)}: {name}" for name in named - tests]
+    assert wrong == []
+
+
 def test_every_history_column_is_defined() -> None:
     text = (SOURCE / "sim" / "history.cpp").read_text()
     columns = set(re.findall(r'(?:emplace_back|\badd)\("(\w+)"', text))
