@@ -65,7 +65,7 @@ def particles(axes: Axes) -> PolyCollection:
 @pytest.mark.parametrize(
     ("name", "label", "low", "high"),
     [
-        ("velocity", "velocity (m/s), 2 s mean", 0.0, 6.0 * np.sqrt(5.0)),
+        ("velocity", "velocity (m/s), 2 s mean; at 0 s: instantaneous", 0.0, 6.0 * np.sqrt(5.0)),
         ("plastic_strain", "equivalent plastic strain", 0.0, 0.7 * np.exp(-0.5)),
         ("temperature", "temperature (°C)", -10.0, -10.0 + 14.0 * np.exp(-0.5)),
         ("pore_pressure", "pore pressure (kPa)", 0.0, 1400.0 * np.exp(-0.5)),

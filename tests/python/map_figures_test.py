@@ -44,7 +44,7 @@ ON_MAP = [
     [
         (
             "slide_speed",
-            "depth-averaged speed (m/s), 4 s mean",
+            "depth-averaged speed (m/s), 4 s mean; at 0 s: instantaneous; at 10 s: mean of the last 2 s",
             SPEED * np.hypot(1.0, 0.4),
         ),
         ("slide_thickness", "flow thickness (m), square-root scale; blue: below 0.1 m", THICKNESS),

@@ -107,7 +107,8 @@ def plot_on_map(run: Run, painting: Painting, field_of: Callable[[Grid, Snapshot
     page.set_titles(panels)
     bar = page.figure.colorbar(painter, cax=page.common_bar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
-    over = f", {window_words(run)}" if painting is SPEED and window_words(run) else ""
+    averaging = window_words(run, shots) if painting is SPEED else ""
+    over = f", {averaging}" if averaging else ""
     words = painting.words + (f" ({painting.unit})" if painting.unit != "1" else "") + over
     bar.set_label(thickness_words(norm) if painting is THICKNESS else words, labelpad=1)
     return page.figure

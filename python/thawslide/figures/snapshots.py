@@ -23,7 +23,7 @@ from thawslide.figures.colours import (
 )
 from thawslide.figures.load import overburden
 from thawslide.figures.map_panel import HALO
-from thawslide.figures.moments import LETTERS, chosen_snapshots, window_words
+from thawslide.figures.moments import LETTERS, chosen_snapshots, shown_time, window_words
 from thawslide.figures.style import (
     COLUMN_WIDTH,
     GROUND_LINE,
@@ -34,7 +34,7 @@ from thawslide.figures.style import (
     wrapped,
 )
 from thawslide.figures.window import Window, extent, fill_terrain, fit, squares
-from thawslide.number_text import exact_text, number_text, prefixed
+from thawslide.number_text import number_text, prefixed
 from thawslide.run import Numbers, Run, Snapshot
 from thawslide.unphysical import EDGES, too_hot, too_much_for_overburden
 
@@ -59,7 +59,7 @@ _TITLE_LINE, _TITLE_CHARACTERS = 0.17, 12.5  # inches; characters in one inch
 
 def time_text(run: Run, shot: Snapshot) -> str:
     """Return the time of a snapshot as figures show it."""
-    return f"t = {exact_text(round(shot.time + run.time_reference.shift, 1))} s"
+    return f"t = {shown_time(run, shot.time)} s"
 
 
 @styled
@@ -119,7 +119,8 @@ def plot_field(run: Run, painting: Painting, zones: Sequence[Zone] = ()) -> Figu
             panel.tick_params(labelbottom=False)
     bar = figure.colorbar(painter, cax=page.colourbar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
-    over = f", {window_words(run)}" if painting is VELOCITY and window_words(run) else ""
+    averaging = window_words(run, shots) if painting is VELOCITY else ""
+    over = f", {averaging}" if averaging else ""
     bar.set_label(painting.words + (f" ({unit})" if unit else "") + over, labelpad=1)
     return figure
 
