@@ -82,6 +82,7 @@ def test_extent_maps_have_titles_units_and_legend(map_run: Path) -> None:
         ("(d) flow thickness at 10 s", "max 6 m"),
     ]
     assert {"m, square-root scale\nblue: below 0.1 m", "m/s", "s"} <= labels(figure)
+    assert " Outline: thickness > 0.1 m. " in notes(figure)
     final = field(panels[3]).get_array()
     assert final is not None
     assert np.ma.count(final) == 8 * 6
@@ -225,6 +226,9 @@ def test_outline_is_the_polygon_of_the_affected_area(map_run: Path) -> None:
     site = make_site(Run(map_run))
     assert site.affected is not None and len(site.affected) == 1
     np.testing.assert_array_equal(site.affected[0], ring)
+    assert site.outline_words == (
+        "affected area, thickness > 0.1 m; edge cells count by their covered fraction, the release by its outline"
+    )
     axes = Figure().subplots()
     site.draw_outline(axes)
     np.testing.assert_array_equal(np.column_stack(axes.lines[0].get_data()), ring)

@@ -95,7 +95,8 @@ FIGURES: dict[str, FigureKind] = {
     ),
     "cross_sections": FigureKind(
         "Cross sections",
-        "Terrain and sliding mass along the flow path and across it. Small thicknesses are exaggerated by a factor "
+        "Terrain and sliding mass along the flow path and across it. Thicknesses are means over map cells; the release "
+        "is that of the input, the others are those of the particles. Small thicknesses are exaggerated by a factor "
         "stated in the panel.",
         cross_sections,
         on_map,

@@ -181,15 +181,19 @@ def cross_sections(run: Run) -> Figure:
 
 
 def _whole(site: Site) -> _Fields:
-    """Return the maps at their own resolution, cropped to the scene; the path may extend over the terrain around."""
+    """Return the maps at their own resolution, cropped to the scene; the path may extend over the terrain around.
+
+    The release has the resolution of the DEM. It is averaged over the cells of the maxima, which are means as well.
+    """
     box = site.scene.box
 
     def thickness(name: str) -> Map:
         found = site.maps[name].cropped(box)
         return replace(found, values=np.nan_to_num(found.values, nan=0.0))  # no data: never covered
 
-    release = thickness("release") if site.release is not None else None
-    return _Fields(site.maps["terrain"], release, thickness("max_thickness"), thickness("final_thickness"))
+    maximum = thickness("max_thickness")
+    release = site.maps["release"].averaged_over(maximum.grid) if site.release is not None else None
+    return _Fields(site.maps["terrain"], release, maximum, thickness("final_thickness"))
 
 
 def _places(profile: Section, threshold: float) -> list[float]:
