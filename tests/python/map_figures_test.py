@@ -234,6 +234,11 @@ def test_outline_is_the_polygon_of_the_affected_area(map_run: Path) -> None:
     np.testing.assert_array_equal(np.column_stack(axes.lines[0].get_data()), ring)
 
 
+def test_components_of_the_force_on_a_map_are_east_and_north(map_run: Path) -> None:
+    components = FIGURES["force"].plot(Run(map_run)).axes[1]
+    assert [text.get_text() for text in components.get_legend().get_texts()] == ["x (east)", "y (north)", "z (up)"]
+
+
 def test_missing_maps_are_errors(map_run: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (map_run / "maps" / "results.gpkg").unlink()
     with pytest.raises(NotInRunError, match=r"results\.gpkg: no flow path\. Specify maps\.path"):

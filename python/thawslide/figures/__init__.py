@@ -86,7 +86,12 @@ FIGURES: dict[str, FigureKind] = {
     "slide_speed": FigureKind("Depth-averaged speed", _ON_MAP, slide_speed, on_map),
     "slide_thickness": FigureKind("Flow thickness", _ON_MAP, slide_thickness, on_map),
     "slide_temperature": FigureKind("Basal temperature", _ON_MAP, slide_temperature, _with_heat_on_map),
-    "base_temperature": FigureKind("Band temperature", _BASE_ON_MAP, base_temperature, _base_on_map),
+    "base_temperature": FigureKind(
+        "Band temperature",
+        f"{_BASE_ON_MAP} Each basal segment has the mean temperature of its column, whose hottest part is hotter.",
+        base_temperature,
+        _base_on_map,
+    ),
     "base_pressure": FigureKind(
         "Pore pressure ratio of the band",
         f"{_BASE_ON_MAP} At a ratio of 1, pore pressure carries the full load.",
@@ -104,7 +109,8 @@ FIGURES: dict[str, FigureKind] = {
     "impact_maps": FigureKind(
         "Pressure, temperature and elevation change",
         "Maximum values of the whole run, and elevation change at its last time. Dynamic pressure: density times speed "
-        "squared. Momentum flux: thickness times speed squared.",
+        "squared. Momentum flux: thickness times speed squared. Temperature: maximum over time of the mean in each map "
+        "cell.",
         impact_maps,
         on_map,
     ),
@@ -142,14 +148,14 @@ FIGURES: dict[str, FigureKind] = {
         band,
         columns_caption="Area-weighted means over the base. Shear traction: resistance by cohesion and friction per "
         "contact area. Friction depends on the effective normal stress N − P, or on N alone for substrates with the "
-        'law "coefficient". The temperature of each column is limited by the boiling temperature at its own N; the '
-        "dashed line is for the mean N. N is averaged over band.load_time for P/N.",
+        'law "coefficient". Parts of a column that contain water are limited by the boiling temperature at its own N, '
+        "dry parts are not; the dashed line is for the mean N. N is averaged over band.load_time for P/N.",
     ),
     "base_along": FigureKind(
         "Basal stresses and temperatures",
         "Left: normal pressure N of each basal segment, averaged over band.load_time, and mean pore pressure P of its "
-        "column. Green: N − P, on which friction acts. Right: maximum and mean temperature T of each column, and "
-        "boiling temperature at its N.",
+        "column. Green: N − P, on which friction acts. Right: temperature T of the hottest part and mean T of each "
+        "column, and boiling temperature at its N.",
         base_along,
         _base_in_section,
     ),

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Normalize, PowerNorm, SymLogNorm, TwoSlopeNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator, NullLocator
+from matplotlib.ticker import FixedLocator, MaxNLocator
 
 from thawslide.number_text import exact_text, number_text
 from thawslide.relief import round_number
@@ -77,6 +77,11 @@ def normalisation(values: Numbers, painting: Painting) -> tuple[Normalize, str]:
     return (TwoSlopeNorm(0.0, low, high) if low < 0.0 < high else Normalize(low, high)), extend
 
 
+def scale_words(norm: Normalize) -> str:
+    """Return the scale of temperatures in words for a label, "" for a linear one."""
+    return f", logarithmic scale above {LINEAR:g} °C" if isinstance(norm, SymLogNorm) else ""
+
+
 def thickness_norm(values: Numbers) -> tuple[PowerNorm, str]:
     """Return a square-root scale of thicknesses, which resolves thin margins, above a class of the smallest ones."""
     _, high, extend = colour_range(values, from_zero=True)
@@ -123,4 +128,5 @@ def label_bar(bar: Colorbar, norm: Normalize) -> None:
         zero = [0.0] if low < 0.0 and inches * float(norm(0.0)) > 2.0 * half_widths[high] else []
         bar.set_ticks([low, *zero, *kept, high])
         bar.ax.xaxis.set_major_formatter(lambda value, _: number_text(value))
-        bar.ax.xaxis.set_minor_locator(NullLocator())
+        steps = [digit * 10.0**power for power in range(1, 7) for digit in range(2, 10)]
+        bar.ax.xaxis.set_minor_locator(FixedLocator([step for step in steps if step < high]))

@@ -18,6 +18,7 @@ from thawslide.figures.colours import (
     Painting,
     label_bar,
     normalisation,
+    scale_words,
     thickness_words,
 )
 from thawslide.figures.map_page import MapPage
@@ -109,6 +110,6 @@ def plot_on_map(run: Run, painting: Painting, field_of: Callable[[Grid, Snapshot
     label_bar(bar, norm)
     averaging = window_words(run, shots) if painting is SPEED else ""
     over = f", {averaging}" if averaging else ""
-    words = painting.words + (f" ({painting.unit})" if painting.unit != "1" else "") + over
+    words = painting.words + (f" ({painting.unit})" if painting.unit != "1" else "") + scale_words(norm) + over
     bar.set_label(thickness_words(norm) if painting is THICKNESS else words, labelpad=1)
     return page.figure

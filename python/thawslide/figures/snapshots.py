@@ -20,6 +20,7 @@ from thawslide.figures.colours import (
     label_bar,
     normalisation,
     painted_values,
+    scale_words,
 )
 from thawslide.figures.load import overburden
 from thawslide.figures.map_panel import HALO
@@ -121,7 +122,7 @@ def plot_field(run: Run, painting: Painting, zones: Sequence[Zone] = ()) -> Figu
     label_bar(bar, norm)
     averaging = window_words(run, shots) if painting is VELOCITY else ""
     over = f", {averaging}" if averaging else ""
-    bar.set_label(painting.words + (f" ({unit})" if unit else "") + over, labelpad=1)
+    bar.set_label(painting.words + (f" ({unit})" if unit else "") + scale_words(norm) + over, labelpad=1)
     return figure
 
 
