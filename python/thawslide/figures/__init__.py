@@ -44,7 +44,8 @@ class FigureKind:
 
 
 _PANELS = (
-    "Top: whole profile, and the range of each panel. Below each panel: height of the particles above the terrain. "
+    "Top: whole profile, and the range of each panel. Below each panel, if at another scale: height of the particles "
+    "above the terrain. "
     "Particles have their true height and at least the width of a grid cell, because the model does not resolve "
     "narrower gaps; very small ones are enlarged."
 )
