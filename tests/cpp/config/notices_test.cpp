@@ -253,8 +253,8 @@ TEST(Notices, DoubtABaseWithoutABand) {
   EXPECT_EQ(without_folder(notices(testing_support::case_from_text(text, {known}))),
             std::vector<std::string>{
                 "FOLDER/case.toml: band.thickness is not given: friction then heats the lowest cells as a whole, 5 m "
-                "thick, which barely warm or melt. Give the thickness of what shears at the base: usual is 0.01 to 2 "
-                "m. If nothing is to melt, set heat.enabled = false."});
+                "thick, which barely warm or melt. Set the thickness of the shear band: usual is 0.01 to 2 m. Without "
+                "melting, set heat.enabled = false."});
   const std::vector<std::string> none;
   EXPECT_EQ(notices(testing_support::case_from_text(text, {"heat.enabled=false"})), none);
   EXPECT_EQ(notices(testing_support::case_from_text(text, {known, "basal.heat_fraction=0"})), none);

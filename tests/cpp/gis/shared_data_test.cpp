@@ -41,7 +41,7 @@ TEST_F(SharedDataTest, TagOfFluchthornIsNamed) {
   EXPECT_NE(message.find("fluchthorn.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric (x from "),
             std::string::npos)
       << message;
-  EXPECT_NE(message.find("Set terrain.crs = \"EPSG:...\" to the system the numbers are in"), std::string::npos);
+  EXPECT_NE(message.find("Set terrain.crs = \"EPSG:...\" to the system of the coordinates"), std::string::npos);
   parameters.terrain.crs = "EPSG:31254";
   parameters.bodies["summit"].shape = config::BodyShape::release;
   parameters.bodies["summit"].release =

@@ -99,7 +99,7 @@ TEST(SiteTest, DomainBeyondTheTerrainModel) {
   parameters.terrain.resample = 0.0;
   parameters.grid.min = {0.0, 0.0, 0.0};
   parameters.grid.max = {100.0, 50.0, 3000.0};
-  EXPECT_NE(error_of_site(parameters).find("the domain lies outside FOLDER/dem.tif, by 4e+05 m in the west"),
+  EXPECT_NE(error_of_site(parameters).find("the domain lies outside FOLDER/dem.tif, by 400,000 m in the west"),
             std::string::npos)
       << error_of_site(parameters);
   parameters.grid.min = {west, south, 0.0};

@@ -182,8 +182,8 @@ TEST(StepGuard, NamesTheLimitAndTheParticle) {
                "the run failed at t = 0 s \\(step 0\\): the next step would be [0-9.e-]+ s, 0\\.000[0-9]+ of the first "
                "one, 0\\.01 s, where guards.smallest_step allows 0\\.001\\. It is set by the elastic wave of material "
                "'rock' \\([0-9.e+]+ m/s\\) on cells of 10 m, of particle 17 of body 'block' at \\(.*\\) m, whose "
-               "volume is 1e\\+07 of that at t = 0\\. Waves are faster in lighter material: the particle is torn "
-               "apart\\. Remove such particles with guards.volume = "
+               "volume is 1e\\+07 of that at t = 0\\. Waves are faster in lighter material: the particle has "
+               "expanded\\. Remove such particles with guards.volume = "
                "\"remove\" and a guards.largest_volume\\.");
 }
 
