@@ -74,11 +74,11 @@ def table(outcomes: list[Outcome], found: list[Numbered], point: PointMass | Non
     ]
     if point is not None:
         columns.append("point mass")
-        told = {
+        of_point = {
             "displacement of the centre (m)": f"{point.travel:,.0f}",
             "maximum speed (m/s)": f"{point.max_speed:.1f}",
         }
-        rows = [[*row, told.get(row[0], "")] for row in rows]
+        rows = [[*row, of_point.get(row[0], "")] for row in rows]
     lines = [["", *columns], ["---"] * (len(columns) + 1), *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 

@@ -39,7 +39,7 @@ max = [40.0, 20.0]
 friction_angle = 20.0
 )";
 
-// A sound case of a release on a DEM; write_map_files puts its files beside it. [case] is line 1.
+// A valid case of a release on a DEM; write_map_files writes its files to the same folder. [case] is line 1.
 inline const std::string sound_on_dem = R"([case]
 dimension = 3
 [time]

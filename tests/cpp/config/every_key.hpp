@@ -328,7 +328,7 @@ inline std::string release_of_a_surface() {
                {"[heat.boundary]\nz_min = { temperature = -8.0 }\nz_max = { flux = 3.5 }\n",
                 "[band]\nthickness = 0.5\ngrowth = \"inertial\"\ngrain_size = 0.0625\ninertial_number = 0.25\n"}},
               release_on_dem);
-  text.resize(text.find("[contact]"));  // refused beside columns
+  text.resize(text.find("[contact]"));  // refused with columns
   const auto begin = text.find("\nthickness = ") + 1, end = text.find("taper = ");
   return text.replace(begin, end - begin, "thickness = { surface = \"inputs/before.tif\" }\nsurface_tolerance = 0.5\n");
 }

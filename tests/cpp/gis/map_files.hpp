@@ -1,4 +1,4 @@
-// Map files that the tests of the gis room write for themselves.
+// Map files that the tests of the gis module write.
 #pragma once
 
 #include <cpl_conv.h>
