@@ -194,13 +194,17 @@ def _metres(value: float) -> str:
 
 
 def _front_numbers(run: Run) -> list[KeyNumber]:
-    """Return runout distance and front travel distance; without maps.path a 3D run has neither before it moves."""
+    """Return runout distance and front travel distance; without maps.path a 3D run has neither before it moves.
+
+    If run.json has the travel distance, which equals the runout distance, _map_numbers returns it instead.
+    """
     rows = []
     if "runout_m" in run.history:
         runout = run.history["runout_m"]
         initial = f"; initial length {_metres(runout[0])}" if np.isfinite(runout[0]) else ""
         remark = f"front at {run.last_state} minus initial rear{initial}"
-        rows.append(_along_path("Runout distance", runout[-1], remark))
+        if run.facts.get("travel_distance_m") is None:
+            rows.append(_along_path("Runout distance", runout[-1], remark))
         first = int(np.argmax(np.isfinite(runout)))  # 0 if all are unknown
         since = "the start" if first == 0 else f"{quantity_text(float(run.shown_time[first]), 's')}, the first known"
         remark = f"front at {run.last_state} minus front at {since}"
@@ -240,7 +244,7 @@ def _map_numbers(run: Run) -> list[KeyNumber]:
             "Travel distance",
             "travel_distance_m",
             _metres,
-            "along the flow path, from the rear of the release to the front",
+            f"along the flow path: front at {run.last_state} minus initial rear",
         ),
         ("Drop height", "drop_height_m", _metres, "from the highest point of the release to the terrain at the front"),
         (

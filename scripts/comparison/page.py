@@ -10,7 +10,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from results import AFFECTED, Numbered, Outcome, PointMass, numbers, point_mass
-from thawslide.figures.colours import THICKNESS, VELOCITY, label_bar, normalisation, thickness_words
+from thawslide.figures.colours import SPEED, THICKNESS, label_bar, normalisation, thickness_words
 from thawslide.figures.map_page import MapPage
 from thawslide.figures.map_panel import box_about, colour_map, covered_box, make_scene, outline, paint, scale_bar
 from thawslide.figures.style import styled
@@ -49,7 +49,7 @@ FIELDS = [
     ("thickness", "maximum thickness (m, vertical)"),
     ("speed", "maximum speed (m/s)"),
 ]
-PAINTINGS = {"thickness": THICKNESS, "speed": VELOCITY}
+PAINTINGS = {"thickness": THICKNESS, "speed": SPEED}
 ROWS = {
     "travel distance (m)": lambda found: f"{found.travel:,.0f}",
     "reach angle (degrees)": lambda found: f"{found.reach_angle:.1f}",

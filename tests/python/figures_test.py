@@ -65,8 +65,8 @@ def particles(axes: Axes) -> PolyCollection:
 @pytest.mark.parametrize(
     ("name", "label", "low", "high"),
     [
-        ("velocity", "velocity (m/s), 2 s mean; at 0 s: instantaneous", 0.0, 6.0 * np.sqrt(5.0)),
-        ("plastic_strain", "equivalent plastic strain", 0.0, 0.7 * np.exp(-0.5)),
+        ("velocity", "speed (m/s), 2 s mean; at 0 s: instantaneous", 0.0, 6.0 * np.sqrt(5.0)),
+        ("plastic_strain", "equivalent plastic strain (–)", 0.0, 0.7 * np.exp(-0.5)),
         ("temperature", "temperature (°C)", -10.0, -10.0 + 14.0 * np.exp(-0.5)),
         ("pore_pressure", "pore pressure (kPa)", 0.0, 1400.0 * np.exp(-0.5)),
     ],
@@ -192,7 +192,7 @@ def test_colour_range_excludes_outliers() -> None:
 def test_motion_has_reported_values(make_run: MakeRun) -> None:
     run = Run(make_run())
     figure = FIGURES["motion"].plot(run)
-    speed, distance = titled(figure, "(a) velocity"), titled(figure, "(b) distance")
+    speed, distance = titled(figure, "(a) speed"), titled(figure, "(b) distance")
     np.testing.assert_array_equal(
         line(speed, "mean (mass-weighted)"), [run.history["time_s"], run.history["mean_velocity_m_s"]]
     )
@@ -204,20 +204,20 @@ def test_motion_has_reported_values(make_run: MakeRun) -> None:
     np.testing.assert_array_equal(line(distance, "front travel distance")[1], front - front[0])
     np.testing.assert_array_equal(line(distance, "reported mean displacement: model"), [[10.0], [80.0]])
     np.testing.assert_array_equal(line(distance, "reported runout distance: field"), [[10.0], [160.0]])
-    assert (speed.get_ylabel(), distance.get_ylabel()) == ("velocity (m/s)", "distance (m)")
+    assert (speed.get_ylabel(), distance.get_ylabel()) == ("speed (m/s)", "distance (m)")
     assert (speed.get_xlabel(), distance.get_xlabel()) == (UNALIGNED, UNALIGNED)
 
 
 def test_maximum_velocity_ends_at_rest(make_run: MakeRun) -> None:
     folder = make_run()
     facts = json.loads((folder / "run.json").read_text())
-    moving = titled(FIGURES["motion"].plot(Run(folder)), "(a) velocity")
+    moving = titled(FIGURES["motion"].plot(Run(folder)), "(a) speed")
     assert len(line(moving, "maximum")[0]) == len(Run(folder).history["time_s"])
     (folder / "run.json").write_text(json.dumps(facts | {"at_rest": True, "rest_since_s": 6.0}))
     run = Run(folder)
     before = run.history["time_s"] <= 6.0
     assert 0 < before.sum() < len(before)
-    maximum = line(titled(FIGURES["motion"].plot(run), "(a) velocity"), "maximum, until rest")
+    maximum = line(titled(FIGURES["motion"].plot(run), "(a) speed"), "maximum, until rest")
     np.testing.assert_array_equal(maximum, [run.history["time_s"][before], run.history["max_velocity_m_s"][before]])
 
 
@@ -235,7 +235,7 @@ def test_reported_values_after_the_end_are_counted_in_the_legend(make_run: MakeR
     columns = history_columns(101, 2)
     write_history(folder / "history.csv", {name: values[:51] for name, values in columns.items()})  # to 5 s
     figure = FIGURES["motion"].plot(Run(folder))
-    speed, distance = titled(figure, "(a) velocity"), titled(figure, "(b) distance")
+    speed, distance = titled(figure, "(a) speed"), titled(figure, "(b) distance")
     np.testing.assert_array_equal(line(speed, "reported: seismic"), [[4.0], [9.0]])
     assert legend_notes(speed) == ["1 reported value after the end of the run"]
     assert legend_notes(distance) == [
@@ -302,8 +302,8 @@ def test_band_has_the_history_with_gaps(make_run: MakeRun) -> None:
     expected = {
         "(a)": ("band_temperature_C", 1.0, "temperature (°C)"),
         "(b)": ("band_pore_pressure_Pa", 1e6, "pore pressure (MPa)"),
-        "(c)": ("band_saturation", 1.0, "liquid saturation"),
-        "(d)": ("band_friction_coefficient", 1.0, "friction coefficient"),
+        "(c)": ("band_saturation", 1.0, "liquid saturation (–)"),
+        "(d)": ("band_friction_coefficient", 1.0, "friction coefficient (–)"),
     }
     for start, (column, divisor, axis_label) in expected.items():
         axes = titled(figure, start)
@@ -337,7 +337,9 @@ def test_energy_terms_are_changes_and_residuals_are_relative(make_run: MakeRun) 
     np.testing.assert_allclose(line(thermal, "sensible heat")[1] * 1e12, 0.15e12 * t, atol=1.0)
     assert mechanical.get_ylabel() == "energy change (TJ)"
     note = figure.get_supxlabel().replace("\n", " ")
-    assert note.startswith("Zero throughout: viscous work, damping, impact on the terrain, work of frames, numerical")
+    assert note.startswith(
+        "Zero throughout: viscous work, damping, impact on the terrain, work of frames, numerical energy"
+    )
     assert residual.get_yscale() == "log"
     np.testing.assert_allclose(line(residual, "mechanical")[1][1:], 1e3 * t[1:] / 1e13)
     np.testing.assert_allclose(line(residual, "thermal")[1][1:], 2e2 * t[1:] / 2e12)

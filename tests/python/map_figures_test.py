@@ -77,7 +77,7 @@ def test_extent_maps_have_titles_units_and_legend(map_run: Path) -> None:
     panels = maps_of(figure)
     assert [(axes.get_title(loc="left"), axes.get_title(loc="right")) for axes in panels] == [
         ("(a) maximum flow thickness", "max 6 m"),
-        ("(b) maximum velocity", "max 20 m/s"),
+        ("(b) maximum speed", "max 20 m/s"),
         ("(c) arrival time", "0 to 9.8 s"),
         ("(d) flow thickness at 10 s", "max 6 m"),
     ]
@@ -192,6 +192,7 @@ def test_key_numbers_of_the_deposit_are_those_of_run_json(map_run: Path) -> None
     assert found["Deposit volume"] == "28,800 m³"
     assert found["Deposit area"] == "4,800 m²"
     assert found["Travel distance"] == "280 m"
+    assert "Runout distance" not in found
     assert found["Reach angle"] == "21.8°"
     assert found["Affected area"] == "16,800 m²"
     assert found["Stop time"] == "8.5 s"
@@ -209,7 +210,7 @@ def test_mass_that_is_not_at_rest_has_no_deposit(map_run: Path) -> None:
     assert found["Covered volume at 10 s (not at rest)"].value == "28,800 m³"
     assert found["Covered area at 10 s (not at rest)"].value == "4,800 m²"
     assert found["Stop time"].value == "not reached"
-    assert "at 10 s (not at rest)" in found["Runout distance"].remark
+    assert "at 10 s (not at rest)" in found["Travel distance"].remark
     assert not any("eposit" in row.words for row in found.values())
     figure = plotted("extent_maps", map_run)
     assert figure._suptitle.get_text() == "Slab on a plane: extent, up to 10 s (not at rest)"

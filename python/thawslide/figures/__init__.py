@@ -78,7 +78,7 @@ def _with_heat_in_section(run: Run) -> bool:
 FIGURES: dict[str, FigureKind] = {
     "extent_maps": FigureKind(
         "Extent of the avalanche",
-        "Maximum flow thickness and velocity, arrival time, and flow thickness at the last time, from every time step. "
+        "Maximum flow thickness and speed, arrival time, and flow thickness at the last time, from every time step. "
         "White lines: arrival time.",
         extent_maps,
         on_map,
@@ -122,12 +122,12 @@ FIGURES: dict[str, FigureKind] = {
         lambda run: run.probes is not None,
     ),
     "motion": FigureKind(
-        "Velocity and displacement",
+        "Speed and displacement",
         "Mass-weighted means. Runout distance: front (99.5 % of the mass is behind it) minus initial rear. Markers: "
         "reported values, filled if observed.",
         motion,
     ),
-    "velocity": FigureKind("Velocity", _PANELS, velocity, _in_section),
+    "velocity": FigureKind("Speed", _PANELS, velocity, _in_section),
     "plastic_strain": FigureKind("Equivalent plastic strain", _PANELS, plastic_strain, _in_section),
     "temperature": FigureKind("Temperature", _PANELS, temperature, _with_heat_in_section),
     "pore_pressure": FigureKind("Pore pressure", _PANELS, pore_pressure, _with_heat_in_section),

@@ -23,7 +23,7 @@ from thawslide.figures.colours import THICKNESS, Painting, colour_range, label_b
 from thawslide.figures.map_page import WIDTH, MapPage
 from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_bar
 from thawslide.figures.site import Site, make_site
-from thawslide.figures.slide_on_map import SPEED, columns_on, where_thick
+from thawslide.figures.slide_on_map import DEPTH_AVERAGED_SPEED, columns_on, where_thick
 from thawslide.figures.style import BLUE, RED, STYLE, disable_formulas, time_axis, time_line
 from thawslide.maps import Map
 from thawslide.run import Run
@@ -107,7 +107,7 @@ class _Image:
         run = site.run
         self.site = site
         # The thickness is shown as well if the map of speeds does not become smaller.
-        self.paintings = (SPEED, THICKNESS) if site.scene.aspect < _SLIM else (SPEED,)
+        self.paintings = (DEPTH_AVERAGED_SPEED, THICKNESS) if site.scene.aspect < _SLIM else (DEPTH_AVERAGED_SPEED,)
         legend = "Dashed: release. Brown: previously covered area."
         note = f"{run.end_note}{legend} Time: {run.time_reference.words}. {site.scene.note()}"
         title = f"{run.title}: {' and '.join(painting.words for painting in self.paintings)}"
@@ -122,7 +122,7 @@ class _Image:
         time_line(course, run.shown_time, run.history["mean_velocity_m_s"], color=BLUE)
         time_axis(course, run.shown_time, run.time_reference.label)
         course.set_ylim(bottom=0.0)
-        course.set_ylabel("mean veloc-\nity (m/s)")
+        course.set_ylabel("mean\nvelocity\n(m/s)")
         self.marker = course.axvline(0.0, color=RED, linewidth=1.2)
         page.figure.set_dpi(dpi)
         self._draw_background()
@@ -130,7 +130,7 @@ class _Image:
     def _panel(self, number: int, painting: Painting) -> tuple[AxesImage, AxesImage]:
         """Draw a map; return the images of the covered area and of the sliding mass, both empty."""
         site, page = self.site, self.page
-        maximum = site.part("max_speed").values if painting is SPEED else site.reached.values
+        maximum = site.part("max_speed").values if painting is DEPTH_AVERAGED_SPEED else site.reached.values
         values = maximum[np.nan_to_num(maximum) > 0.0]
         _, high, extend = colour_range(values, from_zero=True)
         norm: Normalize = Normalize(0.0, high)
@@ -171,7 +171,7 @@ class _Image:
         self.covered |= columns.thickness.values > self.site.threshold
         for trace, slide, painting in zip(self.traces, self.slides, self.paintings, strict=True):
             trace.set_data(np.ma.masked_invalid(np.where(self.covered, 1.0, np.nan)))
-            field = columns.speed if painting is SPEED else columns.thickness
+            field = columns.speed if painting is DEPTH_AVERAGED_SPEED else columns.thickness
             slide.set_data(np.ma.masked_invalid(where_thick(field, columns, self.site.threshold).values))
         time = columns.time + self.site.run.time_reference.shift
         self.time_title.set_text(f"t = {time:.1f} s")

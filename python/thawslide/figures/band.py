@@ -73,7 +73,7 @@ def _plot_particles(run: Run) -> Figure:
         is_pressure = unit == "Pa"
         when, load = load_on_band(run) if is_pressure else (time[:0], time[:0])
         divisor, shown = prefixed([*values, *load], unit) if is_pressure else (1.0, unit)
-        axes.set_ylabel(words + (f" ({shown})" if shown else ""))
+        axes.set_ylabel(f"{words} ({shown or '–'})")
         time_line(axes, time, values / divisor, color=colour, label=_pressure_words(run) if is_pressure else "run")
         if np.isfinite(load).any():
             time_line(axes, when, load / divisor, color=BLACK, linestyle="--", label="static normal pressure N")
@@ -107,13 +107,15 @@ def _plot_columns(run: Run) -> Figure:
     pressure, heat, saturation, thickness, ratio, friction = panels
     notes = [f"pore pressure: {note}" for note in _plot_stresses(pressure, run)]
     notes += [f"temperature: {note}" for note in _plot_temperatures(heat, run)]
-    found = _plot_mean(saturation, run, "band_saturation", "liquid saturation", GREEN, ("band_SL", "band_saturation"))
+    found = _plot_mean(
+        saturation, run, "band_saturation", "liquid saturation (–)", GREEN, ("band_SL", "band_saturation")
+    )
     notes += [f"liquid saturation: {note}" for note in found]
     saturation.set_ylim(0.0, 1.02)
     _plot_mean(thickness, run, "band_thickness_m", "thickness (m)", ORANGE)
-    _plot_mean(ratio, run, "band_largest_pressure_ratio", "maximum P/N", BLUE)
+    _plot_mean(ratio, run, "band_largest_pressure_ratio", "maximum P/N (–)", BLUE)
     ratio.axhline(1.0, color=NOTE, linewidth=0.8, linestyle=":")
-    _plot_mean(friction, run, "band_friction_coefficient", "friction coefficient", PURPLE)
+    _plot_mean(friction, run, "band_friction_coefficient", "friction coefficient (–)", PURPLE)
     for axes in (thickness, ratio, friction):
         axes.set_ylim(0.0, max(1.08 * axes.dataLim.y1, 1e-3) if np.isfinite(axes.dataLim.y1) else 1.0)
     warn(ratio, too_much_pressure(run.history["band_largest_pressure_ratio"]))

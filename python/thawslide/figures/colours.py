@@ -25,7 +25,7 @@ class Painting:
     colours: str
 
 
-VELOCITY = Painting("velocity", "velocity", "m/s", "viridis")
+SPEED = Painting("velocity", "speed", "m/s", "viridis")
 PLASTIC_STRAIN = Painting("plastic_strain", "equivalent plastic strain", "1", "cividis")
 TEMPERATURE = Painting("temperature", "temperature", "°C", "plasma")
 THICKNESS = Painting("thickness", "thickness", "m", "YlOrRd")

@@ -40,7 +40,7 @@ MECHANICAL = {
     "contact_loss_J": ("impact on the terrain", PURPLE),
     "entrained_work_J": ("entrainment", "#17BECF"),
     "frame_work_J": ("work of frames", GREEN),
-    "numerical_J": ("numerical", "#999999"),
+    "numerical_J": ("numerical energy", "#999999"),
 }
 THERMAL = {
     "sensible_J": ("sensible heat", RED),
@@ -115,7 +115,7 @@ def _plot_terms(axes: Axes, run: Run, terms: dict[str, tuple[str, str]]) -> list
 
 
 def _plot_residuals(axes: Axes, run: Run) -> None:
-    axes.set_ylabel("relative residual")
+    axes.set_ylabel("relative residual (–)")
     has_values = False
     for column, (_, colour) in RESIDUALS.items():
         values = relative_residual(run, column)

@@ -113,7 +113,7 @@ def force(run: Run) -> Figure:
     components.legend(loc="upper left", bbox_to_anchor=(0.0, -0.03), ncols=3)
 
     time_line(strain, time, run.history["mean_plastic_strain"], color=GREEN)
-    strain.set_ylabel("mean plastic strain")
+    strain.set_ylabel("mean plastic strain (–)")
     strain.set_ylim(bottom=0.0)
     for axes in panels:
         time_axis(axes, time, run.time_reference.label if axes is strain else "")

@@ -45,7 +45,7 @@ class MapKind:
 
 _EXTENT = (
     MapKind("max_thickness", "maximum flow thickness", "m", "YlOrRd"),
-    MapKind("max_speed", "maximum velocity", "m/s", "viridis"),
+    MapKind("max_speed", "maximum speed", "m/s", "viridis"),
     MapKind("arrival_time", "arrival time", "s", "cividis", has_zero_base=False),
     MapKind("final_thickness", "flow thickness", "m", "YlOrRd", is_last_state=True),
 )
@@ -62,7 +62,7 @@ _FOOT = 0.25  # inches below the maps, for the legend
 
 @styled
 def extent_maps(run: Run) -> Figure:
-    """Map maximum thickness and velocity, arrival time and final thickness, with release, path and probes."""
+    """Map maximum thickness and speed, arrival time and final thickness, with release, path and probes."""
     return _plot(run, _EXTENT, "extent", 0.72)
 
 

@@ -76,9 +76,9 @@ def add_to_legend(axes: Axes, notes: list[str]) -> None:
 
 @styled
 def motion(run: Run) -> Figure:
-    """Plot (a) mean and maximum velocity, (b) mean displacement, runout distance and front travel distance.
+    """Plot (a) mean and maximum speed, (b) mean displacement, runout distance and front travel distance.
 
-    Particles at rest vibrate without net motion. The maximum velocity is therefore plotted until rest only.
+    Particles at rest vibrate without net motion. The maximum speed is therefore plotted until rest only.
     """
     history = run.history
     time = run.shown_time
@@ -98,7 +98,7 @@ def motion(run: Run) -> Figure:
         )
     time_line(speed, time, history["mean_velocity_m_s"], color=BLUE, label="mean (mass-weighted)")
     add_to_legend(speed, plot_targets(speed, run, ("mean_velocity",), 1.0, BLUE))
-    speed.set_ylabel("velocity (m/s)")
+    speed.set_ylabel("speed (m/s)")
 
     lengths = [history[name] for name in ("mean_displacement_m", "runout_m") if name in history]
     divisor, unit = prefixed(np.concatenate(lengths) if lengths else 0.0, "m")
@@ -130,5 +130,5 @@ def motion(run: Run) -> Figure:
         axes.set_ylim(bottom=0.0)
         # Legends below the panels do not cover curves.
         axes.legend(loc="upper left", bbox_to_anchor=(-0.14, -0.2), handlelength=1.5)
-    title_panels((speed, distance), ("velocity", "distance"))
+    title_panels((speed, distance), ("speed", "distance"))
     return figure

@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from thawslide.binning import FIELDS, Columns, gather
 from thawslide.errors import NotInRunError
 from thawslide.figures.colours import (
+    SPEED,
     TEMPERATURE,
     THICKNESS,
-    VELOCITY,
     Painting,
     label_bar,
     normalisation,
@@ -31,7 +31,7 @@ from thawslide.maps import Grid, Map
 from thawslide.number_text import number_text
 from thawslide.run import Run, Snapshot
 
-SPEED = replace(VELOCITY, words="depth-averaged speed")
+DEPTH_AVERAGED_SPEED = replace(SPEED, words="depth-averaged speed")
 BASE_TEMPERATURE = replace(TEMPERATURE, words="basal temperature")
 _FOOT = 0.7  # inches below the maps, for the colourbar
 
@@ -54,7 +54,7 @@ def where_thick(field: Map, columns: Columns, threshold: float) -> Map:
 @styled
 def slide_speed(run: Run) -> Figure:
     """Map the depth-averaged speed."""
-    return _plot(run, SPEED, lambda columns: columns.speed)
+    return _plot(run, DEPTH_AVERAGED_SPEED, lambda columns: columns.speed)
 
 
 @styled
@@ -108,8 +108,8 @@ def plot_on_map(run: Run, painting: Painting, field_of: Callable[[Grid, Snapshot
     page.set_titles(panels)
     bar = page.figure.colorbar(painter, cax=page.common_bar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
-    averaging = window_words(run, shots) if painting is SPEED else ""
+    averaging = window_words(run, shots) if painting is DEPTH_AVERAGED_SPEED else ""
     over = f", {averaging}" if averaging else ""
-    words = painting.words + (f" ({painting.unit})" if painting.unit != "1" else "") + scale_words(norm) + over
+    words = f"{painting.words} ({painting.unit.replace('1', '–')}){scale_words(norm)}{over}"
     bar.set_label(thickness_words(norm) if painting is THICKNESS else words, labelpad=1)
     return page.figure

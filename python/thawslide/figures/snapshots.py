@@ -14,8 +14,8 @@ from matplotlib.figure import Figure
 from thawslide.figures.colours import (
     PLASTIC_STRAIN,
     PORE_PRESSURE,
+    SPEED,
     TEMPERATURE,
-    VELOCITY,
     Painting,
     label_bar,
     normalisation,
@@ -66,8 +66,8 @@ def time_text(run: Run, shot: Snapshot) -> str:
 
 @styled
 def velocity(run: Run, zones: Sequence[Zone] = ()) -> Figure:
-    """Plot the magnitude of velocity (Fig. 14)."""
-    return plot_field(run, VELOCITY, zones)
+    """Plot the speed (Fig. 14)."""
+    return plot_field(run, SPEED, zones)
 
 
 @styled
@@ -120,9 +120,9 @@ def plot_field(run: Run, painting: Painting, zones: Sequence[Zone] = ()) -> Figu
             panel.tick_params(labelbottom=False)
     bar = figure.colorbar(painter, cax=page.colourbar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
-    averaging = window_words(run, shots) if painting is VELOCITY else ""
+    averaging = window_words(run, shots) if painting is SPEED else ""
     over = f", {averaging}" if averaging else ""
-    bar.set_label(painting.words + (f" ({unit})" if unit else "") + scale_words(norm) + over, labelpad=1)
+    bar.set_label(f"{painting.words} ({unit or '–'}){scale_words(norm)}{over}", labelpad=1)
     return figure
 
 

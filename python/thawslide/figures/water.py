@@ -79,7 +79,7 @@ def water(run: Run) -> Figure:
     _plot_terms(losses, run, LOSSES, "mass", MASSES)
     _plot_terms(voids, run, VOIDS, "volume", VOLUMES)
     relative = relative_water_residual(run)
-    residual.set_ylabel("relative residual")
+    residual.set_ylabel("relative residual (–)")
     if relative is not None and np.any(relative > 0.0):
         time_line(residual, time, np.where(relative > 0.0, relative, np.nan), color=BLUE, linewidth=0.8, markersize=2)
         residual.set_yscale("log")
