@@ -44,7 +44,7 @@ def layout(count: int, aspect: float, bar: float, head: float, reserved: float) 
     # Slightly smaller maps are better than empty places or a long page.
     largest = max(each.width for each in found)
     return min(
-        (each for each in found if each.width > 0.65 * largest),
+        (each for each in found if each.width > 0.75 * largest),
         key=lambda each: (-count % each.columns > 1, -(-count // each.columns) * (each.height + head), -each.columns),
     )
 
