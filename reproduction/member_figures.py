@@ -29,7 +29,7 @@ def aligned(runs: Sequence[Run], column: str) -> tuple[Numbers, Numbers]:
 @styled
 def members_over_time(runs: Sequence[Run]) -> Figure:
     """Plot mean velocity and mean displacement of all members and their median, with the reported values."""
-    figure = Figure(figsize=(COLUMN_WIDTH, 3.7), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 4.3), layout="constrained")
     speed, distance = figure.subplots(1, 2)
     for axes, column, divisor, colour, reported in (
         (speed, "mean_velocity_m_s", 1.0, BLUE, ("mean_velocity",)),
@@ -48,9 +48,9 @@ def members_over_time(runs: Sequence[Run]) -> Figure:
     speed.set_ylabel("mean velocity (m/s)")
     distance.set_ylabel("mean displacement (km)")
     _draw_accepted_range(speed)
-    distance.set_ylim(top=1.6 * distance.get_ylim()[1])  # space for the legend above the curves
-    for axes, place in ((speed, "upper right"), (distance, "upper left")):
-        axes.legend(loc=place, frameon=True, framealpha=1.0, edgecolor="none")
+    for axes in (speed, distance):
+        # Legends below the panels do not cover curves.
+        axes.legend(loc="upper left", bbox_to_anchor=(-0.14, -0.2), handlelength=1.5)
     title_panels((speed, distance), ("mean velocity", "mean displacement"))
     return figure
 
@@ -59,7 +59,7 @@ def _draw_accepted_range(axes: Axes) -> None:
     """Shade the accepted range of the peak, and mark the end of the run of the other model, which is at rest."""
     wanted = {each.name: each for each in QUANTITIES}
     peak, rise, stop = wanted["peak"], wanted["rise"], wanted["stop"]
-    axes.set_ylim(top=max(axes.get_ylim()[1], 1.5 * peak.most))
+    axes.set_ylim(top=max(axes.get_ylim()[1], 1.1 * peak.most))
     box = (SET_TIME + rise.least, peak.least), rise.most - rise.least, peak.most - peak.least
     words = f"{MODEL}: peak {peak.reported} m/s, accepted {peak.wanted}"
     axes.add_patch(Rectangle(*box, facecolor=NOTE, alpha=0.15, linewidth=0, label=words))

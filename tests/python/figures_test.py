@@ -113,6 +113,23 @@ def test_snapshot_panels_have_particles_of_their_size_on_the_terrain(make_run: M
     )  # true scale
 
 
+def test_block_on_a_tilted_plane_is_drawn_once(make_run: MakeRun) -> None:
+    """The strip would have the scale of the panel; its height is not an elevation."""
+    folder = make_run(times="[0.0, 4.0]")
+    case = folder / "case.toml"
+    case.write_text(case.read_text().replace("[case]", "[case]\ngravity_tilt = 30.0"))
+    (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n0.0,0.0\n200.0,0.0\n")
+    for number in (0, 4):
+        with h5py.File(folder / "snapshots" / f"{number:06d}.vtkhdf", "r+") as file:
+            points = file["VTKHDF/Points"][:]
+            points[:, 1] = 1.55 * (points[:, 1] - ground(points[:, 0]) - 0.5)
+            file["VTKHDF/Points"][:] = points
+    figure = FIGURES["velocity"].plot(Run(folder))
+    found = {axes.get_ylabel() for axes in figure.axes}
+    assert "height above\nslope (m)" in found
+    assert not found & {"height above\nterrain (m)", "elevation (m)"}
+
+
 def test_strips_have_heights_above_the_terrain(make_run: MakeRun) -> None:
     figure = FIGURES["velocity"].plot(Run(make_run()))
     strips = [axes for axes in figure.axes if axes.get_ylabel() == "height above\nterrain (m)"]

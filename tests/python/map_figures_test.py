@@ -293,6 +293,13 @@ def test_maps_fill_a_page_within_its_margins(count: int, aspect: float, bar: flo
     assert found.width >= 1.15
 
 
+def test_narrow_maps_use_the_width_of_the_page() -> None:
+    """Two columns would leave half of the page empty; (count, aspect) of the comparison on a slope of the Alps."""
+    found = layout(7, 0.49, 0.62, 0.3, 1.2)
+    assert found.columns == 3
+    assert found.columns * (found.width + 0.62) > 0.7 * WIDTH
+
+
 @pytest.mark.parametrize("inches", [0.6, 0.9, 1.2, 2.0, 3.5, 6.8])
 @pytest.mark.parametrize(("low", "high"), [(5_199_140.0, 5_199_690.0), (380_000.0, 389_000.0), (-210.0, 130.0)])
 def test_labels_of_coordinates_do_not_overlap(low: float, high: float, inches: float) -> None:

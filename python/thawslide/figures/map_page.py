@@ -41,10 +41,16 @@ def layout(count: int, aspect: float, bar: float, head: float, reserved: float) 
         width = (WIDTH - _LEFT - _RIGHT - (columns - 1) * _GAP) / columns - bar
         height = min(width / aspect, TALLEST, (HIGHEST - reserved) / rows - head)
         found.append(Layout(columns, height * aspect, height))
-    # Slightly smaller maps are better than empty places or a long page.
+    # Slightly smaller maps are better than empty places or a long page, but not than a page of which half is empty.
     largest = max(each.width for each in found)
+    broadest = max(each.columns * (each.width + bar) for each in found)
     return min(
-        (each for each in found if each.width > 0.65 * largest),
+        (
+            each
+            for each in found
+            if each.width == largest
+            or (each.width > 0.65 * largest and each.columns * (each.width + bar) > 0.6 * broadest)
+        ),
         key=lambda each: (-count % each.columns > 1, -(-count // each.columns) * (each.height + head), -each.columns),
     )
 

@@ -252,7 +252,7 @@ def _plot_particles(
     x, z = shot.points[:, 0], shot.points[:, run.vertical]
     fill_terrain(axes, run.terrain, window.bottom)
     axes.add_collection(_painted(run, shot, z, values, window, painter, (width, height)), autolim=False)
-    window.apply(axes, _height_words(run))
+    _apply(axes, run, window)
     outside = int(np.sum((x < window.left) | (x > window.right) | (z < window.bottom) | (z > window.top)))
     words = window.note() + (f"\n{outside:,} of {len(x):,} particles outside" if outside else "")
     axes.text(0.99, 0.97, words, transform=axes.transAxes, ha="right", va="top", size=7, color=NOTE, path_effects=HALO)
@@ -264,9 +264,13 @@ def _strip_window(run: Run, shot: Snapshot, window: Window, highest: float) -> W
     return Window(window.left, window.right, lowest - 0.03 * (highest - lowest), highest * 1.08, 1)
 
 
-def _height_words(run: Run) -> str:
-    """Return the name of the vertical axis: gravity that is tilted makes a slope of the level terrain."""
-    return "height above\nslope" if run.section("case").get("gravity_tilt", 0.0) else "elevation"
+def _apply(axes: Axes, run: Run, window: Window) -> None:
+    """Apply a window to a panel. With tilted gravity, the vertical axis is normal to the slope."""
+    if run.section("case").get("gravity_tilt", 0.0):
+        window.apply(axes, "height above\nslope")
+        axes.yaxis.label.set_fontsize(7.5)
+    else:
+        window.apply(axes)
 
 
 def _plot_strip(
@@ -338,7 +342,7 @@ def _plot_overview(page: _Page, run: Run, shots: list[Snapshot], views: list[Win
         body = squares(shot.points[:, 0], shot.points[:, run.vertical], particle_size(run, shot), window, inches)
         body.set_facecolor(colour)
         axes.add_collection(body, autolim=False)
-    window.apply(axes, _height_words(run))
+    _apply(axes, run, window)
     axes.set_xlabel("")
     axes.tick_params(labelbottom=False)
     states = f"grey: {time_text(run, shots[0])}, red: {time_text(run, shots[-1])}" if len(shots) > 1 else ""
