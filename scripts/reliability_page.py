@@ -27,7 +27,7 @@ def head() -> str:
     """Return the introduction of the page."""
     return "# Reliability\n\n" + paragraph(
         "This page reports how a run behaves when its process is killed, its disk fills up, or its files are damaged. "
-        "`scripts/reliability` runs the tests and generates the page in about four hours on two cores, mostly fuzzing. "
+        "`scripts/reliability` runs the tests and generates the page in about 90 minutes on two cores, mostly fuzzing. "
         "`./test` contains a sample of each part. [Stop and resume](reference/stop-and-resume.md) explains how to "
         "continue a run that has stopped."
     )
@@ -141,8 +141,8 @@ def fuzzing_text(found: dict[str, Any]) -> str:
     return (
         "## Fuzzing\n\n"
         + paragraph(
-            "Each reader of files gets random bytes, guided by code coverage. libFuzzer is used with the address and "
-            "undefined-behaviour sanitizers, and atheris for the readers in Python. The [developer "
+            "Readers of files that users write get random bytes, guided by code coverage. The programs are built with "
+            "libFuzzer and the address and undefined-behaviour sanitizers; readers in Python use atheris. The [developer "
             "guide](developer-guide.md#fuzzing) lists the targets. A reader must return a value, or an error that "
             "names the file, within a few seconds and a few gigabytes."
         )
@@ -168,7 +168,6 @@ def soak_text(found: dict[str, Any]) -> str:
     ]
     bounded = "bounded" if row["energies"]["bounded"] else "NOT bounded"
     without = "bounded" if row["without_viscosity"]["bounded"] else "not bounded"
-    note = row["note_without_viscosity"]
     return (
         "## A million steps\n\n"
         + paragraph(
@@ -184,9 +183,12 @@ def soak_text(found: dict[str, Any]) -> str:
             f"With viscosity, energy is {bounded}. The criterion is at most 1.5 times the energy of the first tenth in "
             "the second half. "
             f"Without viscosity it is {without}: an undamped elastic body flutters, and its energy grows with the steps. "
-            + ("The run prints:" if note else f"That run ended with code {row['code_without_viscosity']}.")
+            + (
+                "The run warns of energy growth without a physical cause ([guards](reference/guards.md))."
+                if row["warning_without_viscosity"]
+                else f"That run ended with code {row['code_without_viscosity']}."
+            )
         )
-        + (f"\n```\n{paragraph(note)}```\n" if note else "")
     )
 
 

@@ -15,7 +15,7 @@ def atomic_file(path: Path) -> Iterator[Path]:
     """Yield a temporary path in the same folder, which is renamed to the final path on success.
 
     The name contains the process number, so that two reports of one run do not collide. Its form is that of the
-    simulator (src/io/atomic_file.cpp), which removes temporary files together with the run.
+    simulator (src/base/atomic_file.cpp), which removes temporary files together with the run.
     """
     temporary = path.with_name(f".{path.stem[:_LONGEST_NAME]}.{os.getpid()}.thawslide-part{path.suffix}")
     temporary.unlink(missing_ok=True)  # of a terminated process, or a link to another place

@@ -45,7 +45,9 @@ def key_numbers(run: Run) -> list[KeyNumber]:
     """Return the rows for which the run has columns."""
     history = run.history
     time = run.shown_time
-    rows = [KeyNumber("Simulated time", quantity_text(float(history["time_s"][-1]), "s"))]
+    first, last = (number_text(float(time[end])) for end in (0, -1))
+    span = f"{first} s to {last} s in the times below" if run.time_reference.shift else ""
+    rows = [KeyNumber("Simulated time", quantity_text(float(history["time_s"][-1]), "s"), span)]
     if "mean_velocity_m_s" in history:
         speed = history["mean_velocity_m_s"]
         if np.isfinite(speed).any():
@@ -258,7 +260,7 @@ def _band_numbers(run: Run) -> list[KeyNumber]:
     rows = []
     for words, column, unit in (
         ("Maximum mean band temperature", "band_temperature_C", "°C"),
-        ("Maximum column temperature", "band_hottest_C", "°C"),
+        ("Temperature of the hottest part of all columns", "band_hottest_C", "°C"),
         ("Maximum mean band pore pressure", "band_pore_pressure_Pa", "Pa"),
         ("Maximum pore pressure ratio P/N", "band_largest_pressure_ratio", ""),
     ):

@@ -123,6 +123,13 @@ class Map:
             values = _REDUCTIONS[reduction](blocks, axis=(1, 3))
         return replace(self, grid=grid, values=values)
 
+    def averaged_over(self, grid: Grid) -> Map:
+        """Return the area-weighted means over the cells of another grid; no data and the outside count as zero."""
+        own = self.grid
+        rows = _means(np.nan_to_num(self.values), (own.y0, own.cell_y), (grid.y0, grid.cell_y, grid.rows))
+        values = _means(rows.T, (own.x0, own.cell_x), (grid.x0, grid.cell_x, grid.columns)).T
+        return replace(self, grid=grid, values=values)
+
     def at(self, x: Numbers, y: Numbers) -> Numbers:
         """Return values at points [m] by bilinear interpolation; nan outside and next to no-data cells."""
         grid = self.grid
@@ -228,6 +235,17 @@ def _check_size(file: rasterio.DatasetReader, path: Path) -> None:
         )
     if max(cells, block) * np.dtype(kind).itemsize > _MAX_COMPRESSION * path.stat().st_size:
         raise ReportError(f"{path}: damaged (found {cells:,} cells, more than the file can contain). Repeat the run.")
+
+
+def _means(values: Numbers, own: tuple[float, float], other: tuple[float, float, int]) -> Numbers:
+    """Return means of rows over other rows; both are given by the first centre and the size, the other with a count."""
+    (first, size), (other_first, other_size, count) = own, other
+    ends = (other_first - first + (np.arange(count + 1) - 0.5) * other_size) / size + 0.5  # in rows of `values`
+    ends = np.clip(ends, 0.0, len(values))
+    whole = np.minimum(ends.astype(np.intp), len(values) - 1)
+    sums = np.concatenate([np.zeros_like(values[:1]), np.cumsum(values, axis=0)])
+    integral = sums[whole] + (ends - whole)[:, None] * values[whole]
+    return np.asarray(np.diff(integral, axis=0) * size / other_size)
 
 
 def _overlap(low: float, high: float, start: float, cell: float, count: int) -> slice:

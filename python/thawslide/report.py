@@ -116,12 +116,12 @@ def _page(run: Run, report: Report) -> str:
         f'<p class="where">Run folder: {html.escape(run.folder.resolve().name)}</p>',
         *(f'<p class="note">{html.escape(note)}</p>' for note in notes),
         "<h2>Key numbers</h2>",
+        *([_times(run)] if _is_aligned(run) else []),
         _table(((row.words, row.value, row.remark) for row in key_numbers(run)), "numbers"),
     ]
     if run.targets:
         tables = "\n".join(_target_tables(run))
-        note = f'<p class="times">{html.escape(time_note(run))}</p>'
-        parts.append(_details("Reported values", f"{tables}\n{note}"))
+        parts.append(_details("Reported values", tables if _is_aligned(run) else f"{tables}\n{_times(run)}"))
     for name, path in report.figures.items():
         kind = FIGURES[name]
         heading, link = html.escape(kind.heading), f"figures/{path.name}"
@@ -142,13 +142,22 @@ def _page(run: Run, report: Report) -> str:
     return page_frame(title, "\n".join(parts))
 
 
+def _is_aligned(run: Run) -> bool:
+    """Return whether times on the page differ from those of the run; the note then precedes all times."""
+    return run.time_reference.shift != 0.0
+
+
+def _times(run: Run) -> str:
+    return f'<p class="times">{html.escape(time_note(run))}</p>'
+
+
 def _target_tables(run: Run) -> list[str]:
     """Return a table for each kind of reported values, with the values of the run."""
     tables = []
     for kind, (_, heading) in KINDS.items():
         rows = [
             (
-                t.quantity.replace("_", " "),
+                t.words,
                 f"{exact_text(t.time)} s",
                 quantity_text(t.in_its_unit(t.value), t.unit_words, _REPORTED_DIGITS),
                 found_for(run, t),

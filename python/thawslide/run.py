@@ -216,10 +216,15 @@ class Run:
         return self.facts.get("at_rest") is False
 
     @property
+    def is_at_rest(self) -> bool:
+        """Whether the sliding mass was at rest at the end of the run, according to run.json."""
+        return self.facts.get("at_rest") is True
+
+    @property
     def rest_since(self) -> float:
         """The time of the run [s] at which the sliding mass came to rest; inf if it did not."""
         since = self.facts.get("rest_since_s")
-        return float(since) if self.facts.get("at_rest") is True and since is not None else float("inf")
+        return float(since) if self.is_at_rest and since is not None else float("inf")
 
     def titled(self, words: str) -> str:
         """Return the title of a figure of the whole run, with its last time if the mass is not at rest."""

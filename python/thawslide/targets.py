@@ -50,12 +50,13 @@ SOURCE_VOLUME = "source_volume"
 
 @dataclass(frozen=True)
 class Quantity:
-    """A quantity: its units, allowed range (in the first unit), and source in a run.
+    """A quantity: its name on pages, its units, allowed range (in the first unit), and source in a run.
 
     `column` is a column of the history, at the time of the report; `fact` is a number of run.json, at the end of the
     run. A quantity that is not compared is shown without a value of the run.
     """
 
+    words: str
     units: Units
     low: float = 0.0
     high: float = float("inf")
@@ -65,23 +66,29 @@ class Quantity:
 
 
 QUANTITIES: Mapping[str, Quantity] = {
-    REFERENCE: Quantity(_SPEED),
-    "mean_velocity": Quantity(_SPEED, column="mean_velocity_m_s"),
-    "mean_displacement": Quantity(_LENGTH, column="mean_displacement_m"),
-    "front_distance": Quantity(_LENGTH, column="runout_m"),
-    "band_SL": Quantity(_RATIO, high=1.0, column="band_saturation"),
-    "band_saturation": Quantity(_RATIO, high=1.0, column="band_saturation"),
-    "band_temperature": Quantity(_TEMPERATURE, low=ABSOLUTE_ZERO, column="band_temperature_C"),
-    "band_pore_pressure": Quantity(_PRESSURE, low=float("-inf"), column="band_pore_pressure_Pa"),
-    "band_friction_coefficient": Quantity(_RATIO, column="band_friction_coefficient"),
-    FORCE: Quantity(_FORCE),
-    SOURCE_VOLUME: Quantity(_VOLUME),
-    "source_mean_thickness": Quantity(_LENGTH, is_compared=False),  # reports rarely state the area
-    "deposit_volume": Quantity(_VOLUME, fact="covered_volume_m3"),
-    "deposit_area": Quantity(_AREA, fact="covered_area_m2"),
-    "travel_distance": Quantity(_LENGTH, fact="travel_distance_m"),
-    "drop_height": Quantity(_LENGTH, low=float("-inf"), fact="drop_height_m"),
-    "angle_of_reach": Quantity(_ANGLE, low=-90.0, high=90.0, fact="angle_of_reach_degrees"),
+    REFERENCE: Quantity("mean velocity that sets the times", _SPEED),
+    "mean_velocity": Quantity("mean velocity", _SPEED, column="mean_velocity_m_s"),
+    "mean_displacement": Quantity("mean displacement", _LENGTH, column="mean_displacement_m"),
+    "front_distance": Quantity("runout distance", _LENGTH, column="runout_m"),
+    "band_SL": Quantity("liquid saturation of the band", _RATIO, high=1.0, column="band_saturation"),
+    "band_saturation": Quantity("liquid saturation of the band", _RATIO, high=1.0, column="band_saturation"),
+    "band_temperature": Quantity("mean band temperature", _TEMPERATURE, low=ABSOLUTE_ZERO, column="band_temperature_C"),
+    "band_pore_pressure": Quantity(
+        "mean band pore pressure", _PRESSURE, low=float("-inf"), column="band_pore_pressure_Pa"
+    ),
+    "band_friction_coefficient": Quantity(
+        "friction coefficient of the band", _RATIO, column="band_friction_coefficient"
+    ),
+    FORCE: Quantity("maximum seismic force", _FORCE),
+    SOURCE_VOLUME: Quantity("source volume", _VOLUME),
+    "source_mean_thickness": Quantity(
+        "mean source thickness", _LENGTH, is_compared=False
+    ),  # reports rarely state the area
+    "deposit_volume": Quantity("deposit volume", _VOLUME, fact="covered_volume_m3"),
+    "deposit_area": Quantity("deposit area", _AREA, fact="covered_area_m2"),
+    "travel_distance": Quantity("travel distance", _LENGTH, fact="travel_distance_m"),
+    "drop_height": Quantity("drop height", _LENGTH, low=float("-inf"), fact="drop_height_m"),
+    "angle_of_reach": Quantity("reach angle", _ANGLE, low=-90.0, high=90.0, fact="angle_of_reach_degrees"),
 }
 _IN_BAND = re.compile(FORCE + r"_(\d+(?:\.\d+)?)_(\d+(?:\.\d+)?)_s", re.ASCII)
 _PERIODS = (1e-3, 1e5)  # s, allowed range
@@ -115,6 +122,12 @@ class Target:
     def adjective(self) -> str:
         """The kind of the value in figures."""
         return KINDS[self.kind][0]
+
+    @property
+    def words(self) -> str:
+        """The name of the quantity on pages."""
+        band = band_of(self)
+        return quantity_of(self.quantity).words + (f", band-pass {band.words}" if band else "")
 
     @property
     def unit_words(self) -> str:

@@ -35,8 +35,9 @@ bool has_boiled_dry(const physics::BandColumn<double>& column) {
 
 std::string of_dry(double time, std::ptrdiff_t dry, double hottest) {
   return fmt::format(
-      "warning: at {:g} s {} of the base {} boiled dry, and the hottest is at {:.0f} C: where no water is left nothing "
-      "limits temperature and friction. A thicker band (band.thickness) or one that mixes (band.mixing_slip) keeps it "
+      "warning: at {:g} s {} of the base {} boiled dry, and the hottest is at {:.0f} C. Without water, boiling "
+      "no longer limits temperature and friction. A thicker band (band.thickness) or one that mixes (band.mixing_slip) "
+      "keeps it "
       "cooler; docs/choosing-the-base.md.",
       time, dry == 1 ? "a column" : fmt::format("{} columns", dry), dry == 1 ? "has" : "have", hottest);
 }
@@ -44,16 +45,14 @@ std::string of_dry(double time, std::ptrdiff_t dry, double hottest) {
 std::string of_hot(double time) {
   const double load = physics::saturation_pressure(beyond_belief) - physics::Steam<double>::atmosphere;
   return fmt::format(
-      "warning: at {:g} s the hottest column of the base passes {:g} C, where water boils under {:.1f} MPa: there the "
-      "load is more than that, or the water is gone; docs/choosing-the-base.md.",
+      "warning: at {:g} s the hottest column of the base passes {:g} C, where water boils at {:.1f} MPa: the load "
+      "exceeds this pressure, or the column is dry; docs/choosing-the-base.md.",
       time, beyond_belief, load / 1e6);
 }
 
 std::string of_no_boiling(double time, const char* reason) {
-  return fmt::format(
-      "warning: at {:g} s the base passes {:g} C. {}: beyond this temperatures are a bookkeeping of heat, not a "
-      "forecast.",
-      time, boiling, reason);
+  return fmt::format("warning: at {:g} s the base passes {:g} C. {}: higher temperatures are not physical.", time,
+                     boiling, reason);
 }
 
 }  // namespace

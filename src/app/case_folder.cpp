@@ -156,21 +156,18 @@ std::string title_of(const fs::path& folder) {
 
 void make_new_folder(const fs::path& folder) {
   if (fs::exists(folder) && (!fs::is_directory(folder) || !fs::is_empty(folder))) {
-    throw UserError(
-        fmt::format("{}: there is something already; give the name of a folder that is not there yet, or an "
-                    "empty one.",
-                    folder.string()));
+    throw UserError(fmt::format("{}: it exists and is not an empty folder. Choose another name.", folder.string()));
   }
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) {
-    throw UserError(fmt::format("{}: the folder cannot be made ({}).", folder.string(), failed.message()));
+    throw UserError(fmt::format("{}: the folder cannot be created ({}).", folder.string(), failed.message()));
   }
 }
 
 void print_next_commands(const std::string& program, const fs::path& folder) {
   const std::string called = shell_quote(program), made = shell_quote(folder.string());
-  fmt::print("look at it:  {} check {} --picture\nrun it:      {} run {}\n", called, made, called, made);
+  fmt::print("preview:  {} check {} --picture\nrun:      {} run {}\n", called, made, called, made);
 }
 
 }  // namespace thawslide::app

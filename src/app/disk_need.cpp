@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/map_output.hpp"
+#include "base/rounding.hpp"
 #include "config/input_files.hpp"
 #include "io/checkpoint.hpp"
 #include "io/run_folder.hpp"
@@ -121,15 +122,16 @@ std::string warning_of_disk(const config::Case& parameters, const DiskNeed& need
   const bool is_history = need.history > of_snapshots;
   const std::string key = is_history ? "time.history_interval" : "time.output_interval";
   const double interval = is_history ? parameters.time.history_interval : parameters.time.output_interval;
-  const std::string what =
-      is_history ? fmt::format("{:.3g} rows of history.csv, {:.3g} GB", need.history_rows, need.history / gigabyte)
-                 : fmt::format("{:.6g} snapshots of {:.3g} MB, {:.3g} GB", need.snapshots, need.snapshot / 1e6,
-                               of_snapshots / gigabyte);
+  const std::string what = is_history
+                               ? fmt::format("{} rows of history.csv, {} GB", rounded_text(need.history_rows),
+                                             rounded_text(need.history / gigabyte))
+                               : fmt::format("{:.6g} snapshots of {} MB, {} GB", need.snapshots,
+                                             rounded_text(need.snapshot / 1e6), rounded_text(of_snapshots / gigabyte));
   return fmt::format(
-      "{}: {} is {:g} s: that is {}; with all else {:.3g} GB, and {:.3g} GB are free where {} is. Make it larger, or "
+      "{}: {} is {:g} s: that is {}; with all else {} GB, and {} GB are free where {} is. Make it larger, or "
       "write to another disk (--output).",
-      config::place_of(parameters, key), key, interval, what, need.total() / gigabyte, free / gigabyte,
-      folder.string());
+      config::place_of(parameters, key), key, interval, what, rounded_text(need.total() / gigabyte),
+      rounded_text(free / gigabyte), folder.string());
 }
 
 template DiskNeed disk_need<2>(const sim::Simulation<2, double>&, const sim::FlowMaps*, double);

@@ -122,7 +122,7 @@ int run_program(int count, char** arguments) {
   add_device_option(*run, run_options.device);
   run->add_option("--output", run_options.output, "Folder of the results (default: runs/NAME)")
       ->check([](const std::string& folder) { return folder.empty() ? std::string("name a folder") : std::string(); });
-  run->add_flag("--overwrite", run_options.overwrite, "Replace the run the folder holds");
+  run->add_flag("--overwrite", run_options.overwrite, "Replace the run in the folder");
   run->callback([&] { exit_code = run_case(run_options); });
 
   ResumeOptions resume_options;
@@ -147,7 +147,7 @@ int run_program(int count, char** arguments) {
   status->callback([&] { exit_code = print_status(status_options); });
 
   CheckOptions check_options;
-  CLI::App* check = program.add_subcommand("check", "Validate a case and say what its run will take");
+  CLI::App* check = program.add_subcommand("check", "Validate a case and estimate the cost of its run");
   add_case_options(*check, check_options.of_case);
   add_threads_option(*check, check_options.threads);
   CLI::Option* picture = check->add_option(
@@ -161,7 +161,7 @@ int run_program(int count, char** arguments) {
   });
 
   BlockOptions block_options;
-  CLI::App* block = program.add_subcommand("block", "Run a case as a rigid block: a look in a moment");
+  CLI::App* block = program.add_subcommand("block", "Simulate a case as a rigid block, in less than a second");
   add_case_options(*block, block_options.of_case);
   block->add_option("--output", block_options.output, "CSV file (default: a table of some rows to the terminal)");
   block->callback([&] { exit_code = run_block_model(block_options); });
@@ -172,7 +172,8 @@ int run_program(int count, char** arguments) {
   add_map_options(*make_new, new_options.maps)->required();
   make_new
       ->add_option("--reach-angle", new_options.reach_angle,
-                   "The domain holds all ground below a line that falls so much from the top of the release [degrees]")
+                   "The domain includes all terrain below a line that descends at this angle from the top of the "
+                   "release [degrees]")
       ->check(CLI::Range(1.0, 45.0))
       ->option_text("1 to 45, default 8");
   CLI::Option* cell = make_new->add_option("--cell", new_options.cell, "Size of the grid's cells [m]")
@@ -214,7 +215,7 @@ int run_program(int count, char** arguments) {
   forms->require_option(0, 1);
   describe->callback([&] { exit_code = describe_parameters(describe_options); });
 
-  CLI::App* report = program.add_subcommand("report", "Draw the figures of a run (hands over to thawslide-report)");
+  CLI::App* report = program.add_subcommand("report", "Plot the figures of a run (calls thawslide-report)");
   report->prefix_command();
   report->callback([&] { exit_code = hand_over_to_report(report->remaining()); });
 

@@ -8,7 +8,7 @@
 #include "gis/geopackage.hpp"
 #include "gis/map_style.hpp"
 #include "gis/raster_file.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files.hpp"
 
 namespace thawslide::app {
 

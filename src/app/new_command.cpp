@@ -19,6 +19,7 @@
 
 #ifdef THAWSLIDE_WITH_GIS
 
+#include "base/atomic_file.hpp"
 #include "config/case_proposal.hpp"
 #include "config/input_files.hpp"
 #include "config/read_case.hpp"
@@ -26,7 +27,6 @@
 #include "gis/point_window.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/site.hpp"
-#include "io/atomic_file.hpp"
 #include "sim/memory_need.hpp"
 #include "sim/run_records.hpp"
 
@@ -104,13 +104,27 @@ void require_memory(const config::Proposal& proposal, const NewOptions& options)
   const AvailableMemory available = available_memory();
   if (need.total() > available.bytes) {
     throw UserError(
-        fmt::format("{} and {:.3g} particles; they need about {:.3g} GB of memory, and {:.3g} GB {}. Set --cell {:g} "
+        fmt::format("{} and {} particles; they need about {} GB of memory, and {} GB {}. Set --cell {:g} "
                     "or more, which is coarser{}.{}",
-                    reason_for_cell(proposal, options), proposal.particles, need.total() / 1e9, available.bytes / 1e9,
-                    available.bound, sim::smallest_cell<3>(need, proposal.cell, available.bytes),
+                    reason_for_cell(proposal, options), rounded_text(proposal.particles),
+                    rounded_text(need.total() / 1e9), rounded_text(available.bytes / 1e9), available.bound,
+                    sim::smallest_cell<3>(need, proposal.cell, available.bytes),
                     options.resolution.empty() ? "" : ", instead of --resolution",
                     options.cell > 0.0 ? "" : " Is the thickness in metres?"));
   }
+}
+
+// Refuses a proposal that would run for days, because the release is thin for its area.
+void require_affordable(const config::Proposal& proposal, const NewOptions& options) {
+  constexpr double most = 5e6;
+  if (options.cell > 0.0 || proposal.particles <= most) {
+    return;
+  }
+  throw UserError(fmt::format(
+      "{} and {} particles; allowed without --cell: {}. Is the thickness in metres? If it is, set --cell {:g} or more, "
+      "which is coarser, or use a depth-averaged program for so thin a release.",
+      reason_for_cell(proposal, options), rounded_text(proposal.particles), rounded_text(most),
+      rounded_up(proposal.cell * std::cbrt(proposal.particles / most), 2)));
 }
 
 // Copies the release with the files that belong to it.
@@ -122,54 +136,28 @@ void copy_release(const fs::path& folder, const config::Case& trial) {
   }
 }
 
-// Marks a folder until its case is complete.
-constexpr const char* unfinished_mark = ".unfinished-case";
-
-// Reports the remains of a killed command, which a user could not identify otherwise.
-void require_nothing_unfinished(const fs::path& folder) {
-  std::error_code unknown;
-  const fs::directory_iterator entries(folder, unknown);
-  if (fs::exists(folder / unfinished_mark) ||
-      std::any_of(begin(entries), end(entries), [](const fs::path& entry) { return io::is_unfinished(entry); })) {
-    throw UserError(fmt::format(
-        "{}: a `thawslide new` was cut off while it made this folder, or is at it now: its mark {} is there, and no "
-        "whole case. Remove the folder, or give the name of another one.",
-        folder.string(), unfinished_mark));
-  }
-}
-
 // New folder that is removed again if its case is invalid.
 class NewFolder {
  public:
-  explicit NewFolder(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)) {
-    require_nothing_unfinished(path_);
-    make_new_folder(path_);
-    io::write_file_atomically(path_ / unfinished_mark, "");
-  }
+  explicit NewFolder(fs::path path) : path_(std::move(path)), was_there_(fs::exists(path_)) { make_new_folder(path_); }
   ~NewFolder() {
     std::error_code ignored;
-    if (!keeps_ && !was_there_) {
-      fs::remove_all(path_, ignored);
+    if (keeps_) {
+      return;
     }
-    // The folder existed and was empty. It may be a link to another folder, so only its contents are removed.
-    std::vector<fs::path> made;
-    for (fs::directory_iterator entry(path_, ignored), end; !keeps_ && was_there_ && !ignored && entry != end;
-         entry.increment(ignored)) {
-      made.push_back(entry->path());
+    // A folder that existed was empty. It may be a link to another folder, so only its contents are removed.
+    for (fs::directory_iterator entry(path_, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
+      fs::remove_all(entry->path(), ignored);
     }
-    for (const fs::path& each : made) {
-      fs::remove_all(each, ignored);
+    if (!was_there_) {
+      fs::remove(path_, ignored);
     }
   }
   NewFolder(const NewFolder&) = delete;
   NewFolder& operator=(const NewFolder&) = delete;
 
   [[nodiscard]] const fs::path& path() const { return path_; }
-  void keep() {
-    std::error_code ignored;
-    fs::remove(path_ / unfinished_mark, ignored);
-    keeps_ = true;
-  }
+  void keep() { keeps_ = true; }
 
  private:
   fs::path path_;
@@ -211,8 +199,8 @@ std::string resolution_text(const config::Proposal& proposal, const std::string&
   return fmt::format(
       "resolution:  {}cells of {:g} m{}\n             about {} particles, {} steps to time.end, and {} on {} "
       "thread{}\n{}",
-      chosen.empty() ? "" : chosen + ", ", proposal.cell, purpose, with_commas(proposal.particles, 3),
-      with_commas(cost.steps, 3), duration_text(cost.seconds), cost.threads, cost.threads == 1 ? "" : "s", others);
+      chosen.empty() ? "" : chosen + ", ", proposal.cell, purpose, rounded_text(proposal.particles),
+      rounded_text(cost.steps), duration_text(cost.seconds), cost.threads, cost.threads == 1 ? "" : "s", others);
 }
 
 // Runs the first steps of the case and returns the cost of a run, or nothing if these steps fail. Throws the errors
@@ -240,7 +228,6 @@ int make_new_case(const NewOptions& options) {
   const std::string release_name = fs::path(options.maps.release).filename().string();
   require_utf8("the folder to make", title_of(options.folder));
   require_utf8("--release", release_name);
-  require_nothing_unfinished(options.folder);
   config::Case trial = trial_case(options.folder, options.maps);
   config::Site site = open_site(trial);
   require_ground_about(options.maps.release, *site.ground, site.releases.at(body_name).thickness);
@@ -254,6 +241,7 @@ int make_new_case(const NewOptions& options) {
       config::propose(*site.ground, site.releases.at(body_name).thickness, options.reach_angle, options.cell,
                       resolution.empty() ? config::Resolution::quick : config::resolution_named(resolution));
   require_resolvable(proposal, options);
+  require_affordable(proposal, options);
   require_memory(proposal, options);
   input.title = title_of(options.folder);
   input.dem_file = release_name == "dem.tif" ? "terrain.tif" : "dem.tif";
@@ -271,12 +259,12 @@ int make_new_case(const NewOptions& options) {
   const fs::path& folder = new_folder.path();
   write_cropped_dem(folder / input.dem_file, *site.ground, proposal);
   copy_release(folder, trial);
-  io::write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
+  write_file_atomically(folder / "case.toml", config::case_text(input, proposal));
   const std::optional<RunCost> cost = cost_of_run(folder);
   new_folder.keep();
 
   fmt::print("{}: a release of {} m3, {:.3g} m thick, on {} m cells\n", (folder / "case.toml").string(),
-             with_commas(proposal.volume, 4), proposal.thickness, proposal.cell);
+             rounded_text(proposal.volume, 4), proposal.thickness, proposal.cell);
   if (cost) {
     fmt::print("{}", resolution_text(proposal, resolution, *cost));
   } else {
@@ -292,7 +280,9 @@ int make_new_case(const NewOptions& options) {
     fmt::print("warning: {}\n", warning);
   }
   if (proposal.particles > many_particles) {
-    fmt::print("warning: that will take long; a larger grid.cell in the case file is quicker and coarser\n");
+    fmt::print(
+        "warning: grid.cell: the run takes long, with {} particles. Set a larger --cell for a coarser, shorter run\n",
+        with_commas(proposal.particles, 2));
   }
   print_next_commands(options.program, folder);
   return static_cast<int>(ExitCode::done);

@@ -8,6 +8,7 @@
 #include <ctime>
 
 #include "app/print.hpp"
+#include "base/rounding.hpp"
 
 namespace thawslide::app {
 
@@ -32,15 +33,14 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 std::string duration_text(double seconds) {
-  constexpr double year = 365.25 * 86400.0, most_years_in_hours = 10.0;
-  if (!(seconds < most_years_in_hours * year)) {
-    return fmt::format("{:.3g} years", seconds / year);
+  constexpr double minute = 60.0, hour = 3600.0, day = 86400.0, year = 365.25 * day;
+  if (seconds < 100.0) {
+    return fmt::format("{:.0f} s", seconds);
   }
-  const auto whole = static_cast<long>(std::lround(seconds));
-  if (whole >= 3600) {
-    return fmt::format("{} h {:02d} min", whole / 3600, whole % 3600 / 60);
-  }
-  return whole >= 60 ? fmt::format("{} min {:02d} s", whole / 60, whole % 60) : fmt::format("{} s", whole);
+  return seconds < 100.0 * minute ? rounded_text(seconds / minute) + " min"
+         : seconds < 2.0 * day    ? rounded_text(seconds / hour) + " h"
+         : seconds < 2.0 * year   ? rounded_text(seconds / day) + " days"
+                                  : rounded_text(seconds / year) + " years";
 }
 
 Progress::Progress(double begin)

@@ -1,8 +1,8 @@
 #include "app/resolved_case.hpp"
 
+#include "base/atomic_file.hpp"
 #include "config/describe.hpp"
 #include "config/input_files.hpp"
-#include "io/atomic_file.hpp"
 
 namespace thawslide::app {
 
@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 std::vector<io::InputFile> write_resolved_case(const config::Case& parameters, const fs::path& folder) {
   std::vector<io::InputFile> inputs = io::copy_inputs(folder, config::input_files(parameters));
-  io::write_file_atomically(folder / "case.toml", config::resolved_toml(parameters, "inputs"));
+  write_file_atomically(folder / "case.toml", config::resolved_toml(parameters, "inputs"));
   return inputs;
 }
 

@@ -5,16 +5,16 @@
 #include <set>
 
 #include "app/print.hpp"
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/shell_quote.hpp"
 #include "config/case_changes.hpp"
 #include "config/input_limits.hpp"
 #include "config/read_case.hpp"
-#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
+#include "io/files.hpp"
 #include "io/history_writer.hpp"
 #include "io/sha256.hpp"
-#include "io/snapshot_series.hpp"
 
 namespace thawslide::app {
 
@@ -130,26 +130,6 @@ std::vector<std::string> changed_originals(const std::vector<io::InputFile>& inp
   return warnings;
 }
 
-std::vector<std::string> gaps_in_results(const fs::path& folder, const io::Provenance& facts) {
-  std::vector<std::string> gaps;
-  for (const char* name : {"case.toml", "history.csv", "particles.vtkhdf"}) {
-    if (!fs::exists(folder / name)) {
-      gaps.push_back((folder / name).string() + " is missing");
-    }
-  }
-  if (const fs::path file = folder / "history.csv"; fs::exists(file)) {
-    const std::optional<double> last = io::last_time_in_history(file);
-    if (!last || *last < facts.simulated_time * (1.0 - 1e-9)) {
-      gaps.push_back(last ? fmt::format("{} ends at {:g} s, before the run", file.string(), *last)
-                          : file.string() + " holds no rows");
-    }
-  }
-  if (const std::string gap = io::gap_in_snapshots(folder); !gap.empty()) {
-    gaps.push_back(gap);
-  }
-  return gaps;
-}
-
 void report_changed_copy(const fs::path& folder, const std::vector<io::InputFile>& inputs, const std::string& error) {
   for (const io::InputFile& input : inputs) {
     if (error.find(input.copy) != std::string::npos) {
@@ -162,7 +142,7 @@ void require_same_case(const fs::path& folder, const io::Provenance& facts, cons
                        const std::vector<std::string>& sets) {
   const fs::path file = folder / "case.toml";
   if (!fs::exists(file)) {
-    io::write_file_atomically(file, before);
+    write_file_atomically(file, before);
     print_text("note: {} was missing. It was written again from the checkpoint\n", file.string());
   }
   const std::string now = io::read_file(file);

@@ -24,10 +24,6 @@ void require_same_inputs(const std::filesystem::path& folder, const std::vector<
 // Notes on original input files that have changed. A run continues with its copies regardless.
 [[nodiscard]] std::vector<std::string> changed_originals(const std::vector<io::InputFile>& inputs);
 
-// Notes on results of a finished run that are missing or truncated.
-[[nodiscard]] std::vector<std::string> gaps_in_results(const std::filesystem::path& folder,
-                                                       const io::Provenance& facts);
-
 // Called on an error of reading the case: if the file is a changed copy, reports that change instead.
 void report_changed_copy(const std::filesystem::path& folder, const std::vector<io::InputFile>& inputs,
                          const std::string& error);

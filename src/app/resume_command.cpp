@@ -10,6 +10,7 @@
 #include "app/resume_checks.hpp"
 #include "app/run_loop.hpp"
 #include "app/signals.hpp"
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/shell_quote.hpp"
@@ -18,8 +19,8 @@
 #include "config/describe.hpp"
 #include "config/notices.hpp"
 #include "config/read_case.hpp"
-#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
+#include "io/files.hpp"
 #include "io/history_writer.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_lock.hpp"
@@ -60,9 +61,6 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
   }
   print_text("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
              facts.message.empty() ? "" : ": " + facts.message);
-  for (const std::string& gap : gaps_in_results(folder, facts)) {
-    print_text("warning: {}\n", gap);
-  }
   if (!is_known) {
     print_text("note: {} holds no checkpoint: it cannot be given a later end\n", folder.string());
   }
@@ -108,7 +106,7 @@ Continuation continuation_of(const fs::path& folder, const std::vector<std::stri
 // run.json must record a change first, so that no change is unrecorded if the process is killed in between.
 void apply_changes(const fs::path& folder, const Continuation& next) {
   if (const std::vector<std::string>& changes = next.earlier.parts.back().changes; !changes.empty()) {
-    io::write_file_atomically(folder / "case.toml", next.case_text);
+    write_file_atomically(folder / "case.toml", next.case_text);
     print_text("changed: {}\n", fmt::join(changes, ", "));
   }
 }
@@ -234,8 +232,8 @@ int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continu
   }
   if (failed && next.earlier.parts.back().changes.empty()) {
     print_text(
-        "note: the run failed, and nothing is changed: it fails again unless what failed was not of the case. A key "
-        "is changed by --set KEY=VALUE, an end before that by --end T\n");
+        "warning: the run failed, and resume changes nothing: it will probably fail again. Change a key with --set "
+        "KEY=VALUE, or end before the failure with --end T\n");
   }
   if (next.earlier.status == "done" &&
       !takes_changes_at_its_end<Dim>(folder, next, !checkpoint.warning.empty(), simulation)) {

@@ -22,7 +22,6 @@ int run_case(const RunOptions& options) {
   use_threads(options.threads);
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
   const fs::path folder = options.output.empty() ? usual_run_folder(parameters) : fs::path(options.output);
-  io::require_possible_names(folder);
   require_readable_inputs(parameters);
   require_no_input_in(folder, parameters);
   io::require_usable(folder, options.overwrite);

@@ -7,7 +7,6 @@
 #include "base/parallel.hpp"
 #include "base/state_numbers.hpp"
 #include "config/describe.hpp"
-#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
 #include "io/snapshot.hpp"
 #include "io/terrain_csv.hpp"

@@ -6,6 +6,7 @@
 #include "app/print.hpp"
 #include "app/progress.hpp"
 #include "base/parallel.hpp"
+#include "base/rounding.hpp"
 
 namespace thawslide::app {
 
@@ -13,9 +14,8 @@ namespace {
 
 // Final position of the front as text.
 std::string front_text(double front, double runout) {
-  return std::isfinite(front)
-             ? fmt::format("front at {:.0f} m, runout {:.0f} m", front, runout)
-             : "no front: maps.path is not given, and the slide has barely moved: there is no flow path";
+  return std::isfinite(front) ? fmt::format("front at {:.0f} m, runout {:.0f} m", front, runout)
+                              : "no front: maps.path is not set, and the slide has barely moved";
 }
 
 }  // namespace
@@ -28,14 +28,6 @@ void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutp
              at_end == at_start ? "" : fmt::format(", {} of them at the end", at_end), steps, duration_text(wall),
              output.particle_steps() / wall / 1e6, thread_count() == 1 ? "" : "at most ", thread_count(),
              thread_count() == 1 ? "" : "s");
-  std::vector<std::pair<double, std::string>> stages;
-  for (const auto& [name, seconds] : output.seconds_per_stage(simulation)) {
-    stages.emplace_back(seconds, name);
-  }
-  std::sort(stages.rbegin(), stages.rend());
-  for (const auto& [seconds, name] : stages) {
-    print_text("  {:<28}{:8.2f} s {:5.1f} %\n", name, seconds, 100.0 * seconds / wall);
-  }
   const sim::HistoryRow row = output.history_row(simulation);
   const auto value = [&](const std::string& name) {
     return std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; })->second;
@@ -45,7 +37,7 @@ void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutp
              front_text(value("front_position_m"), value("runout_m")));
   for (const auto& [name, number] : output.figures()) {
     if (std::isfinite(number)) {
-      print_text("  {:<28}{:12.6g}\n", name, number);
+      print_text("  {:<30}{:>12}\n", name, rounded_text(number, 4));
     }
   }
   if (simulation.removed().by_guards() > 0) {

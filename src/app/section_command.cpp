@@ -8,10 +8,11 @@
 
 #ifdef THAWSLIDE_WITH_GIS
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 #include "config/input_limits.hpp"
 #include "config/section_proposal.hpp"
-#include "io/atomic_file.hpp"
 #include "io/terrain_csv.hpp"
 #include "sim/section.hpp"
 
@@ -160,9 +161,10 @@ int make_section(const SectionOptions& options) {
   check_body(options, cut.profile, body, proposal);
   make_new_folder(folder);
   io::write_profile_csv(folder / profile_name, cut.profile, comments);
-  io::write_file_atomically(folder / "case.toml", config::section_text(title_of(folder), profile_name, proposal));
-  fmt::print("{}: a release of {:.4g} m3 per metre of width, {:.3g} m thick, on {} m cells: about {:.3g} particles\n",
-             (folder / "case.toml").string(), proposal.volume, proposal.thickness, proposal.cell, proposal.particles);
+  write_file_atomically(folder / "case.toml", config::section_text(title_of(folder), profile_name, proposal));
+  fmt::print("{}: a release of {} m3 per metre of width, {:.3g} m thick, on {} m cells: about {} particles\n",
+             (folder / "case.toml").string(), rounded_text(proposal.volume, 4), proposal.thickness, proposal.cell,
+             rounded_text(proposal.particles));
   print_next_commands(options.program, folder);
   return static_cast<int>(ExitCode::done);
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/progress.hpp"
+#include "base/rounding.hpp"
 
 namespace thawslide::app {
 
@@ -13,10 +14,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double megabyte = 1e6, gigabyte = 1e9;
+constexpr double kilobyte = 1e3, megabyte = 1e6, gigabyte = 1e9;
 
 std::string size_text(double bytes) {
-  return bytes < gigabyte ? fmt::format("{:.0f} MB", bytes / megabyte) : fmt::format("{:.3g} GB", bytes / gigabyte);
+  return bytes < megabyte   ? rounded_text(bytes / kilobyte) + " kB"
+         : bytes < gigabyte ? rounded_text(bytes / megabyte) + " MB"
+                            : rounded_text(bytes / gigabyte) + " GB";
 }
 
 std::string text_of(const sim::BodyFigures& body, const SetupFacts& facts) {
@@ -25,12 +28,13 @@ std::string text_of(const sim::BodyFigures& body, const SetupFacts& facts) {
                                     ? fmt::format(" per metre of the width at x = {:g} m", *facts.width_varies_from)
                                     : " per metre of width";
   return fmt::format(
-      "  body        {}: {:.4g} m3 and {:.4g} kg{}, {} {:.4g} {}; {:.3g} m thick on average, {:.3g} m in the median "
+      "  body        {}: {} m3 and {} kg{}, {} {} {}; {:.3g} m thick on average, {:.3g} m in the median "
       "and {:.3g} m at most (vertical)\n"
       "              {} particles {:.3g} m apart; {:.3g} across in the median and {:.3g} at most; {}\n",
-      body.name, body.volume, body.mass, is_plane ? per_metre : "", is_plane ? "along" : "over", body.area,
-      is_plane ? "m" : "m2", body.mean_thickness, body.median_thickness, body.largest_thickness, body.particles,
-      body.spacing, body.particles_across, body.most_particles_across,
+      body.name, rounded_text(body.volume, 4), rounded_text(body.mass, 4), is_plane ? per_metre : "",
+      is_plane ? "along" : "over", rounded_text(body.area, 4), is_plane ? "m" : "m2", body.mean_thickness,
+      body.median_thickness, body.largest_thickness, body.particles, body.spacing, body.particles_across,
+      body.most_particles_across,
       body.coldest == body.warmest ? fmt::format("{:.4g} C", body.coldest)
                                    : fmt::format("{:.4g} to {:.4g} C", body.coldest, body.warmest));
 }
@@ -40,8 +44,9 @@ std::string text_of(const SubstrateFacts& substrate, int dimension) {
     return fmt::format("              {}, {:.3g} % of the domain; {}\n", substrate.place, 100.0 * substrate.share,
                        substrate.strength);
   }
-  return fmt::format("  substrate   {}: {}, {:.4g} {} or {:.3g} % of the domain; {}\n", substrate.name, substrate.place,
-                     substrate.covered, dimension == 3 ? "m2" : "m", 100.0 * substrate.share, substrate.strength);
+  return fmt::format("  substrate   {}: {}, {} {} or {:.3g} % of the domain; {}\n", substrate.name, substrate.place,
+                     rounded_text(substrate.covered, 4), dimension == 3 ? "m2" : "m", 100.0 * substrate.share,
+                     substrate.strength);
 }
 
 std::string text_of(const config::Roughness& ground) {
@@ -56,19 +61,17 @@ std::string text_of(const config::Roughness& ground) {
                 ground.narrow_valley)
           : "";
   return fmt::format(
-      "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; bumps shorter than {:.2g} m have an "
+      "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; bumps shorter than {} m have an "
       "rms slope of {:.2g}\n              {}; remaining friction by noise and bumps about {:.2g} %\n{}",
-      ground.noise, ground.noise / ground.cell, ground.spacing, ground.bump_length, ground.bump_slope, filter,
-      100.0 * ground.apparent_friction, valleys);
+      ground.noise, ground.noise / ground.cell, ground.spacing, rounded_text(ground.bump_length, 2), ground.bump_slope,
+      filter, 100.0 * ground.apparent_friction, valleys);
 }
 
 // Text such as "3 checkpoints of 1.2 MB", and their growth, if any.
 std::string checkpoints_text(const DiskNeed& need) {
-  std::string text =
-      fmt::format("{:.0f} checkpoints of {:.1f} MB", need.checkpoints, need.checkpoint_at_start / megabyte);
+  std::string text = fmt::format("{:.0f} checkpoints of {}", need.checkpoints, size_text(need.checkpoint_at_start));
   return need.checkpoint > need.checkpoint_at_start
-             ? text +
-                   fmt::format(" at the start and some {:.1f} MB once the slide has spread", need.checkpoint / megabyte)
+             ? text + fmt::format(" at the start and about {} after spreading", size_text(need.checkpoint))
              : text;
 }
 
@@ -76,17 +79,15 @@ std::string text_of(const DiskNeed& need, double free) {
   std::string of_maps;
   if (need.maps > 0.0) {
     const std::string sizes = need.ground_maps == 0.0
-                                  ? fmt::format("of {:.1f} MB", need.map / megabyte)
-                                  : fmt::format("({:.0f} of {:.1f} MB, {:.0f} of {:.1f} MB)", need.maps,
-                                                need.map / megabyte, need.ground_maps, need.ground_map / megabyte);
+                                  ? fmt::format("of {}", size_text(need.map))
+                                  : fmt::format("({:.0f} of {}, {:.0f} of {})", need.maps, size_text(need.map),
+                                                need.ground_maps, size_text(need.ground_map));
     of_maps = fmt::format(", {:.0f} maps {} before they are compressed", need.maps + need.ground_maps, sizes);
   }
-  const double history = need.history / megabyte;
-  const std::string history_text = history < 1e6 ? fmt::format("{:.1f} MB", history) : size_text(need.history);
-  return fmt::format(
-      "  disk        about {}: {:.6g} snapshots of {:.1f} MB, {}, history {}, inputs {:.1f} MB{}; {} are free\n",
-      size_text(need.total()), need.snapshots, need.snapshot / megabyte, checkpoints_text(need), history_text,
-      need.inputs / megabyte, of_maps, std::isfinite(free) ? size_text(free) : "unknown amounts");
+  return fmt::format("  disk        about {}: {:.6g} snapshots of {}, {}, history {}, inputs {}{}; {} are free\n",
+                     size_text(need.total()), need.snapshots, size_text(need.snapshot), checkpoints_text(need),
+                     size_text(need.history), size_text(need.inputs), of_maps,
+                     std::isfinite(free) ? size_text(free) : "unknown amounts");
 }
 
 Json json_of(const sim::BodyFigures& body) {
@@ -196,14 +197,14 @@ std::string text_of(const SetupFacts& facts) {
                       facts.nodes_of_block, facts.blocks);
   text += fmt::format("  step        {:g} s{}; the limit is {:.4g} s, set by {}\n", facts.step,
                       facts.is_adaptive ? " at the start (adaptive)" : "", facts.limit.step, facts.limit.what);
-  text += fmt::format("  steps       {:.7g}\n", facts.steps);
+  text += fmt::format("  steps       {}\n",
+                      facts.is_adaptive ? "about " + rounded_text(facts.steps) : fmt::format("{:.7g}", facts.steps));
   text += fmt::format("  memory      about {}; {} {}\n", size_text(facts.memory.total()),
                       size_text(facts.available.bytes), facts.available.bound);
   for (const MapFacts& maps : facts.maps) {
-    text += fmt::format(
-        "  maps        {} x {} cells of {:g} x {:g} m ({}); memory {:.1f} MB for the release, at most {:.1f} MB\n",
-        maps.columns, maps.rows, maps.cell_x, maps.cell_y, maps.reason, maps.bytes_at_start / megabyte,
-        maps.bytes_at_most / megabyte);
+    text += fmt::format("  maps        {} x {} cells of {:g} x {:g} m ({}); memory {} for the release, at most {}\n",
+                        maps.columns, maps.rows, maps.cell_x, maps.cell_y, maps.reason, size_text(maps.bytes_at_start),
+                        size_text(maps.bytes_at_most));
   }
   text += text_of(facts.disk, facts.free_disk);
   if (facts.error.empty()) {

@@ -12,6 +12,7 @@
 #include "app/input_guard.hpp"
 #include "app/map_files.hpp"
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 #include "config/describe.hpp"
 #include "config/notices.hpp"
 #include "config/read_case.hpp"
@@ -54,7 +55,7 @@ void print_table(const std::vector<sim::HistoryRow>& rows) {
 // Valley factor above which the effect of the cross-slope ground on friction is reported.
 constexpr double least_valley_factor = 1.03;
 
-void note_valley(const std::vector<sim::HistoryRow>& rows) {
+void print_valley_factor(const std::vector<sim::HistoryRow>& rows) {
   const auto narrower = [](const sim::HistoryRow& a, const sim::HistoryRow& b) {
     return value_of(a, "valley_factor") < value_of(b, "valley_factor");
   };
@@ -72,14 +73,16 @@ void note_valley(const std::vector<sim::HistoryRow>& rows) {
 std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Warnings& warnings) {
   const sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters, warnings));
   std::vector<sim::HistoryRow> rows = sim::run_block(section.parameters, section.site, section.valley_factor);
-  fmt::print("a section along {}, with the release's mean thickness across the path; fronts are distances along it\n",
-             section.path_given ? "maps.path"
-                                : "the way of steepest descent from the release's centre, as maps.path is not given");
+  fmt::print(
+      "a section along {}, with the mean thickness of the release across the path; front positions are distances along "
+      "it\n",
+      section.path_given ? "maps.path"
+                         : "the line of steepest descent from the centre of the release, because maps.path is not set");
   constexpr double most_off = 45.0;
   if (section.off_steepest > most_off) {
     fmt::print(
-        "warning: maps.path is at {:.0f} degrees to the steepest descent at the middle of the release. The block "
-        "slides along it all the same, driven only by the slope along the path\n",
+        "warning: maps.path is at {:.0f} degrees to the steepest descent at the middle of the release. Only the slope "
+        "along the path drives the block\n",
         section.off_steepest);
   }
   const auto first_beyond = [&](double end) {
@@ -95,20 +98,21 @@ std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Wa
                                                   "maps.path to a longer line to follow the slide further",
                                                   value_of(*beyond, "time_s")));
     rows.erase(beyond == rows.end() ? beyond : beyond + 1, rows.end());
-    note_valley(rows);
+    print_valley_factor(rows);
     return rows;
   }
   const double end = section.site.profile.distance.back();
   const auto beyond = first_beyond(end);
   if (beyond != rows.end()) {
     fmt::print(
-        "warning: the path's ground is known for {:.6g} m; the front leaves it at {:.4g} s, and the rows end before. "
-        "Give {} to follow it further\n",
-        end, value_of(*beyond, "time_s"), section.path_given ? "a longer maps.path, or a larger DEM," : "a larger DEM");
+        "warning: maps.path: the front leaves the DEM after {} m, at {:.3g} s, and the table ends there. Use {} to "
+        "follow it further\n",
+        with_commas(end, 3), value_of(*beyond, "time_s"),
+        section.path_given ? "a longer maps.path, or a larger DEM," : "a larger DEM");
     // The first row is kept: the ground is known below the whole release.
     rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
   }
-  note_valley(rows);
+  print_valley_factor(rows);
   return rows;
 }
 

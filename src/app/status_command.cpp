@@ -10,7 +10,6 @@
 #include "base/error.hpp"
 #include "base/shell_quote.hpp"
 #include "config/read_case.hpp"
-#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
 #include "io/history_writer.hpp"
 #include "io/provenance.hpp"
@@ -161,8 +160,7 @@ std::string status_text(const RunStatus& status) {
     return "running, by " + status.process;
   }
   if (status.state == "killed") {
-    return "its process is gone without a word: it was killed, the machine went down, or its disk was too full to say "
-           "why";
+    return "terminated unexpectedly: the process was killed, the machine stopped, or the disk was full";
   }
   if (status.state == "unknown") {
     return fmt::format(

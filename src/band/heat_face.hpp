@@ -4,14 +4,15 @@
 #include "base/linear.hpp"
 #include "base/portability.hpp"
 #include "mpm/records.hpp"
+#include "physics/options.hpp"
 
 namespace thawslide::band {
 
-enum class FaceHeat { insulated, temperature, flux };
+using physics::HeatBoundaryKind;
 
 template <class Real>
 struct HeatFace {
-  FaceHeat kind = FaceHeat::insulated;
+  HeatBoundaryKind kind = HeatBoundaryKind::insulated;
   Real value = 0;  // [C], or [W/m2] into the body
 };
 
@@ -22,7 +23,7 @@ struct HeatFaces {
 
   [[nodiscard]] THAWSLIDE_HD bool any() const {
     for (const HeatFace<Real>& face : faces) {
-      if (face.kind != FaceHeat::insulated) {
+      if (face.kind != HeatBoundaryKind::insulated) {
         return true;
       }
     }
@@ -34,10 +35,10 @@ struct HeatFaces {
     for (int a = 0; a < Dim; ++a) {
       const HeatFace<Real>& lower = faces[2 * a];
       const HeatFace<Real>& upper = faces[2 * a + 1];
-      if (lower.kind != FaceHeat::insulated && position[a] <= round_off<Real> * extent[a]) {
+      if (lower.kind != HeatBoundaryKind::insulated && position[a] <= round_off<Real> * extent[a]) {
         return &lower;
       }
-      if (upper.kind != FaceHeat::insulated && position[a] >= extent[a] * (Real(1) - round_off<Real>)) {
+      if (upper.kind != HeatBoundaryKind::insulated && position[a] >= extent[a] * (Real(1) - round_off<Real>)) {
         return &upper;
       }
     }
@@ -49,7 +50,7 @@ struct HeatFaces {
 // NodalState.
 template <class Real, class Record>
 THAWSLIDE_HD void prescribe_temperature(const HeatFace<Real>* face, Record& state) {
-  if (face != nullptr && face->kind == FaceHeat::temperature) {
+  if (face != nullptr && face->kind == HeatBoundaryKind::temperature) {
     state[mpm::NodalState::temperature] = face->value;
   }
 }
@@ -61,13 +62,13 @@ template <class Real, class Record>
 THAWSLIDE_HD bool meets_face(const HeatFace<Real>* face, bool first_step, const Record& averages, Real capacity,
                              Real cell, Real dt, Real& rate, Real& power, Real& inflow) {
   using mpm::Averages;
-  if (face != nullptr && face->kind == FaceHeat::temperature) {
+  if (face != nullptr && face->kind == HeatBoundaryKind::temperature) {
     const Real mapped = averages[Averages::temperature] / averages[Averages::volume];
     rate = first_step ? (face->value - mapped) / dt : Real(0);
     inflow += dt * (capacity * rate - power);
     return true;
   }
-  if (face != nullptr && face->kind == FaceHeat::flux) {
+  if (face != nullptr && face->kind == HeatBoundaryKind::flux) {
     // A full row of cells gives its face node half a cell of volume: area = 2 V / cell.
     const Real through_face = face->value * Real(2) * averages[Averages::volume] / cell;
     inflow += dt * through_face;

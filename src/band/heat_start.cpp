@@ -29,7 +29,7 @@ Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
   const bool by_place = thickness > Real(0) && layer_thickness;
   const Real of_a_cell = thickness > Real(0) ? grid.cell() / thickness : Real(1);
   const auto scaling_at = [&](std::uint32_t p) {
-    if (model.region != ScaledRegion::all && particles.in_band(p) == 0) {
+    if (model.region != BandRegion::all && particles.in_band(p) == 0) {
       return Real(1);
     }
     return by_place ? layer_thickness(particles.position.template get<Vector<Real, Dim - 1>>(p)) / thickness

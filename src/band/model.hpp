@@ -14,26 +14,27 @@
 #include "mpm/particles.hpp"
 #include "mpm/section_width.hpp"
 #include "mpm/transfer.hpp"
+#include "physics/options.hpp"
 
 namespace thawslide::band {
 
-enum class ScaledRegion { all, first_layer };
+using physics::BandRegion;
 
 template <int Dim, class Real>
 struct BandModel : BandPhysics<Real> {
   AnyHeatContent<Real> heat_content;
   bool heat = true;
   HeatFaces<Dim, Real> at_faces;
-  ScaledRegion region = ScaledRegion::all;
+  BandRegion region = BandRegion::all;
   bool secant_capacity = true;  // off: the old apparent capacity, Eq. 19 as published
   bool current_masses = false;  // heat content uses masses from the current porosity and volume, as published
   bool lubrication = true;      // off: Eq. 25 uses the initial porosity and saturation (Sec. 3.3)
 
   bool pressure = true;
   bool normal_thickness = true;
-  std::vector<Real> hydraulic_conductivity;      // by material [m/s]
-  mpm::BodySizes<Real> sizes;                    // of particles, in cells
-  mpm::ShapeKind shape = mpm::ShapeKind::ugimp;  // of momentum
+  std::vector<Real> hydraulic_conductivity;              // by material [m/s]
+  mpm::BodySizes<Real> sizes;                            // of particles, in cells
+  mpm::ShapeFunction shape = mpm::ShapeFunction::ugimp;  // of momentum
   mpm::HeldSides<Dim> sides;
   mpm::SectionWidth<Real> width;  // of a 2D section
 

@@ -8,16 +8,12 @@
 
 #include "base/portability.hpp"
 #include "physics/mixture.hpp"
+#include "physics/options.hpp"
 #include "physics/pore_water.hpp"
 
 namespace thawslide::band {
 
-// Boundary condition of frozen material for seepage.
-enum class FrozenRows {
-  draining,  // its pores take part, at the pressure of its ice
-  sealed,    // impermeable
-  vented     // its pores take part, at atmospheric pressure
-};
+using physics::FrozenRows;
 
 template <class Real>
 struct BandPhysics {

@@ -6,6 +6,7 @@
 
 #include "band/basal_segment.hpp"
 #include "physics/band_column_step.hpp"
+#include "physics/options.hpp"
 
 namespace thawslide::band {
 
@@ -13,12 +14,7 @@ template <class Real>
 using AnyColumnModel = std::variant<physics::ColumnModel<Real, physics::PowerLawCurve<Real>>,
                                     physics::ColumnModel<Real, physics::LinearCurve<Real>>>;
 
-// Growth of the band thickness e beyond the prescribed value.
-enum class BandGrowth {
-  none,
-  inertial,  // e = v d sqrt(rho_S/(N - P))/I, with N - P at least 0.02 N
-  slip       // in proportion to the slip
-};
+using physics::BandGrowth;
 
 template <class Real>
 struct ColumnsModel {

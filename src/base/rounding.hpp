@@ -39,4 +39,13 @@ inline std::string with_commas(double number, int digits) {
   return text;
 }
 
+// Formats a number for people with commas between thousands and without an exponent up to 1e10: "0.35", "-1.5",
+// "13,000". Two significant digits are those of an estimate.
+inline std::string rounded_text(double number, int digits = 2) {
+  constexpr double most = 1e10;
+  const double size = std::abs(number);
+  return size >= std::pow(10.0, digits - 1) && size < most ? (number < 0.0 ? "-" : "") + with_commas(size, digits)
+                                                           : fmt::format("{:.{}g}", number, digits);
+}
+
 }  // namespace thawslide

@@ -21,6 +21,14 @@ double Table::at(double x) const {
   return value[k - 1] + t * (value[k] - value[k - 1]);
 }
 
+double BandThickness::smallest() const {
+  return is_given() ? *std::min_element(table.value.begin(), table.value.end()) : 0.0;
+}
+
+double BandThickness::largest() const {
+  return is_given() ? *std::max_element(table.value.begin(), table.value.end()) : 0.0;
+}
+
 double InitialField::at(double depth, double x) const {
   switch (over) {
     case Over::depth:

@@ -31,6 +31,16 @@ struct WidthOverX {
   [[nodiscard]] double factor() const { return reference() > 0.0 ? reference() : 1.0; }
 };
 
+// Thickness of the band over time [s]; 0 m without a band.
+struct BandThickness {
+  Table table;  // empty: not given
+
+  [[nodiscard]] bool is_given() const { return !table.value.empty(); }
+  [[nodiscard]] double at(double time) const { return is_given() ? table.at(time) : 0.0; }
+  [[nodiscard]] double smallest() const;
+  [[nodiscard]] double largest() const;
+};
+
 // Initial field: a value, a table over depth below the body's surface [m] or over x [m], or a map (attribute of
 // polygons, or raster) without a table.
 struct InitialField {

@@ -14,13 +14,24 @@
 #include "base/table.hpp"
 #include "config/case_output.hpp"
 #include "physics/basal/parameter.hpp"
+#include "physics/options.hpp"
 
 namespace thawslide::config {
 
 using Point = std::array<double, 3>;  // x, y in 2D (third 0); x, y, z in 3D
 
+using physics::BandGrowth;
+using physics::BandRegion;
+using physics::BedLaw;
+using physics::BoundaryKind;
+using physics::EndOfWater;
+using physics::FrictionClamp;
+using physics::FrozenRows;
+using physics::HeatBoundaryKind;
+using physics::ShapeFunction;
+using physics::WaterExpansionLaw;
+
 enum class Stepping { fixed, adaptive };
-enum class BoundaryKind { open, roller, fixed };
 enum class TerrainKind { none, flat, plane, profile, dem };
 enum class TerrainForm { signed_distance, rigid_points };
 enum class LawKind { elastic, mohr_coulomb };
@@ -29,19 +40,12 @@ enum class BodyShape { box, polygon, surface, release };
 enum class ThicknessAlong { vertical, normal };
 enum class Placement { on_top, cut };
 enum class Policy { stop, remove };
-enum class ShapeFunction { ugimp, linear, quadratic };
 enum class Transfer { flip, blend, apic, fmpm };
 enum class InitialStress { geostatic, none, settle };
-enum class FrictionClamp { keep_cohesion, joint };
-enum class BandRegion { all, first_layer };
 enum class CutCells { as_they_are, equal_thickness };
 enum class BandKind { scaled, columns };
-enum class BandGrowth { none, inertial, slip };
-enum class EndOfWater { sealed, vented };
 enum class ThicknessChange { as_published, conserving };
 enum class AdvectionForm { as_published, conservative };
-enum class WaterExpansionLaw { constant, by_temperature };
-enum class FrozenRows { draining, sealed, vented };
 enum class FrozenPressure { ice_pressure, none };
 enum class HeatUpdate { enthalpy, apparent_capacity };
 enum class HeatMasses { initial, current };
@@ -49,9 +53,7 @@ enum class ClapeyronSign { usual, printed };
 enum class SeepageScaling { consistent, printed };
 enum class ThicknessDirection { normal, vertical };
 enum class ThicknessUpdate { each_step, frozen };
-enum class BedLaw { none, strength, momentum };
 enum class BodyContact { bonded, frictional };
-enum class HeatBoundaryKind { insulated, temperature, flux };
 
 struct General {
   std::string based_on;  // case file in the same folder; empty: none
@@ -266,7 +268,7 @@ struct Mechanisms {  // Sec. 3.3
 
 struct Band {
   BandKind model = BandKind::scaled;  // default of a case file: parameters_model.cpp
-  Table thickness;                    // m over time; empty: no band, xi = 1
+  BandThickness thickness;            // m over time; not given: no band, xi = 1
   BandRegion region = BandRegion::all;
   CutCells cut_cells = CutCells::as_they_are;
   ThicknessChange thickness_change = ThicknessChange::conserving;

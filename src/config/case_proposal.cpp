@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/rounding.hpp"
 #include "config/fitting_cell.hpp"
 #include "config/resolution.hpp"
 #include "config/rule.hpp"
@@ -171,9 +172,10 @@ std::string edge_warning(const Proposal& proposal) {
     return "";
   }
   return fmt::format(
-      "--dem: the release is close to the edge of the known terrain (found {:.3g} m; needed its own length, {:.3g} m, "
-      "or more). Particles that pass the edge are removed, and the results lack them. Use a larger DEM",
-      proposal.edge_distance, proposal.length);
+      "--dem: the release is close to the edge of the known terrain (found {} m; needed at least its own length, {} "
+      "m). "
+      "Particles that pass the edge are removed, and the results lack them. Use a larger DEM",
+      rounded_text(proposal.edge_distance, 2), rounded_text(proposal.length, 2));
 }
 
 BodyOnCells release_on_cells(const Proposal& proposal) {
@@ -277,8 +279,8 @@ title = {title}
 dimension = 3  # x is east, y is north, z is up
 
 {time}
-# The domain: a box about the release and all ground below a line that falls {angle} degrees from its top. Its size costs
-# nothing, as only cells near the slide take memory and time.
+# The domain: a box around the release and all terrain below a line that descends at {angle} degrees from its top. Empty
+# cells cost nothing.
 [grid]
 cell = {cell}  # m; {across}
 {maps}min = {min}
@@ -297,9 +299,9 @@ thickness_along = "vertical"  # "normal": across the slope
 placement = "{placement}"  # {placement_text}
 {taper}{confirmed}{state}
 {physics}
-# Maps are gathered every step.
+# Maps are updated in every time step.
 [maps]
-arrival_thickness = 0.1  # m: where it is less, the slide has not arrived
+arrival_thickness = 0.1  # m: thickness from which the avalanche counts as arrived
 )",
       fmt::arg("title", quoted(input.title)), fmt::arg("time", time_text(proposal)),
       fmt::arg("angle", input.reach_angle), fmt::arg("cell", number_text(proposal.cell)),
@@ -314,7 +316,7 @@ arrival_thickness = 0.1  # m: where it is less, the slide has not arrived
                input.release_file.empty() ? std::string() : fmt::format("release = {}\n", quoted(input.release_file))),
       fmt::arg("given", thickness_text(input.thickness)), fmt::arg("placement", is_cut ? "cut" : "on_top"),
       fmt::arg("placement_text", is_cut ? "out of the DEM, which is the surface before the slide; \"on_top\": onto it"
-                                        : "the DEM is what it slides on; \"cut\": out of the DEM"));
+                                        : "the DEM is the sliding surface; \"cut\": out of the DEM"));
   return text;
 }
 
@@ -338,7 +340,7 @@ std::string cell_comment(const Proposal& proposal) {
 std::string body_state_text(const Proposal& proposal) {
   return fmt::format(R"(particles_per_axis = {}
 temperature = -5.0  # C, of rock and ice at the start
-porosity = 0.375  # share of ice in the volume: all pores are full of it
+porosity = 0.375  # volume fraction of ice: all pores are full of it
 )",
                      proposal.particles_per_axis);
 }
@@ -351,15 +353,15 @@ youngs_modulus = 1.0e8
 poisson_ratio = 0.2
 friction_angle = 35.0
 cohesion = 1.0e3
-gaps_close_first = true  # what is torn apart bears nothing until it touches again
+gaps_close_first = true  # separated material carries no load until its gap closes
 viscosity_time = 0.02
 hydraulic_conductivity = 1.0e-6  # m/s; the smaller, the longer meltwater stays under pressure
 
 # The base. Sliding heats a shear band, its ice melts, friction falls, and the meltwater carries part of the weight.
 [basal]
 friction = "lubricated"  # "constant": plain Coulomb friction
-friction_angle = 25.0  # degrees, before anything has melted: what the result hangs on most
-heat_fraction = 0.9  # share of the friction work that heats the band
+friction_angle = 25.0  # degrees, before anything has melted: the most influential parameter
+heat_fraction = 0.9  # fraction of the friction work that heats the band
 
 [band]
 model = "columns"

@@ -18,12 +18,12 @@ bool has_bends(const Case& parameters) {
   return parameters.terrain.kind == TerrainKind::profile || parameters.terrain.kind == TerrainKind::dem;
 }
 
-bool is_given(const Case& parameters, const ChangedDefault& moved) {
-  if (moved.table != "material.NAME") {
-    return parameters.places.count(moved.table + "." + moved.key) > 0;
+bool is_given(const Case& parameters, const ChangedDefault& changed) {
+  if (changed.table != "material.NAME") {
+    return parameters.places.count(changed.table + "." + changed.key) > 0;
   }
   return std::any_of(parameters.materials.begin(), parameters.materials.end(), [&](const auto& each) {
-    return parameters.places.count("material." + each.first + "." + moved.key) > 0;
+    return parameters.places.count("material." + each.first + "." + changed.key) > 0;
   });
 }
 
@@ -45,22 +45,23 @@ const std::vector<ChangedDefault>& changed_defaults() {
   return all;
 }
 
-std::string notice_of_moved_defaults(const Case& parameters) {
+std::string changed_defaults_warning(const Case& parameters) {
   std::string changed;
-  for (const ChangedDefault& moved : changed_defaults()) {
-    if (is_given(parameters, moved)) {
+  for (const ChangedDefault& each : changed_defaults()) {
+    if (is_given(parameters, each)) {
       return "";
     }
-    if (moved.matters(parameters)) {
-      changed += fmt::format("\n  {}.{} = {}  # was {}", moved.table, moved.key, moved.now, moved.before);
+    if (each.matters(parameters)) {
+      changed += fmt::format("\n  {}.{} = {}  # was {}", each.table, each.key, each.now, each.before);
     }
   }
   if (changed.empty()) {
     return "";
   }
   return fmt::format(
-      "{}: the file gives none of these keys, whose defaults are no longer the paper's forms:{}\n  With the values of "
-      "before it gives what it gave. Give one of them, and this note goes; docs/choosing-the-base.md says why.",
+      "{}: defaults of these keys have changed, and the file sets none of them:{}\n  The comments show the earlier "
+      "values; setting them restores the earlier results. Set one of the keys to silence this warning "
+      "(docs/choosing-the-base.md).",
       parameters.file, changed);
 }
 

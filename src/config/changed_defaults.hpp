@@ -20,6 +20,6 @@ struct ChangedDefault {
 const std::vector<ChangedDefault>& changed_defaults();
 
 // Notice of the changes that affect this case; empty if its file gives any of the keys, or none has an effect.
-std::string notice_of_moved_defaults(const Case& parameters);
+std::string changed_defaults_warning(const Case& parameters);
 
 }  // namespace thawslide::config

@@ -225,8 +225,7 @@ void check_band_columns(const Case& checked, Reading& reading) {
     }
   };
   require(checked.terrain.kind != TerrainKind::none, "terrain.type", "\"none\"", "any terrain");
-  require(!checked.band.thickness.value.empty(), "band.thickness", "not given",
-          "a thickness in m, constant or over time");
+  require(checked.band.thickness.is_given(), "band.thickness", "not given", "a thickness in m, constant or over time");
   require(checked.mechanics.enabled, "mechanics.enabled", "false", "true");
   require(!checked.mechanics.effective_stress, "mechanics.effective_stress", "true", "false");
   require(checked.heat.enabled, "heat.enabled", "false", "true");

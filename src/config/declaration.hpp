@@ -43,8 +43,8 @@ template <class T>
 std::vector<double> numbers_in(const T& value) {
   if constexpr (std::is_same_v<T, double>) {
     return {value};
-  } else if constexpr (std::is_same_v<T, Table>) {
-    return value.value;
+  } else if constexpr (std::is_same_v<T, BandThickness>) {
+    return value.table.value;
   } else {
     return {};
   }

@@ -11,7 +11,7 @@ namespace thawslide::config {
 
 std::vector<std::string> notices(const Case& parameters) {
   std::vector<std::string> notices;
-  if (const std::string moved = notice_of_moved_defaults(parameters); !moved.empty()) {
+  if (const std::string moved = changed_defaults_warning(parameters); !moved.empty()) {
     notices.push_back(moved);
   }
   std::vector<Unusual> unusual;

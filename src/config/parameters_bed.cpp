@@ -25,14 +25,14 @@ std::vector<Parameter<Bed>> law_parameters() {
       parameter(&Bed::strength, {.key = "strength",
                                  .unit = "Pa",
                                  .range = at_least(0),
-                                 .text = "what the bed withstands of shear without a load on it, c_b",
+                                 .text = "shear strength of the bed without load, c_b",
                                  .source = "Iverson 2012"})
           .required_if(when_erodible, is_erodible)
           .only_if(when_erodible, "law", is_erodible),
       parameter(&Bed::friction_angle, {.key = "friction_angle",
                                        .unit = "degrees",
                                        .range = {.low = 0, .high = 90, .high_open = true},
-                                       .text = "friction angle of the bed, with which it withstands more under load"})
+                                       .text = "friction angle of the bed, which adds strength under load"})
           .only_if(when_erodible, "law", is_erodible),
       parameter(&Bed::depth_per_slip, {.key = "depth_per_slip",
                                        .range = above(0),

@@ -58,7 +58,7 @@ std::vector<Parameter<Body>> release_parameters() {
            .unit = "m",
            .range = above(0),
            .text = "thickness of the body: a number, an attribute of the polygons, a raster of it, or a raster of "
-                   "the surface before the slide, from which the DEM is taken off"})
+                   "the surface before the slide, from which the DEM is subtracted"})
           .required_if(when_release, is_release)
           .only_if(when_release, "shape", is_release),
       parameter(&Body::thickness_along, {.key = "thickness_along", .text = "direction in which thickness is measured"})

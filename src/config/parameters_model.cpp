@@ -36,7 +36,7 @@ std::vector<Parameter<Mechanics>> mechanics_parameters() {
           .required_if("when mechanics.transfer is \"fmpm\"",
                        [](const Case&, const Mechanics& mechanics) { return mechanics.transfer == Transfer::fmpm; }),
       parameter(&Mechanics::initial_stress,
-                {.key = "initial_stress", .text = "stress at t = 0, of which the paper says nothing"}),
+                {.key = "initial_stress", .text = "stress at t = 0, not given in the paper"}),
       parameter(&Mechanics::k0, {.key = "k0",
                                  .range = at_least(0),
                                  .text = "K0 of the geostatic stress: stress along the ground over stress across it"})
@@ -100,7 +100,7 @@ std::vector<Parameter<Band>> band_parameters() {
               "\"columns\" where there is a terrain, band.thickness is given, and mechanics and heat are enabled; "
               "\"scaled\" elsewhere",
               [](const Case& read, Band& band) {
-                const bool have_a_base = read.terrain.kind != TerrainKind::none && !band.thickness.value.empty() &&
+                const bool have_a_base = read.terrain.kind != TerrainKind::none && band.thickness.is_given() &&
                                          read.mechanics.enabled && read.heat.enabled;
                 band.model = have_a_base ? BandKind::columns : BandKind::scaled;
               }),
@@ -235,7 +235,7 @@ std::vector<Parameter<Pressure>> pressure_parameters() {
                 {.key = "skeleton_compressibility",
                  .unit = "1/Pa",
                  .range = at_least(0),
-                 .text = "volume by which the skeleton gives way per volume and effective stress, m_v: pores store "
+                 .text = "volume by which the skeleton compresses per volume and effective stress, m_v: pores store "
                          "n/K_L + m_v per pressure, and P follows the load above; 0: rigid pore"})
           .usually({1e-9, 1e-7}, [](const Case& whole, const Pressure&) { return has_band_columns(whole); }),
       parameter(

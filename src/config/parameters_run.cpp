@@ -92,33 +92,28 @@ std::vector<Parameter<Guards>> guard_parameters() {
                                       .text = "what becomes of particles whose position, volume, stress, "
                                               "temperature or pore pressure is not a finite number"}),
       parameter(&Guards::volume, {.key = "volume",
-                                  .text = "what becomes of particles whose volume turns over, or whose volume over "
+                                  .text = "what becomes of particles that invert (det F <= 0), or whose volume over "
                                           "that of t = 0 leaves guards.smallest_volume to guards.largest_volume"}),
       parameter(&Guards::smallest_volume,
                 {.key = "smallest_volume",
                  .range = {.low = 0, .high = 1, .high_open = true},
-                 .text = "smallest volume of a particle over that of t = 0, looked at every 10 steps"}),
+                 .text = "smallest volume of a particle over that of t = 0, checked every 10 steps"}),
       parameter(&Guards::largest_volume,
                 {.key = "largest_volume",
                  .range = {.low = 1, .low_open = true, .infinity_allowed = true},
-                 .text = "largest volume of a particle over that of t = 0, looked at every 10 steps; inf: any"}),
-      parameter(&Guards::removed_mass,
-                {.key = "removed_mass",
-                 .range = between(0, 1),
-                 .text = "share of all mass that guards may remove before the run ends after all"}),
-      parameter(
-          &Guards::energy_growth,
-          {.key = "energy_growth",
-           .range = {.low = 0, .low_open = true, .infinity_allowed = true},
-           .text = "growth of energy without a cause within some 500 steps, as a share of the energy so far (at "
-                   "least of a fall by a cell), that ends the run, looked at every 10 steps; inf: any. The step makes "
-                   "such energy, not a particle: there is none to "
-                   "remove"}),
+                 .text = "largest volume of a particle over that of t = 0, checked every 10 steps; inf: any"}),
+      parameter(&Guards::removed_mass, {.key = "removed_mass",
+                                        .range = between(0, 1),
+                                        .text = "fraction of all mass that guards may remove before the run ends"}),
+      parameter(&Guards::energy_growth,
+                {.key = "energy_growth",
+                 .range = {.low = 0, .low_open = true, .infinity_allowed = true},
+                 .text = "growth of energy without a physical cause within some 500 steps, as a fraction of the energy "
+                         "so far (at least of a fall by a cell), that ends the run, checked every 10 steps; inf: any"}),
       parameter(&Guards::smallest_step,
                 {.key = "smallest_step",
                  .range = {.low = 0, .high = 1, .high_open = true},
-                 .text = "smallest adaptive step over the first one, below which the run ends; 0: any. All particles "
-                         "share the step, and which of them to do without is not the program's to choose"}),
+                 .text = "smallest adaptive step over the first one, below which the run ends; 0: any"}),
       parameter(&Guards::most_steps,
                 {.key = "most_steps",
                  .range = {.low = 1, .infinity_allowed = true},
@@ -176,7 +171,7 @@ std::vector<Parameter<Terrain>> terrain_parameters() {
                 {.key = "extend", .text = "continue the last gradient of the profile where the domain is longer"})
           .only_if(when_no_dem, "type", is_no_dem),
       parameter(&Terrain::form, {.key = "representation",
-                                 .text = "how the nodes of the grid learn of the ground",
+                                 .text = "representation of the terrain at the grid nodes",
                                  .formerly = "description"}),
       parameter(&Terrain::layers, {.key = "layers",
                                    .range = between(1, 1000),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/rounding.hpp"
 #include "physics/basal/laws.hpp"
 
 namespace thawslide::config {
@@ -95,18 +96,16 @@ void warn_about_width(const Case& parameters, Warnings& warnings) {
 void warn_about_materials(const Case& parameters, Warnings& warnings) {
   const bool deforms = parameters.mechanics.enabled && parameters.mechanisms.deformation;
   const bool is_pressed = has_pore_water(parameters) && parameters.mechanisms.pressurization &&
-                          parameters.pressure.seepage && !parameters.band.thickness.value.empty();
+                          parameters.pressure.seepage && parameters.band.thickness.is_given();
   for (const auto& [name, material] : parameters.materials) {
     const std::string table = "material." + name + ".";
     if (deforms && material.youngs_modulus < softest_modulus) {
-      warnings.add(
-          table + "youngs_modulus", material.youngs_modulus, " Pa",
-          "so soft that a slide is squeezed flat by its own weight, or bursts. Broken rock and ice have 1e7 Pa "
-          "and more.");
+      warnings.add(table + "youngs_modulus", material.youngs_modulus, " Pa",
+                   "too soft: the slide collapses under its own weight. Broken rock and ice have 1e7 Pa and more.");
     }
     if (deforms && material.youngs_modulus > stiffest) {
       warnings.add(table + "youngs_modulus", material.youngs_modulus, " Pa",
-                   "stiffer than any rock, and steps are the shorter for it. Usual for slides are 1e8 to 1e10 Pa.");
+                   "stiffer than any rock, which shortens the time step. Usual for slides are 1e8 to 1e10 Pa.");
     }
     if (deforms && material.law == LawKind::mohr_coulomb && material.friction_angle > 0.0 &&
         material.friction_angle < smallest_angle) {
@@ -116,8 +115,8 @@ void warn_about_materials(const Case& parameters, Warnings& warnings) {
     const std::string conductivity = table + "hydraulic_conductivity";
     if (is_pressed && material.hydraulic_conductivity == 0.0 && !was_given(parameters, conductivity)) {
       warnings.add(conductivity, material.hydraulic_conductivity, " m/s, its default",
-                   "pore water never drains, and what is under pressure may never stop. Of the base of a slide 1e-8 to "
-                   "1e-5 m/s is said. Give it, and if 0 is meant 0, and this note goes.");
+                   "pore water cannot drain, and the avalanche may never stop. Typical values at the base are 1e-8 to "
+                   "1e-5 m/s. Set a value, or set 0 explicitly to silence this warning.");
     }
   }
 }
@@ -126,11 +125,11 @@ void warn_about_band(const Case& parameters, Warnings& warnings) {
   const bool rubs = parameters.mechanics.enabled && parameters.terrain.kind != TerrainKind::none;
   const bool is_felt = parameters.heat.enabled && parameters.basal.heat_fraction > 0.0 &&
                        (parameters.mechanisms.lubrication || parameters.mechanisms.pressurization);
-  if (rubs && is_felt && parameters.band.thickness.value.empty()) {
+  if (rubs && is_felt && !parameters.band.thickness.is_given()) {
     warnings.add_absent("band.thickness",
                         fmt::format("friction then heats the lowest cells as a whole, {:g} m thick, which barely warm "
-                                    "or melt. Give the thickness of what shears at the base: usual is 0.01 to 2 m. If "
-                                    "nothing is to melt, set heat.enabled = false.",
+                                    "or melt. Set the thickness of the shear band: usual is 0.01 to 2 m. Without "
+                                    "melting, set heat.enabled = false.",
                                     parameters.grid.cell));
   }
 }
@@ -197,9 +196,9 @@ void warn_about_step(const Case& parameters, Warnings& warnings) {
   const double steps = time.end / time.step;
   if (time.stepping == Stepping::fixed && steps > most_steps) {
     warnings.add("time.step", time.step, " s",
-                 fmt::format("that is {:.4g} steps, from days to years of computing. `thawslide check` estimates the "
+                 fmt::format("that is {} steps, from days to years of computing. `thawslide check` estimates the "
                              "time and prints the limit of the step.",
-                             steps));
+                             rounded_text(steps)));
   }
 }
 

@@ -18,11 +18,6 @@ bool are_enough(double found, double needed) { return found >= needed * (1.0 - 1
 // Rounded down: a number that is too small must not appear to be enough.
 std::string format_found(double found) { return fmt::format("{:.2g}", rounded_down(found, 2)); }
 
-// Two significant digits, with commas between thousands.
-std::string format_factor(double factor) {
-  return factor < 10.0 ? fmt::format("{:.2g}", factor) : with_commas(factor, 2);
-}
-
 }  // namespace
 
 bool asks_for_maps(const Case& parameters) {
@@ -40,7 +35,7 @@ std::string resolution_warning(const BodyOnCells& body, const std::string& key, 
     return "";
   }
   const auto cell_for = [&](double needed) { return fitting_cell(body.thickness / needed, body.cell, lengths); };
-  const auto times = [&](double finer) { return format_factor(run_time_factor(body.cell, finer, body.dimension)); };
+  const auto times = [&](double finer) { return rounded_text(run_time_factor(body.cell, finer, body.dimension)); };
   const double moving = cell_for(proposed_particles / body.particles_per_axis), mapped = cell_for(cells_for_maps);
   std::string problem, remedy;
   if (lacks_particles) {
@@ -68,7 +63,7 @@ std::string maps_comment(const BodyOnCells& body) {
       "# Travel distance and speed need 2 to 4 cells across the thickness of the release. Maps of thickness and area "
       "need\n"
       "# {:g}: cells of {:.9g} m (`thawslide new --resolution standard`), at about {} times the run time.\n",
-      cells_for_maps, finer, format_factor(run_time_factor(body.cell, finer, body.dimension)));
+      cells_for_maps, finer, rounded_text(run_time_factor(body.cell, finer, body.dimension)));
 }
 
 Resolution resolution_named(const std::string& name) {

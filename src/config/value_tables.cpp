@@ -155,17 +155,17 @@ std::string range_and_unit(const Rule& rule) {
 
 }  // namespace
 
-// table over time
-std::string Value<Table>::type(const Rule& rule) {
+// thickness of the band
+std::string Value<BandThickness>::type(const Rule& rule) {
   return fmt::format("a number or {{ time = [...], value = [...] }}{}", range_and_unit(rule));
 }
-bool Value<Table>::read(const toml::node& node, const ValueReader& at, Table& value) {
-  return read_number_or_table(node, "time", at, value);
+bool Value<BandThickness>::read(const toml::node& node, const ValueReader& at, BandThickness& value) {
+  return read_number_or_table(node, "time", at, value.table);
 }
-std::string Value<Table>::write(const Table& value, const Rule&, const WriteContext&) {
-  return write_table(value, "time");
+std::string Value<BandThickness>::write(const BandThickness& value, const Rule&, const WriteContext&) {
+  return write_table(value.table, "time");
 }
-json Value<Table>::schema(const Rule& rule) { return table_schema({"time"}, rule); }
+json Value<BandThickness>::schema(const Rule& rule) { return table_schema({"time"}, rule); }
 
 // width of a section
 std::string Value<WidthOverX>::type(const Rule& rule) {

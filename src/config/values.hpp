@@ -54,8 +54,8 @@ THAWSLIDE_DECLARE_VALUE(Point)     // one number per dimension of the case, or x
 THAWSLIDE_DECLARE_VALUE(Vertices)  // [[x, y], ...]
 THAWSLIDE_DECLARE_VALUE(Numbers)   // ascending
 THAWSLIDE_DECLARE_VALUE(NumberOrAuto)
-THAWSLIDE_DECLARE_VALUE(Table)       // number | { time = [...], value = [...] }
-THAWSLIDE_DECLARE_VALUE(WidthOverX)  // number | { x = [...], value = [...] }
+THAWSLIDE_DECLARE_VALUE(BandThickness)  // number | { time = [...], value = [...] }
+THAWSLIDE_DECLARE_VALUE(WidthOverX)     // number | { x = [...], value = [...] }
 // number | { depth = [...], value = [...] } | { x = [...], value = [...] } | { attribute = "..." } | { raster = "..." }
 THAWSLIDE_DECLARE_VALUE(InitialField)
 THAWSLIDE_DECLARE_VALUE(MapValue)      // number | { attribute = "..." } | { raster = "..." } | { surface = "..." }

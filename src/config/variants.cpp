@@ -62,12 +62,12 @@ std::string likely_slip(std::string_view description) {
   const std::size_t at = description.find(end);
   const char seen = at == std::string_view::npos ? '\0' : description[at + end.size()];
   if (seen == ',') {
-    return "A number has a decimal point, no comma. ";
+    return "Write a decimal point, not a comma. ";
   }
   if (std::isalpha(static_cast<unsigned char>(seen)) != 0) {
-    return "A number stands without its unit; a text stands in quotes. ";
+    return "Write numbers without units, and text in quotes. ";
   }
-  return description.find("cannot redefine") == std::string_view::npos ? "" : "A key stands once in a table. ";
+  return description.find("cannot redefine") == std::string_view::npos ? "" : "A table contains a key only once. ";
 }
 
 toml::table parse(const std::string& text, const std::string& file) {
@@ -110,11 +110,11 @@ std::optional<fs::path> base_of(const toml::table& root, const fs::path& file, c
     throw UserError(place + ", a link that leads out of the folder; allowed: a case file in it. Copy it there.");
   }
   if (chain.size() >= most_case_files) {
-    throw UserError(fmt::format("{}, and {} files stand on one another already; allowed: {}. Join some of them.", place,
+    throw UserError(fmt::format("{}: a chain of {} files precedes it; allowed: {}. Combine some of them.", place,
                                 chain.size(), most_case_files));
   }
   if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
-    throw UserError(place + ", which leads back to itself. Let one of the files stand alone.");
+    throw UserError(place + ": the chain of files forms a cycle. Remove based_on from one of the files.");
   }
   return base;
 }

@@ -61,8 +61,8 @@ struct FacesAtNode {
 
   [[nodiscard]] THAWSLIDE_HD bool any() const {
     for (int a = 0; a < Dim; ++a) {
-      if ((faces.at_lower(position[a], a) && faces.faces[2 * a] != mpm::FaceKind::open) ||
-          (faces.at_upper(position[a], a) && faces.faces[2 * a + 1] != mpm::FaceKind::open)) {
+      if ((faces.at_lower(position[a], a) && faces.faces[2 * a] != mpm::BoundaryKind::open) ||
+          (faces.at_upper(position[a], a) && faces.faces[2 * a + 1] != mpm::BoundaryKind::open)) {
         return true;
       }
     }

@@ -32,15 +32,15 @@ namespace thawslide::device {
 
 template <int Dim, class Real>
 struct StepModel {
-  Real cell = 0;                                 // mesh size [m]
-  std::vector<Real> half_sizes;                  // of particles, by body, in cells
-  mpm::ShapeKind shape = mpm::ShapeKind::ugimp;  // of momentum
-  bool affine = false;                           // APIC
-  bool moves = true;                             // off: heat and pore pressure only
-  mpm::HeldSides<Dim> sides;                     // with prescribed velocity
-  Vector<Real, Dim> gravity;                     // [m/s2]
-  Real pic_share = 0;                            // fraction of PIC in new velocities
-  int filter_order = 0;                          // of the velocity filter; 0: none
+  Real cell = 0;                                         // mesh size [m]
+  std::vector<Real> half_sizes;                          // of particles, by body, in cells
+  mpm::ShapeFunction shape = mpm::ShapeFunction::ugimp;  // of momentum
+  bool affine = false;                                   // APIC
+  bool moves = true;                                     // off: heat and pore pressure only
+  mpm::HeldSides<Dim> sides;                             // with prescribed velocity
+  Vector<Real, Dim> gravity;                             // [m/s2]
+  Real pic_share = 0;                                    // fraction of PIC in new velocities
+  int filter_order = 0;                                  // of the velocity filter; 0: none
   std::function<bool(Real time, Real dt)> filters_in_step;
   Real mass_damping = 0;  // [1/s]
   std::vector<mpm::MaterialModel<Real>> materials;

@@ -192,7 +192,7 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& warnings)
   warnings.insert(warnings.end(), of_reading.begin(), of_reading.end());
   const std::string name = std::filesystem::path(file.file()).filename().string();
   if (terrain.resample > 0.0) {
-    warnings.push_back(fmt::format("{} was taken from points {:g} m x {:g} m apart to points {:g} m apart", name,
+    warnings.push_back(fmt::format("{} was resampled from points {:g} m x {:g} m apart to points {:g} m apart", name,
                                    file.layout().cell_x, file.layout().cell_y, terrain.resample));
   }
   if (width > 0.0) {

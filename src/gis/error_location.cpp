@@ -1,5 +1,7 @@
 #include "gis/error_location.hpp"
 
+#include "base/rounding.hpp"
+
 namespace thawslide::gis {
 
 void fail_at(const config::Case& parameters, const std::string& key, const std::string& message) {
@@ -20,7 +22,7 @@ std::string describe_overhang(const Rectangle& inner, const Rectangle& outer) {
   const auto add = [&](double distance, const char* side) {
     constexpr double rounding = 1e-6;  // m, of coordinates computed from files
     if (distance > rounding) {
-      sides.push_back(fmt::format("{:.4g} m in the {}", distance, side));
+      sides.push_back(fmt::format("{} m in the {}", rounded_text(distance, 3), side));
     }
   };
   add(outer.min_x - inner.min_x, "west");

@@ -36,6 +36,10 @@ std::string GdalMessages::remark() const {
   return texts_.empty() ? "" : fmt::format("; GDAL says: {}", fmt::join(texts_, "; "));
 }
 
+std::string GdalMessages::reason() const {
+  return texts_.empty() ? "for a reason that GDAL does not report" : remark().substr(2);
+}
+
 std::string GdalMessages::after(const std::string& words) const {
   for (const std::string& text : texts_) {
     const std::size_t at = text.find(words);

@@ -18,6 +18,8 @@ class GdalMessages {
 
   // All messages in order, without repetitions: "; GDAL says: A; B"; empty if there are none.
   [[nodiscard]] std::string remark() const;
+  // All messages as the reason of a failure: "GDAL says: A; B".
+  [[nodiscard]] std::string reason() const;
   // Rest of the first message that contains `words`, after them; empty if there is none.
   [[nodiscard]] std::string after(const std::string& words) const;
   [[nodiscard]] bool mention(const std::string& words) const;

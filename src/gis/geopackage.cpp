@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "gis/atomic_file.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/geometry.hpp"
 #include "gis/spatial_reference.hpp"
@@ -142,7 +142,7 @@ void write_geopackage(const std::string& file, const std::vector<MapLayer>& laye
   }
   dataset.reset();
   if (!written || messages.any_error()) {
-    whole.fail_with(messages);
+    whole.fail(messages.reason());
   }
   whole.publish();
 }

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "gis/atomic_file.hpp"
 
 namespace thawslide::gis {
 
@@ -116,7 +116,7 @@ void write_raster_style(const std::string& file, const std::vector<ColorStop>& s
                 "   </rasterTransparency>\n",
                 nothing_below)
           : "";
-  write_text(
+  write_file_atomically(
       file, fmt::format("{}<qgis version=\"3.22\" styleCategories=\"Symbology\">\n <pipe>\n"
                         "  <rasterrenderer type=\"singlebandpseudocolor\" band=\"1\" opacity=\"0.85\" "
                         "classificationMin=\"{:.9g}\" classificationMax=\"{:.9g}\" nodataColor=\"\" alphaBand=\"-1\">\n"
@@ -140,6 +140,8 @@ std::string vector_style(const VectorStyle& style) {
       style.label.empty() ? "" : labels(style.label), geometries[kind]);
 }
 
-void write_vector_style(const std::string& file, const VectorStyle& style) { write_text(file, vector_style(style)); }
+void write_vector_style(const std::string& file, const VectorStyle& style) {
+  write_file_atomically(file, vector_style(style));
+}
 
 }  // namespace thawslide::gis

@@ -10,6 +10,7 @@
 
 #include "base/available_memory.hpp"
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
 #include "config/input_limits.hpp"
 #include "gis/gdal_messages.hpp"
@@ -169,11 +170,11 @@ void require_readable(const std::string& file, double columns, double rows) {
   }
   const AvailableMemory available = available_memory();
   if (bytes > available.bytes) {
-    throw UserError(
-        fmt::format("{}: {:.0f} x {:.0f} points of it are asked for; they take {:.3g} GB of memory, and {:.3g} "
-                    "GB {}. Crop it (gdal_translate -projwin), take it to points farther apart (gdalwarp -tr), or make "
-                    "the domain smaller.",
-                    file, columns, rows, bytes / 1e9, available.bytes / 1e9, available.bound));
+    throw UserError(fmt::format(
+        "{}: {:.0f} x {:.0f} points of it are asked for; they take {} GB of memory, and {} "
+        "GB {}. Crop it (gdal_translate -projwin), take it to points farther apart (gdalwarp -tr), or make "
+        "the domain smaller.",
+        file, columns, rows, rounded_text(bytes / 1e9), rounded_text(available.bytes / 1e9), available.bound));
   }
 }
 

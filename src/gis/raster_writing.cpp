@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "gis/atomic_file.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/raster_file.hpp"
 #include "gis/spatial_reference.hpp"
@@ -55,7 +55,7 @@ void write_geotiff(const std::string& file, const Raster& raster, const BandText
                                               precision == Precision::float64 ? GDT_Float64 : GDT_Float32,
                                               const_cast<char**>(options)));
   if (dataset == nullptr) {
-    whole.fail_with(messages);
+    whole.fail(messages.reason());
   }
   double transform[6] = {raster.x - 0.5 * raster.cell_x,       raster.cell_x, 0.0,
                          raster.y_end() + 0.5 * raster.cell_y, 0.0,           -raster.cell_y};
@@ -71,7 +71,7 @@ void write_geotiff(const std::string& file, const Raster& raster, const BandText
   const bool written = write_rows(band, raster);
   dataset.reset();
   if (!written || messages.any_error()) {
-    whole.fail_with(messages);
+    whole.fail(messages.reason());
   }
   whole.publish();
 }

@@ -105,15 +105,15 @@ std::string warp_of_degrees(const Located& raster, const std::string& source_opt
                     "system they are in, such as terrain.crs = \"EPSG:31287\".",
                     found, warp_of_degrees(raster, "-s_srs EPSG:4326 ")));
   }
-  throw UserError(
-      fmt::format("{}. Set terrain.crs to the one its maker states, such as terrain.crs = \"EPSG:31287\".", found));
+  throw UserError(fmt::format(
+      "{}. Set terrain.crs to the one that the data provider states, such as terrain.crs = \"EPSG:31287\".", found));
 }
 
 [[noreturn]] void fail_with_degrees(const Located& raster, const std::string& wkt) {
   if (!can_be_degrees(raster.extent)) {
     throw UserError(fmt::format(
         "{}: the tag specifies degrees ({}), but the numbers are metric ({}). Set terrain.crs = \"EPSG:...\" to the "
-        "system the numbers are in; its maker states it.",
+        "system of the coordinates, which the data provider states.",
         raster.file, name_of(wkt), format_range(raster.extent)));
   }
   throw UserError(

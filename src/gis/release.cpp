@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/raster_sampling.hpp"
+#include "base/rounding.hpp"
 #include "gis/error_location.hpp"
 #include "gis/geopackage.hpp"
 #include "gis/point_window.hpp"
@@ -50,11 +51,11 @@ void check_volume(const config::Case& parameters, const std::string& name, const
   const double largest = parameters.bodies.at(name).largest_volume;
   if (volume > largest) {
     fail_at(parameters, key_of_place(parameters, name),
-            fmt::format(
-                "{}: the release has {:.4g} m3, up to {:.4g} m thick, and body.{}.largest_volume allows {:g} m3. Is "
-                "the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
-                "larger body.{}.largest_volume.",
-                file_of_place(parameters, name), volume, most, name, largest, name));
+            fmt::format("{}: the release has {} m3, is up to {} m thick, and body.{}.largest_volume allows {} m3. Is "
+                        "the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
+                        "larger body.{}.largest_volume.",
+                        file_of_place(parameters, name), rounded_text(volume, 3), rounded_text(most, 3), name,
+                        rounded_text(largest, 3), name));
   }
 }
 

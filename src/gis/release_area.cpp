@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
 #include "gis/averaging.hpp"
 #include "gis/coverage.hpp"
@@ -47,7 +48,7 @@ void check_place(const config::Case& parameters, const std::string& body, const 
     }
   };
   check("the DEM", ground.span,
-        fmt::format("Check that both have the same place and reference system (the ground's is {}), or take a larger "
+        fmt::format("Check that both have the same location and reference system (the DEM has {}), or use a larger "
                     "DEM.",
                     name_of(ground.raster.crs)));
   check("the domain", domain_of(parameters), "Widen grid.min and grid.max.");
@@ -85,10 +86,10 @@ void check_size(const config::Case& parameters, const std::string& body, double 
   if (size < cell * (1.0 - 1e-9)) {
     const double finer = 0.25 * std::sqrt(size);
     fail_at(parameters, key_of(body, "release"),
-            fmt::format("{}: the release has {:.4g} m2, less than one cell of the DEM, {:.4g} m2: it would be "
-                        "spread over the cell and become as much thinner. Draw it larger, or resample the DEM "
+            fmt::format("{}: the release is smaller than a cell of the DEM ({} m2; {} m2), over which it would be "
+                        "distributed and become too thin. Draw it larger, or resample the DEM "
                         "(gdalwarp -tr {:.1g} {:.1g} -r bilinear {} finer.tif).",
-                        parameters.bodies.at(body).release, size, cell, finer, finer,
+                        parameters.bodies.at(body).release, rounded_text(size, 3), rounded_text(cell, 3), finer, finer,
                         shell_quote(parameters.terrain.file)));
   }
 }
@@ -117,17 +118,17 @@ Rectangle extent_of_positive(const config::Body& body, const Raster& source, con
   }
   if (x.empty()) {
     if (body.thickness.from == config::MapValue::From::raster) {
-      throw UserError(fmt::format("{}: the thickness is nowhere above 0: there is no release.", file));
+      throw UserError(fmt::format("{}: the thickness is not above 0 at any point: there is no release.", file));
     }
     throw UserError(
-        fmt::format("{}: the surface before the slide lies nowhere more than {:g} m above the DEM: there is "
-                    "no release. Are the two files swapped?",
+        fmt::format("{}: the surface before the slide is at most {:g} m above the DEM: there is no release. "
+                    "Are the two files swapped?",
                     file, body.surface_tolerance));
   }
   if (!Reprojection(source.crs, crs).apply(x, y)) {
     throw UserError(
-        fmt::format("{}: points of the raster have no place in the ground's coordinate reference system, "
-                    "{}. Check the system of the file.",
+        fmt::format("{}: points of the raster cannot be transformed to the coordinate reference system of "
+                    "the DEM, {}. Check the system of the file.",
                     file, name_of(crs)));
   }
   Rectangle extent{x[0], y[0], x[0], y[0]};

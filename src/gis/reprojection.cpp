@@ -34,8 +34,8 @@ Reprojection::Reprojection(const std::string& from_wkt, const std::string& to_wk
   if (transformation_->transformation == nullptr) {
     require_projection_database();
     throw UserError(
-        fmt::format("no way is known from the coordinate reference system {} to {}{}. Reproject the file "
-                    "to the latter.",
+        fmt::format("no transformation is available from the coordinate reference system {} to {}{}. "
+                    "Reproject the file to the latter.",
                     name_of(from_wkt), name_of(to_wkt), messages.remark()));
   }
 }
@@ -66,19 +66,18 @@ LikelySystem likely_system(const std::string& file, const std::string& specified
     return {specified, ""};
   }
   if (specified.empty()) {
-    return {ground, fmt::format("{} names no coordinate reference system: taken to be in the ground's, {}", name,
+    return {ground, fmt::format("{} specifies no coordinate reference system: that of the DEM, {}, is assumed", name,
                                 name_of(ground))};
   }
   if (is_geographic(specified) && !can_be_degrees(extent)) {
-    return {ground,
-            fmt::format("{} says that its coordinates are degrees ({}), which {:.10g}, {:.10g} cannot be: taken "
-                        "to be in the ground's system, {}",
-                        name, name_of(specified), extent.min_x, extent.min_y, name_of(ground))};
+    return {ground, fmt::format("{} specifies degrees ({}), which {:.10g}, {:.10g} cannot be: the system of the DEM, "
+                                "{}, is assumed",
+                                name, name_of(specified), extent.min_x, extent.min_y, name_of(ground))};
   }
   if (Reprojection(specified, ground).changes_nothing()) {
     return {ground, ""};
   }
-  return {specified, fmt::format("{} was taken from {} to {}", name, name_of(specified), name_of(ground))};
+  return {specified, fmt::format("{} was reprojected from {} to {}", name, name_of(specified), name_of(ground))};
 }
 
 }  // namespace thawslide::gis

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "base/rounding.hpp"
 #include "gis/point_window.hpp"
 #include "gis/smoothing.hpp"
 
@@ -331,9 +332,10 @@ std::string roughness_warning(const config::Case& parameters, const config::Site
                                  ? "That is the widest filter. Use larger cells (grid.cell), or a DEM with less noise."
                                  : "Set terrain.smooth = \"auto\".";
   return fmt::format(
-      "terrain.smooth: noise and bumps shorter than {:.2g} m add about {:.2g} % to the friction, with a filter of "
+      "terrain.smooth: noise and bumps shorter than {} m add about {:.2g} % to the friction, with a filter of "
       "{:g} m (rms slope {:.2g}; at most {:g} is intended). {}",
-      found.bump_length, 100.0 * found.apparent_friction, found.width, found.slope_left, largest_slope, remedy);
+      rounded_text(found.bump_length, 2), 100.0 * found.apparent_friction, found.width, found.slope_left, largest_slope,
+      remedy);
 }
 
 }  // namespace thawslide::gis

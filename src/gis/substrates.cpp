@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 
+#include "base/rounding.hpp"
 #include "gis/code_raster.hpp"
 #include "gis/error_location.hpp"
 #include "gis/geopackage.hpp"
@@ -106,13 +107,12 @@ void check_overlap(const config::Case& parameters, const std::string& first, con
     return;
   }
   const Rectangle place = extent_of(both);
-  fail_at(
-      parameters, key_of_place(second, parameters.substrates.at(second)),
-      fmt::format("the substrates {} and {} overlap by {:.4g} m2 about {:.10g}, {:.10g}; a place has one substrate. "
-                  "Allowed: slivers up to {:.4g} m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > "
-                  "Geoprocessing Tools > Difference).",
-                  first, second, shared, 0.5 * (place.min_x + place.max_x), 0.5 * (place.min_y + place.max_y), allowed,
-                  100.0 * overlap_tolerance));
+  fail_at(parameters, key_of_place(second, parameters.substrates.at(second)),
+          fmt::format("the substrates {} and {} overlap by {} m2 about {:.10g}, {:.10g}; a place has one substrate. "
+                      "Allowed: slivers up to {} m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > "
+                      "Geoprocessing Tools > Difference).",
+                      first, second, rounded_text(shared, 3), 0.5 * (place.min_x + place.max_x),
+                      0.5 * (place.min_y + place.max_y), rounded_text(allowed, 3), 100.0 * overlap_tolerance));
 }
 
 // Substrates of one raster cannot overlap; those along x were compared when the case was read. `polygons`: of those

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/nearest_known.hpp"
+#include "base/rounding.hpp"
 #include "gis/error_location.hpp"
 #include "gis/point_window.hpp"
 #include "gis/release_area.hpp"
@@ -159,11 +160,11 @@ void check_overlaps(const config::Case& parameters, const Releases& releases) {
       }
       const Rectangle place = extent_of(both);
       fail_at(parameters, key_of_place(parameters, second->first),
-              fmt::format("the bodies '{}' and '{}' overlap by {:.4g} m2 about {:.10g}, {:.10g}; allowed: bodies that "
-                          "touch or lie apart, but for slivers up to {:.4g} m2, {:g} % of the smaller one. Draw them "
+              fmt::format("the bodies '{}' and '{}' overlap by {} m2 about {:.10g}, {:.10g}; allowed: bodies that "
+                          "touch or lie apart, but for slivers up to {} m2, {:g} % of the smaller one. Draw them "
                           "apart (QGIS: Vector > Geoprocessing Tools > Difference).",
-                          first->first, second->first, shared, 0.5 * (place.min_x + place.max_x),
-                          0.5 * (place.min_y + place.max_y), allowed, 100.0 * overlap_tolerance));
+                          first->first, second->first, rounded_text(shared, 3), 0.5 * (place.min_x + place.max_x),
+                          0.5 * (place.min_y + place.max_y), rounded_text(allowed, 3), 100.0 * overlap_tolerance));
     }
   }
 }

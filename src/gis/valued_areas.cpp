@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 #include "config/input_limits.hpp"
 
 namespace thawslide::gis {
@@ -32,9 +33,9 @@ void check_apart(const VectorLayer& layer, const std::string& attribute, const F
   }
   const Rectangle place = extent_of(both);
   throw UserError(fmt::format(
-      "{}: {} and {} overlap by {:.4g} m2 about {:.10g}, {:.10g}, and their '{}' differs: {:g} and {:g}. Give "
+      "{}: {} and {} overlap by {} m2 about {:.10g}, {:.10g}, and their '{}' differs: {:g} and {:g}. Give "
       "them the same value, or draw them apart.",
-      layer.file, first.title, second.title, shared, 0.5 * (place.min_x + place.max_x),
+      layer.file, first.title, second.title, rounded_text(shared, 3), 0.5 * (place.min_x + place.max_x),
       0.5 * (place.min_y + place.max_y), attribute, first.numbers.at(attribute), second.numbers.at(attribute)));
 }
 

@@ -8,11 +8,11 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 #include <string_view>
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files.hpp"
 
 namespace thawslide::io {
 
@@ -42,30 +42,20 @@ std::optional<double> time_of(std::string_view row, std::size_t columns) {
   return time;
 }
 
-// Complete rows of a file up to a time, in ascending order, and gaps between them.
+// Complete rows of a file up to a time, in ascending order.
 class KeptRows {
  public:
   KeptRows(std::string_view file, const std::string& header, double last_time)
       : text_(header + "\n"), has_header_(file.substr(0, text_.size()) == text_) {
     const auto columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1;
-    bool is_broken = false;
     for (std::size_t line = has_header_ ? text_.size() : file.find('\n') + 1; line < file.size();) {
       const std::size_t end = std::min(file.find('\n', line), file.size());
       const std::optional<double> time = time_of(file.substr(line, end - line), columns);
       if (time && end < file.size() && *time <= last_time && (times_.empty() || *time > times_.back())) {
-        if (is_broken) {
-          gaps_.emplace_back(times_.empty() ? 0.0 : times_.back(), *time);
-        }
-        is_broken = false;
         times_.push_back(*time);
         text_ += file.substr(line, end + 1 - line);
-      } else {
-        is_broken = true;
       }
       line = end + 1;
-    }
-    if (times_.empty() || times_.back() < last_time) {
-      gaps_.emplace_back(times_.empty() ? 0.0 : times_.back(), last_time);
     }
   }
   [[nodiscard]] const std::string& text() const { return text_; }
@@ -82,8 +72,8 @@ class KeptRows {
                          then.last_time);
     }
     if (lacks_any(then)) {
-      return fmt::format("{} lacks {} of the {} rows up to t = {:g} s, which are missing or damaged{}", name,
-                         then.rows - times_.size(), then.rows, then.last_time, spans());
+      return fmt::format("{} lacks {} of the {} rows up to t = {:g} s, which are missing or damaged", name,
+                         then.rows - times_.size(), then.rows, then.last_time);
     }
     return has_header_ && times_.size() == then.rows && text_.size() == then.bytes
                ? ""
@@ -91,32 +81,9 @@ class KeptRows {
   }
 
  private:
-  // Text such as ": between t = 1 and 2 s, 4 and 5 s". Removed lines are detected only by the larger time step.
-  [[nodiscard]] std::string spans() const {
-    auto gaps = gaps_;
-    if (gaps.empty() && times_.size() > 2) {
-      std::vector<double> steps(times_.size());
-      std::adjacent_difference(times_.begin(), times_.end(), steps.begin());
-      std::vector<double> sorted(steps.begin() + 1, steps.end());
-      std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-      for (std::size_t k = 1; k < times_.size(); ++k) {
-        if (steps[k] > 1.5 * sorted[sorted.size() / 2]) {
-          gaps.emplace_back(times_[k - 1], times_[k]);
-        }
-      }
-    }
-    constexpr std::size_t most_named = 20;
-    std::string words;
-    for (std::size_t k = 0; k < std::min(gaps.size(), most_named); ++k) {
-      words += fmt::format("{}{:g} and {:g} s", k == 0 ? ": between t = " : ", ", gaps[k].first, gaps[k].second);
-    }
-    return gaps.size() > most_named ? fmt::format("{} and {} more", words, gaps.size() - most_named) : words;
-  }
-
   std::string text_;  // including the header
   bool has_header_;
   std::vector<double> times_;
-  std::vector<std::pair<double, double>> gaps_;  // from the last complete row to the next, or to the end
 };
 
 }  // namespace

@@ -9,9 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/shell_quote.hpp"
-#include "io/atomic_file.hpp"
+#include "io/files.hpp"
 #include "io/sha256.hpp"
 #include "version.hpp"
 
@@ -21,8 +22,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-constexpr std::uintmax_t cloned_from = 1'000'000;  // bytes, below which sharing saves nothing
 
 std::string host_name() {
   char name[256] = "";
@@ -94,13 +93,6 @@ RunPart part_of(const Json& json) {
   part.wall_seconds = json.at("wall_s");
   part.particle_steps = json.at("particle_steps");
   return part;
-}
-
-// Removes control characters from text for terminals.
-std::string without_control_letters(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char letter) { return letter < 0x20 || letter == 0x7f; }, '?');
-  return text;
 }
 
 [[noreturn]] void fail_as_damaged(const fs::path& file, const std::string& what) {
@@ -190,12 +182,7 @@ std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs:
     }
     THAWSLIDE_ASSERT(names.insert(name).second, "two inputs are called {}, which a case may not have", name);
     const std::string content = read_file(file);
-    const fs::path copy = folder / "inputs" / name;
-    if (content.size() > cloned_from) {
-      copy_file_atomically(file, copy, content);
-    } else {
-      write_file_atomically(copy, content);
-    }
+    write_file_atomically(folder / "inputs" / name, content);
     inputs.push_back({file.string(), "inputs/" + name, sha256_hex(content.data(), content.size()), content.size()});
   }
   return inputs;
@@ -213,8 +200,8 @@ Provenance read_provenance(const fs::path& folder) {
     for (const Json& input : facts.at("inputs")) {
       provenance.inputs.push_back({input.at("path"), input.at("copy"), input.at("sha256"), input.at("bytes")});
     }
-    provenance.status = without_control_letters(facts.at("status"));
-    provenance.message = without_control_letters(facts.at("message"));
+    provenance.status = facts.at("status");
+    provenance.message = facts.at("message");
     provenance.simulated_time = facts.at("simulated_time_s");
     provenance.steps = facts.at("steps");
   } catch (const Json::parse_error& error) {

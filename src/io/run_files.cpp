@@ -9,8 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "io/atomic_file.hpp"
+#include "base/atomic_file.hpp"
 #include "io/checkpoint.hpp"
+#include "io/files.hpp"
 #include "io/run_lock.hpp"
 
 namespace thawslide::io {

@@ -2,8 +2,6 @@
 
 #include <unistd.h>
 
-#include <climits>
-
 #include "base/error.hpp"
 #include "io/run_files.hpp"
 
@@ -19,9 +17,9 @@ void require_replaceable(const fs::path& folder, bool overwrite) {
     throw UserError(
         fs::exists(folder / "run.json")
             ? fmt::format("cannot determine whether {} is the folder of a run: its run.json is damaged, or was written "
-                          "by another program. Give another --output, or remove yourself what is there.",
+                          "by another program. Specify another --output, or delete the folder.",
                           folder.string())
-            : fmt::format("the output folder {} holds other files and no run. Give another --output.",
+            : fmt::format("the output folder {} contains other files, and no run. Specify another --output.",
                           folder.string()));
   }
   if (overwrite) {
@@ -29,12 +27,12 @@ void require_replaceable(const fs::path& folder, bool overwrite) {
   }
   const AtWork at_work = process_at_work(folder);
   if (!at_work.process.empty()) {
-    throw UserError(fmt::format("the output folder {} {} written by {}. Give another --output.", folder.string(),
+    throw UserError(fmt::format("the output folder {} {} written by {}. Specify another --output.", folder.string(),
                                 at_work.is_known ? "is being" : "may be being", at_work.process));
   }
   throw UserError(
-      fmt::format("the output folder {} holds another run. Give another --output, or --overwrite to replace "
-                  "that run.",
+      fmt::format("the output folder {} contains another run. Specify another --output, or replace that run "
+                  "with --overwrite.",
                   folder.string()));
 }
 
@@ -46,17 +44,6 @@ fs::path existing_part(const fs::path& folder) {
     part = part.parent_path();
   }
   return part;
-}
-
-void require_possible_names(const fs::path& folder) {
-  for (const fs::path& name : folder) {
-    if (name.string().size() > NAME_MAX) {
-      throw UserError(
-          fmt::format("the output folder cannot be made: a name of its path has {} bytes, and may have {}. Give a "
-                      "shorter --output.",
-                      name.string().size(), NAME_MAX));
-    }
-  }
 }
 
 void require_usable(const fs::path& folder, bool overwrite) {

@@ -12,9 +12,6 @@ namespace thawslide::io {
 // Deepest existing part of the path, in which folders would be created.
 [[nodiscard]] std::filesystem::path existing_part(const std::filesystem::path& folder);
 
-// Throws UserError if a component of the path is longer than file systems allow; call before any access to it.
-void require_possible_names(const std::filesystem::path& folder);
-
 // Throws UserError if a run cannot be written there: a file of that name, a folder that contains another run (unless
 // `overwrite`) or other files, or a location without write permission.
 void require_usable(const std::filesystem::path& folder, bool overwrite);

@@ -43,31 +43,8 @@ Lock take(int descriptor) {
   return lock;
 }
 
-// Kind of a path at the place of the lock that is not a regular file; empty for a file, or nothing.
-std::string what_is_no_lock(const fs::path& file) {
-  std::error_code unknown;
-  return fs::is_symlink(fs::symlink_status(file, unknown)) ? "a link" : config::what_stands_at(file);
-}
-
-// Returns -1, with the reason in errno, if the file cannot be opened. A link could cause another file to be
-// overwritten, and a pipe could block forever.
 int open_lock(const fs::path& file, int flags) {
-  const int descriptor = open(file.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666);
-  const int reason = errno;
-  struct stat facts {};
-  if (descriptor >= 0 && fstat(descriptor, &facts) == 0 && S_ISREG(facts.st_mode)) {
-    return descriptor;
-  }
-  if (descriptor >= 0) {
-    close(descriptor);
-  }
-  if (const std::string found = what_is_no_lock(file); !found.empty()) {
-    throw UserError(
-        fmt::format("{} is {}, but must be a regular file: the lock of a run. Remove it once no run is at work in {}.",
-                    file.string(), found, file.parent_path().string()));
-  }
-  errno = reason;
-  return -1;
+  return open(file.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
 }
 
 // True if the name still refers to the open file, because the holder of the lock removes it on release.
@@ -206,7 +183,7 @@ bool OwnFolder::is_own() const {
   if (facts.st_dev == device_ && facts.st_ino == inode_) {
     return true;
   }
-  const int descriptor = open(lock_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  const int descriptor = open_lock(lock_, O_RDONLY);
   const bool is_own = descriptor >= 0 && line_in(descriptor) == config::shown(format_process(getpid()));
   if (descriptor >= 0) {
     close(descriptor);

@@ -13,8 +13,8 @@ inline constexpr const char* lock_name = "run.lock";
 
 class RunLock {
  public:
-  // Throws UserError if another process holds the folder's lock, or may hold it, and if the lock file is a link or not
-  // a regular file; WriteError if the file cannot be created.
+  // Throws UserError if another process holds the folder's lock, or may hold it; WriteError if the file cannot be
+  // created.
   explicit RunLock(const std::filesystem::path& folder);
   RunLock(RunLock&& other) noexcept;
   RunLock& operator=(RunLock&&) = delete;
@@ -46,7 +46,7 @@ struct AtWork {
   bool is_known = true;  // false: there is a lock file without file-system locks, and its contents are inconclusive
   std::string process;   // "process 123 on HOST" that works in the folder, or may; empty: no known process
 };
-// Throws UserError if the lock is a link or not a regular file, or cannot be read.
+// Throws UserError if the lock cannot be read.
 [[nodiscard]] AtWork process_at_work(const std::filesystem::path& folder);
 
 }  // namespace thawslide::io

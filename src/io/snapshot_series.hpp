@@ -11,9 +11,6 @@
 
 namespace thawslide::io {
 
-// Numbers of missing snapshots of a finished run, as text; empty if the existing ones show no gap.
-[[nodiscard]] std::string gap_in_snapshots(const std::filesystem::path& folder);
-
 class SnapshotSeries {
  public:
   // Starts with no snapshots; creates folder/snapshots.

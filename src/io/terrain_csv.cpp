@@ -1,7 +1,7 @@
 #include "io/terrain_csv.hpp"
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
 #include "io/history_writer.hpp"
 
 namespace thawslide::io {

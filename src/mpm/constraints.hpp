@@ -44,8 +44,8 @@ struct Constraints : DomainFaces<Dim, Real> {
   // True if apply may set a component at positions between two corners.
   [[nodiscard]] bool may_apply(const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper, Real time) const {
     for (int a = 0; a < Dim; ++a) {
-      if ((this->at_lower(lower[a], a) && this->faces[2 * a] != FaceKind::open) ||
-          (this->at_upper(upper[a], a) && this->faces[2 * a + 1] != FaceKind::open)) {
+      if ((this->at_lower(lower[a], a) && this->faces[2 * a] != BoundaryKind::open) ||
+          (this->at_upper(upper[a], a) && this->faces[2 * a + 1] != BoundaryKind::open)) {
         return true;
       }
     }

@@ -3,15 +3,16 @@
 
 #include "base/linear.hpp"
 #include "base/portability.hpp"
+#include "physics/options.hpp"
 
 namespace thawslide::mpm {
 
-enum class FaceKind { open, roller, fixed };
+using physics::BoundaryKind;
 
 template <int Dim, class Real>
 struct DomainFaces {
-  Vector<Real, Dim> extent;      // upper corner of the domain [m]; the lower corner is the origin
-  FaceKind faces[2 * Dim] = {};  // lower and upper face of each axis
+  Vector<Real, Dim> extent;          // upper corner of the domain [m]; the lower corner is the origin
+  BoundaryKind faces[2 * Dim] = {};  // lower and upper face of each axis
 
   [[nodiscard]] THAWSLIDE_HD bool at_lower(Real along, int a) const { return along <= round_off<Real> * extent[a]; }
   [[nodiscard]] THAWSLIDE_HD bool at_upper(Real along, int a) const {
@@ -21,12 +22,12 @@ struct DomainFaces {
   // Sets the prescribed components of the momentum of a node at a position.
   THAWSLIDE_HD void apply_faces(const Vector<Real, Dim>& position, Vector<Real, Dim>& momentum) const {
     for (int a = 0; a < Dim; ++a) {
-      const FaceKind kind = at_lower(position[a], a)   ? faces[2 * a]
-                            : at_upper(position[a], a) ? faces[2 * a + 1]
-                                                       : FaceKind::open;
-      if (kind == FaceKind::fixed) {
+      const BoundaryKind kind = at_lower(position[a], a)   ? faces[2 * a]
+                                : at_upper(position[a], a) ? faces[2 * a + 1]
+                                                           : BoundaryKind::open;
+      if (kind == BoundaryKind::fixed) {
         momentum.setZero();
-      } else if (kind == FaceKind::roller) {
+      } else if (kind == BoundaryKind::roller) {
         momentum[a] = Real(0);
       }
     }

@@ -26,7 +26,7 @@ struct MotionModel {
                        [](const MaterialModel<Real>& material) { return material.viscosity_time > Real(0); });
   }
 
-  ShapeKind shape = ShapeKind::ugimp;
+  ShapeFunction shape = ShapeFunction::ugimp;
   HeldSides<Dim> sides;
   TransferKind transfer = TransferKind::flip_pic;
   Real pic_share = 0;         // of TransferKind::flip_pic; 0: FLIP

@@ -8,8 +8,11 @@
 #include "base/linear.hpp"
 #include "base/portability.hpp"
 #include "base/select.hpp"
+#include "physics/options.hpp"
 
 namespace thawslide::mpm {
+
+using physics::ShapeFunction;
 
 // Weights and their derivatives [1/m] at adjacent nodes along one axis, lowest first: nearest-1, nearest, nearest+1,
 // or, with a width of 2, the two ends of the particle's cell. Value: one number, or Simd for a batch.
@@ -103,10 +106,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value, Width> select(const Cond
   return chosen;
 }
 
-// Shape functions available for momentum; heat and pore pressure always use the linear ones. size: of the particle, in
-// cells. at_side: the nearest node lies on a side of the domain that prescribes velocity.
-enum class ShapeKind { ugimp, linear, quadratic };
-
+// size: of the particle, in cells. at_side: the nearest node lies on a side of the domain that prescribes velocity.
 template <class Real>
 struct Ugimp {
   template <class Value, class Condition>
@@ -150,13 +150,13 @@ struct Quadratic {
 
 // Calls work(shape) with the shape functions of a kind. Dispatch is outside the loop over particles.
 template <class Real, class Work>
-void with_shape(ShapeKind kind, const Work& work) {
+void with_shape(ShapeFunction kind, const Work& work) {
   switch (kind) {
-    case ShapeKind::ugimp:
+    case ShapeFunction::ugimp:
       return work(Ugimp<Real>{});
-    case ShapeKind::linear:
+    case ShapeFunction::linear:
       return work(Linear<Real>{});
-    case ShapeKind::quadratic:
+    case ShapeFunction::quadratic:
       return work(Quadratic<Real>{});
   }
 }

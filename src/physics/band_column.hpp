@@ -20,6 +20,7 @@
 #include "physics/boiling.hpp"
 #include "physics/enthalpy.hpp"
 #include "physics/mixture.hpp"
+#include "physics/options.hpp"
 #include "physics/pore_water.hpp"
 
 namespace thawslide::physics {
@@ -29,12 +30,6 @@ struct ColumnCells {
   static constexpr int ground = 6, band = 8, above = 12;
   static constexpr int slide = band + above;
   static constexpr int all = ground + slide;
-};
-
-// Boundary condition for water of melted cells at frozen cells, and at the top of the column.
-enum class EndOfWater {
-  sealed,  // impermeable
-  vented   // air, at P = 0
 };
 
 template <class Real, class Curve>

@@ -5,13 +5,9 @@
 #pragma once
 
 #include "base/portability.hpp"
+#include "physics/options.hpp"
 
 namespace thawslide::physics {
-
-enum class FrictionClamp {
-  keep_cohesion,  // mu max(0, N - P) + c_S: pressure reduces friction but not cohesion (default)
-  joint           // max(0, mu (N - P) + c_S): excess pressure also reduces cohesion
-};
 
 // S_slide of Eq. 17 [Pa]. Pressures [Pa]. cap_pressure: P is limited to N.
 template <class Real>

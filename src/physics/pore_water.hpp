@@ -14,13 +14,9 @@
 #include "base/portability.hpp"
 #include "base/select.hpp"
 #include "physics/mixture.hpp"
+#include "physics/options.hpp"
 
 namespace thawslide::physics {
-
-enum class WaterExpansionLaw {
-  constant,       // Table 1
-  by_temperature  // through the four values above
-};
 
 // Volumetric expansion of water beta_L [1/K].
 template <class Real>

@@ -1,5 +1,4 @@
 // Band columns of a simulation: initialization and update in a time step.
-#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -70,8 +69,7 @@ void Simulation<Dim, Real>::start_band_columns() {
     return;
   }
   const ColumnMaterial material = material_of_base(parameters_, model_, particles_);
-  const double thickest =
-      *std::max_element(parameters_.band.thickness.value.begin(), parameters_.band.thickness.value.end());
+  const double thickest = parameters_.band.thickness.largest();
   if (thickest >= material.depth) {
     throw UserError(
         fmt::format("{}: the band is up to {} m thick, and the slide above it {:.4g} m on average. Use a thinner band.",

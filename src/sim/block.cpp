@@ -145,7 +145,8 @@ class Block {
     friction_heat_ += heat;
     displacement_ += middle * dt;
     slip_ += impulse.slides ? std::abs(middle) * dt : 0.0;
-    const BlockDrive drive{heat / dt, basal_.normal_pressure[0], std::abs(middle), slip_, band_thickness(), dt};
+    const BlockDrive drive{
+        heat / dt, basal_.normal_pressure[0], std::abs(middle), slip_, parameters_.band.thickness.at(time_), dt};
     heat_gain_ += std::visit([&](auto& column) { return column.step(drive); }, column_);
     time_ += dt;
   }
@@ -178,11 +179,6 @@ class Block {
  private:
   using AnyColumn = std::variant<BlockColumn, BlockBandColumn>;
 
-  [[nodiscard]] double band_thickness() const {
-    const Table& thickness = parameters_.band.thickness;
-    return thickness.value.empty() ? 0.0 : thickness.at(time_);
-  }
-
   [[nodiscard]] AnyColumn make_column(std::int32_t material) const {
     const BlockColumn::Initial rows = initial_column(material);
     if (!model_.contact.band_columns) {
@@ -195,7 +191,7 @@ class Block {
     const ColumnMaterial of_column{temperature, rows.porosity(rows.thickness, saturation), conductivity,
                                    rows.thickness};
     return AnyColumn(std::in_place_type<BlockBandColumn>, make_columns_model(parameters_, model_, of_column),
-                     band_thickness(), rows.normal_pressure, parameters_.band.column_step);
+                     parameters_.band.thickness.at(time_), rows.normal_pressure, parameters_.band.column_step);
   }
 
   [[nodiscard]] BlockColumn::Initial initial_column(std::int32_t material) const {
@@ -307,7 +303,8 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
   mpm::Particles<2, double> particles;
   fill_bodies(parameters, site, model, particles);
   Block block(parameters, std::move(valley_factor), model, particles);
-  const StepLimit limit = step_limit(parameters, model, smallest_thickness(parameters), extremes_of(model, particles));
+  const StepLimit limit =
+      step_limit(parameters, model, parameters.band.thickness.smallest(), extremes_of(model, particles));
   double dt = parameters.time.step;
   if (parameters.time.stepping == config::Stepping::adaptive) {
     dt = std::min(dt, parameters.time.safety * limit.step);

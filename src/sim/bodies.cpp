@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
+#include "base/rounding.hpp"
 #include "sim/body_shape.hpp"
 #include "sim/initial_state.hpp"
 #include "sim/seed.hpp"
@@ -72,12 +73,11 @@ void require_volume(const config::Case& parameters, const std::string& name, con
   const double share = shape.volume() / seeded;
   if (shape.release() && !(seeded >= (1.0 - release_tolerance) * shape.volume())) {
     throw UserError(fmt::format(
-        "{}: body '{}' has a volume of {:.6g} m3, and {:.3g} % of it lies at its rim or where it is thinner than a "
-        "tenth of the distance of its particles, which is {} m: they cannot hold it there. Allowed: {:g} %. Make "
-        "grid.cell "
-        "smaller or particles_per_axis larger, or the body thicker.",
-        config::place_of(parameters, "body." + name), name, shape.volume(), 100.0 * (1.0 - seeded / shape.volume()),
-        spacing, 100.0 * release_tolerance));
+        "{}: body '{}': particles {} m apart cannot represent {:.2g} % of its {} m3, because it is too thin there, or "
+        "lies at its rim (allowed: {:g} %). Set a smaller grid.cell or a larger particles_per_axis, or check the unit "
+        "of the thickness.",
+        config::place_of(parameters, "body." + name), name, spacing, 100.0 * (1.0 - seeded / shape.volume()),
+        rounded_text(shape.volume(), 3), 100.0 * release_tolerance));
   }
   if (!(std::abs(1.0 / share - 1.0) <= volume_tolerance)) {
     throw UserError(fmt::format(

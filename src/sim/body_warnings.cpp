@@ -84,9 +84,7 @@ std::string stiffness_warning(const config::Case& parameters, const BodyFigures&
 }
 
 std::string band_warning(const config::Case& parameters, const BodyFigures& body) {
-  const Table& thickness = parameters.band.thickness;
-  const double thickest =
-      thickness.value.empty() ? 0.0 : *std::max_element(thickness.value.begin(), thickness.value.end());
+  const double thickest = parameters.band.thickness.largest();
   if (!parameters.mechanics.enabled || !(thickest > body.median_thickness)) {
     return "";
   }
@@ -135,10 +133,11 @@ std::string strength_warning(const config::Case& parameters, const BodyFigures& 
   const bool softens = material.residual_friction_angle < material.friction_angle;
   const std::string key = "material." + name + (softens ? ".residual_friction_angle" : ".friction_angle");
   return fmt::format(
-      "{}: broken material of body {} bears {:.3f} of its load in shear, and friction of the base is {:.3f} of it: the "
-      "slide shears above its base, which then does not warm, and the results depend on grid.cell. Give {} a larger "
-      "angle, or [basal] a friction of at most {:.3f} (an angle of {:.1f} degrees).",
-      config::place_of(parameters, key), body.name, borne, base, key, borne,
+      "{}: the base is stronger than the broken material of body {} (shear strength {:.3f} and {:.3f} of the load): "
+      "the "
+      "slide shears above its base, the base stays cold, and the results depend on grid.cell. Set a larger {}, or a "
+      "basal friction of at most {:.3f} (an angle of {:.1f} degrees).",
+      config::place_of(parameters, key), body.name, base, borne, key, borne,
       std::floor(10.0 * std::atan(borne) * 180.0 / pi<double>) / 10.0);
 }
 
@@ -162,9 +161,9 @@ std::string softening_warning(const config::Case& parameters, const BodyFigures&
   const std::string key = "material." + name + ".softening_slip";
   return fmt::format(
       "{}: {} is {} m: in a cell of {:g} m the strength falls faster than the elastic strain can follow, and breaking "
-      "depends on grid.cell. Set grid.cell to at most {:.2g} m, or {} to at least {:.2g} m.",
-      config::place_of(parameters, key), key, material.softening_slip, parameters.grid.cell, widest, key,
-      material.softening_slip * parameters.grid.cell / widest);
+      "depends on grid.cell. Set grid.cell to at most {} m, or {} to at least {} m.",
+      config::place_of(parameters, key), key, material.softening_slip, parameters.grid.cell, rounded_text(widest, 2),
+      key, rounded_text(material.softening_slip * parameters.grid.cell / widest, 2));
 }
 
 // Checks temperatures from maps; temperatures given as numbers are checked when the case is read.

@@ -1,6 +1,5 @@
 #include "sim/columns_model.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/instances.hpp"
@@ -13,22 +12,17 @@ template <class Real, class Curve>
 physics::ColumnModel<Real, Curve> column_model(const config::Case& parameters, const physics::Phases<Real>& phases,
                                                const Curve& curve, const ColumnMaterial& material) {
   const config::Pressure& pressure = parameters.pressure;
-  const Table& thickness = parameters.band.thickness;
   physics::ColumnModel<Real, Curve> column;
   column.phases = phases;
   column.curve = curve;
-  column.water_expansion = {parameters.phases.water_expansion_law == config::WaterExpansionLaw::constant
-                                ? physics::WaterExpansionLaw::constant
-                                : physics::WaterExpansionLaw::by_temperature,
-                            phases.water_expansion};
+  column.water_expansion = {parameters.phases.water_expansion_law, phases.water_expansion};
   column.porosity = static_cast<Real>(material.porosity);
   column.hydraulic_conductivity = static_cast<Real>(material.hydraulic_conductivity);
   column.skeleton_compressibility = static_cast<Real>(pressure.skeleton_compressibility);
   column.residual_stress = static_cast<Real>(pressure.residual_stress);
   column.at_frozen =
       pressure.frozen_rows == config::FrozenRows::vented ? physics::EndOfWater::vented : physics::EndOfWater::sealed;
-  column.at_top =
-      pressure.column_top == config::EndOfWater::vented ? physics::EndOfWater::vented : physics::EndOfWater::sealed;
+  column.at_top = pressure.column_top;
   column.water_to_steam_viscosity = static_cast<Real>(pressure.water_to_steam_viscosity);
   column.latent = parameters.heat.latent;
   column.conduction = parameters.heat.conduction;
@@ -37,21 +31,8 @@ physics::ColumnModel<Real, Curve> column_model(const config::Case& parameters, c
   column.steam = parameters.heat.steam;
   column.ground_conductivity = phases.rock_conductivity;
   column.ground_capacity = phases.rock_density * phases.rock_heat_capacity;
-  column.ground_cell =
-      static_cast<Real>(*std::min_element(thickness.value.begin(), thickness.value.end())) / physics::ColumnCells::band;
+  column.ground_cell = static_cast<Real>(parameters.band.thickness.smallest()) / physics::ColumnCells::band;
   return column;
-}
-
-band::BandGrowth growth_of(config::BandGrowth growth) {
-  switch (growth) {
-    case config::BandGrowth::inertial:
-      return band::BandGrowth::inertial;
-    case config::BandGrowth::slip:
-      return band::BandGrowth::slip;
-    case config::BandGrowth::none:
-      break;
-  }
-  return band::BandGrowth::none;
 }
 
 }  // namespace
@@ -72,7 +53,7 @@ band::ColumnsModel<Real> make_columns_model(const config::Case& parameters, cons
                                     content.curve.saturation(columns.body_temperature));
   });
   columns.load_time = static_cast<Real>(band.load_time);
-  columns.growth = growth_of(band.growth);
+  columns.growth = band.growth;
   columns.grain_size = static_cast<Real>(band.grain_size);
   columns.inertial_number = static_cast<Real>(band.inertial_number);
   columns.growth_per_slip = static_cast<Real>(band.growth_per_slip);

@@ -78,9 +78,9 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   device.rescales_band = !has_columns;
   device.hydraulic_conductivity = model.band.hydraulic_conductivity;
   device.band_thickness = [thickness = parameters.band.thickness](Real time) {
-    return static_cast<Real>(thickness.value.empty() ? 0.0 : thickness.at(static_cast<double>(time)));
+    return static_cast<Real>(thickness.at(static_cast<double>(time)));
   };
-  device.scales_all = model.band.region == band::ScaledRegion::all;
+  device.scales_all = model.band.region == band::BandRegion::all;
   return device;
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/rounding.hpp"
+
 namespace thawslide::sim {
 
 template <int Dim>
@@ -54,12 +56,12 @@ std::vector<std::string> warnings_of(const EndState& state, bool is_over) {
                     state.time, state.mean_velocity, state.rest_rule));
   }
   if (std::abs(state.dilation_share) > noticed_dilation) {
-    warnings.push_back(fmt::format(
-        "Dilation has changed the volume of the slide by {:+.1f} % (found {:+.4g} m3; expected no more than "
-        "{:g} %). Thicknesses, areas and volumes are too {} by about as much. Check dilation_angle and "
-        "gaps_close_first of the materials.",
-        100.0 * state.dilation_share, state.dilation_volume, 100.0 * noticed_dilation,
-        state.dilation_share > 0.0 ? "large" : "small"));
+    warnings.push_back(
+        fmt::format("Dilation has changed the volume of the slide by {:+.1f} %, {} m3 (expected: at most {:g} %). "
+                    "Thicknesses, areas and volumes are too {} by about as much. Check dilation_angle and "
+                    "gaps_close_first of the materials.",
+                    100.0 * state.dilation_share, rounded_text(state.dilation_volume, 2), 100.0 * noticed_dilation,
+                    state.dilation_share > 0.0 ? "large" : "small"));
   }
   if (state.left_particles > 0) {
     const double mass = state.left_mass - state.guarded_mass;

@@ -49,9 +49,9 @@ double volume_below(const config::Case& parameters, const config::Site& site,
 
 template <class Real>
 terrain::BedMaterial<Real> make_bed_material(const config::Bed& bed, Real density) {
-  return {bed.law == config::BedLaw::strength ? terrain::BedLaw::strength : terrain::BedLaw::momentum,
-          static_cast<Real>(bed.strength), static_cast<Real>(std::tan(bed.friction_angle * pi<double> / 180.0)),
-          static_cast<Real>(bed.depth_per_slip), density};
+  return {bed.law, static_cast<Real>(bed.strength),
+          static_cast<Real>(std::tan(bed.friction_angle * pi<double> / 180.0)), static_cast<Real>(bed.depth_per_slip),
+          density};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 
 namespace thawslide::sim {
 
@@ -79,12 +80,12 @@ MapGrid map_grid_of(const config::Case& parameters, const config::Site& site) {
   const MapAxis x = axis_along(0, ground.x, ground.x_end(), ground.cell_x);
   const MapAxis y = axis_along(1, ground.y, ground.y_end(), ground.cell_y);
   if (x.cells * y.cells > most_map_cells) {
-    throw UserError(fmt::format(
-        "{}: maps of {:.0f} x {:.0f} cells of {:g} x {:g} m are too many: each would take {:.3g} GB of memory "
-        "while it is written. Allowed: {:.3g} cells, {:.3g} GB. Give maps.cell, {:g} m or more.",
-        config::place_of(parameters, "maps.cell"), x.cells, y.cells, x.cell, y.cell,
-        x.cells * y.cells * sizeof(double) / 1e9, most_map_cells, most_map_cells * sizeof(double) / 1e9,
-        cell_for(x, y, most_map_cells)));
+    throw UserError(
+        fmt::format("{}: maps of {:.0f} x {:.0f} cells of {:g} x {:g} m are too many: each would take {} GB of memory "
+                    "while it is written. Allowed: {} cells, {} GB. Give maps.cell, {:g} m or more.",
+                    config::place_of(parameters, "maps.cell"), x.cells, y.cells, x.cell, y.cell,
+                    rounded_text(x.cells * y.cells * sizeof(double) / 1e9), rounded_text(most_map_cells),
+                    rounded_text(most_map_cells * sizeof(double) / 1e9), cell_for(x, y, most_map_cells)));
   }
   return {x.first, y.first, x.cell, y.cell, static_cast<int>(x.cells), static_cast<int>(y.cells), site.crs};
 }
@@ -101,7 +102,7 @@ std::string reason_for_map_cell(const config::Case& parameters, const config::Si
   const double across = cell[0] / site.ground->cell_x, along = cell[1] / site.ground->cell_y;
   return across * along < 1.5
              ? "the DEM's"
-             : fmt::format("{:.0f} x {:.0f} of the DEM's, so as to be {:g} m wide at least: {}", across, along, least,
+             : fmt::format("{:.0f} x {:.0f} of the DEM's, to be at least {:g} m wide: {}", across, along, least,
                            least > parameters.grid.cell ? "three particle distances" : "grid.cell");
 }
 

@@ -46,7 +46,7 @@ std::string parts_of(const MemoryNeed& need) {
   std::string text;
   const auto add = [&](const char* name, double bytes) {
     if (bytes >= 0.01 * need.total()) {
-      text += fmt::format("{}{} {:.3g} GB", text.empty() ? "" : ", ", name, bytes / gigabyte);
+      text += fmt::format("{}{} {} GB", text.empty() ? "" : ", ", name, rounded_text(bytes / gigabyte));
     }
   };
   add("particles", need.particles);
@@ -66,13 +66,14 @@ std::string parts_of(const MemoryNeed& need) {
   const double fixed = bytes_of_program + need.maps + need.ground;
   if (need.total() > 2.0 * fixed) {
     throw UserError(fmt::format(
-        "{}: grid.cell is {} m, which makes {:.3g} particles: {}. Make grid.cell larger; the rest, {:.3g} GB, needs "
+        "{}: grid.cell is {} m, which makes {} particles: {}. Make grid.cell larger; the rest, {} GB, needs "
         "more memory, or a higher limit of it, whatever the cell.",
-        config::place_of(parameters, "grid.cell"), parameters.grid.cell, bodies.particles, amounts, fixed / gigabyte));
+        config::place_of(parameters, "grid.cell"), parameters.grid.cell, rounded_text(bodies.particles), amounts,
+        rounded_text(fixed / gigabyte)));
   }
   if (bytes_of_program >= std::max(need.maps, need.ground)) {
-    throw UserError(fmt::format("{}: {}. The program alone takes {:.2g} GB: give it more memory, or a higher limit.",
-                                parameters.file, amounts, bytes_of_program / gigabyte));
+    throw UserError(fmt::format("{}: {}. The program alone takes {} GB: give it more memory, or a higher limit.",
+                                parameters.file, amounts, rounded_text(bytes_of_program / gigabyte)));
   }
   if (need.maps >= need.ground) {
     throw UserError(fmt::format("{}: maps.cell: {}. Make maps.cell larger, or the domain smaller.",
@@ -166,24 +167,24 @@ const config::Case& require_memory(const config::Case& parameters, const config:
   if (bodies.particles > most_particles) {
     const double countable = 1.05 * cell * std::pow(bodies.particles / most_particles, 1.0 / Dim);
     throw UserError(fmt::format(
-        "{}: grid.cell is {} m, which makes {:.3g} particles; allowed: {:.3g}. Make grid.cell {:.9g} m or more, or "
+        "{}: grid.cell is {} m, which makes {} particles; allowed: {}. Make grid.cell {:.9g} m or more, or "
         "particles_per_axis smaller.",
-        config::place_of(parameters, "grid.cell"), cell, bodies.particles, most_particles,
+        config::place_of(parameters, "grid.cell"), cell, rounded_text(bodies.particles), rounded_text(most_particles),
         config::fitting_cell_from(std::max(smallest, countable), cell, lengths)));
   }
   if (need.total() <= available.bytes) {
     return parameters;
   }
   const std::string amounts =
-      fmt::format("the run needs about {:.3g} GB of memory ({}), and {:.3g} GB {}", need.total() / gigabyte,
-                  parts_of(need), available.bytes / gigabyte, available.bound);
+      fmt::format("the run needs about {} GB of memory ({}), and {} GB {}", rounded_text(need.total() / gigabyte),
+                  parts_of(need), rounded_text(available.bytes / gigabyte), available.bound);
   if (smallest == 0.0) {
     refuse_whatever_the_cell(parameters, bodies, need, amounts);
   }
   throw UserError(fmt::format(
-      "{}: grid.cell is {} m, which makes {:.3g} particles: {}. Make grid.cell {:.9g} m or more, or particles_per_axis "
+      "{}: grid.cell is {} m, which makes {} particles: {}. Make grid.cell {:.9g} m or more, or particles_per_axis "
       "smaller.",
-      config::place_of(parameters, "grid.cell"), cell, bodies.particles, amounts,
+      config::place_of(parameters, "grid.cell"), cell, rounded_text(bodies.particles), amounts,
       config::fitting_cell_from(smallest, cell, lengths)));
 }
 

@@ -81,17 +81,7 @@ mpm::MaterialModel<Real> make_material(const config::Material& material, double 
 template <int Dim, class Real>
 void set_transfer(const config::Case& parameters, mpm::MotionModel<Dim, Real>& motion) {
   const config::Mechanics& mechanics = parameters.mechanics;
-  switch (mechanics.shape_function) {
-    case config::ShapeFunction::ugimp:
-      motion.shape = mpm::ShapeKind::ugimp;
-      break;
-    case config::ShapeFunction::linear:
-      motion.shape = mpm::ShapeKind::linear;
-      break;
-    case config::ShapeFunction::quadratic:
-      motion.shape = mpm::ShapeKind::quadratic;
-      break;
-  }
+  motion.shape = mechanics.shape_function;
   motion.transfer =
       mechanics.transfer == config::Transfer::apic ? mpm::TransferKind::apic : mpm::TransferKind::flip_pic;
   motion.pic_share = static_cast<Real>(mechanics.pic_share);
@@ -114,10 +104,7 @@ mpm::Constraints<Dim, Real> make_constraints(const config::Case& parameters, con
     const int i = static_cast<int>(a);
     constraints.extent[i] = static_cast<Real>(parameters.grid.max[a] - origin[i]);
     for (std::size_t side = 0; side < 2; ++side) {
-      const config::BoundaryKind kind = parameters.grid.boundary[2 * a + side];
-      constraints.faces[2 * a + side] = kind == config::BoundaryKind::fixed    ? mpm::FaceKind::fixed
-                                        : kind == config::BoundaryKind::roller ? mpm::FaceKind::roller
-                                                                               : mpm::FaceKind::open;
+      constraints.faces[2 * a + side] = parameters.grid.boundary[2 * a + side];
     }
   }
   for (const auto& [name, frame] : parameters.frames) {
@@ -142,8 +129,7 @@ terrain::BasalLaw<Real> make_basal_law(const config::Case& parameters) {
   for (const auto& [name, substrate] : parameters.substrates) {
     law.grounds.push_back({config::friction_of<Real>(substrate), config::cohesion_of<Real>(substrate)});
   }
-  law.clamp = basal.clamp == config::FrictionClamp::joint ? physics::FrictionClamp::joint
-                                                          : physics::FrictionClamp::keep_cohesion;
+  law.clamp = basal.clamp;
   law.cap_pressure = basal.cap_pressure;
   law.heat_fraction = static_cast<Real>(basal.heat_fraction);
   law.gravity = static_cast<Real>(parameters.general.gravity);
@@ -166,16 +152,12 @@ band::AnyHeatContent<Real> make_heat_content(const config::Case& parameters, con
 template <class Real>
 void set_water_balance(const config::Case& parameters, band::BandPhysics<Real>& band) {
   const config::Pressure& pressure = parameters.pressure;
-  band.frozen_rows = pressure.frozen_rows == config::FrozenRows::sealed   ? band::FrozenRows::sealed
-                     : pressure.frozen_rows == config::FrozenRows::vented ? band::FrozenRows::vented
-                                                                          : band::FrozenRows::draining;
+  band.frozen_rows = pressure.frozen_rows;
   band.ice_presses = pressure.frozen == config::FrozenPressure::ice_pressure;
   band.melt_contracts = pressure.melt_contraction;
   band.residual_stress = static_cast<Real>(pressure.residual_stress);
   band.skeleton_compressibility = static_cast<Real>(pressure.skeleton_compressibility);
-  band.water.law = parameters.phases.water_expansion_law == config::WaterExpansionLaw::by_temperature
-                       ? physics::WaterExpansionLaw::by_temperature
-                       : physics::WaterExpansionLaw::constant;
+  band.water.law = parameters.phases.water_expansion_law;
   band.water.constant = static_cast<Real>(parameters.phases.water_expansion);
   band.conservative_advection =
       parameters.heat.enabled && parameters.heat.advection_form == config::AdvectionForm::conservative;
@@ -196,13 +178,9 @@ band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::
   band.at_faces.extent = extent;
   for (std::size_t f = 0; f < 2 * Dim; ++f) {
     const config::HeatBoundary& face = parameters.heat.boundary[f];
-    band.at_faces.faces[f].kind = face.kind == config::HeatBoundaryKind::temperature ? band::FaceHeat::temperature
-                                  : face.kind == config::HeatBoundaryKind::flux      ? band::FaceHeat::flux
-                                                                                     : band::FaceHeat::insulated;
-    band.at_faces.faces[f].value = static_cast<Real>(face.value);
+    band.at_faces.faces[f] = {face.kind, static_cast<Real>(face.value)};
   }
-  band.region =
-      parameters.band.region == config::BandRegion::all ? band::ScaledRegion::all : band::ScaledRegion::first_layer;
+  band.region = parameters.band.region;
   band.secant_capacity = parameters.heat.update == config::HeatUpdate::enthalpy;
   band.current_masses = parameters.heat.masses == config::HeatMasses::current;
   band.lubrication = motion.lubrication;

@@ -56,7 +56,7 @@ double energy_so_far(const Ledger<Dim, Real>& ledger, const mpm::MonitorSums<Rea
                                              ledger.damping + ledger.friction_work + ledger.contact_loss);
 }
 
-// True if more than escaped_fraction of the mass moves faster than `speed` [m/s].
+// True if more than moving_fraction_at_rest of the mass moves faster than `speed` [m/s].
 template <int Dim, class Real>
 bool starts_faster(const mpm::Particles<Dim, Real>& particles, double speed) {
   double mass = 0.0, fast_mass = 0.0;
@@ -65,7 +65,7 @@ bool starts_faster(const mpm::Particles<Dim, Real>& particles, double speed) {
     mass += static_cast<double>(particles.mass(p));
     fast_mass += static_cast<double>(velocity.norm()) > speed ? static_cast<double>(particles.mass(p)) : 0.0;
   }
-  return fast_mass > escaped_fraction * mass;
+  return fast_mass > moving_fraction_at_rest * mass;
 }
 
 // Time for which a slide must be slow from the start to be at rest [s].
@@ -73,7 +73,7 @@ double rest_time_from_start(const config::Time& times, double gravity) {
   return std::min(times.rest_time, fall_times * rest_speed(times) / gravity);
 }
 
-// True if more than escaped_fraction of the mass has moved farther than a distance [m].
+// True if more than moving_fraction_at_rest of the mass has moved farther than a distance [m].
 template <int Dim, class Real>
 bool has_gone_further(const mpm::Particles<Dim, Real>& particles, Real way) {
   Real mass = 0, far_mass = 0;
@@ -81,7 +81,7 @@ bool has_gone_further(const mpm::Particles<Dim, Real>& particles, Real way) {
     mass += particles.mass(p);
     far_mass += particles.path_length(p) > way ? particles.mass(p) : Real(0);
   }
-  return far_mass > static_cast<Real>(escaped_fraction) * mass;
+  return far_mass > static_cast<Real>(moving_fraction_at_rest) * mass;
 }
 
 }  // namespace
@@ -148,7 +148,7 @@ void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::MonitorSums<Real>& s
 
 template <int Dim, class Real>
 void Simulation<Dim, Real>::update_rest(const mpm::MonitorSums<Real>& seen) {
-  const bool moves = seen.fast_mass > static_cast<Real>(escaped_fraction) * seen.mass;
+  const bool moves = seen.fast_mass > static_cast<Real>(moving_fraction_at_rest) * seen.mass;
   if (parameters_.time.stop_at_rest <= 0.0) {
     monitor_.has_moved = not_sampled;
   } else if (monitor_.has_moved == not_sampled) {
@@ -187,7 +187,7 @@ std::string Simulation<Dim, Real>::rest_rule() const {
   const std::string or_from_start =
       from_start < times.rest_time ? fmt::format(", or {:.2g} s from the start,", from_start) : "";
   return fmt::format("for {:g} s{} no more than {:g} % of the mass faster than {:g} m/s", times.rest_time,
-                     or_from_start, 100.0 * escaped_fraction, rest_speed(times));
+                     or_from_start, 100.0 * moving_fraction_at_rest, rest_speed(times));
 }
 
 template <int Dim, class Real>
@@ -212,7 +212,7 @@ template <int Dim, class Real>
 std::string Simulation<Dim, Real>::rest_text() const {
   return fmt::format(
       "{}: since t = {:g} s no more than {:g} % of its mass has moved faster than {:g} m/s (time.stop_at_rest)",
-      at_rest, monitor_.rest_since, 100.0 * escaped_fraction, parameters_.time.stop_at_rest);
+      at_rest, monitor_.rest_since, 100.0 * moving_fraction_at_rest, parameters_.time.stop_at_rest);
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real)                                                    \

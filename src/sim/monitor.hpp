@@ -13,9 +13,9 @@ namespace thawslide::sim {
 // Steps between two checks. An instability takes longer to grow from one per cent of the energy to all of it.
 inline constexpr std::int64_t watch_interval = 10;
 
-// Fraction of the mass that may move while the slide is at rest. The front excludes the same fraction, so a few escaped
+// Fraction of the mass that may move while the slide is at rest. The front excludes the same fraction, so a few rolling
 // particles do not prevent rest.
-inline constexpr double escaped_fraction = 0.005;
+inline constexpr double moving_fraction_at_rest = 0.005;
 
 // Default speed of a slide at rest [m/s] if time.stop_at_rest is not specified. At this speed the slide moves by less
 // than a cell in time.rest_time.
@@ -30,7 +30,8 @@ struct RunMonitor {
   double lowest_made = 0.0;     // recent minimum of the unexplained energy [J]
   double first_step = 0.0;      // adaptive step at t = 0, or when stepping became adaptive [s]; 0 with fixed steps
   double rest_since = -1.0;     // [s]; negative while moving
-  double has_moved = 0.0;       // 1: more than escaped_fraction has been faster than time.stop_at_rest; -1: not checked
+  double has_moved =
+      0.0;  // 1: more than moving_fraction_at_rest has been faster than time.stop_at_rest; -1: not checked
   // Unexplained energy since t = 0 at the last check, as a fraction of the total. Not in checkpoints.
   double made_share = 0.0;
 

@@ -16,14 +16,15 @@ constexpr double round_off = 1e-9;  // of accumulated times, as a fraction of a 
 std::string advice_on(LimitKind kind) {
   switch (kind) {
     case LimitKind::wave:
-      return "Waves are faster in lighter material: the particle is torn apart. Remove such particles "
+      return "Waves are faster in lighter material: the particle has expanded. Remove such particles "
              "with guards.volume = \"remove\" and a guards.largest_volume.";
     case LimitKind::viscosity:
       return "Try a smaller viscosity_time in the material: its limit falls with the square of the wave speed, which "
              "grows in separated material; or remove such particles with guards.volume = \"remove\" and a "
              "guards.largest_volume.";
     case LimitKind::particle_speed:
-      return "The particle came loose, or the run has become unstable: try half of time.safety, or viscosity_time in "
+      return "The particle detached from the flow, or the run became unstable: try half of time.safety, or "
+             "viscosity_time in "
              "the material.";
     case LimitKind::conduction:
     case LimitKind::seepage:

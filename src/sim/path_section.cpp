@@ -139,10 +139,10 @@ Descent descent_from(const config::Case& parameters, const config::Release& rele
   Descent descent = steepest_descent(ground, centre, width);
   if (descent.line.empty()) {
     throw UserError(fmt::format(
-        "{}: no way leads down from the release's centre at x = {:.10g}, y = {:.10g}: over {:g} m the "
-        "ground is {} there. Give maps.path, a file with a line from the release down the way it will take.",
+        "{}: no downhill path starts at the centre of the release, x = {:.10g}, y = {:.10g}: over {:g} m the terrain "
+        "is {} there. Set maps.path to a file with a line from the release along the expected flow path.",
         config::place_of(parameters, "maps"), centre[0], centre[1], width,
-        descent.pit ? "level, or a pit," : "not known all about"));
+        descent.pit ? "level or a pit" : "partly without data"));
   }
   return descent;
 }
@@ -228,21 +228,20 @@ PathSection section_along_path(const config::Case& parameters, const config::Sit
     throw UserError(fmt::format("{}: the path has no length; allowed: a line of at least two different points.",
                                 config::place_of(parameters, "maps.path")));
   }
-  const std::string source = section.path_given
-                                 ? config::place_of(parameters, "maps.path")
-                                 : fmt::format("{}: the way straight down", config::place_of(parameters, "maps"));
+  const std::string source =
+      section.path_given ? config::place_of(parameters, "maps.path")
+                         : fmt::format("{}: the line of steepest descent", config::place_of(parameters, "maps"));
   const double points_apart = std::min(ground.cell_x, ground.cell_y), cell = parameters.grid.cell;
   const ReleaseOnPath on_path = release_on_path(line, release, std::max(cell, 2.0 * points_apart));
   if (on_path.nearest > std::max(ground.cell_x, ground.cell_y)) {
     throw UserError(
-        fmt::format("{}: the path passes the release of body '{}' by, {:.4g} m away. Draw it through the "
-                    "release.",
-                    source, name, on_path.nearest));
+        fmt::format("{}: the path misses the release of body '{}' by {:.0f} m. Draw it through the release.", source,
+                    name, on_path.nearest));
   }
   if (way.pit && line.length() < on_path.to) {
     throw UserError(
-        fmt::format("{} from the release's centre ends in a pit at x = {:.10g}, y = {:.10g}, below the release itself. "
-                    "Give maps.path, a file with a line from the release down the way it will take.",
+        fmt::format("{} from the centre of the release ends in a pit at x = {:.10g}, y = {:.10g}, below the release. "
+                    "Set maps.path to a file with a line from the release along the expected flow path.",
                     source, (*way.pit)[0], (*way.pit)[1]));
   }
   if (way.pit) {

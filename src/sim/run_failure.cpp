@@ -248,9 +248,8 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   const std::string speeds =
       fmt::format("It moves at {:.4g} m/s{}, the slide at {:.4g} m/s on average. ", own, towards, mean);
   if (own > runaway * mean) {
-    return fmt::format(
-        "{}Likely cause: it came loose from the slide; try half of {}, or viscosity_time in the material.", speeds,
-        step_to_halve());
+    return fmt::format("{}Likely cause: it detached from the flow; try half of {}, or viscosity_time in the material.",
+                       speeds, step_to_halve());
   }
   const std::string too_far = speeds + "Likely cause: the slide ran further than [grid] min and max allow";
   const int exit_axis = axis_of_exit<Dim, Real>(particles_.position.template get<Vector<Real, Dim>>(p), velocity,
@@ -285,8 +284,8 @@ void Simulation<Dim, Real>::stop_for_energy(double growth, double share) const {
           : "Likely cause: without basal.distance_check the ground is felt up to a cell early, and throws back what "
             "falls onto it with more energy than it had; set it to true.";
   throw RunError(fmt::format(
-      "the run failed at t = {:.6g} s (step {}): {:.3g} J{} of energy have come without a cause, {:.3g} % of all so "
-      "far, where guards.energy_growth allows {:g} %. The fastest particle, {}, moves at {:.4g} m/s, the slide at "
+      "the run failed at t = {:.6g} s (step {}): energy grew by {:.3g} J{} without a physical cause, {:.3g} % of all "
+      "energy so far (guards.energy_growth allows {:g} %). The fastest particle, {}, moves at {:.4g} m/s, the slide at "
       "{:.4g} m/s on average. {}",
       time_, step_number_, growth, Dim == 2 ? " per m of width" : "", 100.0 * share,
       100.0 * parameters_.guards.energy_growth, particle_text(fastest).substr(std::string("particle ").size()),

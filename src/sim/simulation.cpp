@@ -88,7 +88,7 @@ void Simulation<Dim, Real>::post_step() {
     stop_for_or_remove_particles();
   }
   if (bed_in_reach() != nullptr) {
-    stopwatch_.time("take_up_bed", [&] { entrain_bed(); });
+    stopwatch_.time("entrain_bed", [&] { entrain_bed(); });
   }
 }
 
@@ -200,7 +200,7 @@ void Simulation<Dim, Real>::rescale_band() {
     return;
   }
   Real added = 0;
-  const bool depends_on_place = model_.band.region != band::ScaledRegion::all || model_.layer_thickness;
+  const bool depends_on_place = model_.band.region != band::BandRegion::all || model_.layer_thickness;
   if (depends_on_place || band_thickness() != current_band_thickness_) {
     current_band_thickness_ = band_thickness();
     added = band::rescale_band(grid_, model_.band, static_cast<Real>(current_band_thickness_), model_.layer_thickness,
@@ -288,7 +288,7 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::
   seed();
   if (parameters_.time.stepping == config::Stepping::fixed) {
     const StepLimit limit =
-        sim::step_limit(parameters_, model_, smallest_thickness(parameters_), extremes_of(model_, particles_));
+        sim::step_limit(parameters_, model_, parameters_.band.thickness.smallest(), extremes_of(model_, particles_));
     if (parameters_.time.step > limit.step) {
       throw UserError(
           fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}{}. Use a smaller time.step, or "
@@ -374,11 +374,6 @@ void Simulation<Dim, Real>::start_ledger() {
     rear = std::min(rear, direction * static_cast<double>(particles_.position(p, 0)) - static_cast<double>(half));
   }
   rear_at_start_ = direction * rear + model_.origin[0];
-}
-
-template <int Dim, class Real>
-double Simulation<Dim, Real>::band_thickness() const {
-  return parameters_.band.thickness.value.empty() ? 0.0 : parameters_.band.thickness.at(time_);
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim, Real) template class Simulation<Dim, Real>;

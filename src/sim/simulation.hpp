@@ -80,7 +80,7 @@ class Simulation {
   // adaptive step becomes too small (guards.smallest_step, guards.most_steps).
   [[nodiscard]] double next_step(double until) const;
 
-  // True if the slide is at rest: for time.rest_time, at most escaped_fraction of the mass has been faster than
+  // True if the slide is at rest: for time.rest_time, at most moving_fraction_at_rest of the mass has been faster than
   // time.stop_at_rest or, by default, usual_rest_speed (sim/monitor.hpp). Also the criterion as text, and the time
   // since when it is met [s].
   [[nodiscard]] bool is_at_rest() const;
@@ -251,7 +251,7 @@ class Simulation {
                                                        const terrain::LooseMaterial<Dim, Real>& material,
                                                        std::int64_t number) const;
   void stop_if_invalid();
-  [[nodiscard]] double band_thickness() const;
+  [[nodiscard]] double band_thickness() const { return parameters_.band.thickness.at(time_); }
 
   config::Case parameters_;
   config::Site site_;

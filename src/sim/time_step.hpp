@@ -1,7 +1,6 @@
 // Stability limits of the time step.
 #pragma once
 
-#include <algorithm>
 #include <string>
 
 #include "band/step_extremes.hpp"
@@ -21,12 +20,6 @@ struct StepLimit {
   LimitKind kind = LimitKind::none;
   std::int64_t particle = -1;  // id of the limiting particle; negative if there is none
 };
-
-// Minimum band thickness over time [m]; 0 without a band.
-inline double smallest_thickness(const config::Case& parameters) {
-  const auto& thickness = parameters.band.thickness.value;
-  return thickness.empty() ? 0.0 : *std::min_element(thickness.begin(), thickness.end());
-}
 
 // Extremes over particles that set limits. Allocates nothing, because adaptive steps call it every time.
 template <int Dim, class Real>

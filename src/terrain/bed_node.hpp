@@ -8,11 +8,12 @@
 #include "mpm/records.hpp"
 #include "mpm/vectors_in_records.hpp"
 #include "physics/entrainment.hpp"
+#include "physics/options.hpp"
 #include "terrain/contact_node.hpp"
 
 namespace thawslide::terrain {
 
-enum class BedLaw { strength, momentum };
+using physics::BedLaw;
 
 template <class Real>
 struct BedMaterial {

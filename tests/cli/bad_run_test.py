@@ -73,8 +73,9 @@ def test_load_beyond_the_step(thawslide: Program, small_case: Path, tmp_path: Pa
     outcome = thawslide("run", small_case, "--output", tmp_path / "guarded", *fall)
     assert outcome.returncode == 3
     assert re.fullmatch(
-        r"error: the run failed at t = \S+ s \(step \d+\): \S+ J per m of width of energy have come without a cause, "
-        r"\S+ % of all so far, where guards\.energy_growth allows 25 %\. The fastest particle, \d+ of body 'block' at "
+        r"error: the run failed at t = \S+ s \(step \d+\): energy grew by \S+ J per m of width without a "
+        r"physical cause, \S+ % of all energy so far \(guards\.energy_growth allows 25 %\)\. The fastest "
+        r"particle, \d+ of body 'block' at "
         r"\(\S+, \S+\) m, moves at \S+ m/s, the slide at \S+ m/s on average\. Likely cause: the step is too long for "
         r"what the material does, or the material is softer than its load, or it is torn apart; try half of "
         r"time\.step, a viscosity_time in the material, or mechanics\.transfer = \"blend\" with "

@@ -43,7 +43,7 @@ def test_columns_that_boil_dry_are_reported_once(said: Said) -> None:
     found = re.match(r"warning: at [\d.]+ s (\d+ columns|a column) .*boiled dry, and the hottest is at (\d+) C", note)
     assert found, note
     assert 100 < int(found[2]) < 5000
-    assert "nothing limits temperature and friction" in note
+    assert "no longer limits temperature and friction" in note
 
 
 def test_columns_without_steam_do_not_boil(said: Said) -> None:

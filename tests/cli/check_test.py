@@ -141,7 +141,7 @@ def test_drainage_is_doubted_in_the_folder_of_a_run_too(thawslide: Program, smal
     """Its case has every default written out; what is at its default there was not meant."""
     file, run = small_case / "case.toml", tmp_path / "run"
     file.write_text(file.read_text() + '\n[band]\nmodel = "columns"\nthickness = 0.2\n')
-    note = "material.rock.hydraulic_conductivity is 0 m/s, its default: pore water never drains"
+    note = "material.rock.hydraulic_conductivity is 0 m/s, its default: pore water cannot drain"
     assert note in thawslide("run", small_case, "--output", run, *sets(time__end=0.01)).stdout
     assert note in thawslide("check", run).stdout
     assert note in thawslide("run", run, "--output", tmp_path / "again").stdout

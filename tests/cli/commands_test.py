@@ -94,17 +94,17 @@ def test_check_says_what_a_run_will_take(thawslide: Program) -> None:
     without = r"not used: (this program was built without CUDA|no NVIDIA (driver|GPU) found|the .*)"
     assert re.fullmatch(without + r"|about .* \(measured on the first steps\) and .* free, on .*", said["GPU"])
     assert re.match(
-        r"slide: 8\.428e\+04 m3 and 1\.738e\+08 kg per metre of width, along 1055 m; 79\.9 m thick on average, 90 m "
+        r"slide: 84,280 m3 and 1\.738e\+08 kg per metre of width, along 1,055 m; 79\.9 m thick on average, 90 m "
         r"in the median and 90 m at most \(vertical\)",
         said["body"],
     )
     assert "              3371 particles 5 m apart; 18 across in the median and 18 at most; -10 C\n" in outcome.stdout
     assert re.fullmatch(
-        r"about 182 MB: 201 snapshots of 0\.9 MB, 3 checkpoints of 1\.2 MB, history 2\.5 MB, inputs 0\.0 MB; \S+ [MG]B "
+        r"about 180 MB: 201 snapshots of \d\d0 kB, 3 checkpoints of 1\.2 MB, history 2\.5 MB, inputs \d+ kB; \S+ [MG]B "
         r"are free",
         said["disk"],
     )
-    assert re.match(r"about (\d+ h )?(\d+ min ?)?(\d+ s )?on \d+ threads?", said["time"])
+    assert re.match(r"about \S+ (s|min|h) on \d+ threads?", said["time"])
     assert "picture" not in said
 
 

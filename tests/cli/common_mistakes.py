@@ -76,7 +76,7 @@ COMMON_MISTAKES = [
         new="cell = 1.0 m",
         said=(
             "error: {case}/case.toml:11:12: this is not TOML: Error while parsing key-value pair: expected a "
-            "comment or whitespace, saw 'm'. A number stands without its unit; a text stands in quotes. "
+            "comment or whitespace, saw 'm'. Write numbers without units, and text in quotes. "
             "Correct the line; see https://toml.io for the syntax.\n"
         ),
     ),
@@ -86,7 +86,7 @@ COMMON_MISTAKES = [
         new="cell = 1,0",
         said=(
             "error: {case}/case.toml:11:9: this is not TOML: Error while parsing key-value pair: expected a "
-            "comment or whitespace, saw ','. A number has a decimal point, no comma. Correct the line; see "
+            "comment or whitespace, saw ','. Write a decimal point, not a comma. Correct the line; see "
             "https://toml.io for the syntax.\n"
         ),
     ),
@@ -96,7 +96,7 @@ COMMON_MISTAKES = [
         new="end = 0.2\nend = 0.3",
         said=(
             "error: {case}/case.toml:6:7: this is not TOML: Error while parsing key-value pair: cannot "
-            "redefine existing floating-point 'end'. A key stands once in a table. Correct the line; see "
+            "redefine existing floating-point 'end'. A table contains a key only once. Correct the line; see "
             "https://toml.io for the syntax.\n"
         ),
     ),

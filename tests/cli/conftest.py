@@ -195,7 +195,7 @@ def history(run: Path) -> dict[str, np.ndarray]:
 
 
 def snapshot_files(run: Path) -> list[Path]:
-    return sorted((run / "snapshots").glob("*.vtkhdf"))
+    return sorted((run / "snapshots").glob("[0-9]*.vtkhdf"))
 
 
 def datasets(file: Path) -> dict[str, np.ndarray]:

@@ -333,7 +333,7 @@ def test_fault_of_a_path_next_to_the_release(thawslide: Program, tmp_path: Path)
         assert values[-1] > values[0] + 4.0
     refused = thawslide("block", folder / "case-3d.toml", *sets(maps__path=side))
     assert refused.returncode == 2
-    assert "the path passes the release of body 'slide' by, 155 m away. Draw it through the release." in refused.stderr
+    assert "the path misses the release of body 'slide' by 155 m. Draw it through the release." in refused.stderr
     ground = ["--dem", folder / "dem.tif", "--release", folder / "release.gpkg", "--thickness", 10]
     for line in ("side", "late"):
         refused = thawslide("section", tmp_path / "section", *ground, "--line", folder / f"line-{line}.gpkg")

@@ -115,7 +115,7 @@ def undisturbed(program: Path, subject: Subject, run: Path) -> tuple[dict[str, s
 def unreadable(run: Path) -> list[str]:
     """Return what of a run's folder, as a kill has left it, cannot be read."""
     found = []
-    for file in [*(run / "snapshots").glob("*.vtkhdf"), *run.glob("particles.vtkhdf")]:
+    for file in [*(run / "snapshots").glob("[0-9]*.vtkhdf"), *run.glob("particles.vtkhdf")]:
         try:
             datasets(file)
         except (OSError, KeyError) as error:

@@ -82,7 +82,7 @@ def test_chain_of_case_files(thawslide: Program, small_case: Path) -> None:
         (small_case / f"v{k}.toml").write_text(f'[case]\nbased_on = "{base}"\n')
     assert thawslide("check", small_case / "v14.toml").returncode == 0
     said = refusal(thawslide, "check", small_case / "v19.toml")
-    assert "and 16 files stand on one another already; allowed: 16. Join some of them." in said
+    assert ": a chain of 16 files precedes it; allowed: 16. Combine some of them." in said
 
 
 def test_a_variant_by_its_bare_name(thawslide: Program, small_case: Path) -> None:

@@ -56,8 +56,8 @@ def test_the_next_commands_can_be_pasted(
     folder = tmp_path / name
     outcome = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
     assert outcome.returncode == 0, outcome.stderr
-    look = next(line for line in outcome.stdout.splitlines() if line.startswith("look at it:"))
-    command = look.removeprefix("look at it:").removesuffix("--picture").strip()
+    look = next(line for line in outcome.stdout.splitlines() if line.startswith("preview:"))
+    command = look.removeprefix("preview:").removesuffix("--picture").strip()
     if "\n" not in name and "\t" not in name:
         assert shlex.split(command) == [str(binary), "check", str(folder)]
     pasted = subprocess.run(
@@ -115,33 +115,6 @@ def test_a_name_that_is_no_utf8_is_refused_before_anything_is_made(
     assert outcome.returncode == 2
     assert b"is not UTF-8, which a case file is written in" in outcome.stderr
     assert not Path(folder).exists()
-
-
-def test_what_a_command_that_was_killed_left_is_called_that(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
-    folder = tmp_path / "slide"
-    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
-    assert sorted(file.name for file in folder.iterdir()) == [
-        "case.toml",
-        "dem.tif",
-        "release.geojson",
-    ]
-    (folder / "case.toml").unlink()
-    (folder / ".unfinished-case").write_text("")
-    again = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
-    assert again.returncode == 2
-    assert again.stderr == (
-        f"error: {folder}: a `thawslide new` was cut off while it made this folder, or is at it now: its mark "
-        ".unfinished-case is there, and no whole case. Remove the folder, or give the name of another one.\n"
-    )
-    # Killed while it wrote its very mark.
-    other = tmp_path / "other"
-    other.mkdir()
-    (other / "..unfinished-case.30828.thawslide-part").write_text("")
-    again = made(thawslide, other, slope(), release, "--thickness", THICKNESS)
-    assert again.returncode == 2
-    assert f"{other}: a `thawslide new` was cut off while it made this folder" in again.stderr
 
 
 def test_no_place_in_a_file_that_was_not_made_is_reported(thawslide: Program, tmp_path: Path, slope: Slope) -> None:

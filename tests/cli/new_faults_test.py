@@ -41,14 +41,15 @@ def test_raster_releases_that_cannot_be_used(thawslide: Program, tmp_path: Path,
     assert_refused(
         made(thawslide, folder, dem, write_thickness(raster, dem, 1000.0 * THICKNESS)),
         tmp_path,
-        "--release: thick.tif: the release has 2.88e+08 m3, up to 2.4e+04 m thick, and --largest-volume allows 2e+08 "
-        "m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
+        "--release: thick.tif: the release has 288,000,000 m3, is up to 24,000 m thick, and --largest-volume allows "
+        "200,000,000 m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, "
+        "confirm it by a "
         "larger --largest-volume.",
     )
     assert_refused(
         made(thawslide, folder, dem, write_thickness(raster, dem, 0.0)),
         tmp_path,
-        "--release: thick.tif: the thickness is nowhere above 0: there is no release.",
+        "--release: thick.tif: the thickness is not above 0 at any point: there is no release.",
     )
 
 
@@ -58,7 +59,7 @@ def test_dem_without_a_system(thawslide: Program, tmp_path: Path, slope: Slope, 
         made(thawslide, folder, bare, release, "--thickness", THICKNESS),
         tmp_path,
         "--dem: bare.tif: the file names no coordinate reference system (x from 411995 to 412895, y from 5159995 to "
-        '5160595). Set --crs to the one its maker states, such as --crs "EPSG:31287".',
+        '5160595). Set --crs to the one that the data provider states, such as --crs "EPSG:31287".',
     )
     assert_refused(
         made(thawslide, folder, bare, release, "--thickness", THICKNESS, "--crs", "EPSG:4326"),
@@ -76,7 +77,7 @@ def test_dem_with_a_wrong_tag(thawslide: Program, tmp_path: Path, slope: Slope, 
         tmp_path,
         "--dem: wrong.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric (x from 411995 to "
         "412895, y from "
-        '5159995 to 5160595). Set --crs "EPSG:..." to the system the numbers are in; its maker states it.',
+        '5159995 to 5160595). Set --crs "EPSG:..." to the system of the coordinates, which the data provider states.',
     )
     given = made(thawslide, folder, wrong, release, "--thickness", THICKNESS, "--crs", "EPSG:32632")
     assert given.returncode == 0, given.stderr
@@ -146,10 +147,23 @@ def test_thickness_in_the_wrong_unit(thawslide: Program, tmp_path: Path, slope: 
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(), release, *words),
         tmp_path,
-        "--release: release.geojson: the release has 2.88e+08 m3, up to 2.4e+04 m thick, and --largest-volume allows "
-        "2e+08 m3. Is the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
+        "--release: release.geojson: the release has 288,000,000 m3, is up to 24,000 m thick, and --largest-volume "
+        "allows 200,000,000 m3. Is the thickness in the wrong unit? Metres are needed. If the volume is "
+        "right, confirm it by a "
         "larger --largest-volume.",
     )
+
+
+def test_release_too_thin_for_its_area(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 0.3)
+    assert outcome.returncode == 2 and not (tmp_path / "slide").exists()
+    assert re.search(
+        r"^error: --thickness: a release 0\.3 m thick asks for cells of 0\.\d+ m and \S+ particles; allowed without "
+        r"--cell: 5,000,000\. Is the thickness in metres\? If it is, set --cell 0\.\d+ or more, which is "
+        r"coarser, or use "
+        r"a depth-averaged program",
+        outcome.stderr,
+    ), outcome.stderr
 
 
 @pytest.mark.parametrize("content", ["", '{"type": "FeatureColl'])
@@ -181,8 +195,8 @@ def test_release_outside_the_dem(thawslide: Program, tmp_path: Path, slope: Slop
             made(thawslide, tmp_path / "slide", slope(), beside, "--thickness", THICKNESS),
             tmp_path,
             f"--release: beside.geojson: the release lies {place}; found: {found}, y from 5160000 to 5160100; allowed: "
-            "x from 412000 to 412890, y from 5160000 to 5160590. Check that both have the same place and reference "
-            "system (the ground's is EPSG:32632), or take a larger DEM.",
+            "x from 412000 to 412890, y from 5160000 to 5160590. Check that both have the same location and "
+            "reference system (the DEM has EPSG:32632), or use a larger DEM.",
         )
 
 
@@ -228,7 +242,7 @@ def test_bodies_that_overlap(thawslide: Program, tmp_path: Path, slope: Slope, r
     line = 1 + (folder / "case.toml").read_text().splitlines().index('release = "toe.geojson"')
     assert outcome.returncode == 2 and not run.exists()
     assert said(outcome.stderr, tmp_path) == (
-        f"error: slide/case.toml:{line}:11: body.toe.release: the bodies 'slide' and 'toe' overlap by 1000 m2 about "
+        f"error: slide/case.toml:{line}:11: body.toe.release: the bodies 'slide' and 'toe' overlap by 1,000 m2 about "
         "412315, 5160300; allowed: bodies that touch or lie apart, but for slivers up to 12 m2, 0.1 % of the smaller "
         "one. Draw them apart (QGIS: Vector > Geoprocessing Tools > Difference).\n"
     )
@@ -246,7 +260,7 @@ def test_folder_that_is_there(thawslide: Program, tmp_path: Path, slope: Slope, 
     assert_refused(
         made(thawslide, folder, slope(), release, "--thickness", THICKNESS),
         tmp_path,
-        "full: there is something already; give the name of a folder that is not there yet, or an empty one.",
+        "full: it exists and is not an empty folder. Choose another name.",
     )
 
 

@@ -35,7 +35,7 @@ def test_particles_across_the_thickness(thawslide: Program, tmp_path: Path, slop
     assert outcome.returncode == 0 and "too few particles" not in outcome.stdout, outcome.stderr
     checked = thawslide("check", tmp_path / "fine")
     assert (
-        "  body        slide: 2.88e+05 m3 and 5.94e+08 kg, over 1.2e+04 m2; 24 m thick on average, 24 m in the "
+        "  body        slide: 288,000 m3 and 5.94e+08 kg, over 12,000 m2; 24 m thick on average, 24 m in the "
         "median and 24 m at most (vertical)\n"
         "              4512 particles 4 m apart; 6 across in the median and 6 at most; -5 C\n"
         "  roughness   noise of 0 m rms"
@@ -108,8 +108,8 @@ def test_release_smaller_than_a_cell_of_the_dem(thawslide: Program, tmp_path: Pa
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(), tiny, "--thickness", 20),
         tmp_path,
-        "--release: tiny.geojson: the release has 9 m2, less than one cell of the DEM, 100 m2: it would be "
-        "spread over the cell and become as much thinner. Draw it larger, or resample the DEM (gdalwarp -tr "
+        "--release: tiny.geojson: the release is smaller than a cell of the DEM (9 m2; 100 m2), over which it "
+        "would be distributed and become too thin. Draw it larger, or resample the DEM (gdalwarp -tr "
         "0.8 0.8 -r bilinear dem.tif finer.tif).",
     )
 
@@ -200,7 +200,7 @@ def test_a_release_near_the_edge_of_the_known_terrain(thawslide: Program, tmp_pa
     # Its points are those from 205 to 315 m, and it ends a cell beyond them.
     assert warning("amid", 205.0) == ""
     advice = (
-        "needed its own length, 130 m, or more). Particles that pass the edge are removed, and the results lack them. "
+        "needed at least its own length, 130 m). Particles that pass the edge are removed, and the results lack them. "
         "Use a larger DEM"
     )
     start = "warning: --dem: the release is close to the edge of the known terrain (found "

@@ -63,9 +63,9 @@ def test_a_cell_that_the_user_gives_is_of_no_resolution(
 
 
 def seconds_of(duration: str) -> float:
-    """Return a duration such as "1 h 02 min" [s]."""
-    units = {"s": 1.0, "min": 60.0, "h": 3600.0}
-    return sum(float(number) * units[unit] for number, unit in re.findall(r"(\d+) (s|min|h)", duration))
+    """Return a duration such as "1.7 min" [s]."""
+    number, unit = duration.split()
+    return float(number) * {"s": 1.0, "min": 60.0, "h": 3600.0}[unit]
 
 
 def test_the_times_of_the_others_follow_from_the_cells(
@@ -74,7 +74,7 @@ def test_the_times_of_the_others_follow_from_the_cells(
     """Cells half as large cost 16 times as much."""
     outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", THICKNESS)
     found = dict(re.findall(r"--resolution (\w+): cells of \S+ m, about ([^;]+);", outcome.stdout))
-    assert seconds_of(found["fine"]) == pytest.approx(16.0 * seconds_of(found["standard"]), rel=0.02)
+    assert seconds_of(found["fine"]) == pytest.approx(16.0 * seconds_of(found["standard"]), rel=0.08)
 
 
 def test_an_unknown_resolution(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:

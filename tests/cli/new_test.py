@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import signal
 import tomllib
@@ -200,13 +201,19 @@ def test_release_by_a_raster(thawslide: Program, tmp_path: Path, slope: Slope) -
         assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(WIDTH * DEPTH * THICKNESS, rel=1e-9)
 
 
+def size_text(size: float) -> str:
+    """Return a size below 1 GB [bytes] as `check` prints it, with two significant digits."""
+    value, unit = (size / 1e3, "kB") if size < 1e6 else (size / 1e6, "MB")
+    return f"{round(value, 1 - math.floor(math.log10(value))):g} {unit}"
+
+
 def test_check_says_what_maps_take(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     """How large their cells are and why, how many files there will be, and what it means to ask for small cells."""
     folder = tmp_path / "slide"
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
     with rasterio.open(folder / "dem.tif") as file:
         of_ground = file.width * file.height * 8
-    usual = "2 x 2 of the DEM's, so as to be 12 m wide at least: three particle distances"
+    usual = "2 x 2 of the DEM's, to be at least 12 m wide: three particle distances"
     note = (
         "warning: maps.cell is 5 m, and grid.cell 8 m: a cell of the maps holds few particles or one, and the largest "
         "speeds and pressures are those of single particles. Without maps.cell they take cells of 20 m.\n"
@@ -218,14 +225,15 @@ def test_check_says_what_maps_take(thawslide: Program, tmp_path: Path, slope: Sl
         said = dict(re.findall(r"^  (\w+) +(\S.*)$", outcome.stdout, re.MULTILINE))
         reported = re.fullmatch(
             rf"(\d+) x (\d+) cells of {cell} x {cell} m \({re.escape(reason)}\); "
-            r"memory (\d+\.\d) MB for the release, at most (\d+\.\d) MB",
+            r"memory (\S+) ([kM])B for the release, at most (\S+) ([kM])B",
             said["maps"],
         )
         assert reported, said["maps"]
-        assert 0.0 < float(reported[3]) < float(reported[4])
+        units = {"k": 1e3, "M": 1e6}
+        assert 0.0 < float(reported[3]) * units[reported[4]] < float(reported[5]) * units[reported[6]]
         one = int(reported[1]) * int(reported[2]) * 8
         assert (
-            f", 12 maps (10 of {one / 1e6:.1f} MB, 2 of {of_ground / 1e6:.1f} MB) before they are compressed; "
+            f", 12 maps (10 of {size_text(one)}, 2 of {size_text(of_ground)}) before they are compressed; "
         ) in said["disk"]
     refusal = refused(thawslide("check", folder, "--set", "maps.cell=0.01"))
     assert "--set maps.cell=0.01: maps of " in refusal and "GB of memory while it is written" in refusal

@@ -14,7 +14,7 @@ import rasterio
 from conftest import LAMPLUGH, LIMIT, Program, history, run_facts, sets
 from slope_files import DEPTH, SOUTH, WEST, WIDTH, Slope, made
 
-STATE = r"\d+\.\d of 2 s \| \d+ steps/s \| (\d+ min )?\d+ s left \| front \d+ m"
+STATE = r"\d+\.\d of 2 s \| \d+ steps/s \| \S+ (s|min) left \| front \d+ m"
 SPEED = r" at -?\d+\.\d m/s"
 
 
@@ -48,7 +48,7 @@ def test_plain_lines_tell_share_speed_time_left_and_front(said: tuple[list[str],
     assert shares == sorted(set(shares)) and shares[-1] <= 100
 
 
-def test_summary_reports_throughput_stages_and_result(said: tuple[list[str], Path]) -> None:
+def test_summary_reports_throughput_and_result(said: tuple[list[str], Path]) -> None:
     lines, run = said
     facts = run_facts(run)
     first = next(k for k, line in enumerate(lines) if "particle-steps per second" in line)
@@ -57,19 +57,13 @@ def test_summary_reports_throughput_stages_and_result(said: tuple[list[str], Pat
     )
     assert reported and int(reported[1]) == facts["particles"]
     assert reported[2] == f"{facts['particle_steps_per_second'] / 1e6:.3g}"
-    where = next(number for number, line in enumerate(lines) if line.startswith("at 2 s"))
-    stages = [re.fullmatch(r"  (\w+) +(\d+\.\d\d) s +(\d+\.\d) %", line) for line in lines[first + 1 : where]]
-    assert all(stages)
-    assert {stage[1] for stage in stages if stage} == set(facts["seconds_per_stage"])
-    shares = [float(stage[3]) for stage in stages if stage]
-    assert shares == sorted(shares, reverse=True) and 50.0 < sum(shares) <= 101.0
     assert re.fullmatch(
         r"at 2 s, not at rest: mean velocity \d+\.\d\d m/s, mean displacement \d+ m, front at \d+ m, runout \d+ m",
-        lines[where],
+        lines[first + 1],
     )
-    shown = dict(line.split() for line in lines[where + 1 : -2])
+    shown = dict(line.split() for line in lines[first + 2 : -2])
     assert set(shown) == {"mean_velocity_m_s", "dilation_volume_m3", "dilation_share", "left_mass_kg"}
-    assert all(float(value) == pytest.approx(facts[name], rel=1e-5) for name, value in shown.items())
+    assert all(float(value.replace(",", "")) == pytest.approx(facts[name], rel=5e-4) for name, value in shown.items())
     assert facts["at_rest"] is False and len(facts["warnings"]) == 1
     assert lines[-2] == f"warning: {facts['warnings'][0]}"
     assert lines[-2].startswith("warning: The slide is not at rest at 2 s (mean velocity ")
@@ -119,8 +113,9 @@ def test_a_slide_that_barely_moved_has_no_front(
     assert outcome.returncode == 0, outcome.stderr
     assert "nan" not in outcome.stdout
     assert re.search(
-        r"\nat 0\.05 s, not at rest: mean velocity 0\.\d\d m/s, mean displacement 0 m, no front: maps\.path is not "
-        r"given, and the slide has barely moved: there is no flow path\n",
+        r"\nat 0\.05 s, not at rest: mean velocity 0\.\d\d m/s, mean displacement 0 m, no front: "
+        r"maps\.path is not set, "
+        r"and the slide has barely moved\n",
         outcome.stdout,
     )
 

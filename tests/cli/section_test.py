@@ -57,7 +57,7 @@ def test_section_of_a_plane_runs_as_it_is(thawslide: Program, maps: Maps, tmp_pa
     made = thawslide(*maps.words_with_release(folder))
     assert made.returncode == 0, made.stderr
     assert sorted(file.name for file in folder.iterdir()) == ["case.toml", "profile.csv"]
-    assert "a release of 2000 m3 per metre of width, 18.7 m thick, on 6 m cells: about 222 particles" in made.stdout
+    assert "a release of 2,000 m3 per metre of width, 18.7 m thick, on 6 m cells: about 220 particles" in made.stdout
     comments, columns = profile(folder)
     assert comments == [
         "# Cut by `thawslide section` out of dem.tif along line.geojson: its triangles below the line.",
@@ -198,10 +198,7 @@ def test_an_existing_folder_is_left_alone(thawslide: Program, maps: Maps, tmp_pa
     (folder / "mine.txt").write_text("mine")
     outcome = thawslide(*maps.words_with_release(folder))
     assert outcome.returncode == 2
-    assert outcome.stderr == (
-        f"error: {folder}: there is something already; give the name of a folder that is not there yet, or an empty "
-        "one.\n"
-    )
+    assert outcome.stderr == (f"error: {folder}: it exists and is not an empty folder. Choose another name.\n")
     assert [file.name for file in folder.iterdir()] == ["mine.txt"]
 
 
@@ -225,19 +222,18 @@ def test_block_slides_a_case_in_space_along_its_path(thawslide: Program, maps: M
     assert acceleration > 0.5
     assert columns["velocity_m_s"] == pytest.approx(acceleration * columns["time_s"], abs=1e-6)
     assert columns["front_position_m"][0] == pytest.approx(190.0, abs=10.0)
-    assert "the path's ground is known for" not in slid.stdout
+    assert "the front leaves the DEM" not in slid.stdout
 
     down = thawslide("block", folder, "--output", file, *coulomb, *sets(maps__path='""'))
     assert down.returncode == 0, down.stderr
-    assert "the way of steepest descent from the release's centre, as maps.path is not given" in down.stdout
+    assert "the line of steepest descent from the centre of the release, because maps.path is not set" in down.stdout
     columns = {name: values for name, values in zip(*read_csv(file), strict=True)}
     assert columns["velocity_m_s"] == pytest.approx(acceleration * columns["time_s"], abs=1e-6)
 
     far = thawslide("block", folder, "--output", file, *coulomb, *sets(time__end=40))
     assert far.returncode == 0, far.stderr
     reported = re.search(
-        r"warning: the path's ground is known for 760 m; the front leaves it at (\S+) s, and the rows end before\. "
-        r"Give a "
+        r"warning: maps\.path: the front leaves the DEM after 760 m, at (\S+) s, and the table ends there\. Use a "
         r"longer maps\.path, or a larger DEM, to follow it further\n",
         far.stdout,
     )

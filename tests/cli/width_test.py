@@ -13,7 +13,7 @@ WIDE = ROOT / "cases" / "lamplugh-columns" / "wide-valley.toml"
 def test_check_says_what_figures_are_per_metre_of(thawslide: Program) -> None:
     outcome = thawslide("check", WIDE)
     assert outcome.returncode == 0, outcome.stderr
-    assert "slide: 8.428e+04 m3 and 1.738e+08 kg per metre of the width at x = 2190 m, along 1055 m; " in outcome.stdout
+    assert "slide: 84,280 m3 and 1.738e+08 kg per metre of the width at x = 2190 m, along 1,055 m; " in outcome.stdout
     assert "case.width" not in outcome.stdout, "1,883 m over 2 km is no reason to warn"
     steep = thawslide("check", WIDE, "--set", "case.width={ x = [2190.0, 3190.0], value = [617.0, 2500.0] }")
     assert steep.returncode == 0, steep.stderr

@@ -135,8 +135,7 @@ def test_physics_reaches_nothing_that_devices_cannot_compile() -> None:
 def test_core_neither_prints_nor_exits_nor_catches_signals() -> None:
     word = re.compile(r"\bstd::(cout|cerr|clog)\b|\bfmt::print\b|\bprintf\(|\b(exit|_exit|abort|signal|sigaction)\(")
     for path in code_files("src"):
-        # A process of its own, which is there to crash, ends by itself.
-        if path.relative_to(SOURCE).parts[0] == "app" or path.name == "probe_in_subprocess.cpp":
+        if path.relative_to(SOURCE).parts[0] == "app":
             continue
         found = word.search(path.read_text())
         assert not found, f"{place(path)}: {found.group() if found else ''} belongs in src/app"
@@ -245,6 +244,28 @@ def test_code_cites_sections_that_the_theory_has() -> None:
 def names_in_backticks(path: Path) -> set[str]:
     """Return all words a document sets as code."""
     return set(re.findall(r"`([^`\n]+)`", path.read_text()))
+
+
+def gtest_names() -> set[str]:
+    """Return the C++ tests as `Suite.Test`."""
+    macro = re.compile(r"\b(?:TYPED_)?TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\s*\)")
+    texts = (path.read_text() for path in code_files("tests"))
+    return {f"{suite}.{test}" for text in texts for suite, test in macro.findall(text)}
+
+
+def test_code_files_and_tests_that_pages_name_exist() -> None:
+    files = {f"/{place(path)}" for path in code_files("src", "tests", "benchmarks")}
+    tests = gtest_names()
+    assert len(tests) > 500
+    recipe = {"src/physics/basal/weakening_friction.hpp"}  # the reader writes it
+    wrong = []
+    for page in documents():
+        words = " ".join(names_in_backticks(page))
+        named = set(re.findall(r"[\w/.]*\w\.(?:hpp|cpp|cu)\b", words)) - recipe
+        wrong += [f"{place(page)}: {name}" for name in named if not any(file.endswith(f"/{name}") for file in files)]
+        named = {name for name in names_in_backticks(page) if re.fullmatch(r"[A-Z]\w+\.[A-Z]\w+", name)}
+        wrong += [f"{place(page)}: {name}" for name in named - tests]
+    assert wrong == []
 
 
 def test_every_history_column_is_defined() -> None:

@@ -109,7 +109,9 @@ def test_report_has_a_value_of_the_run_for_each_reported_one(make_run: MakeRun) 
     assert found_for(run, target("mean_velocity", -100.0, 11.0, "m/s")) == outside, "not with the nearest, at 0 s"
     assert found_for(run, target("source_volume", 0.0, 1.0, "m3")) == "800 m³", "80 particles of 1 m2 on 10 m of width"
     page = make_report(run, names=["force"], dpi=50).page.read_text(encoding="utf-8")
-    cells = re.escape(f"max seismic force 2 8 s</th><td>5 s</td><td>110 GN</td><td>{largest}</td><td>waves</td>")
+    cells = re.escape(
+        f"maximum seismic force, band-pass 2 to 8 s</th><td>5 s</td><td>110 GN</td><td>{largest}</td><td>waves</td>"
+    )
     assert re.search(cells, page)
     assert '<th scope="col">this run</th>' in page
 

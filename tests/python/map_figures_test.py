@@ -44,7 +44,7 @@ ON_MAP = [
     [
         (
             "slide_speed",
-            "depth-averaged speed (m/s), 4 s mean",
+            "depth-averaged speed (m/s), 4 s mean; at 0 s: instantaneous; at 10 s: mean of the last 2 s",
             SPEED * np.hypot(1.0, 0.4),
         ),
         ("slide_thickness", "flow thickness (m), square-root scale; blue: below 0.1 m", THICKNESS),
@@ -82,6 +82,7 @@ def test_extent_maps_have_titles_units_and_legend(map_run: Path) -> None:
         ("(d) flow thickness at 10 s", "max 6 m"),
     ]
     assert {"m, square-root scale\nblue: below 0.1 m", "m/s", "s"} <= labels(figure)
+    assert " Outline: thickness > 0.1 m. " in notes(figure)
     final = field(panels[3]).get_array()
     assert final is not None
     assert np.ma.count(final) == 8 * 6
@@ -225,9 +226,17 @@ def test_outline_is_the_polygon_of_the_affected_area(map_run: Path) -> None:
     site = make_site(Run(map_run))
     assert site.affected is not None and len(site.affected) == 1
     np.testing.assert_array_equal(site.affected[0], ring)
+    assert site.outline_words == (
+        "affected area, thickness > 0.1 m; edge cells count by their covered fraction, the release by its outline"
+    )
     axes = Figure().subplots()
     site.draw_outline(axes)
     np.testing.assert_array_equal(np.column_stack(axes.lines[0].get_data()), ring)
+
+
+def test_components_of_the_force_on_a_map_are_east_and_north(map_run: Path) -> None:
+    components = FIGURES["force"].plot(Run(map_run)).axes[1]
+    assert [text.get_text() for text in components.get_legend().get_texts()] == ["x (east)", "y (north)", "z (up)"]
 
 
 def test_missing_maps_are_errors(map_run: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -66,6 +66,18 @@ def test_thinning_a_full_map_keeps_its_volume() -> None:
     assert whole.thinned(6).volume() == pytest.approx(whole.volume(), rel=1e-12)
 
 
+def test_means_over_other_cells_are_weighted_by_area() -> None:
+    values = np.array([[1.0, 2.0, 4.0], [np.nan, 8.0, 16.0]])
+    fine = Map(Grid(1.0, 1.0, 2.0, 2.0, 3, 2), values)  # 0..6 by 0..4 m
+    found = fine.averaged_over(Grid(1.5, 2.0, 3.0, 4.0, 3, 1))
+    assert found.grid == Grid(1.5, 2.0, 3.0, 4.0, 3, 1)
+    np.testing.assert_allclose(found.values, [[2.0, 25.0 / 3.0, 0.0]])
+    same = fine.averaged_over(fine.grid)
+    np.testing.assert_allclose(same.values, np.nan_to_num(values))
+    whole = fine.averaged_over(Grid(-0.7, 1.2, 1.7, 3.0, 6, 3))
+    assert whole.volume() == pytest.approx(fine.volume(), rel=1e-12)
+
+
 def test_interpolation_is_linear_and_ends_with_the_map() -> None:
     x, y = centres()
     field = Map(Grid(WEST + 5.0, SOUTH + 5.0, CELL, CELL, COLUMNS, ROWS), ground(x, y))

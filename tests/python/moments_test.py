@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import h5py
@@ -47,7 +48,7 @@ def test_times_of_the_case_have_priority(make_run: MakeRun) -> None:
 def test_velocities_are_those_of_displacement(make_run: MakeRun) -> None:
     """The velocities of the file increase with time; its points move at (12, -6) m/s."""
     run = Run(make_run())
-    for index in (1, 5, 10):
+    for index in (1, 5, 9):
         np.testing.assert_allclose(shown_snapshot(run, index)["velocity"], [[12.0, -6.0, 0.0]] * 80, atol=1e-9)
     np.testing.assert_array_equal(shown_snapshot(run, 0)["velocity"], run.snapshot(0)["velocity"])
     figure = FIGURES["velocity"].plot(run)
@@ -57,8 +58,31 @@ def test_velocities_are_those_of_displacement(make_run: MakeRun) -> None:
     assert panel.get_title(loc="right") == "max 13.4 m/s"
 
 
+def velocity_label(run: Run) -> str:
+    """Return the label of the velocities of the figure."""
+    labels = [axes.get_xlabel() for axes in FIGURES["velocity"].plot(run).axes]
+    return next(label for label in labels if label.startswith("velocity"))
+
+
+@pytest.mark.parametrize("facts", [{"at_rest": False}, {}])
+def test_last_velocities_of_a_moving_mass_are_those_of_the_last_time(make_run: MakeRun, facts: dict[str, bool]) -> None:
+    folder = make_run(times="[0.0, 5.0, 10.0]")
+    (folder / "run.json").write_text(json.dumps({"status": "done"} | facts))
+    run = Run(folder)
+    np.testing.assert_array_equal(shown_snapshot(run, 10)["velocity"], run.snapshot(10)["velocity"])
+    assert velocity_label(run) == "velocity (m/s), 2 s mean; at 0 and 10 s: instantaneous"
+
+
+def test_last_velocities_at_rest_are_means_of_the_last_interval(make_run: MakeRun) -> None:
+    folder = make_run(times="[5.0, 10.0]")
+    for since, words in ((9.5, "; at 10 s: mean of the last 1 s"), (8.0, "")):
+        (folder / "run.json").write_text(json.dumps({"status": "done", "at_rest": True, "rest_since_s": since}))
+        assert velocity_label(Run(folder)) == f"velocity (m/s), 2 s mean{words}"
+
+
 def test_vibration_at_rest_has_no_velocity(make_run: MakeRun) -> None:
     folder = make_run(times="[10.0]")
+    (folder / "run.json").write_text(json.dumps({"status": "done", "at_rest": True, "rest_since_s": 8.0}))
     points = Run(folder).snapshot(8).points
     for number in (9, 10):
         move(folder, number, points=points, velocity=1.2)

@@ -236,9 +236,8 @@ def test_invalid_resolutions_are_errors(make_run: MakeRun, dpi: str, capsys: pyt
 def test_reported_values_are_compared_at_aligned_times(make_run: MakeRun) -> None:
     folder = make_run()
     run = Run(folder)
-    assert (
-        "Times are measured from the start of the run." in make_report(run, names=["motion"], dpi=50).page.read_text()
-    )
+    page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    assert page.index("Times are measured from the start of the run.") > page.index("Reported values</summary>")
     targets = next(folder.glob("**/*targets*.csv"))
     # 12 sin2(pi t/10) m/s is 6 m/s at 2.5 s of the run.
     targets.write_text("quantity,time_s,value,unit,source\nstart_velocity,4,6,m/s,x\nmean_displacement,7,50,m,x\n")
@@ -248,7 +247,12 @@ def test_reported_values_are_compared_at_aligned_times(make_run: MakeRun) -> Non
     assert found_for(run, displacement) == "44 m"  # 8 m/s for 5.5 s
     assert found_for(run, start) == "2.5 s after the start"
     page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
-    assert "the mean velocity first attains 6 m/s at 4 s. The run starts at 1.5 s." in page
+    note = "the mean velocity first attains 6 m/s at 4 s. The run starts at 1.5 s."
+    assert page.count(note) == 1
+    assert page.index("<h2>Key numbers</h2>") < page.index(note) < page.index("Simulated time")
+    assert "<td>10 s</td><td>1.5 s to 11.5 s in the times below</td>" in page
+    for words in ("mean velocity that sets the times", "mean displacement"):
+        assert f'<th scope="row">{words}</th>' in page
     panel = FIGURES["motion"].plot(run).axes[1]
     marks = next(found for found in panel.lines if str(found.get_label()).startswith("reported mean"))
     assert marks.get_xdata()[0] == 7.0

@@ -12,6 +12,7 @@ from map_runs import MIDDLE, THICKNESS, WEST, centres, ground, write_map
 
 from thawslide.figures.cross_sections import across, along, extended
 from thawslide.figures.site import distances
+from thawslide.maps import read_map
 
 
 def test_sections_have_terrain_and_maximum_thickness(map_run: Path) -> None:
@@ -26,6 +27,19 @@ def test_sections_have_terrain_and_maximum_thickness(map_run: Path) -> None:
     np.testing.assert_allclose(z, ground(WEST + 20.0 + x, np.full(len(x), MIDDLE)), rtol=1e-9)
     largest = panels[1].lines[0]
     assert float(np.max(np.asarray(largest.get_ydata(), dtype=float))) == pytest.approx(THICKNESS)
+
+
+def test_release_is_not_thicker_than_the_maximum_on_coarser_cells(map_run: Path) -> None:
+    """The release has cells of 10 m; the maximum, the same slab, has cells of 30 m."""
+    release = read_map(map_run / "maps" / "release.tif").values
+    coarse = release.reshape(10, 3, 20, 3).mean(axis=(1, 3))
+    for name in ("max_thickness", "final_thickness"):
+        write_map(map_run / "maps" / f"{name}.tif", coarse, cell=30.0)
+    thickness = maps_of(plotted("cross_sections", map_run))[1]
+    edge = np.concatenate([path.vertices for path in thickness.collections[0].get_paths()])
+    distance, largest = (np.asarray(values, dtype=float) for values in thickness.lines[0].get_data())
+    assert edge[:, 1].max() > 0.5 * THICKNESS
+    assert (edge[:, 1] <= np.interp(edge[:, 0], distance, largest) + 1e-9).all()
 
 
 def test_section_of_a_steep_path_ends_with_the_path(map_run: Path) -> None:

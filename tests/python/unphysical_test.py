@@ -80,6 +80,24 @@ def test_limit_of_boiling_columns_is_the_melting_point_of_rock(make_run: MakeRun
     }
 
 
+def test_warnings_are_above_the_curves(make_run: MakeRun) -> None:
+    folder = make_run()
+    write_history(folder / "history.csv", history_columns(101, 2) | {"band_temperature_C": np.full(101, 400.0)})
+    figure = FIGURES["band"].plot(Run(folder))
+    figure.draw_without_rendering()
+    (box,) = [text for text in figure.findobj(Text) if text.get_text().startswith("⚠ unphysical: 400 °C")]
+    bottom = box.axes.transData.inverted().transform(box.get_window_extent().corners())[:, 1].min()
+    assert bottom > 400.0
+
+
+def test_unapplied_pore_pressure_is_marked(make_run: MakeRun) -> None:
+    folder = make_run()
+    case = folder / "case.toml"
+    case.write_text(case.read_text() + "[mechanisms]\npressurization = false\n")
+    labels = [text.get_text() for text in FIGURES["band"].plot(Run(folder)).findobj(Text)]
+    assert "pore pressure P, computed but not applied\n(mechanisms.pressurization = false)" in labels
+
+
 def test_panel_of_hot_particles_has_a_warning(make_run: MakeRun) -> None:
     folder = make_run()
     change_snapshot(folder, 4, temperature=4321.0)

@@ -44,7 +44,8 @@ class FigureKind:
 
 
 _PANELS = (
-    "Top: whole profile, and the range of each panel. Below each panel: height of the particles above the terrain. "
+    "Top: whole profile, and the range of each panel. Below each panel, if at another scale: height of the particles "
+    "above the terrain. "
     "Particles have their true height and at least the width of a grid cell, because the model does not resolve "
     "narrower gaps; very small ones are enlarged."
 )
@@ -86,7 +87,12 @@ FIGURES: dict[str, FigureKind] = {
     "slide_speed": FigureKind("Depth-averaged speed", _ON_MAP, slide_speed, on_map),
     "slide_thickness": FigureKind("Flow thickness", _ON_MAP, slide_thickness, on_map),
     "slide_temperature": FigureKind("Basal temperature", _ON_MAP, slide_temperature, _with_heat_on_map),
-    "base_temperature": FigureKind("Band temperature", _BASE_ON_MAP, base_temperature, _base_on_map),
+    "base_temperature": FigureKind(
+        "Band temperature",
+        f"{_BASE_ON_MAP} Each basal segment has the mean temperature of its column, whose hottest part is hotter.",
+        base_temperature,
+        _base_on_map,
+    ),
     "base_pressure": FigureKind(
         "Pore pressure ratio of the band",
         f"{_BASE_ON_MAP} At a ratio of 1, pore pressure carries the full load.",
@@ -95,7 +101,8 @@ FIGURES: dict[str, FigureKind] = {
     ),
     "cross_sections": FigureKind(
         "Cross sections",
-        "Terrain and sliding mass along the flow path and across it. Small thicknesses are exaggerated by a factor "
+        "Terrain and sliding mass along the flow path and across it. Thicknesses are means over map cells; the release "
+        "is that of the input, the others are those of the particles. Small thicknesses are exaggerated by a factor "
         "stated in the panel.",
         cross_sections,
         on_map,
@@ -103,7 +110,8 @@ FIGURES: dict[str, FigureKind] = {
     "impact_maps": FigureKind(
         "Pressure, temperature and elevation change",
         "Maximum values of the whole run, and elevation change at its last time. Dynamic pressure: density times speed "
-        "squared. Momentum flux: thickness times speed squared.",
+        "squared. Momentum flux: thickness times speed squared. Temperature: maximum over time of the mean in each map "
+        "cell.",
         impact_maps,
         on_map,
     ),
@@ -141,14 +149,14 @@ FIGURES: dict[str, FigureKind] = {
         band,
         columns_caption="Area-weighted means over the base. Shear traction: resistance by cohesion and friction per "
         "contact area. Friction depends on the effective normal stress N − P, or on N alone for substrates with the "
-        'law "coefficient". The temperature of each column is limited by the boiling temperature at its own N; the '
-        "dashed line is for the mean N. N is averaged over band.load_time for P/N.",
+        'law "coefficient". Parts of a column that contain water are limited by the boiling temperature at its own N, '
+        "dry parts are not; the dashed line is for the mean N. N is averaged over band.load_time for P/N.",
     ),
     "base_along": FigureKind(
         "Basal stresses and temperatures",
         "Left: normal pressure N of each basal segment, averaged over band.load_time, and mean pore pressure P of its "
-        "column. Green: N − P, on which friction acts. Right: maximum and mean temperature T of each column, and "
-        "boiling temperature at its N.",
+        "column. Green: N − P, on which friction acts. Right: temperature T of the hottest part and mean T of each "
+        "column, and boiling temperature at its N.",
         base_along,
         _base_in_section,
     ),

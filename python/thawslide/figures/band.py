@@ -25,6 +25,7 @@ from thawslide.figures.style import (
     explain_empty,
     mark_level,
     note_below,
+    reserve_top,
     styled,
     time_axis,
     time_line,
@@ -36,6 +37,8 @@ from thawslide.number_text import prefixed
 from thawslide.run import Run
 from thawslide.unphysical import too_hot, too_much_for_overburden, too_much_pressure
 
+_ABOVE_AXIS = 3.0  # order of lines that can be zero throughout
+_LEGEND_ROW, _LEGEND_EDGE = 0.155, 0.1  # inches
 # Column, label, unit, colour, names of the reported quantity.
 _PANELS = (
     ("band_temperature_C", "temperature", "°C", RED, ("band_temperature",)),
@@ -71,7 +74,7 @@ def _plot_particles(run: Run) -> Figure:
         when, load = load_on_band(run) if is_pressure else (time[:0], time[:0])
         divisor, shown = prefixed([*values, *load], unit) if is_pressure else (1.0, unit)
         axes.set_ylabel(words + (f" ({shown})" if shown else ""))
-        time_line(axes, time, values / divisor, color=colour, label="pore pressure P" if is_pressure else "run")
+        time_line(axes, time, values / divisor, color=colour, label=_pressure_words(run) if is_pressure else "run")
         if np.isfinite(load).any():
             time_line(axes, when, load / divisor, color=BLACK, linestyle="--", label="static normal pressure N")
             warn(axes, too_much_for_overburden(np.interp(when, time, values) / load))
@@ -88,6 +91,13 @@ def _plot_particles(run: Run) -> Figure:
     title_panels(panels, [words for _, words, *_ in _PANELS])
     _note_targets(figure, notes)
     return figure
+
+
+def _pressure_words(run: Run) -> str:
+    """Return the label of the pore pressure, and that it has no effect if the case excludes it."""
+    if run.section("mechanisms").get("pressurization", True):
+        return "pore pressure P"
+    return "pore pressure P, computed but not applied\n(mechanisms.pressurization = false)"
 
 
 def _plot_columns(run: Run) -> Figure:
@@ -133,7 +143,7 @@ def _plot_mean(
     if not np.isfinite(values).any():
         explain_empty(axes, "no contact")
         return []
-    time_line(axes, run.shown_time, values, color=colour, label="run")
+    time_line(axes, run.shown_time, values, color=colour, label="run", zorder=_ABOVE_AXIS)
     notes = plot_targets(axes, run, quantities, 1.0, colour)
     if len(axes.get_legend_handles_labels()[1]) > 1:
         axes.legend(loc="best")
@@ -150,15 +160,16 @@ def _plot_stresses(axes: Axes, run: Run) -> list[str]:
     """Plot N, P, the effective stress and the shear traction; return notes on reported values."""
     load, pore_pressure = run.history["band_normal_pressure_Pa"], run.history["band_pore_pressure_Pa"]
     lines = (
-        (load, "normal pressure N", BLACK),
-        (pore_pressure, "pore pressure P", BLUE),
-        (load - pore_pressure, "effective stress N − P", GREEN),
-        (run.history["band_shear_Pa"], "shear traction", RED),
+        (load, "normal pressure N", {"color": BLACK, "linewidth": 3.0}),
+        (pore_pressure, "pore pressure P", {"color": BLUE}),
+        (load - pore_pressure, "effective stress N − P", {"color": GREEN, "linestyle": (0.0, (3.0, 1.5))}),
+        (run.history["band_shear_Pa"], "shear traction", {"color": RED}),
     )
     divisor, unit = prefixed(np.concatenate([values for values, *_ in lines]), "Pa")
     axes.set_ylabel(f"stress ({unit})")
-    for values, words, colour in lines:
-        time_line(axes, run.shown_time, values / divisor, color=colour, label=words)
+    # N is wide and the effective stress dashed: both are visible without pore pressure.
+    for values, words, style in lines:
+        time_line(axes, run.shown_time, values / divisor, label=words, zorder=_ABOVE_AXIS, **style)
     notes = plot_targets(axes, run, ("band_pore_pressure",), divisor, BLUE)
     legend = axes.legend(loc="upper center", ncols=2, columnspacing=0.7, handlelength=1.2, handletextpad=0.4)
     rows = (len(legend.get_texts()) + 1) // 2
@@ -172,15 +183,18 @@ def _plot_temperatures(axes: Axes, run: Run) -> list[str]:
     time = run.shown_time
     boiling = boiling_temperature(run.history["band_normal_pressure_Pa"])
     axes.set_ylabel("temperature (°C)")
-    time_line(axes, time, run.history["band_hottest_C"], color=ORANGE, label="maximum of all columns")
+    time_line(axes, time, run.history["band_hottest_C"], color=PURPLE, label="hottest part of all columns")
     time_line(axes, time, run.history["band_temperature_C"], color=RED, label="mean")
     time_line(axes, time, boiling, color=SKY, linestyle="--", label="boiling temperature at mean N")
     axes.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")
     notes = plot_targets(axes, run, ("band_temperature",), 1.0, RED)
-    low, top = axes.get_ylim()
-    axes.set_ylim(top=top + 0.4 * (top - low))  # space for the legend
-    warn(axes, too_hot(run, run.history["band_hottest_C"], run.history["band_pore_pressure_Pa"]), high=False)
-    axes.legend(loc="upper right")
+    legend = axes.legend(loc="upper right")
+    space = _LEGEND_EDGE + _LEGEND_ROW * len(legend.get_texts())
+    words = too_hot(run, run.history["band_hottest_C"], run.history["band_pore_pressure_Pa"])
+    if words:
+        warn(axes, words, below=space)
+    else:
+        reserve_top(axes, space)
     return notes
 
 

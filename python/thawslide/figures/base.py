@@ -19,7 +19,7 @@ from thawslide.figures.style import (
     COLUMN_WIDTH,
     GREEN,
     NOTE,
-    ORANGE,
+    PURPLE,
     RED,
     SKY,
     styled,
@@ -31,7 +31,7 @@ from thawslide.run import Run, Snapshot
 from thawslide.unphysical import too_hot, too_much_pressure
 
 _RATIO = Painting("pore_pressure", "pore pressure ratio P/N", "1", "viridis")
-_HEAT = Painting("temperature", "band temperature", TEMPERATURE.unit, TEMPERATURE.colours)
+_HEAT = Painting("temperature", "mean band temperature of the columns", TEMPERATURE.unit, TEMPERATURE.colours)
 _ROW = 1.4  # inches
 
 
@@ -49,7 +49,8 @@ def base_along(run: Run) -> Figure:
     loads = [shot.base["normal_pressure_Pa"] for shot in shots]
     divisor, unit = prefixed(np.concatenate(loads), "Pa")
     figure = Figure(figsize=(COLUMN_WIDTH, 0.9 + _ROW * len(shots)), layout="constrained")
-    title_figure(figure, run.titled("basal stresses and temperatures"))
+    title = run.titled("basal stresses and temperatures")
+    title_figure(figure, f"{title}; time: {run.time_reference.words}")
     rows = figure.subplots(len(shots), 2, squeeze=False)
     for number, (row, shot) in enumerate(zip(rows, shots, strict=True)):
         _draw_row(row[0], row[1], shot, divisor)
@@ -61,7 +62,6 @@ def base_along(run: Run) -> Figure:
         row[1].set_ylabel("temperature (°C)")
     for axes in rows[-1]:
         axes.set_xlabel("distance (m)")
-    rows[0][1].set_title(run.time_reference.label, loc="left", color=NOTE)
     handles = [handle for axes in rows[0] for handle in axes.get_legend_handles_labels()[0]]
     figure.legend(handles=handles, loc="outside lower center", ncols=6, columnspacing=1.0, handlelength=1.4)
     return figure
@@ -76,7 +76,7 @@ def _draw_row(stress: Axes, heat: Axes, shot: Snapshot, divisor: float) -> None:
     stress.plot(x, pressure, color=BLUE, label="pore pressure P")
     stress.fill_between(x, pressure, load, where=load > pressure, color=GREEN, alpha=0.25, label="N − P", linewidth=0)
     stress.set_ylim(bottom=0.0)
-    heat.plot(x, value["hottest_C"], color=ORANGE, label="maximum T")
+    heat.plot(x, value["hottest_C"], color=PURPLE, label="hottest T")
     heat.plot(x, value["temperature_C"], color=RED, label="mean T")
     heat.plot(x, boiling_temperature(value["normal_pressure_Pa"]), color=SKY, linestyle="--", label="boiling T at N")
     heat.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Normalize, PowerNorm, SymLogNorm, TwoSlopeNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator, NullLocator
+from matplotlib.ticker import FixedLocator, MaxNLocator
 
 from thawslide.number_text import exact_text, number_text
 from thawslide.relief import round_number
@@ -35,6 +35,7 @@ BOILING = 100.0  # °C: beyond it a linear scale would only resolve the hottest 
 THIN = "#6BAED6"  # of thicknesses below the scale
 _THIN_FRACTION = 0.02  # of the maximum: smaller thicknesses have that colour
 _TICKS_APART = 0.09  # of the length of a bar
+_TICK_LINE = 0.14  # inches, height of a label of ticks
 LINEAR = 10.0  # °C: the logarithmic scale is linear within this distance of 0 °C
 _CHARACTER = 0.075  # inches, of a label of ticks
 
@@ -77,6 +78,11 @@ def normalisation(values: Numbers, painting: Painting) -> tuple[Normalize, str]:
     return (TwoSlopeNorm(0.0, low, high) if low < 0.0 < high else Normalize(low, high)), extend
 
 
+def scale_words(norm: Normalize) -> str:
+    """Return the scale of temperatures in words for a label, "" for a linear one."""
+    return f", logarithmic scale above {LINEAR:g} °C" if isinstance(norm, SymLogNorm) else ""
+
+
 def thickness_norm(values: Numbers) -> tuple[PowerNorm, str]:
     """Return a square-root scale of thicknesses, which resolves thin margins, above a class of the smallest ones."""
     _, high, extend = colour_range(values, from_zero=True)
@@ -88,13 +94,21 @@ def thickness_words(norm: Normalize) -> str:
     return f"flow thickness (m), square-root scale; blue: below {number_text(float(norm.vmin or 0.0))} m"
 
 
-def _apart(norm: Normalize, low: float, high: float) -> list[float]:
-    """Return the low end of a scale and round numbers up to its high end, with space for their labels."""
+def _apart(norm: Normalize, low: float, high: float, least: float) -> list[float]:
+    """Return the low end of a scale and round numbers up to its high end, `least` of the bar's length apart."""
     found = [low]
     for tick in (digit * 10.0**power for power in range(-3, 6) for digit in (1.0, 2.0, 5.0)):
-        if low < tick <= high and float(norm(tick)) - float(norm(found[-1])) > _TICKS_APART:
+        if low < tick <= high and float(norm(tick)) - float(norm(found[-1])) > least:
             found.append(tick)
     return found
+
+
+def _inches(bar: Colorbar) -> tuple[float, float]:
+    """Return width and height of a bar."""
+    figure = bar.ax.get_figure()
+    assert isinstance(figure, Figure)
+    width, height = figure.get_size_inches() * bar.ax.get_position().size
+    return float(width), float(height)
 
 
 def label_bar(bar: Colorbar, norm: Normalize) -> None:
@@ -107,14 +121,13 @@ def label_bar(bar: Colorbar, norm: Normalize) -> None:
         bar.set_ticks(sorted(tick for tick in ticks if low <= tick <= high))
         bar.ax.xaxis.set_major_formatter(lambda value, _: exact_text(value))
     elif isinstance(norm, PowerNorm):
-        shown = _apart(norm, low, high)
+        width, height = _inches(bar)
+        shown = _apart(norm, low, high, _TICKS_APART if width > height else max(_TICKS_APART, _TICK_LINE / height))
         bar.set_ticks(shown, labels=[number_text(tick) for tick in shown])
         bar.minorticks_off()
     elif isinstance(norm, SymLogNorm):
         # Decades are omitted if their labels would overlap that of the maximum.
-        figure = bar.ax.get_figure()
-        assert isinstance(figure, Figure)
-        inches = float(figure.get_figwidth() * bar.ax.get_position().width)
+        inches = _inches(bar)[0]
         decades = [10.0**power for power in range(1, 7) if 10.0**power < high]
         half_widths = {value: 0.5 * _CHARACTER * (1 + len(number_text(value))) for value in (*decades, high)}
         kept = [
@@ -123,4 +136,5 @@ def label_bar(bar: Colorbar, norm: Normalize) -> None:
         zero = [0.0] if low < 0.0 and inches * float(norm(0.0)) > 2.0 * half_widths[high] else []
         bar.set_ticks([low, *zero, *kept, high])
         bar.ax.xaxis.set_major_formatter(lambda value, _: number_text(value))
-        bar.ax.xaxis.set_minor_locator(NullLocator())
+        steps = [digit * 10.0**power for power in range(1, 7) for digit in range(2, 10)]
+        bar.ax.xaxis.set_minor_locator(FixedLocator([step for step in steps if step < high]))

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
 
 from thawslide.errors import NotInRunError
 from thawslide.figures.site import Site, distances, make_site
@@ -38,6 +39,7 @@ _VISIBLE = 0.06  # of the height of a panel: smaller thicknesses are exaggerated
 _RELEASE, _LAST, _MAXIMUM = SKY, ORANGE, RED
 _CHORD = 0.02  # of the path, to either side of a place: its direction there
 _MARGINS = (1.0, 1.3)
+_TICK_MARGIN = 0.05  # of a panel across the path, without labels at either end
 _FIRST = (1.3, 4.2)  # inches, minimum and maximum height of the section along the path
 _WIDTH, _LEFT, _RIGHT, _GAP, _ROW, _HIGH, _LINE = COLUMN_WIDTH, 0.65, 0.12, 0.65, 2.15, 1.35, 0.15  # inches
 _NOTE_CHARACTERS = 17.0  # of a note in one inch
@@ -181,15 +183,19 @@ def cross_sections(run: Run) -> Figure:
 
 
 def _whole(site: Site) -> _Fields:
-    """Return the maps at their own resolution, cropped to the scene; the path may extend over the terrain around."""
+    """Return the maps at their own resolution, cropped to the scene; the path may extend over the terrain around.
+
+    The release has the resolution of the DEM. It is averaged over the cells of the maxima, which are means as well.
+    """
     box = site.scene.box
 
     def thickness(name: str) -> Map:
         found = site.maps[name].cropped(box)
         return replace(found, values=np.nan_to_num(found.values, nan=0.0))  # no data: never covered
 
-    release = thickness("release") if site.release is not None else None
-    return _Fields(site.maps["terrain"], release, thickness("max_thickness"), thickness("final_thickness"))
+    maximum = thickness("max_thickness")
+    release = site.maps["release"].averaged_over(maximum.grid) if site.release is not None else None
+    return _Fields(site.maps["terrain"], release, maximum, thickness("final_thickness"))
 
 
 def _places(profile: Section, threshold: float) -> list[float]:
@@ -298,7 +304,15 @@ def _plot_across(axes: Axes, fields: _Fields, path: Numbers, place: float, box: 
         window,
         f"({letter}) cross section at {number_text(round(place))} m",
     )
+    axes.set_xticks(_inner_ticks(*axes.get_xlim()))
     axes.set_xlabel(f"distance to the right of the path ({length_unit(window.right - window.left)[1]})")
+
+
+def _inner_ticks(low: float, high: float) -> list[float]:
+    """Return round numbers from low to high, except near the ends, where the neighbour or the edge would cut labels."""
+    margin = _TICK_MARGIN * (high - low)
+    ticks = MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+    return [float(tick) for tick in ticks if low + margin <= tick <= high - margin]
 
 
 def _legend(site: Site) -> list[Patch | Line2D]:

@@ -23,6 +23,7 @@ from thawslide.figures.style import (
     title_figure,
     title_panels,
 )
+from thawslide.maps import on_map
 from thawslide.number_text import number_text, prefixed
 from thawslide.run import Numbers, Run
 from thawslide.targets import FORCE, Band, Target, band_of
@@ -101,10 +102,10 @@ def force(run: Run) -> Figure:
     _mark_start(size, time, magnitude / divisor)
     size.set_ylim(0.0, 1.15 * size.get_ylim()[1])  # space for notes
 
-    vertical = "xyz"[run.vertical]
+    directions = ("east", "north") if on_map(run) else ("along", "across")
+    names = dict(zip("xy", directions, strict=True)) | {"xyz"[run.vertical]: "up"}
     for (axis, values), colour in zip(parts.items(), (BLUE, ORANGE, PURPLE), strict=False):
-        direction = "up" if axis == vertical else "along" if axis == "x" else "across"
-        time_line(components, time, values / divisor, color=colour, linewidth=0.9, label=f"{axis} ({direction})")
+        time_line(components, time, values / divisor, color=colour, linewidth=0.9, label=f"{axis} ({names[axis]})")
     for axes in (size, components):
         axes.set_ylabel(f"force ({unit})")
     # Legends below the panels do not cover curves.

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.offsetbox import AnchoredOffsetbox, AuxTransformBox, HPacker, TextArea, VPacker
 from matplotlib.patches import Rectangle
+from matplotlib.text import Text
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
 from thawslide.figures.colours import THICKNESS, THIN
@@ -30,6 +31,7 @@ ASPECTS = (0.45, 2.4)  # width over height of a map, narrowest and widest
 _MOST_CONTOURS = 24
 _MOST_INTERVALS = 4  # between coordinates on a side of a map
 _DIGIT, _BETWEEN_LABELS, _OVERHANG = 0.071, 0.12, 0.14  # inches, of a coordinate's label
+_TO_BORDER, _TO_OTHERS = 0.17, 0.3  # inches, least distances of elevations of contour lines
 _MARGIN = 0.12  # of the longer side of the mapped boxes, on each side
 _VERTICAL_LIGHT = 0.35  # fraction of the light from above, which gives contrast to steep slopes in the shadow
 _SHADES = LinearSegmentedColormap.from_list("shades", ["#8B867D", "#B5B0A7", "#DFDBD3", "#FAF9F6"])
@@ -126,6 +128,12 @@ def draw_scene(axes: Axes, scene: Scene, labels: bool = True, lines: bool = True
         scene.shade, cmap=_SHADES, vmin=0.0, vmax=1.0, extent=scene.terrain.grid.box, origin="lower",
         interpolation="bilinear", zorder=1,
     )  # fmt: skip
+    west, east, south, north = scene.box
+    axes.set_xlim(west, east)
+    axes.set_ylim(south, north)
+    axes.set_aspect("equal")
+    assert isinstance(axes.figure, Figure)
+    inches = axes.figure.get_size_inches() * axes.get_position().size
     levels = contour_levels(scene.terrain.values, _MOST_CONTOURS)
     if lines and len(levels):
         grid = scene.terrain.grid
@@ -136,15 +144,8 @@ def draw_scene(axes: Axes, scene: Scene, labels: bool = True, lines: bool = True
             linewidths=np.where(heavy, 0.7, 0.35).tolist(), alpha=0.75, zorder=4,
         )  # fmt: skip
         if labels:
-            texts = axes.clabel(drawn, levels=levels[::2], fontsize=6, fmt=exact_text, inline_spacing=2)
-            for text in texts:
-                text.set_zorder(4.5)
-    west, east, south, north = scene.box
-    axes.set_xlim(west, east)
-    axes.set_ylim(south, north)
-    axes.set_aspect("equal")
-    assert isinstance(axes.figure, Figure)
-    inches = axes.figure.get_size_inches() * axes.get_position().size
+            texts = axes.clabel(drawn, levels=levels[::2], fontsize=6, fmt=exact_text, inline=False)
+            _thin_labels(texts, scene.box, inches)
     for axis, low, high, length in ((axes.xaxis, west, east, inches[0]), (axes.yaxis, south, north, inches[1])):
         axis.set_major_locator(FixedLocator(coordinates(low, high, float(length))))
         axis.set_major_formatter(FuncFormatter(lambda value, _: coordinate_text(value)))
@@ -153,6 +154,22 @@ def draw_scene(axes: Axes, scene: Scene, labels: bool = True, lines: bool = True
         text.set_verticalalignment("center")
     for side in axes.spines.values():
         side.set_visible(True)
+
+
+def _thin_labels(texts: Sequence[Text], box: Box, inches: Numbers) -> None:
+    """Remove elevations of contour lines that the border would cut, and those next to another one."""
+    corner, size = np.array([box[0], box[2]]), np.array([box[1] - box[0], box[3] - box[2]])
+    kept: list[Numbers] = []
+    for text in texts:
+        place = (np.array(text.get_position()) - corner) / size * inches
+        to_border = float(np.minimum(place, inches - place).min())
+        to_others = min((float(np.hypot(*(place - other))) for other in kept), default=np.inf)
+        if to_border < _TO_BORDER or to_others < _TO_OTHERS:
+            text.remove()
+            continue
+        kept.append(place)
+        text.set_zorder(4.5)
+        text.set_path_effects(HALO)
 
 
 def coordinate_text(value: float) -> str:

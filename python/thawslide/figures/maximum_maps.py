@@ -79,7 +79,7 @@ def _plot(run: Run, kinds: Sequence[MapKind], words: str, bar: float) -> Figure:
     fields = [(kind, field) for kind, field in fields if np.isfinite(field.values).any()]
     if not fields:
         raise NotInRunError(f"{site.maps.folder}: no values in the maps {', '.join(kind.name for kind in kinds)}.")
-    outline = f"Outline: thickness > {site.threshold:g} m."
+    outline = f"Outline: {site.outline_words}."
     note = f"{run.end_note}{outline} Time: {run.time_reference.words}. {site.scene.note()}"
     page = MapPage(run.titled(words), site.scene, len(fields), note=note, foot=_FOOT, bar=bar)
     corner = quiet_corner(site.reached, site.scene.box)

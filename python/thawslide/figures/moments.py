@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
 from thawslide.errors import NotInRunError
-from thawslide.number_text import number_text
+from thawslide.number_text import exact_text, number_text
 from thawslide.run import Numbers, Run, Snapshot
 
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
@@ -49,11 +49,12 @@ def shown_snapshot(run: Run, index: int, fields: Collection[str] | None = None) 
 def displacement_velocity(run: Run, index: int, shot: Snapshot) -> Numbers:
     """Return the mean velocity [m/s] of each particle between the snapshots before and after, shape (n, 3).
 
-    The vibration of a body at rest contributes nothing. The velocity of the file is kept in the first snapshot, in a
-    run of one snapshot, and for a particle in no neighbouring snapshot.
+    The vibration of a body at rest contributes nothing. The velocity of the file is kept in the first snapshot, for a
+    particle in no neighbouring snapshot, and in the last snapshot of a moving mass: the mean up to it would be that of
+    an earlier time.
     """
     velocity = np.array(shot["velocity"], dtype=np.float64)
-    if index == 0 or "id" not in shot:
+    if index == 0 or "id" not in shot or (index == len(run.times) - 1 and not run.is_at_rest):
         return velocity
     ends = []
     for neighbour in (index - 1, min(index + 1, len(run.times) - 1)):
@@ -68,8 +69,21 @@ def displacement_velocity(run: Run, index: int, shot: Snapshot) -> Numbers:
     return velocity
 
 
-def window_words(run: Run) -> str:
-    """Return the averaging time of velocities in words, "" for a run of one snapshot."""
+def window_words(run: Run, shots: Sequence[Snapshot]) -> str:
+    """Return the averaging time of the velocities of snapshots in words, "" for a run of one snapshot."""
     if len(run.times) < 2:
         return ""
-    return f"{number_text(2.0 * float(np.median(np.diff(run.times))))} s mean"
+    first, last = run.times[0], run.times[-1]
+    ends = (first,) if run.is_at_rest else (first, last)
+    instants = [shot.time for shot in shots if shot.time in ends]
+    words = f"{number_text(2.0 * float(np.median(np.diff(run.times))))} s mean"
+    if instants:
+        words += f"; at {' and '.join(shown_time(run, time) for time in instants)} s: instantaneous"
+    if run.is_at_rest and run.times[-2] < run.rest_since and any(shot.time == last for shot in shots):
+        words += f"; at {shown_time(run, last)} s: mean of the last {number_text(float(last - run.times[-2]))} s"
+    return words
+
+
+def shown_time(run: Run, time: float) -> str:
+    """Return a time [s] of the run as figures show it, without its unit."""
+    return exact_text(round(time + run.time_reference.shift, 1))

@@ -91,6 +91,16 @@ class Site:
         return [part for feature in features for part in feature.parts]
 
     @property
+    def outline_words(self) -> str:
+        """The meaning of the outline."""
+        least = f"thickness > {self.threshold:g} m"
+        return (
+            least
+            if self.affected is None
+            else f"affected area, {least}; edge cells count by their covered fraction, the release by its outline"
+        )
+
+    @property
     def has_given_path(self) -> bool:
         """Whether the case specifies the path; otherwise it is the track of the centre of mass."""
         return bool(self.run.section("maps").get("path"))

@@ -18,6 +18,7 @@ from thawslide.figures.colours import (
     Painting,
     label_bar,
     normalisation,
+    scale_words,
     thickness_words,
 )
 from thawslide.figures.map_page import MapPage
@@ -107,7 +108,8 @@ def plot_on_map(run: Run, painting: Painting, field_of: Callable[[Grid, Snapshot
     page.set_titles(panels)
     bar = page.figure.colorbar(painter, cax=page.common_bar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
-    over = f", {window_words(run)}" if painting is SPEED and window_words(run) else ""
-    words = painting.words + (f" ({painting.unit})" if painting.unit != "1" else "") + over
+    averaging = window_words(run, shots) if painting is SPEED else ""
+    over = f", {averaging}" if averaging else ""
+    words = painting.words + (f" ({painting.unit})" if painting.unit != "1" else "") + scale_words(norm) + over
     bar.set_label(thickness_words(norm) if painting is THICKNESS else words, labelpad=1)
     return page.figure

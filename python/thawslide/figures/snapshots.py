@@ -20,10 +20,11 @@ from thawslide.figures.colours import (
     label_bar,
     normalisation,
     painted_values,
+    scale_words,
 )
 from thawslide.figures.load import overburden
 from thawslide.figures.map_panel import HALO
-from thawslide.figures.moments import LETTERS, chosen_snapshots, window_words
+from thawslide.figures.moments import LETTERS, chosen_snapshots, shown_time, window_words
 from thawslide.figures.style import (
     COLUMN_WIDTH,
     GROUND_LINE,
@@ -34,7 +35,7 @@ from thawslide.figures.style import (
     wrapped,
 )
 from thawslide.figures.window import Window, extent, fill_terrain, fit, squares
-from thawslide.number_text import exact_text, number_text, prefixed
+from thawslide.number_text import number_text, prefixed
 from thawslide.run import Numbers, Run, Snapshot
 from thawslide.unphysical import EDGES, too_hot, too_much_for_overburden
 
@@ -53,13 +54,14 @@ _OF_WARNINGS = {"temperature": ("liquid_saturation", "pore_pressure"), "pore_pre
 # Layout of the page, in inches.
 _WIDTH, _LEFT, _RIGHT, _GAP = COLUMN_WIDTH, 0.65, 0.12, 0.7
 _PANEL_HEIGHT, _STRIP_HEIGHT, _ROW_GAP, _BAR_HEIGHT = 1.45, 0.65, 0.75, 0.13
+_SAME_SCALE = 0.1  # relative difference of scales below which a strip repeats its panel
 _OVERVIEW_MARGINS = (1.0, 1.15)
 _TITLE_LINE, _TITLE_CHARACTERS = 0.17, 12.5  # inches; characters in one inch
 
 
 def time_text(run: Run, shot: Snapshot) -> str:
     """Return the time of a snapshot as figures show it."""
-    return f"t = {exact_text(round(shot.time + run.time_reference.shift, 1))} s"
+    return f"t = {shown_time(run, shot.time)} s"
 
 
 @styled
@@ -100,11 +102,10 @@ def plot_field(run: Run, painting: Painting, zones: Sequence[Zone] = ()) -> Figu
     painter = ScalarMappable(norm, painting.colours)
 
     page = _Page(run, shots, painting.words)
+    windows = page.windows
     figure = page.figure
     figure.suptitle("\n".join(page.title), x=_LEFT / _WIDTH, y=1 - 0.16 / page.height, ha="left", va="top", size=10)
-    windows = [_window(run, shot, page.panel_width / _PANEL_HEIGHT) for shot in shots]
     _draw_zones(_plot_overview(page, run, shots, windows), zones)
-    highest = max(extent(heights)[1] for heights in (above_ground(run, shot) for shot in shots))
     for number, (shot, value, window) in enumerate(zip(shots, values, windows, strict=True)):
         panel, strip = page.panel(number)
         _plot_particles(panel, run, shot, value, window, painter, page.panel_width, _PANEL_HEIGHT)
@@ -114,13 +115,14 @@ def plot_field(run: Run, painting: Painting, zones: Sequence[Zone] = ()) -> Figu
         largest = f"max {number_text(np.nanmax(value))} {unit}" if np.isfinite(value).any() else "no values"
         panel.set_title(largest.strip().replace("-", "−"), loc="right", color=NOTE, size=8)
         if strip is not None:
-            _plot_strip(strip, run, shot, value, window, painter, page.panel_width, highest)
+            _plot_strip(strip, run, shot, value, window, painter, page.panel_width, page.highest)
             panel.set_xlabel("")
             panel.tick_params(labelbottom=False)
     bar = figure.colorbar(painter, cax=page.colourbar(), orientation="horizontal", extend=extend)
     label_bar(bar, norm)
-    over = f", {window_words(run)}" if painting is VELOCITY and window_words(run) else ""
-    bar.set_label(painting.words + (f" ({unit})" if unit else "") + over, labelpad=1)
+    averaging = window_words(run, shots) if painting is VELOCITY else ""
+    over = f", {averaging}" if averaging else ""
+    bar.set_label(painting.words + (f" ({unit})" if unit else "") + scale_words(norm) + over, labelpad=1)
     return figure
 
 
@@ -143,7 +145,9 @@ class _Page:
         self.columns = columns
         self.full = _WIDTH - _LEFT - _RIGHT
         self.panel_width = (self.full - (columns - 1) * _GAP) / columns
-        self.strips = run.terrain is not None
+        self.windows = [_window(run, shot, self.panel_width / _PANEL_HEIGHT) for shot in shots]
+        self.highest = max(extent(heights)[1] for heights in (above_ground(run, shot) for shot in shots))
+        self.strips = run.terrain is not None and not self._strips_repeat_panels(run, shots)
         (left, right), (low, high) = _whole(run, shots)
         shape = (high - low) * _OVERVIEW_MARGINS[1] / ((right - left) * _OVERVIEW_MARGINS[0])
         self.overview_height = float(np.clip(self.full * shape, 0.75, 1.7))
@@ -156,6 +160,16 @@ class _Page:
         self.foot = self.head + self.row * -(-len(shots) // columns)
         self.height = self.foot + 0.55
         self.figure = Figure(figsize=(_WIDTH, self.height))
+
+    def _strips_repeat_panels(self, run: Run, shots: list[Snapshot]) -> bool:
+        """Return whether all strips would have about the scale of their panels, on even terrain."""
+        assert run.terrain is not None
+        repeated = np.ptp(run.terrain[1]) == 0.0
+        for shot, window in zip(shots, self.windows, strict=True):
+            flat = _strip_window(run, shot, window, self.highest)
+            times = (flat.right - flat.left) / self.panel_width / ((flat.top - flat.bottom) / _STRIP_HEIGHT)
+            repeated = repeated and abs(times / window.exaggeration - 1.0) < _SAME_SCALE
+        return bool(repeated)
 
     def place(self, left: float, top: float, width: float, height: float) -> Axes:
         return self.figure.add_axes(
@@ -238,10 +252,21 @@ def _plot_particles(
     x, z = shot.points[:, 0], shot.points[:, run.vertical]
     fill_terrain(axes, run.terrain, window.bottom)
     axes.add_collection(_painted(run, shot, z, values, window, painter, (width, height)), autolim=False)
-    window.apply(axes)
+    window.apply(axes, _height_words(run))
     outside = int(np.sum((x < window.left) | (x > window.right) | (z < window.bottom) | (z > window.top)))
     words = window.note() + (f"\n{outside:,} of {len(x):,} particles outside" if outside else "")
     axes.text(0.99, 0.97, words, transform=axes.transAxes, ha="right", va="top", size=7, color=NOTE, path_effects=HALO)
+
+
+def _strip_window(run: Run, shot: Snapshot, window: Window, highest: float) -> Window:
+    lowest = min(0.0, extent(above_ground(run, shot))[0])
+    highest = max(highest, lowest + 1e-6)
+    return Window(window.left, window.right, lowest - 0.03 * (highest - lowest), highest * 1.08, 1)
+
+
+def _height_words(run: Run) -> str:
+    """Return the name of the vertical axis: gravity that is tilted makes a slope of the level terrain."""
+    return "height above\nslope" if run.section("case").get("gravity_tilt", 0.0) else "elevation"
 
 
 def _plot_strip(
@@ -256,13 +281,11 @@ def _plot_strip(
 ) -> None:
     """Plot particles by their height above the terrain, which shows the layers of a long and thin deposit."""
     heights = above_ground(run, shot)
-    lowest = min(0.0, extent(heights)[0])
-    highest = max(highest, lowest + 1e-6)
-    flat = Window(window.left, window.right, lowest - 0.03 * (highest - lowest), highest * 1.08, 1)
+    flat = _strip_window(run, shot, window, highest)
     axes.add_collection(_painted(run, shot, heights, values, flat, painter, (width, _STRIP_HEIGHT)), autolim=False)
     axes.axhline(0.0, color=GROUND_LINE, linewidth=0.9)
     flat.apply(axes)
-    axes.set_ylabel("height above\nterrain (m)")
+    axes.set_ylabel("height above\nterrain (m)", size=7)
     axes.text(
         0.99,
         0.95,
@@ -315,7 +338,7 @@ def _plot_overview(page: _Page, run: Run, shots: list[Snapshot], views: list[Win
         body = squares(shot.points[:, 0], shot.points[:, run.vertical], particle_size(run, shot), window, inches)
         body.set_facecolor(colour)
         axes.add_collection(body, autolim=False)
-    window.apply(axes)
+    window.apply(axes, _height_words(run))
     axes.set_xlabel("")
     axes.tick_params(labelbottom=False)
     states = f"grey: {time_text(run, shots[0])}, red: {time_text(run, shots[-1])}" if len(shots) > 1 else ""

@@ -180,20 +180,35 @@ def vertical_exaggeration(axes: Axes, unit: float = 1.0) -> float:
 
 
 _LABEL_SPAN = 0.35  # of a panel, for the label of a level
-_WARNING = 0.3  # of the height of curves: space for a warning above them
+_WARNING_LINE, _WARNING_EDGE = 0.14, 0.14  # inches: a line of a warning, and the space around all of them
+_MOST_RESERVED = 0.7  # of the height of a panel
 
 
-def warn(axes: Axes, words: str, high: bool = True) -> None:
+def reserve_top(axes: Axes, inches: float) -> float:
+    """Widen the limits of a panel: its curves end so far below the top. Return that fraction of its height."""
+    figure = axes.get_figure()
+    assert isinstance(figure, Figure)
+    part = min(inches / float(figure.get_figheight() * axes.get_position().height), _MOST_RESERVED)
+    low, top = axes.get_ylim()
+    axes.set_ylim(low, low + (top - low) / (1.0 - part))
+    return part
+
+
+def warn(axes: Axes, words: str, high: bool = True, below: float = 0.0) -> None:
     """Write a warning across the top or the bottom inside a panel; nothing for no words.
 
-    At the top, the limits of the panel are widened to make space above the curves.
+    At the top, the curves end below the warning, which is `below` [inches] under the top, for example of a legend.
     """
     if words:
-        low, top = axes.get_ylim()
-        axes.set_ylim(low, low + (1.0 + _WARNING * high) * (top - low))
-        text = "\n".join(wrapped(f"⚠ {words}", 46))
+        lines = wrapped(f"⚠ {words}", 46)
+        place = 0.04
+        if high:
+            inches = below + _WARNING_EDGE + _WARNING_LINE * len(lines)
+            part = reserve_top(axes, inches)
+            place = 1.0 - part * (below + 0.3 * _WARNING_EDGE) / inches
+        text = "\n".join(lines)
         axes.text(
-            0.5, 0.97 if high else 0.04, text, transform=axes.transAxes, ha="center", size=8,
+            0.5, place, text, transform=axes.transAxes, ha="center", size=8,
             va="top" if high else "bottom", color="#B00020", zorder=12, gid="warning",
             bbox={"facecolor": "white", "edgecolor": "#B00020", "alpha": 0.92, "linewidth": 0.8, "pad": 2.5},
         )  # fmt: skip

@@ -32,13 +32,13 @@ class Window:
         """Return the vertical exaggeration in words."""
         return "true scale" if self.exaggeration == 1 else f"vertical exaggeration {self.exaggeration}×"
 
-    def apply(self, axes: Axes) -> None:
-        """Set the limits, the tick labels in m or km and their names."""
+    def apply(self, axes: Axes, vertical: str = "elevation") -> None:
+        """Set the limits, the tick labels in m or km and their names, `vertical` for that of the vertical axis."""
         axes.set_xlim(self.left, self.right)
         axes.set_ylim(self.bottom, self.top)
         for axis, span, name in (
             (axes.xaxis, self.right - self.left, "distance"),
-            (axes.yaxis, self.top - self.bottom, "elevation"),
+            (axes.yaxis, self.top - self.bottom, vertical),
         ):
             divisor, unit = length_unit(span)
             axis.set_major_formatter(_divided_by(divisor))

@@ -32,5 +32,14 @@ TEST(Rounding, PutsCommasBetweenThousands) {
   EXPECT_EQ(with_commas(12.6, 3), "13") << "no decimals";
 }
 
+TEST(Rounding, EstimatesHaveTwoDigitsAndNoExponent) {
+  EXPECT_EQ(rounded_text(0.0346), "0.035");
+  EXPECT_EQ(rounded_text(9.97), "10");
+  EXPECT_EQ(rounded_text(99.6), "100");
+  EXPECT_EQ(rounded_text(12345678.0), "12,000,000");
+  EXPECT_EQ(rounded_text(84284.0, 4), "84,280");
+  EXPECT_EQ(rounded_text(1e303), "1e+303");
+}
+
 }  // namespace
 }  // namespace thawslide

@@ -26,6 +26,19 @@ TEST(Table, AtAJumpTheLaterValueHolds) {
   EXPECT_DOUBLE_EQ(band.at(75.0), 0.5);
 }
 
+TEST(BandThickness, IsZeroUnlessGiven) {
+  BandThickness thickness;
+  EXPECT_FALSE(thickness.is_given());
+  EXPECT_DOUBLE_EQ(thickness.at(1.0), 0.0);
+  EXPECT_DOUBLE_EQ(thickness.smallest(), 0.0);
+  EXPECT_DOUBLE_EQ(thickness.largest(), 0.0);
+  thickness.table = Table({0.0, 10.0, 20.0}, {0.3, 0.1, 0.2});
+  EXPECT_TRUE(thickness.is_given());
+  EXPECT_DOUBLE_EQ(thickness.at(5.0), 0.2);
+  EXPECT_DOUBLE_EQ(thickness.smallest(), 0.1);
+  EXPECT_DOUBLE_EQ(thickness.largest(), 0.3);
+}
+
 TEST(InitialField, LooksUpDepthOrX) {
   InitialField field;
   field.table = Table({0.0, 10.0}, {-2.0, -4.0});

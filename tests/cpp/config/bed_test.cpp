@@ -23,7 +23,7 @@ TEST(Bed, SoundOneHasNoMistake) {
 TEST(Bed, LawThatLacksItsStrength) {
   EXPECT_EQ(error_of_bed("strength = 1e3\n", ""),
             "FOLDER/case.toml:22:1: key 'bed.strength' is missing: it is needed when bed.law is not \"none\". Add "
-            "'strength = ...' to [bed]: what the bed withstands of shear without a load on it, c_b, a number, >= 0 "
+            "'strength = ...' to [bed]: shear strength of the bed without load, c_b, a number, >= 0 "
             "[Pa].");
 }
 

@@ -40,7 +40,7 @@ TEST(CaseFile, TakesMemberInitialisersWhereItSaysNothing) {
             without_marks(resolved_toml(sound_over_initialisers(), "inputs")));
   // Keys that the resolved case leaves out where they are absent.
   EXPECT_EQ(found.mechanics.k0, Mechanics{}.k0);
-  EXPECT_TRUE(found.band.thickness.value.empty());
+  EXPECT_FALSE(found.band.thickness.is_given());
   EXPECT_TRUE(found.terrain.file.empty());
   EXPECT_TRUE(std::isinf(found.materials.at("rock").tension_cutoff));
 }

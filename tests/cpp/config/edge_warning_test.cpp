@@ -45,10 +45,10 @@ TEST(EdgeWarning, ComesWhereTheEdgeIsNearerThanTheReleaseIsLong) {
       EXPECT_EQ(edge_warning(proposal).empty(), distance >= 110.0) << first;
     }
   }
-  EXPECT_EQ(
-      edge_warning(propose(dem, release_at(dem, 4, 25), 20.0)),
-      "--dem: the release is close to the edge of the known terrain (found 30 m; needed its own length, 110 m, or "
-      "more). Particles that pass the edge are removed, and the results lack them. Use a larger DEM");
+  EXPECT_EQ(edge_warning(propose(dem, release_at(dem, 4, 25), 20.0)),
+            "--dem: the release is close to the edge of the known terrain (found 30 m; needed at least its own length, "
+            "110 m). "
+            "Particles that pass the edge are removed, and the results lack them. Use a larger DEM");
 }
 
 TEST(EdgeWarning, ComesForPointsWithoutDataToo) {
@@ -58,7 +58,7 @@ TEST(EdgeWarning, ComesForPointsWithoutDataToo) {
   dem.values[dem.index(38, 37)] = std::nan("");  // 30 m to the east and 40 m to the north
   const Proposal proposal = propose(dem, release, 20.0);
   EXPECT_NEAR(proposal.edge_distance, 50.0, 1e-9);
-  EXPECT_NE(edge_warning(proposal).find("(found 50 m; needed its own length, 110 m"), std::string::npos);
+  EXPECT_NE(edge_warning(proposal).find("(found 50 m; needed at least its own length, 110 m"), std::string::npos);
 }
 
 TEST(EdgeWarning, ComesWithACaseThatRemovesWhatLeaves) {

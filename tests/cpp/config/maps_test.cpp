@@ -131,7 +131,7 @@ TEST_F(Maps, OfThicknessHaveMistakes) {
   EXPECT_EQ(with_thickness("0"),
             start +
                 "is 0; allowed: > 0 m (thickness of the body: a number, an attribute of the polygons, a raster of "
-                "it, or a raster of the surface before the slide, from which the DEM is taken off).");
+                "it, or a raster of the surface before the slide, from which the DEM is subtracted).");
   EXPECT_EQ(with_thickness("\"thick\""), start + "is the text \"thick\"" + allowed);
   EXPECT_EQ(with_thickness("{ rastr = \"map.tif\" }"), start + "is a table with the keys rastr" + allowed);
   EXPECT_EQ(with_thickness("{ raster = \"map.tif\", surface = \"map.tif\" }"),
@@ -153,7 +153,7 @@ TEST_F(Maps, OfThicknessHaveMistakes) {
   EXPECT_EQ(error_on_dem({{"thickness = 10.0\n", ""}}),
             "FOLDER/case.toml:17:1: key 'body.slide.thickness' is missing: it is needed when the shape is \"release\". "
             "Add 'thickness = ...' to [body.slide]: thickness of the body: a number, an attribute of the polygons, a "
-            "raster of it, or a raster of the surface before the slide, from which the DEM is taken off, a number, { "
+            "raster of it, or a raster of the surface before the slide, from which the DEM is subtracted, a number, { "
             "attribute = \"NAME\" }, { raster = \"FILE\" } or { surface = \"FILE\" }, > 0 [m].");
 }
 

@@ -97,7 +97,7 @@ TEST(Resolved, LamplughReadsBackToItself) {
   }
   const Case again = case_from_text(resolved);
   EXPECT_EQ(resolved_toml(again, "inputs"), resolved);
-  EXPECT_EQ(again.band.thickness.abscissa, lamplugh.band.thickness.abscissa);
+  EXPECT_EQ(again.band.thickness.table.abscissa, lamplugh.band.thickness.table.abscissa);
   EXPECT_EQ(again.terrain.file,
             (folder_of_this_test() / "inputs" / "lamplugh_profile.csv").lexically_normal().string());
   EXPECT_EQ(lines_of(resolved)["terrain"]["file"], "\"inputs/lamplugh_profile.csv\"");

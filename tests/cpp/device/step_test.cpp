@@ -132,7 +132,7 @@ template <int Dim>
 void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int sorted_before, const Host& with) {
   constexpr double dt = 0.002;
   Simulation<Dim, double> simulation(parameters);
-  ASSERT_EQ(simulation.model().motion.shape, mpm::ShapeKind::ugimp);
+  ASSERT_EQ(simulation.model().motion.shape, mpm::ShapeFunction::ugimp);
   Host host = with;
   device::Step<Host, mpm::Ugimp<double>, Dim, double> mechanics(
       host, step_model_of(simulation), mpm::view_of(simulation.particles()), simulation.particles().size(),
@@ -166,7 +166,7 @@ void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int 
   mechanics.copy_to(mpm::view_of(found));
   expect_the_same_particles(simulation.particles(), found, heat || pressure, "at the end");
   EXPECT_EQ(heat, brought.friction_heat > 0.0);
-  EXPECT_EQ(brought.band_rescale != 0.0, parameters.band.thickness.value.size() > 1);
+  EXPECT_EQ(brought.band_rescale != 0.0, parameters.band.thickness.table.value.size() > 1);
   if (pressure) {
     expect_water_to_work(simulation, first);
   }

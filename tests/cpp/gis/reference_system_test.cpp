@@ -63,7 +63,7 @@ TEST(ReferenceSystemTest, FarOutsideTheAreaOfTheSystem) {
 TEST(ReferenceSystemTest, NoSystem) {
   EXPECT_EQ(error_of_system(metric_raster, ""),
             "dem.tif: the file names no coordinate reference system (x from 49280 to 52280, y from 193490 to 195690). "
-            "Set terrain.crs to the one its maker states, such as terrain.crs = \"EPSG:31287\".");
+            "Set terrain.crs to the one that the data provider states, such as terrain.crs = \"EPSG:31287\".");
   EXPECT_EQ(error_of_system(degree_raster, ""),
             "alps/dem.tif: the file names no coordinate reference system (x from 10.2 to 10.3, y from 46.85 to 46.95). "
             "If these are degrees, reproject to metres: gdalwarp -s_srs EPSG:4326 -t_srs EPSG:32632 -tr 31 31 -r "
@@ -86,7 +86,7 @@ TEST(ReferenceSystemTest, Degrees) {
 TEST(ReferenceSystemTest, TagOfDegreesOverMetricNumbers) {
   EXPECT_EQ(error_of_system(metric_raster, "EPSG:4326"),
             "dem.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric (x from 49280 to 52280, y from "
-            "193490 to 195690). Set terrain.crs = \"EPSG:...\" to the system the numbers are in; its maker states it.");
+            "193490 to 195690). Set terrain.crs = \"EPSG:...\" to the system of the coordinates, which the data provider states.");
 }
 
 TEST(ReferenceSystemTest, Feet) {

@@ -15,8 +15,7 @@ TEST(ReleaseFaultsTest, OutsideTheTerrainModel) {
       std::string(at_release) +
           "FOLDER/release.geojson: the release lies outside the DEM, by 500 m in the west; found: x from "
           "399500 to 399600, y from 300300 to 300400; allowed: x from 400000 to 401000, y from 300000 to 300800. "
-          "Check that both have the same place and reference system (the ground's is EPSG:31287), or take a larger "
-          "DEM.");
+          "Check that both have the same location and reference system (the DEM has EPSG:31287), or use a larger DEM.");
   EXPECT_NE(error_of_site(case_with_release({{"", box_at(900, 300, 1010, 400)}}))
                 .find("the release lies partly outside the DEM, by 10 m in the east;"),
             std::string::npos);
@@ -72,8 +71,8 @@ TEST(ReleaseFaultsTest, SmallerThanACellOfTheTerrainModel) {
   config::Case parameters = case_with_release({{"", box_at(300, 300, 303, 303)}}, 20.0);
   EXPECT_EQ(error_of_site(parameters),
             std::string(at_release) +
-                "FOLDER/release.geojson: the release has 9 m2, less than one cell of the DEM, 25 m2: it would "
-                "be spread over the cell and become as much thinner. Draw it larger, or resample the DEM "
+                "FOLDER/release.geojson: the release is smaller than a cell of the DEM (9 m2; 25 m2), over which it "
+                "would be distributed and become too thin. Draw it larger, or resample the DEM "
                 "(gdalwarp -tr 0.8 0.8 -r bilinear FOLDER/dem.tif finer.tif).");
   parameters.terrain.resample = 0.5;
   EXPECT_EQ(error_of_site(parameters), "no error");
@@ -130,7 +129,7 @@ TEST(ReleaseFaultsTest, PolygonsOfDifferentThicknessMayNotOverlap) {
   parameters.bodies["rock"].thickness = {config::MapValue::From::attribute, 0.0, "thickness"};
   EXPECT_EQ(error_of_site(parameters),
             std::string(at_thickness) +
-                "FOLDER/release.geojson: polygon 1 (upper) and polygon 2 overlap by 2000 m2 about 400390, 300350, and "
+                "FOLDER/release.geojson: polygon 1 (upper) and polygon 2 overlap by 2,000 m2 about 400390, 300350, and "
                 "their 'thickness' differs: 5 and 7. Give them the same value, or draw them apart.");
 }
 
@@ -138,9 +137,9 @@ TEST(ReleaseFaultsTest, VolumeThatMustBeConfirmed) {
   config::Case parameters = case_with_release({{"", box_at(200, 200, 800, 600)}}, 8500.0);
   EXPECT_EQ(error_of_site(parameters),
             std::string(at_release) +
-                "FOLDER/release.geojson: the release has 2.04e+09 m3, up to 8500 m thick, and body.rock.largest_volume "
-                "allows 2e+08 m3. Is the "
-                "thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a larger "
+                "FOLDER/release.geojson: the release has 2,040,000,000 m3, is up to 8,500 m thick, and "
+                "body.rock.largest_volume allows 200,000,000 m3. Is the thickness in the wrong unit? Metres are "
+                "needed. If the volume is right, confirm it by a larger "
                 "body.rock.largest_volume.");
   parameters.bodies["rock"].largest_volume = 3e9;
   EXPECT_EQ(error_of_site(parameters), "no error");
@@ -174,9 +173,9 @@ TEST(ReleaseFaultsTest, RasterAsTheRelease) {
     parameters.bodies["rock"] = raster_body(geotiff("release.tif", thickness));
     return error_of_site(parameters);
   };
-  EXPECT_EQ(
-      with(raster_of([](double, double) { return 0.0; }, west, south, 5.0, 201, 161)),
-      "case.toml: body.rock.thickness: FOLDER/release.tif: the thickness is nowhere above 0: there is no release.");
+  EXPECT_EQ(with(raster_of([](double, double) { return 0.0; }, west, south, 5.0, 201, 161)),
+            "case.toml: body.rock.thickness: FOLDER/release.tif: the thickness is not above 0 at any point: there is "
+            "no release.");
   EXPECT_EQ(with(raster_of([](double x, double) { return x > west + 300.0 ? 2.0 : -0.5; }, west + 200.0, south + 200.0,
                            5.0, 60, 40)),
             "case.toml: body.rock.thickness: FOLDER/release.tif: the thickness at 400200, 300200 is -0.5 m; allowed: 0 "
@@ -191,10 +190,9 @@ TEST(ReleaseFaultsTest, RasterAsTheRelease) {
                 "raster of a body's thickness goes to thickness = { raster = \"FILE\" }, which needs no polygons.");
   parameters.bodies["rock"] = raster_body(geotiff("before.tif", ground()));
   parameters.bodies["rock"].thickness.from = config::MapValue::From::surface;
-  EXPECT_EQ(
-      error_of_site(parameters),
-      "case.toml: body.rock.thickness: FOLDER/before.tif: the surface before the slide lies nowhere more than 0.01 "
-      "m above the DEM: there is no release. Are the two files swapped?");
+  EXPECT_EQ(error_of_site(parameters),
+            "case.toml: body.rock.thickness: FOLDER/before.tif: the surface before the slide is at most 0.01 m above "
+            "the DEM: there is no release. Are the two files swapped?");
   parameters.bodies["rock"] = raster_body(in_folder("none.tif"));
   EXPECT_EQ(error_of_site(parameters),
             "case.toml: body.rock.thickness: FOLDER/none.tif: there is no such file. Correct the path.");

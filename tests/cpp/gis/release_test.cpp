@@ -204,8 +204,8 @@ TEST(ReleaseTest, RasterAloneIsTheRelease) {
   thickness.crs = "";
   parameters.bodies["rock"] = raster_body(geotiff("release.tif", thickness));
   EXPECT_EQ(load_site(parameters).warnings,
-            std::vector<std::string>{"release.tif names no coordinate reference system: taken "
-                                     "to be in the ground's, EPSG:31287"});
+            std::vector<std::string>{"release.tif specifies no coordinate reference system: that "
+                                     "of the DEM, EPSG:31287, is assumed"});
 }
 
 TEST(ReleaseTest, SurfaceAloneIsTheRelease) {

@@ -52,8 +52,8 @@ TEST_F(SharedDataTest, TagOfFluchthornIsNamed) {
   ASSERT_EQ(loaded.warnings.size(), 3U);
   EXPECT_EQ(loaded.warnings[1].rfind("fluchthorn.tif was smoothed with a standard deviation of ", 0), 0U);
   EXPECT_EQ(loaded.warnings[2],
-            "scarpFluchthorn_perimeter.shp names no coordinate reference system: taken to be in the "
-            "ground's, EPSG:31254");
+            "scarpFluchthorn_perimeter.shp specifies no coordinate reference system: that of the DEM, EPSG:31254, is "
+            "assumed");
   const config::Release& release = loaded.site.releases.at("summit");
   double volume = 0.0, sum = 0.0;
   for (const double thickness : release.thickness.values) {

@@ -48,7 +48,8 @@ TEST(SiteTest, CroppingChangesNoValueOfResampledAndSmoothedGround) {
     }
     std::vector<std::string> warnings;
     if (distance > 0.0) {
-      warnings.push_back(fmt::format("dem.tif was taken from points 5 m x 5 m apart to points {:g} m apart", distance));
+      warnings.push_back(
+          fmt::format("dem.tif was resampled from points 5 m x 5 m apart to points {:g} m apart", distance));
     }
     warnings.emplace_back("dem.tif was smoothed with a standard deviation of 8 m");
     EXPECT_EQ(loaded.warnings, warnings);
@@ -68,8 +69,7 @@ TEST(SiteTest, WrongTagIsToldAtTheKey) {
   EXPECT_EQ(error_of_site(plain_case(ground("EPSG:4326"))),
             "case.toml:5:8: terrain.file: FOLDER/dem.tif: the tag specifies degrees (EPSG:4326), but the numbers are "
             "metric (x from 399997.5 to 401002.5, y from 299997.5 to 300802.5). Set terrain.crs = \"EPSG:...\" to the "
-            "system the "
-            "numbers are in; its maker states it.");
+            "system of the coordinates, which the data provider states.");
   config::Case parameters = plain_case(ground(""));
   parameters.terrain.crs = "EPSG:31278x";
   EXPECT_EQ(error_of_site(parameters).substr(0, 62), "case.toml: terrain.crs: 'EPSG:31278x' is no coordinate referen");

@@ -116,7 +116,7 @@ TEST(SubstratesOfMaps, ThatOverlapAreRefusedButForSlivers) {
   made.substrates["ice"] = in_polygons(file, {"ice"});
   made.substrates["snow"] = in_polygons(file, {"snow"});
   EXPECT_EQ(error_of_site(made),
-            "case.toml: substrate.snow.outline: the substrates ice and snow overlap by 4000 m2 about 400490, 300300; a "
+            "case.toml: substrate.snow.outline: the substrates ice and snow overlap by 4,000 m2 about 400490, 300300; a "
             "place has one substrate. Allowed: slivers up to 24 m2, 0.1 % of the smaller one. Draw them apart (QGIS: "
             "Vector > Geoprocessing Tools > Difference).");
   made.substrates["snow"] = in_polygons(file, {"sliver"});
@@ -124,11 +124,11 @@ TEST(SubstratesOfMaps, ThatOverlapAreRefusedButForSlivers) {
   made.substrates["snow"] = config::Substrate{};
   made.substrates["snow"].x_min = west + 450.0;
   EXPECT_NE(
-      error_of_site(made).find("case.toml: substrate.snow.x_min: the substrates ice and snow overlap by 1e+04 m2"),
+      error_of_site(made).find("case.toml: substrate.snow.x_min: the substrates ice and snow overlap by 10,000 m2"),
       std::string::npos)
       << error_of_site(made);
   made.substrates["snow"] = in_raster(codes_file([](double x, double) { return x < west + 450.0 ? 1.0 : 4.0; }), 4);
-  EXPECT_NE(error_of_site(made).find("substrate.snow.raster: the substrates ice and snow overlap by 1e+04 m2"),
+  EXPECT_NE(error_of_site(made).find("substrate.snow.raster: the substrates ice and snow overlap by 10,000 m2"),
             std::string::npos)
       << error_of_site(made);
 }
@@ -188,7 +188,7 @@ TEST(SubstratesOfMaps, CodesInAnotherSystemAreTakenToTheGroundsPoints) {
   EXPECT_EQ(substrates->at(450.0, 300.0), 1);
   EXPECT_NE(std::find_if(loaded.warnings.begin(), loaded.warnings.end(),
                          [](const std::string& warning) {
-                           return warning.find("were taken to the points of the DEM") != std::string::npos;
+                           return warning.find("were resampled to the points of the DEM") != std::string::npos;
                          }),
             loaded.warnings.end());
 }

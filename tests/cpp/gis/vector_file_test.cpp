@@ -78,9 +78,8 @@ TEST(VectorFileTest, ShapefileWithoutPrjIsInTheSystemOfTheGround) {
   const std::string file = foreign_polygon("ESRI Shapefile", "bare.shp", "");
   const VectorLayer layer = read_polygons(file, ground());
   EXPECT_EQ(layer.features.front().polygons.front().outline.front()[0], 400000.0);
-  EXPECT_EQ(layer.warnings,
-            std::vector<std::string>{"bare.shp names no coordinate reference system: taken to be in the "
-                                     "ground's, EPSG:31287"});
+  EXPECT_EQ(layer.warnings, std::vector<std::string>{"bare.shp specifies no coordinate reference system: that of the "
+                                                     "DEM, EPSG:31287, is assumed"});
 }
 
 TEST(VectorFileTest, OtherSystemsAreReprojectedAndSaid) {
@@ -89,7 +88,7 @@ TEST(VectorFileTest, OtherSystemsAreReprojectedAndSaid) {
   const std::string file =
       geojson("r.geojson", {{"", polygon_json({{x[0], y[0]}, {x[1], y[1]}, {x[2], y[2]}, {x[3], y[3]}})}}, "4326");
   const VectorLayer layer = read_polygons(file, ground());
-  EXPECT_EQ(layer.warnings, std::vector<std::string>{"r.geojson was taken from EPSG:4326 to EPSG:31287"});
+  EXPECT_EQ(layer.warnings, std::vector<std::string>{"r.geojson was reprojected from EPSG:4326 to EPSG:31287"});
   EXPECT_NEAR(layer.features.front().polygons.front().outline.front()[0], 400000.0, 0.01);
   EXPECT_NEAR(area_of(layer.features.front().polygons), 5000.0, 2.0);
 }
@@ -97,10 +96,8 @@ TEST(VectorFileTest, OtherSystemsAreReprojectedAndSaid) {
 TEST(VectorFileTest, DegreesThatCannotBeAreSaid) {
   const VectorLayer layer =
       read_polygons(geojson("r.geojson", {{"", box_json(400000, 300000, 400100, 300050)}}, "4326"), ground());
-  EXPECT_EQ(layer.warnings,
-            std::vector<std::string>{"r.geojson says that its coordinates are degrees (EPSG:4326), which "
-                                     "400000, 300000 cannot be: taken to be in the ground's system, "
-                                     "EPSG:31287"});
+  EXPECT_EQ(layer.warnings, std::vector<std::string>{"r.geojson specifies degrees (EPSG:4326), which 400000, 300000 "
+                                                     "cannot be: the system of the DEM, EPSG:31287, is assumed"});
 }
 
 TEST(VectorFileTest, FeaturesAreChosenByName) {

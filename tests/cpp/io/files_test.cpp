@@ -1,4 +1,6 @@
 // Files of a run: whole or absent, exact numbers, damage refused.
+#include "io/files.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -6,8 +8,8 @@
 #include <fstream>
 #include <random>
 
+#include "base/atomic_file.hpp"
 #include "folder_of_test.hpp"
-#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/history_writer.hpp"
@@ -229,11 +231,11 @@ TEST_F(Files, RunFoldersAreNeverOverwrittenByAccident) {
   write_file_atomically(folder_ / "deep" / "run" / "history.csv", "time_s\n");
   write_file_atomically(folder_ / "deep" / "run" / "notes.txt", "mine");
   const std::string message = failure_of([&] { require_usable(folder_ / "deep" / "run", false); });
-  EXPECT_NE(message.find("holds another run. Give another --output, or --overwrite"), std::string::npos) << message;
+  EXPECT_NE(message.find("contains another run. Specify another --output, or replace that run with --overwrite"), std::string::npos) << message;
   make_run_folder(folder_ / "deep" / "run", true);
   EXPECT_FALSE(fs::exists(folder_ / "deep" / "run" / "history.csv"));
   EXPECT_TRUE(fs::exists(folder_ / "deep" / "run" / "notes.txt")) << "what is no file of a run stays";
-  EXPECT_NE(failure_of([&] { require_usable(folder_ / "deep" / "run", true); }).find("holds other files and no run"),
+  EXPECT_NE(failure_of([&] { require_usable(folder_ / "deep" / "run", true); }).find("contains other files, and no run"),
             std::string::npos);
   EXPECT_NE(failure_of([&] { require_usable(folder_ / "deep" / "run" / "notes.txt" / "x", false); }).find("is a file"),
             std::string::npos);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "folder_of_test.hpp"
-#include "io/atomic_file.hpp"
 #include "io/run_folder.hpp"
 
 namespace thawslide::io {
@@ -93,7 +92,7 @@ TEST_F(RunFiles, FoldersAndNamesAloneMakeNoRun) {
   put_all({"snapshots/photo.jpg", "maps/alps.tif", "case.toml", "history.csv"});
   const std::vector<std::string> before = left();
   EXPECT_EQ(failure_of([&] { make_run_folder(run(), true); }),
-            "the output folder " + run().string() + " holds other files and no run. Give another --output.");
+            "the output folder " + run().string() + " contains other files, and no run. Specify another --output.");
   EXPECT_EQ(left(), before);
 }
 
@@ -102,8 +101,8 @@ TEST_F(RunFiles, ARunJsonOfAnotherProgramMakesNoRun) {
     put(run() / "run.json", text);
     EXPECT_EQ(failure_of([&] { make_run_folder(run(), true); }),
               "cannot determine whether " + run().string() +
-                  " is the folder of a run: its run.json is damaged, or was written by another program. Give another "
-                  "--output, or remove yourself what is there.")
+                  " is the folder of a run: its run.json is damaged, or was written by another program. Specify "
+                  "another --output, or delete the folder.")
         << text;
     EXPECT_EQ(content(run() / "run.json"), text);
   }
@@ -118,7 +117,8 @@ TEST_F(RunFiles, AStartIsTakenOverAndMoreThanThatIsNot) {
   EXPECT_EQ(left(), (std::vector<std::string>{"inputs", "inputs/dem.tif", "run.lock"})) << "whose it is nobody knows";
   for (const char* name : {"maps/alps.tif", "snapshots/photo.jpg", "notes.txt", "history.csv", "checkpoint.bin"}) {
     put(run() / name, "mine");
-    EXPECT_NE(failure_of([&] { make_run_folder(run(), true); }).find("holds other files and no run"), std::string::npos)
+    EXPECT_NE(failure_of([&] { make_run_folder(run(), true); }).find("contains other files, and no run"),
+              std::string::npos)
         << name;
     EXPECT_EQ(content(run() / name), "mine");
     fs::remove_all(run() / *fs::path(name).begin());

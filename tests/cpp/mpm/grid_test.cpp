@@ -310,8 +310,8 @@ TEST(Tile, HasItsLayerAboveItsPlace) {
 TEST(BlockConstraints, AreTheOnesOfTheirNodes) {
   Constraints<2, double> constraints;
   constraints.extent = {70.0, 70.0};
-  constraints.faces[0] = FaceKind::fixed;
-  constraints.faces[3] = FaceKind::roller;
+  constraints.faces[0] = BoundaryKind::fixed;
+  constraints.faces[3] = BoundaryKind::roller;
   constraints.frames.push_back({{30.0, 22.0}, {33.0, 38.0}, 0, 4.0});
   Crowd<2> crowd(3000);
   SparseGrid<2, double> grid(cell);

@@ -55,7 +55,7 @@ TEST(MapGrid, CellsAreThreeParticleDistancesWideUnlessAskedFor) {
   EXPECT_EQ(grid.columns, 34);
   EXPECT_EQ(grid.rows, 20);
   EXPECT_EQ(reason_for_map_cell(parameters, site),
-            "3 x 3 of the DEM's, so as to be 15 m wide at least: three particle distances");
+            "3 x 3 of the DEM's, to be at least 15 m wide: three particle distances");
   EXPECT_EQ(warning_of_map_cell(parameters, site), "");
   site.ground = std::make_shared<Raster>(Raster{10.0, 2.5, 20.0, 5.0, 25, 60, {}, ""});
   EXPECT_EQ(map_grid_of(parameters, site).cell_x, 20.0);
@@ -82,7 +82,7 @@ TEST(MapGrid, CellsAreNoNarrowerThanTheGridsAndTheDems) {
   EXPECT_EQ(map_grid_of(parameters, site).cell_x, 10.0);
   site.ground = std::make_shared<Raster>(Raster{2.5, 2.5, 4.9977, 4.9977, 100, 60, {}, ""});
   EXPECT_EQ(map_grid_of(parameters, site).cell_x, 3.0 * 4.9977);
-  EXPECT_EQ(reason_for_map_cell(parameters, site), "3 x 3 of the DEM's, so as to be 10 m wide at least: grid.cell");
+  EXPECT_EQ(reason_for_map_cell(parameters, site), "3 x 3 of the DEM's, to be at least 10 m wide: grid.cell");
   site.ground = std::make_shared<Raster>(Raster{2.5, 2.5, 10.0, 10.0, 50, 30, {}, ""});
   EXPECT_EQ(map_grid_of(parameters, site).cell_x, 10.0);
   EXPECT_EQ(reason_for_map_cell(parameters, site), "the DEM's");
@@ -98,8 +98,8 @@ TEST(MapGrid, OfTooManyCellsIsRefused) {
     FAIL();
   } catch (const UserError& error) {
     EXPECT_STREQ(error.what(),
-                 "case.toml: maps of 1000000 x 1000000 cells of 0.1 x 0.1 m are too many: each would take 8e+03 GB of "
-                 "memory while it is written. Allowed: 2.5e+08 cells, 2 GB. Give maps.cell, 6.4 m or more.");
+                 "case.toml: maps of 1000000 x 1000000 cells of 0.1 x 0.1 m are too many: each would take 8,000 GB of "
+                 "memory while it is written. Allowed: 250,000,000 cells, 2 GB. Give maps.cell, 6.4 m or more.");
   }
   parameters.maps.cell = 6.4;
   const MapGrid grid = map_grid_of(parameters, {});

@@ -121,8 +121,8 @@ TEST(MemoryNeed, IsRefusedWithTheKeyAndACellThatFits) {
   const config::Case parameters = case_from_text(two_bodies, {"grid.cell=0.02"});
   // 2500 cells in a square metre: 400 m2 at 4 particles in each, 50 m2 at 16.
   EXPECT_EQ(refusal_of(parameters, {4e9, "are free"}),
-            "--set grid.cell=0.02: grid.cell is 0.02 m, which makes 6e+06 particles: the run needs about 8.65 GB of "
-            "memory (particles 3.79 GB, writing them 4.8 GB), and 4 GB are free. Make grid.cell 0.032 m or more, or "
+            "--set grid.cell=0.02: grid.cell is 0.02 m, which makes 6,000,000 particles: the run needs about 8.7 GB of "
+            "memory (particles 3.8 GB, writing them 4.8 GB), and 4 GB are free. Make grid.cell 0.032 m or more, or "
             "particles_per_axis smaller.");
   EXPECT_EQ(refusal_of(parameters, {8.7e9, "are free"}), "");
   EXPECT_EQ(refusal_of(case_from_text(two_bodies), {60.9e6, "are free"}), "");
@@ -131,22 +131,22 @@ TEST(MemoryNeed, IsRefusedWithTheKeyAndACellThatFits) {
 // Under a limit that even the program would not fit into no cell helps, and particles are what the memory is for.
 TEST(MemoryNeed, WhatTakesMostIsBlamedWhereNoCellHelps) {
   EXPECT_EQ(refusal_of(case_from_text(two_bodies, {"grid.cell=0.02"}), {0.03e9, "are left by the bound of ulimit -v"}),
-            "--set grid.cell=0.02: grid.cell is 0.02 m, which makes 6e+06 particles: the run needs about 8.65 GB of "
-            "memory (particles 3.79 GB, writing them 4.8 GB), and 0.03 GB are left by the bound of ulimit -v. Make "
+            "--set grid.cell=0.02: grid.cell is 0.02 m, which makes 6,000,000 particles: the run needs about 8.7 GB of "
+            "memory (particles 3.8 GB, writing them 4.8 GB), and 0.03 GB are left by the bound of ulimit -v. Make "
             "grid.cell larger; the rest, 0.06 GB, needs more memory, or a higher limit of it, whatever the cell.");
   const config::Case plain = case_from_text(two_bodies);
   EXPECT_EQ(refusal_of(plain, {0.03e9, "are free"}),
             plain.file +
-                ": the run needs about 0.0609 GB of memory (the program 0.06 GB), and "
+                ": the run needs about 0.061 GB of memory (the program 0.06 GB), and "
                 "0.03 GB are free. The program alone takes 0.06 GB: give it more memory, or a higher limit.");
 }
 
 TEST(MemoryNeed, MoreParticlesThanCanBeCountedAreRefused) {
   const config::Case parameters = case_from_text(two_bodies, {"grid.cell=0.002"});
-  EXPECT_EQ(
-      refusal_of(parameters, {1e15, "are free"}),
-      "--set grid.cell=0.002: grid.cell is 0.002 m, which makes 6e+08 particles; allowed: 2.3e+08. Make grid.cell "
-      "0.004 m or more, or particles_per_axis smaller.");
+  EXPECT_EQ(refusal_of(parameters, {1e15, "are free"}),
+            "--set grid.cell=0.002: grid.cell is 0.002 m, which makes 600,000,000 particles; allowed: 230,000,000. "
+            "Make grid.cell "
+            "0.004 m or more, or particles_per_axis smaller.");
 }
 
 }  // namespace

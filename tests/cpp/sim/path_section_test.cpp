@@ -264,8 +264,7 @@ TEST(PathSection, SaysWhatItNeeds) {
   const InSpace sound = made;
   made.site.path = {{0.0, 400.0}, {1000.0, 400.0}};
   EXPECT_EQ(error_of(made),
-            "case.toml:60:1: the path passes the release of body 'slide' by, 362.5 m away. Draw it through the "
-            "release.");
+            "case.toml:60:1: the path misses the release of body 'slide' by 362 m. Draw it through the release.");
   made = sound;
   made.parameters.general.gravity_tilt = 5.0;
   EXPECT_EQ(error_of(made),
@@ -349,10 +348,11 @@ TEST(PathSection, WithoutAWayDownItSaysWhatToGive) {
   reshape([](double, double) { return 7.0; });
   EXPECT_EQ(
       error_of(made),
-      "case.toml: no way leads down from the release's centre at x = 200, y = 0: over 10 m the ground is level, or "
-      "a pit, there. Give maps.path, a file with a line from the release down the way it will take.");
+      "case.toml: no downhill path starts at the centre of the release, x = 200, y = 0: over 10 m the terrain is level "
+      "or a pit there. Set maps.path to a file with a line from the release along the expected flow path.");
   reshape(bowl_about(260.0));
-  EXPECT_NE(error_of(made).find("case.toml: the way straight down from the release's centre ends in a pit at x = "),
+  EXPECT_NE(error_of(made).find(
+                "case.toml: the line of steepest descent from the centre of the release ends in a pit at x = "),
             std::string::npos)
       << error_of(made);
   reshape(bowl_about(900.0));

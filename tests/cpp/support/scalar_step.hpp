@@ -128,7 +128,7 @@ class ScalarStep {
         }
       });
       p.slip += touching > 0.0 ? dt_ * slip_speed / touching : 0.0;
-      if (simulation_.model().band.region == band::ScaledRegion::first_layer) {
+      if (simulation_.model().band.region == band::BandRegion::first_layer) {
         p.scaling = p.in_band ? 1.0 / (transfer_.inverse_cell * simulation_.parameters().band.thickness.at(0.0)) : 1.0;
       }
     }

@@ -22,7 +22,8 @@ class ManufacturedVibration {
   static constexpr double density = 1000.0, youngs_modulus = 1e7, poisson_ratio = 0.3;
 
   // cells: along a side; 4 particles a cell.
-  ManufacturedVibration(int cells, double amplitude, mpm::ShapeKind shape, mpm::TransferKind transfer, double pic_share)
+  ManufacturedVibration(int cells, double amplitude, mpm::ShapeFunction shape, mpm::TransferKind transfer,
+                        double pic_share)
       : amplitude_(amplitude), grid_(1.0 / cells) {
     model_.shape = shape;
     model_.transfer = transfer;
@@ -34,7 +35,7 @@ class ManufacturedVibration {
     model_.sides.lower.fill(0);
     model_.sides.upper.fill(cells);
     constraints_.extent = Plane(1.0, 1.0);
-    std::fill(std::begin(constraints_.faces), std::end(constraints_.faces), mpm::FaceKind::roller);
+    std::fill(std::begin(constraints_.faces), std::end(constraints_.faces), mpm::BoundaryKind::roller);
     fill(2 * cells);
   }
 

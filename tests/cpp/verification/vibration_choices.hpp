@@ -10,14 +10,14 @@ namespace thawslide::verification {
 
 struct Choice {
   std::string name;
-  mpm::ShapeKind shape;
+  mpm::ShapeFunction shape;
   mpm::TransferKind transfer;
 };
-const Choice ugimp_flip{"uGIMP, FLIP", mpm::ShapeKind::ugimp, mpm::TransferKind::flip_pic};
-const Choice ugimp_apic{"uGIMP, APIC", mpm::ShapeKind::ugimp, mpm::TransferKind::apic};
-const Choice linear_flip{"linear, FLIP", mpm::ShapeKind::linear, mpm::TransferKind::flip_pic};
-const Choice quadratic_flip{"quadratic, FLIP", mpm::ShapeKind::quadratic, mpm::TransferKind::flip_pic};
-const Choice quadratic_apic{"quadratic, APIC", mpm::ShapeKind::quadratic, mpm::TransferKind::apic};
+const Choice ugimp_flip{"uGIMP, FLIP", mpm::ShapeFunction::ugimp, mpm::TransferKind::flip_pic};
+const Choice ugimp_apic{"uGIMP, APIC", mpm::ShapeFunction::ugimp, mpm::TransferKind::apic};
+const Choice linear_flip{"linear, FLIP", mpm::ShapeFunction::linear, mpm::TransferKind::flip_pic};
+const Choice quadratic_flip{"quadratic, FLIP", mpm::ShapeFunction::quadratic, mpm::TransferKind::flip_pic};
+const Choice quadratic_apic{"quadratic, APIC", mpm::ShapeFunction::quadratic, mpm::TransferKind::apic};
 
 // Errors of the largest displacements, at a quarter of the period, where u = A; over A. Eq. 14 leaves dt (v(0) - v)/2
 // in them, so the step falls with the square of the cell.

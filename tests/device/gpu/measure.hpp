@@ -110,7 +110,8 @@ inline void print_row(const Measured& found) {
   std::fflush(stdout);
 }
 
-// Table of docs/gpu.md as Markdown: each size elastic and yielding, up to the first that does not fit in memory.
+// Table of docs/explanation/gpu-backend.md as Markdown: each size elastic and yielding, up to the first that does not
+// fit in memory.
 inline void print_table(const device::SolverFactory<3, Real>& make, const std::vector<std::size_t>& sizes,
                         double seconds_at_least, const std::function<double()>& free_memory) {
   std::printf(

@@ -51,13 +51,13 @@ device::StepModel<Dim, Real> model_of(Variant variant) {
       model.materials[0].law = physics::LinearElastic<Real>{};
       break;
     case Variant::linear:
-      model.shape = mpm::ShapeKind::linear;
+      model.shape = mpm::ShapeFunction::linear;
       break;
     case Variant::quadratic:
-      model.shape = mpm::ShapeKind::quadratic;
+      model.shape = mpm::ShapeFunction::quadratic;
       break;
     case Variant::apic:
-      model.shape = mpm::ShapeKind::quadratic;
+      model.shape = mpm::ShapeFunction::quadratic;
       model.affine = true;
       break;
     case Variant::filtered:
@@ -67,7 +67,7 @@ device::StepModel<Dim, Real> model_of(Variant variant) {
     case Variant::heated_face:
       model.heat_faces.extent.setConstant(1e5);
       model.heat_faces.extent[0] = 20.0;  // within the slide: all nodes beyond it count
-      model.heat_faces.faces[1] = {band::FaceHeat::flux, 500.0};
+      model.heat_faces.faces[1] = {band::HeatBoundaryKind::flux, 500.0};
       break;
     case Variant::at_rest:
       model.moves = false;

@@ -1,30 +1,13 @@
-// Files that are complete or absent: written under a temporary name in the same folder, then renamed.
+// Reading and removing files, and folders for them.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <string_view>
+#include <string>
 
 namespace thawslide::io {
 
-// previous: name under which an existing file is kept. Throws WriteError with the path and the system's reason, and
-// then leaves no temporary file.
-void write_file_atomically(const std::filesystem::path& file, const void* data, std::size_t bytes,
-                           const std::filesystem::path& previous = {});
-void write_file_atomically(const std::filesystem::path& file, std::string_view text,
-                           const std::filesystem::path& previous = {});
-
 // Creates a folder if it does not exist. Throws WriteError with the path and the system's reason.
 void make_folder(const std::filesystem::path& folder);
-
-// Copies a file whose content is given. If the file system can share the blocks until one copy changes, the copy uses
-// no space. Throws as write_file_atomically.
-void copy_file_atomically(const std::filesystem::path& file, const std::filesystem::path& copy,
-                          std::string_view content);
-
-// True for the name of a temporary file: .NAME.PROCESS.thawslide-part, with the number of the process. No file of a
-// user has such a name, because copy_inputs refuses it.
-[[nodiscard]] bool is_unfinished(const std::filesystem::path& file);
 
 // Unused name for keeping a damaged file in its folder: NAME.damaged.EXTENSION, or with a number.
 [[nodiscard]] std::filesystem::path name_for_damaged(const std::filesystem::path& file);

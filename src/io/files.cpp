@@ -1,0 +1,77 @@
+#include "io/files.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <vector>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "config/input_limits.hpp"
+
+namespace thawslide::io {
+
+namespace fs = std::filesystem;
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw WriteError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+  }
+}
+
+fs::path name_for_damaged(const fs::path& file) {
+  const std::string stem = (file.parent_path() / file.stem()).string(), extension = file.extension().string();
+  fs::path free = stem + ".damaged" + extension;
+  for (int number = 2; fs::exists(free); ++number) {
+    free = fmt::format("{}.damaged.{}{}", stem, number, extension);
+  }
+  return free;
+}
+
+void remove_unfinished_files(const fs::path& folder) {
+  if (fs::is_symlink(folder) || !fs::is_directory(folder)) {
+    return;
+  }
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (is_unfinished(entry.path()) && entry.symlink_status().type() == fs::file_type::regular) {
+      found.push_back(entry.path());
+    }
+  }
+  for (const fs::path& file : found) {
+    remove_or_throw(file);
+  }
+}
+
+void remove_or_throw(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) {
+    throw WriteError(
+        fmt::format("cannot remove {}: {}. Check that the folder may be written to.", file.string(), error.message()));
+  }
+}
+
+std::string read_file(const fs::path& file) {
+  require_regular(file);
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  std::string text(stream ? static_cast<std::size_t>(stream.tellg()) : 0, '\0');
+  stream.seekg(0).read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream) {
+    throw UserError(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
+  }
+  return text;
+}
+
+void require_regular(const fs::path& file) {
+  if (const std::string found = config::what_stands_at(file); !found.empty()) {
+    throw UserError(fmt::format(
+        "{} is {}, where a regular file is needed. Put the file itself there, or remove what stands in its place.",
+        file.string(), found));
+  }
+}
+
+}  // namespace thawslide::io
