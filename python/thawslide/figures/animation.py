@@ -122,7 +122,7 @@ class _Image:
         time_line(course, run.shown_time, run.history["mean_velocity_m_s"], color=BLUE)
         time_axis(course, run.shown_time, run.time_reference.label)
         course.set_ylim(bottom=0.0)
-        course.set_ylabel("mean\nvelocity\n(m/s)")
+        course.set_title("mean velocity (m/s)", loc="left", size=8, pad=3)
         self.marker = course.axvline(0.0, color=RED, linewidth=1.2)
         page.figure.set_dpi(dpi)
         self._draw_background()
