@@ -86,7 +86,8 @@ TEST(ReferenceSystemTest, Degrees) {
 TEST(ReferenceSystemTest, TagOfDegreesOverMetricNumbers) {
   EXPECT_EQ(error_of_system(metric_raster, "EPSG:4326"),
             "dem.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric (x from 49280 to 52280, y from "
-            "193490 to 195690). Set terrain.crs = \"EPSG:...\" to the system of the coordinates, which the data provider states.");
+            "193490 to 195690). Set terrain.crs = \"EPSG:...\" to the system of the coordinates, which the data "
+            "provider states.");
 }
 
 TEST(ReferenceSystemTest, Feet) {

@@ -115,10 +115,11 @@ TEST(SubstratesOfMaps, ThatOverlapAreRefusedButForSlivers) {
   config::Case made = plane_case();
   made.substrates["ice"] = in_polygons(file, {"ice"});
   made.substrates["snow"] = in_polygons(file, {"snow"});
-  EXPECT_EQ(error_of_site(made),
-            "case.toml: substrate.snow.outline: the substrates ice and snow overlap by 4,000 m2 about 400490, 300300; a "
-            "place has one substrate. Allowed: slivers up to 24 m2, 0.1 % of the smaller one. Draw them apart (QGIS: "
-            "Vector > Geoprocessing Tools > Difference).");
+  EXPECT_EQ(
+      error_of_site(made),
+      "case.toml: substrate.snow.outline: the substrates ice and snow overlap by 4,000 m2 about 400490, 300300; a "
+      "place has one substrate. Allowed: slivers up to 24 m2, 0.1 % of the smaller one. Draw them apart (QGIS: "
+      "Vector > Geoprocessing Tools > Difference).");
   made.substrates["snow"] = in_polygons(file, {"sliver"});
   EXPECT_NEAR(load_site(made).site.substrates.at("snow").area, 100.01 * 200.0, 1e-6);
   made.substrates["snow"] = config::Substrate{};

@@ -231,12 +231,15 @@ TEST_F(Files, RunFoldersAreNeverOverwrittenByAccident) {
   write_file_atomically(folder_ / "deep" / "run" / "history.csv", "time_s\n");
   write_file_atomically(folder_ / "deep" / "run" / "notes.txt", "mine");
   const std::string message = failure_of([&] { require_usable(folder_ / "deep" / "run", false); });
-  EXPECT_NE(message.find("contains another run. Specify another --output, or replace that run with --overwrite"), std::string::npos) << message;
+  EXPECT_NE(message.find("contains another run. Specify another --output, or replace that run with --overwrite"),
+            std::string::npos)
+      << message;
   make_run_folder(folder_ / "deep" / "run", true);
   EXPECT_FALSE(fs::exists(folder_ / "deep" / "run" / "history.csv"));
   EXPECT_TRUE(fs::exists(folder_ / "deep" / "run" / "notes.txt")) << "what is no file of a run stays";
-  EXPECT_NE(failure_of([&] { require_usable(folder_ / "deep" / "run", true); }).find("contains other files, and no run"),
-            std::string::npos);
+  EXPECT_NE(
+      failure_of([&] { require_usable(folder_ / "deep" / "run", true); }).find("contains other files, and no run"),
+      std::string::npos);
   EXPECT_NE(failure_of([&] { require_usable(folder_ / "deep" / "run" / "notes.txt" / "x", false); }).find("is a file"),
             std::string::npos);
 }
