@@ -12,7 +12,7 @@ from conftest import Program
 from slope_files import THICKNESS, Slope, assert_refused, made
 
 CELLS = {"quick": 8.0, "standard": 3.0, "fine": 1.5}  # m, for 24 m
-DURATION = r"(?:\d+ h \d+ min|\d+ min \d+ s|\d+ s)"
+DURATION = r"(?:\S+ (?:s|min|h|days))"
 
 
 def cell_of(folder: Path) -> float:
@@ -38,7 +38,7 @@ def test_the_cell_and_the_cost(
     assert found, outcome.stdout
     checked = json.loads(thawslide("check", folder, "--json").stdout)
     assert float(found[1].replace(",", "")) == pytest.approx(checked["particles"], rel=0.1)
-    assert float(found[2].replace(",", "")) == pytest.approx(checked["steps"], rel=0.01)
+    assert float(found[2].replace(",", "")) == pytest.approx(checked["steps"], rel=0.05)
     others = dict(
         re.findall(
             rf"^ +--resolution (\w+): cells of (\S+) m, about {DURATION}; [a-z ]+$", outcome.stdout, re.MULTILINE
