@@ -65,7 +65,7 @@ def test_a_cell_that_the_user_gives_is_of_no_resolution(
 def seconds_of(duration: str) -> float:
     """Return a duration such as "1.7 min" [s]."""
     number, unit = duration.split()
-    return float(number) * {"s": 1.0, "min": 60.0, "h": 3600.0}[unit]
+    return float(number) * {"s": 1.0, "min": 60.0, "h": 3600.0, "days": 86400.0}[unit]
 
 
 def test_the_times_of_the_others_follow_from_the_cells(
