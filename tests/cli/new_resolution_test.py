@@ -12,7 +12,7 @@ from conftest import Program
 from slope_files import THICKNESS, Slope, assert_refused, made
 
 CELLS = {"quick": 8.0, "standard": 3.0, "fine": 1.5}  # m, for 24 m
-DURATION = r"(?:\d+ h \d+ min|\d+ min \d+ s|\d+ s)"
+DURATION = r"(?:\S+ (?:s|min|h|days))"
 
 
 def cell_of(folder: Path) -> float:
@@ -38,7 +38,7 @@ def test_the_cell_and_the_cost(
     assert found, outcome.stdout
     checked = json.loads(thawslide("check", folder, "--json").stdout)
     assert float(found[1].replace(",", "")) == pytest.approx(checked["particles"], rel=0.1)
-    assert float(found[2].replace(",", "")) == pytest.approx(checked["steps"], rel=0.01)
+    assert float(found[2].replace(",", "")) == pytest.approx(checked["steps"], rel=0.05)
     others = dict(
         re.findall(
             rf"^ +--resolution (\w+): cells of (\S+) m, about {DURATION}; [a-z ]+$", outcome.stdout, re.MULTILINE
@@ -65,7 +65,7 @@ def test_a_cell_that_the_user_gives_is_of_no_resolution(
 def seconds_of(duration: str) -> float:
     """Return a duration such as "1.7 min" [s]."""
     number, unit = duration.split()
-    return float(number) * {"s": 1.0, "min": 60.0, "h": 3600.0}[unit]
+    return float(number) * {"s": 1.0, "min": 60.0, "h": 3600.0, "days": 86400.0}[unit]
 
 
 def test_the_times_of_the_others_follow_from_the_cells(
