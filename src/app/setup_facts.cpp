@@ -28,13 +28,12 @@ std::string text_of(const sim::BodyFigures& body, const SetupFacts& facts) {
                                     ? fmt::format(" per metre of the width at x = {:g} m", *facts.width_varies_from)
                                     : " per metre of width";
   return fmt::format(
-      "  body        {}: {} m3 and {} kg{}, {} {} {}; {:.3g} m thick on average, {:.3g} m in the median "
+      "  body        {}: {} m3 and {:.4g} kg{}, {} {} {}; {:.3g} m thick on average, {:.3g} m in the median "
       "and {:.3g} m at most (vertical)\n"
       "              {} particles {:.3g} m apart; {:.3g} across in the median and {:.3g} at most; {}\n",
-      body.name, rounded_text(body.volume, 4), rounded_text(body.mass, 4), is_plane ? per_metre : "",
-      is_plane ? "along" : "over", rounded_text(body.area, 4), is_plane ? "m" : "m2", body.mean_thickness,
-      body.median_thickness, body.largest_thickness, body.particles, body.spacing, body.particles_across,
-      body.most_particles_across,
+      body.name, rounded_text(body.volume, 4), body.mass, is_plane ? per_metre : "", is_plane ? "along" : "over",
+      rounded_text(body.area, 4), is_plane ? "m" : "m2", body.mean_thickness, body.median_thickness,
+      body.largest_thickness, body.particles, body.spacing, body.particles_across, body.most_particles_across,
       body.coldest == body.warmest ? fmt::format("{:.4g} C", body.coldest)
                                    : fmt::format("{:.4g} to {:.4g} C", body.coldest, body.warmest));
 }

@@ -44,4 +44,4 @@ def test_columns_page_needs_the_program(tmp_path: Path) -> None:
     words = [sys.executable, str(SCRIPT), "--program", str(tmp_path / "none")]
     done = subprocess.run(words, capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 2
-    assert "./run --setup builds it" in done.stderr
+    assert "Build it with ./run --setup." in done.stderr

@@ -187,7 +187,7 @@ def test_release_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: 
 
 def test_release_outside_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     for east, place, found in (
-        (5000.0, "outside the DEM, by 4230 m in the east", "x from 417000 to 417120"),
+        (5000.0, "outside the DEM, by 4,230 m in the east", "x from 417000 to 417120"),
         (820.0, "partly outside the DEM, by 50 m in the east", "x from 412820 to 412940"),
     ):
         beside = write_release(tmp_path / "beside.geojson", WEST + east, SOUTH)

@@ -99,7 +99,7 @@ def test_cells_for_maps(thawslide: Program, tmp_path: Path, slope: Slope, releas
     assert "need 2 to 4 cells" not in (tmp_path / "fine" / "case.toml").read_text()
     assert json.loads(thawslide("check", tmp_path / "fine", "--json").stdout)["warnings"] == []
 
-    (folder / "case.toml").write_text(text.partition("# Maps are gathered")[0])
+    (folder / "case.toml").write_text(text.partition("# Maps are updated")[0])
     assert json.loads(thawslide("check", folder, "--json").stdout)["warnings"] == [], "no key of maps is given"
 
 

@@ -41,7 +41,7 @@ def test_a_second_process_is_refused_while_the_first_lives(
         outcome = thawslide(*words, environment=without_locks)
         assert (outcome.returncode, outcome.stderr) == (2, message)
     outcome = thawslide("run", LAMPLUGH, "--output", run, environment=without_locks)
-    assert outcome.returncode == 2 and f"{run} is being written by {process}. Give another" in outcome.stderr
+    assert outcome.returncode == 2 and f"{run} is being written by {process}. Specify another" in outcome.stderr
     assert at_work.poll() is None and (run / "history.csv").exists()
     assert thawslide("status", run, environment=without_locks).stdout.startswith(f"{run}: running, by {process}\n")
 

@@ -82,14 +82,13 @@ def test_a_new_end_in_the_case_file_is_answered_with_the_command(
     assert run_facts(done)["parts"][1]["changes"] == ["time.end=0.4"]
 
 
-def test_what_a_finished_run_has_lost_is_reported(thawslide: Program, done: Path) -> None:
+def test_a_finished_run_without_checkpoints_gets_no_later_end(thawslide: Program, done: Path) -> None:
     for name in ("checkpoint.bin", "checkpoint.previous.bin", "history.csv"):
         (done / name).unlink()
     outcome = thawslide("resume", done)
     assert outcome.returncode == 0
     assert outcome.stdout == (
         f"{done} has reached its end at 0.2 s; nothing to do\n"
-        f"warning: {done / 'history.csv'} is missing\n"
         f"note: {done} holds no checkpoint: it cannot be given a later end\n"
     )
     edit(done, "\nend = 0.2 ", "\nend = 0.4 ")

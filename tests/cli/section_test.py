@@ -215,7 +215,7 @@ def test_block_slides_a_case_in_space_along_its_path(thawslide: Program, maps: M
     )
     slid = thawslide("block", folder, "--output", file, *coulomb)
     assert slid.returncode == 0, slid.stderr
-    assert "a section along maps.path, with the release's mean thickness across the path" in slid.stdout
+    assert "a section along maps.path, with the mean thickness of the release across the path" in slid.stdout
     columns = {name: values for name, values in zip(*read_csv(file), strict=True)}
     angle = np.arctan(SLOPE)
     acceleration = 9.81 * (np.sin(angle) - np.tan(np.radians(20.0)) * np.cos(angle))
