@@ -65,7 +65,8 @@ def test_one_process_at_a_time(thawslide: Program, at_work: subprocess.Popen[str
         assert outcome.stderr == message
     outcome = thawslide("run", LAMPLUGH, "--output", run)
     assert outcome.returncode == 2
-    assert f"{run} is being written by process {at_work.pid} on {socket.gethostname()}. Specify another" in outcome.stderr
+    writer = f"process {at_work.pid} on {socket.gethostname()}"
+    assert f"{run} is being written by {writer}. Specify another" in outcome.stderr
     assert at_work.poll() is None and (run / "history.csv").exists()
 
 

@@ -61,7 +61,7 @@ def test_velocities_are_those_of_displacement(make_run: MakeRun) -> None:
 def velocity_label(run: Run) -> str:
     """Return the label of the velocities of the figure."""
     labels = [axes.get_xlabel() for axes in FIGURES["velocity"].plot(run).axes]
-    return next(label for label in labels if label.startswith("velocity"))
+    return next(label for label in labels if label.startswith("speed"))
 
 
 @pytest.mark.parametrize("facts", [{"at_rest": False}, {}])
@@ -70,14 +70,14 @@ def test_last_velocities_of_a_moving_mass_are_those_of_the_last_time(make_run: M
     (folder / "run.json").write_text(json.dumps({"status": "done"} | facts))
     run = Run(folder)
     np.testing.assert_array_equal(shown_snapshot(run, 10)["velocity"], run.snapshot(10)["velocity"])
-    assert velocity_label(run) == "velocity (m/s), 2 s mean; at 0 and 10 s: instantaneous"
+    assert velocity_label(run) == "speed (m/s), 2 s mean; at 0 and 10 s: instantaneous"
 
 
 def test_last_velocities_at_rest_are_means_of_the_last_interval(make_run: MakeRun) -> None:
     folder = make_run(times="[5.0, 10.0]")
     for since, words in ((9.5, "; at 10 s: mean of the last 1 s"), (8.0, "")):
         (folder / "run.json").write_text(json.dumps({"status": "done", "at_rest": True, "rest_since_s": since}))
-        assert velocity_label(Run(folder)) == f"velocity (m/s), 2 s mean{words}"
+        assert velocity_label(Run(folder)) == f"speed (m/s), 2 s mean{words}"
 
 
 def test_vibration_at_rest_has_no_velocity(make_run: MakeRun) -> None:
