@@ -27,7 +27,7 @@ def head() -> str:
     """Return the introduction of the page."""
     return "# Reliability\n\n" + paragraph(
         "This page reports how a run behaves when its process is killed, its disk fills up, or its files are damaged. "
-        "`scripts/reliability` runs the tests and generates the page in about 90 minutes on two cores, mostly fuzzing. "
+        "`scripts/reliability` runs the tests and generates the page. Most of its time is fuzzing. "
         "`./test` contains a sample of each part. [Stop and resume](reference/stop-and-resume.md) explains how to "
         "continue a run that has stopped."
     )

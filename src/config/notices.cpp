@@ -11,8 +11,8 @@ namespace thawslide::config {
 
 std::vector<std::string> notices(const Case& parameters) {
   std::vector<std::string> notices;
-  if (const std::string moved = changed_defaults_warning(parameters); !moved.empty()) {
-    notices.push_back(moved);
+  if (const std::string warning = changed_defaults_warning(parameters); !warning.empty()) {
+    notices.push_back(warning);
   }
   std::vector<Unusual> unusual;
   for (const auto& table : tables()) {

@@ -68,9 +68,8 @@ std::string read_file(const fs::path& file) {
 
 void require_regular(const fs::path& file) {
   if (const std::string found = config::what_stands_at(file); !found.empty()) {
-    throw UserError(fmt::format(
-        "{} is {}, where a regular file is needed. Put the file itself there, or remove what stands in its place.",
-        file.string(), found));
+    throw UserError(fmt::format("{} is {}; a regular file is needed. Replace it by the file itself, or remove it.",
+                                file.string(), found));
   }
 }
 

@@ -37,8 +37,8 @@ ColumnMaterial material_of_base(const config::Case& parameters, const Model<Dim,
   }
   if (index < 0) {
     throw UserError(
-        fmt::format("{}: no particle stands on the ground, where band columns begin. Let the body begin on "
-                    "the ground, or set band.model = \"scaled\".",
+        fmt::format("{}: no particle touches the terrain, where band columns begin. Place the body on the "
+                    "terrain, or set band.model = \"scaled\".",
                     config::place_of(parameters, "band.model")));
   }
   material.depth /= volume;

@@ -60,8 +60,8 @@ std::string standing_warning(const config::Case& parameters, const BodyFigures& 
   }
   if (body.standing_share < least_standing) {
     return fmt::format(
-        "{}: {} stands on {:.2g} % of its area; below the rest is a gap of {:.3g} m and more, one distance of its "
-        "particles. Give it the shape of the ground: shape = \"surface\", \"release\", or a polygon.",
+        "{}: {} rests on {:.2g} % of its area; the gap below the rest is at least {:.3g} m, one distance of its "
+        "particles. Use a shape that follows the terrain: shape = \"surface\", \"release\", or a polygon.",
         config::place_of(parameters, key), key, 100.0 * body.standing_share, body.spacing);
   }
   return "";

@@ -14,7 +14,7 @@ from faults import as_killed
 from slope_files import SOUTH, THICKNESS, WEST, Slope, made
 
 SOON = 20.0  # s, in which is answered what would wait for ever
-NO_FILE = "where a regular file is needed. Put the file itself there, or remove what stands in its place.\n"
+NO_FILE = "a regular file is needed. Replace it by the file itself, or remove it.\n"
 
 
 @pytest.fixture
@@ -212,7 +212,7 @@ def test_status_reports_what_it_can_where_rows_cannot_be_read(thawslide: Program
         f"{killed}: terminated unexpectedly: the process was killed, the machine stopped, or the disk was full\n"
     )
     assert second == "  0.2 of 0.2 s simulated (100 %)\n"
-    assert third == f"  it may have come further: {rows} is a folder, {NO_FILE}"
+    assert third == f"  it may have come further: {rows} is a folder; {NO_FILE}"
     assert fourth.startswith("  last checkpoint ") and fifth == f"  to continue: thawslide resume {killed}\n"
     assert json.loads(thawslide("status", killed, "--json").stdout)["state"] == "killed"
 

@@ -313,7 +313,7 @@ def test_a_slide_that_leaves_the_known_ground_stops_there(
     assert east - 3.0 * CELL < float(reported[1]) < east + CELL
     assert SOUTH + 200.0 < float(reported[2]) < SOUTH + 400.0
     assert float(reported[3]) > 20.0
-    assert float(reported[4]) == pytest.approx(at_rest_after(reported[3]), abs=10.0)  # of a speed told in four digits
+    assert float(reported[4]) == pytest.approx(at_rest_after(reported[3]), abs=10.0)  # of a speed with four digits
     assert run_facts(run)["status"] == "failed"
     with rasterio.open(run / "maps" / "max_speed.tif") as file:
         assert file.read(1, masked=True).max() > 40.0

@@ -1,4 +1,4 @@
-"""A run writes into the folder that it began in, and into no other that has come to stand in its place."""
+"""A run writes into the folder that it began in, and into no other that has replaced it."""
 
 from __future__ import annotations
 

@@ -21,25 +21,25 @@ RESTS = sets(
 
 
 def cut_off(thawslide: Program, run: Path, *words: object) -> None:
-    """Leave a run as a resume does that is killed between telling of its changes and making them."""
-    reported = run.with_name(run.name + "-told")
-    shutil.copytree(run, reported)
-    outcome = thawslide("resume", reported, *words)
+    """Leave a run as a resume does that is killed between recording its changes and applying them."""
+    resumed = run.with_name(run.name + "-resumed")
+    shutil.copytree(run, resumed)
+    outcome = thawslide("resume", resumed, *words)
     assert outcome.returncode == 0, outcome.stderr
-    as_killed(reported)
-    shutil.copy(reported / "run.json", run / "run.json")
-    shutil.rmtree(reported)
+    as_killed(resumed)
+    shutil.copy(resumed / "run.json", run / "run.json")
+    shutil.rmtree(resumed)
 
 
 def taken(thawslide: Program, run: Path, *words: object) -> None:
     """Leave a run as a resume does that is killed after its changes are in case.toml, before its first checkpoint."""
-    reported = run.with_name(run.name + "-told")
-    shutil.copytree(run, reported)
-    assert thawslide("resume", reported, *words).returncode == 0
-    as_killed(reported)
+    resumed = run.with_name(run.name + "-resumed")
+    shutil.copytree(run, resumed)
+    assert thawslide("resume", resumed, *words).returncode == 0
+    as_killed(resumed)
     for name in ("run.json", "case.toml"):
-        shutil.copy(reported / name, run / name)
-    shutil.rmtree(reported)
+        shutil.copy(resumed / name, run / name)
+    shutil.rmtree(resumed)
 
 
 def changes_asked_for(thawslide: Program, run: Path, *words: object) -> str:
@@ -78,11 +78,11 @@ def test_a_change_on_a_change_is_asked_for_alone(thawslide: Program, done: Path)
     """The first has taken hold, and no checkpoint tells of it yet."""
     taken(thawslide, done, *sets(basal__friction_angle=5, time__end=0.3))
     changed = (done / "case.toml").read_text()
-    reported = done.with_name("second")
-    shutil.copytree(done, reported)
-    assert thawslide("resume", reported, "--end", 0.4).returncode == 0
-    as_killed(reported)
-    shutil.copy(reported / "run.json", done / "run.json")
+    resumed = done.with_name("second")
+    shutil.copytree(done, resumed)
+    assert thawslide("resume", resumed, "--end", 0.4).returncode == 0
+    as_killed(resumed)
+    shutil.copy(resumed / "run.json", done / "run.json")
     assert changes_asked_for(thawslide, done) == "time.end=0.4"
     # Without the file, which is written again from the checkpoint, both are.
     (done / "case.toml").unlink()
@@ -133,8 +133,8 @@ def test_what_a_run_at_rest_advises_works(thawslide: Program, small_case: Path, 
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run, *RESTS).returncode == 0
     rest = run_facts(run)["simulated_time_s"]
-    reported = thawslide("resume", run, "--end", 5.5).stdout
-    assert reported.endswith("nothing to do. To continue it, add --set time.stop_at_rest=0\n")
+    resumed = thawslide("resume", run, "--end", 5.5).stdout
+    assert resumed.endswith("nothing to do. To continue it, add --set time.stop_at_rest=0\n")
     outcome = thawslide("resume", run, "--end", rest + 0.5, "--set", "time.stop_at_rest=0")
     assert outcome.returncode == 0, outcome.stderr
     assert run_facts(run)["simulated_time_s"] == pytest.approx(rest + 0.5)

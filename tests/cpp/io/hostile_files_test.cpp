@@ -24,8 +24,7 @@ TEST_F(HostileFiles, ReadingTakesRegularFilesAlone) {
   fs::create_symlink("/dev/zero", endless);
   fs::create_symlink("/proc/self/mem", damaged);  // whose first byte cannot be read
   const auto refusal = [](const fs::path& file, const std::string& found) {
-    return file.string() + " is " + found +
-           ", where a regular file is needed. Put the file itself there, or remove what stands in its place.";
+    return file.string() + " is " + found + "; a regular file is needed. Replace it by the file itself, or remove it.";
   };
   EXPECT_EQ(failure_of([&] { read_file(pipe); }), refusal(pipe, "a pipe"));
   EXPECT_EQ(failure_of([&] { read_file(endless); }), refusal(endless, "a device"));
