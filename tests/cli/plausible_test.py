@@ -75,7 +75,8 @@ COARSE = (
         (
             sets(terrain__type="plane", terrain__slope=40, terrain__elevation=8.39),
             "{case}:27:1: body.block rests on 6.2 % of its area; the gap below the rest is at least 0.25 m, one "
-            'distance of its particles. Use a shape that follows the terrain: shape = "surface", "release", or a polygon.',
+            "distance of its particles. "
+            'Use a shape that follows the terrain: shape = "surface", "release", or a polygon.',
         ),
         (sets(body__block__max="[14.0,1.5]"), COARSE),
         (
