@@ -12,11 +12,11 @@ namespace thawslide::app {
 
 namespace {
 
-constexpr double boiling = physics::Steam<double>::boiling_at_atmosphere;  // [C]
+constexpr double boiling = physics::Steam::boiling_at_atmosphere;  // [C]
 constexpr double beyond_belief = 210.0;  // [C] steam at this temperature lifts about 80 m of slide
 
 template <int Dim>
-double warmest_particle(const sim::Simulation<Dim, double>& simulation) {
+double warmest_particle(const sim::Simulation<Dim>& simulation) {
   double temperature = -HUGE_VAL;
   for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
     temperature = std::max(temperature, simulation.particles().temperature(p));
@@ -24,7 +24,7 @@ double warmest_particle(const sim::Simulation<Dim, double>& simulation) {
   return temperature;
 }
 
-bool has_boiled_dry(const physics::BandColumn<double>& column) {
+bool has_boiled_dry(const physics::BandColumn& column) {
   for (int k = 0; k < physics::ColumnCells::slide; ++k) {
     if (column.water[k] <= 0.0 && column.temperature[physics::ColumnCells::ground + k] > boiling) {
       return true;
@@ -43,7 +43,7 @@ std::string of_dry(double time, std::ptrdiff_t dry, double hottest) {
 }
 
 std::string of_hot(double time) {
-  const double load = physics::saturation_pressure(beyond_belief) - physics::Steam<double>::atmosphere;
+  const double load = physics::saturation_pressure(beyond_belief) - physics::Steam::atmosphere;
   return fmt::format(
       "warning: at {:g} s the hottest column of the base passes {:g} C, where water boils at {:.1f} MPa: the load "
       "exceeds this pressure, or the column is dry; docs/choosing-the-base.md.",
@@ -58,7 +58,7 @@ std::string of_no_boiling(double time, const char* reason) {
 }  // namespace
 
 template <int Dim>
-std::string BoilingWatch::warning(const sim::Simulation<Dim, double>& simulation) {
+std::string BoilingWatch::warning(const sim::Simulation<Dim>& simulation) {
   const auto once = [](bool& is_specified, bool holds) {
     const bool is_new = holds && !is_specified;
     is_specified = is_specified || holds;
@@ -82,7 +82,7 @@ std::string BoilingWatch::warning(const sim::Simulation<Dim, double>& simulation
   return !is_dry_ && once(is_hot_, hottest > beyond_belief) ? of_hot(time) : "";
 }
 
-template std::string BoilingWatch::warning<2>(const sim::Simulation<2, double>&);
-template std::string BoilingWatch::warning<3>(const sim::Simulation<3, double>&);
+template std::string BoilingWatch::warning<2>(const sim::Simulation<2>&);
+template std::string BoilingWatch::warning<3>(const sim::Simulation<3>&);
 
 }  // namespace thawslide::app

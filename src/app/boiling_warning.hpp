@@ -12,7 +12,7 @@ class BoilingWatch {
  public:
   // Returns a new warning; empty if there is none.
   template <int Dim>
-  std::string warning(const sim::Simulation<Dim, double>& simulation);
+  std::string warning(const sim::Simulation<Dim>& simulation);
 
  private:
   bool is_hot_ = false, is_dry_ = false;  // already reported

@@ -22,7 +22,7 @@ namespace {
 
 // Speed and memory of the run on a GPU, tested from the state that the trial on the CPU has reached.
 template <int Dim>
-GpuFacts gpu_facts(sim::Simulation<Dim, double>& simulation, sim::RunRecords<Dim>& records, double steps) {
+GpuFacts gpu_facts(sim::Simulation<Dim>& simulation, sim::RunRecords<Dim>& records, double steps) {
   GpuFacts facts = detect_gpu();
   if (!facts.why_not.empty()) {
     return facts;
@@ -61,7 +61,7 @@ std::vector<MapFacts> map_facts(const config::Case& parameters, const config::Si
 
 // Facts known before the first step.
 template <int Dim>
-SetupFacts facts_of(const sim::Simulation<Dim, double>& simulation, const sim::RunRecords<Dim>& records) {
+SetupFacts facts_of(const sim::Simulation<Dim>& simulation, const sim::RunRecords<Dim>& records) {
   const config::Case& parameters = simulation.parameters();
   SetupFacts facts;
   facts.file = parameters.file;
@@ -105,7 +105,7 @@ int check_case(const CheckOptions& options) {
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     Warnings warnings(options.json ? Warnings::Form::kept : Warnings::Form::printed);
-    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, warnings));
+    sim::Simulation<Dim> simulation(parameters, read_map_files(parameters, warnings));
     sim::RunRecords<Dim> records(simulation, simulation.site());  // checks that maps, path and probes can be recorded
     records.start(simulation);
     SetupFacts facts = facts_of<Dim>(simulation, records);

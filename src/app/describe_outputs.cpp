@@ -69,7 +69,7 @@ std::string probes_text() {
 }
 
 std::string fields_text() {
-  const mpm::Particles<3, double> particles;
+  const mpm::Particles<3> particles;
   std::string rows;
   for (const mpm::FieldBase* field : particles.fields.all()) {
     if (field->info().in_snapshot()) {

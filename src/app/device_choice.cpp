@@ -11,7 +11,7 @@ namespace {
 
 #ifdef THAWSLIDE_WITH_GPU
 template <int Dim>
-std::string step_on_gpu(sim::Simulation<Dim, double>& simulation) {
+std::string step_on_gpu(sim::Simulation<Dim>& simulation) {
   const device::Gpu gpu = device::find_gpu();
   if (!gpu.is_usable) {
     throw UserError(fmt::format("--device gpu: {}. Run the case on the CPU: --device cpu", gpu.why_not));
@@ -21,7 +21,7 @@ std::string step_on_gpu(sim::Simulation<Dim, double>& simulation) {
 }
 #else
 template <int Dim>
-std::string step_on_gpu(sim::Simulation<Dim, double>& /*simulation*/) {
+std::string step_on_gpu(sim::Simulation<Dim>& /*simulation*/) {
   throw UserError(
       "--device gpu: this program was built without CUDA. Install CUDA 12 or later and build again (./run --setup), or "
       "run the case on the CPU: --device cpu");
@@ -40,7 +40,7 @@ GpuFacts detect_gpu() {
 }
 
 template <int Dim>
-std::string use_device(const std::string& device, sim::Simulation<Dim, double>& simulation) {
+std::string use_device(const std::string& device, sim::Simulation<Dim>& simulation) {
   if (device == "cpu") {
     return "";
   }
@@ -54,7 +54,7 @@ std::string use_device(const std::string& device, sim::Simulation<Dim, double>& 
   }
 }
 
-template std::string use_device<2>(const std::string&, sim::Simulation<2, double>&);
-template std::string use_device<3>(const std::string&, sim::Simulation<3, double>&);
+template std::string use_device<2>(const std::string&, sim::Simulation<2>&);
+template std::string use_device<3>(const std::string&, sim::Simulation<3>&);
 
 }  // namespace thawslide::app

@@ -21,6 +21,6 @@ struct GpuFacts {
 // features; "cpu" changes nothing. Returns the device as text; empty for the CPU. Throws UserError with the reason if
 // the GPU is unavailable or does not support the case.
 template <int Dim>
-std::string use_device(const std::string& device, sim::Simulation<Dim, double>& simulation);
+std::string use_device(const std::string& device, sim::Simulation<Dim>& simulation);
 
 }  // namespace thawslide::app

@@ -112,7 +112,7 @@ void apply_changes(const fs::path& folder, const Continuation& next) {
 }
 
 template <int Dim>
-void restore(sim::Simulation<Dim, double>& simulation, const std::vector<double>& scalars, const NamedNumbers& blocks) {
+void restore(sim::Simulation<Dim>& simulation, const std::vector<double>& scalars, const NamedNumbers& blocks) {
   simulation.restore(scalars);
   if (simulation.band_columns() != nullptr) {
     simulation.restore_band_columns(block_of(blocks, "band_columns"));
@@ -125,10 +125,10 @@ void restore(sim::Simulation<Dim, double>& simulation, const std::vector<double>
 // Reports an error that a change causes in an unchanged key at its location in the run's case.toml, which is not for
 // editing.
 template <int Dim>
-std::unique_ptr<sim::Simulation<Dim, double>> simulation_of(const fs::path& folder, const Continuation& next,
-                                                            Warnings& warnings) {
+std::unique_ptr<sim::Simulation<Dim>> simulation_of(const fs::path& folder, const Continuation& next,
+                                                    Warnings& warnings) {
   try {
-    return std::make_unique<sim::Simulation<Dim, double>>(next.parameters, read_map_files(next.parameters, warnings));
+    return std::make_unique<sim::Simulation<Dim>>(next.parameters, read_map_files(next.parameters, warnings));
   } catch (const UserError& error) {
     if (std::string(error.what()).rfind((folder / "case.toml").string(), 0) != 0) {
       throw;
@@ -143,7 +143,7 @@ std::unique_ptr<sim::Simulation<Dim, double>> simulation_of(const fs::path& fold
 template <int Dim>
 int restart_from_begin(const fs::path& folder, const Continuation& next) {
   Warnings warnings;
-  sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, warnings));
+  sim::Simulation<Dim> simulation(next.parameters, read_map_files(next.parameters, warnings));
   use_device<Dim>(next.device, simulation);
   print_text("{} was cut off before its first checkpoint; it starts again\n", folder.string());
   for (const std::string& warning : next.earlier.parts.back().warnings) {
@@ -159,7 +159,7 @@ int restart_from_begin(const fs::path& folder, const Continuation& next) {
 // run cannot continue and the changes would be lost.
 template <int Dim>
 bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, bool falls_back,
-                              sim::Simulation<Dim, double>& simulation) {
+                              sim::Simulation<Dim>& simulation) {
   const std::vector<std::string>& changes = next.earlier.parts.back().changes;
   const bool is_end_alone = config::keys_of(changes) == std::set<std::string>{"time.end"};
   if (simulation.time() >= next.parameters.time.end - 0.5 * simulation.last_step()) {
@@ -211,9 +211,9 @@ template <int Dim>
 int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continuation next) {
   Warnings warnings;
   const auto made = simulation_of<Dim>(folder, next, warnings);
-  sim::Simulation<Dim, double>& simulation = *made;
+  sim::Simulation<Dim>& simulation = *made;
   std::vector<double> scalars;
-  const NamedNumbers blocks = io::read_checkpoint<Dim, double>(checkpoint, simulation.particles(), scalars);
+  const NamedNumbers blocks = io::read_checkpoint<Dim>(checkpoint, simulation.particles(), scalars);
   try {
     restore<Dim>(simulation, scalars, blocks);
   } catch (const UserError& error) {

@@ -8,8 +8,7 @@
 
 namespace thawslide::band {
 
-template <class Real>
-using AnyHeatContent = std::variant<physics::HeatContent<Real, physics::PowerLawCurve<Real>>,
-                                    physics::HeatContent<Real, physics::LinearCurve<Real>>>;
+using AnyHeatContent =
+    std::variant<physics::HeatContent<physics::PowerLawCurve>, physics::HeatContent<physics::LinearCurve>>;
 
 }  // namespace thawslide::band

@@ -9,7 +9,7 @@
 namespace thawslide::band {
 
 // Sums of Eq. 21.
-template <int Dim, class Real>
+template <int Dim>
 struct AddAverages {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<mpm::Averages>;
@@ -27,9 +27,8 @@ struct AddAverages {
 };
 
 // True if water seeps to or from a particle: it is melted and permeable.
-template <class Real, class Particles, class At>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto seeps(const BandPhysics<Real>& model,
-                                                const HydraulicConductivity<Real>& hydraulic,
+template <class Particles, class At>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto seeps(const BandPhysics& model, const HydraulicConductivity& hydraulic,
                                                 const Particles& particles, const At& at) {
   return (particles.temperature.load(at) >= model.reference_temperature) & (hydraulic(particles, at) > Real(0));
 }
@@ -37,14 +36,14 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto seeps(const BandPhysics<Real>& model,
 // Sums of Eq. 21 over the pores that take part in seepage. Frozen pores are excluded (sealed) or count as empty
 // (vented). The average must be over the same pores that store water in SeepageFlows; otherwise it is not the mean of
 // the stored water.
-template <int Dim, class Real>
+template <int Dim>
 struct AddSeepingWater {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<mpm::SeepingWater>;
   using Account = mpm::NoAccount;
 
-  const BandPhysics<Real>& model;
-  HydraulicConductivity<Real> hydraulic;
+  const BandPhysics& model;
+  HydraulicConductivity hydraulic;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,

@@ -7,7 +7,7 @@
 namespace thawslide::band {
 
 // averages, state: records of Averages and NodalState. Returns false, with a state of 0, if no particle is near.
-template <int Dim, class Real, class Averaged, class State>
+template <int Dim, class Averaged, class State>
 THAWSLIDE_HD bool set_nodal_state(const Averaged& averages, State& state) {
   using mpm::Averages, mpm::NodalState;
   for (std::size_t c = 0; c < mpm::record_size(NodalState::template size<Dim>); ++c) {

@@ -7,16 +7,16 @@
 
 namespace thawslide::band {
 
-template <int Dim, class Real, bool Seeps, bool Balances>
+template <int Dim, bool Seeps, bool Balances>
 struct UpdatePorePressure {
-  using OfTile = PorePressure<Real, ColumnsOfTile<Dim, Real>, Seeps, Balances>;
+  using OfTile = PorePressure<ColumnsOfTile<Dim>, Seeps, Balances>;
   using Reads = typename OfTile::Reads;
   using Adds = typename OfTile::Adds;
   using Account = typename OfTile::Account;
 
-  const mpm::SparseGrid<Dim, Real>& grid;
-  const BandModel<Dim, Real>& model;
-  const FlowDepth<Dim, Real>& depth;
+  const mpm::SparseGrid<Dim>& grid;
+  const BandModel<Dim>& model;
+  const FlowDepth<Dim>& depth;
 
   [[nodiscard]] OfTile in_tile(std::size_t tile) const {
     return {model, model.hydraulic(), Real(0.5) * grid.cell(), depth.of_tile(grid, tile)};

@@ -6,14 +6,14 @@
 namespace thawslide::device {
 
 template <int Dim>
-SolverFactory<Dim, double> on_gpu(Launching launching) {
-  return [launching](const StepModel<Dim, double>& model, const mpm::ParticleView<Dim, double>& particles,
-                     std::size_t count, HostCallbacks<Dim, double> ask) {
+SolverFactory<Dim> on_gpu(Launching launching) {
+  return [launching](const StepModel<Dim>& model, const mpm::ParticleView<Dim>& particles, std::size_t count,
+                     HostCallbacks<Dim> ask) {
     return steps_on<Cuda>(model, particles, count, std::move(ask), launching);
   };
 }
-template SolverFactory<2, double> on_gpu<2>(Launching);
-template SolverFactory<3, double> on_gpu<3>(Launching);
+template SolverFactory<2> on_gpu<2>(Launching);
+template SolverFactory<3> on_gpu<3>(Launching);
 
 Gpu find_gpu() {
   Gpu gpu;

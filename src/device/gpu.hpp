@@ -18,6 +18,6 @@ Gpu find_gpu();
 // Solver on the GPU that find_gpu detected, in double precision. Errors are thrown as a Failure that states the failed
 // operation.
 template <int Dim>
-SolverFactory<Dim, double> on_gpu(Launching launching = Launching::in_graphs);
+SolverFactory<Dim> on_gpu(Launching launching = Launching::in_graphs);
 
 }  // namespace thawslide::device

@@ -15,7 +15,7 @@
 
 namespace thawslide::device {
 
-template <class Backend, class Real>
+template <class Backend>
 class Maps {
  public:
   // cell: mesh size [m]. half_sizes: of particles, by body, in cells.
@@ -26,7 +26,7 @@ class Maps {
   void forget_tiles() { knows_tiles_ = false; }
 
   // Sums over particles at their positions after a step, with the tiles from its beginning.
-  void sum(const mpm::MapCells& cells, const TileTables<3>& tables, const mpm::ParticleView<3, Real>& particles,
+  void sum(const mpm::MapCells& cells, const TileTables<3>& tables, const mpm::ParticleView<3>& particles,
            MapSample& look) {
     if (!knows_tiles_ || !(cells == places_.cells)) {
       number_cells(cells, tables);
@@ -37,7 +37,7 @@ class Maps {
       knows_tiles_ = true;
     }
     look.keys = known_keys_;
-    using InTile = SumMapInTile<Real>;
+    using InTile = SumMapInTile;
     backend_.for_groups(tables.tiles, InTile::at_a_time, InTile::bytes,
                         InTile{places_, tables, particles, sizes_.view(), parts_.data()});
     backend_.for_each(keys_.size(), SumParts<mpm::MapSums>{first_seen_.data(), seen_.data(), keys_.size(), seen_.size(),
@@ -67,7 +67,7 @@ class Maps {
 
   Backend& backend_;
   Real cell_;
-  BodySizes<Backend, Real> sizes_;  // half sizes of particles [m]
+  BodySizes<Backend> sizes_;  // half sizes of particles [m]
   MapPlaces places_;
   bool knows_tiles_ = false;
   std::vector<std::uint64_t> known_keys_;  // of cells below at least one tile

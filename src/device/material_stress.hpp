@@ -7,17 +7,17 @@
 
 namespace thawslide::device {
 
-template <int Dim, class Real, class Law>
+template <int Dim, class Law>
 struct DeformMaterial {
-  using Kernel = mpm::Deform<Dim, Real, Law>;
+  using Kernel = mpm::Deform<Dim, Law>;
   using Reads = typename Kernel::Reads;
   using Adds = typename Kernel::Adds;
   using Account = typename Kernel::Account;
 
   // Parameters of mpm::Deform.
   Law law;
-  physics::Elastic<Real> elastic;
-  physics::Phases<Real> phases;
+  physics::Elastic elastic;
+  physics::Phases phases;
   bool gaps_close_first;
   Real viscosity_time;
   bool effective_stress;

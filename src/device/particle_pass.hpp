@@ -19,20 +19,20 @@ struct AllTiles {
 };
 
 // Arguments of a pass except its kernels. TileFilter: called with a tile, or with a tile and one of its cells.
-template <class Weights, class TileFilter, int Dim, class Real>
+template <class Weights, class TileFilter, int Dim>
 struct PassOver {
   TileTables<Dim> tables;
-  mpm::ParticleView<Dim, Real> particles;
+  mpm::ParticleView<Dim> particles;
   Weights weights;
   TileFilter accepts;
   Real cell;
 };
 
-template <class Over, class Reads, class Adds, int Dim, class Real, class... Kernels>
+template <class Over, class Reads, class Adds, int Dim, class... Kernels>
 struct ParticlePass;
-template <class Over, class... Reads, class... Adds, int Dim, class Real, class... Kernels>
-struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...> {
-  using MemoryLayout = SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...>;
+template <class Over, class... Reads, class... Adds, int Dim, class... Kernels>
+struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Kernels...> {
+  using MemoryLayout = SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Kernels...>;
   using T = mpm::Tile<Dim>;
   using Sums = SumsOf<Kernels...>;
   static constexpr auto nodes = static_cast<std::size_t>(T::nodes);
@@ -158,23 +158,23 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     if (!over.accepts(chunk.tile, node)) {
       return;
     }
-    const mpm::ScalarIndex<Real> at{{tables.order[place]}};
+    const mpm::ScalarIndex at{{tables.order[place]}};
     const Real inverse_cell = Real(1) / over.cell;
     const typename T::Index nearest = T::node(T::index(tables.tile_keys[chunk.tile]), static_cast<int>(node));
-    mpm::OnePlace<Dim, Real> from_node{{}, lowest, {}};
+    mpm::OnePlace<Dim> from_node{{}, lowest, {}};
     for (std::size_t a = 0; a < Dim; ++a) {
       const int axis = static_cast<int>(a);
       from_node.offset[axis] =
           over.particles.position(at.particle[0], axis) * inverse_cell - static_cast<Real>(nearest[a]);
       from_node.at_side[a] = over.weights.template at_side<Dim>(a, nearest[a]);
     }
-    mpm::OneWeights<Dim, Real> weights;
+    mpm::OneWeights<Dim> weights;
     over.weights.set(weights, from_node, over.particles, at, over.cell, inverse_cell);
     const auto patches_read = room.patches_read();
-    const mpm::ScalarGather<mpm::OneWeights<Dim, Real>, typename MemoryLayout::PatchesRead> seen{weights, patches_read};
+    const mpm::ScalarGather<mpm::OneWeights<Dim>, typename MemoryLayout::PatchesRead> seen{weights, patches_read};
     typename MemoryLayout::Carried carried{};
     Sums of_particle{};
-    mpm::ParticleView<Dim, Real> particles = over.particles;
+    mpm::ParticleView<Dim> particles = over.particles;
     (run(kernel_of(kernels.template of<Kernels>(), chunk.tile), particles, at, seen, carried,
          of_particle.template of<Kernels>()),
      ...);
@@ -183,9 +183,8 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     slot.keep(weights);
   }
   template <class Kernel, class Seen, class Sum>
-  THAWSLIDE_HD static void run(const Kernel& kernel, mpm::ParticleView<Dim, Real>& particles,
-                               const mpm::ScalarIndex<Real>& at, const Seen& seen,
-                               typename MemoryLayout::Carried& carried, Sum& sum) {
+  THAWSLIDE_HD static void run(const Kernel& kernel, mpm::ParticleView<Dim>& particles, const mpm::ScalarIndex& at,
+                               const Seen& seen, typename MemoryLayout::Carried& carried, Sum& sum) {
     kernel(particles, at, seen, carried, sum);
   }
 
@@ -245,7 +244,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     }
     for (std::size_t p = part.first; p < part.last; ++p) {
       const auto& slot = room.slots()[p - chunk.first];
-      const mpm::OneAtNode<Dim, Real> at = mpm::at_node<Dim>(slot.template stencil<Name>(), along);
+      const mpm::OneAtNode<Dim> at = mpm::at_node<Dim>(slot.template stencil<Name>(), along);
       const auto& brought = slot.carried.template of<Name>();
       for (std::size_t c = 0; c < carried && at.is_seen; ++c) {
         sum[c] = mpm::add_particle(at, brought, c, sum[c]);

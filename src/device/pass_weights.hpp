@@ -15,18 +15,17 @@ struct LinearWeights {
   [[nodiscard]] THAWSLIDE_HD static bool at_side(std::size_t /*axis*/, int /*node*/) {
     return false;
   }
-  template <int Dim, class Real, class Particles>
-  THAWSLIDE_HD void set(mpm::OneWeights<Dim, Real>& weights, const mpm::OnePlace<Dim, Real>& place,
-                        const Particles& /*particles*/, const mpm::ScalarIndex<Real>& /*at*/, Real /*cell*/,
-                        Real inverse_cell) const {
+  template <int Dim, class Particles>
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OnePlace<Dim>& place, const Particles& /*particles*/,
+                        const mpm::ScalarIndex& /*at*/, Real /*cell*/, Real inverse_cell) const {
     weights.set_linear(place, inverse_cell);
   }
 };
 
 // Shape: shape functions of momentum. sizes: of particles, in cells, in device memory.
-template <class Shape, int Dim, class Real>
+template <class Shape, int Dim>
 struct MomentumWeights {
-  mpm::SizesOfBodies<Real> sizes;
+  mpm::SizesOfBodies sizes;
   mpm::HeldSides<Dim> sides;
 
   template <int>
@@ -34,22 +33,20 @@ struct MomentumWeights {
     return node == sides.lower[axis] || node == sides.upper[axis];
   }
   template <class Particles>
-  THAWSLIDE_HD void set(mpm::OneWeights<Dim, Real>& weights, const mpm::OnePlace<Dim, Real>& place,
-                        const Particles& particles, const mpm::ScalarIndex<Real>& at, Real /*cell*/,
-                        Real inverse_cell) const {
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OnePlace<Dim>& place, const Particles& particles,
+                        const mpm::ScalarIndex& at, Real /*cell*/, Real inverse_cell) const {
     weights.set_linear(place, inverse_cell);
     weights.template set_momentum<Shape>(place, sizes.of(particles, at), inverse_cell);
   }
 };
 
 // Adds the weights of APIC.
-template <class Shape, int Dim, class Real>
-struct AffineWeights : MomentumWeights<Shape, Dim, Real> {
+template <class Shape, int Dim>
+struct AffineWeights : MomentumWeights<Shape, Dim> {
   template <class Particles>
-  THAWSLIDE_HD void set(mpm::OneWeights<Dim, Real>& weights, const mpm::OnePlace<Dim, Real>& place,
-                        const Particles& particles, const mpm::ScalarIndex<Real>& at, Real cell,
-                        Real inverse_cell) const {
-    MomentumWeights<Shape, Dim, Real>::set(weights, place, particles, at, cell, inverse_cell);
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OnePlace<Dim>& place, const Particles& particles,
+                        const mpm::ScalarIndex& at, Real cell, Real inverse_cell) const {
+    MomentumWeights<Shape, Dim>::set(weights, place, particles, at, cell, inverse_cell);
     weights.template set_affine<Shape>(place, cell, inverse_cell);
   }
 };

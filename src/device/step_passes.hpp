@@ -13,14 +13,14 @@
 namespace thawslide::device {
 
 // Shape: shape functions of momentum (mpm/shape.hpp).
-template <class Backend, class Shape, int Dim, class Real>
+template <class Backend, class Shape, int Dim>
 class StepPasses {
  public:
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
 
   // Copies `count` particles from CPU memory.
-  StepPasses(Backend& used, const StepModel<Dim, Real>& known, const mpm::ParticleView<Dim, Real>& of_cpu,
-             std::size_t count, const GroundQuery<Dim, Real>& query_ground)
+  StepPasses(Backend& used, const StepModel<Dim>& known, const mpm::ParticleView<Dim>& of_cpu, std::size_t count,
+             const GroundQuery<Dim>& query_ground)
       : backend(used),
         model(known),
         particles(used, of_cpu, count),
@@ -31,22 +31,22 @@ class StepPasses {
   StepPasses& operator=(const StepPasses&) = delete;
 
   Backend& backend;
-  StepModel<Dim, Real> model;
-  Particles<Backend, Dim, Real> particles;
-  Cells<Backend, Dim, Real> cells;
-  Ground<Backend, Dim, Real> ground;
-  NodeMemory<Backend, Dim, Real> nodes{backend};
-  PassMemory<Backend, Real> memory{backend};
+  StepModel<Dim> model;
+  Particles<Backend, Dim> particles;
+  Cells<Backend, Dim> cells;
+  Ground<Backend, Dim> ground;
+  NodeMemory<Backend, Dim> nodes{backend};
+  PassMemory<Backend> memory{backend};
   Marks<Backend, Dim> marks{backend};
 
-  [[nodiscard]] mpm::SizesOfBodies<Real> body_sizes() const { return sizes_.view(); }  // in cells
-  [[nodiscard]] MomentumWeights<Shape, Dim, Real> weights() const { return {sizes_.view(), model.sides}; }
+  [[nodiscard]] mpm::SizesOfBodies body_sizes() const { return sizes_.view(); }  // in cells
+  [[nodiscard]] MomentumWeights<Shape, Dim> weights() const { return {sizes_.view(), model.sides}; }
   // Calls work(weights) with the weights of APIC if the model uses it.
   template <class Work>
   void if_affine(const Work& work) const {
-    if constexpr (!std::is_same_v<Shape, mpm::Linear<Real>>) {
+    if constexpr (!std::is_same_v<Shape, mpm::Linear>) {
       if (model.affine) {
-        work(AffineWeights<Shape, Dim, Real>{weights()});
+        work(AffineWeights<Shape, Dim>{weights()});
       }
     }
   }
@@ -60,7 +60,7 @@ class StepPasses {
     return over(weights(), accepts);
   }
   template <class Weights, class TileFilter>
-  [[nodiscard]] PassOver<Weights, TileFilter, Dim, Real> over(const Weights& weights, const TileFilter& accepts) const {
+  [[nodiscard]] PassOver<Weights, TileFilter, Dim> over(const Weights& weights, const TileFilter& accepts) const {
     return {cells.tables(), particles.view(), weights, accepts, model.cell};
   }
   template <class Over, class... Kernels>
@@ -70,8 +70,8 @@ class StepPasses {
   template <class Name, class MinReduced, class TileFilter>
   void sum(const TileFilter& accepts) {
     const std::size_t numbers = of<Name>().size();
-    backend.for_each(numbers, SumPatches<Name, MinReduced, TileFilter, Dim, Real>{
-                                  cells.tables(), accepts, memory.patches(0), of<Name>().data()});
+    backend.for_each(numbers, SumPatches<Name, MinReduced, TileFilter, Dim>{cells.tables(), accepts, memory.patches(0),
+                                                                            of<Name>().data()});
   }
   template <class Kernel, class Sum>
   Sum sum_over_particles(const Kernel& kernel, Array<Sum, Backend>& sum) {
@@ -88,8 +88,8 @@ class StepPasses {
   [[nodiscard]] Array<Real, Backend>& of() {
     return nodes.template of<Name>();
   }
-  [[nodiscard]] NodeViews<Dim, Real> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }
-  [[nodiscard]] NodeStageArgs<Dim, Real> nodes_in_step(Real time, Real dt) {
+  [[nodiscard]] NodeViews<Dim> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }
+  [[nodiscard]] NodeStageArgs<Dim> nodes_in_step(Real time, Real dt) {
     return {cells.tables(), views(), model.faces,          model.gravity,       model.cell,      model.mass_damping,
             time,           dt,      model.distance_check, model.pore_pressure, model.base_holds};
   }
@@ -105,7 +105,7 @@ class StepPasses {
   }
 
  private:
-  BodySizes<Backend, Real> sizes_;
+  BodySizes<Backend> sizes_;
 };
 
 }  // namespace thawslide::device

@@ -10,9 +10,8 @@
 namespace thawslide::physics {
 
 // S_slide of Eq. 17 [Pa]. Pressures [Pa]. cap_pressure: P is limited to N.
-template <class Real>
-THAWSLIDE_HD Real sliding_strength(Real friction_coefficient, Real normal_pressure, Real pore_pressure, Real cohesion,
-                                   FrictionClamp clamp, bool cap_pressure) {
+inline THAWSLIDE_HD Real sliding_strength(Real friction_coefficient, Real normal_pressure, Real pore_pressure,
+                                          Real cohesion, FrictionClamp clamp, bool cap_pressure) {
   Real effective = normal_pressure - pore_pressure;
   if (cap_pressure && effective < Real(0)) {
     effective = Real(0);

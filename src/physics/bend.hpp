@@ -8,8 +8,7 @@
 namespace thawslide::physics {
 
 // N A [N] of a mass m [kg], with gravity into the ground g.n [m/s2], speed v [m/s] and curvature kappa [1/m].
-template <class Real>
-Real load_in_bend(Real mass, Real gravity_into_ground, Real speed, Real curvature) {
+inline Real load_in_bend(Real mass, Real gravity_into_ground, Real speed, Real curvature) {
   return max(Real(0), mass * (gravity_into_ground + speed * speed * curvature));
 }
 

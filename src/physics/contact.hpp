@@ -10,7 +10,6 @@
 namespace thawslide::physics {
 
 // Momentum transferred from a node to the terrain [kg m/s], along n and along the slip.
-template <class Real>
 struct ContactImpulse {
   Real normal;
   Real tangential;
@@ -19,9 +18,8 @@ struct ContactImpulse {
 
 // normal_momentum p.n > 0 and tangential_momentum |p.t| >= 0 of the trial [kg m/s], contact area [m2], dt [s], sliding
 // strength [Pa].
-template <class Real>
-THAWSLIDE_HD ContactImpulse<Real> contact_impulse(Real normal_momentum, Real tangential_momentum, Real area, Real dt,
-                                                  Real sliding_strength) {
+inline THAWSLIDE_HD ContactImpulse contact_impulse(Real normal_momentum, Real tangential_momentum, Real area, Real dt,
+                                                   Real sliding_strength) {
   const Real available = sliding_strength * area * dt;
   if (tangential_momentum <= available) {
     return {normal_momentum, tangential_momentum, false};

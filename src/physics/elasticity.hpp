@@ -9,7 +9,6 @@
 
 namespace thawslide::physics {
 
-template <class Real>
 struct Elastic {
   Real lame_lambda = 0;    // lambda [Pa]
   Real shear_modulus = 0;  // G [Pa]
@@ -25,8 +24,8 @@ struct Elastic {
 };
 
 // Stress increment [Pa] of a strain increment.
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Value> stress_increment(const Elastic<Real>& elastic,
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Value> stress_increment(const Elastic& elastic,
                                                                              const SymmetricTensor<Value>& strain) {
   SymmetricTensor<Value> stress = Value(Real(2) * elastic.shear_modulus) * strain;
   const Value pressure = elastic.lame_lambda * (strain[0] + strain[1] + strain[2]);
@@ -37,8 +36,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Value> stress_increment(con
 }
 
 // Elastic energy density [J/m3] of a stress [Pa].
-template <class Real>
-Real elastic_energy_density(const Elastic<Real>& elastic, const SymmetricTensor<Real>& stress) {
+inline Real elastic_energy_density(const Elastic& elastic, const SymmetricTensor<Real>& stress) {
   const Real trace = stress[0] + stress[1] + stress[2];
   const Real square = stress[0] * stress[0] + stress[1] * stress[1] + stress[2] * stress[2] +
                       Real(2) * (stress[3] * stress[3] + stress[4] * stress[4] + stress[5] * stress[5]);

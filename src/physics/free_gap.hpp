@@ -15,7 +15,7 @@ template <class Strength>
 [[nodiscard]] bool gap_is_free(const Strength& strength) {
   constexpr int shares = 100;
   constexpr double round_off = 1e-12;
-  const auto sine = [](auto degrees) { return std::sin(static_cast<double>(degrees) * pi<double> / 180.0); };
+  const auto sine = [](auto degrees) { return std::sin(static_cast<double>(degrees) * pi / 180.0); };
   const auto between = [](double start, double end, double share) { return start + share * (end - start); };
   const auto apex = [&](double softened) {
     const double s = between(sine(strength.friction_angle), sine(strength.residual_friction_angle), softened);
@@ -32,8 +32,7 @@ template <class Strength>
 
 // Density after closing the gap, at which elastic stiffness acts again [kg/m3]. A gap sums the volumetric strains of
 // steps, each of which is the change of the logarithm of the volume.
-template <class Real>
-[[nodiscard]] THAWSLIDE_HD Real density_with_gap_closed(Real density, Real gap) {
+[[nodiscard]] inline THAWSLIDE_HD Real density_with_gap_closed(Real density, Real gap) {
   using std::exp;
   return density * exp(gap);
 }

@@ -17,7 +17,6 @@ struct ReturnResult {
   Condition yielded = Value(0) < Value(0);
 };
 
-template <class Real>
 struct LinearElastic {
   static constexpr bool yields = false;
 

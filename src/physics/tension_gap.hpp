@@ -11,17 +11,17 @@
 namespace thawslide::physics {
 
 // Part of a volumetric strain increment that closes a gap and bears no stress: from 0 to the gap's volumetric strain.
-template <class Real>
-[[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real closing_strain(Real gap, Real volume_strain) {
-  return min(gap, max(Real(0), -volume_strain));
+template <class Value>
+[[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value closing_strain(Value gap, Value volume_strain) {
+  return min(gap, max(Value(0), -volume_strain));
 }
 
 // Strain increment that causes stress: the remainder, with an isotropic closing part.
-template <class Real>
-[[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Real> borne_strain(
-    const SymmetricTensor<Real>& strain, Real closing) {
-  SymmetricTensor<Real> borne = strain;
-  const Real third = closing / Real(3);
+template <class Value>
+[[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Value> borne_strain(
+    const SymmetricTensor<Value>& strain, Value closing) {
+  SymmetricTensor<Value> borne = strain;
+  const Value third = closing / Value(3);
   borne[0] += third;
   borne[1] += third;
   borne[2] += third;

@@ -28,6 +28,6 @@ struct BodyFigures {
 
 // By name, as in the case. Requires a simulation before its first step.
 template <int Dim>
-[[nodiscard]] std::vector<BodyFigures> body_figures(const Simulation<Dim, double>& simulation);
+[[nodiscard]] std::vector<BodyFigures> body_figures(const Simulation<Dim>& simulation);
 
 }  // namespace thawslide::sim

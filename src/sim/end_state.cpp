@@ -8,7 +8,7 @@
 namespace thawslide::sim {
 
 template <int Dim>
-EndState end_state(const Simulation<Dim, double>& simulation, bool slide_left) {
+EndState end_state(const Simulation<Dim>& simulation, bool slide_left) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const config::Case& parameters = simulation.parameters();
   const double width = parameters.general.width.factor();
@@ -16,7 +16,7 @@ EndState end_state(const Simulation<Dim, double>& simulation, bool slide_left) {
   state.time = simulation.time();
   state.rest_rule = simulation.rest_rule();
   state.left_particles = simulation.removed().left;
-  const Ledger<Dim, double>& ledger = simulation.ledger();
+  const Ledger<Dim>& ledger = simulation.ledger();
   state.left_mass = width * ledger.left_mass;
   state.guarded_mass = width * ledger.removed_mass;
   state.whole_mass = width * (ledger.initial_mass + ledger.joined_mass);
@@ -24,7 +24,7 @@ EndState end_state(const Simulation<Dim, double>& simulation, bool slide_left) {
     state.rest_since = state.mean_velocity = state.dilation_volume = state.dilation_share = unknown;
     return state;
   }
-  const BodySums<Dim, double> sums = simulation.sum_over_body();
+  const BodySums<Dim> sums = simulation.sum_over_body();
   state.is_known = parameters.mechanics.enabled;
   state.at_rest = state.is_known && simulation.is_at_rest();
   state.rest_since = state.at_rest ? simulation.rest_since() : unknown;
@@ -73,7 +73,7 @@ std::vector<std::string> warnings_of(const EndState& state, bool is_over) {
   return warnings;
 }
 
-template EndState end_state<2>(const Simulation<2, double>&, bool);
-template EndState end_state<3>(const Simulation<3, double>&, bool);
+template EndState end_state<2>(const Simulation<2>&, bool);
+template EndState end_state<3>(const Simulation<3>&, bool);
 
 }  // namespace thawslide::sim

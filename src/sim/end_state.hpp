@@ -34,7 +34,7 @@ struct EndState {
 
 // slide_left: the whole slide has left.
 template <int Dim>
-[[nodiscard]] EndState end_state(const Simulation<Dim, double>& simulation, bool slide_left);
+[[nodiscard]] EndState end_state(const Simulation<Dim>& simulation, bool slide_left);
 
 // Name with unit and value, for run.json.
 [[nodiscard]] std::vector<std::pair<std::string, double>> named(const EndState& state);

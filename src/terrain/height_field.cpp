@@ -219,12 +219,12 @@ bool HeightField::is_known(const Place& from, const Place& to) const {
   return summary(low, (to - margin).cwiseMax(low)).known;
 }
 
-void HeightField::at_block(const NodeIndex& first, double cell_size, int edge, GroundAtNode<3, double>* nodes) const {
+void HeightField::at_block(const NodeIndex& first, double cell_size, int edge, GroundAtNode<3>* nodes) const {
   at_nodes_from(cell_size * Vector<double, 3>(first[0], first[1], first[2]), cell_size, edge, nodes);
 }
 
 void HeightField::at_nodes_from(const Vector<double, 3>& lowest, double cell_size, int edge,
-                                GroundAtNode<3, double>* nodes) const {
+                                GroundAtNode<3>* nodes) const {
   const Place from = lowest.head<2>().array() - cell_size;
   const Place to = lowest.head<2>().array() + edge * cell_size;
   const Summary below = summary(from, to);
@@ -241,13 +241,13 @@ void HeightField::at_nodes_from(const Vector<double, 3>& lowest, double cell_siz
 }
 
 void HeightField::set_distances(const Vector<double, 3>& lowest, double cell_size, int edge,
-                                GroundAtNode<3, double>* nodes) const {
+                                GroundAtNode<3>* nodes) const {
   const double reach = reach_in_cells * cell_size;
   const double width = (edge - 1) * cell_size;
   const Summary about = summary(lowest.head<2>().array() - reach, lowest.head<2>().array() + width + reach);
   const bool any_near = about.highest > lowest[2] - reach && about.lowest < lowest[2] + width + reach;
   for (int k = 0; k < edge * edge * edge; ++k) {
-    GroundAtNode<3, double>& node = nodes[k];
+    GroundAtNode<3>& node = nodes[k];
     const int column = k % edge, row = k / edge % edge, layer = k / (edge * edge);
     const Vector<double, 3> position = lowest + cell_size * Vector<double, 3>(column, row, layer);
     const Place place = position.head<2>();

@@ -9,11 +9,11 @@
 namespace thawslide::terrain {
 
 // At 45 degrees, the vertical axis is chosen with a tolerance, to be independent of round-off.
-template <int Dim, class Real>
+template <int Dim>
 THAWSLIDE_HD int main_axis(const Vector<Real, Dim>& normal) {
   int axis = Dim - 1;
   for (int a = Dim - 2; a >= 0; --a) {
-    if (std::abs(normal[a]) > (Real(1) + round_off<Real>)*std::abs(normal[axis])) {
+    if (std::abs(normal[a]) > (Real(1) + round_off) * std::abs(normal[axis])) {
       axis = a;
     }
   }

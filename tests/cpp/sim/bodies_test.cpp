@@ -37,7 +37,7 @@ enabled = false
 TEST(Bodies, MayNotOverlapNorMissTheirVolume) {
   const auto mistake = [](const std::string& text, const Sets& sets) -> std::string {
     try {
-      const Simulation<2, double> simulation(paper_case(text, sets));
+      const Simulation<2> simulation(paper_case(text, sets));
     } catch (const UserError& error) {
       return error.what();
     }

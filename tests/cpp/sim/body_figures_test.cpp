@@ -42,7 +42,7 @@ enabled = false
 )";
 
 std::vector<BodyFigures> figures_of(const std::string& text, const std::vector<std::string>& sets = {}) {
-  return body_figures(Simulation<2, double>(case_from_text(text, sets)));
+  return body_figures(Simulation<2>(case_from_text(text, sets)));
 }
 
 TEST(BodyFigures, AreThoseOfTheBody) {
