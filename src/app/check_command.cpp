@@ -24,7 +24,7 @@ namespace {
 template <int Dim>
 GpuFacts gpu_facts(sim::Simulation<Dim>& simulation, sim::RunRecords<Dim>& records, double steps) {
   GpuFacts facts = detect_gpu();
-  if (!facts.why_not.empty()) {
+  if (!facts.unavailable_reason.empty()) {
     return facts;
   }
   const double end = simulation.parameters().time.end;
@@ -37,13 +37,13 @@ GpuFacts gpu_facts(sim::Simulation<Dim>& simulation, sim::RunRecords<Dim>& recor
       static_cast<void>(simulation.front());
     }
     if (!(simulation.time() < end)) {
-      facts.why_not = "the run ends before a step on it could be timed";
+      facts.unavailable_reason = "the run ends before a step on it could be timed";
       return facts;
     }
     facts.seconds = measured_step_seconds<Dim>(simulation) * steps;
     facts.used = facts.free - detect_gpu().free;
   } catch (const std::runtime_error& error) {  // the CPU results remain valid
-    facts.why_not = error.what();
+    facts.unavailable_reason = error.what();
   }
   return facts;
 }

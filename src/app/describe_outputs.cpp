@@ -81,7 +81,7 @@ std::string fields_text() {
 
 std::string base_text() {
   const sim::ColumnGroup& group = sim::base_columns();
-  return title_of(group) + "\nDatasets of the group `base`.\n" + columns_text(group, "dataset");
+  return title_of(group) + "\nDatasets of the group `basal_segments`.\n" + columns_text(group, "dataset");
 }
 
 std::string maps_text() {

@@ -14,7 +14,7 @@ template <int Dim>
 std::string step_on_gpu(sim::Simulation<Dim>& simulation) {
   const device::Gpu gpu = device::find_gpu();
   if (!gpu.is_usable) {
-    throw UserError(fmt::format("--device gpu: {}. Run the case on the CPU: --device cpu", gpu.why_not));
+    throw UserError(fmt::format("--device gpu: {}. Run the case on the CPU: --device cpu", gpu.unavailable_reason));
   }
   simulation.use_device(gpu.name, device::on_gpu<Dim>());
   return gpu.name;
@@ -33,7 +33,7 @@ std::string step_on_gpu(sim::Simulation<Dim>& /*simulation*/) {
 GpuFacts detect_gpu() {
 #ifdef THAWSLIDE_WITH_GPU
   const device::Gpu gpu = device::find_gpu();
-  return {gpu.name, gpu.why_not, gpu.free, 0.0, 0.0};
+  return {gpu.name, gpu.unavailable_reason, gpu.free, 0.0, 0.0};
 #else
   return {"", "this program was built without CUDA", 0.0, 0.0, 0.0};
 #endif

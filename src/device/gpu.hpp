@@ -10,7 +10,7 @@ namespace thawslide::device {
 
 struct Gpu {
   bool is_usable = false;
-  std::string name, why_not;
+  std::string name, unavailable_reason;
   double free = 0.0;  // free memory [bytes]
 };
 Gpu find_gpu();

@@ -28,12 +28,12 @@ SnapshotField copy_field(const mpm::FieldBase& field, const std::vector<std::siz
   return taken;
 }
 
-// Group "base": one dataset per column, whose name ends with the unit.
+// Group "basal_segments": one dataset per column, whose name ends with the unit.
 void write_base(hid_t file, const NamedNumbers& base) {
   if (base.empty()) {
     return;
   }
-  const hdf5::Handle group = hdf5::make_group(file, "base");
+  const hdf5::Handle group = hdf5::make_group(file, "basal_segments");
   const std::size_t segments = base.at("position_m").size() / 3;
   for (const auto& [name, numbers] : base) {
     const hdf5::Shape shape = numbers.size() == segments ? hdf5::Shape{segments} : hdf5::Shape{segments, 3};

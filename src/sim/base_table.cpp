@@ -26,7 +26,7 @@ NamedNumbers base_table(const Simulation<Dim>& simulation) {
     add("normal_pressure_Pa", segment.load);
     add("pore_pressure_Pa", means.pore_pressure);
     add("temperature_C", means.temperature);
-    add("hottest_C", *std::max_element(slide, slide + physics::ColumnCells::slide));
+    add("max_temperature_C", *std::max_element(slide, slide + physics::ColumnCells::slide));
     add("liquid_saturation", means.saturation);
     add("opening_m", columns->volumes_of(segment).opening);
     add("slip_m", segment.slip);

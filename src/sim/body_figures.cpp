@@ -65,7 +65,7 @@ class Bodies {
     }
     figures.mean_thickness = section / figures.area;
     figures.particles_across = figures.median_thickness / figures.spacing;
-    figures.most_particles_across = figures.largest_thickness / figures.spacing;
+    figures.max_particles_across = figures.largest_thickness / figures.spacing;
     return figures;
   }
 
@@ -142,7 +142,7 @@ class Bodies {
     }
     const auto columns = static_cast<double>(thickness.values.size());
     figures.area = columns * width;
-    figures.standing_share = standing / columns;
+    figures.resting_fraction = standing / columns;
     figures.median_thickness = config::median_thickness(thickness);
     figures.largest_thickness = *std::max_element(thickness.values.begin(), thickness.values.end());
   }

@@ -58,11 +58,11 @@ std::string standing_warning(const config::Case& parameters, const BodyFigures& 
         "Begin it on that, or set shape = \"surface\" or \"release\", which follow the ground.",
         config::place_of(parameters, key), key, body.clearance, time);
   }
-  if (body.standing_share < least_standing) {
+  if (body.resting_fraction < least_standing) {
     return fmt::format(
         "{}: {} rests on {:.2g} % of its area; the gap below the rest is at least {:.3g} m, one distance of its "
         "particles. Use a shape that follows the terrain: shape = \"surface\", \"release\", or a polygon.",
-        config::place_of(parameters, key), key, 100.0 * body.standing_share, body.spacing);
+        config::place_of(parameters, key), key, 100.0 * body.resting_fraction, body.spacing);
   }
   return "";
 }

@@ -20,10 +20,10 @@ void add_band(const Simulation<Dim>& simulation, const BodySums<Dim>& sums, Hist
     add("band_normal_pressure_Pa", static_cast<double>(base.load));
     add("band_shear_Pa", static_cast<double>(simulation.contact().shear_force / simulation.contact().area));
     add("band_thickness_m", static_cast<double>(base.thickness));
-    add("band_hottest_C", static_cast<double>(base.hottest));
-    add("band_hottest_wet_C", static_cast<double>(base.hottest_wet));
-    add("band_dry_share", static_cast<double>(base.dry_share));
-    add("band_largest_pressure_ratio", static_cast<double>(base.largest_pressure_ratio));
+    add("band_max_temperature_C", static_cast<double>(base.hottest));
+    add("band_max_wet_temperature_C", static_cast<double>(base.hottest_wet));
+    add("band_dry_fraction", static_cast<double>(base.dry_share));
+    add("band_max_pressure_ratio", static_cast<double>(base.largest_pressure_ratio));
     return;
   }
   const double mass = sums.band_mass > Real(0) ? static_cast<double>(sums.band_mass) : std::nan("");
@@ -190,7 +190,7 @@ HistoryRow history_row(const Simulation<Dim>& simulation, const FrontInRow& fron
                    contact.area > Real(0) ? static_cast<double>(contact.friction_area / contact.area) : std::nan(""));
   row.emplace_back("mean_plastic_strain", mean(sums.plastic_strain));
   row.emplace_back("dilation_volume_m3", width * static_cast<double>(sums.volume_change));
-  row.emplace_back("dilation_share", static_cast<double>(sums.volume_change / sums.initial_volume));
+  row.emplace_back("dilation_fraction", static_cast<double>(sums.volume_change / sums.initial_volume));
   const char* axes = Dim == 2 ? "xy" : "xyz";
   // No force is known before the first step.
   const double known = simulation.step_number() > 0 ? width : std::nan("");

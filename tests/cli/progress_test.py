@@ -62,7 +62,7 @@ def test_summary_reports_throughput_and_result(said: tuple[list[str], Path]) -> 
         lines[first + 1],
     )
     shown = dict(line.split() for line in lines[first + 2 : -2])
-    assert set(shown) == {"mean_velocity_m_s", "dilation_volume_m3", "dilation_share", "left_mass_kg"}
+    assert set(shown) == {"mean_velocity_m_s", "dilation_volume_m3", "dilation_fraction", "left_mass_kg"}
     assert all(float(value.replace(",", "")) == pytest.approx(facts[name], rel=5e-4) for name, value in shown.items())
     assert facts["at_rest"] is False and len(facts["warnings"]) == 1
     assert lines[-2] == f"warning: {facts['warnings'][0]}"

@@ -225,10 +225,10 @@ TEST(RoughnessTest, BumpsOfSeveralPointsAreFilteredAlikeOnAllCells) {
   for (const double cell : {0.5 * spacing, 1.3 * spacing, 2.0 * spacing}) {
     const config::Roughness found = roughness_of(raster, span_of_points(raster), cell, {.is_auto = true});
     EXPECT_DOUBLE_EQ(found.width, width);
-    EXPECT_LE(found.slope_left, largest_slope);
+    EXPECT_LE(found.remaining_slope, largest_slope);
     EXPECT_GT(found.bump_slope, 0.1);
   }
-  EXPECT_GT(roughness_of(raster, span_of_points(raster), spacing, {.number = 0.5 * spacing}).slope_left, 0.1);
+  EXPECT_GT(roughness_of(raster, span_of_points(raster), spacing, {.number = 0.5 * spacing}).remaining_slope, 0.1);
 }
 
 // Friction found in runs without a filter, and with one: docs/theory/contact.md.

@@ -251,10 +251,10 @@ TEST_F(Files, SnapshotHoldsTheBaseBesideTheParticles) {
     series.finish_writing();
     const hdf5::Handle file(H5Fopen((folder_ / "snapshots" / "000000.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
                             H5Fclose, "snapshot");
-    if (H5Lexists(file, "base", H5P_DEFAULT) <= 0) {
+    if (H5Lexists(file, "basal_segments", H5P_DEFAULT) <= 0) {
       return false;
     }
-    const hdf5::Handle places(H5Dopen2(file, "base/position_m", H5P_DEFAULT), H5Dclose, "position_m");
+    const hdf5::Handle places(H5Dopen2(file, "basal_segments/position_m", H5P_DEFAULT), H5Dclose, "position_m");
     std::vector<double> read(6);
     EXPECT_GE(H5Dread(places, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()), 0);
     EXPECT_EQ(read, snapshot.base.at("position_m"));

@@ -211,7 +211,7 @@ TEST(Append, IsNoDilation) {
   const std::size_t before = simulation.particles().size();
   simulation.append(some_particles<2>(simulation, false));
   ASSERT_GT(simulation.particles().size(), before);
-  EXPECT_EQ(value_of(history_row(simulation), "dilation_share"), 0.0);
+  EXPECT_EQ(value_of(history_row(simulation), "dilation_fraction"), 0.0);
   EXPECT_EQ(value_of(history_row(simulation), "dilation_volume_m3"), 0.0);
   double initial = 0.0;
   auto& particles = simulation.particles();
@@ -219,10 +219,10 @@ TEST(Append, IsNoDilation) {
     initial += particles.initial_volume(p);
     particles.volume(p) *= 1.06;
   }
-  EXPECT_NEAR(value_of(history_row(simulation), "dilation_share"), 0.06, 1e-12);
+  EXPECT_NEAR(value_of(history_row(simulation), "dilation_fraction"), 0.06, 1e-12);
   EXPECT_NEAR(value_of(history_row(simulation), "dilation_volume_m3"), 0.06 * initial, 1e-9 * initial);
   const EndState state = end_state<2>(simulation, false);
-  EXPECT_NEAR(state.dilation_share, 0.06, 1e-12);
+  EXPECT_NEAR(state.dilation_fraction, 0.06, 1e-12);
   const std::vector<std::string> warnings = warnings_of(state, false);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].rfind("Dilation has changed the volume of the slide by +6.0 %, ", 0), 0U) << warnings[0];

@@ -276,7 +276,7 @@ int run(const std::string& what, std::size_t particles) {
   }
   const device::Gpu gpu = device::find_gpu();
   if (!gpu.is_usable) {
-    std::fprintf(stderr, "nothing was run: %s\n", gpu.why_not.c_str());
+    std::fprintf(stderr, "nothing was run: %s\n", gpu.unavailable_reason.c_str());
     return no_gpu;
   }
   std::printf("%s\n", gpu.name.c_str());
