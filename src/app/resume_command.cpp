@@ -208,7 +208,7 @@ std::string keep_damaged(const fs::path& damaged) {
 }
 
 template <int Dim>
-int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continuation next) {
+int continue_run(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continuation next) {
   Warnings warnings;
   const auto made = simulation_of<Dim>(folder, next, warnings);
   sim::Simulation<Dim>& simulation = *made;
@@ -297,7 +297,7 @@ int resume_run(const ResumeOptions& options) {
   next.earlier.parts.back().warnings = changed_originals(facts.inputs);
   return with_dimension(
       next.parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
-        return has_checkpoint ? go_on<Dim>(folder, checkpoint, next) : restart_from_begin<Dim>(folder, next);
+        return has_checkpoint ? continue_run<Dim>(folder, checkpoint, next) : restart_from_begin<Dim>(folder, next);
       });
 }
 

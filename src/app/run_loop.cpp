@@ -131,7 +131,7 @@ class Loop {
   int run() {
     catch_signals();
     try {
-      while (goes_on()) {
+      while (must_continue()) {
         step();
         write_what_is_due();
         if (progress_.due(simulation_.time(), times_.end)) {
@@ -161,7 +161,7 @@ class Loop {
     return {interval, simulation_.time(), simulation_.last_step(), times_.end, early};
   }
   [[nodiscard]] std::int64_t steps() const { return simulation_.step_number() - first_step_; }
-  [[nodiscard]] bool goes_on() const {
+  [[nodiscard]] bool must_continue() const {
     return simulation_.time() < times_.end - 0.5 * simulation_.last_step() && !simulation_.ends_at_rest() &&
            caught_signal() == 0;
   }

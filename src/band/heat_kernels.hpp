@@ -245,9 +245,9 @@ struct UpdateHeatMass {
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
                                                        Scatter& /*added*/, Account& made) const {
-    const auto before = particles.heat_content.load(at), anew = law.heat(particles, at);
-    particles.heat_content.store(at, anew);
-    at.add_to(made, particles.initial_volume.load(at) / particles.thermal_scaling.load(at) * (anew - before));
+    const auto before = particles.heat_content.load(at), after = law.heat(particles, at);
+    particles.heat_content.store(at, after);
+    at.add_to(made, particles.initial_volume.load(at) / particles.thermal_scaling.load(at) * (after - before));
   }
 };
 

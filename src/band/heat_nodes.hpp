@@ -1,8 +1,8 @@
 // Nodal part of conduct_heat: state from the averages, and temperature rate.
 #pragma once
 
+#include "band/averages_kernel.hpp"
 #include "band/heat.hpp"
-#include "band/nodal_state.hpp"
 #include "mpm/node_pass.hpp"
 
 namespace thawslide::band {

@@ -5,7 +5,6 @@
 #include <variant>
 #include <vector>
 
-#include "band/any_heat_content.hpp"
 #include "band/heat_face.hpp"
 #include "band/particle_heat.hpp"
 #include "band/physics.hpp"
@@ -14,9 +13,14 @@
 #include "mpm/particles.hpp"
 #include "mpm/section_width.hpp"
 #include "mpm/transfer.hpp"
+#include "physics/freezing.hpp"
+#include "physics/heat_content.hpp"
 #include "physics/options.hpp"
 
 namespace thawslide::band {
+
+using AnyHeatContent =
+    std::variant<physics::HeatContent<physics::PowerLawCurve>, physics::HeatContent<physics::LinearCurve>>;
 
 using physics::BandRegion;
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "band/nodal_seepage.hpp"
-#include "band/pore_pressure_of_tile.hpp"
 #include "band/seeping_tiles.hpp"
 #include "base/instances.hpp"
 #include "mpm/node_pass.hpp"

@@ -7,8 +7,8 @@
 
 #include "band/physics.hpp"
 #include "mpm/scalar_index.hpp"
-#include "physics/free_gap.hpp"
 #include "physics/pressurization.hpp"
+#include "physics/tension_gap.hpp"
 
 namespace thawslide::band {
 
@@ -49,7 +49,7 @@ struct StepExtremes {
   }
 };
 
-// Free gaps by material (physics/free_gap.hpp).
+// Free gaps by material (physics/tension_gap.hpp).
 struct FreeGaps {
   const Real* of_material;  // 1: free; 0: gaps bear stress
 

@@ -1,12 +1,8 @@
-// Number type of the step. The build chooses single precision by THAWSLIDE_REAL=float.
+// Number type of the step.
 #pragma once
-
-#ifndef THAWSLIDE_REAL
-#define THAWSLIDE_REAL double
-#endif
 
 namespace thawslide {
 
-using Real = THAWSLIDE_REAL;
+using Real = double;
 
 }  // namespace thawslide

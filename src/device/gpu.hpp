@@ -3,10 +3,13 @@
 
 #include <string>
 
-#include "device/launching.hpp"
 #include "device/solver.hpp"
 
 namespace thawslide::device {
+
+// Launch mode of kernels. in_graphs: together, as a graph, when the CPU next waits for the GPU. one_by_one:
+// immediately.
+enum class Launching { in_graphs, one_by_one };
 
 struct Gpu {
   bool is_usable = false;

@@ -4,13 +4,13 @@
 
 #include <limits>
 
+#include "band/averages_kernel.hpp"
 #include "band/heat_face.hpp"
-#include "band/nodal_state.hpp"
 #include "device/step_model.hpp"
 #include "device/tile_tables.hpp"
 #include "mpm/records.hpp"
 #include "physics/basal/laws.hpp"
-#include "physics/basal_friction.hpp"
+#include "physics/contact.hpp"
 #include "terrain/contact_node.hpp"
 
 namespace thawslide::device {

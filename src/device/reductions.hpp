@@ -15,12 +15,12 @@ struct RunMonitor {
   using Adds = mpm::RecordList<>;
   using Account = mpm::MonitorSums;
 
-  mpm::MonitorKernel<Dim> look;
+  mpm::MonitorKernel<Dim> kernel;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
                                Account& sums) const {
-    sums = look(particles, at.particle[0]);
+    sums = kernel(particles, at.particle[0]);
   }
 };
 

@@ -1,11 +1,13 @@
 // Layout of a thread group's shared memory in a particle pass (device/particle_pass.hpp).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <type_traits>
 
-#include "device/pass_weights.hpp"
+#include "mpm/body_sizes.hpp"
 #include "mpm/kernel.hpp"
+#include "mpm/one_particle.hpp"
 #include "mpm/particle_view.hpp"
 
 namespace thawslide::device {
@@ -88,9 +90,9 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
   static constexpr std::size_t capacity = Dim == 2 ? 64 : 128, most_cells = 16, threads = capacity;
   static constexpr std::size_t cell_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
   static constexpr std::size_t size = mpm::record_size(OwnerOfList<Names>::template size<Dim>);
-  // adds_up: kernels sum over particles. goes_on: the record already has sums from an earlier pass.
+  // adds_up: kernels sum over particles. accumulates: the record already has sums from an earlier pass.
   static constexpr bool adds_up = (!std::is_same_v<typename Kernels::Account, mpm::NoAccount> || ...);
-  static constexpr bool goes_on = (mpm::OfAnOwner<Adds> && ...);
+  static constexpr bool accumulates = (mpm::OfAnOwner<Adds> && ...);
 
   using Carried = mpm::ByName<mpm::Named<Adds, mpm::CarriedByOne<Adds, Dim>>...>;
   using PatchesRead = mpm::ByName<mpm::Named<Reads, PatchRead<Reads, Dim>>...>;
@@ -180,6 +182,48 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
  public:
   static constexpr std::size_t bytes =
       reads_at + up((std::size_t{0} + ... + PatchRead<Reads, Dim>::count) * sizeof(Real));
+};
+
+// Linear shape functions for all records of the pass.
+struct LinearWeights {
+  template <int Dim>
+  [[nodiscard]] THAWSLIDE_HD static bool at_side(std::size_t /*axis*/, int /*node*/) {
+    return false;
+  }
+  template <int Dim, class Particles>
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OnePlace<Dim>& place, const Particles& /*particles*/,
+                        const mpm::ScalarIndex& /*at*/, Real /*cell*/, Real inverse_cell) const {
+    weights.set_linear(place, inverse_cell);
+  }
+};
+
+// Shape: shape functions of momentum. sizes: of particles, in cells, in device memory.
+template <class Shape, int Dim>
+struct MomentumWeights {
+  mpm::SizesOfBodies sizes;
+  mpm::HeldSides<Dim> sides;
+
+  template <int>
+  [[nodiscard]] THAWSLIDE_HD bool at_side(std::size_t axis, int node) const {
+    return node == sides.lower[axis] || node == sides.upper[axis];
+  }
+  template <class Particles>
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OnePlace<Dim>& place, const Particles& particles,
+                        const mpm::ScalarIndex& at, Real /*cell*/, Real inverse_cell) const {
+    weights.set_linear(place, inverse_cell);
+    weights.template set_momentum<Shape>(place, sizes.of(particles, at), inverse_cell);
+  }
+};
+
+// Adds the weights of APIC.
+template <class Shape, int Dim>
+struct AffineWeights : MomentumWeights<Shape, Dim> {
+  template <class Particles>
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OnePlace<Dim>& place, const Particles& particles,
+                        const mpm::ScalarIndex& at, Real cell, Real inverse_cell) const {
+    MomentumWeights<Shape, Dim>::set(weights, place, particles, at, cell, inverse_cell);
+    weights.template set_affine<Shape>(place, cell, inverse_cell);
+  }
 };
 
 }  // namespace thawslide::device

@@ -29,9 +29,9 @@ class Solver {
   // Advances the solution by dt [s], from time [s].
   virtual StepSums<Dim> step(Real time, Real dt) = 0;
   // Monitor sums over the particles after a step.
-  virtual mpm::MonitorSums watch(const mpm::MonitorKernel<Dim>& look) = 0;
+  virtual mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) = 0;
   // Sums for maps (3D only).
-  virtual void sample_map(const mpm::MapCells& cells, MapSample& look) = 0;
+  virtual void sample_map(const mpm::MapCells& cells, MapSample& sample) = 0;
   // Sums for a history row.
   virtual band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) = 0;
   // Particle at the front. mass: total mass of the particles [kg].

@@ -19,8 +19,8 @@ class SolverImpl final : public Solver<Dim> {
       : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(ask)) {}
 
   StepSums<Dim> step(Real time, Real dt) override { return step_.step(time, dt); }
-  mpm::MonitorSums watch(const mpm::MonitorKernel<Dim>& look) override { return step_.watch(look); }
-  void sample_map(const mpm::MapCells& cells, MapSample& look) override { step_.sample_map(cells, look); }
+  mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) override { return step_.monitor(kernel); }
+  void sample_map(const mpm::MapCells& cells, MapSample& sample) override { step_.sample_map(cells, sample); }
   band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) override {
     return step_.sum_over_body(of_particle);
   }

@@ -2,24 +2,94 @@
 // of simulation.cpp on the CPU.
 #pragma once
 
+#include <cstdint>
 #include <variant>
 
 #include "device/band_columns.hpp"
 #include "device/band_stages.hpp"
-#include "device/base_laws.hpp"
 #include "device/erodible_bed.hpp"
 #include "device/escape_check.hpp"
 #include "device/front.hpp"
+#include "device/ground.hpp"
 #include "device/maps.hpp"
-#include "device/material_stress.hpp"
+#include "device/node_kernels.hpp"
 #include "device/reductions.hpp"
 #include "device/step_passes.hpp"
 #include "device/velocity_filter.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/position_kernel.hpp"
+#include "mpm/stress_kernel.hpp"
 #include "terrain/band_marks_kernel.hpp"
 
 namespace thawslide::device {
+
+template <int Dim, class Law>
+struct DeformMaterial {
+  using Kernel = mpm::Deform<Dim, Law>;
+  using Reads = typename Kernel::Reads;
+  using Adds = typename Kernel::Adds;
+  using Account = typename Kernel::Account;
+
+  // Parameters of mpm::Deform.
+  Law law;
+  physics::Elastic elastic;
+  physics::Phases phases;
+  bool gaps_close_first;
+  Real viscosity_time;
+  bool effective_stress;
+  Real dt;
+  std::int32_t material;
+  bool is_only_one;  // all particles have this material
+
+  // Kernel for material m of a step model.
+  template <class Model>
+  static DeformMaterial of(const Law& law, const Model& model, std::size_t m, Real dt) {
+    const auto& material = model.materials[m];
+    return {law,
+            material.elastic,
+            model.phases,
+            material.gaps_close_first,
+            material.viscosity_time,
+            model.effective_stress,
+            dt,
+            static_cast<std::int32_t>(m),
+            model.materials.size() == 1};
+  }
+
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
+                               Account& account) const {
+    if (is_only_one || particles.material(at.particle[0]) == material) {
+      const Kernel deform{law, elastic, phases, gaps_close_first, viscosity_time, effective_stress, dt};
+      deform(particles, at, seen, added, account);
+    }
+  }
+};
+
+// cell: mesh size [m]. columns: records of BaseState by candidate node, or null. bases: by candidate node.
+template <class Backend, int Dim>
+void evaluate_law_at_nodes(Backend& backend, const NodeStageArgs<Dim>& step, const terrain::BasalLaw& base, Real cell,
+                           const Ground<Backend, Dim>& ground, const Real* columns, ContactInput* bases) {
+  const std::size_t count = ground.candidate_count();
+  const std::uint32_t* candidates = ground.candidates();
+  backend.for_each(count, PressOnGround<Dim>{step, candidates});
+  const Real face = Dim == 2 ? cell : cell * cell;
+  backend.for_each(count, GatherContactInput<Dim>{step, candidates, static_cast<Real>(terrain::smallest_area) * face,
+                                                  base.gravity, columns, bases});
+  for (std::size_t g = 0; g < base.grounds.size(); ++g) {
+    const int substrate = static_cast<int>(g);
+    std::visit(
+        [&]<class Law>(const Law& law) {
+          backend.for_each(count, EvaluateFriction<Law, Dim>{law, substrate, ground.known(), candidates, bases});
+        },
+        base.grounds[g].friction);
+    std::visit(
+        [&]<class Law>(const Law& law) {
+          backend.for_each(count, EvaluateCohesion<Law, Dim>{law, substrate, ground.known(), candidates, bases});
+        },
+        base.grounds[g].cohesion);
+  }
+}
 
 // Shape: shape functions of momentum (mpm/shape.hpp).
 template <class Backend, class Shape, int Dim>
@@ -83,8 +153,8 @@ class Step {
   }
 
   // Reductions over the particles after a step.
-  mpm::MonitorSums watch(const mpm::MonitorKernel<Dim>& look) {
-    return passes_.sum_over_particles(RunMonitor<Dim>{look}, watched_);
+  mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) {
+    return passes_.sum_over_particles(RunMonitor<Dim>{kernel}, monitored_);
   }
   band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) {
     return passes_.sum_over_particles(SumOverBody<Dim>{of_particle}, body_);
@@ -96,10 +166,10 @@ class Step {
   std::vector<Vector<Real, Dim>> escaped_positions() {
     return escape_check_.places(passes_, escape_kernel(), sums_.get(0).escapes);
   }
-  void sample_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapSample& look) {
+  void sample_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapSample& sample) {
     if constexpr (Dim == 3) {
-      look.moments = passes_.sum_over_particles(SumMoments{}, moments_);
-      maps_.sum(cells, passes_.cells.tables(), passes_.particles.view(), look);
+      sample.moments = passes_.sum_over_particles(SumMoments{}, moments_);
+      maps_.sum(cells, passes_.cells.tables(), passes_.particles.view(), sample);
     }
   }
 
@@ -261,7 +331,7 @@ class Step {
   Array<ContactInput, Backend> bases_{passes_.backend};
   EscapeCheck<Backend, Dim> escape_check_{passes_.backend};
   Front<Backend, Dim> front_{passes_.backend};
-  Array<mpm::MonitorSums, Backend> watched_{passes_.backend, 1};
+  Array<mpm::MonitorSums, Backend> monitored_{passes_.backend, 1};
   Array<band::BodySums<Dim>, Backend> body_{passes_.backend, 1};
   Array<mpm::MassMoments, Backend> moments_{passes_.backend, 1};
 };

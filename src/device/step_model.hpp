@@ -7,9 +7,9 @@
 #include <functional>
 #include <vector>
 
-#include "band/any_heat_content.hpp"
 #include "band/at_columns.hpp"
 #include "band/heat_face.hpp"
+#include "band/model.hpp"
 #include "band/nodal_heat.hpp"
 #include "band/physics.hpp"
 #include "band/pressure_kernels.hpp"

@@ -8,7 +8,7 @@
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
 #include "mpm/scalar_index.hpp"
-#include "physics/body_contact.hpp"
+#include "physics/contact.hpp"
 
 namespace thawslide::mpm {
 

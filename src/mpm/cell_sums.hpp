@@ -52,14 +52,14 @@ class CellSums {
       while (last < count && nodes[last] == nodes[first]) {
         ++last;
       }
-      const bool begins = first > 0 || !is_open_, ends = last < count || !stencil.nodes.goes_on;
+      const bool begins = first > 0 || !is_open_, ends = last < count || !stencil.nodes.continues;
       Real* records = patch_.records[static_cast<std::size_t>(nodes[first])].data() + First;
       unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
         add_particles<static_cast<int>(g()) == FluxGroup>(stencil, first, last, value[g], flux, begins, ends, sums_[g],
                                                           records + g * width);
       });
     }
-    is_open_ = stencil.nodes.goes_on;
+    is_open_ = stencil.nodes.continues;
   }
 
  private:
@@ -153,11 +153,11 @@ class LinearCellSums {
         sums_.fill(Register(Real(0)));
       }
       add_particle(corners, lane, value[lane], flux, &sums_[static_cast<std::size_t>(corners.first_in_cell[lane])]);
-      if (lane + 1 < count ? cells[lane] != cells[lane + 1] : !linear.nodes.goes_on) {
+      if (lane + 1 < count ? cells[lane] != cells[lane + 1] : !linear.nodes.continues) {
         end_cell(static_cast<std::size_t>(cells[lane]));
       }
     }
-    is_open_ = linear.nodes.goes_on;
+    is_open_ = linear.nodes.continues;
   }
 
  private:

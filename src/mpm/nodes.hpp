@@ -22,28 +22,28 @@ struct ActivityMarks {
 
 template <int Dim>
 struct Nodes {
-  std::shared_ptr<PatchPool> room = std::make_shared<PatchPool>();
-  RecordsOf<Momentum, Dim> momentum{room};
+  std::shared_ptr<PatchPool> pool = std::make_shared<PatchPool>();
+  RecordsOf<Momentum, Dim> momentum{pool};
   RecordsOf<Motion, Dim> motion;
-  RecordsOf<Velocity, Dim> velocity{room};
-  RecordsOf<Averages, Dim> averages{room};
+  RecordsOf<Velocity, Dim> velocity{pool};
+  RecordsOf<Averages, Dim> averages{pool};
   RecordsOf<NodalState, Dim> state;
-  RecordsOf<HeatRates, Dim> heat_rates{room};
+  RecordsOf<HeatRates, Dim> heat_rates{pool};
   // In steps that filter velocities.
-  RecordsOf<FilterMoments, Dim> filter_moments{room};
-  RecordsOf<FilterMomentum, Dim> filter_momentum{room};
+  RecordsOf<FilterMoments, Dim> filter_moments{pool};
+  RecordsOf<FilterMomentum, Dim> filter_momentum{pool};
   RecordsOf<FilterIncrement, Dim> filter_increment;
   RecordsOf<FilterTotal, Dim> filter_total;
   // In blocks with candidate nodes.
   SparseRecords<Dim, BaseLayout::size> base;
   SparseRecordsOf<Contact, Dim> contact;
-  SparseRecordsOf<NearGround, Dim> near_ground{room};
+  SparseRecordsOf<NearGround, Dim> near_ground{pool};
   SparseRecords<Dim, BedLayout<Dim>::size> bed;  // with an erodible bed
   SparseRecordsOf<UnreachedHeat, Dim> unreached_heat;
   SparseRecordsOf<BaseState, Dim> base_state;    // with band columns
   SparseRecordsOf<HeatRates, Dim> secant_rates;  // with the secant capacity, in blocks with temperature changes
-  SparseRecordsOf<Seepage, Dim> seepage{room};   // in blocks that water can seep to
-  SparseRecordsOf<SeepingWater, Dim> seeping_water{room};
+  SparseRecordsOf<Seepage, Dim> seepage{pool};   // in blocks that water can seep to
+  SparseRecordsOf<SeepingWater, Dim> seeping_water{pool};
   ActivityMarks marks;
 
   template <class Name>

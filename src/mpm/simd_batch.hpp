@@ -60,7 +60,7 @@ struct BatchNodes {
   std::array<std::int32_t, simd_width<Real>> first;  // by lane
   std::uint8_t runs;                                 // runs of lanes with the same nodes: 1, 2 or `irregular`
   std::uint8_t second_run_begin;                     // first lane of the second of two runs
-  bool goes_on;  // the next batch begins with a particle of the same nodes as the last one of this batch
+  bool continues;  // the next batch begins with a particle of the same nodes as the last one of this batch
 };
 
 // Batch of one tile and one material. It remains valid until the nearest node of a particle of the tile changes.

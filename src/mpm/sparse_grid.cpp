@@ -321,10 +321,10 @@ void SparseGrid<Dim>::make_batches(const Particles<Dim>& particles, std::size_t 
       before_nearest[a] = Simd<Real>::load_whole(nearest.data()) - Real(1);
     }
     batch.nodes = nodes_from<Dim>(tile.key, before_nearest);
-    batch.nodes.goes_on = false;
+    batch.nodes.continues = false;
     if (!batches.empty()) {
       const TileBatch<Dim>& before = batches.back();
-      batches.back().nodes.goes_on = before.nodes.first[before.count - 1] == batch.nodes.first[0];
+      batches.back().nodes.continues = before.nodes.first[before.count - 1] == batch.nodes.first[0];
     }
     batches.push_back(batch);
     made_[t].broken += batch.contiguous ? 0 : 1;

@@ -87,7 +87,7 @@ class NodeRecords {
 
   // Without memory for patches: for records that nodes compute, or sum from the patches of others.
   NodeRecords() = default;
-  explicit NodeRecords(std::shared_ptr<PatchPool> room) : room_(std::move(room)) {}
+  explicit NodeRecords(std::shared_ptr<PatchPool> pool) : pool_(std::move(pool)) {}
 
   [[nodiscard]] Record& operator()(std::size_t block, std::size_t node) { return records_[block * nodes + node]; }
   [[nodiscard]] const Record& operator()(std::size_t block, std::size_t node) const {
@@ -101,13 +101,13 @@ class NodeRecords {
   // Patches of the tiles. The caller must clear and fill them, and sum them before other records with the same memory
   // request theirs.
   [[nodiscard]] std::span<Patch<Dim, Components>> patches(std::size_t tiles) {
-    THAWSLIDE_ASSERT(room_ != nullptr, "{} components without memory for patches", Components);
-    return room_->take<Patch<Dim, Components>>(tiles);
+    THAWSLIDE_ASSERT(pool_ != nullptr, "{} components without memory for patches", Components);
+    return pool_->take<Patch<Dim, Components>>(tiles);
   }
 
  private:
   AlignedVector<Record> records_;
-  std::shared_ptr<PatchPool> room_;
+  std::shared_ptr<PatchPool> pool_;
 };
 
 // One record per node of selected active blocks; those of other blocks read as zeros.
@@ -118,7 +118,7 @@ class SparseRecords {
   static constexpr std::size_t nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
 
   SparseRecords() = default;
-  explicit SparseRecords(std::shared_ptr<PatchPool> room) : records_(std::move(room)) {}
+  explicit SparseRecords(std::shared_ptr<PatchPool> pool) : records_(std::move(pool)) {}
 
   // Selects the blocks for which holds(block) is true; their contents are undefined. blocks: number of active blocks.
   template <class Holds>

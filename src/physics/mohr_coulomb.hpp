@@ -19,7 +19,6 @@
 #include "base/select.hpp"
 #include "physics/elasticity.hpp"
 #include "physics/principal.hpp"
-#include "physics/return_result.hpp"
 
 namespace thawslide::physics {
 

@@ -8,7 +8,6 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
-#include "physics/bend.hpp"
 #include "physics/contact.hpp"
 #include "sim/block_band_column.hpp"
 #include "sim/block_column.hpp"

@@ -10,7 +10,6 @@
 #include "sim/body_shape.hpp"
 #include "sim/initial_state.hpp"
 #include "sim/seed.hpp"
-#include "sim/starting_noise.hpp"
 
 namespace thawslide::sim {
 

@@ -24,27 +24,27 @@ constexpr std::int64_t joining_interval = 8;
 template <int Dim>
 double volume_below(const config::Case& parameters, const config::Site& site,
                     const typename terrain::Bed<Dim>::Column& column) {
-  constexpr int looks = 4;
+  constexpr int samples = 4;
   const config::Grid& grid = parameters.grid;
   const InitialField& depth = parameters.bed.depth;
   double sum = 0.0;
-  const auto look = [&](int number, std::size_t axis) {
-    const double part = (static_cast<double>(number) + 0.5) / looks - 0.5;
+  const auto coordinate = [&](int number, std::size_t axis) {
+    const double part = (static_cast<double>(number) + 0.5) / samples - 0.5;
     return grid.min[axis] + (static_cast<double>(column[axis]) + part) * grid.cell;
   };
   const auto is_inside = [&](double place, std::size_t axis) {
     return place > grid.min[axis] && place < grid.max[axis];
   };
-  for (int i = 0; i < looks; ++i) {
-    const double x = look(i, 0);
-    for (int j = 0; j < (Dim == 3 ? looks : 1); ++j) {
-      const double y = Dim == 3 ? look(j, Dim - 2) : 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const double x = coordinate(i, 0);
+    for (int j = 0; j < (Dim == 3 ? samples : 1); ++j) {
+      const double y = Dim == 3 ? coordinate(j, Dim - 2) : 0.0;
       if (is_inside(x, 0) && (Dim == 2 || is_inside(y, 1))) {
         sum += depth.is_map() ? bilinear(site.bed_depth, x, y, Missing::zero) : depth.at(0.0, x);
       }
     }
   }
-  return sum * std::pow(grid.cell / looks, Dim - 1);
+  return sum * std::pow(grid.cell / samples, Dim - 1);
 }
 
 terrain::BedMaterial make_bed_material(const config::Bed& bed, Real density) {

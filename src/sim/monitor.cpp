@@ -91,15 +91,15 @@ mpm::MonitorSums Simulation<Dim>::monitor_sums() const {
   // Displacement per step above which a particle is fast. Particle velocity also contains FLIP noise, which the grid
   // does not resolve and which displaces nothing.
   const Real fast_distance = static_cast<Real>(rest_speed(parameters_.time)) * dt_;
-  const mpm::MonitorKernel<Dim> look{model_.motion.gravity, model_.origin.template cast<Real>(), fast_distance,
-                                     static_cast<Real>(parameters_.guards.smallest_volume),
-                                     static_cast<Real>(parameters_.guards.largest_volume)};
+  const mpm::MonitorKernel<Dim> kernel{model_.motion.gravity, model_.origin.template cast<Real>(), fast_distance,
+                                       static_cast<Real>(parameters_.guards.smallest_volume),
+                                       static_cast<Real>(parameters_.guards.largest_volume)};
   mpm::MonitorSums seen;
   if (device_solver_) {
-    on_device([&] { seen = device_solver_->watch(look); });
+    on_device([&] { seen = device_solver_->monitor(kernel); });
     return seen;
   }
-  return mpm::sum_over_particles<mpm::MonitorSums>(grid_, [&](std::uint32_t p) { return look(particles_, p); });
+  return mpm::sum_over_particles<mpm::MonitorSums>(grid_, [&](std::uint32_t p) { return kernel(particles_, p); });
 }
 
 template <int Dim>
@@ -121,7 +121,7 @@ void Simulation<Dim>::start_monitor() {
 }
 
 template <int Dim>
-void Simulation<Dim>::watch() {
+void Simulation<Dim>::monitor() {
   if (!parameters_.mechanics.enabled || (step_number_ % watch_interval != 0 && invalid_.id < 0)) {
     return;
   }
@@ -218,7 +218,7 @@ std::string Simulation<Dim>::rest_text() const {
 #define THAWSLIDE_INSTANTIATE(Dim)                                              \
   template mpm::MonitorSums Simulation<Dim>::monitor_sums() const;              \
   template void Simulation<Dim>::start_monitor();                               \
-  template void Simulation<Dim>::watch();                                       \
+  template void Simulation<Dim>::monitor();                                     \
   template void Simulation<Dim>::stop_if_energy_grows(const mpm::MonitorSums&); \
   template void Simulation<Dim>::update_rest(const mpm::MonitorSums&);          \
   template bool Simulation<Dim>::is_at_rest() const;                            \

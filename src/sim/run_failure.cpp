@@ -21,7 +21,7 @@ constexpr double runaway = 5.0;
 constexpr double hot = 1000.0;
 
 // Advice for a DEM that ends too soon.
-constexpr const char* anew =
+constexpr const char* advice_to_recrop =
     "`thawslide new` crops the DEM to the domain: create the case again with a smaller --reach-angle, which uses more "
     "of the DEM, or from a larger DEM.";
 
@@ -58,14 +58,14 @@ double distance_to_domain_edge(const config::Site& site, const Place2& place, co
   const Raster& ground = *site.ground;
   const auto [low, high] = site.terrain_model.value_or(
       std::array<Place2, 2>{Place2{ground.x, ground.y}, Place2{ground.x_end(), ground.y_end()}});
-  double room = HUGE_VAL;
+  double to_edge = HUGE_VAL;
   for (std::size_t a = 0; a < 2; ++a) {
     const double forward = velocity[a] / speed;
     if (forward != 0.0) {
-      room = std::min(room, ((forward > 0.0 ? high[a] : low[a]) - place[a]) / forward);
+      to_edge = std::min(to_edge, ((forward > 0.0 ? high[a] : low[a]) - place[a]) / forward);
     }
   }
-  return std::max(room, 0.0);
+  return std::max(to_edge, 0.0);
 }
 
 // Index in memory; ties are broken by the smallest id.
@@ -184,12 +184,12 @@ std::string Simulation<Dim>::terrain_ahead(std::size_t p) const {
   }
   const Place2 place{static_cast<double>(particles_.position(p, 0)) + model_.origin[0],
                      static_cast<double>(particles_.position(p, 1)) + model_.origin[1]};
-  const double room = distance_to_domain_edge(site_, place, {velocity[0], velocity[1]});
-  return level + (room <= further
+  const double to_edge = distance_to_domain_edge(site_, place, {velocity[0], velocity[1]});
+  return level + (to_edge <= further
                       ? fmt::format("The DEM ends {:.0f} m ahead of it: it has to be larger, and [grid] with "
                                     "it. {}",
-                                    room, anew)
-                      : fmt::format("The DEM ends {:.0f} m ahead of it: widen [grid] that way.", room));
+                                    to_edge, advice_to_recrop)
+                      : fmt::format("The DEM ends {:.0f} m ahead of it: widen [grid] that way.", to_edge));
 }
 
 template <int Dim>
@@ -238,7 +238,7 @@ std::string Simulation<Dim>::likely_cause(std::size_t p) const {
     return fmt::format("It moves at {:.4g} m/s{}. {}", own, towards, terrain_ahead(p)) +
            "Give a DEM that reaches further there, and [grid] with it, or set grid.leaving = \"remove\" to let such "
            "particles go. " +
-           anew;
+           advice_to_recrop;
   }
   if (invalid_.fault != mpm::Fault::left_domain) {
     return too_long;

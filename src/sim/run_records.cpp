@@ -134,13 +134,13 @@ void RunRecords<Dim>::after_step(const Simulation& simulation) {
   if constexpr (Dim == 3) {
     const std::vector<SegmentBelow> segments = segments_below(simulation);
     const std::vector<SegmentBelow>* below = simulation.band_columns() != nullptr ? &segments : nullptr;
-    if (const device::MapSample* look = simulation.sample_map(maps_->cells())) {
-      const double mass = std::accumulate(look->sums.begin(), look->sums.end(), 0.0,
+    if (const device::MapSample* sample = simulation.sample_map(maps_->cells())) {
+      const double mass = std::accumulate(sample->sums.begin(), sample->sums.end(), 0.0,
                                           [](double sum, const mpm::MapSums& cell) { return sum + cell.column.mass; });
-      THAWSLIDE_ASSERT(std::abs(mass - look->moments.mass) <= round_off * look->moments.mass,
-                       "{} kg of {} kg lie over map cells that particles may reach", mass, look->moments.mass);
-      maps_->gather(look->keys, look->sums, simulation.time(), below);
-      add_to_path(simulation, look->moments);
+      THAWSLIDE_ASSERT(std::abs(mass - sample->moments.mass) <= round_off * sample->moments.mass,
+                       "{} kg of {} kg lie over map cells that particles may reach", mass, sample->moments.mass);
+      maps_->gather(sample->keys, sample->sums, simulation.time(), below);
+      add_to_path(simulation, sample->moments);
       return;
     }
     maps_->gather(simulation.grid(), simulation.particles(), simulation.time(), below);

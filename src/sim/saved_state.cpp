@@ -19,8 +19,8 @@ std::vector<double> Simulation<Dim>::scalars() const {
                               static_cast<double>(fixed_step_clock_.from_number)};
   Ledger<Dim> ledger = ledger_;
   ledger.for_each([&](const Real& account) { numbers.push_back(static_cast<double>(account)); });
-  RunMonitor watch = monitor_;
-  watch.for_each([&](double number) { numbers.push_back(number); });
+  RunMonitor monitor = monitor_;
+  monitor.for_each([&](double number) { numbers.push_back(number); });
   for (const std::int64_t count : {removed_.left, removed_.not_finite, removed_.volume}) {
     numbers.push_back(static_cast<double>(count));
   }

@@ -14,7 +14,7 @@ bool Simulation<Dim>::needs_settling() const {
 }
 
 template <int Dim>
-bool Simulation<Dim>::settle(const std::function<bool()>& goes_on) {
+bool Simulation<Dim>::settle(const std::function<bool()>& may_continue) {
   if (!needs_settling()) {
     return true;
   }
@@ -36,7 +36,7 @@ bool Simulation<Dim>::settle(const std::function<bool()>& goes_on) {
                                                                          : parameters_.time.safety * step_limit().step;
   const auto steps = static_cast<std::int64_t>(std::ceil(parameters_.mechanics.settle_time / dt));
   for (std::int64_t k = 0; k < steps; ++k) {
-    if (!goes_on()) {
+    if (!may_continue()) {
       time_ = 0.0;  // no time of the run itself has been simulated
       step_number_ = 0;
       return false;

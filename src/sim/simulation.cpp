@@ -82,7 +82,7 @@ void Simulation<Dim>::step_on_cpu() {
 // Ends the run, or removes or adds particles, if necessary.
 template <int Dim>
 void Simulation<Dim>::post_step() {
-  watch();
+  monitor();
   if (!needs_no_host_check()) {
     sync_to_host();
     stop_for_or_remove_particles();
@@ -98,7 +98,7 @@ void Simulation<Dim>::stop_for_or_remove_particles() {
   stop_if_invalid();
   mark_left_particles();
   if (invalid_.id >= 0) {
-    watch();  // reports an instability before an out-of-DEM error, so that the user is not advised to enlarge the DEM
+    monitor();  // reports an instability before an out-of-DEM error, so that the user is not advised to enlarge the DEM
   }
   stop_if_invalid();
   remove_marked_particles();

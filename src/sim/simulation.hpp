@@ -61,9 +61,9 @@ class Simulation {
   // True if the case applies gravity before t = 0, with damping and on a fixed base.
   [[nodiscard]] bool needs_settling() const;
   // Settles the initial stress; afterwards everything but the stress is as at the start. Does nothing if the case does
-  // not request it. goes_on: called before each step; if it returns false, settling is aborted, false is returned, and
-  // the run cannot continue. Throws RunError if a particle becomes invalid.
-  bool settle(const std::function<bool()>& goes_on = [] { return true; });
+  // not request it. may_continue: called before each step; if it returns false, settling is aborted, false is returned,
+  // and the run cannot continue. Throws RunError if a particle becomes invalid.
+  bool settle(const std::function<bool()>& may_continue = [] { return true; });
 
   // Performs one time step of dt [s]. Throws RunError if a particle becomes invalid; the state is then that of the
   // failed step.
@@ -197,7 +197,7 @@ class Simulation {
   void conduct_heat();
   void drain_pore_pressure();
   void update_positions();
-  void watch();
+  void monitor();
   void stop_for_or_remove_particles();
   void mark_invalid_particles();
   void mark_left_particles();

@@ -9,7 +9,7 @@
 
 #include "mpm/tile.hpp"
 #include "physics/basal/laws.hpp"
-#include "physics/basal_friction.hpp"
+#include "physics/contact.hpp"
 
 namespace thawslide::terrain {
 

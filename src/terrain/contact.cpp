@@ -112,9 +112,9 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
                      mpm::Nodes<Dim>& nodes) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   // by block: 1 if a node is loaded; persistent, to avoid allocation in each step
-  thread_local std::vector<std::uint8_t> room;
-  room.assign(grid.blocks().size(), 0);
-  auto& loaded = room;  // the buffer of the calling thread, shared by all threads
+  thread_local std::vector<std::uint8_t> buffer;
+  buffer.assign(grid.blocks().size(), 0);
+  auto& loaded = buffer;  // the buffer of the calling thread, shared by all threads
   nodes.base.hold(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (!ground.any_candidate(b)) {

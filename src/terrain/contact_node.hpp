@@ -3,7 +3,10 @@
 // apply(mass, momentum), true if a rigid frame acted.
 #pragma once
 
+#include <cmath>
+
 #include "base/linear.hpp"
+#include "base/portability.hpp"
 #include "base/select.hpp"
 #include "mpm/records.hpp"
 #include "mpm/tile.hpp"
@@ -11,9 +14,20 @@
 #include "physics/basal/contact_node.hpp"
 #include "physics/contact.hpp"
 #include "terrain/contact_work.hpp"
-#include "terrain/main_axis.hpp"
 
 namespace thawslide::terrain {
+
+// At 45 degrees, the vertical axis is chosen with a tolerance, to be independent of round-off.
+template <int Dim>
+THAWSLIDE_HD int main_axis(const Vector<Real, Dim>& normal) {
+  int axis = Dim - 1;
+  for (int a = Dim - 2; a >= 0; --a) {
+    if (std::abs(normal[a]) > (Real(1) + round_off) * std::abs(normal[axis])) {
+      axis = a;
+    }
+  }
+  return axis;
+}
 
 // Smallest contact area, as a fraction of a cell's face: keeps N = p.n / (A dt) finite without ground nearby.
 inline constexpr double smallest_area = 1e-6;

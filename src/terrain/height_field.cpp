@@ -185,7 +185,7 @@ double HeightField::highest(const Place& from, const Place& to) const {
   if (columns.first < columns.last && rows.first < rows.last) {
     top = summary_of_points({columns.first + 1, columns.last}, {rows.first + 1, rows.last}).highest;
   }
-  const auto look = [&](int column, int row) {
+  const auto examine = [&](int column, int row) {
     if (std::max({height_at(column, row), height_at(column + 1, row), height_at(column, row + 1),
                   height_at(column + 1, row + 1)}) <= top) {
       return;
@@ -199,7 +199,7 @@ double HeightField::highest(const Place& from, const Place& to) const {
     const bool whole_row = row == rows.first || row == rows.last;
     for (int column = columns.first; column <= columns.last;
          column += whole_row ? 1 : std::max(1, columns.last - columns.first)) {
-      look(column, row);
+      examine(column, row);
     }
   }
   return top;
@@ -271,7 +271,7 @@ std::optional<Vector<double, 3>> HeightField::nearest(const Vector<double, 3>& p
   const Place from = place.array() - reach, to = place.array() + reach;
   std::optional<Vector<double, 3>> nearest;
   double least = reach * reach;
-  const auto look = [&](int column, int row) {
+  const auto examine = [&](int column, int row) {
     if (squared_distance_of_cell(position, column, row) >= least) {
       return;
     }
@@ -288,13 +288,13 @@ std::optional<Vector<double, 3>> HeightField::nearest(const Vector<double, 3>& p
   // Starts at the foot on the plane of the triangle below, because nearly all other cells are then known to be too far.
   const Place slope = gradient(place, 0.0);
   const Place foot = place + slope * ((position[2] - height(place)) / (1.0 + slope.squaredNorm()));
-  look(cell_columns(foot[0], foot[0]).first, cell_rows(foot[1], foot[1]).first);
+  examine(cell_columns(foot[0], foot[0]).first, cell_rows(foot[1], foot[1]).first);
   const double rest = std::sqrt(least);
   const Span columns = cell_columns(place[0] - rest, place[0] + rest);
   const Span rows = cell_rows(place[1] - rest, place[1] + rest);
   for (int row = rows.first; row <= rows.last; ++row) {
     for (int column = columns.first; column <= columns.last; ++column) {
-      look(column, row);
+      examine(column, row);
     }
   }
   return nearest;

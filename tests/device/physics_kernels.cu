@@ -5,13 +5,10 @@
 
 #include "physics/band_column_step.hpp"
 #include "physics/basal/laws.hpp"
-#include "physics/basal_friction.hpp"
-#include "physics/body_contact.hpp"
 #include "physics/clapeyron.hpp"
 #include "physics/contact.hpp"
 #include "physics/elasticity.hpp"
 #include "physics/entrainment.hpp"
-#include "physics/free_gap.hpp"
 #include "physics/freezing.hpp"
 #include "physics/heat_content.hpp"
 #include "physics/kinematics.hpp"

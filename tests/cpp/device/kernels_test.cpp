@@ -9,7 +9,7 @@
 #include "../support/two_bodies.hpp"
 #include "band/averages_kernel.hpp"
 #include "band/heat_kernels.hpp"
-#include "band/pore_pressure_of_tile.hpp"
+#include "band/pore_pressure.hpp"
 #include "both_ways.hpp"
 #include "mpm/filter_kernels.hpp"
 #include "mpm/motion_kernels.hpp"

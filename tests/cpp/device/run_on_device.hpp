@@ -33,8 +33,8 @@ class PassesOn : public device::Solver<Dim> {
   explicit PassesOn(std::unique_ptr<device::Solver<Dim>> steps) : steps_(std::move(steps)) {}
 
   device::StepSums<Dim> step(double time, double dt) override { return steps_->step(time, dt); }
-  mpm::MonitorSums watch(const mpm::MonitorKernel<Dim>& look) override { return steps_->watch(look); }
-  void sample_map(const mpm::MapCells& cells, device::MapSample& look) override { steps_->sample_map(cells, look); }
+  mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) override { return steps_->monitor(kernel); }
+  void sample_map(const mpm::MapCells& cells, device::MapSample& sample) override { steps_->sample_map(cells, sample); }
   band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) override {
     return steps_->sum_over_body(of_particle);
   }

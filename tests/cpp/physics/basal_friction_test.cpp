@@ -1,4 +1,3 @@
-#include "physics/basal_friction.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 // Reason for the step limit with the density of the closed gap: the stress of torn material does not change with strain
 // before its gap has closed, and its volume is then that of t = 0.
-#include "physics/free_gap.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "physics/contact.hpp"
 #include "scalar_points.hpp"
-#include "terrain/main_axis.hpp"
+#include "terrain/contact_node.hpp"
 
 namespace thawslide::testing_support {
 

@@ -8,7 +8,7 @@
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
-#include "physics/bend.hpp"
+#include "physics/contact.hpp"
 #include "sim/block.hpp"
 #include "sim/simulation.hpp"
 

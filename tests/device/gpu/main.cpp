@@ -110,13 +110,13 @@ sim::PathLine bent_line() {
 // Non-integer results that a run reduces from its particles after a step.
 template <int Dim>
 std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim>& sums) {
-  mpm::MonitorKernel<Dim> look;
-  look.gravity = model_of_slide<Dim>().gravity;
-  look.origin.setZero();
-  look.fast_distance = 6.0 * time_step;
-  look.smallest_volume = 0.1;
-  look.largest_volume = 10.0;
-  const mpm::MonitorSums seen = steps.watch(look);
+  mpm::MonitorKernel<Dim> kernel;
+  kernel.gravity = model_of_slide<Dim>().gravity;
+  kernel.origin.setZero();
+  kernel.fast_distance = 6.0 * time_step;
+  kernel.smallest_volume = 0.1;
+  kernel.largest_volume = 10.0;
+  const mpm::MonitorSums seen = steps.monitor(kernel);
   const band::StepExtremes& extremes = sums.extremes;
   std::vector<double> numbers{extremes.density.value,
                               extremes.elastic_density.value,
