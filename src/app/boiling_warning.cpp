@@ -50,36 +50,57 @@ std::string of_hot(double time) {
       time, beyond_belief, load / 1e6);
 }
 
+std::string of_hotter(double time, double limit) {
+  return fmt::format(
+      "warning: at {:g} s the hottest part of the base passes {:g} C. Nothing in the model limits the temperature of a "
+      "dry base, and this is not physical: use a thicker band (band.thickness) or one that mixes (band.mixing_slip).",
+      time, limit);
+}
+
 std::string of_no_boiling(double time, const char* reason) {
   return fmt::format("warning: at {:g} s the base passes {:g} C. {}: higher temperatures are not physical.", time,
                      boiling, reason);
+}
+
+// Highest limit below a temperature [C], of `first` and those of all bases; 0 if there is none.
+double limit_below(double temperature, double first) {
+  double passed = 0.0;
+  for (const double limit : {first, 500.0, 1000.0, 2000.0}) {
+    passed = temperature > limit ? limit : passed;
+  }
+  return passed;
 }
 
 }  // namespace
 
 template <int Dim>
 std::string BoilingWatch::warning(const sim::Simulation<Dim>& simulation) {
-  const auto once = [](bool& is_specified, bool holds) {
-    const bool is_new = holds && !is_specified;
-    is_specified = is_specified || holds;
-    return is_new;
-  };
   const double time = simulation.time();
   const auto* columns = simulation.band_columns();
-  if (columns == nullptr || !simulation.parameters().heat.steam) {
-    const double hottest = columns == nullptr ? warmest_particle(simulation) : columns->means().hottest;
-    const char* const reason =
-        columns == nullptr ? "Nothing in the model boils" : "Nothing boils, as heat.steam is false";
-    return once(is_hot_, hottest > boiling) ? of_no_boiling(time, reason) : "";
+  const bool boils = columns != nullptr && simulation.parameters().heat.steam;
+  const double hottest = columns == nullptr ? warmest_particle(simulation) : columns->means().hottest;
+  const double first = boils ? beyond_belief : boiling;
+  if (boils && !is_dry_) {
+    const auto& segments = columns->segments();
+    const auto dry = std::count_if(segments.begin(), segments.end(),
+                                   [](const auto& segment) { return has_boiled_dry(segment.column); });
+    if (dry > 0) {
+      is_dry_ = true;
+      passed_limit_ = std::max({passed_limit_, first, limit_below(hottest, first)});
+      return of_dry(time, dry, hottest);
+    }
   }
-  const auto& segments = columns->segments();
-  const auto dry = std::count_if(segments.begin(), segments.end(),
-                                 [](const auto& segment) { return has_boiled_dry(segment.column); });
-  const double hottest = columns->means().hottest;
-  if (once(is_dry_, dry > 0)) {
-    return of_dry(time, dry, hottest);
+  const double limit = limit_below(hottest, first);
+  if (limit <= passed_limit_) {
+    return "";
   }
-  return !is_dry_ && once(is_hot_, hottest > beyond_belief) ? of_hot(time) : "";
+  passed_limit_ = limit;
+  if (limit > first) {
+    return of_hotter(time, limit);
+  }
+  return boils ? of_hot(time)
+               : of_no_boiling(
+                     time, columns == nullptr ? "Nothing in the model boils" : "Nothing boils, as heat.steam is false");
 }
 
 template std::string BoilingWatch::warning<2>(const sim::Simulation<2>&);
