@@ -38,22 +38,34 @@ def said(thawslide: Program, small_case: Path, tmp_path: Path) -> Said:
     return run
 
 
+def limits(notes: list[str]) -> list[int]:
+    """Return the limits that later warnings name."""
+    found = [re.search(r"hottest part of the base passes (\d+) C", note) for note in notes]
+    assert all(found), notes
+    return [int(match[1]) for match in found if match]
+
+
 def test_columns_that_boil_dry_are_reported_once(said: Said) -> None:
-    (note,) = said(*FAST)
+    note, *later = said(*FAST)
     found = re.match(r"warning: at [\d.]+ s (\d+ columns|a column) .*boiled dry, and the hottest is at (\d+) C", note)
     assert found, note
     assert 100 < int(found[2]) < 5000
+    passed = limits(later)
+    assert passed == sorted(set(passed))
+    assert set(passed) <= {500, 1000, 2000}
     assert "no longer limits temperature and friction" in note
 
 
 def test_columns_without_steam_do_not_boil(said: Said) -> None:
-    (note,) = said(*FAST, *sets(heat__steam="false"))
+    note, *later = said(*FAST, *sets(heat__steam="false"))
     assert "the base passes 100 C. Nothing boils, as heat.steam is false" in note
+    assert limits(later)[:1] == [500]
 
 
 def test_particles_of_the_scaled_band_do_not_boil(said: Said) -> None:
-    (note,) = said(*FAST, *sets(band__model="scaled", band__thickness=0.01))
+    note, *later = said(*FAST, *sets(band__model="scaled", band__thickness=0.01))
     assert "the base passes 100 C. Nothing in the model boils" in note
+    limits(later)
 
 
 def test_nothing_is_said_of_a_cold_base(said: Said) -> None:
