@@ -264,7 +264,7 @@ def _band_numbers(run: Run) -> list[KeyNumber]:
     rows = []
     for words, column, unit in (
         ("Maximum mean band temperature", "band_temperature_C", "°C"),
-        ("Temperature of the hottest part of all columns", "band_max_temperature_C", "°C"),
+        ("Maximum temperature of all columns", "band_max_temperature_C", "°C"),
         ("Maximum mean band pore pressure", "band_pore_pressure_Pa", "Pa"),
         ("Maximum pore pressure ratio P/N", "band_max_pressure_ratio", ""),
     ):

@@ -62,7 +62,7 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
   print_text("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
              facts.message.empty() ? "" : ": " + facts.message);
   if (!is_known) {
-    print_text("note: {} holds no checkpoint: it cannot be given a later end\n", folder.string());
+    print_text("note: {} has no checkpoint, so --end cannot extend it\n", folder.string());
   }
   return static_cast<int>(ExitCode::done);
 }
@@ -262,8 +262,8 @@ int resume_run(const ResumeOptions& options) {
   const fs::path folder = options.folder;
   if (!fs::exists(folder / "run.json")) {
     throw UserError(
-        fmt::format("{} holds no run to continue: run.json is missing, which a run writes at its start. "
-                    "Run the case again.",
+        fmt::format("{} is not a run folder: run.json not found. Specify the folder that `thawslide run` "
+                    "printed, or run the case again.",
                     folder.string()));
   }
   const std::vector<std::string> sets = sets_of(options);

@@ -192,7 +192,7 @@ std::string text_of(const SetupFacts& facts) {
     text += text_of(*facts.roughness);
   }
   text += fmt::format("  particles   {}\n", facts.particles);
-  text += fmt::format("  cells       {:.0f} in the domain; blocks of {} nodes held: {}\n", facts.cells,
+  text += fmt::format("  cells       {:.0f} in the domain; allocated blocks of {} nodes: {}\n", facts.cells,
                       facts.nodes_of_block, facts.blocks);
   text += fmt::format("  step        {:g} s{}; the limit is {:.4g} s, set by {}\n", facts.step,
                       facts.is_adaptive ? " at the start (adaptive)" : "", facts.limit.step, facts.limit.what);

@@ -119,7 +119,7 @@ struct ColumnsOfTile {
   [[nodiscard]] THAWSLIDE_HD typename At::Value flow_depth(const Particles& particles, const At& at) const {
     using Value = typename At::Value;
     const Value height = particles.position.load(at, Dim - 1);
-    const auto in_band = particles.in_band.template load_whole(at) > Real(0);
+    const auto in_band = particles.in_band.load_whole(at) > Real(0);
     const bool any_in_band = any(in_band);
     Value depth = Real(0);
     for_columns<Dim>(overlaps<Dim>(first_cell, cell, inverse_cell, sizes, particles, at),

@@ -80,9 +80,8 @@ void require_volume(const config::Case& parameters, const std::string& name, con
   }
   if (!(std::abs(1.0 / share - 1.0) <= volume_tolerance)) {
     throw UserError(fmt::format(
-        "{}: body '{}' has a volume of {:.6g} {}, and its {} particles, which stand {} m apart, {:.6g}; allowed: "
-        "within {:g} %. Put its corners on multiples of the spacing, or make grid.cell smaller or particles_per_axis "
-        "larger.",
+        "{}: body '{}' has a volume of {:.6g} {}, and its {} particles, {} m apart, {:.6g}; allowed: within {:g} %. "
+        "Place its corners at multiples of the spacing, or use a smaller grid.cell or more particles_per_axis.",
         config::place_of(parameters, "body." + name), name, shape.volume(), Dim == 2 ? "m3 per m" : "m3",
         seeds.size() - first, spacing, seeded, 100.0 * volume_tolerance));
   }

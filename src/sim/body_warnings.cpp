@@ -32,8 +32,8 @@ std::string volume_warning(const config::Case& parameters, const BodyFigures& bo
   }
   const std::string key = "body." + body.name;
   return fmt::format(
-      "{}: {} has {:.6g} {}; its particles, which stand {:g} m apart and are what slides, have {:.6g}, {:.2g} % {}. "
-      "Put its corners on multiples of that distance, or make grid.cell smaller.",
+      "{}: {} has {:.6g} {}; its particles, {:g} m apart, have {:.6g}, {:.2g} % {}. Place its corners at multiples of "
+      "that distance, or use a smaller grid.cell.",
       config::place_of(parameters, key), key, body.shape_volume,
       parameters.general.dimension == 2 ? "m3 per m of width" : "m3", body.spacing, body.volume, 100.0 * std::abs(more),
       more > 0.0 ? "more" : "less");

@@ -201,10 +201,9 @@ std::string Simulation<Dim>::energy_warning() const {
     return "";
   }
   return fmt::format(
-      "warning: by t = {:.6g} s the steps have made {:.3g} % of all energy, little by little and without a cause: do "
-      "not trust what the slide does from here on. A body without viscosity flutters: give its material a "
-      "viscosity_time "
-      "(0.001 to 0.02 s), or take smaller steps",
+      "warning: by t = {:.6g} s the time steps have created {:.3g} % of all energy, gradually and without a physical "
+      "cause. The results from here on are not reliable. Set a viscosity_time (0.001 to 0.02 s) in materials without "
+      "viscosity, or a smaller time.step",
       time_, 100.0 * monitor_.made_share);
 }
 

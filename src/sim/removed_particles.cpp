@@ -187,8 +187,8 @@ void Simulation<Dim>::remove_marked_particles() {
   if (none_stays && now.by_guards() == 0) {
     throw SlideLeft(fmt::format(
         "the whole slide has left the domain or the known ground at t = {:.6g} s (step {}); the last {:.4g} kg{} "
-        "of it, which left in this step, still stand in mass_kg. Widen [grid] min and max, or give a DEM "
-        "that reaches further, to follow it on.",
+        "of it, which left in this step, are still included in mass_kg. Use a larger domain ([grid] min and max) "
+        "or a larger DEM to continue the simulation.",
         time_, step_number_, static_cast<double>(sum_over_body().mass), Dim == 2 ? " per m of width" : ""));
   }
   if (now.not_finite > 0) {

@@ -208,7 +208,7 @@ std::string Simulation<Dim>::cause_in_material(std::size_t p) const {
   if (is_too_soft(p)) {
     const std::string& material = model_.material_names[static_cast<std::size_t>(particles_.material(p))];
     return fmt::format(
-        "Likely cause: material '{}' is too soft (youngs_modulus {:g} Pa), and its own weight squeezes it flat; broken "
+        "Likely cause: material '{}' is too soft (youngs_modulus {:g} Pa) and collapses under its own weight. Broken "
         "rock and ice have 1e7 Pa and more.",
         material, parameters_.materials.at(material).youngs_modulus);
   }
@@ -281,8 +281,8 @@ void Simulation<Dim>::stop_for_energy(double growth, double share) const {
   const std::string cause =
       parameters_.basal.distance_check || !model_.ground || is_too_soft(fastest)
           ? cause_in_material(fastest)
-          : "Likely cause: without basal.distance_check the ground is felt up to a cell early, and throws back what "
-            "falls onto it with more energy than it had; set it to true.";
+          : "Likely cause: without basal.distance_check the terrain acts up to a cell early, and falling material "
+            "rebounds with more energy than it had. Set it to true.";
   throw RunError(fmt::format(
       "the run failed at t = {:.6g} s (step {}): energy grew by {:.3g} J{} without a physical cause, {:.3g} % of all "
       "energy so far (guards.energy_growth allows {:g} %). The fastest particle, {}, moves at {:.4g} m/s, the slide at "

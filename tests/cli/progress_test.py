@@ -136,8 +136,8 @@ def test_a_run_whose_whole_slide_has_left_is_done(
     facts, columns = run_facts(run), history(run)
     reported = re.fullmatch(
         r"the whole slide has left the domain or the known ground at t = (\S+) s \(step \d+\); the last (\S+) kg of "
-        r"it, which left in this step, still stand in mass_kg\. Widen \[grid\] min and max, or give a DEM that reaches "
-        r"further, to follow it on\.",
+        r"it, which left in this step, are still included in mass_kg\. Use a larger domain \(\[grid\] min and "
+        r"max\) or a larger DEM to continue the simulation\.",
         facts["message"],
     )
     assert reported and facts["status"] == "done"

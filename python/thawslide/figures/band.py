@@ -185,7 +185,7 @@ def _plot_temperatures(axes: Axes, run: Run) -> list[str]:
     time = run.shown_time
     boiling = boiling_temperature(run.history["band_normal_pressure_Pa"])
     axes.set_ylabel("temperature (°C)")
-    time_line(axes, time, run.history["band_max_temperature_C"], color=PURPLE, label="hottest part of all columns")
+    time_line(axes, time, run.history["band_max_temperature_C"], color=PURPLE, label="maximum of all columns")
     time_line(axes, time, run.history["band_temperature_C"], color=RED, label="mean")
     time_line(axes, time, boiling, color=SKY, linestyle="--", label="boiling temperature at mean N")
     axes.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")

@@ -76,7 +76,7 @@ def _draw_row(stress: Axes, heat: Axes, shot: Snapshot, divisor: float) -> None:
     stress.plot(x, pressure, color=BLUE, label="pore pressure P")
     stress.fill_between(x, pressure, load, where=load > pressure, color=GREEN, alpha=0.25, label="N − P", linewidth=0)
     stress.set_ylim(bottom=0.0)
-    heat.plot(x, value["max_temperature_C"], color=PURPLE, label="hottest T")
+    heat.plot(x, value["max_temperature_C"], color=PURPLE, label="maximum T")
     heat.plot(x, value["temperature_C"], color=RED, label="mean T")
     heat.plot(x, boiling_temperature(value["normal_pressure_Pa"]), color=SKY, linestyle="--", label="boiling T at N")
     heat.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")

@@ -171,9 +171,8 @@ TEST(BodyFigures, TellWhatTheLatticeMakesOfAVolume) {
   const auto warnings = body_warnings(case_from_text(step, lower), bodies);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(
-      warnings.front().find("body.step has 38.4 m3 per m of width; its particles, which stand 0.5 m apart and are "
-                            "what slides, have 40, 4.2 % more. Put its corners on multiples of that distance, or "
-                            "make grid.cell smaller."),
+      warnings.front().find("body.step has 38.4 m3 per m of width; its particles, 0.5 m apart, have 40, 4.2 % more. "
+                            "Place its corners at multiples of that distance, or use a smaller grid.cell."),
       std::string::npos)
       << warnings.front();
 }
