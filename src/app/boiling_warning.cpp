@@ -78,7 +78,7 @@ std::string BoilingWatch::warning(const sim::Simulation<Dim>& simulation) {
   const double time = simulation.time();
   const auto* columns = simulation.band_columns();
   const bool boils = columns != nullptr && simulation.parameters().heat.steam;
-  const double hottest = columns == nullptr ? warmest_particle(simulation) : columns->means().hottest;
+  const double hottest = columns == nullptr ? warmest_particle(simulation) : columns->means().max_temperature;
   const double first = boils ? beyond_belief : boiling;
   if (boils && !is_dry_) {
     const auto& segments = columns->segments();

@@ -45,9 +45,10 @@ struct ColumnLedger {
 // Means over the base, weighted by area, and extremes.
 struct BaseMeans {
   Real temperature = 0, saturation = 0, pore_pressure = 0, load = 0, thickness = 0;
-  Real hottest = 0, hottest_wet = 0;  // maximum of all cells above the ground, and of those with water [C]
-  Real dry_share = 0;                 // area fraction of the base in which a cell of the band has no water left
-  Real largest_pressure_ratio = 0;    // maximum P over averaged N
+  Real max_temperature = 0,
+       max_wet_temperature = 0;  // maximum of all cells above the ground, and of those with water [C]
+  Real dry_fraction = 0;         // area fraction of the base in which a cell of the band has no water left
+  Real max_pressure_ratio = 0;   // maximum P over averaged N
 };
 
 template <int Dim>

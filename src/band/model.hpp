@@ -19,9 +19,6 @@
 
 namespace thawslide::band {
 
-using AnyHeatContent =
-    std::variant<physics::HeatContent<physics::PowerLawCurve>, physics::HeatContent<physics::LinearCurve>>;
-
 using physics::BandRegion;
 
 template <int Dim>

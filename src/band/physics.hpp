@@ -4,14 +4,21 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <variant>
 #include <vector>
 
 #include "base/portability.hpp"
+#include "physics/freezing.hpp"
+#include "physics/heat_content.hpp"
 #include "physics/mixture.hpp"
 #include "physics/options.hpp"
 #include "physics/pore_water.hpp"
 
 namespace thawslide::band {
+
+// Heat content laws available to a run, by freezing curve.
+using AnyHeatContent =
+    std::variant<physics::HeatContent<physics::PowerLawCurve>, physics::HeatContent<physics::LinearCurve>>;
 
 using physics::FrozenRows;
 

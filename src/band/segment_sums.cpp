@@ -84,7 +84,7 @@ BaseMeans BasalSegments<Dim>::means() const {
   constexpr Real nothing = std::numeric_limits<Real>::quiet_NaN();
   const Real full = water_of_full_pores(model_);
   struct Extremes {
-    Real hottest, hottest_wet, pressure_ratio;
+    Real max_temperature, max_wet_temperature, pressure_ratio;
     bool dry;
   };
   std::vector<Extremes> extremes(segments_.size());
@@ -95,33 +95,33 @@ BaseMeans BasalSegments<Dim>::means() const {
     found = {-celsius_to_kelvin, -celsius_to_kelvin, Real(0), is_dry(segment)};
     for (int k = 0; k < physics::ColumnCells::slide; ++k) {
       const Real temperature = segment.column.temperature[physics::ColumnCells::ground + k];
-      found.hottest = std::max(found.hottest, temperature);
+      found.max_temperature = std::max(found.max_temperature, temperature);
       const bool is_wet = segment.column.water[k] > wet_share * full * grid.slide_height(k);
-      found.hottest_wet = is_wet ? std::max(found.hottest_wet, temperature) : found.hottest_wet;
+      found.max_wet_temperature = is_wet ? std::max(found.max_wet_temperature, temperature) : found.max_wet_temperature;
     }
     const Real highest =
         *std::max_element(segment.column.pressure, segment.column.pressure + physics::ColumnCells::slide);
     found.pressure_ratio = segment.load > Real(0) ? std::min(highest / segment.load, Real(1)) : Real(0);
   });
   BaseMeans result;
-  Real area = 0, dry_area = 0, hottest = -celsius_to_kelvin, hottest_wet = hottest;
+  Real area = 0, dry_area = 0, max_temperature = -celsius_to_kelvin, max_wet_temperature = max_temperature;
   for (std::size_t p = 0; p < segments_.size(); ++p) {
     const Segment& segment = segments_[p];
     const physics::BandMeans means = means_now(segment);
     area += segment.area;
     dry_area += extremes[p].dry ? segment.area : Real(0);
-    hottest = std::max(hottest, extremes[p].hottest);
-    hottest_wet = std::max(hottest_wet, extremes[p].hottest_wet);
+    max_temperature = std::max(max_temperature, extremes[p].max_temperature);
+    max_wet_temperature = std::max(max_wet_temperature, extremes[p].max_wet_temperature);
     result.temperature += segment.area * means.temperature;
     result.saturation += segment.area * means.saturation;
     result.pore_pressure += segment.area * means.pore_pressure;
     result.load += segment.area * segment.load;
     result.thickness += segment.area * segment.column.thickness;
-    result.largest_pressure_ratio = std::max(result.largest_pressure_ratio, extremes[p].pressure_ratio);
+    result.max_pressure_ratio = std::max(result.max_pressure_ratio, extremes[p].pressure_ratio);
   }
-  result.hottest = area > Real(0) ? hottest : nothing;
-  result.hottest_wet = area > Real(0) ? hottest_wet : nothing;
-  result.dry_share = area > Real(0) ? dry_area / area : nothing;
+  result.max_temperature = area > Real(0) ? max_temperature : nothing;
+  result.max_wet_temperature = area > Real(0) ? max_wet_temperature : nothing;
+  result.dry_fraction = area > Real(0) ? dry_area / area : nothing;
   for (Real* mean : {&result.temperature, &result.saturation, &result.pore_pressure, &result.load, &result.thickness}) {
     *mean = area > Real(0) ? *mean / area : nothing;
   }

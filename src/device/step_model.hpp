@@ -9,7 +9,6 @@
 
 #include "band/at_columns.hpp"
 #include "band/heat_face.hpp"
-#include "band/model.hpp"
 #include "band/nodal_heat.hpp"
 #include "band/physics.hpp"
 #include "band/pressure_kernels.hpp"

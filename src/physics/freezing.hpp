@@ -3,7 +3,7 @@
 //   linear     S = 1 + m (T - Tref), between 0 and 1                                               (Sec. 3.1)
 // A curve provides S, dS/dT [1/K] (at Tref that of the frozen side, because Sec. 3.1 starts exactly there) and the
 // integral of S from Tref to T [K], for the heat content. A new curve needs the same members and its line in the list
-// of curves of HeatContent (band/model.hpp).
+// of curves of HeatContent (band/physics.hpp).
 #pragma once
 
 #include <cmath>

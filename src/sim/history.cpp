@@ -20,10 +20,10 @@ void add_band(const Simulation<Dim>& simulation, const BodySums<Dim>& sums, Hist
     add("band_normal_pressure_Pa", static_cast<double>(base.load));
     add("band_shear_Pa", static_cast<double>(simulation.contact().shear_force / simulation.contact().area));
     add("band_thickness_m", static_cast<double>(base.thickness));
-    add("band_max_temperature_C", static_cast<double>(base.hottest));
-    add("band_max_wet_temperature_C", static_cast<double>(base.hottest_wet));
-    add("band_dry_fraction", static_cast<double>(base.dry_share));
-    add("band_max_pressure_ratio", static_cast<double>(base.largest_pressure_ratio));
+    add("band_max_temperature_C", static_cast<double>(base.max_temperature));
+    add("band_max_wet_temperature_C", static_cast<double>(base.max_wet_temperature));
+    add("band_dry_fraction", static_cast<double>(base.dry_fraction));
+    add("band_max_pressure_ratio", static_cast<double>(base.max_pressure_ratio));
     return;
   }
   const double mass = sums.band_mass > Real(0) ? static_cast<double>(sums.band_mass) : std::nan("");

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <functional>
 
+#include "../exact/freezing_front.hpp"
+#include "../exact/pore_water.hpp"
 #include "band_column_model.hpp"
-#include "physics/exact/freezing_front.hpp"
-#include "physics/exact/pore_water.hpp"
 
 namespace thawslide::physics {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "../exact/drained_band.hpp"
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
-#include "physics/exact/drained_band.hpp"
 #include "sim/block.hpp"
 
 namespace thawslide::verification {

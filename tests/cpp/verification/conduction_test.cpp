@@ -1,5 +1,5 @@
 // Heat conduction without motion: half space, two layers, and a manufactured solution with melting.
-#include "physics/exact/conduction.hpp"
+#include "../exact/conduction.hpp"
 
 #include <gtest/gtest.h>
 

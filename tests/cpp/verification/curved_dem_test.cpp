@@ -3,11 +3,11 @@
 
 #include <cmath>
 
+#include "../exact/rigid_slide.hpp"
 #include "../support/point_on_surface.hpp"
 #include "../support/record.hpp"
 #include "../support/slide_on_dem.hpp"
 #include "base/portability.hpp"
-#include "physics/exact/rigid_slide.hpp"
 
 namespace thawslide::verification {
 namespace {

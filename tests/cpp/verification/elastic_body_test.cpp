@@ -1,5 +1,5 @@
 // Elastic bodies in free motion: impact on the ground, and turning under stress.
-#include "physics/exact/elastic_body.hpp"
+#include "../exact/elastic_body.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "../exact/freezing_front.hpp"
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
 #include "freezing_similarity.hpp"
-#include "physics/exact/freezing_front.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::verification {

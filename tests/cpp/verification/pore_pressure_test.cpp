@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "../exact/pore_water.hpp"
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
-#include "physics/exact/pore_water.hpp"
 #include "physics/pressurization.hpp"
 #include "sim/simulation.hpp"
 

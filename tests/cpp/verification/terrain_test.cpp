@@ -4,10 +4,10 @@
 #include <cmath>
 #include <fstream>
 
+#include "../exact/rigid_slide.hpp"
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
-#include "physics/exact/rigid_slide.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
 
