@@ -57,9 +57,9 @@ std::string of_hotter(double time, double limit) {
       time, limit);
 }
 
-std::string of_no_boiling(double time, const char* reason) {
-  return fmt::format("warning: at {:g} s the base passes {:g} C. {}: higher temperatures are not physical.", time,
-                     boiling, reason);
+std::string of_no_boiling(double time, double limit, const char* reason) {
+  return fmt::format("warning: at {:g} s the base passes {:g} C. {}: temperatures above {:g} C are not physical.", time,
+                     limit, reason, boiling);
 }
 
 // Highest limit below a temperature [C], of `first` and those of all bases; 0 if there is none.
@@ -95,12 +95,11 @@ std::string BoilingWatch::warning(const sim::Simulation<Dim>& simulation) {
     return "";
   }
   passed_limit_ = limit;
-  if (limit > first) {
-    return of_hotter(time, limit);
+  if (!boils) {
+    return of_no_boiling(time, limit,
+                         columns == nullptr ? "Nothing in the model boils" : "Nothing boils, as heat.steam is false");
   }
-  return boils ? of_hot(time)
-               : of_no_boiling(
-                     time, columns == nullptr ? "Nothing in the model boils" : "Nothing boils, as heat.steam is false");
+  return limit > first ? of_hotter(time, limit) : of_hot(time);
 }
 
 template std::string BoilingWatch::warning<2>(const sim::Simulation<2>&);

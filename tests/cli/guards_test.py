@@ -105,7 +105,7 @@ def test_an_explosion_is_not_reported_to_widen_the_domain(thawslide: Program, sm
     outcome = thawslide("run", small_case, "--output", run, *fall, *sets(guards__energy_growth=0.001))
     assert outcome.returncode == 3, outcome.stdout
     assert "J per m of width without a physical cause" in outcome.stderr
-    assert "set it to true" in outcome.stderr and "widen" not in outcome.stderr
+    assert "Set it to true" in outcome.stderr and "widen" not in outcome.stderr
     facts = run_facts(run)
     assert facts["status"] == "failed" and outcome.stderr == f"error: {facts['message']}\n"
     assert len(snapshot_files(run)) > 1

@@ -155,7 +155,7 @@ void expect_batches(const Particles<Dim>& particles, const SparseGrid<Dim>& grid
         const auto [last_key, last_local, last_id] = canonical(particles, batch.particle[batch.count - 1]);
         return key == last_key && local == last_local;
       };
-      EXPECT_EQ(batch.nodes.goes_on, place < tile.last && same_node(place));
+      EXPECT_EQ(batch.nodes.continues, place < tile.last && same_node(place));
     }
     EXPECT_EQ(place, tile.last);
   }

@@ -204,7 +204,7 @@ class ScalarStep {
     return dt_ * power * p.mass * p.scaling / p.initial_volume;
   }
 
-  [[nodiscard]] double change(const Point<Dim>& p, const ByNode<Dim>& rate) const {
+  [[nodiscard]] double change(const Point<Dim>& p, const ByNode<Dim, double>& rate) const {
     double sum = p.conduction_in_cell;
     for_nodes(p, Transfer::linear, [&](const Index& node, double weight, const Place& /*gradient*/) {
       sum += dt_ * weight * rate.at(node);
