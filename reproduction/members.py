@@ -121,9 +121,9 @@ def observed(folder: Path) -> Observed:
         stop=float("inf") if stop is None else stop + shift,
         force=float(np.nanmax(force_in_band(run, INVERSION))) / 1e12,
         reversal=_reversal(run),
-        dilation=100.0 * float(history["dilation_share"][-1]),
-        hottest=float(np.nanmax(history["band_hottest_C"])),
-        ratio=float(np.nanmax(history["band_largest_pressure_ratio"])),
+        dilation=100.0 * float(history["dilation_fraction"][-1]),
+        hottest=float(np.nanmax(history["band_max_temperature_C"])),
+        ratio=float(np.nanmax(history["band_max_pressure_ratio"])),
     )
 
 

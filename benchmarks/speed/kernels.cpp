@@ -57,9 +57,8 @@ std::array<SymmetricTensor<Value>, states> stresses(double shear, bool plane) {
 // shear: how far stresses lie from the mean [Pa].
 template <class Value, int Dim>
 void mohr_coulomb(benchmark::State& state, double shear) {
-  const auto elastic = physics::Elastic<double>::from_young_poisson(5e8, 0.2);
-  const auto law =
-      physics::MohrCoulomb<double>::make(elastic, physics::Strength<double>{35.0, 0.0, 1e5, 1e5, HUGE_VAL});
+  const auto elastic = physics::Elastic::from_young_poisson(5e8, 0.2);
+  const auto law = physics::MohrCoulomb<>::make(elastic, physics::Strength{35.0, 0.0, 1e5, 1e5, HUGE_VAL});
   const auto all = stresses<Value>(shear, Dim == 2);
   std::size_t k = 0;
   for (auto _ : state) {
@@ -87,7 +86,7 @@ void strain_and_rotation(benchmark::State& state) {
 
 template <class Value>
 void heat_content_and_back(benchmark::State& state) {
-  const physics::HeatContent<double, physics::PowerLawCurve<double>> content{{}, {0.0, 5.0}, true};
+  const physics::HeatContent<physics::PowerLawCurve> content{{}, {0.0, 5.0}, true};
   Value temperature = -1.0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(temperature);
@@ -110,8 +109,8 @@ void ugimp_axis(benchmark::State& state) {
 // Particles at random places, as many a cell as a body of two an axis has, with their grid.
 template <int Dim>
 struct Body {
-  mpm::Particles<Dim, double> particles;
-  mpm::SparseGrid<Dim, double> grid{1.0};
+  mpm::Particles<Dim> particles;
+  mpm::SparseGrid<Dim> grid{1.0};
 
   Body() {
     constexpr double edge = Dim == 2 ? 20.0 : 8.0;
@@ -133,8 +132,8 @@ struct Body {
     for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
       for (const auto& batch : grid.batches(t)) {
         const auto place = place_of(grid, particles, batch);
-        work(batch, mpm::make_stencil<mpm::Ugimp<double>>(grid, batch, place, {Simd<double>(0.25), Simd<double>(4.0)},
-                                                          mpm::HeldSides<Dim>()));
+        work(batch, mpm::make_stencil<mpm::Ugimp>(grid, batch, place, {Simd<double>(0.25), Simd<double>(4.0)},
+                                                  mpm::HeldSides<Dim>()));
       }
     }
   }
@@ -144,9 +143,9 @@ struct Body {
 template <int Dim>
 void momentum_to_nodes(benchmark::State& state) {
   const Body<Dim> body;
-  mpm::Patch<Dim, double, mpm::MomentumLayout<Dim>::size> patch;
+  mpm::Patch<Dim, mpm::MomentumLayout<Dim>::size> patch;
   patch.clear();
-  mpm::Contribution<Dim, double, mpm::MomentumLayout<Dim>::size> carried;
+  mpm::Contribution<Dim, mpm::MomentumLayout<Dim>::size> carried;
   for (auto _ : state) {
     auto sums = mpm::cell_sums<0, mpm::MomentumLayout<Dim>::size>(patch);
     body.for_batches([&](const auto& batch, const auto& stencil) {
@@ -167,7 +166,7 @@ void momentum_to_nodes(benchmark::State& state) {
 template <int Dim>
 void gradient_from_nodes(benchmark::State& state) {
   const Body<Dim> body;
-  mpm::Patch<Dim, double, Dim> velocity;
+  mpm::Patch<Dim, Dim> velocity;
   velocity.clear();
   for (auto _ : state) {
     benchmark::DoNotOptimize(velocity);

@@ -133,8 +133,8 @@ double median(std::vector<double> numbers) {
 }
 
 // Plastic strains by id.
-template <int Dim, class Real>
-std::unordered_map<std::int64_t, Real> plastic_strains(const mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+std::unordered_map<std::int64_t, Real> plastic_strains(const mpm::Particles<Dim>& particles) {
   std::unordered_map<std::int64_t, Real> strains(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
     strains.emplace(particles.id(p), particles.plastic_strain(p));
@@ -143,8 +143,8 @@ std::unordered_map<std::int64_t, Real> plastic_strains(const mpm::Particles<Dim,
 }
 
 // Share of particles that yield in one more step; those that leave in it do not.
-template <int Dim, class Real, class Step>
-double yielding_share(const mpm::Particles<Dim, Real>& particles, const Step& step) {
+template <int Dim, class Step>
+double yielding_share(const mpm::Particles<Dim>& particles, const Step& step) {
   const auto before = plastic_strains(particles);
   step();
   const auto after = plastic_strains(particles);
@@ -156,11 +156,11 @@ double yielding_share(const mpm::Particles<Dim, Real>& particles, const Step& st
   return static_cast<double>(yielded) / static_cast<double>(before.size());
 }
 
-template <int Dim, class Real>
+template <int Dim>
 StepTiming time_simulation(const StepCase& which, int threads, int repeats, double particle_steps) {
   using Clock = std::chrono::steady_clock;
   const double heap_before = heap_in_use();
-  sim::Simulation<Dim, Real> simulation(make_case(which));
+  sim::Simulation<Dim> simulation(make_case(which));
   const auto& particles = simulation.particles();
   const auto count = static_cast<double>(particles.size());
   const double dt = simulation.parameters().time.step;
@@ -230,11 +230,6 @@ std::vector<StepCase> step_cases() {
                               {"3D 100,000 thawed", 3, 50, 25, 10, 1, 5e5, 1},
                               {"2D 100,000 in a box 10 times as long", 2, 2500, 1, 10, 10},
                               {"2D 100,000 in a box 100 times as long", 2, 2500, 1, 10, 100}};
-  for (StepCase which : {cases[0], cases[1], cases[4]}) {
-    which.name += ", single precision";
-    which.in_single = true;
-    cases.push_back(which);
-  }
   for (StepCase which : {cases[0], cases[1]}) {
     which.name += ", beside a busy process";
     which.beside_busy = true;
@@ -245,12 +240,8 @@ std::vector<StepCase> step_cases() {
 
 StepTiming time_steps(const StepCase& which, int threads, int repeats, double particle_steps) {
   set_thread_count(threads);
-  const auto time_in = [&](auto real) {
-    using Real = decltype(real);
-    return which.dimension == 2 ? time_simulation<2, Real>(which, threads, repeats, particle_steps)
-                                : time_simulation<3, Real>(which, threads, repeats, particle_steps);
-  };
-  return which.in_single ? time_in(0.0f) : time_in(0.0);
+  return which.dimension == 2 ? time_simulation<2>(which, threads, repeats, particle_steps)
+                              : time_simulation<3>(which, threads, repeats, particle_steps);
 }
 
 nlohmann::ordered_json to_json(const StepTiming& timing) {

@@ -15,7 +15,6 @@ struct StepCase {
   double box = 1;                // the domain is this many times as long as the slab's needs it to be
   double cohesion = 5e5;         // inside the slab [Pa]: the smaller, the more of it yields
   double temperature = -1;       // at first [C]: above 0 water seeps everywhere, below as long as nothing melts nowhere
-  bool in_single = false;        // in single precision
   bool beside_busy = false;      // another process keeps one core busy
 };
 

@@ -178,7 +178,7 @@ def _volume_numbers(run: Run) -> list[KeyNumber]:
     """Return the volume change by dilation, and the removed mass."""
     rows, history, per = [], run.history, "/m of width" if run.per_metre else ""
     if "dilation_volume_m3" in history:
-        change = f"{100.0 * float(history['dilation_share'][-1]):+.1f} %".replace("-", "−")
+        change = f"{100.0 * float(history['dilation_fraction'][-1]):+.1f} %".replace("-", "−")
         volume = volume_text(abs(float(history["dilation_volume_m3"][-1])))
         rows.append(KeyNumber("Volume change by dilation", change, f"{volume}{per}; without entrained bed material"))
     if "left_mass_kg" in history and history["left_mass_kg"][-1] > 0.0:
@@ -249,7 +249,7 @@ def _map_numbers(run: Run) -> list[KeyNumber]:
         ("Drop height", "drop_height_m", _metres, "from the highest point of the release to the terrain at the front"),
         (
             "Reach angle",
-            "angle_of_reach_degrees",
+            "reach_angle_degrees",
             lambda value: f"{value:.1f}°",
             "arctan(drop height / travel distance)",
         ),
@@ -264,9 +264,9 @@ def _band_numbers(run: Run) -> list[KeyNumber]:
     rows = []
     for words, column, unit in (
         ("Maximum mean band temperature", "band_temperature_C", "°C"),
-        ("Temperature of the hottest part of all columns", "band_hottest_C", "°C"),
+        ("Maximum temperature of all columns", "band_max_temperature_C", "°C"),
         ("Maximum mean band pore pressure", "band_pore_pressure_Pa", "Pa"),
-        ("Maximum pore pressure ratio P/N", "band_largest_pressure_ratio", ""),
+        ("Maximum pore pressure ratio P/N", "band_max_pressure_ratio", ""),
     ):
         if column in run.history:
             values = run.history[column]

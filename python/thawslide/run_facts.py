@@ -22,14 +22,14 @@ NUMBERS = (
     "rest_since_s",
     "mean_velocity_m_s",
     "dilation_volume_m3",
-    "dilation_share",
+    "dilation_fraction",
     "left_mass_kg",
     "covered_volume_m3",
     "covered_area_m2",
     "affected_area_m2",
     "travel_distance_m",
     "drop_height_m",
-    "angle_of_reach_degrees",
+    "reach_angle_degrees",
 )  # used by figures and key numbers; null: unknown
 
 

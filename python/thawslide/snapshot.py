@@ -53,9 +53,9 @@ class Snapshot(Mapping[str, NDArray[Any]]):
                 self._fields[name] = file.array(place, _COMPONENTS.get(name, _ANY), len(self.points))
                 self._units[name] = file.unit(place)
             self.base: dict[str, Numbers] = {}
-            for name in file.names("base"):
+            for name in file.names("basal_segments"):
                 components = {3} if name == "position_m" else {1}
-                self.base[name] = file.array(f"base/{name}", components).astype(np.float64)
+                self.base[name] = file.array(f"basal_segments/{name}", components).astype(np.float64)
         if len({len(values) for values in self.base.values()}) > 1:
             raise ReportError(f"{path}: damaged (found different numbers of rows in the base). {_REMEDY}")
 

@@ -88,7 +88,7 @@ QUANTITIES: Mapping[str, Quantity] = {
     "deposit_area": Quantity("deposit area", _AREA, fact="covered_area_m2"),
     "travel_distance": Quantity("travel distance", _LENGTH, fact="travel_distance_m"),
     "drop_height": Quantity("drop height", _LENGTH, low=float("-inf"), fact="drop_height_m"),
-    "angle_of_reach": Quantity("reach angle", _ANGLE, low=-90.0, high=90.0, fact="angle_of_reach_degrees"),
+    "angle_of_reach": Quantity("reach angle", _ANGLE, low=-90.0, high=90.0, fact="reach_angle_degrees"),
 }
 _IN_BAND = re.compile(FORCE + r"_(\d+(?:\.\d+)?)_(\d+(?:\.\d+)?)_s", re.ASCII)
 _PERIODS = (1e-3, 1e5)  # s, allowed range

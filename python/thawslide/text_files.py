@@ -33,7 +33,7 @@ def is_file(path: Path) -> bool:
         raise ReportError(f"{path}: cannot be read: {error.strerror}") from error
 
 
-def read_text(path: Path, most_bytes: int) -> str:
+def read_text(path: Path, max_bytes: int) -> str:
     """Read UTF-8 with or without a byte order mark; line ends become newlines.
 
     ReportError for another encoding, zero bytes, or a file that does not exist, cannot be read or is too large.
@@ -42,11 +42,11 @@ def read_text(path: Path, most_bytes: int) -> str:
         raise ReportError(f"{path}: {'not a file' if path.exists() else 'no such file'}")
     try:
         with path.open("rb") as file:
-            data = file.read(most_bytes + 1)
+            data = file.read(max_bytes + 1)
     except OSError as error:
         raise ReportError(f"{path}: cannot be read: {error.strerror or error}") from error
-    if len(data) > most_bytes:
-        raise ReportError(f"{path}: too large (allowed {most_bytes / MEGABYTE:g} MB). Select the correct file.")
+    if len(data) > max_bytes:
+        raise ReportError(f"{path}: too large (allowed {max_bytes / MEGABYTE:g} MB). Select the correct file.")
     for mark, name in _OTHER_ENCODINGS.items():
         if data.startswith(mark):
             raise ReportError(f"{path}: encoded as {name}; save it as UTF-8")
@@ -64,10 +64,10 @@ def read_text(path: Path, most_bytes: int) -> str:
     return text
 
 
-def read_json(path: Path, most_bytes: int) -> dict[str, Any]:
+def read_json(path: Path, max_bytes: int) -> dict[str, Any]:
     """Read a JSON object; ReportError for other values and for excessive nesting."""
     try:
-        found = json.loads(read_text(path, most_bytes))
+        found = json.loads(read_text(path, max_bytes))
     except (ValueError, RecursionError) as error:  # an integer of too many digits is a ValueError
         raise ReportError(f"{path}: not valid JSON ({error}). Select the correct file, or repeat the run.") from error
     if not isinstance(found, dict):
@@ -130,13 +130,13 @@ class Table:
 
 
 def read_table(
-    path: Path, needed: tuple[str, ...], optional: tuple[str, ...] | None = None, most_bytes: int = 64 * MEGABYTE
+    path: Path, needed: tuple[str, ...], optional: tuple[str, ...] | None = None, max_bytes: int = 64 * MEGABYTE
 ) -> Table:
     """Read a CSV file with a header; empty lines and those starting with # are ignored.
 
     Columns beyond `needed` must be in `optional`; None allows all.
     """
-    lines = read_text(path, most_bytes).split("\n")
+    lines = read_text(path, max_bytes).split("\n")
     kept = [(place, line) for place, line in enumerate(lines, 1) if line.strip() and not line.startswith("#")]
     if not kept:
         raise ReportError(f"{path}: empty; expected the columns {', '.join(needed)}")

@@ -108,7 +108,7 @@ def read_found(job: Job) -> Found:
     return Found(
         cell=float(run.section("grid")["cell"]),
         travel=float(run.facts["travel_distance_m"]),
-        reach_angle=float(run.facts["angle_of_reach_degrees"]),
+        reach_angle=float(run.facts["reach_angle_degrees"]),
         centre=float(np.hypot(*(centres[1] - centres[0]))),
         speed=float(history["mean_velocity_m_s"].max()),
         end_speed=float(history["mean_velocity_m_s"][-1]),
@@ -131,7 +131,7 @@ def read_deposit(job: Job) -> Deposit:
         affected=float(run.facts["affected_area_m2"]),
         thickness=float(np.nanmax(thickness.values)),
         width=math.sqrt(np.average((y - np.average(y, weights=mass)) ** 2, weights=mass)),
-        dilation=float(run.facts["dilation_share"]),
+        dilation=float(run.facts["dilation_fraction"]),
         map_cell=float(thickness.grid.cell_x),
     )
 

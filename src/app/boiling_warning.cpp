@@ -12,11 +12,11 @@ namespace thawslide::app {
 
 namespace {
 
-constexpr double boiling = physics::Steam<double>::boiling_at_atmosphere;  // [C]
+constexpr double boiling = physics::Steam::boiling_at_atmosphere;  // [C]
 constexpr double beyond_belief = 210.0;  // [C] steam at this temperature lifts about 80 m of slide
 
 template <int Dim>
-double warmest_particle(const sim::Simulation<Dim, double>& simulation) {
+double warmest_particle(const sim::Simulation<Dim>& simulation) {
   double temperature = -HUGE_VAL;
   for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
     temperature = std::max(temperature, simulation.particles().temperature(p));
@@ -24,7 +24,7 @@ double warmest_particle(const sim::Simulation<Dim, double>& simulation) {
   return temperature;
 }
 
-bool has_boiled_dry(const physics::BandColumn<double>& column) {
+bool has_boiled_dry(const physics::BandColumn& column) {
   for (int k = 0; k < physics::ColumnCells::slide; ++k) {
     if (column.water[k] <= 0.0 && column.temperature[physics::ColumnCells::ground + k] > boiling) {
       return true;
@@ -43,46 +43,66 @@ std::string of_dry(double time, std::ptrdiff_t dry, double hottest) {
 }
 
 std::string of_hot(double time) {
-  const double load = physics::saturation_pressure(beyond_belief) - physics::Steam<double>::atmosphere;
+  const double load = physics::saturation_pressure(beyond_belief) - physics::Steam::atmosphere;
   return fmt::format(
       "warning: at {:g} s the hottest column of the base passes {:g} C, where water boils at {:.1f} MPa: the load "
       "exceeds this pressure, or the column is dry; docs/choosing-the-base.md.",
       time, beyond_belief, load / 1e6);
 }
 
-std::string of_no_boiling(double time, const char* reason) {
-  return fmt::format("warning: at {:g} s the base passes {:g} C. {}: higher temperatures are not physical.", time,
-                     boiling, reason);
+std::string of_hotter(double time, double limit) {
+  return fmt::format(
+      "warning: at {:g} s the hottest part of the base passes {:g} C. Nothing in the model limits the temperature of a "
+      "dry base, and this is not physical: use a thicker band (band.thickness) or one that mixes (band.mixing_slip).",
+      time, limit);
+}
+
+std::string of_no_boiling(double time, double limit, const char* reason) {
+  return fmt::format("warning: at {:g} s the base passes {:g} C. {}: temperatures above {:g} C are not physical.", time,
+                     limit, reason, boiling);
+}
+
+// Highest limit below a temperature [C], of `first` and those of all bases; 0 if there is none.
+double limit_below(double temperature, double first) {
+  double passed = 0.0;
+  for (const double limit : {first, 500.0, 1000.0, 2000.0}) {
+    passed = temperature > limit ? limit : passed;
+  }
+  return passed;
 }
 
 }  // namespace
 
 template <int Dim>
-std::string BoilingWatch::warning(const sim::Simulation<Dim, double>& simulation) {
-  const auto once = [](bool& is_specified, bool holds) {
-    const bool is_new = holds && !is_specified;
-    is_specified = is_specified || holds;
-    return is_new;
-  };
+std::string BoilingWatch::warning(const sim::Simulation<Dim>& simulation) {
   const double time = simulation.time();
   const auto* columns = simulation.band_columns();
-  if (columns == nullptr || !simulation.parameters().heat.steam) {
-    const double hottest = columns == nullptr ? warmest_particle(simulation) : columns->means().hottest;
-    const char* const reason =
-        columns == nullptr ? "Nothing in the model boils" : "Nothing boils, as heat.steam is false";
-    return once(is_hot_, hottest > boiling) ? of_no_boiling(time, reason) : "";
+  const bool boils = columns != nullptr && simulation.parameters().heat.steam;
+  const double hottest = columns == nullptr ? warmest_particle(simulation) : columns->means().max_temperature;
+  const double first = boils ? beyond_belief : boiling;
+  if (boils && !is_dry_) {
+    const auto& segments = columns->segments();
+    const auto dry = std::count_if(segments.begin(), segments.end(),
+                                   [](const auto& segment) { return has_boiled_dry(segment.column); });
+    if (dry > 0) {
+      is_dry_ = true;
+      passed_limit_ = std::max({passed_limit_, first, limit_below(hottest, first)});
+      return of_dry(time, dry, hottest);
+    }
   }
-  const auto& segments = columns->segments();
-  const auto dry = std::count_if(segments.begin(), segments.end(),
-                                 [](const auto& segment) { return has_boiled_dry(segment.column); });
-  const double hottest = columns->means().hottest;
-  if (once(is_dry_, dry > 0)) {
-    return of_dry(time, dry, hottest);
+  const double limit = limit_below(hottest, first);
+  if (limit <= passed_limit_) {
+    return "";
   }
-  return !is_dry_ && once(is_hot_, hottest > beyond_belief) ? of_hot(time) : "";
+  passed_limit_ = limit;
+  if (!boils) {
+    return of_no_boiling(time, limit,
+                         columns == nullptr ? "Nothing in the model boils" : "Nothing boils, as heat.steam is false");
+  }
+  return limit > first ? of_hotter(time, limit) : of_hot(time);
 }
 
-template std::string BoilingWatch::warning<2>(const sim::Simulation<2, double>&);
-template std::string BoilingWatch::warning<3>(const sim::Simulation<3, double>&);
+template std::string BoilingWatch::warning<2>(const sim::Simulation<2>&);
+template std::string BoilingWatch::warning<3>(const sim::Simulation<3>&);
 
 }  // namespace thawslide::app

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/warnings.hpp"
 #include "base/error.hpp"
 #include "base/shell_quote.hpp"
 
@@ -125,7 +126,7 @@ gis::SiteAndWarnings read_files(const config::Case& trial) {
 config::Site open_site(const config::Case& trial) {
   gis::SiteAndWarnings read = read_files(trial);
   for (const std::string& warning : read.warnings) {
-    fmt::print("warning: {}\n", as_option_names(warning));
+    print_warning(as_option_names(warning));
   }
   return std::move(read.site);
 }

@@ -22,9 +22,9 @@ namespace {
 
 // Speed and memory of the run on a GPU, tested from the state that the trial on the CPU has reached.
 template <int Dim>
-GpuFacts gpu_facts(sim::Simulation<Dim, double>& simulation, sim::RunRecords<Dim>& records, double steps) {
+GpuFacts gpu_facts(sim::Simulation<Dim>& simulation, sim::RunRecords<Dim>& records, double steps) {
   GpuFacts facts = detect_gpu();
-  if (!facts.why_not.empty()) {
+  if (!facts.unavailable_reason.empty()) {
     return facts;
   }
   const double end = simulation.parameters().time.end;
@@ -37,13 +37,13 @@ GpuFacts gpu_facts(sim::Simulation<Dim, double>& simulation, sim::RunRecords<Dim
       static_cast<void>(simulation.front());
     }
     if (!(simulation.time() < end)) {
-      facts.why_not = "the run ends before a step on it could be timed";
+      facts.unavailable_reason = "the run ends before a step on it could be timed";
       return facts;
     }
     facts.seconds = measured_step_seconds<Dim>(simulation) * steps;
     facts.used = facts.free - detect_gpu().free;
   } catch (const std::runtime_error& error) {  // the CPU results remain valid
-    facts.why_not = error.what();
+    facts.unavailable_reason = error.what();
   }
   return facts;
 }
@@ -61,7 +61,7 @@ std::vector<MapFacts> map_facts(const config::Case& parameters, const config::Si
 
 // Facts known before the first step.
 template <int Dim>
-SetupFacts facts_of(const sim::Simulation<Dim, double>& simulation, const sim::RunRecords<Dim>& records) {
+SetupFacts facts_of(const sim::Simulation<Dim>& simulation, const sim::RunRecords<Dim>& records) {
   const config::Case& parameters = simulation.parameters();
   SetupFacts facts;
   facts.file = parameters.file;
@@ -105,7 +105,7 @@ int check_case(const CheckOptions& options) {
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     Warnings warnings(options.json ? Warnings::Form::kept : Warnings::Form::printed);
-    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, warnings));
+    sim::Simulation<Dim> simulation(parameters, read_map_files(parameters, warnings));
     sim::RunRecords<Dim> records(simulation, simulation.site());  // checks that maps, path and probes can be recorded
     records.start(simulation);
     SetupFacts facts = facts_of<Dim>(simulation, records);

@@ -69,7 +69,7 @@ std::string probes_text() {
 }
 
 std::string fields_text() {
-  const mpm::Particles<3, double> particles;
+  const mpm::Particles<3> particles;
   std::string rows;
   for (const mpm::FieldBase* field : particles.fields.all()) {
     if (field->info().in_snapshot()) {
@@ -81,7 +81,7 @@ std::string fields_text() {
 
 std::string base_text() {
   const sim::ColumnGroup& group = sim::base_columns();
-  return title_of(group) + "\nDatasets of the group `base`.\n" + columns_text(group, "dataset");
+  return title_of(group) + "\nDatasets of the group `basal_segments`.\n" + columns_text(group, "dataset");
 }
 
 std::string maps_text() {

@@ -10,10 +10,10 @@ namespace thawslide::app {
 // GPU that this program can use.
 struct GpuFacts {
   std::string name;
-  std::string why_not;   // reason why the GPU cannot be used; empty: it can
-  double free = 0.0;     // memory before the run [bytes]
-  double used = 0.0;     // by the run after its first steps [bytes]
-  double seconds = 0.0;  // wall-clock time of the run, estimated from the first steps
+  std::string unavailable_reason;  // reason why the GPU cannot be used; empty: it can
+  double free = 0.0;               // memory before the run [bytes]
+  double used = 0.0;               // by the run after its first steps [bytes]
+  double seconds = 0.0;            // wall-clock time of the run, estimated from the first steps
 };
 [[nodiscard]] GpuFacts detect_gpu();
 
@@ -21,6 +21,6 @@ struct GpuFacts {
 // features; "cpu" changes nothing. Returns the device as text; empty for the CPU. Throws UserError with the reason if
 // the GPU is unavailable or does not support the case.
 template <int Dim>
-std::string use_device(const std::string& device, sim::Simulation<Dim, double>& simulation);
+std::string use_device(const std::string& device, sim::Simulation<Dim>& simulation);
 
 }  // namespace thawslide::app

@@ -65,7 +65,7 @@ double bytes_of(const std::vector<double>& numbers) { return static_cast<double>
 
 // Sets the size of checkpoints. The numbers of bed columns and particles are constant.
 template <int Dim>
-void count_checkpoint(const sim::Simulation<Dim, double>& simulation, const sim::FlowMaps* maps, DiskNeed& need) {
+void count_checkpoint(const sim::Simulation<Dim>& simulation, const sim::FlowMaps* maps, DiskNeed& need) {
   const double lasting = bytes_besides_points +
                          static_cast<double>(simulation.particles().size()) *
                              static_cast<double>(io::checkpoint_bytes_of_particle<Dim>()) +
@@ -83,7 +83,7 @@ void count_checkpoint(const sim::Simulation<Dim, double>& simulation, const sim:
 }  // namespace
 
 template <int Dim>
-DiskNeed disk_need(const sim::Simulation<Dim, double>& simulation, const sim::FlowMaps* maps, double steps) {
+DiskNeed disk_need(const sim::Simulation<Dim>& simulation, const sim::FlowMaps* maps, double steps) {
   const config::Case& parameters = simulation.parameters();
   const config::Time& time = parameters.time;
   const auto particles = static_cast<double>(simulation.particles().size());
@@ -134,7 +134,7 @@ std::string warning_of_disk(const config::Case& parameters, const DiskNeed& need
       rounded_text(free / gigabyte), folder.string());
 }
 
-template DiskNeed disk_need<2>(const sim::Simulation<2, double>&, const sim::FlowMaps*, double);
-template DiskNeed disk_need<3>(const sim::Simulation<3, double>&, const sim::FlowMaps*, double);
+template DiskNeed disk_need<2>(const sim::Simulation<2>&, const sim::FlowMaps*, double);
+template DiskNeed disk_need<3>(const sim::Simulation<3>&, const sim::FlowMaps*, double);
 
 }  // namespace thawslide::app

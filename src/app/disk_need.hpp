@@ -27,8 +27,7 @@ struct DiskNeed {
 
 // maps: null in 2D; steps: expected number of steps of the run.
 template <int Dim>
-[[nodiscard]] DiskNeed disk_need(const sim::Simulation<Dim, double>& simulation, const sim::FlowMaps* maps,
-                                 double steps);
+[[nodiscard]] DiskNeed disk_need(const sim::Simulation<Dim>& simulation, const sim::FlowMaps* maps, double steps);
 
 // Free bytes on the disk of a folder, which need not exist yet.
 [[nodiscard]] double free_on_disk(const std::filesystem::path& folder);

@@ -208,7 +208,7 @@ std::string resolution_text(const config::Proposal& proposal, const std::string&
 std::optional<RunCost> cost_of_run(const fs::path& folder) {
   try {
     const config::Case made = config::read_case(folder);
-    sim::Simulation<3, double> simulation(made, gis::load_site(made).site);
+    sim::Simulation<3> simulation(made, gis::load_site(made).site);
     sim::RunRecords<3> records(simulation, simulation.site());
     records.start(simulation);
     const double steps = steps_to_end(simulation);

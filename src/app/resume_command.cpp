@@ -62,7 +62,7 @@ int leave_finished(const fs::path& folder, const io::Provenance& facts) {
   print_text("{} has reached its end at {:g} s{}; nothing to do\n", folder.string(), facts.simulated_time,
              facts.message.empty() ? "" : ": " + facts.message);
   if (!is_known) {
-    print_text("note: {} holds no checkpoint: it cannot be given a later end\n", folder.string());
+    print_text("note: {} has no checkpoint, so --end cannot extend it\n", folder.string());
   }
   return static_cast<int>(ExitCode::done);
 }
@@ -112,7 +112,7 @@ void apply_changes(const fs::path& folder, const Continuation& next) {
 }
 
 template <int Dim>
-void restore(sim::Simulation<Dim, double>& simulation, const std::vector<double>& scalars, const NamedNumbers& blocks) {
+void restore(sim::Simulation<Dim>& simulation, const std::vector<double>& scalars, const NamedNumbers& blocks) {
   simulation.restore(scalars);
   if (simulation.band_columns() != nullptr) {
     simulation.restore_band_columns(block_of(blocks, "band_columns"));
@@ -125,10 +125,10 @@ void restore(sim::Simulation<Dim, double>& simulation, const std::vector<double>
 // Reports an error that a change causes in an unchanged key at its location in the run's case.toml, which is not for
 // editing.
 template <int Dim>
-std::unique_ptr<sim::Simulation<Dim, double>> simulation_of(const fs::path& folder, const Continuation& next,
-                                                            Warnings& warnings) {
+std::unique_ptr<sim::Simulation<Dim>> simulation_of(const fs::path& folder, const Continuation& next,
+                                                    Warnings& warnings) {
   try {
-    return std::make_unique<sim::Simulation<Dim, double>>(next.parameters, read_map_files(next.parameters, warnings));
+    return std::make_unique<sim::Simulation<Dim>>(next.parameters, read_map_files(next.parameters, warnings));
   } catch (const UserError& error) {
     if (std::string(error.what()).rfind((folder / "case.toml").string(), 0) != 0) {
       throw;
@@ -143,7 +143,7 @@ std::unique_ptr<sim::Simulation<Dim, double>> simulation_of(const fs::path& fold
 template <int Dim>
 int restart_from_begin(const fs::path& folder, const Continuation& next) {
   Warnings warnings;
-  sim::Simulation<Dim, double> simulation(next.parameters, read_map_files(next.parameters, warnings));
+  sim::Simulation<Dim> simulation(next.parameters, read_map_files(next.parameters, warnings));
   use_device<Dim>(next.device, simulation);
   print_text("{} was cut off before its first checkpoint; it starts again\n", folder.string());
   for (const std::string& warning : next.earlier.parts.back().warnings) {
@@ -159,7 +159,7 @@ int restart_from_begin(const fs::path& folder, const Continuation& next) {
 // run cannot continue and the changes would be lost.
 template <int Dim>
 bool takes_changes_at_its_end(const fs::path& folder, const Continuation& next, bool falls_back,
-                              sim::Simulation<Dim, double>& simulation) {
+                              sim::Simulation<Dim>& simulation) {
   const std::vector<std::string>& changes = next.earlier.parts.back().changes;
   const bool is_end_alone = config::keys_of(changes) == std::set<std::string>{"time.end"};
   if (simulation.time() >= next.parameters.time.end - 0.5 * simulation.last_step()) {
@@ -208,12 +208,12 @@ std::string keep_damaged(const fs::path& damaged) {
 }
 
 template <int Dim>
-int go_on(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continuation next) {
+int continue_run(const fs::path& folder, const io::WholeCheckpoint& checkpoint, Continuation next) {
   Warnings warnings;
   const auto made = simulation_of<Dim>(folder, next, warnings);
-  sim::Simulation<Dim, double>& simulation = *made;
+  sim::Simulation<Dim>& simulation = *made;
   std::vector<double> scalars;
-  const NamedNumbers blocks = io::read_checkpoint<Dim, double>(checkpoint, simulation.particles(), scalars);
+  const NamedNumbers blocks = io::read_checkpoint<Dim>(checkpoint, simulation.particles(), scalars);
   try {
     restore<Dim>(simulation, scalars, blocks);
   } catch (const UserError& error) {
@@ -262,8 +262,8 @@ int resume_run(const ResumeOptions& options) {
   const fs::path folder = options.folder;
   if (!fs::exists(folder / "run.json")) {
     throw UserError(
-        fmt::format("{} holds no run to continue: run.json is missing, which a run writes at its start. "
-                    "Run the case again.",
+        fmt::format("{} is not a run folder: run.json not found. Specify the folder that `thawslide run` "
+                    "printed, or run the case again.",
                     folder.string()));
   }
   const std::vector<std::string> sets = sets_of(options);
@@ -297,7 +297,7 @@ int resume_run(const ResumeOptions& options) {
   next.earlier.parts.back().warnings = changed_originals(facts.inputs);
   return with_dimension(
       next.parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
-        return has_checkpoint ? go_on<Dim>(folder, checkpoint, next) : restart_from_begin<Dim>(folder, next);
+        return has_checkpoint ? continue_run<Dim>(folder, checkpoint, next) : restart_from_begin<Dim>(folder, next);
       });
 }
 

@@ -27,7 +27,7 @@ int run_case(const RunOptions& options) {
   io::require_usable(folder, options.overwrite);
   return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
     Warnings warnings;
-    sim::Simulation<Dim, double> simulation(parameters, read_map_files(parameters, warnings));
+    sim::Simulation<Dim> simulation(parameters, read_map_files(parameters, warnings));
     {
       sim::RunRecords<Dim> records(simulation, simulation.site());  // throws before any file is written or removed
       records.start(simulation);

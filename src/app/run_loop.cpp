@@ -27,7 +27,7 @@ class FrontWatch {
  public:
   // front: distance travelled [m].
   template <int Dim>
-  ProgressState state(const sim::Simulation<Dim, double>& simulation, double front, std::int64_t steps) {
+  ProgressState state(const sim::Simulation<Dim>& simulation, double front, std::int64_t steps) {
     const double elapsed = simulation.time() - time_;
     const double speed = elapsed > 0.0 ? sim::direction_along_x(simulation) * (front - front_) / elapsed : std::nan("");
     front_ = front;
@@ -46,7 +46,7 @@ class RemovalWatch {
 
   // Empty if there is nothing new to report.
   template <int Dim>
-  std::string warning(const sim::Simulation<Dim, double>& simulation) {
+  std::string warning(const sim::Simulation<Dim>& simulation) {
     if (told_ || simulation.removed().by_guards() == 0) {
       return "";
     }
@@ -63,7 +63,7 @@ class RemovalWatch {
 // Settles the body if the case requires it. If this fails, files are written as for any other failed run. Returns false
 // if a signal interrupted it.
 template <int Dim>
-bool settle(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output) {
+bool settle(sim::Simulation<Dim>& simulation, RunOutput<Dim>& output) {
   if (!simulation.needs_settling()) {
     return true;
   }
@@ -81,7 +81,7 @@ bool settle(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output) {
 // Ends a run after a failed write or a GPU error: all files are intact, and the run can resume from its last
 // checkpoint.
 template <int Dim>
-int end_at_once(const sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::exception& error,
+int end_at_once(const sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, const std::exception& error,
                 ExitCode code, const std::filesystem::path& folder) {
   try {
     output.require_own_folder();
@@ -107,7 +107,7 @@ UserError out_of_memory() {
 template <int Dim>
 class Loop {
  public:
-  using Simulation = sim::Simulation<Dim, double>;
+  using Simulation = sim::Simulation<Dim>;
 
   Loop(Simulation& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder)
       : simulation_(simulation),
@@ -131,7 +131,7 @@ class Loop {
   int run() {
     catch_signals();
     try {
-      while (goes_on()) {
+      while (must_continue()) {
         step();
         write_what_is_due();
         if (progress_.due(simulation_.time(), times_.end)) {
@@ -161,7 +161,7 @@ class Loop {
     return {interval, simulation_.time(), simulation_.last_step(), times_.end, early};
   }
   [[nodiscard]] std::int64_t steps() const { return simulation_.step_number() - first_step_; }
-  [[nodiscard]] bool goes_on() const {
+  [[nodiscard]] bool must_continue() const {
     return simulation_.time() < times_.end - 0.5 * simulation_.last_step() && !simulation_.ends_at_rest() &&
            caught_signal() == 0;
   }
@@ -274,8 +274,7 @@ std::filesystem::path usual_run_folder(const config::Case& parameters) {
 void use_threads(int threads) { set_thread_count(threads > 0 ? threads : available_cores()); }
 
 template <int Dim>
-int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
-                  const std::filesystem::path& folder) {
+int start_and_run(sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder) {
   output.start_clock();
   catch_signals();
   try {
@@ -297,7 +296,7 @@ int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& outp
 }
 
 template <int Dim>
-int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder) {
+int run_to_end(sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder) {
   try {
     return Loop<Dim>(simulation, output, folder).run();
   } catch (const WriteError& error) {
@@ -309,9 +308,9 @@ int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
   }
 }
 
-template int start_and_run<2>(sim::Simulation<2, double>&, RunOutput<2>&, const std::filesystem::path&);
-template int start_and_run<3>(sim::Simulation<3, double>&, RunOutput<3>&, const std::filesystem::path&);
-template int run_to_end<2>(sim::Simulation<2, double>&, RunOutput<2>&, const std::filesystem::path&);
-template int run_to_end<3>(sim::Simulation<3, double>&, RunOutput<3>&, const std::filesystem::path&);
+template int start_and_run<2>(sim::Simulation<2>&, RunOutput<2>&, const std::filesystem::path&);
+template int start_and_run<3>(sim::Simulation<3>&, RunOutput<3>&, const std::filesystem::path&);
+template int run_to_end<2>(sim::Simulation<2>&, RunOutput<2>&, const std::filesystem::path&);
+template int run_to_end<3>(sim::Simulation<3>&, RunOutput<3>&, const std::filesystem::path&);
 
 }  // namespace thawslide::app

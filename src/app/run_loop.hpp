@@ -7,13 +7,12 @@ namespace thawslide::app {
 
 // Settles a new run if requested, writes its first state and runs it; otherwise as run_to_end.
 template <int Dim>
-int start_and_run(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output,
-                  const std::filesystem::path& folder);
+int start_and_run(sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder);
 
 // Returns the exit code: done, stopped by a signal, or not written. In each case, all results so far have been written.
 // Throws RunError if the run failed.
 template <int Dim>
-int run_to_end(sim::Simulation<Dim, double>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder);
+int run_to_end(sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder);
 
 // Calls work(dimension constant) for the case's dimension.
 template <class Work>

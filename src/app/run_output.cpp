@@ -47,7 +47,7 @@ bool Schedule::reached(double time, double step) {
 namespace {
 
 template <int Dim>
-void write_terrain(const fs::path& folder, const sim::Simulation<Dim, double>& simulation) {
+void write_terrain(const fs::path& folder, const sim::Simulation<Dim>& simulation) {
   const auto& model = simulation.model();
   if (!model.profile) {
     return;
@@ -72,7 +72,7 @@ void write_terrain(const fs::path& folder, const sim::Simulation<Dim, double>& s
 
 // Rewrites initial output files that are missing.
 template <int Dim>
-void write_what_is_missing(const fs::path& folder, const sim::Simulation<Dim, double>& simulation) {
+void write_what_is_missing(const fs::path& folder, const sim::Simulation<Dim>& simulation) {
   if (!fs::exists(folder / "terrain.csv")) {
     write_terrain(folder, simulation);
   }
@@ -84,7 +84,7 @@ void write_what_is_missing(const fs::path& folder, const sim::Simulation<Dim, do
 
 // Fills in the data of this process; `provenance` contains that of earlier ones, and the part that begins.
 template <int Dim>
-void complete(io::Provenance& provenance, const sim::Simulation<Dim, double>& simulation) {
+void complete(io::Provenance& provenance, const sim::Simulation<Dim>& simulation) {
   const auto& model = simulation.model();
   provenance.parts.back().threads = thread_count();
   provenance.parts.back().device = simulation.device_name();
@@ -316,8 +316,8 @@ void RunOutput<Dim>::write_snapshot(const Simulation& simulation) {
       fronts_.push_back({simulation.time(), front->place});
     }
     stopwatch_.time("write_snapshot", [&] {
-      io::Snapshot snapshot = io::take_snapshot<Dim, double>(simulation.particles(), simulation.model().origin,
-                                                             simulation.time(), simulation.step_number());
+      io::Snapshot snapshot = io::take_snapshot<Dim>(simulation.particles(), simulation.model().origin,
+                                                     simulation.time(), simulation.step_number());
       snapshot.base = sim::base_table(simulation);
       snapshots_.add(std::move(snapshot));
     });
@@ -350,8 +350,8 @@ void RunOutput<Dim>::write_state(const Simulation& simulation) {
     if (const auto* bed = simulation.bed()) {
       blocks["bed"] = bed->state();
     }
-    io::write_checkpoint<Dim, double>(folder_, simulation.particles(), simulation.particles_at_start(),
-                                      simulation.scalars(), blocks, case_text_);
+    io::write_checkpoint<Dim>(folder_, simulation.particles(), simulation.particles_at_start(), simulation.scalars(),
+                              blocks, case_text_);
   });
 }
 

@@ -40,7 +40,7 @@ class Schedule {
 template <int Dim>
 class RunOutput {
  public:
-  using Simulation = sim::Simulation<Dim, double>;
+  using Simulation = sim::Simulation<Dim>;
 
   // Starts a new run in an existing empty folder whose lock the process holds: writes the inputs, the resolved case,
   // run.json and the ground. All writing functions throw WriteError if the folder no longer belongs to this run.

@@ -21,7 +21,7 @@ std::string front_text(double front, double runout) {
 }  // namespace
 
 template <int Dim>
-void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutput<Dim>& output, std::int64_t steps,
+void print_summary(const sim::Simulation<Dim>& simulation, const RunOutput<Dim>& output, std::int64_t steps,
                    double wall, const std::filesystem::path& folder) {
   const std::size_t at_start = output.particles_at_start(), at_end = simulation.particles().size();
   print_text("{} particles{}, {} steps in {}: {:.3g} million particle-steps per second on {}{} thread{}\n", at_start,
@@ -49,9 +49,9 @@ void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutp
   print_text("results in {}\n", folder.string());
 }
 
-template void print_summary<2>(const sim::Simulation<2, double>&, const RunOutput<2>&, std::int64_t, double,
+template void print_summary<2>(const sim::Simulation<2>&, const RunOutput<2>&, std::int64_t, double,
                                const std::filesystem::path&);
-template void print_summary<3>(const sim::Simulation<3, double>&, const RunOutput<3>&, std::int64_t, double,
+template void print_summary<3>(const sim::Simulation<3>&, const RunOutput<3>&, std::int64_t, double,
                                const std::filesystem::path&);
 
 }  // namespace thawslide::app

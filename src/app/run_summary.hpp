@@ -10,7 +10,7 @@ namespace thawslide::app {
 
 // Prints throughput, time of each stage and position of the slide; steps, wall [s]: of this process.
 template <int Dim>
-void print_summary(const sim::Simulation<Dim, double>& simulation, const RunOutput<Dim>& output, std::int64_t steps,
+void print_summary(const sim::Simulation<Dim>& simulation, const RunOutput<Dim>& output, std::int64_t steps,
                    double wall, const std::filesystem::path& folder);
 
 }  // namespace thawslide::app

@@ -33,7 +33,7 @@ std::string text_of(const sim::BodyFigures& body, const SetupFacts& facts) {
       "              {} particles {:.3g} m apart; {:.3g} across in the median and {:.3g} at most; {}\n",
       body.name, rounded_text(body.volume, 4), body.mass, is_plane ? per_metre : "", is_plane ? "along" : "over",
       rounded_text(body.area, 4), is_plane ? "m" : "m2", body.mean_thickness, body.median_thickness,
-      body.largest_thickness, body.particles, body.spacing, body.particles_across, body.most_particles_across,
+      body.largest_thickness, body.particles, body.spacing, body.particles_across, body.max_particles_across,
       body.coldest == body.warmest ? fmt::format("{:.4g} C", body.coldest)
                                    : fmt::format("{:.4g} to {:.4g} C", body.coldest, body.warmest));
 }
@@ -97,21 +97,21 @@ Json json_of(const sim::BodyFigures& body) {
           {"area_m2", body.area},
           {"mean_thickness_m", body.mean_thickness},
           {"median_thickness_m", body.median_thickness},
-          {"largest_thickness_m", body.largest_thickness},
+          {"max_thickness_m", body.largest_thickness},
           {"spacing_m", body.spacing},
           {"particles_across", body.particles_across},
-          {"most_particles_across", body.most_particles_across},
+          {"max_particles_across", body.max_particles_across},
           {"coldest_C", body.coldest},
           {"warmest_C", body.warmest},
           {"clearance_m", std::isfinite(body.clearance) ? Json(body.clearance) : Json()},
-          {"standing_share", body.standing_share}};
+          {"resting_fraction", body.resting_fraction}};
 }
 
 Json json_of(const SubstrateFacts& substrate) {
   return {{"name", substrate.name},
           {"place", substrate.place},
           {"covered", substrate.covered},
-          {"share", substrate.share},
+          {"fraction", substrate.share},
           {"strength", substrate.strength}};
 }
 
@@ -146,26 +146,26 @@ Json json_of(const DiskNeed& need, double free, const std::string& folder) {
 }
 
 std::string text_of(const GpuFacts& gpu) {
-  if (!gpu.why_not.empty()) {
-    return fmt::format("  GPU         not used: {}\n", gpu.why_not);
+  if (!gpu.unavailable_reason.empty()) {
+    return fmt::format("  GPU         not used: {}\n", gpu.unavailable_reason);
   }
   return fmt::format("  GPU         about {} (measured on the first steps) and {} of {} free, on {}\n",
                      duration_text(gpu.seconds), size_text(gpu.used), size_text(gpu.free), gpu.name);
 }
 
 Json json_of(const GpuFacts& gpu) {
-  const bool takes_steps = gpu.why_not.empty();
+  const bool takes_steps = gpu.unavailable_reason.empty();
   return {{"name", gpu.name.empty() ? Json() : Json(gpu.name)},
-          {"why_not", takes_steps ? Json() : Json(gpu.why_not)},
+          {"unavailable_reason", takes_steps ? Json() : Json(gpu.unavailable_reason)},
           {"wall_s", takes_steps ? Json(gpu.seconds) : Json()},
           {"need_bytes", takes_steps ? Json(gpu.used) : Json()},
           {"free_bytes", gpu.name.empty() ? Json() : Json(gpu.free)}};
 }
 
 Json json_of(const MapFacts& maps) {
-  return {{"columns", maps.columns},         {"rows", maps.rows},      {"cell_x_m", maps.cell_x},
-          {"cell_y_m", maps.cell_y},         {"because", maps.reason}, {"start_bytes", maps.bytes_at_start},
-          {"most_bytes", maps.bytes_at_most}};
+  return {{"columns", maps.columns},        {"rows", maps.rows},     {"cell_x_m", maps.cell_x},
+          {"cell_y_m", maps.cell_y},        {"reason", maps.reason}, {"start_bytes", maps.bytes_at_start},
+          {"max_bytes", maps.bytes_at_most}};
 }
 
 template <class Facts>
@@ -192,7 +192,7 @@ std::string text_of(const SetupFacts& facts) {
     text += text_of(*facts.roughness);
   }
   text += fmt::format("  particles   {}\n", facts.particles);
-  text += fmt::format("  cells       {:.0f} in the domain; blocks of {} nodes held: {}\n", facts.cells,
+  text += fmt::format("  cells       {:.0f} in the domain; allocated blocks of {} nodes: {}\n", facts.cells,
                       facts.nodes_of_block, facts.blocks);
   text += fmt::format("  step        {:g} s{}; the limit is {:.4g} s, set by {}\n", facts.step,
                       facts.is_adaptive ? " at the start (adaptive)" : "", facts.limit.step, facts.limit.what);

@@ -37,7 +37,7 @@ Json thinned(const Raster& raster) {
 // Names of the substrates, and the number of the substrate at given points: 0 if there is none. Null if the case has no
 // substrates.
 template <int Dim>
-Json substrates_json(const sim::Simulation<Dim, double>& simulation, const Json& numbers) {
+Json substrates_json(const sim::Simulation<Dim>& simulation, const Json& numbers) {
   if (numbers.is_null()) {
     return {};
   }
@@ -48,7 +48,7 @@ Json substrates_json(const sim::Simulation<Dim, double>& simulation, const Json&
   return {{"names", names}, {"numbers", numbers}};
 }
 
-Json numbers_on_map(const sim::Simulation<3, double>& simulation) {
+Json numbers_on_map(const sim::Simulation<3>& simulation) {
   const auto& substrates = simulation.model().substrates;
   if (!substrates) {
     return {};
@@ -64,7 +64,7 @@ Json numbers_on_map(const sim::Simulation<3, double>& simulation) {
   return thinned(numbers);
 }
 
-Json map_json(const sim::Simulation<3, double>& simulation) {
+Json map_json(const sim::Simulation<3>& simulation) {
   const config::Case& parameters = simulation.parameters();
   const config::Site& site = simulation.site();
   Json json;
@@ -92,14 +92,14 @@ Json map_json(const sim::Simulation<3, double>& simulation) {
 }
 
 template <int Dim>
-std::vector<double> place_in_section(const sim::Simulation<Dim, double>& simulation, std::size_t p) {
+std::vector<double> place_in_section(const sim::Simulation<Dim>& simulation, std::size_t p) {
   const auto& origin = simulation.model().origin;
   return {simulation.particles().position(p, 0) + origin[0],
           simulation.particles().position(p, Dim - 1) + origin[Dim - 1]};
 }
 
 template <int Dim>
-Json section_json(const sim::Simulation<Dim, double>& simulation) {
+Json section_json(const sim::Simulation<Dim>& simulation) {
   const config::Case& parameters = simulation.parameters();
   const auto& model = simulation.model();
   constexpr const char* kinds[] = {"open", "roller", "fixed"};
@@ -157,7 +157,7 @@ Json section_json(const sim::Simulation<Dim, double>& simulation) {
 }  // namespace
 
 template <int Dim>
-nlohmann::ordered_json setup_json(const sim::Simulation<Dim, double>& simulation) {
+nlohmann::ordered_json setup_json(const sim::Simulation<Dim>& simulation) {
   if constexpr (Dim == 3) {
     if (simulation.site().ground != nullptr) {
       return map_json(simulation);
@@ -166,7 +166,7 @@ nlohmann::ordered_json setup_json(const sim::Simulation<Dim, double>& simulation
   return section_json<Dim>(simulation);
 }
 
-template nlohmann::ordered_json setup_json<2>(const sim::Simulation<2, double>&);
-template nlohmann::ordered_json setup_json<3>(const sim::Simulation<3, double>&);
+template nlohmann::ordered_json setup_json<2>(const sim::Simulation<2>&);
+template nlohmann::ordered_json setup_json<3>(const sim::Simulation<3>&);
 
 }  // namespace thawslide::app

@@ -10,6 +10,6 @@ namespace thawslide::app {
 // A map if the terrain is a DEM, otherwise a section along x. Heights of a DEM are thinned to the resolution of a
 // figure.
 template <int Dim>
-nlohmann::ordered_json setup_json(const sim::Simulation<Dim, double>& simulation);
+nlohmann::ordered_json setup_json(const sim::Simulation<Dim>& simulation);
 
 }  // namespace thawslide::app

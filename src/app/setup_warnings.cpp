@@ -14,7 +14,7 @@
 namespace thawslide::app {
 
 template <int Dim>
-void add_setup_warnings(const sim::Simulation<Dim, double>& simulation, const std::vector<sim::BodyFigures>& bodies,
+void add_setup_warnings(const sim::Simulation<Dim>& simulation, const std::vector<sim::BodyFigures>& bodies,
                         const DiskNeed& disk, const std::filesystem::path& folder, Warnings& warnings) {
   const config::Case& parameters = simulation.parameters();
   warnings.add(sim::warning_of_map_cell(parameters, simulation.site()));
@@ -27,7 +27,7 @@ void add_setup_warnings(const sim::Simulation<Dim, double>& simulation, const st
 }
 
 template <int Dim>
-double steps_to_end(const sim::Simulation<Dim, double>& simulation) {
+double steps_to_end(const sim::Simulation<Dim>& simulation) {
   const config::Time& time = simulation.parameters().time;
   const double steps = time.end / simulation.next_step(time.end) * (1.0 - 1e-12);
   // Fixed steps may end the run up to half a step early; adaptive steps are cut to end exactly.
@@ -35,7 +35,7 @@ double steps_to_end(const sim::Simulation<Dim, double>& simulation) {
 }
 
 template <int Dim>
-double measured_step_seconds(sim::Simulation<Dim, double>& simulation) {
+double measured_step_seconds(sim::Simulation<Dim>& simulation) {
   constexpr double most_seconds = 0.5;
   constexpr int most_steps = 200;
   const auto start = std::chrono::steady_clock::now();
@@ -49,13 +49,13 @@ double measured_step_seconds(sim::Simulation<Dim, double>& simulation) {
   return elapsed / steps;
 }
 
-template void add_setup_warnings<2>(const sim::Simulation<2, double>&, const std::vector<sim::BodyFigures>&,
-                                    const DiskNeed&, const std::filesystem::path&, Warnings&);
-template void add_setup_warnings<3>(const sim::Simulation<3, double>&, const std::vector<sim::BodyFigures>&,
-                                    const DiskNeed&, const std::filesystem::path&, Warnings&);
-template double steps_to_end<2>(const sim::Simulation<2, double>&);
-template double steps_to_end<3>(const sim::Simulation<3, double>&);
-template double measured_step_seconds<2>(sim::Simulation<2, double>&);
-template double measured_step_seconds<3>(sim::Simulation<3, double>&);
+template void add_setup_warnings<2>(const sim::Simulation<2>&, const std::vector<sim::BodyFigures>&, const DiskNeed&,
+                                    const std::filesystem::path&, Warnings&);
+template void add_setup_warnings<3>(const sim::Simulation<3>&, const std::vector<sim::BodyFigures>&, const DiskNeed&,
+                                    const std::filesystem::path&, Warnings&);
+template double steps_to_end<2>(const sim::Simulation<2>&);
+template double steps_to_end<3>(const sim::Simulation<3>&);
+template double measured_step_seconds<2>(sim::Simulation<2>&);
+template double measured_step_seconds<3>(sim::Simulation<3>&);
 
 }  // namespace thawslide::app

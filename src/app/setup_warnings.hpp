@@ -11,15 +11,15 @@ namespace thawslide::app {
 
 // folder: of the planned run. Requires a simulation before its first step.
 template <int Dim>
-void add_setup_warnings(const sim::Simulation<Dim, double>& simulation, const std::vector<sim::BodyFigures>& bodies,
+void add_setup_warnings(const sim::Simulation<Dim>& simulation, const std::vector<sim::BodyFigures>& bodies,
                         const DiskNeed& disk, const std::filesystem::path& folder, Warnings& warnings);
 
 // Number of steps of a run if all are as long as the first one.
 template <int Dim>
-[[nodiscard]] double steps_to_end(const sim::Simulation<Dim, double>& simulation);
+[[nodiscard]] double steps_to_end(const sim::Simulation<Dim>& simulation);
 
 // Wall-clock seconds per step, measured on some steps, which advance the simulation.
 template <int Dim>
-[[nodiscard]] double measured_step_seconds(sim::Simulation<Dim, double>& simulation);
+[[nodiscard]] double measured_step_seconds(sim::Simulation<Dim>& simulation);
 
 }  // namespace thawslide::app

@@ -4,12 +4,16 @@
 
 namespace thawslide::app {
 
+void print_warning(const std::string& text) {
+  print_text("{}{}\n", text.rfind("note: ", 0) == 0 ? "" : "warning: ", text);
+}
+
 void Warnings::add(const std::string& text) {
   if (text.empty()) {
     return;
   }
   if (form_ == Form::printed) {
-    print_text("warning: {}\n", text);
+    print_warning(text);
   }
   all_.push_back(text);
 }

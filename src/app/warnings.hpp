@@ -6,6 +6,9 @@
 
 namespace thawslide::app {
 
+// Prints "warning: " and the text. Information, which needs no action, begins with "note: " instead.
+void print_warning(const std::string& text);
+
 class Warnings {
  public:
   enum class Form { printed, kept };

@@ -10,17 +10,17 @@
 namespace thawslide::band {
 
 // Function of a horizontal position [m].
-template <int Dim, class Real>
+template <int Dim>
 using OfPlace = std::function<Real(const Vector<Real, Dim - 1>&)>;
 
-template <int Dim, class Real>
+template <int Dim>
 class AtColumns {
  public:
   // Value at the middle of a column; `of` must be the same in every call.
-  [[nodiscard]] Real at(std::uint64_t key, Real cell, const OfPlace<Dim, Real>& of) {
+  [[nodiscard]] Real at(std::uint64_t key, Real cell, const OfPlace<Dim>& of) {
     const auto k = static_cast<std::size_t>(index_.insert(key));
     if (k == values_.size()) {
-      values_.push_back(of(middle_of_column<Dim, Real>(key, cell)));
+      values_.push_back(of(middle_of_column<Dim>(key, cell)));
     }
     return values_[k];
   }

@@ -9,48 +9,47 @@
 
 namespace thawslide::band {
 
-template <int Dim, class Real>
-void average_on_grid(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                     mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes) {
-  mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, mpm::every_tile, AddAverages<Dim, Real>{});
+template <int Dim>
+void average_on_grid(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, mpm::Particles<Dim>& particles,
+                     mpm::Nodes<Dim>& nodes) {
+  mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, mpm::every_tile, AddAverages<Dim>{});
   nodes.averages.resize(grid.blocks().size());
   nodes.state.resize(grid.blocks().size());
-  const SetNodalState<Dim, Real> set_state{grid, model};
+  const SetNodalState<Dim> set_state{grid, model};
   mpm::node_pass<mpm::NoAccount>(
       grid, [&](std::size_t b) { return mpm::sum_block<mpm::Averages>(grid, b, nodes); },
       [&](const mpm::NodeAt& at, mpm::NoAccount& /*account*/) { set_state(nodes, at); });
 }
 
-template <int Dim, class Real>
-void average_seeping_water(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                           mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes) {
+template <int Dim>
+void average_seeping_water(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model,
+                           mpm::Particles<Dim>& particles, mpm::Nodes<Dim>& nodes) {
   if (!model.lets_water_seep() || model.frozen_rows == FrozenRows::draining) {
     return;
   }
   const auto hydraulic = model.hydraulic();
-  const bool any_seeps = find_seepage<Dim, Real>(grid, nodes.marks, [&](const mpm::SimdBatch<Real>& batch) {
-    return any(seeps(model, hydraulic, particles, batch));
-  });
+  const bool any_seeps = find_seepage<Dim>(
+      grid, nodes.marks, [&](const mpm::SimdBatch& batch) { return any(seeps(model, hydraulic, particles, batch)); });
   if (!any_seeps) {
     return;
   }
   const auto& blocks = nodes.marks.seeping_blocks;
   mpm::particle_pass(
       grid, mpm::LinearWeights{}, particles, nodes, [&](std::size_t t) { return grid.any_about_tile(t, blocks); },
-      AddSeepingWater<Dim, Real>{model, hydraulic});
+      AddSeepingWater<Dim>{model, hydraulic});
   nodes.seeping_water.hold(grid.blocks().size(), [&](std::size_t b) { return blocks[b] != 0; });
   mpm::node_pass<mpm::NoAccount>(
       grid, [&](std::size_t b) { return blocks[b] != 0 ? mpm::sum_block<mpm::SeepingWater>(grid, b, nodes) : 0; },
       [&](const mpm::NodeAt& at, mpm::NoAccount& /*account*/) {
-        nodes.state(at)[mpm::NodalState::pore_pressure] = seeping_pressure<Real>(nodes.seeping_water(at));
+        nodes.state(at)[mpm::NodalState::pore_pressure] = seeping_pressure(nodes.seeping_water(at));
       });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                         \
-  template void average_on_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&,       \
-                                           mpm::Particles<Dim, Real>&, mpm::Nodes<Dim, Real>&);                  \
-  template void average_seeping_water<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, \
-                                                 mpm::Particles<Dim, Real>&, mpm::Nodes<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                   \
+  template void average_on_grid<Dim>(const mpm::SparseGrid<Dim>&, const BandModel<Dim>&, mpm::Particles<Dim>&,       \
+                                     mpm::Nodes<Dim>&);                                                              \
+  template void average_seeping_water<Dim>(const mpm::SparseGrid<Dim>&, const BandModel<Dim>&, mpm::Particles<Dim>&, \
+                                           mpm::Nodes<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

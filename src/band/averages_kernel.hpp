@@ -9,7 +9,7 @@
 namespace thawslide::band {
 
 // Sums of Eq. 21.
-template <int Dim, class Real>
+template <int Dim>
 struct AddAverages {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<mpm::Averages>;
@@ -27,9 +27,8 @@ struct AddAverages {
 };
 
 // True if water seeps to or from a particle: it is melted and permeable.
-template <class Real, class Particles, class At>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto seeps(const BandPhysics<Real>& model,
-                                                const HydraulicConductivity<Real>& hydraulic,
+template <class Particles, class At>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto seeps(const BandPhysics& model, const HydraulicConductivity& hydraulic,
                                                 const Particles& particles, const At& at) {
   return (particles.temperature.load(at) >= model.reference_temperature) & (hydraulic(particles, at) > Real(0));
 }
@@ -37,14 +36,14 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto seeps(const BandPhysics<Real>& model,
 // Sums of Eq. 21 over the pores that take part in seepage. Frozen pores are excluded (sealed) or count as empty
 // (vented). The average must be over the same pores that store water in SeepageFlows; otherwise it is not the mean of
 // the stored water.
-template <int Dim, class Real>
+template <int Dim>
 struct AddSeepingWater {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<mpm::SeepingWater>;
   using Account = mpm::NoAccount;
 
-  const BandPhysics<Real>& model;
-  HydraulicConductivity<Real> hydraulic;
+  const BandPhysics& model;
+  HydraulicConductivity hydraulic;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
@@ -58,5 +57,21 @@ struct AddSeepingWater {
     water.value[mpm::SeepingWater::pore_pressure] = select(seeping, volume * particles.pore_pressure.load(at), zero);
   }
 };
+
+// averages, state: records of Averages and NodalState. Returns false, with a state of 0, if no particle is near.
+template <int Dim, class Averaged, class State>
+THAWSLIDE_HD bool set_nodal_state(const Averaged& averages, State& state) {
+  using mpm::Averages, mpm::NodalState;
+  for (std::size_t c = 0; c < mpm::record_size(NodalState::template size<Dim>); ++c) {
+    state[c] = Real(0);
+  }
+  if (!(averages[Averages::volume] > Real(0))) {
+    return false;
+  }
+  const Real inverse_volume = Real(1) / averages[Averages::volume];
+  state[NodalState::temperature] = averages[Averages::temperature] * inverse_volume;
+  state[NodalState::pore_pressure] = averages[Averages::pore_pressure] * inverse_volume;
+  return true;
+}
 
 }  // namespace thawslide::band

@@ -14,7 +14,7 @@
 
 namespace thawslide::band {
 
-template <int Dim, class Real>
+template <int Dim>
 struct BasalSegment {
   using Sides = Eigen::Matrix<Real, Dim, Dim - 1>;
 
@@ -33,12 +33,12 @@ struct BasalSegment {
   Real loaded_for = 0;      // averaging time of the depth so far [s]
   Real heat = 0;            // friction heat on the whole area since the column's last step [J]
   bool touched = false;     // has carried load before
-  physics::BandColumn<Real> column;
-  physics::BandMeans<Real> means{};  // of the column at its last step, under the load at that time
-  Real liquid = 0;                   // liquid water in the column at its last step, per area [m]
+  physics::BandColumn column;
+  physics::BandMeans means{};  // of the column at its last step, under the load at that time
+  Real liquid = 0;             // liquid water in the column at its last step, per area [m]
 };
 
-template <int Dim, class Real>
+template <int Dim>
 Real area_of(const Eigen::Matrix<Real, Dim, Dim - 1>& sides) {
   if constexpr (Dim == 2) {
     return sides.norm();
@@ -48,7 +48,7 @@ Real area_of(const Eigen::Matrix<Real, Dim, Dim - 1>& sides) {
 }
 
 // Edges of a segment whose horizontal projection has length `size` along each axis.
-template <int Dim, class Real>
+template <int Dim>
 Eigen::Matrix<Real, Dim, Dim - 1> sides_on(const Vector<Real, Dim>& normal, const Vector<Real, Dim - 1>& size) {
   Eigen::Matrix<Real, Dim, Dim - 1> sides = Eigen::Matrix<Real, Dim, Dim - 1>::Zero();
   for (int a = 0; a + 1 < Dim; ++a) {
@@ -59,24 +59,24 @@ Eigen::Matrix<Real, Dim, Dim - 1> sides_on(const Vector<Real, Dim>& normal, cons
 }
 
 // Rotates v by the smallest rotation that takes the unit vector `from` to `to`.
-template <int Dim, class Real>
+template <int Dim>
 Vector<Real, Dim> turned(const Vector<Real, Dim>& v, const Vector<Real, Dim>& from, const Vector<Real, Dim>& to) {
   const Vector<Real, Dim> both = from + to;
   const Real along = Real(1) + from.dot(to);
-  return along > round_off<Real> ? Vector<Real, Dim>(v - both * (both.dot(v) / along) + Real(2) * from.dot(v) * to) : v;
+  return along > round_off ? Vector<Real, Dim>(v - both * (both.dot(v) / along) + Real(2) * from.dot(v) * to) : v;
 }
 
 // Nodes within reach of a basal segment, with the weights of cubic B-splines, which reach two cells along each axis.
 // Nodes with contact lie within 1.25 cells of the ground, and their footpoints within half a cell of a new segment.
 // Valid until the blocks of the grid change.
-template <int Dim, class Real>
+template <int Dim>
 class BaseStencil {
  public:
   using T = mpm::Tile<Dim>;
   static constexpr int width = 4;
 
   BaseStencil() = default;  // without nodes
-  BaseStencil(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& position) : cell_(grid.cell()) {
+  BaseStencil(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& position) : cell_(grid.cell()) {
     typename T::Index below, tile;
     for (std::size_t a = 0; a < Dim; ++a) {
       const Real place = position[static_cast<int>(a)] * grid.inverse_cell();

@@ -22,8 +22,8 @@ constexpr double joining_reach = 0.5;
 }  // namespace
 
 // Segments of each block, in ascending order.
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::list_segments_by_block(std::size_t blocks) {
+template <int Dim>
+void BasalSegments<Dim>::list_segments_by_block(std::size_t blocks) {
   first_of_block_.assign(blocks + 1, 0);
   for (const Stencil& stencil : stencils_) {
     stencil.for_each_block([&](std::size_t b, int /*corner*/) { ++first_of_block_[b]; });
@@ -41,14 +41,14 @@ void BasalSegments<Dim, Real>::list_segments_by_block(std::size_t blocks) {
   }
 }
 
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) {
-  using Record = typename mpm::RecordsOf<BaseState, Dim, Real>::Record;
+template <int Dim>
+void BasalSegments<Dim>::to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<Dim>& nodes) {
+  using Record = typename mpm::RecordsOf<BaseState, Dim>::Record;
   std::vector<Record> shared(segments_.size());  // per area of a segment
   stencils_.resize(segments_.size());
   parallel_for(segments_.size(), [&](std::size_t p) {
     const Segment& segment = segments_[p];
-    const physics::BandMeans<Real> means = means_now(segment);
+    const physics::BandMeans means = means_now(segment);
     shared[p] = {};
     shared[p][BaseState::area] = Real(1);
     shared[p][BaseState::temperature] = means.temperature;
@@ -81,10 +81,9 @@ void BasalSegments<Dim, Real>::to_nodes(const mpm::SparseGrid<Dim, Real>& grid, 
   });
 }
 
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::take(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
-                                    const NodeGroundOf& node_ground, Real thickness, Real dt,
-                                    mpm::Nodes<Dim, Real>& nodes) {
+template <int Dim>
+void BasalSegments<Dim>::take(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+                              Real thickness, Real dt, mpm::Nodes<Dim>& nodes) {
   THAWSLIDE_ASSERT(stencils_.size() == segments_.size(), "{} segments read from nodes, of which {} have added to them",
                    segments_.size(), stencils_.size());
   if (checks_gaps_ || some_node_is_bare(grid, nodes)) {
@@ -97,10 +96,9 @@ void BasalSegments<Dim, Real>::take(const mpm::SparseGrid<Dim, Real>& grid, cons
   });
 }
 
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
-                                      const NodeGroundOf& node_ground, Real duration,
-                                      const mpm::Nodes<Dim, Real>& nodes) {
+template <int Dim>
+void BasalSegments<Dim>::follow(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+                                Real duration, const mpm::Nodes<Dim>& nodes) {
   std::vector<std::uint8_t> alone(segments_.size());
   parallel_for(segments_.size(), [&](std::size_t p) {
     const Nearby slide = slide_near(grid, Stencil(grid, segments_[p].position), node_ground, nodes, segments_[p]);
@@ -123,12 +121,12 @@ void BasalSegments<Dim, Real>::follow(const mpm::SparseGrid<Dim, Real>& grid, co
 // Velocity of the sliding mass at a segment, and its gradient along the ground: a linear fit to the nodes around it,
 // weighted by mass. Velocities are rotated from the ground normal at the node to that of the segment; a bend of the
 // ground therefore causes no spurious stretching.
-template <int Dim, class Real>
-typename BasalSegments<Dim, Real>::Nearby BasalSegments<Dim, Real>::slide_near(const mpm::SparseGrid<Dim, Real>& grid,
-                                                                               const Stencil& stencil,
-                                                                               const NodeGroundOf& node_ground,
-                                                                               const mpm::Nodes<Dim, Real>& nodes,
-                                                                               const Segment& segment) const {
+template <int Dim>
+typename BasalSegments<Dim>::Nearby BasalSegments<Dim>::slide_near(const mpm::SparseGrid<Dim>& grid,
+                                                                   const Stencil& stencil,
+                                                                   const NodeGroundOf& node_ground,
+                                                                   const mpm::Nodes<Dim>& nodes,
+                                                                   const Segment& segment) const {
   // added to the spread of positions, in cells squared, to keep the fit regular
   constexpr Real smallest_spread = static_cast<Real>(1e-3);
   const auto along_ground = [&](const Vector<Real, Dim>& v) -> Vector<Real, Dim> {
@@ -142,9 +140,9 @@ typename BasalSegments<Dim, Real>::Nearby BasalSegments<Dim, Real>::slide_near(c
     if (!(of_node > Real(0))) {
       return;
     }
-    auto velocity = mpm::vector_at<Dim, Real>(nodes.motion(b, node), mpm::MotionLayout<Dim>::middle_velocity);
+    auto velocity = mpm::vector_at<Dim>(nodes.motion(b, node), mpm::MotionLayout<Dim>::middle_velocity);
     const Vector<Real, Dim>* normal = node_ground(b, node).normal;
-    velocity = along_ground(normal != nullptr ? turned<Dim, Real>(velocity, *normal, segment.normal) : velocity);
+    velocity = along_ground(normal != nullptr ? turned<Dim>(velocity, *normal, segment.normal) : velocity);
     const Vector<Real, Dim> place = along_ground(from_segment);
     const Vector<Real, Dim> weighted = of_node * place;
     mass += of_node;
@@ -166,9 +164,9 @@ typename BasalSegments<Dim, Real>::Nearby BasalSegments<Dim, Real>::slide_near(c
   return result;
 }
 
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::gather_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes,
-                                                 Segment& segment) const {
+template <int Dim>
+void BasalSegments<Dim>::gather_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim>& nodes,
+                                           Segment& segment) const {
   Real force = 0, area = 0, heat = 0, slip = 0, borne = 0;  // borne: normal force per area of the segment [Pa]
   stencil.for_each_block([&](std::size_t b, int corner) {
     if (!nodes.contact.holds(b)) {
@@ -200,27 +198,26 @@ void BasalSegments<Dim, Real>::gather_from_nodes(const Stencil& stencil, Real dt
 // The flow depth follows from the load borne by the segment [Pa]: its part of the nodal normal forces, which are
 // distributed over segments completely. N equals this load under full contact and exceeds it if the sliding mass has
 // holes. If gravity does not press on the ground, the depth is undefined; the largest thickness is used.
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::update_load(Real normal_pressure, Real borne, Real dt, Segment& segment) const {
+template <int Dim>
+void BasalSegments<Dim>::update_load(Real normal_pressure, Real borne, Real dt, Segment& segment) const {
   const Real weight = model_.density * gravity_.dot(segment.normal);  // [N/m3]
   follow_load(model_, normal_pressure, weight > Real(0) ? borne / weight : model_.largest_thickness, dt, segment);
 }
 
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::place_on(const Ground& ground, Segment& segment) const {
+template <int Dim>
+void BasalSegments<Dim>::place_on(const Ground& ground, Segment& segment) const {
   const Vector<Real, Dim - 1> place = segment.position.template head<Dim - 1>();
   const Vector<Real, Dim> before = segment.normal;
   segment.position[Dim - 1] = ground.height(place);
   segment.normal = ground.normal(place);
   for (int side = 0; side + 1 < Dim; ++side) {
-    const Vector<Real, Dim> edge = turned<Dim, Real>(segment.sides.col(side), before, segment.normal);
+    const Vector<Real, Dim> edge = turned<Dim>(segment.sides.col(side), before, segment.normal);
     segment.sides.col(side) = edge;
   }
 }
 
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::stretch_with(const Nearby& slide, const Ground& ground, Real dt,
-                                            Segment& segment) const {
+template <int Dim>
+void BasalSegments<Dim>::stretch_with(const Nearby& slide, const Ground& ground, Real dt, Segment& segment) const {
   segment.velocity = slide.velocity;
   segment.sides += dt * slide.gradient * segment.sides;
   place_on(ground, segment);
@@ -228,8 +225,8 @@ void BasalSegments<Dim, Real>::stretch_with(const Nearby& slide, const Ground& g
 }
 
 // Splits segments with a side longer than `most` along an axis into two, along this side.
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::split_long_segments(Real most, const Ground& ground) {
+template <int Dim>
+void BasalSegments<Dim>::split_long_segments(Real most, const Ground& ground) {
   const std::size_t count = segments_.size();
   for (std::size_t p = 0; p < count; ++p) {
     for (int side = 0; side + 1 < Dim; ++side) {
@@ -257,8 +254,8 @@ void BasalSegments<Dim, Real>::split_long_segments(Real most, const Ground& grou
 // lattice merge if they are nearer than half of its size along each axis and together no larger than a cell. The result
 // is a square at their common centre. Segments that were created next to each other and move together keep a larger
 // distance. The segments of one part are visited in order, and each merges into the smallest one before it.
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::merge_small_segments(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground) {
+template <int Dim>
+void BasalSegments<Dim>::merge_small_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground) {
   const Real largest = static_cast<Real>(largest_joined * std::pow(grid.cell(), Dim - 1));
   struct Place {
     LatticePart at;
@@ -299,8 +296,8 @@ void BasalSegments<Dim, Real>::merge_small_segments(const mpm::SparseGrid<Dim, R
 }
 
 // Removes the segments marked in `left`; the others keep their order.
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::keep_only(const std::vector<std::uint8_t>& left) {
+template <int Dim>
+void BasalSegments<Dim>::keep_only(const std::vector<std::uint8_t>& left) {
   std::size_t kept = 0;
   for (std::size_t p = 0; p < segments_.size(); ++p) {
     if (left[p] == 0) {
@@ -313,29 +310,29 @@ void BasalSegments<Dim, Real>::keep_only(const std::vector<std::uint8_t>& left) 
   segments_.resize(kept);
 }
 
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::join(const Segment& other, const Ground& ground, Segment& segment) {
+template <int Dim>
+void BasalSegments<Dim>::join(const Segment& other, const Ground& ground, Segment& segment) {
   const Real share = segment.area / (segment.area + other.area);
   const Vector<Real, Dim> middle = share * segment.position + (Real(1) - share) * other.position;
   add_to_ledger(merge_from(model_, other, segment));
   segment.position = middle;
   place_on(ground, segment);
-  segment.sides = sides_on<Dim, Real>(segment.normal, Vector<Real, Dim - 1>::Ones());
+  segment.sides = sides_on<Dim>(segment.normal, Vector<Real, Dim - 1>::Ones());
   segment.sides *=
       std::pow(segment.area / ground.area_of(segment.position, segment.sides), Real(1) / static_cast<Real>(Dim - 1));
   keep_means(model_, segment);
 }
 
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::remove_segment(const Segment& segment) {
+template <int Dim>
+void BasalSegments<Dim>::remove_segment(const Segment& segment) {
   ledger_.left_heat += segment.area_of_column * physics::heat_of(segment.column) + segment.heat;
   ledger_.left_water += segment.area_of_column * physics::water_of(segment.column);
   ledger_.friction_heat += segment.heat;
 }
 
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::step(Real thickness, Real duration) {
-  std::vector<physics::ColumnAccount<Real>> accounts(segments_.size());
+template <int Dim>
+void BasalSegments<Dim>::step(Real thickness, Real duration) {
+  std::vector<physics::ColumnAccount> accounts(segments_.size());
   parallel_for(segments_.size(), [&](std::size_t p) {
     accounts[p] = step_segment(model_, thickness, duration, segments_[p]);
     keep_means(model_, segments_[p]);
@@ -345,8 +342,8 @@ void BasalSegments<Dim, Real>::step(Real thickness, Real duration) {
   }
 }
 
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::add_to_ledger(const physics::ColumnAccount<Real>& account) {
+template <int Dim>
+void BasalSegments<Dim>::add_to_ledger(const physics::ColumnAccount& account) {
   ledger_.friction_heat += account.friction_heat;
   ledger_.body_heat += account.body_heat;
   ledger_.ground_heat += account.ground_heat;
@@ -357,7 +354,7 @@ void BasalSegments<Dim, Real>::add_to_ledger(const physics::ColumnAccount<Real>&
   ledger_.steam += account.steam;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) template class BasalSegments<Dim, Real>;
+#define THAWSLIDE_INSTANTIATE(Dim) template class BasalSegments<Dim>;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -12,7 +12,6 @@
 namespace thawslide::band {
 
 // Sums over all segments [J, kg, m2, m3]. Heat includes the friction heat that is pending until the columns' next step.
-template <class Real>
 struct ColumnSums {
   Real area = 0, heat = 0, waiting_heat = 0, water = 0, opening = 0, gas_void = 0;
 
@@ -29,7 +28,6 @@ struct ColumnSums {
 
 // Heat and water budget of all columns since the start [J], [kg]. created: with new segments; left: with removed
 // segments.
-template <class Real>
 struct ColumnLedger {
   Real created_heat = 0, friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0,
        left_heat = 0;
@@ -45,15 +43,15 @@ struct ColumnLedger {
 };
 
 // Means over the base, weighted by area, and extremes.
-template <class Real>
 struct BaseMeans {
   Real temperature = 0, saturation = 0, pore_pressure = 0, load = 0, thickness = 0;
-  Real hottest = 0, hottest_wet = 0;  // maximum of all cells above the ground, and of those with water [C]
-  Real dry_share = 0;                 // area fraction of the base in which a cell of the band has no water left
-  Real largest_pressure_ratio = 0;    // maximum P over averaged N
+  Real max_temperature = 0,
+       max_wet_temperature = 0;  // maximum of all cells above the ground, and of those with water [C]
+  Real dry_fraction = 0;         // area fraction of the base in which a cell of the band has no water left
+  Real max_pressure_ratio = 0;   // maximum P over averaged N
 };
 
-template <int Dim, class Real>
+template <int Dim>
 class BasalSegments {
  public:
   // Ground below a horizontal position [m].
@@ -63,9 +61,8 @@ class BasalSegments {
     std::function<Real(const Vector<Real, Dim - 1>&)> width;                // of a 2D section, relative; 1 in 3D
 
     // Area of ground spanned by edges around a position [m2].
-    [[nodiscard]] Real area_of(const Vector<Real, Dim>& place,
-                               const typename BasalSegment<Dim, Real>::Sides& sides) const {
-      return width(place.template head<Dim - 1>()) * band::area_of<Dim, Real>(sides);
+    [[nodiscard]] Real area_of(const Vector<Real, Dim>& place, const typename BasalSegment<Dim>::Sides& sides) const {
+      return width(place.template head<Dim - 1>()) * band::area_of<Dim>(sides);
     }
   };
   // Ground at a node: unit normal into the ground and distance above it [m]; null if the ground is not near.
@@ -76,46 +73,45 @@ class BasalSegments {
   using NodeGroundOf = std::function<NodeGround(std::size_t block, std::size_t node)>;
 
   // gravity [m/s2].
-  BasalSegments(ColumnsModel<Real> model, const Vector<Real, Dim>& gravity)
-      : model_(std::move(model)), gravity_(gravity) {}
+  BasalSegments(ColumnsModel model, const Vector<Real, Dim>& gravity) : model_(std::move(model)), gravity_(gravity) {}
 
   // Fills nodes.base_state of the blocks with contact. Call before each take, which uses the same stencils.
-  void to_nodes(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes);
+  void to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<Dim>& nodes);
 
   // Applies contact over dt to all segments (load, heat, slip) at the positions used by to_nodes, then moves them by
   // dt. First creates segments where the sliding mass touches ground without one. Call after contact.
-  void take(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
-            Real thickness, Real dt, mpm::Nodes<Dim, Real>& nodes);
+  void take(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground, Real thickness,
+            Real dt, mpm::Nodes<Dim>& nodes);
 
   // Updates segment velocities and stretches segments with the flow over the last `duration` [s]; then splits long
   // segments and merges small ones.
-  void follow(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
-              Real duration, const mpm::Nodes<Dim, Real>& nodes);
+  void follow(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground, Real duration,
+              const mpm::Nodes<Dim>& nodes);
 
   // Then steps all columns over `duration` [s]. thickness: prescribed band thickness at its end [m].
   void step(Real thickness, Real duration);
 
-  [[nodiscard]] const std::vector<BasalSegment<Dim, Real>>& segments() const { return segments_; }
+  [[nodiscard]] const std::vector<BasalSegment<Dim>>& segments() const { return segments_; }
   // Means of the column after its last step, with the pore pressure under the present load.
-  [[nodiscard]] static physics::BandMeans<Real> means_now(const BasalSegment<Dim, Real>& segment) {
-    physics::BandMeans<Real> means = segment.means;
+  [[nodiscard]] static physics::BandMeans means_now(const BasalSegment<Dim>& segment) {
+    physics::BandMeans means = segment.means;
     means.pore_pressure = physics::band_pressure(segment.load, segment.column);
     return means;
   }
-  [[nodiscard]] physics::ColumnVolumes<Real> volumes_of(const BasalSegment<Dim, Real>& segment) const {
+  [[nodiscard]] physics::ColumnVolumes volumes_of(const BasalSegment<Dim>& segment) const {
     return band::volumes_of(model_, segment);
   }
-  [[nodiscard]] const ColumnLedger<Real>& ledger() const { return ledger_; }
-  [[nodiscard]] ColumnSums<Real> sums() const;
-  [[nodiscard]] BaseMeans<Real> means() const;
+  [[nodiscard]] const ColumnLedger& ledger() const { return ledger_; }
+  [[nodiscard]] ColumnSums sums() const;
+  [[nodiscard]] BaseMeans means() const;
 
   // Checkpoint state.
   [[nodiscard]] std::vector<double> state() const;
   void restore(const std::vector<double>& numbers);
 
  private:
-  using Segment = BasalSegment<Dim, Real>;
-  using Stencil = BaseStencil<Dim, Real>;
+  using Segment = BasalSegment<Dim>;
+  using Stencil = BaseStencil<Dim>;
 
   using Lattice = std::array<int, Dim - 1>;  // cell of the horizontal lattice on which segments are created
   // Part of a lattice cell. On steep ground, a cell is divided along each axis, because a segment reaches only the
@@ -132,27 +128,26 @@ class BasalSegments {
   };
   // Number of parts of a lattice cell along each axis, on ground with this normal.
   [[nodiscard]] static Lattice parts_on(const Vector<Real, Dim>& normal);
-  [[nodiscard]] Lattice lattice_part(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place,
+  [[nodiscard]] Lattice lattice_part(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& place,
                                      const Lattice& cell, const Lattice& parts) const;
-  [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place) const;
-  [[nodiscard]] std::vector<Footpoint> contact_footpoints(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
+  [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& place) const;
+  [[nodiscard]] std::vector<Footpoint> contact_footpoints(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
                                                           const NodeGroundOf& node_ground,
-                                                          const mpm::Nodes<Dim, Real>& nodes) const;
-  [[nodiscard]] std::vector<LatticePart> parts_below(const mpm::SparseGrid<Dim, Real>& grid,
+                                                          const mpm::Nodes<Dim>& nodes) const;
+  [[nodiscard]] std::vector<LatticePart> parts_below(const mpm::SparseGrid<Dim>& grid,
                                                      std::vector<Footpoint> footpoints) const;
-  void leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid, std::vector<LatticePart>& parts) const;
-  [[nodiscard]] bool some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
-                                       const mpm::Nodes<Dim, Real>& nodes) const;
-  void create_segments(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
-                       Real thickness, mpm::Nodes<Dim, Real>& nodes);
+  void leave_out_covered(const mpm::SparseGrid<Dim>& grid, std::vector<LatticePart>& parts) const;
+  [[nodiscard]] bool some_node_is_bare(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) const;
+  void create_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+                       Real thickness, mpm::Nodes<Dim>& nodes);
   void list_segments_by_block(std::size_t blocks);
-  void add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim, Real>& nodes, Real share = 1) const;
+  void add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim>& nodes, Real share = 1) const;
   struct InContact {
     Real area = 0, normal_force = 0;  // [m2], [N]
   };
   void start_segment(const Stencil& stencil, const Ground& ground, const InContact& contact, Real thickness,
-                     mpm::Nodes<Dim, Real>& nodes, Segment& segment);
-  [[nodiscard]] InContact in_contact(const Stencil& stencil, const mpm::Nodes<Dim, Real>& nodes,
+                     mpm::Nodes<Dim>& nodes, Segment& segment);
+  [[nodiscard]] InContact in_contact(const Stencil& stencil, const mpm::Nodes<Dim>& nodes,
                                      const Segment& segment) const;
   [[nodiscard]] Segment new_segment(const Vector<Real, Dim - 1>& middle, const Vector<Real, Dim - 1>& size,
                                     const Ground& ground);
@@ -162,21 +157,21 @@ class BasalSegments {
     Vector<Real, Dim> velocity = Vector<Real, Dim>::Zero();  // along the ground [m/s]
     bool is_present = false;
   };
-  [[nodiscard]] Nearby slide_near(const mpm::SparseGrid<Dim, Real>& grid, const Stencil& stencil,
-                                  const NodeGroundOf& node_ground, const mpm::Nodes<Dim, Real>& nodes,
+  [[nodiscard]] Nearby slide_near(const mpm::SparseGrid<Dim>& grid, const Stencil& stencil,
+                                  const NodeGroundOf& node_ground, const mpm::Nodes<Dim>& nodes,
                                   const Segment& segment) const;
-  void gather_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim, Real>& nodes, Segment& segment) const;
+  void gather_from_nodes(const Stencil& stencil, Real dt, const mpm::Nodes<Dim>& nodes, Segment& segment) const;
   void stretch_with(const Nearby& slide, const Ground& ground, Real dt, Segment& segment) const;
   void split_long_segments(Real most, const Ground& ground);
-  void merge_small_segments(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground);
+  void merge_small_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground);
   void join(const Segment& other, const Ground& ground, Segment& segment);
   void keep_only(const std::vector<std::uint8_t>& left);
-  void add_to_ledger(const physics::ColumnAccount<Real>& account);
+  void add_to_ledger(const physics::ColumnAccount& account);
   void remove_segment(const Segment& segment);
   void place_on(const Ground& ground, Segment& segment) const;
   void update_load(Real normal_pressure, Real borne, Real dt, Segment& segment) const;
 
-  ColumnsModel<Real> model_;
+  ColumnsModel model_;
   Vector<Real, Dim> gravity_;
   std::vector<Segment> segments_;
   // Stencils of this step, by segment, and the segments whose stencils reach a block: those of block b begin at
@@ -188,7 +183,7 @@ class BasalSegments {
   };
   std::vector<std::uint32_t> first_of_block_;
   std::vector<Seen> by_block_;
-  ColumnLedger<Real> ledger_;
+  ColumnLedger ledger_;
   std::int64_t next_id_ = 0;
   bool checks_gaps_ = true;
 };

@@ -10,11 +10,11 @@
 
 namespace thawslide::band {
 
-template <int Dim, class Real>
+template <int Dim>
 struct BodySums {
   Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();     // [kg m/s]
   Real kinetic = 0, potential = 0, sensible = 0, latent = 0;  // [J]
-  ExactSum<Real> mass;                                        // [kg]; exact, because it must be conserved bitwise
+  ExactSum mass;                                              // [kg]; exact, because it must be conserved bitwise
   Real rock = 0, ice = 0, water = 0;                          // [kg]
   Real seeped = 0;                                            // net water gained by seepage [kg]
   Real gas = 0;                                               // void in the pores of the band's own material [m3]
@@ -53,18 +53,18 @@ struct BodySums {
 };
 
 // Contribution of one particle.
-template <int Dim, class Real>
+template <int Dim>
 struct SumsOfParticle {
   Vector<Real, Dim> gravity, origin;  // [m/s2]; of positions [m]
-  physics::Phases<Real> phases;
+  physics::Phases phases;
   bool latent;          // melting consumes latent heat
   bool current_masses;  // heat content uses masses from the current porosity and volume, as published
   bool melt_contracts;  // melting leaves a void
 
   template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD BodySums<Dim, Real> operator()(const Particles& particles, std::uint32_t p) const {
+  [[nodiscard]] THAWSLIDE_HD BodySums<Dim> operator()(const Particles& particles, std::uint32_t p) const {
     const Real mass = particles.mass(p);
-    BodySums<Dim, Real> sums;
+    BodySums<Dim> sums;
     sums.mass = mass;
     for (int a = 0; a < Dim; ++a) {
       const Real velocity = particles.velocity(p, a);
@@ -96,7 +96,7 @@ struct SumsOfParticle {
 
  private:
   template <class Particles>
-  THAWSLIDE_HD void add_heat(const Particles& particles, std::uint32_t p, BodySums<Dim, Real>& sums) const {
+  THAWSLIDE_HD void add_heat(const Particles& particles, std::uint32_t p, BodySums<Dim>& sums) const {
     const Real pore = current_masses ? particles.volume(p) * particles.porosity(p)
                                      : particles.initial_volume(p) * particles.initial_porosity(p);
     const Real molten =
@@ -115,7 +115,7 @@ struct SumsOfParticle {
 
   // Masses at t = 0; the sum of ice and water remains constant.
   template <class Particles>
-  THAWSLIDE_HD void add_initial_phases(const Particles& particles, std::uint32_t p, BodySums<Dim, Real>& sums) const {
+  THAWSLIDE_HD void add_initial_phases(const Particles& particles, std::uint32_t p, BodySums<Dim>& sums) const {
     const Real start = particles.initial_saturation(p), saturation = saturation_of_masses(particles, p);
     const Real pore_water = particles.initial_volume(p) * particles.initial_porosity(p) *
                             (phases.water_density * start + phases.ice_density * (Real(1) - start));
@@ -126,7 +126,7 @@ struct SumsOfParticle {
 
   // Masses from the current porosity and volume, as published. Their sum differs from the particle's mass.
   template <class Particles>
-  THAWSLIDE_HD void add_current_phases(const Particles& particles, std::uint32_t p, BodySums<Dim, Real>& sums) const {
+  THAWSLIDE_HD void add_current_phases(const Particles& particles, std::uint32_t p, BodySums<Dim>& sums) const {
     const Real pore = particles.volume(p) * particles.porosity(p), saturation = saturation_of_masses(particles, p);
     sums.rock = (particles.volume(p) - pore) * phases.rock_density;
     sums.ice = pore * (Real(1) - saturation) * phases.ice_density;

@@ -55,7 +55,7 @@ THAWSLIDE_HD inline std::uint64_t neighbour_column(std::uint64_t key, std::size_
   return side % 2 == 0 ? key - step : key + step;
 }
 
-template <int Dim, class Real>
+template <int Dim>
 Vector<Real, Dim - 1> middle_of_column(std::uint64_t key, Real cell) {
   Vector<Real, Dim - 1> middle;
   for (int a = 0; a + 1 < Dim; ++a) {
@@ -66,7 +66,7 @@ Vector<Real, Dim - 1> middle_of_column(std::uint64_t key, Real cell) {
 }
 
 // Extent of the boxes in a column along each horizontal axis [m].
-template <int Dim, class Real>
+template <int Dim>
 struct Extent {
   std::array<Real, Dim - 1> from, to;
 
@@ -86,7 +86,6 @@ struct Extent {
 };
 
 // Contents of a column: volume [m3], and top of its highest box [m].
-template <class Real>
 struct ColumnMass {
   Real volume = 0;
   Real top = std::numeric_limits<Real>::lowest();
@@ -112,8 +111,8 @@ THAWSLIDE_HD bool lacks_neighbour(const Filled& filled) {
 
 // Footprint [m2], per metre of width in 2D: that of the cell, or, at the edge of the body, the extent of the boxes in
 // it.
-template <int Dim, class Real, class Filled>
-THAWSLIDE_HD Real footprint_of(Real cell, bool at_edge, const Extent<Dim, Real>& extent, const Filled& filled) {
+template <int Dim, class Filled>
+THAWSLIDE_HD Real footprint_of(Real cell, bool at_edge, const Extent<Dim>& extent, const Filled& filled) {
   Real footprint = 1;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     const bool inside = !at_edge || (filled(2 * a) && filled(2 * a + 1));
@@ -122,18 +121,16 @@ THAWSLIDE_HD Real footprint_of(Real cell, bool at_edge, const Extent<Dim, Real>&
   return footprint;
 }
 
-template <class Real>
-THAWSLIDE_HD Real thickness_of(const ColumnMass<Real>& column_mass, Real footprint) {
+inline THAWSLIDE_HD Real thickness_of(const ColumnMass& column_mass, Real footprint) {
   return column_mass.is_present() ? column_mass.volume / footprint : Real(0);
 }
 
 // Load on the ground per depth of the column [Pa/m]. normal_gravity: of the column [m/s2].
-template <class Real>
-THAWSLIDE_HD Real load_per_depth(const ColumnMass<Real>& column_mass, Real mass, Real normal_gravity) {
+inline THAWSLIDE_HD Real load_per_depth(const ColumnMass& column_mass, Real mass, Real normal_gravity) {
   return mass / column_mass.volume * normal_gravity;
 }
 
-template <class Particles, class Real>
+template <class Particles>
 THAWSLIDE_HD void update_load(Particles& particles, std::uint32_t particle, Real load) {
   particles.load_change(particle) = load - particles.normal_load(particle);
   particles.normal_load(particle) = load;

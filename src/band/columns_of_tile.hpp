@@ -19,11 +19,11 @@ struct Overlap {
   Value share[2];  // fraction of the box
 };
 
-template <class Value, class Real>
+template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Overlap<Value> overlap(Value middle, const mpm::HalfSize<Value>& size,
                                                             int first_cell, Real cell, Real inverse_cell) {
   using std::floor;
-  const Value begin = middle - size.half, end = middle + size.half, sliver = Value(round_off<Real>) * size.half;
+  const Value begin = middle - size.half, end = middle + size.half, sliver = Value(round_off) * size.half;
   const Value number = floor((begin + sliver) * inverse_cell);
   const Value border = (number + Real(1)) * cell;
   const auto crosses = end - sliver >= border;
@@ -42,9 +42,9 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Overlap<Value> overlap(Value middle, const 
 template <int Dim, class Value>
 using Overlaps = std::array<Overlap<Value>, static_cast<std::size_t>(Dim) - 1>;
 
-template <int Dim, class Real, class Particles, class At>
+template <int Dim, class Particles, class At>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Overlaps<Dim, typename At::Value> overlaps(
-    const std::array<int, Dim - 1>& first_cell, Real cell, Real inverse_cell, const mpm::SizesOfBodies<Real>& sizes,
+    const std::array<int, Dim - 1>& first_cell, Real cell, Real inverse_cell, const mpm::SizesOfBodies& sizes,
     const Particles& particles, const At& at) {
   const auto size = sizes.of(particles, at);
   Overlaps<Dim, typename At::Value> along;
@@ -61,7 +61,6 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Overlaps<Dim, typename At::Value> overlaps(
 // overlap.
 template <int Dim, class Value, class Visit>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_columns(const Overlaps<Dim, Value>& along, const Visit& visit) {
-  using Real = typename NumberOf<Value>::Type;
   constexpr auto per_axis = static_cast<Real>(columns_per_axis<Dim>);
   unrolled<static_cast<std::size_t>(1) << (Dim - 1)>([&](auto corner) THAWSLIDE_INLINE_LAMBDA {
     std::array<std::size_t, Dim - 1> side{};
@@ -78,7 +77,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_columns(const Overlaps<Dim, Value>
 // Extent of a particle's box in one of these columns. lane: of the particle.
 template <int Dim, class Value, class Side>
 THAWSLIDE_HD auto extent_in_column(const Overlaps<Dim, Value>& along, const Side& side, std::size_t lane) {
-  Extent<Dim, typename NumberOf<Value>::Type> own;
+  Extent<Dim> own;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     own.from[a] = extract(along[a].from[side[a]], lane);
     own.to[a] = extract(along[a].to[side[a]], lane);
@@ -87,7 +86,7 @@ THAWSLIDE_HD auto extent_in_column(const Overlaps<Dim, Value>& along, const Side
 }
 
 // One number per column in reach of a tile, by place.
-template <int Dim, class Real>
+template <int Dim>
 struct NumbersOfTile {
   std::array<Real, columns_per_tile<Dim>> numbers;
 
@@ -97,7 +96,6 @@ struct NumbersOfTile {
   }
 };
 // The same, by index into the numbers of all columns.
-template <class Real>
 struct NumbersOfColumns {
   const Real* numbers;
   const std::int32_t* column;  // by place
@@ -108,11 +106,11 @@ struct NumbersOfColumns {
 };
 
 // Columns in reach of the particles of one tile. Numbers: one number per column, by place in the tile.
-template <int Dim, class Real, class Numbers = NumbersOfTile<Dim, Real>>
+template <int Dim, class Numbers = NumbersOfTile<Dim>>
 struct ColumnsOfTile {
   std::array<int, Dim - 1> first_cell;  // number along each horizontal axis
   Real cell, inverse_cell;              // [m], [1/m]
-  mpm::SizesOfBodies<Real> sizes;       // half sizes of particles [m]
+  mpm::SizesOfBodies sizes;             // half sizes of particles [m]
   Numbers thickness, top, cosine;
 
   // H [m]: column thickness in the band, depth below the column top elsewhere; averaged over columns by the fraction of
@@ -121,7 +119,7 @@ struct ColumnsOfTile {
   [[nodiscard]] THAWSLIDE_HD typename At::Value flow_depth(const Particles& particles, const At& at) const {
     using Value = typename At::Value;
     const Value height = particles.position.load(at, Dim - 1);
-    const auto in_band = particles.in_band.template load_whole<Real>(at) > Real(0);
+    const auto in_band = particles.in_band.load_whole(at) > Real(0);
     const bool any_in_band = any(in_band);
     Value depth = Real(0);
     for_columns<Dim>(overlaps<Dim>(first_cell, cell, inverse_cell, sizes, particles, at),

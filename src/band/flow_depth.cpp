@@ -9,9 +9,9 @@
 namespace thawslide::band {
 
 // Numbers every column that particles of the tiles may overlap. Valid until the tiles change.
-template <int Dim, class Real>
-void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid, const mpm::SectionWidth<Real>& width,
-                                          const SlopeCosine& slope_cosine) {
+template <int Dim>
+void FlowDepth<Dim>::number_columns(const mpm::SparseGrid<Dim>& grid, const mpm::SectionWidth& width,
+                                    const SlopeCosine& slope_cosine) {
   column_index_.clear();
   column_keys_.clear();
   numbered_.clear();
@@ -33,7 +33,7 @@ void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid
     for (std::size_t side = 0; side < column_sides<Dim>; ++side) {
       columns_[c].adjacent[side] = column_index_.find(neighbour_column(column_keys_[c], side));
     }
-    columns_[c].width = width.at(middle_of_column<Dim, Real>(column_keys_[c], grid.cell())[0]);
+    columns_[c].width = width.at(middle_of_column<Dim>(column_keys_[c], grid.cell())[0]);
     if (slope_cosine) {
       columns_[c].cosine = cosines_.at(column_keys_[c], grid.cell(), slope_cosine);
     }
@@ -41,18 +41,17 @@ void FlowDepth<Dim, Real>::number_columns(const mpm::SparseGrid<Dim, Real>& grid
 }
 
 // Sums in the order of particles, to be independent of the batches.
-template <int Dim, class Real>
-void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles,
-                                    std::size_t t) {
+template <int Dim>
+void FlowDepth<Dim>::add_tile(const mpm::SparseGrid<Dim>& grid, const mpm::Particles<Dim>& particles, std::size_t t) {
   constexpr std::size_t corners = static_cast<std::size_t>(1) << (Dim - 1);
   TilePart& part = tiles_[t];
   part.column_mass.fill({});
   const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
-  for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
+  for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
     const Simd<Real> top = particles.position.load(batch, Dim - 1) + sizes_.of(particles, batch).half;
     const Simd<Real> volume = particles.volume.load(batch);
     const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
-    std::array<std::array<std::int32_t, mpm::SimdBatch<Real>::most>, corners> columns;
+    std::array<std::array<std::int32_t, mpm::SimdBatch::most>, corners> columns;
     std::array<Simd<Real>, corners> volumes;
     std::size_t seen = 0;
     for_columns<Dim>(along, [&](const auto& /*side*/, Simd<Real> place, Simd<Real> share) THAWSLIDE_INLINE_LAMBDA {
@@ -71,13 +70,13 @@ void FlowDepth<Dim, Real>::add_tile(const mpm::SparseGrid<Dim, Real>& grid, cons
   }
 }
 
-template <int Dim, class Real>
-void FlowDepth<Dim, Real>::add_extents(const mpm::SparseGrid<Dim, Real>& grid,
-                                       const mpm::Particles<Dim, Real>& particles, std::size_t t) {
+template <int Dim>
+void FlowDepth<Dim>::add_extents(const mpm::SparseGrid<Dim>& grid, const mpm::Particles<Dim>& particles,
+                                 std::size_t t) {
   TilePart& part = tiles_[t];
   part.extent.fill({});
   const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
-  for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
+  for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
     const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
     for_columns<Dim>(along, [&](const auto& side, Simd<Real> place, Simd<Real> share) {
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
@@ -90,8 +89,8 @@ void FlowDepth<Dim, Real>::add_extents(const mpm::SparseGrid<Dim, Real>& grid,
 }
 
 // Sums in the order of tiles, to be independent of threads.
-template <int Dim, class Real>
-void FlowDepth<Dim, Real>::sum_columns() {
+template <int Dim>
+void FlowDepth<Dim>::sum_columns() {
   for (Column& column : columns_) {
     column.column_mass = {};
   }
@@ -103,8 +102,8 @@ void FlowDepth<Dim, Real>::sum_columns() {
 }
 
 // Finds the columns that lack a neighbour, and the tiles in reach of one of them.
-template <int Dim, class Real>
-void FlowDepth<Dim, Real>::find_edge() {
+template <int Dim>
+void FlowDepth<Dim>::find_edge() {
   for (Column& column : columns_) {
     column.extent = {};
     column.at_edge = column.column_mass.is_present() &&
@@ -120,8 +119,8 @@ void FlowDepth<Dim, Real>::find_edge() {
   }
 }
 
-template <int Dim, class Real>
-void FlowDepth<Dim, Real>::set_footprints(Real cell) {
+template <int Dim>
+void FlowDepth<Dim>::set_footprints(Real cell) {
   for (const std::size_t t : edge_tiles_) {
     for (std::size_t place = 0; place < places; ++place) {
       columns_[static_cast<std::size_t>(tiles_[t].number[place])].extent += tiles_[t].extent[place];
@@ -134,9 +133,9 @@ void FlowDepth<Dim, Real>::set_footprints(Real cell) {
   }
 }
 
-template <int Dim, class Real>
-void FlowDepth<Dim, Real>::update(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                                  const SlopeCosine& slope_cosine, const mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+void FlowDepth<Dim>::update(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model,
+                            const SlopeCosine& slope_cosine, const mpm::Particles<Dim>& particles) {
   const bool same_tiles = std::equal(numbered_.begin(), numbered_.end(), grid.tiles().begin(), grid.tiles().end(),
                                      [](std::uint64_t key, const auto& tile) { return key == tile.key; });
   if (!same_tiles) {
@@ -150,8 +149,8 @@ void FlowDepth<Dim, Real>::update(const mpm::SparseGrid<Dim, Real>& grid, const 
   set_footprints(grid.cell());
 }
 
-template <int Dim, class Real>
-ColumnsOfTile<Dim, Real> FlowDepth<Dim, Real>::of_tile(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) const {
+template <int Dim>
+ColumnsOfTile<Dim> FlowDepth<Dim>::of_tile(const mpm::SparseGrid<Dim>& grid, std::size_t t) const {
   OfTile columns;
   columns.first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
   columns.cell = grid.cell();
@@ -166,28 +165,26 @@ ColumnsOfTile<Dim, Real> FlowDepth<Dim, Real>::of_tile(const mpm::SparseGrid<Dim
   return columns;
 }
 
-template <int Dim, class Real>
-void FlowDepth<Dim, Real>::depth_to_particles(const mpm::SparseGrid<Dim, Real>& grid,
-                                              mpm::Particles<Dim, Real>& particles) const {
+template <int Dim>
+void FlowDepth<Dim>::depth_to_particles(const mpm::SparseGrid<Dim>& grid, mpm::Particles<Dim>& particles) const {
   parallel_for(tiles_.size(), [&](std::size_t t) {
     const OfTile columns = of_tile(grid, t);
-    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
+    for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
       particles.flow_depth.store(batch, columns.flow_depth(particles, batch));
     }
   });
 }
 
 // Sums in the order of particles and tiles, like the volumes.
-template <int Dim, class Real>
-void FlowDepth<Dim, Real>::sum_masses(const mpm::SparseGrid<Dim, Real>& grid,
-                                      const mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+void FlowDepth<Dim>::sum_masses(const mpm::SparseGrid<Dim>& grid, const mpm::Particles<Dim>& particles) {
   constexpr std::size_t corners = static_cast<std::size_t>(1) << (Dim - 1);
   tile_masses_.resize(tiles_.size());
   parallel_for(tiles_.size(), [&](std::size_t t) {
     auto& masses = tile_masses_[t];
     masses.fill(Real(0));
     const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
-    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
+    for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
       const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
       std::array<Simd<Real>, corners> columns, shares;
       std::size_t corner = 0;
@@ -213,10 +210,9 @@ void FlowDepth<Dim, Real>::sum_masses(const mpm::SparseGrid<Dim, Real>& grid,
   }
 }
 
-template <int Dim, class Real>
-void FlowDepth<Dim, Real>::load_to_particles(const mpm::SparseGrid<Dim, Real>& grid,
-                                             const NormalGravity& normal_gravity, mpm::Particles<Dim, Real>& particles,
-                                             std::size_t first) {
+template <int Dim>
+void FlowDepth<Dim>::load_to_particles(const mpm::SparseGrid<Dim>& grid, const NormalGravity& normal_gravity,
+                                       mpm::Particles<Dim>& particles, std::size_t first) {
   sum_masses(grid, particles);
   load_per_depth_.assign(columns_.size(), Real(0));
   for (std::size_t c = 0; c < columns_.size(); ++c) {
@@ -230,7 +226,7 @@ void FlowDepth<Dim, Real>::load_to_particles(const mpm::SparseGrid<Dim, Real>& g
     for (std::size_t place = 0; place < places; ++place) {
       columns.cosine.numbers[place] = load_per_depth_[static_cast<std::size_t>(tiles_[t].number[place])];
     }
-    for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
+    for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
       const Simd<Real> load = columns.flow_depth(particles, batch);
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         const std::uint32_t p = batch.particle[lane];
@@ -242,7 +238,7 @@ void FlowDepth<Dim, Real>::load_to_particles(const mpm::SparseGrid<Dim, Real>& g
   });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) template class FlowDepth<Dim, Real>;
+#define THAWSLIDE_INSTANTIATE(Dim) template class FlowDepth<Dim>;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -17,37 +17,37 @@ namespace thawslide::band {
 // columns that its box overlaps, by its fraction in each. The footprint is that of the cell, or, in a column at the
 // edge of the body, the extent of the boxes in it. Thickness is therefore continuous when particles move between
 // columns; the top jumps by at most the rise of one particle.
-template <int Dim, class Real>
+template <int Dim>
 class FlowDepth {
  public:
   // Slope cosine of the terrain at a horizontal position [m].
-  using SlopeCosine = OfPlace<Dim, Real>;
+  using SlopeCosine = OfPlace<Dim>;
   // Gravity component that loads the ground per mass and footprint, at a horizontal position [m/s2]: g.n times the
   // slope cosine, because the ground area exceeds the footprint by its inverse.
-  using NormalGravity = OfPlace<Dim, Real>;
+  using NormalGravity = OfPlace<Dim>;
 
   // Updates the columns from positions and volumes. slope_cosine may be empty (level ground) and must be the same in
   // every call.
-  void update(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-              const SlopeCosine& slope_cosine, const mpm::Particles<Dim, Real>& particles);
+  void update(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, const SlopeCosine& slope_cosine,
+              const mpm::Particles<Dim>& particles);
   // Sets particles.flow_depth from the columns and in_band.
-  void depth_to_particles(const mpm::SparseGrid<Dim, Real>& grid, mpm::Particles<Dim, Real>& particles) const;
+  void depth_to_particles(const mpm::SparseGrid<Dim>& grid, mpm::Particles<Dim>& particles) const;
 
   // Sets particles.normal_load and its change load_change from the columns of the last update, for particles at memory
   // index `first` and above. N is that of the whole column in the band, elsewhere that of the material above, at the
   // column's mean density. normal_gravity must be the same in every call.
-  void load_to_particles(const mpm::SparseGrid<Dim, Real>& grid, const NormalGravity& normal_gravity,
-                         mpm::Particles<Dim, Real>& particles, std::size_t first = 0);
+  void load_to_particles(const mpm::SparseGrid<Dim>& grid, const NormalGravity& normal_gravity,
+                         mpm::Particles<Dim>& particles, std::size_t first = 0);
 
-  [[nodiscard]] ColumnsOfTile<Dim, Real> of_tile(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t) const;
+  [[nodiscard]] ColumnsOfTile<Dim> of_tile(const mpm::SparseGrid<Dim>& grid, std::size_t t) const;
 
  private:
-  using OfTile = ColumnsOfTile<Dim, Real>;
+  using OfTile = ColumnsOfTile<Dim>;
   static constexpr std::size_t places = columns_per_tile<Dim>;
 
   struct Column {
-    ColumnMass<Real> column_mass;
-    Extent<Dim, Real> extent;  // of a column at the edge of the body
+    ColumnMass column_mass;
+    Extent<Dim> extent;  // of a column at the edge of the body
     bool at_edge = false;
     Real footprint = 0;
     Real cosine = 1;                                         // of the terrain slope
@@ -56,19 +56,19 @@ class FlowDepth {
   };
   // Contribution of one tile's particles to the columns in reach, by place.
   struct TilePart {
-    std::array<ColumnMass<Real>, places> column_mass;
-    std::array<Extent<Dim, Real>, places> extent;  // if one of the columns is at the edge
+    std::array<ColumnMass, places> column_mass;
+    std::array<Extent<Dim>, places> extent;  // if one of the columns is at the edge
     std::array<std::int32_t, places> number;
   };
 
-  void number_columns(const mpm::SparseGrid<Dim, Real>& grid, const mpm::SectionWidth<Real>& width,
+  void number_columns(const mpm::SparseGrid<Dim>& grid, const mpm::SectionWidth& width,
                       const SlopeCosine& slope_cosine);
-  void add_tile(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles, std::size_t t);
-  void add_extents(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles, std::size_t t);
+  void add_tile(const mpm::SparseGrid<Dim>& grid, const mpm::Particles<Dim>& particles, std::size_t t);
+  void add_extents(const mpm::SparseGrid<Dim>& grid, const mpm::Particles<Dim>& particles, std::size_t t);
   void sum_columns();
   void find_edge();
   void set_footprints(Real cell);
-  void sum_masses(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Particles<Dim, Real>& particles);
+  void sum_masses(const mpm::SparseGrid<Dim>& grid, const mpm::Particles<Dim>& particles);
   // True if the column exists and contains part of the sliding mass.
   [[nodiscard]] bool is_filled(std::int32_t column) const {
     return column != KeyIndex::absent && columns_[static_cast<std::size_t>(column)].column_mass.is_present();
@@ -77,11 +77,11 @@ class FlowDepth {
   std::vector<std::uint64_t> numbered_;  // tiles for which columns, their numbers and sizes_ are valid
   KeyIndex column_index_;
   std::vector<std::uint64_t> column_keys_;
-  AtColumns<Dim, Real> cosines_, normal_gravities_;
+  AtColumns<Dim> cosines_, normal_gravities_;
   std::vector<Column> columns_;
   std::vector<TilePart> tiles_;
   std::vector<std::size_t> edge_tiles_;
-  mpm::BodySizes<Real> sizes_;  // half sizes of particles [m]
+  mpm::BodySizes sizes_;  // half sizes of particles [m]
   // If loads are required: mass of each tile's columns by place, and of columns [kg]; load per depth [Pa/m].
   std::vector<std::array<Real, places>> tile_masses_;
   std::vector<Real> masses_, load_per_depth_;

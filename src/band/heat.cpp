@@ -17,16 +17,16 @@ namespace {
 
 using mpm::every_tile, mpm::NodeAt;
 
-template <int Dim, class Real>
-NodalHeat<Real> solve_with_tangent(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
-                                   bool first_step, mpm::Nodes<Dim, Real>& nodes) {
+template <int Dim>
+NodalHeat solve_with_tangent(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real dt, bool first_step,
+                             mpm::Nodes<Dim>& nodes) {
   using mpm::HeatRates;
   nodes.heat_rates.resize(grid.blocks().size());
   nodes.unreached_heat.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.contact.holds(b); });
-  const SolveTemperatureRate<Dim, Real> solve{grid, model, dt, first_step};
-  return mpm::node_pass<NodalHeat<Real>>(
+  const SolveTemperatureRate<Dim> solve{grid, model, dt, first_step};
+  return mpm::node_pass<NodalHeat>(
       grid, [&](std::size_t b) { return mpm::sum_block<HeatRates>(grid, b, nodes); },
-      [&](const NodeAt& at, NodalHeat<Real>& sum) {
+      [&](const NodeAt& at, NodalHeat& sum) {
         const auto& rates = nodes.heat_rates(at);
         solve(nodes, at, rates[HeatRates::capacity], rates[HeatRates::subgrid], sum);
       });
@@ -35,14 +35,14 @@ NodalHeat<Real> solve_with_tangent(const mpm::SparseGrid<Dim, Real>& grid, const
 // In blocks with temperature changes, patches contain the sums of particles with their secant capacity. Other patches
 // still contain the sums with the tangent capacity; rates there are unchanged except for face conditions. Returns the
 // heat through faces [J].
-template <int Dim, class Real>
-Real solve_with_secant(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
-                       bool first_step, mpm::Nodes<Dim, Real>& nodes) {
+template <int Dim>
+Real solve_with_secant(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real dt, bool first_step,
+                       mpm::Nodes<Dim>& nodes) {
   using mpm::HeatRates;
   const auto& changing = nodes.marks.changing_blocks;
   nodes.secant_rates.hold(grid.blocks().size(), [&](std::size_t b) { return changing[b] != 0; });
-  const SolveTemperatureRate<Dim, Real> solve{grid, model, dt, first_step};
-  const NodalHeat<Real> solved = mpm::node_pass<NodalHeat<Real>>(
+  const SolveTemperatureRate<Dim> solve{grid, model, dt, first_step};
+  const NodalHeat solved = mpm::node_pass<NodalHeat>(
       grid,
       [&](std::size_t b) {
         if (changing[b] == 0) {
@@ -51,7 +51,7 @@ Real solve_with_secant(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<D
         return sum_patches_in_block(grid, b, nodes.heat_rates.patches(grid.tiles().size()),
                                     nodes.secant_rates.of_block(b), every_tile);
       },
-      [&](const NodeAt& at, NodalHeat<Real>& sum) {
+      [&](const NodeAt& at, NodalHeat& sum) {
         const auto& rates = changing[at.block] != 0 ? nodes.secant_rates(at) : nodes.heat_rates(at);
         solve(nodes, at, rates[HeatRates::capacity], rates[HeatRates::subgrid], sum);
       });
@@ -60,9 +60,9 @@ Real solve_with_secant(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<D
 
 // Marks the tiles in which the temperature of a particle may change by more than is negligible, and the blocks around
 // them.
-template <int Dim, class Real, class Law>
-void find_changes(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, Real dt,
-                  const mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes) {
+template <int Dim, class Law>
+void find_changes(const mpm::SparseGrid<Dim>& grid, const Law& law, Real dt, const mpm::Particles<Dim>& particles,
+                  mpm::Nodes<Dim>& nodes) {
   const auto half_negligible = [&](auto change) { return law.content.is_negligible(Real(2) * change); };
   constexpr std::size_t own_block = static_cast<std::size_t>(mpm::Tile<Dim>::stencil) / 2;
   auto& marks = nodes.marks;
@@ -70,7 +70,7 @@ void find_changes(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, Real d
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     const auto warms = [&](const auto& node) { return !half_negligible(dt * node[mpm::NodalState::temperature_rate]); };
     const auto any_seen_warms = [&] {
-      mpm::PatchOf<mpm::NodalState, Dim, Real> state;
+      mpm::PatchOf<mpm::NodalState, Dim> state;
       load_patch(grid, t, nodes.state, state);
       return state.rows_with(grid.rows_seen(t), warms) != 0;
     };
@@ -98,74 +98,74 @@ void find_changes(const mpm::SparseGrid<Dim, Real>& grid, const Law& law, Real d
 }
 
 // Filter for tiles, and their batches, in reach of nodes that have friction heat but no linear weight.
-template <int Dim, class Real>
+template <int Dim>
 struct SeesUnreachedHeat {
-  const mpm::SparseGrid<Dim, Real>& grid;
-  const mpm::SparseRecordsOf<mpm::UnreachedHeat, Dim, Real>& unreached_heat;
+  const mpm::SparseGrid<Dim>& grid;
+  const mpm::SparseRecordsOf<mpm::UnreachedHeat, Dim>& unreached_heat;
   std::vector<std::uint64_t>& rows;  // by tile: rows of its patch (Tile::rows_from) with such heat
 
   [[nodiscard]] bool operator()(std::size_t tile) const {
-    mpm::PatchOf<mpm::UnreachedHeat, Dim, Real> heat;
+    mpm::PatchOf<mpm::UnreachedHeat, Dim> heat;
     load_patch(grid, tile, unreached_heat, heat);
     rows[tile] = heat.rows_with(grid.rows_seen(tile), [](const auto& record) { return record[0] != Real(0); });
     return rows[tile] != 0;
   }
-  [[nodiscard]] bool operator()(std::size_t tile, const mpm::BatchNodes<Real>& nodes) const {
+  [[nodiscard]] bool operator()(std::size_t tile, const mpm::BatchNodes& nodes) const {
     return std::any_of(nodes.first.begin(), nodes.first.end(),
                        [&](std::int32_t lowest) { return (mpm::Tile<Dim>::rows_from(lowest) & rows[tile]) != 0; });
   }
 };
 
 // Distributes the friction heat of nodes without linear weight to the particles in their reach.
-template <int Dim, class Real>
-void redistribute_unreached_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
-                                 mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+void redistribute_unreached_heat(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real dt,
+                                 mpm::Nodes<Dim>& nodes, mpm::Particles<Dim>& particles) {
   thread_local std::vector<std::uint64_t> rows;  // persistent, to avoid allocation in each step
   rows.resize(grid.tiles().size());
-  const SeesUnreachedHeat<Dim, Real> sees_heat{grid, nodes.unreached_heat, rows};
-  mpm::with_shape<Real>(model.shape, [&](auto shape) {
-    const mpm::MomentumWeights<decltype(shape), Dim, Real> weights{model.sizes, model.sides};
-    mpm::particle_pass(grid, weights, particles, nodes, sees_heat, RedistributeUnreachedHeat<Dim, Real>{dt});
+  const SeesUnreachedHeat<Dim> sees_heat{grid, nodes.unreached_heat, rows};
+  mpm::with_shape(model.shape, [&](auto shape) {
+    const mpm::MomentumWeights<decltype(shape), Dim> weights{model.sizes, model.sides};
+    mpm::particle_pass(grid, weights, particles, nodes, sees_heat, RedistributeUnreachedHeat<Dim>{dt});
   });
 }
 
 }  // namespace
 
-template <int Dim, class Real>
-HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
-                            bool first_step, mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+HeatGain conduct_heat(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real dt, bool first_step,
+                      mpm::Nodes<Dim>& nodes, mpm::Particles<Dim>& particles) {
   return with_particle_heat(model, [&](const auto& law) {
     using Law = std::decay_t<decltype(law)>;
     const auto pass = [&](const auto& tile_filter, const auto& kernel) {
       return std::get<0>(mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, tile_filter, kernel));
     };
-    const Real from_porosity = model.current_masses ? pass(every_tile, UpdateHeatMass<Dim, Real, Law>{law}) : Real(0);
+    const Real from_porosity = model.current_masses ? pass(every_tile, UpdateHeatMass<Dim, Law>{law}) : Real(0);
     const bool subgrid = model.secant_capacity && !first_step;
-    pass(every_tile, HeatFlows<Dim, Real, Law>{model, model.hydraulic(), law, dt, grid.inverse_cell(), subgrid});
-    NodalHeat<Real> solved = solve_with_tangent(grid, model, dt, first_step, nodes);
+    pass(every_tile, HeatFlows<Dim, Law>{model, model.hydraulic(), law, dt, grid.inverse_cell(), subgrid});
+    NodalHeat solved = solve_with_tangent(grid, model, dt, first_step, nodes);
     if (model.secant_capacity) {
       find_changes(grid, law, dt, particles, nodes);
       const auto changes = [&](std::size_t t) { return nodes.marks.changing_tiles[t] != 0; };
-      pass(changes, SecantCapacity<Dim, Real, Law>{law, dt});
+      pass(changes, SecantCapacity<Dim, Law>{law, dt});
       solved.gain.boundary = solve_with_secant(grid, model, dt, first_step, nodes);
     }
-    HeatGain<Real> gain = solved.gain;
+    HeatGain gain = solved.gain;
     if (solved.unreached_nodes > 0) {
       redistribute_unreached_heat(grid, model, dt, nodes, particles);
     }
     if (model.secant_capacity) {
-      pass(every_tile, UpdateHeat<Dim, Real, Law>{model, law, dt});
+      pass(every_tile, UpdateHeat<Dim, Law>{model, law, dt});
     } else {
-      gain.capacity = pass(every_tile, UpdateHeatApparentCapacity<Dim, Real, Law>{model, law, dt});
+      gain.capacity = pass(every_tile, UpdateHeatApparentCapacity<Dim, Law>{model, law, dt});
     }
     gain.porosity = from_porosity;
     return gain;
   });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                          \
-  template HeatGain<Real> conduct_heat<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, \
-                                                  Real, bool, mpm::Nodes<Dim, Real>&, mpm::Particles<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                    \
+  template HeatGain conduct_heat<Dim>(const mpm::SparseGrid<Dim>&, const BandModel<Dim>&, Real, bool, \
+                                      mpm::Nodes<Dim>&, mpm::Particles<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

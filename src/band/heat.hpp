@@ -12,25 +12,25 @@ namespace thawslide::band {
 
 // Updates heat content, temperature and saturation of all particles over dt. nodes.state must be that of
 // average_on_grid in this step. first_step: prescribed temperatures are applied as a jump.
-template <int Dim, class Real>
-HeatGain<Real> conduct_heat(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
-                            bool first_step, mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles);
+template <int Dim>
+HeatGain conduct_heat(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real dt, bool first_step,
+                      mpm::Nodes<Dim>& nodes, mpm::Particles<Dim>& particles);
 
 // Adds heat [J] to a particle and updates its temperature. particle: memory index.
-template <int Dim, class Real>
-void add_heat(const BandModel<Dim, Real>& model, Real heat, std::size_t particle, mpm::Particles<Dim, Real>& particles);
+template <int Dim>
+void add_heat(const BandModel<Dim>& model, Real heat, std::size_t particle, mpm::Particles<Dim>& particles);
 
 // Sets heat content and saturation of new particles, those at memory index `first` and above, from temperature and
 // porosity.
-template <int Dim, class Real>
-void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles, std::size_t first = 0);
+template <int Dim>
+void set_heat_content(const BandModel<Dim>& model, mpm::Particles<Dim>& particles, std::size_t first = 0);
 
 // Sets the current scaling xi = layer / thickness of particles at memory index `first` and above (1 outside the
 // region). Returns the heat [J] that the change adds at constant temperature and pressure. thickness 0: no band, xi =
 // 1. layer_thickness(x): thickness of the cells that form the band; empty: one cell.
-template <int Dim, class Real>
-Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real thickness,
+template <int Dim>
+Real rescale_band(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real thickness,
                   const std::function<Real(const Vector<Real, Dim - 1>&)>& layer_thickness,
-                  mpm::Particles<Dim, Real>& particles, std::size_t first = 0);
+                  mpm::Particles<Dim>& particles, std::size_t first = 0);
 
 }  // namespace thawslide::band

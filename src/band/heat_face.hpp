@@ -10,19 +10,18 @@ namespace thawslide::band {
 
 using physics::HeatBoundaryKind;
 
-template <class Real>
 struct HeatFace {
   HeatBoundaryKind kind = HeatBoundaryKind::insulated;
   Real value = 0;  // [C], or [W/m2] into the body
 };
 
-template <int Dim, class Real>
+template <int Dim>
 struct HeatFaces {
-  HeatFace<Real> faces[2 * Dim] = {};
+  HeatFace faces[2 * Dim] = {};
   Vector<Real, Dim> extent;  // upper corner of the domain [m]
 
   [[nodiscard]] THAWSLIDE_HD bool any() const {
-    for (const HeatFace<Real>& face : faces) {
+    for (const HeatFace& face : faces) {
       if (face.kind != HeatBoundaryKind::insulated) {
         return true;
       }
@@ -31,14 +30,14 @@ struct HeatFaces {
   }
 
   // Face with a condition that contains a node at a position; null if there is none.
-  [[nodiscard]] THAWSLIDE_HD const HeatFace<Real>* at(const Vector<Real, Dim>& position) const {
+  [[nodiscard]] THAWSLIDE_HD const HeatFace* at(const Vector<Real, Dim>& position) const {
     for (int a = 0; a < Dim; ++a) {
-      const HeatFace<Real>& lower = faces[2 * a];
-      const HeatFace<Real>& upper = faces[2 * a + 1];
-      if (lower.kind != HeatBoundaryKind::insulated && position[a] <= round_off<Real> * extent[a]) {
+      const HeatFace& lower = faces[2 * a];
+      const HeatFace& upper = faces[2 * a + 1];
+      if (lower.kind != HeatBoundaryKind::insulated && position[a] <= round_off * extent[a]) {
         return &lower;
       }
-      if (upper.kind != HeatBoundaryKind::insulated && position[a] >= extent[a] * (Real(1) - round_off<Real>)) {
+      if (upper.kind != HeatBoundaryKind::insulated && position[a] >= extent[a] * (Real(1) - round_off)) {
         return &upper;
       }
     }
@@ -48,8 +47,8 @@ struct HeatFaces {
 
 // Sets a prescribed nodal temperature before gradients are computed. face: of the node, or null. state: record of
 // NodalState.
-template <class Real, class Record>
-THAWSLIDE_HD void prescribe_temperature(const HeatFace<Real>* face, Record& state) {
+template <class Record>
+THAWSLIDE_HD void prescribe_temperature(const HeatFace* face, Record& state) {
   if (face != nullptr && face->kind == HeatBoundaryKind::temperature) {
     state[mpm::NodalState::temperature] = face->value;
   }
@@ -58,9 +57,9 @@ THAWSLIDE_HD void prescribe_temperature(const HeatFace<Real>* face, Record& stat
 // Applies the condition of a node's face, if any. Returns true if it prescribes the temperature rate; an inflow adds to
 // the power [W]. averages: record of Averages. first_step: prescribed temperatures are applied as a jump. inflow: heat
 // gained [J].
-template <class Real, class Record>
-THAWSLIDE_HD bool meets_face(const HeatFace<Real>* face, bool first_step, const Record& averages, Real capacity,
-                             Real cell, Real dt, Real& rate, Real& power, Real& inflow) {
+template <class Record>
+THAWSLIDE_HD bool meets_face(const HeatFace* face, bool first_step, const Record& averages, Real capacity, Real cell,
+                             Real dt, Real& rate, Real& power, Real& inflow) {
   using mpm::Averages;
   if (face != nullptr && face->kind == HeatBoundaryKind::temperature) {
     const Real mapped = averages[Averages::temperature] / averages[Averages::volume];

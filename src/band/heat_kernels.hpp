@@ -15,14 +15,14 @@ namespace thawslide::band {
 // Conduction and advection (Eq. 19), and the tangent capacity. Differences within a cell, which nodes do not resolve,
 // diffuse between particle and nodes; the heat that particles gain is subtracted at the nodes (subgrid diffusion; Gerya
 // and Yuen 2003).
-template <int Dim, class Real, class Law>
+template <int Dim, class Law>
 struct HeatFlows {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<mpm::HeatRates>;
   using Account = mpm::NoAccount;
 
-  const BandPhysics<Real>& model;
-  HydraulicConductivity<Real> hydraulic;
+  const BandPhysics& model;
+  HydraulicConductivity hydraulic;
   const Law& law;
   Real dt, inverse_cell;
   // false in the first step, when prescribed temperatures jump and nodes are ahead of particles, and in the published
@@ -102,7 +102,7 @@ struct HeatFlows {
 };
 
 // Temperature change [K] in a step: interpolated from nodes plus the change within the cell.
-template <class Real, class Particles, class At, class Seen>
+template <class Particles, class At, class Seen>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value change_of_temperature(const Particles& particles, const At& at,
                                                                               const Seen& seen, Real dt) {
   return particles.conduction_in_cell.load(at) +
@@ -111,7 +111,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value change_of_temperature(co
 
 // Secant capacity along the predicted change, which makes the sum of the particles' gains equal to the heat given by
 // the nodes. Without a temperature change, it equals the tangent.
-template <int Dim, class Real, class Law>
+template <int Dim, class Law>
 struct SecantCapacity {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<mpm::HeatRates>;
@@ -140,7 +140,7 @@ struct SecantCapacity {
 
 // Adds friction heat of nodes out of reach of the linear shape functions to the particles within reach of the momentum
 // shape functions, as a change within the cell.
-template <int Dim, class Real>
+template <int Dim>
 struct RedistributeUnreachedHeat {
   using Reads = mpm::RecordList<mpm::UnreachedHeat>;
   using Adds = mpm::RecordList<>;
@@ -164,7 +164,6 @@ struct RedistributeUnreachedHeat {
 template <class Phases, class Law, class Particles, class At, class Mask, class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void follow_temperature(const Phases& phases, const Law& law, Particles& particles,
                                                              const At& at, const Mask& changed, const Value& before) {
-  using Real = typename NumberOf<Value>::Type;
   const Value temperature = particles.temperature.load(at), porosity = particles.porosity.load(at);
   const Value saturation = law.content.curve.saturation(temperature);
   particles.liquid_saturation.store(at, select(changed, saturation, particles.liquid_saturation.load(at)));
@@ -173,13 +172,13 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void follow_temperature(const Phases& phase
 }
 
 // Eq. 18 for the heat content: adds the gain and updates the temperature.
-template <int Dim, class Real, class Law>
+template <int Dim, class Law>
 struct UpdateHeat {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<>;
   using Account = mpm::NoAccount;
 
-  const BandPhysics<Real>& model;
+  const BandPhysics& model;
   const Law& law;
   Real dt;
 
@@ -204,13 +203,13 @@ struct UpdateHeat {
 
 // Eqs. 18 and 19 as published: the old apparent capacity converts heat to a temperature change. The resulting heat
 // content differs from the heat gained; the difference is summed [J].
-template <int Dim, class Real, class Law>
+template <int Dim, class Law>
 struct UpdateHeatApparentCapacity {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<>;
   using Account = Real;
 
-  const BandPhysics<Real>& model;
+  const BandPhysics& model;
   const Law& law;
   Real dt;
 
@@ -235,7 +234,7 @@ struct UpdateHeatApparentCapacity {
 };
 
 // Heat created by masses that follow porosity and volume [J]: the heat content changes at constant temperature.
-template <int Dim, class Real, class Law>
+template <int Dim, class Law>
 struct UpdateHeatMass {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
@@ -246,9 +245,9 @@ struct UpdateHeatMass {
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
                                                        Scatter& /*added*/, Account& made) const {
-    const auto before = particles.heat_content.load(at), anew = law.heat(particles, at);
-    particles.heat_content.store(at, anew);
-    at.add_to(made, particles.initial_volume.load(at) / particles.thermal_scaling.load(at) * (anew - before));
+    const auto before = particles.heat_content.load(at), after = law.heat(particles, at);
+    particles.heat_content.store(at, after);
+    at.add_to(made, particles.initial_volume.load(at) / particles.thermal_scaling.load(at) * (after - before));
   }
 };
 

@@ -1,22 +1,22 @@
 // Nodal part of conduct_heat: state from the averages, and temperature rate.
 #pragma once
 
+#include "band/averages_kernel.hpp"
 #include "band/heat.hpp"
-#include "band/nodal_state.hpp"
 #include "mpm/node_pass.hpp"
 
 namespace thawslide::band {
 
 // Temperature and pore pressure of a node (Eq. 21). A prescribed temperature is set before gradients are computed.
-template <int Dim, class Real>
+template <int Dim>
 struct SetNodalState {
-  const mpm::SparseGrid<Dim, Real>& grid;
-  const BandModel<Dim, Real>& model;
+  const mpm::SparseGrid<Dim>& grid;
+  const BandModel<Dim>& model;
   bool has_faces = model.at_faces.any();
 
-  void operator()(mpm::Nodes<Dim, Real>& nodes, const mpm::NodeAt& at) const {
+  void operator()(mpm::Nodes<Dim>& nodes, const mpm::NodeAt& at) const {
     auto& state = nodes.state(at);
-    if (set_nodal_state<Dim, Real>(nodes.averages(at), state) && has_faces) {
+    if (set_nodal_state<Dim>(nodes.averages(at), state) && has_faces) {
       prescribe_temperature(model.at_faces.at(mpm::node_position(grid, at.block, at.node)), state);
     }
   }
@@ -24,16 +24,15 @@ struct SetNodalState {
 
 // Temperature rate of a node (Eq. 19) from a heat capacity [J/K], the particles' gain by subgrid diffusion [J],
 // friction heat and face conditions. first_step: prescribed temperatures are applied as a jump.
-template <int Dim, class Real>
+template <int Dim>
 struct SolveTemperatureRate {
-  const mpm::SparseGrid<Dim, Real>& grid;
-  const BandModel<Dim, Real>& model;
+  const mpm::SparseGrid<Dim>& grid;
+  const BandModel<Dim>& model;
   Real dt;
   bool first_step;
   bool has_faces = model.at_faces.any();
 
-  void operator()(mpm::Nodes<Dim, Real>& nodes, const mpm::NodeAt& at, Real capacity, Real subgrid,
-                  NodalHeat<Real>& sum) const {
+  void operator()(mpm::Nodes<Dim>& nodes, const mpm::NodeAt& at, Real capacity, Real subgrid, NodalHeat& sum) const {
     const bool held = nodes.unreached_heat.holds(at.block);
     Real none = 0;
     Real& unreached = held ? nodes.unreached_heat.of_block(at.block)[at.node][0] : none;

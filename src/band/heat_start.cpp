@@ -7,8 +7,8 @@
 
 namespace thawslide::band {
 
-template <int Dim, class Real>
-void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles, std::size_t first) {
+template <int Dim>
+void set_heat_content(const BandModel<Dim>& model, mpm::Particles<Dim>& particles, std::size_t first) {
   model.with_heat_content([&](const auto& content) {
     for (std::size_t p = first; p < particles.size(); ++p) {
       particles.heat_content(p) = content.content(particles.temperature(p), particles.initial_porosity(p));
@@ -22,10 +22,10 @@ void set_heat_content(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Rea
   });
 }
 
-template <int Dim, class Real>
-Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real thickness,
+template <int Dim>
+Real rescale_band(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real thickness,
                   const std::function<Real(const Vector<Real, Dim - 1>&)>& layer_thickness,
-                  mpm::Particles<Dim, Real>& particles, std::size_t first) {
+                  mpm::Particles<Dim>& particles, std::size_t first) {
   const bool by_place = thickness > Real(0) && layer_thickness;
   const Real of_a_cell = thickness > Real(0) ? grid.cell() / thickness : Real(1);
   const auto scaling_at = [&](std::uint32_t p) {
@@ -40,7 +40,7 @@ Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
       for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
         const std::uint32_t p = grid.order()[k];
         if (p >= first) {
-          rescale_particle<Real>(model, law, model.pressure, scaling_at(p), p, particles, added);
+          rescale_particle(model, law, model.pressure, scaling_at(p), p, particles, added);
         }
       }
     });
@@ -56,11 +56,10 @@ Real rescale_band(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, R
   return added;
 }
 
-template <int Dim, class Real>
-void add_heat(const BandModel<Dim, Real>& model, Real heat, std::size_t particle,
-              mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+void add_heat(const BandModel<Dim>& model, Real heat, std::size_t particle, mpm::Particles<Dim>& particles) {
   const auto p = static_cast<std::uint32_t>(particle);
-  const mpm::ScalarIndex<Real> one{{p}};
+  const mpm::ScalarIndex one{{p}};
   const Real before = particles.temperature(p);
   particles.heat_content(p) += heat * particles.thermal_scaling(p) / particles.initial_volume(p);
   with_particle_heat(model, [&](const auto& law) {
@@ -70,12 +69,12 @@ void add_heat(const BandModel<Dim, Real>& model, Real heat, std::size_t particle
   particles.previous_temperature(p) = particles.temperature(p);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                           \
-  template void set_heat_content<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&, std::size_t); \
-  template Real rescale_band<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const BandModel<Dim, Real>&, Real,      \
-                                        const std::function<Real(const Vector<Real, Dim - 1>&)>&,                  \
-                                        mpm::Particles<Dim, Real>&, std::size_t);                                  \
-  template void add_heat<Dim, Real>(const BandModel<Dim, Real>&, Real, std::size_t, mpm::Particles<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                \
+  template void set_heat_content<Dim>(const BandModel<Dim>&, mpm::Particles<Dim>&, std::size_t);                  \
+  template Real rescale_band<Dim>(const mpm::SparseGrid<Dim>&, const BandModel<Dim>&, Real,                       \
+                                  const std::function<Real(const Vector<Real, Dim - 1>&)>&, mpm::Particles<Dim>&, \
+                                  std::size_t);                                                                   \
+  template void add_heat<Dim>(const BandModel<Dim>&, Real, std::size_t, mpm::Particles<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -5,7 +5,6 @@
 #include <variant>
 #include <vector>
 
-#include "band/any_heat_content.hpp"
 #include "band/heat_face.hpp"
 #include "band/particle_heat.hpp"
 #include "band/physics.hpp"
@@ -14,17 +13,19 @@
 #include "mpm/particles.hpp"
 #include "mpm/section_width.hpp"
 #include "mpm/transfer.hpp"
+#include "physics/freezing.hpp"
+#include "physics/heat_content.hpp"
 #include "physics/options.hpp"
 
 namespace thawslide::band {
 
 using physics::BandRegion;
 
-template <int Dim, class Real>
-struct BandModel : BandPhysics<Real> {
-  AnyHeatContent<Real> heat_content;
+template <int Dim>
+struct BandModel : BandPhysics {
+  AnyHeatContent heat_content;
   bool heat = true;
-  HeatFaces<Dim, Real> at_faces;
+  HeatFaces<Dim> at_faces;
   BandRegion region = BandRegion::all;
   bool secant_capacity = true;  // off: the old apparent capacity, Eq. 19 as published
   bool current_masses = false;  // heat content uses masses from the current porosity and volume, as published
@@ -33,12 +34,12 @@ struct BandModel : BandPhysics<Real> {
   bool pressure = true;
   bool normal_thickness = true;
   std::vector<Real> hydraulic_conductivity;              // by material [m/s]
-  mpm::BodySizes<Real> sizes;                            // of particles, in cells
+  mpm::BodySizes sizes;                                  // of particles, in cells
   mpm::ShapeFunction shape = mpm::ShapeFunction::ugimp;  // of momentum
   mpm::HeldSides<Dim> sides;
-  mpm::SectionWidth<Real> width;  // of a 2D section
+  mpm::SectionWidth width;  // of a 2D section
 
-  [[nodiscard]] HydraulicConductivity<Real> hydraulic() const {
+  [[nodiscard]] HydraulicConductivity hydraulic() const {
     return {hydraulic_conductivity.data(), hydraulic_conductivity.size() == 1};
   }
 
@@ -52,8 +53,8 @@ struct BandModel : BandPhysics<Real> {
 };
 
 // Calls work(law) with the ParticleHeat of the run.
-template <int Dim, class Real, class Work>
-decltype(auto) with_particle_heat(const BandModel<Dim, Real>& model, const Work& work) {
+template <int Dim, class Work>
+decltype(auto) with_particle_heat(const BandModel<Dim>& model, const Work& work) {
   return model.with_heat_content([&](const auto& content) {
     using Content = std::decay_t<decltype(content)>;
     if (model.current_masses) {
@@ -64,8 +65,8 @@ decltype(auto) with_particle_heat(const BandModel<Dim, Real>& model, const Work&
 }
 
 // Selects the particle fields that heat and pore pressure need. Call before particles are allocated.
-template <int Dim, class Real>
-void keep_fields(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+void keep_fields(const BandModel<Dim>& model, mpm::Particles<Dim>& particles) {
   particles.volume_strain.keep(model.volumetric_term);
   particles.initial_heat_content.keep(model.rescaling_mixes);
   particles.pore_void.keep(model.balances_water());

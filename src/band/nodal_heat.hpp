@@ -9,7 +9,6 @@
 namespace thawslide::band {
 
 // Heat gained by the body in one step [J], by source.
-template <class Real>
 struct HeatGain {
   Real friction = 0;
   Real boundary = 0;
@@ -28,9 +27,8 @@ struct HeatGain {
 };
 
 // Sums over nodes.
-template <class Real>
 struct NodalHeat {
-  HeatGain<Real> gain;
+  HeatGain gain;
   std::uint64_t unreached_nodes = 0;  // nodes with heat but without linear weight
 
   THAWSLIDE_HD NodalHeat& operator+=(const NodalHeat& part) {
@@ -44,10 +42,10 @@ struct NodalHeat {
 // friction heat [W]. rates, momentum: records of HeatRates and Momentum. unreached: friction heat per mass [W/kg] if
 // the node has no linear weight. meets_face(rate, power): true if a face condition has set the rate; it may add to the
 // power [W].
-template <int Dim, class Real, class Rates, class MomentumRecord, class MeetsFace>
+template <int Dim, class Rates, class MomentumRecord, class MeetsFace>
 THAWSLIDE_HD void solve_temperature_rate(const Rates& rates, Real capacity, Real subgrid, Real friction,
                                          const MomentumRecord& momentum, Real dt, Real& rate, Real& unreached,
-                                         NodalHeat<Real>& sum, const MeetsFace& meets_face) {
+                                         NodalHeat& sum, const MeetsFace& meets_face) {
   using mpm::HeatRates;
   rate = unreached = Real(0);
   sum.gain.friction += dt * friction;

@@ -8,7 +8,7 @@
 namespace thawslide::band {
 
 // Pressure change of a node by seepage in a step [Pa], Eq. 22. sums: record of Seepage.
-template <class Real, class Sums>
+template <class Sums>
 THAWSLIDE_HD Real pressure_change(const Sums& sums, Real dt) {
   using mpm::Seepage;
   return sums[Seepage::pore_space] > Real(0)
@@ -17,18 +17,17 @@ THAWSLIDE_HD Real pressure_change(const Sums& sums, Real dt) {
 }
 
 // Seepage absorbed by frozen pores at a node [Pa m3]: pressure change of the node times their pore space.
-template <class Real, class Sums>
+template <class Sums>
 THAWSLIDE_HD Real taken_by_frozen(const Sums& sums, Real change) {
   return (sums[mpm::Seepage::pore_space] - sums[mpm::Seepage::seeping]) * change;
 }
 // Mass of that water [kg].
-template <class Real>
-THAWSLIDE_HD Real mass_of_taken(const physics::Phases<Real>& phases, Real taken) {
+inline THAWSLIDE_HD Real mass_of_taken(const physics::Phases& phases, Real taken) {
   return phases.water_density / phases.water_bulk_modulus * taken;
 }
 
 // Pore pressure of a node with seeping water [Pa]. water: record of SeepingWater.
-template <class Real, class Water>
+template <class Water>
 THAWSLIDE_HD Real seeping_pressure(const Water& water) {
   const Real volume = water[mpm::SeepingWater::volume];
   return volume > Real(0) ? water[mpm::SeepingWater::pore_pressure] / volume : Real(0);

@@ -4,20 +4,26 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <variant>
 #include <vector>
 
 #include "base/portability.hpp"
+#include "physics/freezing.hpp"
+#include "physics/heat_content.hpp"
 #include "physics/mixture.hpp"
 #include "physics/options.hpp"
 #include "physics/pore_water.hpp"
 
 namespace thawslide::band {
 
+// Heat content laws available to a run, by freezing curve.
+using AnyHeatContent =
+    std::variant<physics::HeatContent<physics::PowerLawCurve>, physics::HeatContent<physics::LinearCurve>>;
+
 using physics::FrozenRows;
 
-template <class Real>
 struct BandPhysics {
-  physics::Phases<Real> phases;
+  physics::Phases phases;
   Real reference_temperature = 0;  // Tref [C]
   Real clapeyron_sign = 1;         // +1 by default, -1 as published in Eq. 4
   Real gravity = 0;                // magnitude [m/s2]
@@ -33,7 +39,7 @@ struct BandPhysics {
   bool melt_contracts = false;          // melting leaves a void
   Real residual_stress = 0;             // s0, on thawing if ice does not press [Pa]
   Real skeleton_compressibility = 0;    // m_v [1/Pa]
-  physics::WaterExpansion<Real> water;  // beta_L
+  physics::WaterExpansion water;        // beta_L
   bool conservative_advection = false;  // advected heat is a flux; off: rho_L C_L q.grad T, as in Eq. 9
   bool rescaling_mixes = false;         // a thickening band takes in material in its state at t = 0
 
@@ -47,14 +53,12 @@ struct BandPhysics {
 };
 
 // True if water may seep anywhere. hydraulic_conductivity: by material [m/s].
-template <class Real>
-bool water_may_seep(const BandPhysics<Real>& model, const std::vector<Real>& hydraulic_conductivity) {
+inline bool water_may_seep(const BandPhysics& model, const std::vector<Real>& hydraulic_conductivity) {
   return model.seepage && model.thermal_pressurization &&
          std::any_of(hydraulic_conductivity.begin(), hydraulic_conductivity.end(), [](Real k) { return k > Real(0); });
 }
 
 // Hydraulic conductivity [m/s] of particles, by material.
-template <class Real>
 struct HydraulicConductivity {
   const Real* of_material;
   bool is_uniform;  // one value for all materials

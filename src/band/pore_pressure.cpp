@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "band/nodal_seepage.hpp"
-#include "band/pore_pressure_of_tile.hpp"
 #include "band/seeping_tiles.hpp"
 #include "base/instances.hpp"
 #include "mpm/node_pass.hpp"
@@ -14,13 +13,13 @@ namespace thawslide::band {
 namespace {
 
 // Nodal pressure change by seepage in a step (Eq. 22). Returns the mass of water lost to frozen pores [kg].
-template <int Dim, class Real>
-Real seep(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model, Real dt,
-          mpm::Particles<Dim, Real>& particles, mpm::Nodes<Dim, Real>& nodes) {
+template <int Dim>
+Real seep(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real dt, mpm::Particles<Dim>& particles,
+          mpm::Nodes<Dim>& nodes) {
   const auto& blocks = nodes.marks.seeping_blocks;
   mpm::particle_pass(
       grid, mpm::LinearWeights{}, particles, nodes, [&](std::size_t t) { return grid.any_about_tile(t, blocks); },
-      SeepageFlows<Dim, Real>{model, model.hydraulic(), dt, grid.inverse_cell()});
+      SeepageFlows<Dim>{model, model.hydraulic(), dt, grid.inverse_cell()});
   nodes.seepage.hold(grid.blocks().size(), [&](std::size_t b) { return blocks[b] != 0; });
   const Real taken = mpm::node_pass<Real>(
       grid, [&](std::size_t b) { return blocks[b] != 0 ? mpm::sum_block<mpm::Seepage>(grid, b, nodes) : 0; },
@@ -35,21 +34,21 @@ Real seep(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& mo
 
 }  // namespace
 
-template <int Dim, class Real>
-WaterLoss<Real> drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                                    const FlowDepth<Dim, Real>& depth, Real dt, mpm::Nodes<Dim, Real>& nodes,
-                                    mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+WaterLoss drain_pore_pressure(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model,
+                              const FlowDepth<Dim>& depth, Real dt, mpm::Nodes<Dim>& nodes,
+                              mpm::Particles<Dim>& particles) {
   const auto update = [&](auto seeps) {
     const auto pass = [&](const auto& kernel) {
       return std::get<0>(mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, mpm::every_tile, kernel));
     };
-    return model.balances_water() ? pass(UpdatePorePressure<Dim, Real, seeps(), true>{grid, model, depth})
-                                  : pass(UpdatePorePressure<Dim, Real, seeps(), false>{grid, model, depth});
+    return model.balances_water() ? pass(UpdatePorePressure<Dim, seeps(), true>{grid, model, depth})
+                                  : pass(UpdatePorePressure<Dim, seeps(), false>{grid, model, depth});
   };
-  const auto seeps = [&](const mpm::SimdBatch<Real>& batch) {
+  const auto seeps = [&](const mpm::SimdBatch& batch) {
     return any_seeped(model, model.hydraulic(), particles, batch);
   };
-  WaterLoss<Real> loss;
+  WaterLoss loss;
   if (model.seepage && model.thermal_pressurization && find_seepage(grid, nodes.marks, seeps)) {
     loss.vented = seep(grid, model, dt, particles, nodes);
     loss.drained = update(std::true_type{});
@@ -59,8 +58,8 @@ WaterLoss<Real> drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, cons
   return loss;
 }
 
-template <int Dim, class Real>
-void set_pore_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles, std::size_t first) {
+template <int Dim>
+void set_pore_pressure(const BandModel<Dim>& model, mpm::Particles<Dim>& particles, std::size_t first) {
   for (std::size_t p = first; p < particles.size(); ++p) {
     if (!model.pressure) {
       particles.pore_pressure(p) = Real(0);
@@ -78,17 +77,16 @@ void set_pore_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Re
       particles.pore_pressure(p) = frozen.pore;
     } else {
       particles.liquid_pressure(p) =
-          thawing_pressure(model, particles, mpm::ScalarIndex<Real>{{static_cast<std::uint32_t>(p)}});
+          thawing_pressure(model, particles, mpm::ScalarIndex{{static_cast<std::uint32_t>(p)}});
       particles.pore_pressure(p) = particles.liquid_pressure(p);
     }
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                             \
-  template WaterLoss<Real> drain_pore_pressure<Dim, Real>(const mpm::SparseGrid<Dim, Real>&,                         \
-                                                          const BandModel<Dim, Real>&, const FlowDepth<Dim, Real>&,  \
-                                                          Real, mpm::Nodes<Dim, Real>&, mpm::Particles<Dim, Real>&); \
-  template void set_pore_pressure<Dim, Real>(const BandModel<Dim, Real>&, mpm::Particles<Dim, Real>&, std::size_t);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                  \
+  template WaterLoss drain_pore_pressure<Dim>(const mpm::SparseGrid<Dim>&, const BandModel<Dim>&,                   \
+                                              const FlowDepth<Dim>&, Real, mpm::Nodes<Dim>&, mpm::Particles<Dim>&); \
+  template void set_pore_pressure<Dim>(const BandModel<Dim>&, mpm::Particles<Dim>&, std::size_t);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

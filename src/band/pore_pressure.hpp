@@ -10,22 +10,37 @@
 namespace thawslide::band {
 
 // Water lost by particles in one step: at the surface, with its heat, and to frozen pores [kg].
-template <class Real>
 struct WaterLoss {
-  DrainedWater<Real> drained;
+  DrainedWater drained;
   Real vented = 0;
 };
 
 // Updates flow depth and pore pressure of all particles over dt. Call after conduct_heat, with average_on_grid at the
 // beginning of the step.
-template <int Dim, class Real>
-WaterLoss<Real> drain_pore_pressure(const mpm::SparseGrid<Dim, Real>& grid, const BandModel<Dim, Real>& model,
-                                    const FlowDepth<Dim, Real>& depth, Real dt, mpm::Nodes<Dim, Real>& nodes,
-                                    mpm::Particles<Dim, Real>& particles);
+template <int Dim>
+WaterLoss drain_pore_pressure(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model,
+                              const FlowDepth<Dim>& depth, Real dt, mpm::Nodes<Dim>& nodes,
+                              mpm::Particles<Dim>& particles);
 
 // Sets the pressures of new particles, those at memory index `first` and above, from temperature and flow depth. A
 // melted particle starts from P_L = P_I / r.
-template <int Dim, class Real>
-void set_pore_pressure(const BandModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles, std::size_t first = 0);
+template <int Dim>
+void set_pore_pressure(const BandModel<Dim>& model, mpm::Particles<Dim>& particles, std::size_t first = 0);
+
+template <int Dim, bool Seeps, bool Balances>
+struct UpdatePorePressure {
+  using OfTile = PorePressure<ColumnsOfTile<Dim>, Seeps, Balances>;
+  using Reads = typename OfTile::Reads;
+  using Adds = typename OfTile::Adds;
+  using Account = typename OfTile::Account;
+
+  const mpm::SparseGrid<Dim>& grid;
+  const BandModel<Dim>& model;
+  const FlowDepth<Dim>& depth;
+
+  [[nodiscard]] OfTile in_tile(std::size_t tile) const {
+    return {model, model.hydraulic(), Real(0.5) * grid.cell(), depth.of_tile(grid, tile)};
+  }
+};
 
 }  // namespace thawslide::band

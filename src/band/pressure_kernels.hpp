@@ -11,16 +11,15 @@
 
 namespace thawslide::band {
 
-template <class Real, class Particles, class At>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto melted_before(const BandPhysics<Real>& model, const Particles& particles,
+template <class Particles, class At>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto melted_before(const BandPhysics& model, const Particles& particles,
                                                         const At& at) {
   return particles.previous_temperature.load(at) >= model.reference_temperature;
 }
 
 // True if water seeps to or from any of the particles: melted before and permeable.
-template <class Real, class Particles, class At>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE bool any_seeped(const BandPhysics<Real>& model,
-                                                     const HydraulicConductivity<Real>& hydraulic,
+template <class Particles, class At>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE bool any_seeped(const BandPhysics& model, const HydraulicConductivity& hydraulic,
                                                      const Particles& particles, const At& at) {
   const auto melted = melted_before(model, particles, at);
   return any(melted) && any(melted & (hydraulic(particles, at) > Real(0)));
@@ -33,8 +32,8 @@ struct Pressures {
 };
 
 // Frozen or partly frozen: the liquid follows the ice (Eq. 4).
-template <class Real, class Value>
-THAWSLIDE_HD Pressures<Value> frozen_pressures(const BandPhysics<Real>& model, Value ice_pressure, Value temperature,
+template <class Value>
+THAWSLIDE_HD Pressures<Value> frozen_pressures(const BandPhysics& model, Value ice_pressure, Value temperature,
                                                Value saturation) {
   const Value liquid = physics::liquid_pressure_clapeyron(model.phases, ice_pressure, temperature,
                                                           model.reference_temperature, model.clapeyron_sign);
@@ -43,13 +42,12 @@ THAWSLIDE_HD Pressures<Value> frozen_pressures(const BandPhysics<Real>& model, V
 
 // Initial liquid pressure when the last ice melts, before water fills a void. melting_pressure: continuous with Eq. 4
 // at Tref. thawing_pressure: if ice does not press, the part of the load transferred to the water.
-template <class Real, class Value>
-THAWSLIDE_HD Value melting_pressure(const BandPhysics<Real>& model, Value ice_pressure) {
+template <class Value>
+THAWSLIDE_HD Value melting_pressure(const BandPhysics& model, Value ice_pressure) {
   return ice_pressure * model.phases.water_density / model.phases.ice_density;
 }
-template <class Real, class Particles, class At>
-THAWSLIDE_HD typename At::Value thawing_pressure(const BandPhysics<Real>& model, const Particles& particles,
-                                                 const At& at) {
+template <class Particles, class At>
+THAWSLIDE_HD typename At::Value thawing_pressure(const BandPhysics& model, const Particles& particles, const At& at) {
   if (model.ice_presses) {
     return melting_pressure(model, particles.ice_pressure.load(at));
   }
@@ -57,8 +55,8 @@ THAWSLIDE_HD typename At::Value thawing_pressure(const BandPhysics<Real>& model,
 }
 
 // Void left by a particle's water after complete melting, at t = 0 (physics/pore_water.hpp).
-template <class Real, class Particles>
-THAWSLIDE_HD Real void_at_start(const BandPhysics<Real>& model, const Particles& particles, std::size_t p) {
+template <class Particles>
+THAWSLIDE_HD Real void_at_start(const BandPhysics& model, const Particles& particles, std::size_t p) {
   return model.melt_contracts ? physics::melting_void(model.phases, particles.initial_porosity(p),
                                                       Real(1) - particles.initial_saturation(p))
                               : Real(0);
@@ -70,14 +68,14 @@ THAWSLIDE_HD Real void_at_start(const BandPhysics<Real>& model, const Particles&
 // contribute. Frozen particles contribute their pores if these are part of the nodal pressure (FrozenRows); water that
 // reaches them is lost to the sink. Including them in only one of the two would give unbounded pressures at nodes with
 // few melted particles.
-template <int Dim, class Real>
+template <int Dim>
 struct SeepageFlows {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<mpm::Seepage>;
   using Account = mpm::NoAccount;
 
-  const BandPhysics<Real>& model;
-  HydraulicConductivity<Real> hydraulic_conductivity;
+  const BandPhysics& model;
+  HydraulicConductivity hydraulic_conductivity;
   Real dt, inverse_cell;
 
   template <class Particles, class At, class Seen, class Scatter>
@@ -116,7 +114,6 @@ struct SeepageFlows {
 };
 
 // Water that leaves the body at its surface, and the heat that it carries.
-template <class Real>
 struct DrainedWater {
   Real mass = 0, heat = 0;  // [kg], [J]
 
@@ -130,14 +127,14 @@ struct DrainedWater {
 // Flow depth, ice pressure, and pressures of liquid and pore: Clapeyron while ice and water coexist, then thermal
 // pressurization and seepage. Columns: of the sliding mass, with flow depth and depth below the top. Seeps: water seeps
 // somewhere. Balances: BandPhysics::balances_water().
-template <class Real, class Columns, bool Seeps, bool Balances>
+template <class Columns, bool Seeps, bool Balances>
 struct PorePressure {
   using Reads = std::conditional_t<Seeps, mpm::RecordList<mpm::NodalState>, mpm::RecordList<>>;
   using Adds = mpm::RecordList<>;
-  using Account = DrainedWater<Real>;
+  using Account = DrainedWater;
 
-  const BandPhysics<Real>& model;
-  HydraulicConductivity<Real> hydraulic_conductivity;
+  const BandPhysics& model;
+  HydraulicConductivity hydraulic_conductivity;
   Real drained_depth;  // depth below the top within which the pressure of a permeable body is 0 [m]
   Columns columns;
 

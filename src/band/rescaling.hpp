@@ -9,13 +9,13 @@ namespace thawslide::band {
 // Mixes the water of a particle's part of the band with that of joining material in its state at t = 0. kept: fraction
 // of the previous band. before, joining: temperatures [C]. Melted material swells or contracts on the way to the
 // temperature of the mixture.
-template <class Real, class Particles>
-THAWSLIDE_HD void mix_water(const BandPhysics<Real>& model, Real kept, Real before, Real joining, std::uint32_t p,
+template <class Particles>
+THAWSLIDE_HD void mix_water(const BandPhysics& model, Real kept, Real before, Real joining, std::uint32_t p,
                             Particles& particles) {
   const Real tref = model.reference_temperature, porosity = particles.porosity(p);
   const Real to = max(particles.temperature(p), tref);
   const bool was_melted = before >= tref, is_melted = particles.temperature(p) >= tref;
-  const Real start = thawing_pressure(model, particles, mpm::ScalarIndex<Real>{{p}});
+  const Real start = thawing_pressure(model, particles, mpm::ScalarIndex{{p}});
   const Real pressure = was_melted ? particles.liquid_pressure(p) : start;
   Real mixed = start;
   if (model.balances_water()) {
@@ -42,10 +42,10 @@ THAWSLIDE_HD void mix_water(const BandPhysics<Real>& model, Real kept, Real befo
 
 // Mixes material in its state at t = 0, with its own heat and water, into a particle's part of the band. kept: fraction
 // of the previous band in the mixture. Porosity follows temperature as in a step. has_water: pore pressures change.
-template <class Real, class Law, class Particles>
-THAWSLIDE_HD void mix_in(const BandPhysics<Real>& model, const Law& law, bool has_water, Real kept, std::uint32_t p,
+template <class Law, class Particles>
+THAWSLIDE_HD void mix_in(const BandPhysics& model, const Law& law, bool has_water, Real kept, std::uint32_t p,
                          Particles& particles) {
-  const mpm::ScalarIndex<Real> one{{p}};
+  const mpm::ScalarIndex one{{p}};
   const Real before = particles.temperature(p);
   const Real joining = law.temperature(particles, one, particles.initial_heat_content(p), before);
   particles.heat_content(p) = physics::mixed(particles.heat_content(p), particles.initial_heat_content(p), kept);
@@ -57,8 +57,8 @@ THAWSLIDE_HD void mix_in(const BandPhysics<Real>& model, const Law& law, bool ha
 }
 
 // Sets the scaling of a particle; sums the heat [J] that this adds at constant temperature and pressure.
-template <class Real, class Law, class Particles>
-THAWSLIDE_HD void rescale_particle(const BandPhysics<Real>& model, const Law& law, bool has_water, Real scaling,
+template <class Law, class Particles>
+THAWSLIDE_HD void rescale_particle(const BandPhysics& model, const Law& law, bool has_water, Real scaling,
                                    std::uint32_t p, Particles& particles, Real& added) {
   const Real old = particles.thermal_scaling(p);
   if (scaling == old) {

@@ -10,8 +10,8 @@ namespace thawslide::band {
 
 // Marks the tiles with a batch for which seeps(batch) is true, and the blocks around them. Returns false if there are
 // none.
-template <int Dim, class Real, class Seeps>
-bool find_seepage(const mpm::SparseGrid<Dim, Real>& grid, mpm::ActivityMarks& marks, const Seeps& seeps) {
+template <int Dim, class Seeps>
+bool find_seepage(const mpm::SparseGrid<Dim>& grid, mpm::ActivityMarks& marks, const Seeps& seeps) {
   marks.seeping_tiles.resize(grid.tiles().size());
   parallel_for(grid.tiles().size(), [&](std::size_t t) {
     const auto& batches = grid.batches(t);

@@ -18,9 +18,9 @@ constexpr double most_parts = 64.0;   // parts of such a cell, on nearly vertica
 
 }  // namespace
 
-template <int Dim, class Real>
-typename BasalSegments<Dim, Real>::Lattice BasalSegments<Dim, Real>::lattice_cell(
-    const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place) const {
+template <int Dim>
+typename BasalSegments<Dim>::Lattice BasalSegments<Dim>::lattice_cell(const mpm::SparseGrid<Dim>& grid,
+                                                                      const Vector<Real, Dim>& place) const {
   Lattice cell;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     cell[a] = static_cast<int>(std::floor(place[static_cast<int>(a)] * grid.inverse_cell()));
@@ -28,8 +28,8 @@ typename BasalSegments<Dim, Real>::Lattice BasalSegments<Dim, Real>::lattice_cel
   return cell;
 }
 
-template <int Dim, class Real>
-typename BasalSegments<Dim, Real>::Lattice BasalSegments<Dim, Real>::parts_on(const Vector<Real, Dim>& normal) {
+template <int Dim>
+typename BasalSegments<Dim>::Lattice BasalSegments<Dim>::parts_on(const Vector<Real, Dim>& normal) {
   Lattice parts;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     const Real gradient = std::abs(normal[static_cast<int>(a)] / normal[Dim - 1]);
@@ -38,10 +38,10 @@ typename BasalSegments<Dim, Real>::Lattice BasalSegments<Dim, Real>::parts_on(co
   return parts;
 }
 
-template <int Dim, class Real>
-typename BasalSegments<Dim, Real>::Lattice BasalSegments<Dim, Real>::lattice_part(
-    const mpm::SparseGrid<Dim, Real>& grid, const Vector<Real, Dim>& place, const Lattice& cell,
-    const Lattice& parts) const {
+template <int Dim>
+typename BasalSegments<Dim>::Lattice BasalSegments<Dim>::lattice_part(const mpm::SparseGrid<Dim>& grid,
+                                                                      const Vector<Real, Dim>& place,
+                                                                      const Lattice& cell, const Lattice& parts) const {
   Lattice part;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
     const Real within = place[static_cast<int>(a)] * grid.inverse_cell() - static_cast<Real>(cell[a]);
@@ -50,9 +50,8 @@ typename BasalSegments<Dim, Real>::Lattice BasalSegments<Dim, Real>::lattice_par
   return part;
 }
 
-template <int Dim, class Real>
-bool BasalSegments<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>& grid,
-                                                 const mpm::Nodes<Dim, Real>& nodes) const {
+template <int Dim>
+bool BasalSegments<Dim>::some_node_is_bare(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) const {
   return parallel_any(grid.blocks().size(), [&](std::size_t b) {
     for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
       if (nodes.contact(b, k)[Contact::touching] > Real(0) && !(nodes.base_state(b, k)[BaseState::area] > Real(0))) {
@@ -65,10 +64,10 @@ bool BasalSegments<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real
 
 // Footpoints of nodes in contact, in the order of blocks and nodes: nodes out of reach of all segments, and nodes with
 // a contact area large enough to need a segment there.
-template <int Dim, class Real>
-std::vector<typename BasalSegments<Dim, Real>::Footpoint> BasalSegments<Dim, Real>::contact_footpoints(
-    const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground, const NodeGroundOf& node_ground,
-    const mpm::Nodes<Dim, Real>& nodes) const {
+template <int Dim>
+std::vector<typename BasalSegments<Dim>::Footpoint> BasalSegments<Dim>::contact_footpoints(
+    const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+    const mpm::Nodes<Dim>& nodes) const {
   constexpr std::size_t of_a_task = 32;  // blocks
   const Real least_area = static_cast<Real>(0.25) * static_cast<Real>(std::pow(grid.cell(), Dim - 1));
   const std::size_t blocks = grid.blocks().size();
@@ -98,9 +97,9 @@ std::vector<typename BasalSegments<Dim, Real>::Footpoint> BasalSegments<Dim, Rea
 
 // Parts of lattice cells that contain footpoints, sorted and unique. The first footpoint in a cell determines the
 // number of its parts.
-template <int Dim, class Real>
-std::vector<typename BasalSegments<Dim, Real>::LatticePart> BasalSegments<Dim, Real>::parts_below(
-    const mpm::SparseGrid<Dim, Real>& grid, std::vector<Footpoint> footpoints) const {
+template <int Dim>
+std::vector<typename BasalSegments<Dim>::LatticePart> BasalSegments<Dim>::parts_below(
+    const mpm::SparseGrid<Dim>& grid, std::vector<Footpoint> footpoints) const {
   std::stable_sort(footpoints.begin(), footpoints.end(),
                    [](const Footpoint& a, const Footpoint& b) { return a.cell < b.cell; });
   std::vector<LatticePart> result;
@@ -117,9 +116,8 @@ std::vector<typename BasalSegments<Dim, Real>::LatticePart> BasalSegments<Dim, R
 
 // Removes the parts that a segment covers. A segment covers a part if their centres differ by less than three quarters
 // of the part's size along each axis.
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::leave_out_covered(const mpm::SparseGrid<Dim, Real>& grid,
-                                                 std::vector<LatticePart>& parts) const {
+template <int Dim>
+void BasalSegments<Dim>::leave_out_covered(const mpm::SparseGrid<Dim>& grid, std::vector<LatticePart>& parts) const {
   constexpr auto last = static_cast<std::size_t>(Dim - 2);  // the axis that varies fastest in the order of cells
   std::vector<std::uint8_t> covered(parts.size(), 0);
   parallel_for(segments_.size(), [&](std::size_t p) {
@@ -160,10 +158,9 @@ void BasalSegments<Dim, Real>::leave_out_covered(const mpm::SparseGrid<Dim, Real
 
 // Creates segments at footpoints of nodes in contact that no segment covers. They are placed in the cells of a
 // horizontal lattice, to be independent of the order of nodes.
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::create_segments(const mpm::SparseGrid<Dim, Real>& grid, const Ground& ground,
-                                               const NodeGroundOf& node_ground, Real thickness,
-                                               mpm::Nodes<Dim, Real>& nodes) {
+template <int Dim>
+void BasalSegments<Dim>::create_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
+                                         const NodeGroundOf& node_ground, Real thickness, mpm::Nodes<Dim>& nodes) {
   std::vector<LatticePart> bare = parts_below(grid, contact_footpoints(grid, ground, node_ground, nodes));
   leave_out_covered(grid, bare);
   const std::size_t known = segments_.size();
@@ -190,9 +187,9 @@ void BasalSegments<Dim, Real>::create_segments(const mpm::SparseGrid<Dim, Real>&
 }
 
 // At the edge of the sliding mass, a segment is smaller than its part of the lattice.
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::start_segment(const Stencil& stencil, const Ground& ground, const InContact& contact,
-                                             Real thickness, mpm::Nodes<Dim, Real>& nodes, Segment& segment) {
+template <int Dim>
+void BasalSegments<Dim>::start_segment(const Stencil& stencil, const Ground& ground, const InContact& contact,
+                                       Real thickness, mpm::Nodes<Dim>& nodes, Segment& segment) {
   const Real share = std::clamp(contact.area / segment.area, Real(0.1), Real(1));
   add_area(stencil, segment, nodes, share - Real(1));
   segment.sides *= std::pow(share, Real(1) / static_cast<Real>(Dim - 1));
@@ -206,9 +203,9 @@ void BasalSegments<Dim, Real>::start_segment(const Stencil& stencil, const Groun
 }
 
 // Adds a multiple of a segment's area to the nodes in reach.
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim, Real>& nodes,
-                                        Real share) const {
+template <int Dim>
+void BasalSegments<Dim>::add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim>& nodes,
+                                  Real share) const {
   stencil.for_each([&](std::size_t b, std::size_t node, Real weight) {
     if (nodes.base_state.holds(b)) {
       nodes.base_state.of_block(b)[node][BaseState::area] += share * weight * segment.area;
@@ -217,10 +214,10 @@ void BasalSegments<Dim, Real>::add_area(const Stencil& stencil, const Segment& s
 }
 
 // Contact area and force attributed to a segment: nodes distribute theirs over the segments in reach.
-template <int Dim, class Real>
-typename BasalSegments<Dim, Real>::InContact BasalSegments<Dim, Real>::in_contact(const Stencil& stencil,
-                                                                                  const mpm::Nodes<Dim, Real>& nodes,
-                                                                                  const Segment& segment) const {
+template <int Dim>
+typename BasalSegments<Dim>::InContact BasalSegments<Dim>::in_contact(const Stencil& stencil,
+                                                                      const mpm::Nodes<Dim>& nodes,
+                                                                      const Segment& segment) const {
   InContact result;
   stencil.for_each([&](std::size_t b, std::size_t node, Real weight) {
     const Real seen = nodes.base_state(b, node)[BaseState::area];
@@ -234,30 +231,29 @@ typename BasalSegments<Dim, Real>::InContact BasalSegments<Dim, Real>::in_contac
   return result;
 }
 
-template <int Dim, class Real>
-BasalSegment<Dim, Real> BasalSegments<Dim, Real>::new_segment(const Vector<Real, Dim - 1>& middle,
-                                                              const Vector<Real, Dim - 1>& size, const Ground& ground) {
+template <int Dim>
+BasalSegment<Dim> BasalSegments<Dim>::new_segment(const Vector<Real, Dim - 1>& middle,
+                                                  const Vector<Real, Dim - 1>& size, const Ground& ground) {
   Segment segment;
   segment.id = next_id_++;
   segment.normal = ground.normal(middle);
   segment.position.template head<Dim - 1>() = middle;
   segment.position[Dim - 1] = ground.height(middle);
-  segment.sides = sides_on<Dim, Real>(segment.normal, size);
+  segment.sides = sides_on<Dim>(segment.normal, size);
   segment.area = segment.area_of_column = ground.area_of(segment.position, segment.sides);
   return segment;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                      \
-  template std::array<int, Dim - 1> BasalSegments<Dim, Real>::lattice_cell(const mpm::SparseGrid<Dim, Real>&, \
-                                                                           const Vector<Real, Dim>&) const;   \
-  template std::array<int, Dim - 1> BasalSegments<Dim, Real>::parts_on(const Vector<Real, Dim>&);             \
-  template std::array<int, Dim - 1> BasalSegments<Dim, Real>::lattice_part(                                   \
-      const mpm::SparseGrid<Dim, Real>&, const Vector<Real, Dim>&, const std::array<int, Dim - 1>&,           \
-      const std::array<int, Dim - 1>&) const;                                                                 \
-  template bool BasalSegments<Dim, Real>::some_node_is_bare(const mpm::SparseGrid<Dim, Real>&,                \
-                                                            const mpm::Nodes<Dim, Real>&) const;              \
-  template void BasalSegments<Dim, Real>::create_segments(const mpm::SparseGrid<Dim, Real>&, const Ground&,   \
-                                                          const NodeGroundOf&, Real, mpm::Nodes<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                   \
+  template std::array<int, Dim - 1> BasalSegments<Dim>::lattice_cell(const mpm::SparseGrid<Dim>&,                    \
+                                                                     const Vector<Real, Dim>&) const;                \
+  template std::array<int, Dim - 1> BasalSegments<Dim>::parts_on(const Vector<Real, Dim>&);                          \
+  template std::array<int, Dim - 1> BasalSegments<Dim>::lattice_part(                                                \
+      const mpm::SparseGrid<Dim>&, const Vector<Real, Dim>&, const std::array<int, Dim - 1>&,                        \
+      const std::array<int, Dim - 1>&) const;                                                                        \
+  template bool BasalSegments<Dim>::some_node_is_bare(const mpm::SparseGrid<Dim>&, const mpm::Nodes<Dim>&) const;    \
+  template void BasalSegments<Dim>::create_segments(const mpm::SparseGrid<Dim>&, const Ground&, const NodeGroundOf&, \
+                                                    Real, mpm::Nodes<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -9,8 +9,7 @@ namespace thawslide::band {
 
 namespace {
 
-template <class Real>
-void add(const physics::ColumnAccount<Real>& part, Real area, physics::ColumnAccount<Real>& sum) {
+void add(const physics::ColumnAccount& part, Real area, physics::ColumnAccount& sum) {
   sum.friction_heat += area * part.friction_heat;
   sum.body_heat += area * part.body_heat;
   sum.ground_heat += area * part.ground_heat;
@@ -22,8 +21,8 @@ void add(const physics::ColumnAccount<Real>& part, Real area, physics::ColumnAcc
 }
 
 // Next band thickness [m] of a segment; limited to a change of 5 % per step.
-template <int Dim, class Real>
-Real next_thickness(const ColumnsModel<Real>& model, Real thickness, const BasalSegment<Dim, Real>& segment) {
+template <int Dim>
+Real next_thickness(const ColumnsModel& model, Real thickness, const BasalSegment<Dim>& segment) {
   constexpr Real least_effective = static_cast<Real>(0.02), fastest = static_cast<Real>(1.05);
   const Real now = segment.column.thickness;
   Real wanted = thickness;
@@ -41,27 +40,27 @@ Real next_thickness(const ColumnsModel<Real>& model, Real thickness, const Basal
 
 }  // namespace
 
-template <int Dim, class Real>
-physics::BandMeans<Real> means_of(const ColumnsModel<Real>& model, const BasalSegment<Dim, Real>& segment) {
+template <int Dim>
+physics::BandMeans means_of(const ColumnsModel& model, const BasalSegment<Dim>& segment) {
   return std::visit([&](const auto& column) { return physics::band_means(column, segment.load, segment.column); },
                     model.column);
 }
 
-template <int Dim, class Real>
-void keep_means(const ColumnsModel<Real>& model, BasalSegment<Dim, Real>& segment) {
+template <int Dim>
+void keep_means(const ColumnsModel& model, BasalSegment<Dim>& segment) {
   segment.means = means_of(model, segment);
   segment.liquid =
       std::visit([&](const auto& column) { return physics::liquid_volume(column, segment.column); }, model.column);
 }
 
-template <int Dim, class Real>
-physics::ColumnVolumes<Real> volumes_of(const ColumnsModel<Real>& model, const BasalSegment<Dim, Real>& segment) {
+template <int Dim>
+physics::ColumnVolumes volumes_of(const ColumnsModel& model, const BasalSegment<Dim>& segment) {
   return std::visit([&](const auto& column) { return physics::column_volumes(column, segment.load, segment.column); },
                     model.column);
 }
 
-template <int Dim, class Real>
-void start_column_of(const ColumnsModel<Real>& model, Real thickness, BasalSegment<Dim, Real>& segment) {
+template <int Dim>
+void start_column_of(const ColumnsModel& model, Real thickness, BasalSegment<Dim>& segment) {
   segment.column = std::visit(
       [&](const auto& column) {
         return physics::start_column(column, thickness,
@@ -71,9 +70,8 @@ void start_column_of(const ColumnsModel<Real>& model, Real thickness, BasalSegme
       model.column);
 }
 
-template <int Dim, class Real>
-void follow_load(const ColumnsModel<Real>& model, Real normal_pressure, Real depth, Real dt,
-                 BasalSegment<Dim, Real>& segment) {
+template <int Dim>
+void follow_load(const ColumnsModel& model, Real normal_pressure, Real depth, Real dt, BasalSegment<Dim>& segment) {
   constexpr Real depth_times = 10;  // averaging time of the depth, as a multiple of that of the load
   const Real share = segment.touched ? -physics::exponential_minus_one(-dt / model.load_time) : Real(1);
   segment.load += share * (std::max(normal_pressure, Real(0)) - segment.load);
@@ -83,33 +81,32 @@ void follow_load(const ColumnsModel<Real>& model, Real normal_pressure, Real dep
   segment.touched = true;
 }
 
-template <int Dim, class Real>
-physics::ColumnAccount<Real> step_segment(const ColumnsModel<Real>& model, Real thickness, Real duration,
-                                          BasalSegment<Dim, Real>& segment) {
+template <int Dim>
+physics::ColumnAccount step_segment(const ColumnsModel& model, Real thickness, Real duration,
+                                    BasalSegment<Dim>& segment) {
   segment.depth *=
       segment.area_of_column / segment.area;  // the mass thins as it stretches; the time average would lag behind
   return std::visit(
       [&](const auto& column) {
         const Real next = next_thickness(model, thickness, segment);
-        const physics::ColumnChange<Real> change{std::log(segment.area / segment.area_of_column),
-                                                 segment.column.thickness, next, segment.column.cell_growth,
-                                                 physics::cell_growth_below(segment.depth, next, column.growth)};
+        const physics::ColumnChange change{std::log(segment.area / segment.area_of_column), segment.column.thickness,
+                                           next, segment.column.cell_growth,
+                                           physics::cell_growth_below(segment.depth, next, column.growth)};
         const int parts = physics::parts_of(column, change);
         const Real dt = duration / static_cast<Real>(parts), heat = segment.heat / static_cast<Real>(parts);
         const Real factor = std::exp(change.stretch / static_cast<Real>(parts));
-        physics::ColumnAccount<Real> account;
+        physics::ColumnAccount account;
         for (int part = 1; part <= parts; ++part) {
           segment.area_of_column = part == parts ? segment.area : segment.area_of_column * factor;
-          const physics::ColumnDrive<Real> drive{
-              dt,
-              segment.load,
-              heat / (segment.area_of_column * dt),
-              (factor - Real(1)) / dt,
-              change.thickness_after(part, parts),
-              change.cell_growth_after(part, parts),
-              -physics::exponential_minus_one(-segment.speed * dt / model.mixing_slip),
-              physics::body_enthalpy(column, model.body_temperature),
-              physics::water_of_full_pores(column, model.body_temperature)};
+          const physics::ColumnDrive drive{dt,
+                                           segment.load,
+                                           heat / (segment.area_of_column * dt),
+                                           (factor - Real(1)) / dt,
+                                           change.thickness_after(part, parts),
+                                           change.cell_growth_after(part, parts),
+                                           -physics::exponential_minus_one(-segment.speed * dt / model.mixing_slip),
+                                           physics::body_enthalpy(column, model.body_temperature),
+                                           physics::water_of_full_pores(column, model.body_temperature)};
           add(physics::step_column(column, drive, segment.column), segment.area_of_column, account);
         }
         segment.heat = Real(0);
@@ -118,24 +115,24 @@ physics::ColumnAccount<Real> step_segment(const ColumnsModel<Real>& model, Real 
       model.column);
 }
 
-template <int Dim, class Real>
-physics::ColumnAccount<Real> merge_from(const ColumnsModel<Real>& model, const BasalSegment<Dim, Real>& other,
-                                        BasalSegment<Dim, Real>& segment) {
+template <int Dim>
+physics::ColumnAccount merge_from(const ColumnsModel& model, const BasalSegment<Dim>& other,
+                                  BasalSegment<Dim>& segment) {
   const Real share = segment.area / (segment.area + other.area);
-  for (Real BasalSegment<Dim, Real>::*const number :
-       {&BasalSegment<Dim, Real>::slip, &BasalSegment<Dim, Real>::speed, &BasalSegment<Dim, Real>::load,
-        &BasalSegment<Dim, Real>::depth, &BasalSegment<Dim, Real>::loaded_for}) {
+  for (Real BasalSegment<Dim>::*const number :
+       {&BasalSegment<Dim>::slip, &BasalSegment<Dim>::speed, &BasalSegment<Dim>::load, &BasalSegment<Dim>::depth,
+        &BasalSegment<Dim>::loaded_for}) {
     segment.*number = share * segment.*number + (Real(1) - share) * other.*number;
   }
   segment.velocity = share * segment.velocity + (Real(1) - share) * other.velocity;
   const Real share_of_column = segment.area_of_column / (segment.area_of_column + other.area_of_column);
-  const physics::ColumnAccount<Real> account = std::visit(
+  const physics::ColumnAccount account = std::visit(
       [&](const auto& column) {
-        physics::BandColumn<Real> first = segment.column, second = other.column;
+        physics::BandColumn first = segment.column, second = other.column;
         const Real growth = second.cell_growth + share_of_column * (first.cell_growth - second.cell_growth);
         const Real heat = physics::body_enthalpy(column, model.body_temperature);
         const Real water = physics::water_of_full_pores(column, model.body_temperature);
-        physics::ColumnAccount<Real> both;
+        physics::ColumnAccount both;
         add(physics::take_cell_growth(column, growth, heat, water, first), segment.area_of_column, both);
         add(physics::take_cell_growth(column, growth, heat, water, second), other.area_of_column, both);
         segment.column = physics::joined_columns(column, share_of_column, first, second, segment.load);
@@ -149,17 +146,14 @@ physics::ColumnAccount<Real> merge_from(const ColumnsModel<Real>& model, const B
   return account;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                            \
-  template physics::BandMeans<Real> means_of<Dim, Real>(const ColumnsModel<Real>&, const BasalSegment<Dim, Real>&); \
-  template void keep_means<Dim, Real>(const ColumnsModel<Real>&, BasalSegment<Dim, Real>&);                         \
-  template physics::ColumnVolumes<Real> volumes_of<Dim, Real>(const ColumnsModel<Real>&,                            \
-                                                              const BasalSegment<Dim, Real>&);                      \
-  template physics::ColumnAccount<Real> merge_from<Dim, Real>(                                                      \
-      const ColumnsModel<Real>&, const BasalSegment<Dim, Real>&, BasalSegment<Dim, Real>&);                         \
-  template void start_column_of<Dim, Real>(const ColumnsModel<Real>&, Real, BasalSegment<Dim, Real>&);              \
-  template void follow_load<Dim, Real>(const ColumnsModel<Real>&, Real, Real, Real, BasalSegment<Dim, Real>&);      \
-  template physics::ColumnAccount<Real> step_segment<Dim, Real>(const ColumnsModel<Real>&, Real, Real,              \
-                                                                BasalSegment<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                    \
+  template physics::BandMeans means_of<Dim>(const ColumnsModel&, const BasalSegment<Dim>&);                           \
+  template void keep_means<Dim>(const ColumnsModel&, BasalSegment<Dim>&);                                             \
+  template physics::ColumnVolumes volumes_of<Dim>(const ColumnsModel&, const BasalSegment<Dim>&);                     \
+  template physics::ColumnAccount merge_from<Dim>(const ColumnsModel&, const BasalSegment<Dim>&, BasalSegment<Dim>&); \
+  template void start_column_of<Dim>(const ColumnsModel&, Real, BasalSegment<Dim>&);                                  \
+  template void follow_load<Dim>(const ColumnsModel&, Real, Real, Real, BasalSegment<Dim>&);                          \
+  template physics::ColumnAccount step_segment<Dim>(const ColumnsModel&, Real, Real, BasalSegment<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -10,15 +10,13 @@
 
 namespace thawslide::band {
 
-template <class Real>
-using AnyColumnModel = std::variant<physics::ColumnModel<Real, physics::PowerLawCurve<Real>>,
-                                    physics::ColumnModel<Real, physics::LinearCurve<Real>>>;
+using AnyColumnModel =
+    std::variant<physics::ColumnModel<physics::PowerLawCurve>, physics::ColumnModel<physics::LinearCurve>>;
 
 using physics::BandGrowth;
 
-template <class Real>
 struct ColumnsModel {
-  AnyColumnModel<Real> column;
+  AnyColumnModel column;
   Real body_temperature = 0, ground_temperature = 0;  // [C]
   Real density = 0;                                   // initial density of the body at its base [kg/m3]
   Real load_time = 0;                                 // averaging time of N [s]
@@ -30,44 +28,43 @@ struct ColumnsModel {
   Real largest_thickness = 0;                                // of the band: initial depth of the sliding mass [m]
 };
 
-template <int Dim, class Real>
-physics::BandMeans<Real> means_of(const ColumnsModel<Real>& model, const BasalSegment<Dim, Real>& segment);
+template <int Dim>
+physics::BandMeans means_of(const ColumnsModel& model, const BasalSegment<Dim>& segment);
 
 // Stores means and liquid water of the column in the segment, for use until its next step.
-template <int Dim, class Real>
-void keep_means(const ColumnsModel<Real>& model, BasalSegment<Dim, Real>& segment);
+template <int Dim>
+void keep_means(const ColumnsModel& model, BasalSegment<Dim>& segment);
 
-template <int Dim, class Real>
-physics::ColumnVolumes<Real> volumes_of(const ColumnsModel<Real>& model, const BasalSegment<Dim, Real>& segment);
+template <int Dim>
+physics::ColumnVolumes volumes_of(const ColumnsModel& model, const BasalSegment<Dim>& segment);
 
 // P over the averaged N, 0 to 1. The basal law uses this ratio times the current N as pore pressure.
-template <int Dim, class Real>
-Real pressure_ratio(const physics::BandMeans<Real>& means, const BasalSegment<Dim, Real>& segment) {
+template <int Dim>
+Real pressure_ratio(const physics::BandMeans& means, const BasalSegment<Dim>& segment) {
   return segment.load > Real(0) ? means.pore_pressure / segment.load : Real(0);
 }
 
 // Creates a column of the body's material, with a band of this thickness [m], under the segment's load. Its height is
 // limited to the flow depth above it.
-template <int Dim, class Real>
-void start_column_of(const ColumnsModel<Real>& model, Real thickness, BasalSegment<Dim, Real>& segment);
+template <int Dim>
+void start_column_of(const ColumnsModel& model, Real thickness, BasalSegment<Dim>& segment);
 
 // Updates the averages of normal pressure [Pa], over the model's time, and of the corresponding flow depth [m], over
 // ten times that time or the time since the first load.
-template <int Dim, class Real>
-void follow_load(const ColumnsModel<Real>& model, Real normal_pressure, Real depth, Real dt,
-                 BasalSegment<Dim, Real>& segment);
+template <int Dim>
+void follow_load(const ColumnsModel& model, Real normal_pressure, Real depth, Real dt, BasalSegment<Dim>& segment);
 
 // Steps the column over `duration` [s], with the pending friction heat and the current area of the segment. thickness:
 // prescribed band thickness at the end [m]. Returns the column's budget for the whole area ([J], [kg]).
-template <int Dim, class Real>
-physics::ColumnAccount<Real> step_segment(const ColumnsModel<Real>& model, Real thickness, Real duration,
-                                          BasalSegment<Dim, Real>& segment);
+template <int Dim>
+physics::ColumnAccount step_segment(const ColumnsModel& model, Real thickness, Real duration,
+                                    BasalSegment<Dim>& segment);
 
 // Merges another segment into a segment: sums of area, heat and water, and area-weighted means of everything else.
 // Position and shape do not change. Returns the budget of both columns ([J], [kg]) for the change to a common cell
 // growth.
-template <int Dim, class Real>
-physics::ColumnAccount<Real> merge_from(const ColumnsModel<Real>& model, const BasalSegment<Dim, Real>& other,
-                                        BasalSegment<Dim, Real>& segment);
+template <int Dim>
+physics::ColumnAccount merge_from(const ColumnsModel& model, const BasalSegment<Dim>& other,
+                                  BasalSegment<Dim>& segment);
 
 }  // namespace thawslide::band

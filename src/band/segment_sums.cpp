@@ -12,8 +12,8 @@ namespace thawslide::band {
 namespace {
 
 // Calls visit(number) for each number of a segment, in order.
-template <int Dim, class Real, class Visit>
-void for_each_number(BasalSegment<Dim, Real>& segment, const Visit& visit) {
+template <int Dim, class Visit>
+void for_each_number(BasalSegment<Dim>& segment, const Visit& visit) {
   for (int a = 0; a < Dim; ++a) {
     visit(segment.position[a]);
     visit(segment.normal[a]);
@@ -40,31 +40,30 @@ void for_each_number(BasalSegment<Dim, Real>& segment, const Visit& visit) {
 }
 
 // Water in pores full of melt [kg/m3].
-template <class Real>
-Real water_of_full_pores(const ColumnsModel<Real>& model) {
+Real water_of_full_pores(const ColumnsModel& model) {
   return std::visit([](const auto& column) { return column.porosity * column.phases.water_density; }, model.column);
 }
 
-template <int Dim, class Real>
-physics::ColumnGrid<Real> grid_of(const ColumnsModel<Real>& model, const BasalSegment<Dim, Real>& segment) {
+template <int Dim>
+physics::ColumnGrid grid_of(const ColumnsModel& model, const BasalSegment<Dim>& segment) {
   return std::visit([&](const auto& column) { return physics::grid_of(column, segment.column); }, model.column);
 }
 
 // True if a cell of the band has no water left, as ice or melt.
-template <int Dim, class Real>
-bool is_dry(const BasalSegment<Dim, Real>& segment) {
+template <int Dim>
+bool is_dry(const BasalSegment<Dim>& segment) {
   const Real* water = segment.column.water;
   return std::any_of(water, water + physics::ColumnCells::band, [](Real of_cell) { return !(of_cell > Real(0)); });
 }
 
 }  // namespace
 
-template <int Dim, class Real>
-ColumnSums<Real> BasalSegments<Dim, Real>::sums() const {
-  std::vector<ColumnSums<Real>> of_segment(segments_.size());
+template <int Dim>
+ColumnSums BasalSegments<Dim>::sums() const {
+  std::vector<ColumnSums> of_segment(segments_.size());
   parallel_for(segments_.size(), [&](std::size_t p) {
     const Segment& segment = segments_[p];
-    const physics::ColumnVolumes<Real> volumes = volumes_of(segment);
+    const physics::ColumnVolumes volumes = volumes_of(segment);
     of_segment[p] = {segment.area,
                      segment.area_of_column * physics::heat_of(segment.column) + segment.heat,
                      segment.heat,
@@ -72,20 +71,20 @@ ColumnSums<Real> BasalSegments<Dim, Real>::sums() const {
                      segment.area * volumes.opening,
                      segment.area * volumes.gas_void};
   });
-  ColumnSums<Real> sums;
-  for (const ColumnSums<Real>& one : of_segment) {
+  ColumnSums sums;
+  for (const ColumnSums& one : of_segment) {
     sums += one;
   }
   return sums;
 }
 
-template <int Dim, class Real>
-BaseMeans<Real> BasalSegments<Dim, Real>::means() const {
+template <int Dim>
+BaseMeans BasalSegments<Dim>::means() const {
   constexpr Real wet_share = static_cast<Real>(1e-3);  // of full pores; less water has just seeped in, and boils next
   constexpr Real nothing = std::numeric_limits<Real>::quiet_NaN();
   const Real full = water_of_full_pores(model_);
   struct Extremes {
-    Real hottest, hottest_wet, pressure_ratio;
+    Real max_temperature, max_wet_temperature, pressure_ratio;
     bool dry;
   };
   std::vector<Extremes> extremes(segments_.size());
@@ -93,47 +92,47 @@ BaseMeans<Real> BasalSegments<Dim, Real>::means() const {
     const Segment& segment = segments_[p];
     const auto grid = grid_of(model_, segment);
     Extremes& found = extremes[p];
-    found = {-celsius_to_kelvin<Real>, -celsius_to_kelvin<Real>, Real(0), is_dry(segment)};
+    found = {-celsius_to_kelvin, -celsius_to_kelvin, Real(0), is_dry(segment)};
     for (int k = 0; k < physics::ColumnCells::slide; ++k) {
       const Real temperature = segment.column.temperature[physics::ColumnCells::ground + k];
-      found.hottest = std::max(found.hottest, temperature);
+      found.max_temperature = std::max(found.max_temperature, temperature);
       const bool is_wet = segment.column.water[k] > wet_share * full * grid.slide_height(k);
-      found.hottest_wet = is_wet ? std::max(found.hottest_wet, temperature) : found.hottest_wet;
+      found.max_wet_temperature = is_wet ? std::max(found.max_wet_temperature, temperature) : found.max_wet_temperature;
     }
     const Real highest =
         *std::max_element(segment.column.pressure, segment.column.pressure + physics::ColumnCells::slide);
     found.pressure_ratio = segment.load > Real(0) ? std::min(highest / segment.load, Real(1)) : Real(0);
   });
-  BaseMeans<Real> result;
-  Real area = 0, dry_area = 0, hottest = -celsius_to_kelvin<Real>, hottest_wet = hottest;
+  BaseMeans result;
+  Real area = 0, dry_area = 0, max_temperature = -celsius_to_kelvin, max_wet_temperature = max_temperature;
   for (std::size_t p = 0; p < segments_.size(); ++p) {
     const Segment& segment = segments_[p];
-    const physics::BandMeans<Real> means = means_now(segment);
+    const physics::BandMeans means = means_now(segment);
     area += segment.area;
     dry_area += extremes[p].dry ? segment.area : Real(0);
-    hottest = std::max(hottest, extremes[p].hottest);
-    hottest_wet = std::max(hottest_wet, extremes[p].hottest_wet);
+    max_temperature = std::max(max_temperature, extremes[p].max_temperature);
+    max_wet_temperature = std::max(max_wet_temperature, extremes[p].max_wet_temperature);
     result.temperature += segment.area * means.temperature;
     result.saturation += segment.area * means.saturation;
     result.pore_pressure += segment.area * means.pore_pressure;
     result.load += segment.area * segment.load;
     result.thickness += segment.area * segment.column.thickness;
-    result.largest_pressure_ratio = std::max(result.largest_pressure_ratio, extremes[p].pressure_ratio);
+    result.max_pressure_ratio = std::max(result.max_pressure_ratio, extremes[p].pressure_ratio);
   }
-  result.hottest = area > Real(0) ? hottest : nothing;
-  result.hottest_wet = area > Real(0) ? hottest_wet : nothing;
-  result.dry_share = area > Real(0) ? dry_area / area : nothing;
+  result.max_temperature = area > Real(0) ? max_temperature : nothing;
+  result.max_wet_temperature = area > Real(0) ? max_wet_temperature : nothing;
+  result.dry_fraction = area > Real(0) ? dry_area / area : nothing;
   for (Real* mean : {&result.temperature, &result.saturation, &result.pore_pressure, &result.load, &result.thickness}) {
     *mean = area > Real(0) ? *mean / area : nothing;
   }
   return result;
 }
 
-template <int Dim, class Real>
-std::vector<double> BasalSegments<Dim, Real>::state() const {
+template <int Dim>
+std::vector<double> BasalSegments<Dim>::state() const {
   std::vector<double> numbers{static_cast<double>(next_id_), checks_gaps_ ? 1.0 : 0.0,
                               static_cast<double>(segments_.size())};
-  ColumnLedger<Real> ledger = ledger_;
+  ColumnLedger ledger = ledger_;
   const auto add = [&](const Real& number) { numbers.push_back(static_cast<double>(number)); };
   ledger.for_each(add);
   for (Segment segment : segments_) {
@@ -144,8 +143,8 @@ std::vector<double> BasalSegments<Dim, Real>::state() const {
   return numbers;
 }
 
-template <int Dim, class Real>
-void BasalSegments<Dim, Real>::restore(const std::vector<double>& numbers) {
+template <int Dim>
+void BasalSegments<Dim>::restore(const std::vector<double>& numbers) {
   StateNumbers state(numbers, "band columns");
   std::size_t of_ledger = 0, of_segment = 2;  // number of state entries
   ledger_.for_each([&](Real&) { ++of_ledger; });
@@ -165,11 +164,11 @@ void BasalSegments<Dim, Real>::restore(const std::vector<double>& numbers) {
   state.expect_end();
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                \
-  template ColumnSums<Real> BasalSegments<Dim, Real>::sums() const;     \
-  template BaseMeans<Real> BasalSegments<Dim, Real>::means() const;     \
-  template std::vector<double> BasalSegments<Dim, Real>::state() const; \
-  template void BasalSegments<Dim, Real>::restore(const std::vector<double>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                \
+  template ColumnSums BasalSegments<Dim>::sums() const;           \
+  template BaseMeans BasalSegments<Dim>::means() const;           \
+  template std::vector<double> BasalSegments<Dim>::state() const; \
+  template void BasalSegments<Dim>::restore(const std::vector<double>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -7,8 +7,8 @@
 
 #include "band/physics.hpp"
 #include "mpm/scalar_index.hpp"
-#include "physics/free_gap.hpp"
 #include "physics/pressurization.hpp"
+#include "physics/tension_gap.hpp"
 
 namespace thawslide::band {
 
@@ -49,8 +49,7 @@ struct StepExtremes {
   }
 };
 
-// Free gaps by material (physics/free_gap.hpp).
-template <class Real>
+// Free gaps by material (physics/tension_gap.hpp).
 struct FreeGaps {
   const Real* of_material;  // 1: free; 0: gaps bear stress
 
@@ -64,11 +63,9 @@ struct FreeGaps {
   }
 };
 
-template <int Dim, class Real, class Particles>
-THAWSLIDE_HD StepExtremes extremes_of_particle(const BandPhysics<Real>& model,
-                                               const HydraulicConductivity<Real>& hydraulic,
-                                               const FreeGaps<Real>& free_gaps, const Particles& particles,
-                                               std::uint32_t p) {
+template <int Dim, class Particles>
+THAWSLIDE_HD StepExtremes extremes_of_particle(const BandPhysics& model, const HydraulicConductivity& hydraulic,
+                                               const FreeGaps& free_gaps, const Particles& particles, std::uint32_t p) {
   using std::sqrt;
   const std::int64_t id = particles.id(p);
   const Real porosity = particles.initial_porosity(p), saturation = particles.liquid_saturation(p);
@@ -84,8 +81,8 @@ THAWSLIDE_HD StepExtremes extremes_of_particle(const BandPhysics<Real>& model,
   found.diffusivity.raise({static_cast<double>(physics::conductivity(model.phases, porosity, saturation) /
                                                physics::heat_capacity(model.phases, porosity, saturation)),
                            id});
-  found.seepage.raise({static_cast<double>(physics::hydraulic_diffusivity(
-                           model.phases, storing, Real(1), hydraulic(particles, mpm::ScalarIndex<Real>{{p}}))),
+  found.seepage.raise({static_cast<double>(physics::hydraulic_diffusivity(model.phases, storing, Real(1),
+                                                                          hydraulic(particles, mpm::ScalarIndex{{p}}))),
                        id});
   found.pore_stiffness = static_cast<double>(physics::pore_stiffness(model.phases, storing, Real(1)));
   return found;

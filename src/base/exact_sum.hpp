@@ -8,7 +8,6 @@ namespace thawslide {
 // Sum with its rounding error. The pair is exact while the sum is less than 2^51 times the smallest part, in double
 // precision; sums of parts of one sign are then bitwise independent of the order. Error-free sum of two numbers: Knuth
 // 1998, The Art of Computer Programming, vol. 2, Section 4.2.2, Theorem B.
-template <class Real>
 class ExactSum {
  public:
   ExactSum() = default;

@@ -79,10 +79,10 @@ template <class Body>
 // calls, in runs (base/sum_order.hpp). The sum is bitwise independent of the number of threads.
 template <class Sum, class Body>
 [[nodiscard]] Sum parallel_sum(std::size_t count, const Body& body) {
-  thread_local std::vector<Sum> room;  // persistent, to avoid allocation in each step
-  THAWSLIDE_ASSERT(room.empty(), "a sum of {} calls within one of {}", count, room.size());
-  room.resize(count);
-  Sum* sums = room.data();
+  thread_local std::vector<Sum> buffer;  // persistent, to avoid allocation in each step
+  THAWSLIDE_ASSERT(buffer.empty(), "a sum of {} calls within one of {}", count, buffer.size());
+  buffer.resize(count);
+  Sum* sums = buffer.data();
   try {
     parallel_for(count, [&](std::size_t k) {
       Sum sum{};
@@ -90,7 +90,7 @@ template <class Sum, class Body>
       sums[k] = sum;
     });
   } catch (...) {
-    room.clear();
+    buffer.clear();
     throw;
   }
   Sum sum{};
@@ -102,7 +102,7 @@ template <class Sum, class Body>
     }
     sum += run;
   }
-  room.clear();
+  buffer.clear();
   return sum;
 }
 

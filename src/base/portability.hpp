@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/real.hpp"
+
 // Function callable from host and device code.
 #if defined(__CUDACC__) || defined(__HIPCC__)
 #define THAWSLIDE_HD __host__ __device__
@@ -36,20 +38,16 @@ inline void prefetch(const void* place, std::size_t bytes_on) {
 }
 
 // Tolerance by precision.
-template <class Real>
 THAWSLIDE_HD constexpr Real by_precision(double in_double, double in_single) {
   return static_cast<Real>(sizeof(Real) == sizeof(double) ? in_double : in_single);
 }
 
 // Relative tolerance: smaller differences count as round-off.
-template <class Real>
-inline constexpr Real round_off = by_precision<Real>(1e-9, 1e-5);
+inline constexpr Real round_off = by_precision(1e-9, 1e-5);
 
 // Absolute temperature of 0 degrees Celsius [K].
-template <class Real>
 inline constexpr Real celsius_to_kelvin = static_cast<Real>(273.15);
 
-template <class Real>
 inline constexpr Real pi = static_cast<Real>(3.14159265358979323846);
 
 }  // namespace thawslide

@@ -10,12 +10,6 @@
 
 namespace thawslide {
 
-// Type of a number, or of one lane.
-template <class Value>
-struct NumberOf {
-  using Type = Value;
-};
-
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value select(bool condition, const Value& a, const Value& b) {
   return condition ? a : b;
@@ -24,18 +18,18 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE bool any(bool condition) { return condition
 
 // Same semantics as for lanes: returns a if both are equal or one is NaN. The device's built-in functions differ in
 // this.
-template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real min(Real a, Real b) {
+template <class T, class = std::enable_if_t<std::is_floating_point_v<T>>>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE T min(T a, T b) {
   return b < a ? b : a;
 }
-template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real max(Real a, Real b) {
+template <class T, class = std::enable_if_t<std::is_floating_point_v<T>>>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE T max(T a, T b) {
   return a < b ? b : a;
 }
 
 // function(number), by lane.
-template <class Real, class Function, class = std::enable_if_t<std::is_floating_point_v<Real>>>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real map_lanes(Real number, const Function& function) {
+template <class T, class Function, class = std::enable_if_t<std::is_floating_point_v<T>>>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE T map_lanes(T number, const Function& function) {
   return function(number);
 }
 
@@ -48,18 +42,18 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_each_lane(bool condition, const Bo
 }
 
 // Number in one lane.
-template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real extract(Real number, std::size_t /*lane*/) {
+template <class T, class = std::enable_if_t<std::is_floating_point_v<T>>>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE T extract(T number, std::size_t /*lane*/) {
   return number;
 }
-template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void set_lane(Real& number, std::size_t /*lane*/, Real other) {
+template <class T, class = std::enable_if_t<std::is_floating_point_v<T>>>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void set_lane(T& number, std::size_t /*lane*/, T other) {
   number = other;
 }
 
 // Table entry at an integer place.
-template <class Real, class = std::enable_if_t<std::is_floating_point_v<Real>>>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Real look_up(const Real* table, const Real& place) {
+template <class T, class = std::enable_if_t<std::is_floating_point_v<T>>>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE T look_up(const T* table, const T& place) {
   return table[static_cast<std::size_t>(place)];
 }
 

@@ -22,13 +22,13 @@
 namespace thawslide {
 
 // Vector register types of a real type.
-template <class Real, std::size_t Count>
+template <class T, std::size_t Count>
 struct LaneRegister {
-  using Flag = std::conditional_t<sizeof(Real) == sizeof(std::int64_t), std::int64_t, std::int32_t>;
-  using Numbers [[gnu::vector_size(Count * sizeof(Real))]] = Real;
+  using Flag = std::conditional_t<sizeof(T) == sizeof(std::int64_t), std::int64_t, std::int32_t>;
+  using Numbers [[gnu::vector_size(Count * sizeof(T))]] = T;
   // may alias single numbers in memory
-  using Stored [[gnu::vector_size(Count * sizeof(Real)), gnu::may_alias]] = Real;
-  using Flags [[gnu::vector_size(Count * sizeof(Real))]] = Flag;  // results of comparisons
+  using Stored [[gnu::vector_size(Count * sizeof(T)), gnu::may_alias]] = T;
+  using Flags [[gnu::vector_size(Count * sizeof(T))]] = Flag;  // results of comparisons
   using Whole [[gnu::vector_size(Count * sizeof(std::int32_t))]] = std::int32_t;
 };
 
@@ -38,23 +38,23 @@ inline constexpr std::size_t register_bytes = 64;
 #else
 inline constexpr std::size_t register_bytes = 32;
 #endif
-template <class Real>
-inline constexpr std::size_t simd_width = std::min<std::size_t>(register_bytes / sizeof(Real), 8);
+template <class T>
+inline constexpr std::size_t simd_width = std::min<std::size_t>(register_bytes / sizeof(T), 8);
 
 // Consecutive integers in memory.
-template <class Real, std::size_t Count = simd_width<Real>, class Number>
-THAWSLIDE_ALWAYS_INLINE typename LaneRegister<Real, Count>::Whole whole_lanes(const Number* numbers) {
+template <class T, std::size_t Count = simd_width<T>, class Number>
+THAWSLIDE_ALWAYS_INLINE typename LaneRegister<T, Count>::Whole whole_lanes(const Number* numbers) {
   static_assert(sizeof(Number) == sizeof(std::int32_t));
-  typename LaneRegister<Real, Count>::Whole whole;
+  typename LaneRegister<T, Count>::Whole whole;
   std::memcpy(&whole, numbers, sizeof whole);
   return whole;
 }
 
 // One boolean per lane.
-template <class Real, std::size_t Count = simd_width<Real>>
+template <class T, std::size_t Count = simd_width<T>>
 class SimdMask {
  public:
-  using Native = typename LaneRegister<Real, Count>::Flags;
+  using Native = typename LaneRegister<T, Count>::Flags;
 
   SimdMask() = default;
   THAWSLIDE_ALWAYS_INLINE explicit SimdMask(Native native) : native_(native) {}
@@ -77,7 +77,7 @@ class SimdMask {
       return __builtin_ia32_ptestz256(Bits(a.native_), Bits(a.native_)) == 0;
     }
 #endif
-    typename LaneRegister<Real, Count>::Flag flags = 0;
+    typename LaneRegister<T, Count>::Flag flags = 0;
     for (std::size_t k = 0; k < Count; ++k) {
       flags |= a.native_[k];
     }
@@ -88,30 +88,30 @@ class SimdMask {
   Native native_;
 };
 
-template <class Real, std::size_t Count = simd_width<Real>>
+template <class T, std::size_t Count = simd_width<T>>
 class Simd {
  public:
   static constexpr std::size_t count = Count;
-  using Native = typename LaneRegister<Real, Count>::Numbers;
-  using Mask = SimdMask<Real, Count>;
-  using Whole = typename LaneRegister<Real, Count>::Whole;
+  using Native = typename LaneRegister<T, Count>::Numbers;
+  using Mask = SimdMask<T, Count>;
+  using Whole = typename LaneRegister<T, Count>::Whole;
 
   Simd() = default;
   // Broadcasts a number to all lanes.
-  THAWSLIDE_ALWAYS_INLINE Simd(Real number) : native_(number - Native{}) {}
+  THAWSLIDE_ALWAYS_INLINE Simd(T number) : native_(number - Native{}) {}
   THAWSLIDE_ALWAYS_INLINE explicit Simd(Native native) : native_(native) {}
 
   // Loads and stores `count` consecutive numbers, aligned to their size.
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd load(const Real* numbers) {
-    return Simd(Native(*reinterpret_cast<const typename LaneRegister<Real, Count>::Stored*>(numbers)));
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd load(const T* numbers) {
+    return Simd(Native(*reinterpret_cast<const typename LaneRegister<T, Count>::Stored*>(numbers)));
   }
-  THAWSLIDE_ALWAYS_INLINE void store(Real* numbers) const {
-    *reinterpret_cast<typename LaneRegister<Real, Count>::Stored*>(numbers) = native_;
+  THAWSLIDE_ALWAYS_INLINE void store(T* numbers) const {
+    *reinterpret_cast<typename LaneRegister<T, Count>::Stored*>(numbers) = native_;
   }
 
   // Loads and stores `count` consecutive integers, with conversion.
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd load_whole(const std::int32_t* numbers) {
-    return Simd(__builtin_convertvector(whole_lanes<Real, Count>(numbers), Native));
+    return Simd(__builtin_convertvector(whole_lanes<T, Count>(numbers), Native));
   }
   THAWSLIDE_ALWAYS_INLINE void store_whole(std::int32_t* numbers) const {
     const Whole numbers_of_lanes = whole();
@@ -123,27 +123,27 @@ class Simd {
   template <class Number>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd of(const Number& number) {
     return [&]<std::size_t... K>(std::index_sequence<K...>) THAWSLIDE_INLINE_LAMBDA {
-      return Simd(Native{static_cast<Real>(number(K))...});
+      return Simd(Native{static_cast<T>(number(K))...});
     }
     (std::make_index_sequence<Count>());
   }
 
   // Lane k is numbers[places[k]].
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd gather(const Real* numbers, Whole places) {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd gather(const T* numbers, Whole places) {
 #ifdef __AVX512F__
     if constexpr (sizeof(Native) == 64) {
-      return Simd(Native(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, reinterpret_cast<__m256i>(places), numbers,
-                                                  sizeof(Real))));
+      return Simd(Native(
+          _mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, reinterpret_cast<__m256i>(places), numbers, sizeof(T))));
     }
 #endif
     return of([&](std::size_t lane) { return numbers[places[lane]]; });
   }
   // Inverse of gather for the lanes 0 .. lanes-1.
-  THAWSLIDE_ALWAYS_INLINE void scatter(Real* numbers, Whole places, std::size_t lanes) const {
+  THAWSLIDE_ALWAYS_INLINE void scatter(T* numbers, Whole places, std::size_t lanes) const {
 #ifdef __AVX512F__
     if constexpr (sizeof(Native) == 64) {
       const auto mask = static_cast<__mmask8>((1u << lanes) - 1u);
-      _mm512_mask_i32scatter_pd(numbers, mask, reinterpret_cast<__m256i>(places), __m512d(native_), sizeof(Real));
+      _mm512_mask_i32scatter_pd(numbers, mask, reinterpret_cast<__m256i>(places), __m512d(native_), sizeof(T));
       return;
     }
 #endif
@@ -152,7 +152,7 @@ class Simd {
     }
   }
 
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Real operator[](std::size_t lane) const { return native_[lane]; }
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE T operator[](std::size_t lane) const { return native_[lane]; }
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Native native() const { return native_; }
 
   THAWSLIDE_ALWAYS_INLINE friend Simd operator+(Simd a, Simd b) { return Simd(a.native_ + b.native_); }
@@ -182,15 +182,15 @@ class Simd {
     return of([&](std::size_t lane) { return function(a.native_[lane]); });
   }
   THAWSLIDE_ALWAYS_INLINE friend Simd sqrt(Simd a) {
-    return map_lanes(a, [](Real number) { return std::sqrt(number); });
+    return map_lanes(a, [](T number) { return std::sqrt(number); });
   }
   THAWSLIDE_ALWAYS_INLINE friend Simd floor(Simd a) {
-    return map_lanes(a, [](Real number) { return std::floor(number); });
+    return map_lanes(a, [](T number) { return std::floor(number); });
   }
   THAWSLIDE_ALWAYS_INLINE friend Simd log(Simd a) {
-    return map_lanes(a, [](Real number) { return std::log(number); });
+    return map_lanes(a, [](T number) { return std::log(number); });
   }
-  THAWSLIDE_ALWAYS_INLINE friend Simd abs(Simd a) { return select(a < Simd(Real(0)), -a, a); }
+  THAWSLIDE_ALWAYS_INLINE friend Simd abs(Simd a) { return select(a < Simd(T(0)), -a, a); }
   THAWSLIDE_ALWAYS_INLINE friend Simd min(Simd a, Simd b) { return select(b < a, b, a); }
   THAWSLIDE_ALWAYS_INLINE friend Simd max(Simd a, Simd b) { return select(a < b, b, a); }
 
@@ -199,20 +199,15 @@ class Simd {
 };
 
 // True in the lanes 0 .. count-1.
-template <class Real>
-THAWSLIDE_ALWAYS_INLINE SimdMask<Real> lanes_before(std::size_t count) {
-  return Simd<Real>::of([](std::size_t lane) { return lane; }) < Simd<Real>(static_cast<Real>(count));
+template <class T>
+THAWSLIDE_ALWAYS_INLINE SimdMask<T> lanes_before(std::size_t count) {
+  return Simd<T>::of([](std::size_t lane) { return lane; }) < Simd<T>(static_cast<T>(count));
 }
 
-template <class Real>
-struct NumberOf<Simd<Real>> {
-  using Type = Real;
-};
-
 // Calls body(k) for the lanes k of a mask.
-template <class Real, class Body>
-THAWSLIDE_ALWAYS_INLINE void for_each_lane(const SimdMask<Real>& mask, const Body& body) {
-  for (std::size_t k = 0; any(mask) && k < simd_width<Real>; ++k) {
+template <class T, class Body>
+THAWSLIDE_ALWAYS_INLINE void for_each_lane(const SimdMask<T>& mask, const Body& body) {
+  for (std::size_t k = 0; any(mask) && k < simd_width<T>; ++k) {
     if (mask[k]) {
       body(k);
     }
@@ -220,27 +215,27 @@ THAWSLIDE_ALWAYS_INLINE void for_each_lane(const SimdMask<Real>& mask, const Bod
 }
 
 // Number in one lane.
-template <class Real>
-THAWSLIDE_ALWAYS_INLINE Real extract(const Simd<Real>& lanes, std::size_t lane) {
+template <class T>
+THAWSLIDE_ALWAYS_INLINE T extract(const Simd<T>& lanes, std::size_t lane) {
   return lanes[lane];
 }
-template <class Real>
-THAWSLIDE_ALWAYS_INLINE void set_lane(Simd<Real>& lanes, std::size_t lane, Real number) {
-  lanes = Simd<Real>::of([&](std::size_t k) { return k == lane ? number : lanes[k]; });
+template <class T>
+THAWSLIDE_ALWAYS_INLINE void set_lane(Simd<T>& lanes, std::size_t lane, T number) {
+  lanes = Simd<T>::of([&](std::size_t k) { return k == lane ? number : lanes[k]; });
 }
 
 // Exchanges blocks between a and b: lanes whose bit Half is 1 in `a` with those whose bit Half is 0 in `b`.
-template <std::size_t Half, class Real, std::size_t Count, std::size_t... K>
-THAWSLIDE_ALWAYS_INLINE void exchange(Simd<Real, Count>& a, Simd<Real, Count>& b, std::index_sequence<K...> /*lanes*/) {
+template <std::size_t Half, class T, std::size_t Count, std::size_t... K>
+THAWSLIDE_ALWAYS_INLINE void exchange(Simd<T, Count>& a, Simd<T, Count>& b, std::index_sequence<K...> /*lanes*/) {
   const auto kept = __builtin_shufflevector(a.native(), b.native(), ((K & Half) == 0 ? K : Count + (K ^ Half))...);
   const auto moved = __builtin_shufflevector(a.native(), b.native(), ((K & Half) == 0 ? (K | Half) : Count + K)...);
-  a = Simd<Real, Count>(kept);
-  b = Simd<Real, Count>(moved);
+  a = Simd<T, Count>(kept);
+  b = Simd<T, Count>(moved);
 }
 
 // Transposes rows and columns: lane j of rows[k] is lane k of the former rows[j]. As many rows as lanes.
-template <std::size_t Half, class Real, std::size_t Count>
-THAWSLIDE_ALWAYS_INLINE void transpose_blocks(Simd<Real, Count>* rows) {
+template <std::size_t Half, class T, std::size_t Count>
+THAWSLIDE_ALWAYS_INLINE void transpose_blocks(Simd<T, Count>* rows) {
   unrolled<Count>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
     if constexpr ((k & Half) == 0) {
       exchange<Half>(rows[k], rows[k | Half], std::make_index_sequence<Count>());
@@ -250,31 +245,31 @@ THAWSLIDE_ALWAYS_INLINE void transpose_blocks(Simd<Real, Count>* rows) {
     transpose_blocks<Half / 2>(rows);
   }
 }
-template <class Real, std::size_t Count>
-THAWSLIDE_ALWAYS_INLINE void transpose(Simd<Real, Count>* rows) {
+template <class T, std::size_t Count>
+THAWSLIDE_ALWAYS_INLINE void transpose(Simd<T, Count>* rows) {
   transpose_blocks<Count / 2>(rows);
 }
 
 // Lanes First, First + 1, ... of a register; concatenation of two registers.
-template <std::size_t First, class Real, std::size_t Count, std::size_t... K>
-THAWSLIDE_ALWAYS_INLINE Simd<Real, sizeof...(K)> part_of(const Simd<Real, Count>& whole,
-                                                         std::index_sequence<K...> /*lanes*/) {
-  return Simd<Real, sizeof...(K)>(__builtin_shufflevector(whole.native(), whole.native(), (First + K)...));
+template <std::size_t First, class T, std::size_t Count, std::size_t... K>
+THAWSLIDE_ALWAYS_INLINE Simd<T, sizeof...(K)> part_of(const Simd<T, Count>& whole,
+                                                      std::index_sequence<K...> /*lanes*/) {
+  return Simd<T, sizeof...(K)>(__builtin_shufflevector(whole.native(), whole.native(), (First + K)...));
 }
-template <class Real, std::size_t Count, std::size_t... K>
-THAWSLIDE_ALWAYS_INLINE Simd<Real, sizeof...(K)> joined(const Simd<Real, Count>& a, const Simd<Real, Count>& b,
-                                                        std::index_sequence<K...> /*lanes*/) {
-  return Simd<Real, sizeof...(K)>(__builtin_shufflevector(a.native(), b.native(), K...));
+template <class T, std::size_t Count, std::size_t... K>
+THAWSLIDE_ALWAYS_INLINE Simd<T, sizeof...(K)> joined(const Simd<T, Count>& a, const Simd<T, Count>& b,
+                                                     std::index_sequence<K...> /*lanes*/) {
+  return Simd<T, sizeof...(K)>(__builtin_shufflevector(a.native(), b.native(), K...));
 }
 
-template <class Real>
-THAWSLIDE_ALWAYS_INLINE Simd<Real> look_up(const Real* table, const Simd<Real>& place) {
-  return Simd<Real>::gather(table, place.whole());
+template <class T>
+THAWSLIDE_ALWAYS_INLINE Simd<T> look_up(const T* table, const Simd<T>& place) {
+  return Simd<T>::gather(table, place.whole());
 }
 
 // Minimum over all lanes.
-template <class Real, std::size_t Count>
-THAWSLIDE_ALWAYS_INLINE Real smallest(const Simd<Real, Count>& lanes) {
+template <class T, std::size_t Count>
+THAWSLIDE_ALWAYS_INLINE T smallest(const Simd<T, Count>& lanes) {
   if constexpr (Count == 2) {
     return std::min(lanes[0], lanes[1]);
   } else {
@@ -284,10 +279,10 @@ THAWSLIDE_ALWAYS_INLINE Real smallest(const Simd<Real, Count>& lanes) {
 }
 
 // Converts `Width` quantities, with one particle per lane, to one row of `Width` numbers per particle.
-template <class Real, std::size_t Width>
-THAWSLIDE_ALWAYS_INLINE void transpose_to_rows(const Simd<Real>* quantities, Simd<Real, Width>* rows) {
-  constexpr std::size_t parts = simd_width<Real> / Width;
-  static_assert(parts * Width == simd_width<Real>);
+template <class T, std::size_t Width>
+THAWSLIDE_ALWAYS_INLINE void transpose_to_rows(const Simd<T>* quantities, Simd<T, Width>* rows) {
+  constexpr std::size_t parts = simd_width<T> / Width;
+  static_assert(parts * Width == simd_width<T>);
   unrolled<parts>([&](auto part) THAWSLIDE_INLINE_LAMBDA {
     constexpr std::size_t first = part() * Width;
     unrolled<Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
@@ -298,10 +293,10 @@ THAWSLIDE_ALWAYS_INLINE void transpose_to_rows(const Simd<Real>* quantities, Sim
 }
 
 // Inverse conversion; overwrites `rows`.
-template <class Real, std::size_t Width>
-THAWSLIDE_ALWAYS_INLINE void transpose_to_columns(Simd<Real, Width>* rows, Simd<Real>* quantities) {
-  constexpr std::size_t parts = simd_width<Real> / Width;
-  static_assert(parts * Width == simd_width<Real> && parts <= 2);
+template <class T, std::size_t Width>
+THAWSLIDE_ALWAYS_INLINE void transpose_to_columns(Simd<T, Width>* rows, Simd<T>* quantities) {
+  constexpr std::size_t parts = simd_width<T> / Width;
+  static_assert(parts * Width == simd_width<T> && parts <= 2);
   unrolled<parts>([&](auto part) THAWSLIDE_INLINE_LAMBDA { transpose(rows + part * Width); });
   unrolled<Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
     if constexpr (parts == 1) {

@@ -43,8 +43,8 @@ class StateNumbers {
   // Next number, which must be a count of items with `numbers_each` numbers each, stored after `header` further
   // numbers.
   std::size_t count(std::size_t numbers_each, std::size_t header = 0) {
-    const std::size_t room = left() > header ? (left() - 1 - header) / numbers_each : 0;
-    return static_cast<std::size_t>(whole(static_cast<std::int64_t>(room)));
+    const std::size_t available = left() > header ? (left() - 1 - header) / numbers_each : 0;
+    return static_cast<std::size_t>(whole(static_cast<std::int64_t>(available)));
   }
   void expect_end() const {
     if (left() > 0) {

@@ -26,15 +26,13 @@ Laws law_named(const std::string& word, const LawNumbers& numbers) {
 
 // Friction and cohesion laws of one kind of ground. If the initial cohesion is zero, the parameters of its loss are not
 // needed.
-template <class Real>
-physics::basal::FrictionLaw<Real> friction_of(const GroundStrength& ground) {
-  return law_named<physics::basal::FrictionLaw<Real>>(ground.friction, ground.numbers);
+inline physics::basal::FrictionLaw friction_of(const GroundStrength& ground) {
+  return law_named<physics::basal::FrictionLaw>(ground.friction, ground.numbers);
 }
-template <class Real>
-physics::basal::CohesionLaw<Real> cohesion_of(const GroundStrength& ground) {
+inline physics::basal::CohesionLaw cohesion_of(const GroundStrength& ground) {
   const bool has_cohesion = ground.numbers(physics::basal::initial_cohesion) > 0.0;
-  return law_named<physics::basal::CohesionLaw<Real>>(
-      has_cohesion ? ground.cohesion_law : physics::basal::ConstantCohesion<Real>::word, ground.numbers);
+  return law_named<physics::basal::CohesionLaw>(
+      has_cohesion ? ground.cohesion_law : physics::basal::ConstantCohesion::word, ground.numbers);
 }
 
 }  // namespace thawslide::config

@@ -81,8 +81,8 @@ void check_field(const Body& body, const InitialField& field, const std::string&
 
 double saturation_at(const Freezing& freezing, double temperature) {
   return freezing.curve == CurveKind::power_law
-             ? physics::PowerLawCurve<double>{freezing.reference_temperature, freezing.exponent}.saturation(temperature)
-             : physics::LinearCurve<double>{freezing.reference_temperature, freezing.slope}.saturation(temperature);
+             ? physics::PowerLawCurve{freezing.reference_temperature, freezing.exponent}.saturation(temperature)
+             : physics::LinearCurve{freezing.reference_temperature, freezing.slope}.saturation(temperature);
 }
 
 // Checks that the freezing curve has a temperature for the saturation.
@@ -120,14 +120,13 @@ void check_ice_content(const Case& checked, const Body& body, const std::string&
   const double ice = body.ice_content.table.value.front();
   const double given = water.table.value.front();
   const double saturation = by_saturation ? given : saturation_at(checked.freezing, given);
-  const double most = physics::largest_porosity<double> * (1.0 - saturation);
+  const double most = physics::largest_porosity * (1.0 - saturation);
   if (ice > most) {
     reading.report_misfit(
         {key, water_key},
         fmt::format("{} is {}, and the saturation is {:.4g}; the porosity, ice_content / (1 - saturation), must not "
                     "exceed {}. Allowed with it: at most {:.4g}. Give less ice, or less water.",
-                    key, ice, saturation, physics::largest_porosity<double>,
-                    most > 0.0 ? rounded_down(most, 4) : most));
+                    key, ice, saturation, physics::largest_porosity, most > 0.0 ? rounded_down(most, 4) : most));
   }
 }
 

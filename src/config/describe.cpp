@@ -64,9 +64,9 @@ Json described(const Entry& entry) {
   json["only"] = entry.only;
   json["text"] = entry.rule->text;
   json["source"] = entry.rule->source;
-  json["words"] = Json::array();
+  json["keywords"] = Json::array();
   for (const Keyword& word : entry.words) {
-    json["words"].push_back({{"word", word.word}, {"text", word.text}});
+    json["keywords"].push_back({{"name", word.word}, {"text", word.text}});
   }
   return json;
 }

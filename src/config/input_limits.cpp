@@ -8,12 +8,12 @@ namespace thawslide::config {
 
 namespace fs = std::filesystem;
 
-void require_size(const fs::path& file, double most_bytes, const std::string& advice) {
+void require_size(const fs::path& file, double max_bytes, const std::string& advice) {
   std::error_code unknown;
   const auto bytes = static_cast<double>(fs::file_size(file, unknown));
-  if (!unknown && bytes > most_bytes) {
+  if (!unknown && bytes > max_bytes) {
     throw UserError(fmt::format("{}: the file has {:.4g} MB; allowed: {:g} MB. {}", file.string(), bytes / 1e6,
-                                most_bytes / 1e6, advice));
+                                max_bytes / 1e6, advice));
   }
 }
 

@@ -22,7 +22,7 @@ inline constexpr std::size_t most_problems_listed = 50;  // of a case at once
 inline constexpr std::size_t most_letters_quoted = 200;  // of an invalid text
 
 // Throws UserError if a file has more bytes; `advice` ends the message: "Is it the right file?"
-void require_size(const std::filesystem::path& file, double most_bytes, const std::string& advice);
+void require_size(const std::filesystem::path& file, double max_bytes, const std::string& advice);
 
 // Replaces by '?' whatever would control a terminal: control characters other than those in `kept`, and marks that
 // change the text direction.

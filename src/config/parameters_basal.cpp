@@ -8,8 +8,8 @@ namespace thawslide::config {
 
 namespace {
 
-using FrictionLaws = physics::basal::FrictionLaw<double>;
-using CohesionLaws = physics::basal::CohesionLaw<double>;
+using FrictionLaws = physics::basal::FrictionLaw;
+using CohesionLaws = physics::basal::CohesionLaw;
 
 // `"a"`, `"a" or "b"`, `"a", "b" or "c"`.
 std::string quoted_list(const std::vector<std::string>& words, const std::string& last) {

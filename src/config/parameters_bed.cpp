@@ -54,7 +54,7 @@ std::vector<Parameter<Bed>> bed_material_parameters() {
                                     .text = "temperature of the bed; ice and water follow by the freezing curve"})
           .only_if(when_erodible, "law", is_erodible),
       parameter(&Bed::porosity, {.key = "porosity",
-                                 .range = {.low = 0, .high = physics::largest_porosity<double>, .low_open = true},
+                                 .range = {.low = 0, .high = physics::largest_porosity, .low_open = true},
                                  .text = "porosity n of the bed: share of ice and water in the volume",
                                  .source = "Eq. 1"})
           .only_if(when_erodible, "law", is_erodible),

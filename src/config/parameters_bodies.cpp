@@ -107,14 +107,14 @@ std::vector<Parameter<Body>> start_parameters() {
                  .source = "Eq. 24"})
           .otherwise("what the freezing curve gives at temperature"),
       parameter(&Body::porosity, {.key = "porosity",
-                                  .range = {.low = 0, .high = physics::largest_porosity<double>, .low_open = true},
+                                  .range = {.low = 0, .high = physics::largest_porosity, .low_open = true},
                                   .text = "porosity n at t = 0: share of ice and water in the volume",
                                   .source = "Eq. 1, Table 2"})
           .only_if("when ice_content is not given, from which it follows", "ice_content",
                    [](const Case&, const Body& body) { return !body.ice_content.is_given(); }),
       parameter(&Body::ice_content,
                 {.key = "ice_content",
-                 .range = {.low = 0, .high = physics::largest_porosity<double>, .low_open = true},
+                 .range = {.low = 0, .high = physics::largest_porosity, .low_open = true},
                  .text = "share of ice in the volume at t = 0, instead of a porosity, which is then ice_content / (1 - "
                          "saturation)",
                  .source = "Eq. 1"})

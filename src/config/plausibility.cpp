@@ -137,7 +137,7 @@ void warn_about_band(const Case& parameters, Warnings& warnings) {
 // True if the friction law of a keyword uses a parameter.
 bool uses(const std::string& law, const physics::basal::Parameter& number) {
   bool found = false;
-  physics::basal::for_each_law<physics::basal::FrictionLaw<double>>([&]<class Law>(physics::basal::OfType<Law>) {
+  physics::basal::for_each_law<physics::basal::FrictionLaw>([&]<class Law>(physics::basal::OfType<Law>) {
     found = found || (law == Law::word &&
                       std::find(Law::parameters.begin(), Law::parameters.end(), &number) != Law::parameters.end());
   });

@@ -13,7 +13,7 @@ NamedFigures named(const Roughness& ground) {
           {"bump_length_m", ground.bump_length},
           {"bump_slope", ground.bump_slope},
           {"filter_m", ground.width},
-          {"slope_left", ground.slope_left},
+          {"remaining_slope", ground.remaining_slope},
           {"apparent_friction", ground.apparent_friction},
           {"narrow_valley_m", ground.narrow_valley}};
 }

@@ -51,7 +51,7 @@ struct Roughness {
   double bump_length = 0.0;        // maximum length of bumps that count [m]
   double bump_slope = 0.0;         // rms slope of these bumps without the filter
   double width = 0.0;              // standard deviation of the filter [m]; 0: none
-  double slope_left = 0.0;         // rms slope of noise or bumps at the scale of the cell, after the filter
+  double remaining_slope = 0.0;    // rms slope of noise or bumps at the scale of the cell, after the filter
   double apparent_friction = 0.0;  // that it adds, as a fraction of the friction
   double narrow_valley = 0.0;      // width below which the filter reduces the wedge effect of valleys [m]
 };

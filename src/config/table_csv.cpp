@@ -66,8 +66,8 @@ std::string with_plain_line_ends(std::string_view text) {
   return plain;
 }
 
-std::string read_text(const std::string& file, double most_bytes) {
-  require_size(file, most_bytes, "Is it the right file?");
+std::string read_text(const std::string& file, double max_bytes) {
+  require_size(file, max_bytes, "Is it the right file?");
   std::string text = read_text_file(file);
   const auto begins_with = [&](std::string_view mark) { return text.compare(0, mark.size(), mark) == 0; };
   using namespace std::string_view_literals;
@@ -149,8 +149,8 @@ void require_columns(const TableCsv& table, const std::string& where, const std:
 
 }  // namespace
 
-TableCsv read_table_csv(const fs::path& file, const std::vector<std::string>& needed, double most_bytes) {
-  const std::string name = file.string(), text = read_text(name, most_bytes);
+TableCsv read_table_csv(const fs::path& file, const std::vector<std::string>& needed, double max_bytes) {
+  const std::string name = file.string(), text = read_text(name, max_bytes);
   TableCsv table;
   int number = 0;
   for (std::size_t begin = 0; begin < text.size();) {

@@ -19,7 +19,7 @@ struct TableCsv {
 
 // Skips empty lines and those that begin with #. Throws UserError, with the line, if the file is not UTF-8 text, lacks
 // a column that is `needed`, or has one twice. Rows may have more or fewer cells than there are columns.
-TableCsv read_table_csv(const std::filesystem::path& file, const std::vector<std::string>& needed, double most_bytes);
+TableCsv read_table_csv(const std::filesystem::path& file, const std::vector<std::string>& needed, double max_bytes);
 
 // Reads the finite number of a cell; returns the problem, "" if there is none.
 std::string read_finite_number(const std::string& cell, double& value);

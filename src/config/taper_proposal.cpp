@@ -156,8 +156,8 @@ EdgeTaper propose_taper(const Raster& dem, const Raster& thickness) {
   const double wanted_cells = std::ceil(wanted / cell - 1e-9);
   // An upright edge between DEM points is a ramp one cell wide, as steep as a taper of two cells.
   taper.wanted = wanted_cells > 2.0 ? wanted_cells * cell : 0.0;
-  const double room = std::max(0.0, std::min(2.0 * (to_unknown - 1), 2.0 * (half_width - 1)) * cell);
-  const double width = std::min(taper.wanted, room);
+  const double available = std::max(0.0, std::min(2.0 * (to_unknown - 1), 2.0 * (half_width - 1)) * cell);
+  const double width = std::min(taper.wanted, available);
   taper.width = width > 2.0 * cell ? width : 0.0;
   taper.steepest = 2.0 * edge / std::max(taper.width, 2.0 * cell);
   return taper;

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string read_text(const fs::path& file) {
-  require_size(file, largest_case_file, "A profile, polygons and rasters stand in files of their own.");
+  require_size(file, largest_case_file, "Profiles, polygons and rasters are separate files.");
   return read_text_file(file);
 }
 

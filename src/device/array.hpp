@@ -29,7 +29,7 @@ class Array {
     std::swap(backend_, other.backend_);
     std::swap(numbers_, other.numbers_);
     std::swap(count_, other.count_);
-    std::swap(room_, other.room_);
+    std::swap(capacity_, other.capacity_);
   }
 
   [[nodiscard]] std::size_t size() const { return count_; }
@@ -38,13 +38,13 @@ class Array {
 
   // Reallocation discards the contents.
   void resize(std::size_t count) {
-    if (count > room_) {
+    if (count > capacity_) {
       if (numbers_ != nullptr) {
         backend_->release(std::exchange(numbers_, nullptr));
       }
-      const std::size_t room = std::exchange(room_, 0) == 0 ? count : count + count / 4;
-      numbers_ = backend_->template allocate<T>(room);
-      room_ = room;
+      const std::size_t capacity = std::exchange(capacity_, 0) == 0 ? count : count + count / 4;
+      numbers_ = backend_->template allocate<T>(capacity);
+      capacity_ = capacity;
     }
     count_ = count;
   }
@@ -67,7 +67,7 @@ class Array {
  private:
   Backend* backend_ = nullptr;
   T* numbers_ = nullptr;
-  std::size_t count_ = 0, room_ = 0;
+  std::size_t count_ = 0, capacity_ = 0;
 };
 
 }  // namespace thawslide::device

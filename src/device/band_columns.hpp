@@ -13,12 +13,12 @@
 namespace thawslide::device {
 
 // Packs records of the nodes in the blocks that the CPU requested. One thread per node.
-template <int Dim, class Real>
+template <int Dim>
 struct PackColumns {
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   static constexpr auto of_contact = static_cast<std::size_t>(mpm::Contact::size<Dim>);
 
-  NodeViews<Dim, Real> nodes;
+  NodeViews<Dim> nodes;
   const std::uint32_t* blocks;
   Real* records;
 
@@ -35,10 +35,10 @@ struct PackColumns {
   }
 };
 
-template <class Backend, int Dim, class Real>
+template <class Backend, int Dim>
 class BandColumns {
  public:
-  BandColumns(Backend& backend, HostColumns<Real> processor) : backend_(backend), cpu_(std::move(processor)) {}
+  BandColumns(Backend& backend, HostColumns processor) : backend_(backend), cpu_(std::move(processor)) {}
 
   [[nodiscard]] bool exist() const { return static_cast<bool>(cpu_.states); }
 
@@ -46,7 +46,7 @@ class BandColumns {
   void update(const std::vector<std::uint64_t>& blocks) {
     if (exist()) {
       queried_.set(cpu_.update_blocks(blocks));
-      records_.resize(queried_.size() * PackColumns<Dim, Real>::block_nodes * column_record_size<Dim>);
+      records_.resize(queried_.size() * PackColumns<Dim>::block_nodes * column_record_size<Dim>);
     }
   }
 
@@ -60,17 +60,17 @@ class BandColumns {
   }
 
   // Call after contact has been resolved.
-  void follow(const NodeViews<Dim, Real>& nodes) {
+  void follow(const NodeViews<Dim>& nodes) {
     if (exist()) {
-      backend_.for_each(queried_.size() * PackColumns<Dim, Real>::block_nodes,
-                        PackColumns<Dim, Real>{nodes, queried_.data(), records_.data()});
+      backend_.for_each(queried_.size() * PackColumns<Dim>::block_nodes,
+                        PackColumns<Dim>{nodes, queried_.data(), records_.data()});
       cpu_.follow(records_.get());
     }
   }
 
  private:
   Backend& backend_;
-  HostColumns<Real> cpu_;
+  HostColumns cpu_;
   Array<std::uint32_t, Backend> queried_{backend_};
   Array<Real, Backend> states_{backend_}, records_{backend_};
 };

@@ -11,13 +11,13 @@
 
 namespace thawslide::device {
 
-template <class Backend, class Shape, int Dim, class Real>
+template <class Backend, class Shape, int Dim>
 class BandStages {
-  using Passes = StepPasses<Backend, Shape, Dim, Real>;
+  using Passes = StepPasses<Backend, Shape, Dim>;
 
  public:
   // sums: sums of the step, in device memory.
-  BandStages(Passes& passes, const HostCallbacks<Dim, Real>& ask, StepSums<Dim, Real>* sums)
+  BandStages(Passes& passes, const HostCallbacks<Dim>& ask, StepSums<Dim>* sums)
       : passes_(passes),
         sums_(sums),
         columns_(passes.backend, passes.model.cell, passes.model.half_sizes, ask.slope_cosine, ask.normal_gravity),
@@ -45,26 +45,25 @@ class BandStages {
   }
 
   void average() {
-    passes_.run(passes_.linear(), band::AddAverages<Dim, Real>{});
+    passes_.run(passes_.linear(), band::AddAverages<Dim>{});
     passes_.template sum<mpm::Averages, void>(AllTiles{});
-    passes_.backend.for_each(
-        passes_.cells.tables().blocks * Passes::block_nodes,
-        SetState<Dim, Real>{passes_.views(), passes_.cells.tables().block_keys, passes_.model.heat_faces,
-                            passes_.model.heat_faces.any(), passes_.model.cell});
+    passes_.backend.for_each(passes_.cells.tables().blocks * Passes::block_nodes,
+                             SetState<Dim>{passes_.views(), passes_.cells.tables().block_keys, passes_.model.heat_faces,
+                                           passes_.model.heat_faces.any(), passes_.model.cell});
   }
 
   void rescale(Real time) {
     const Real thickness = passes_.model.band_thickness(time), cell = passes_.model.cell;
     passes_.backend.for_each(1, Fill<Real>{&sums_->band_rescale, Real(0)});
     if (layers_.exists() && thickness > Real(0)) {
-      rescale_by(ScalingByLayer<Dim, Real>{layers_.layers(passes_.cells.tables(), cell), thickness});
+      rescale_by(ScalingByLayer<Dim>{layers_.layers(passes_.cells.tables(), cell), thickness});
       scaling_in_force_ = Real(0);  // reset, because the scaling varies in space
       return;
     }
     const Real scaling = thickness > Real(0) ? cell / thickness : Real(1);
     if (!passes_.model.scales_all || scaling != scaling_in_force_) {
       scaling_in_force_ = scaling;
-      rescale_by(OneScaling<Real>{scaling});
+      rescale_by(OneScaling{scaling});
     }
   }
 
@@ -78,9 +77,9 @@ class BandStages {
   void drain_pore_pressure(Real dt) {
     columns_.sum(passes_.cells.tables(), passes_.particles.view());
     if (passes_.model.band.needs_normal_load()) {
-      passes_.run(passes_.linear(), AddPressureLoad<Dim, Real>{columns_.loading(passes_.cells.tables())});
+      passes_.run(passes_.linear(), AddPressureLoad<Dim>{columns_.loading(passes_.cells.tables())});
     }
-    if (find_seepage(SeepingBefore<Dim, Real>{{passes_.particles.view(), passes_.model.band, hydraulic()}})) {
+    if (find_seepage(SeepingBefore<Dim>{{passes_.particles.view(), passes_.model.band, hydraulic()}})) {
       seep(dt);
       update_pressure<true>();
     } else {
@@ -88,16 +87,14 @@ class BandStages {
       update_pressure<false>();
     }
   }
-  [[nodiscard]] band::HydraulicConductivity<Real> hydraulic() const {
-    return {hydraulic_.data(), hydraulic_.size() == 1};
-  }
+  [[nodiscard]] band::HydraulicConductivity hydraulic() const { return {hydraulic_.data(), hydraulic_.size() == 1}; }
 
  private:
   template <class Scaling>
   void rescale_by(const Scaling& scaling) {
     std::visit(
         [&]<class Content>(const Content& content) {
-          using Kernel = RescaleBand<Dim, Real, Content, Scaling>;
+          using Kernel = RescaleBand<Dim, Content, Scaling>;
           const Kernel kernel{content, passes_.model.band, passes_.model.pressure_changes, passes_.model.scales_all,
                               scaling};
           passes_.keep(&passes_.run(passes_.linear(), kernel)->template of<Kernel>(), &sums_->band_rescale);
@@ -106,38 +103,37 @@ class BandStages {
   }
   template <class Content>
   void conduct_heat_by(const Content& content, Real dt) {
-    passes_.run(passes_.linear(), HeatFlows<Dim, Real, Content>{content, passes_.model.band, hydraulic(), dt,
-                                                                Real(1) / passes_.model.cell, !passes_.model.starts});
+    passes_.run(passes_.linear(), HeatFlows<Dim, Content>{content, passes_.model.band, hydraulic(), dt,
+                                                          Real(1) / passes_.model.cell, !passes_.model.starts});
     passes_.template sum<mpm::HeatRates, void>(AllTiles{});
     solve_rates(nullptr, dt);
     passes_.marks.mark_tiles(passes_.cells.tables(),
-                             MayChange<Dim, Real, Content>{passes_.views(), passes_.particles.view(), content, dt});
+                             MayChange<Dim, Content>{passes_.views(), passes_.particles.view(), content, dt});
     passes_.marks.mark_blocks(passes_.cells.tables());
-    passes_.run(passes_.linear(passes_.marks.tiles()), SecantCapacity<Dim, Real, Content>{content, dt});
+    passes_.run(passes_.linear(passes_.marks.tiles()), SecantCapacity<Dim, Content>{content, dt});
     passes_.backend.for_each(secant_rates_.size(),
-                             SumPatches<mpm::HeatRates, void, AllTiles, Dim, Real>{
+                             SumPatches<mpm::HeatRates, void, AllTiles, Dim>{
                                  passes_.cells.tables(), {}, passes_.memory.patches(0), secant_rates_.data()});
     passes_.keep(&solve_rates(passes_.marks.blocks(), dt)->gain, &sums_->heat);
-    passes_.marks.mark_tiles(passes_.cells.tables(),
-                             HasHeat<Dim, Real>{passes_.template of<mpm::UnreachedHeat>().data()});
-    passes_.run(passes_.momentum(passes_.marks.tiles()), band::RedistributeUnreachedHeat<Dim, Real>{dt});
-    passes_.run(passes_.linear(), UpdateHeat<Dim, Real, Content>{content, passes_.model.band, dt});
+    passes_.marks.mark_tiles(passes_.cells.tables(), HasHeat<Dim>{passes_.template of<mpm::UnreachedHeat>().data()});
+    passes_.run(passes_.momentum(passes_.marks.tiles()), band::RedistributeUnreachedHeat<Dim>{dt});
+    passes_.run(passes_.linear(), UpdateHeat<Dim, Content>{content, passes_.model.band, dt});
   }
-  const band::NodalHeat<Real>* solve_rates(const std::uint8_t* changing_blocks, Real dt) {
+  const band::NodalHeat* solve_rates(const std::uint8_t* changing_blocks, Real dt) {
     const std::size_t blocks = passes_.cells.tables().blocks;
-    const SolveRates<Dim, Real> solve{passes_.views(),
-                                      passes_.template of<mpm::HeatRates>().data(),
-                                      secant_rates_.data(),
-                                      changing_blocks,
-                                      passes_.template of<mpm::UnreachedHeat>().data(),
-                                      dt,
-                                      passes_.cells.tables().block_keys,
-                                      passes_.model.heat_faces,
-                                      passes_.model.heat_faces.any(),
-                                      passes_.model.starts,
-                                      passes_.model.cell};
+    const SolveRates<Dim> solve{passes_.views(),
+                                passes_.template of<mpm::HeatRates>().data(),
+                                secant_rates_.data(),
+                                changing_blocks,
+                                passes_.template of<mpm::UnreachedHeat>().data(),
+                                dt,
+                                passes_.cells.tables().block_keys,
+                                passes_.model.heat_faces,
+                                passes_.model.heat_faces.any(),
+                                passes_.model.starts,
+                                passes_.model.cell};
     return block_pass<Dim>(passes_.backend, blocks, solve,
-                           passes_.memory.template sums<band::NodalHeat<Real>>(partial_sum_count(blocks)));
+                           passes_.memory.template sums<band::NodalHeat>(partial_sum_count(blocks)));
   }
 
   // Marks the blocks that water can seep to, and the tiles around them. Returns false if there are none.
@@ -153,34 +149,32 @@ class BandStages {
 
   void average_seeping_water() {
     if (passes_.model.band.frozen_rows == band::FrozenRows::draining ||
-        !find_seepage(SeepingNow<Dim, Real>{passes_.particles.view(), passes_.model.band, hydraulic()})) {
+        !find_seepage(SeepingNow<Dim>{passes_.particles.view(), passes_.model.band, hydraulic()})) {
       return;
     }
-    passes_.run(passes_.linear(passes_.marks.tiles()), AddSeepingWater<Dim, Real>{passes_.model.band, hydraulic()});
+    passes_.run(passes_.linear(passes_.marks.tiles()), AddSeepingWater<Dim>{passes_.model.band, hydraulic()});
     passes_.template sum<mpm::SeepingWater, void>(passes_.marks.tiles());
-    passes_.backend.for_each(
-        passes_.cells.tables().blocks * Passes::block_nodes,
-        SetSeepingPressure<Dim, Real>{passes_.views(), passes_.template of<mpm::SeepingWater>().data(),
-                                      passes_.marks.blocks()});
+    passes_.backend.for_each(passes_.cells.tables().blocks * Passes::block_nodes,
+                             SetSeepingPressure<Dim>{passes_.views(), passes_.template of<mpm::SeepingWater>().data(),
+                                                     passes_.marks.blocks()});
   }
 
   void seep(Real dt) {
     passes_.run(passes_.linear(passes_.marks.tiles()),
-                SeepageFlows<Dim, Real>{passes_.model.band, hydraulic(), dt, Real(1) / passes_.model.cell});
+                SeepageFlows<Dim>{passes_.model.band, hydraulic(), dt, Real(1) / passes_.model.cell});
     passes_.template sum<mpm::Seepage, void>(passes_.marks.tiles());
     const std::size_t blocks = passes_.cells.tables().blocks;
-    const Real* taken =
-        block_pass<Dim>(passes_.backend, blocks,
-                        SolveSeepage<Dim, Real>{passes_.views(), passes_.template of<mpm::Seepage>().data(), dt},
-                        passes_.memory.template sums<Real>(partial_sum_count(blocks)));
-    passes_.backend.for_each(1, KeepVented<Real>{taken, passes_.model.band.phases, &sums_->vented});
+    const Real* taken = block_pass<Dim>(
+        passes_.backend, blocks, SolveSeepage<Dim>{passes_.views(), passes_.template of<mpm::Seepage>().data(), dt},
+        passes_.memory.template sums<Real>(partial_sum_count(blocks)));
+    passes_.backend.for_each(1, KeepVented{taken, passes_.model.band.phases, &sums_->vented});
   }
   template <bool Seeps>
   void update_pressure() {
     if (passes_.model.band.balances_water()) {
-      update_pressure_by<UpdatePorePressure<Dim, Real, Seeps, true>>();
+      update_pressure_by<UpdatePorePressure<Dim, Seeps, true>>();
     } else {
-      update_pressure_by<UpdatePorePressure<Dim, Real, Seeps, false>>();
+      update_pressure_by<UpdatePorePressure<Dim, Seeps, false>>();
     }
   }
   template <class Kernel>
@@ -190,10 +184,10 @@ class BandStages {
   }
 
   Passes& passes_;
-  StepSums<Dim, Real>* sums_;
-  Columns<Backend, Dim, Real> columns_;
+  StepSums<Dim>* sums_;
+  Columns<Backend, Dim> columns_;
   Array<Real, Backend> secant_rates_{passes_.backend}, hydraulic_{passes_.backend};
-  LayerThickness<Backend, Dim, Real> layers_;
+  LayerThickness<Backend, Dim> layers_;
   Real scaling_in_force_ = 0;
 };
 

@@ -8,7 +8,7 @@
 
 namespace thawslide::device {
 
-template <class Backend, class Real>
+template <class Backend>
 class BodySizes {
  public:
   // unit: unit of half_sizes, as a factor.
@@ -22,7 +22,7 @@ class BodySizes {
     inverse_.set(inverse);
   }
 
-  [[nodiscard]] mpm::SizesOfBodies<Real> view() const { return {half_.data(), inverse_.data(), half_.size() == 1}; }
+  [[nodiscard]] mpm::SizesOfBodies view() const { return {half_.data(), inverse_.data(), half_.size() == 1}; }
 
  private:
   Array<Real, Backend> half_, inverse_;

@@ -41,9 +41,9 @@ THAWSLIDE_HD std::uint64_t key_of_neighbour(std::uint64_t key, std::size_t direc
 }
 
 // Computes the key of each particle, by id. Sets any_changed if a key differs from the last one.
-template <int Dim, class Real>
+template <int Dim>
 struct FindKey {
-  mpm::ParticleView<Dim, Real> particles;
+  mpm::ParticleView<Dim> particles;
   const std::uint32_t* by_id;
   Real inverse_cell;
   std::uint64_t* keys;

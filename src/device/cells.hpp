@@ -9,7 +9,7 @@
 
 namespace thawslide::device {
 
-template <class Backend, int Dim, class Real>
+template <class Backend, int Dim>
 class Cells {
   using T = mpm::Tile<Dim>;
   static constexpr std::size_t nodes = static_cast<std::size_t>(T::nodes);
@@ -21,14 +21,14 @@ class Cells {
   Cells(Backend& backend, Real cell) : backend_(backend), inverse_cell_(Real(1) / cell) {}
 
   // Updates the tables to the particle positions. by_id: particles by ascending id. count: number of particles.
-  void update(const mpm::ParticleView<Dim, Real>& particles, const std::uint32_t* by_id, std::size_t count) {
+  void update(const mpm::ParticleView<Dim>& particles, const std::uint32_t* by_id, std::size_t count) {
     blocks_changed_ = false;
     if (count != keys_by_id_.size()) {
       keys_by_id_.resize(count);
       fill(keys_by_id_, no_key);
     }
     fill(mark_, std::uint32_t{0});
-    backend_.for_each(count, FindKey<Dim, Real>{particles, by_id, inverse_cell_, keys_by_id_.data(), mark_.data()});
+    backend_.for_each(count, FindKey<Dim>{particles, by_id, inverse_cell_, keys_by_id_.data(), mark_.data()});
     if (mark_.get(0) == 0) {
       return;
     }

@@ -45,10 +45,10 @@ struct FindNeighbourColumns {
 };
 
 // Contribution of a set of particles to a column.
-template <int Dim, class Real>
+template <int Dim>
 struct ColumnPart {
-  band::ColumnMass<Real> column_mass;
-  band::Extent<Dim, Real> extent;
+  band::ColumnMass column_mass;
+  band::Extent<Dim> extent;
   Real mass = 0;
 
   THAWSLIDE_HD ColumnPart& operator+=(const ColumnPart& part) {
@@ -61,15 +61,15 @@ struct ColumnPart {
 
 // Contributions of each tile's particles to the columns that it overlaps, one thread group per tile. For each chunk of
 // particles, one thread per particle finds the overlaps of its box; then one thread per column adds the boxes in order.
-template <int Dim, class Real>
+template <int Dim>
 struct SumInTile {
   static constexpr std::size_t at_a_time = 128, places = band::columns_per_tile<Dim>;
 
   TileTables<Dim> tables;
-  mpm::ParticleView<Dim, Real> particles;
-  mpm::SizesOfBodies<Real> sizes;  // half sizes of particles [m]
+  mpm::ParticleView<Dim> particles;
+  mpm::SizesOfBodies sizes;  // half sizes of particles [m]
   Real cell;
-  ColumnPart<Dim, Real>* parts;  // by tile and place
+  ColumnPart<Dim>* parts;  // by tile and place
 
   struct Box {
     Real volume, mass, top;
@@ -87,8 +87,8 @@ struct SumInTile {
       group.each(here, [this, tile, first, boxes](std::size_t k) { boxes[k] = box_of(tile, tables.order[first + k]); });
       group.barrier();
       group.each(places, [this, tile, boxes, here, is_first = first == begin](std::size_t place) {
-        ColumnPart<Dim, Real>& part = parts[tile * places + place];
-        part = sum_boxes(boxes, here, place, is_first ? ColumnPart<Dim, Real>{} : part);
+        ColumnPart<Dim>& part = parts[tile * places + place];
+        part = sum_boxes(boxes, here, place, is_first ? ColumnPart<Dim>{} : part);
       });
       group.barrier();
     }
@@ -96,15 +96,15 @@ struct SumInTile {
 
  private:
   [[nodiscard]] THAWSLIDE_HD Box box_of(std::size_t tile, std::uint32_t particle) const {
-    const mpm::ScalarIndex<Real> at{{particle}};
+    const mpm::ScalarIndex at{{particle}};
     return {particles.volume(particle), particles.mass(particle),
             particles.position(particle, Dim - 1) + sizes.of(particles, at).half,
             band::overlaps<Dim>(band::first_cell_of<Dim>(tables.tile_keys[tile]), cell, Real(1) / cell, sizes,
                                 particles, at)};
   }
 
-  [[nodiscard]] THAWSLIDE_HD static ColumnPart<Dim, Real> sum_boxes(const Box* boxes, std::size_t count,
-                                                                    std::size_t place, ColumnPart<Dim, Real> sum) {
+  [[nodiscard]] THAWSLIDE_HD static ColumnPart<Dim> sum_boxes(const Box* boxes, std::size_t count, std::size_t place,
+                                                              ColumnPart<Dim> sum) {
     for (std::size_t k = 0; k < count; ++k) {
       const Box& box = boxes[k];
       band::for_columns<Dim>(box.along, [&](const auto& side, Real at, Real share) {
@@ -142,16 +142,16 @@ struct SumParts {
 };
 
 // Thickness, top and load of each column. One thread per column.
-template <int Dim, class Real>
+template <int Dim>
 struct FinishColumns {
-  const ColumnPart<Dim, Real>* sums;
+  const ColumnPart<Dim>* sums;
   const std::int32_t* adjacent;
   const Real* normal_gravity;  // null: load is not required
   Real cell;
   Real *thickness, *top, *load_per_depth;
 
   THAWSLIDE_HD void operator()(std::size_t column) const {
-    const ColumnPart<Dim, Real> sum = sums[column];
+    const ColumnPart<Dim> sum = sums[column];
     const auto filled = [&](std::size_t side) {
       const std::int32_t other = adjacent[column * band::column_sides<Dim> + side];
       return other != absent && sums[other].column_mass.is_present();
@@ -168,13 +168,13 @@ struct FinishColumns {
 };
 
 // Columns as seen from the particles of each tile.
-template <int Dim, class Real>
+template <int Dim>
 struct ColumnsByTile {
-  using OfTile = band::ColumnsOfTile<Dim, Real, band::NumbersOfColumns<Real>>;
+  using OfTile = band::ColumnsOfTile<Dim, band::NumbersOfColumns>;
 
   const std::uint64_t* tile_keys;
   const std::int32_t* column;  // by tile and place
-  mpm::SizesOfBodies<Real> sizes;
+  mpm::SizesOfBodies sizes;
   Real cell;
   const Real *thickness, *top, *cosine;
 

@@ -16,15 +16,15 @@
 
 namespace thawslide::device {
 
-template <class Backend, int Dim, class Real>
+template <class Backend, int Dim>
 class Columns {
-  using Part = ColumnPart<Dim, Real>;
+  using Part = ColumnPart<Dim>;
 
  public:
   // half_sizes: of particles, by body, in cells. An empty slope_cosine means level ground; an empty normal_gravity
   // means that no loads are computed.
-  Columns(Backend& backend, Real cell, const std::vector<Real>& half_sizes, band::OfPlace<Dim, Real> slope_cosine,
-          band::OfPlace<Dim, Real> normal_gravity)
+  Columns(Backend& backend, Real cell, const std::vector<Real>& half_sizes, band::OfPlace<Dim> slope_cosine,
+          band::OfPlace<Dim> normal_gravity)
       : backend_(backend),
         cell_(cell),
         slope_cosine_{std::move(slope_cosine), {}, Array<Real, Backend>(backend)},
@@ -53,31 +53,30 @@ class Columns {
   }
 
   // Updates the columns from positions, volumes and masses.
-  void sum(const TileTables<Dim>& tables, const mpm::ParticleView<Dim, Real>& particles) {
-    using InTile = SumInTile<Dim, Real>;
+  void sum(const TileTables<Dim>& tables, const mpm::ParticleView<Dim>& particles) {
+    using InTile = SumInTile<Dim>;
     backend_.for_groups(tables.tiles, InTile::at_a_time, InTile::bytes,
                         InTile{tables, particles, sizes_.view(), cell_, parts_.data()});
     backend_.for_each(keys_.size(), SumParts<Part>{first_seen_.data(), seen_.data(), keys_.size(), seen_.size(),
                                                    parts_.data(), sums_.data()});
-    backend_.for_each(keys_.size(),
-                      FinishColumns<Dim, Real>{sums_.data(), adjacent_.data(),
-                                               normal_gravity_.ask ? normal_gravity_.values.data() : nullptr, cell_,
-                                               thickness_.data(), top_.data(), load_per_depth_.data()});
+    backend_.for_each(keys_.size(), FinishColumns<Dim>{sums_.data(), adjacent_.data(),
+                                                       normal_gravity_.ask ? normal_gravity_.values.data() : nullptr,
+                                                       cell_, thickness_.data(), top_.data(), load_per_depth_.data()});
   }
 
-  [[nodiscard]] ColumnsByTile<Dim, Real> seen(const TileTables<Dim>& tables) const {
+  [[nodiscard]] ColumnsByTile<Dim> seen(const TileTables<Dim>& tables) const {
     return seen_with(tables, slope_cosine_.values);
   }
   // Columns with the load per depth [Pa/m] in place of the slope's cosine: the flow depth of a particle is then its
   // load.
-  [[nodiscard]] ColumnsByTile<Dim, Real> loading(const TileTables<Dim>& tables) const {
+  [[nodiscard]] ColumnsByTile<Dim> loading(const TileTables<Dim>& tables) const {
     return seen_with(tables, load_per_depth_);
   }
 
  private:
   // Terrain query at columns and its results.
   struct ColumnQuery {
-    band::OfPlace<Dim, Real> ask;
+    band::OfPlace<Dim> ask;
     std::vector<Real> known;
     Array<Real, Backend> values;
   };
@@ -89,7 +88,7 @@ class Columns {
       std::vector<Real> values(keys.size(), Real(1));
       for (std::size_t k = 0; asked->ask && k < keys.size(); ++k) {
         values[k] = before[k] != absent ? asked->known[static_cast<std::size_t>(before[k])]
-                                        : asked->ask(band::middle_of_column<Dim, Real>(keys[k], cell_));
+                                        : asked->ask(band::middle_of_column<Dim>(keys[k], cell_));
       }
       asked->values.set(values);
       asked->known = std::move(values);
@@ -97,8 +96,7 @@ class Columns {
     known_keys_ = keys;
   }
 
-  [[nodiscard]] ColumnsByTile<Dim, Real> seen_with(const TileTables<Dim>& tables,
-                                                   const Array<Real, Backend>& cosine) const {
+  [[nodiscard]] ColumnsByTile<Dim> seen_with(const TileTables<Dim>& tables, const Array<Real, Backend>& cosine) const {
     return {tables.tile_keys, column_.data(), sizes_.view(), cell_, thickness_.data(), top_.data(), cosine.data()};
   }
 
@@ -106,7 +104,7 @@ class Columns {
   Real cell_;
   ColumnQuery slope_cosine_, normal_gravity_;
   std::vector<std::uint64_t> known_keys_;  // of the columns
-  BodySizes<Backend, Real> sizes_;         // half sizes of particles [m]
+  BodySizes<Backend> sizes_;               // half sizes of particles [m]
   UniqueKeys<Backend> first_{backend_};
   Array<std::uint64_t, Backend> keys_listed_{backend_}, keys_of_seen_{backend_}, keys_{backend_};
   Array<std::uint32_t, Backend> listed_{backend_}, seen_{backend_}, first_seen_{backend_};

@@ -15,7 +15,7 @@
 #include "base/portability.hpp"
 #include "device/cuda_graphs.hpp"
 #include "device/failure.hpp"
-#include "device/launching.hpp"
+#include "device/gpu.hpp"
 
 namespace thawslide::device {
 

@@ -21,13 +21,13 @@ template <int Dim>
 inline constexpr std::size_t parts_of_column = static_cast<std::size_t>(mpm::power(terrain::bed_parts, Dim - 1));
 
 // Marks the bed parts that particles of tiles near the ground cover. One thread group per tile.
-template <int Dim, class Real>
+template <int Dim>
 struct CoverBed {
   using T = mpm::Tile<Dim>;
 
   TileTables<Dim> tables;
-  mpm::ParticleView<Dim, Real> particles;
-  mpm::SizesOfBodies<Real> sizes;
+  mpm::ParticleView<Dim> particles;
+  mpm::SizesOfBodies sizes;
   SeesCandidates<Dim> sees;
   Real cell;
   const std::uint32_t* stack_of_block;
@@ -88,15 +88,15 @@ struct PackParts {
 
 // Kernels with one thread per candidate node: PackLoad gathers loads for the CPU, OfferBed initializes records with the
 // available mass, and PackPressure adds the normal pressure of entraining nodes for the CPU.
-template <int Dim, class Real>
+template <int Dim>
 struct PackLoad {
-  NodeViews<Dim, Real> nodes;
+  NodeViews<Dim> nodes;
   const std::uint32_t* candidates;
   Real* loads;
 
   THAWSLIDE_HD void operator()(std::size_t k) const { loads[k] = nodes.base_at(candidates[k])[mpm::BaseLayout::load]; }
 };
-template <int Dim, class Real>
+template <int Dim>
 struct OfferBed {
   const Real* available;
   Real* records;
@@ -109,9 +109,9 @@ struct OfferBed {
     record[mpm::BedLayout<Dim>::available] = available[k];
   }
 };
-template <int Dim, class Real>
+template <int Dim>
 struct PackPressure {
-  NodeViews<Dim, Real> nodes;
+  NodeViews<Dim> nodes;
   const std::uint32_t* candidates;
   Real* records;
 
@@ -125,26 +125,26 @@ struct PackPressure {
 };
 
 // Interface required by ResolveContact (device/node_kernels.hpp).
-template <int Dim, class Real>
+template <int Dim>
 struct BedBelowNodes {
-  terrain::BedMaterial<Real> material;
+  terrain::BedMaterial material;
   Real* records;
 
-  [[nodiscard]] THAWSLIDE_HD terrain::BedBelowNode<Dim, Real> below(std::size_t candidate, Real area, Real strength,
-                                                                    Real dt, Real mass) const {
+  [[nodiscard]] THAWSLIDE_HD terrain::BedBelowNode<Dim> below(std::size_t candidate, Real area, Real strength, Real dt,
+                                                              Real mass) const {
     return {&material, records + candidate * bed_record_size<Dim>, area, strength, dt, mass};
   }
 };
 
-template <class Backend, int Dim, class Real>
+template <class Backend, int Dim>
 class ErodibleBed {
  public:
-  ErodibleBed(Backend& backend, HostBed<Dim, Real> processor) : backend_(backend), cpu_(std::move(processor)) {}
+  ErodibleBed(Backend& backend, HostBed<Dim> processor) : backend_(backend), cpu_(std::move(processor)) {}
 
   [[nodiscard]] bool exists() const { return static_cast<bool>(cpu_.distribute); }
 
   // Call after blocks have changed.
-  void update(const std::vector<std::uint64_t>& blocks, const Ground<Backend, Dim, Real>& ground) {
+  void update(const std::vector<std::uint64_t>& blocks, const Ground<Backend, Dim>& ground) {
     if (!exists()) {
       return;
     }
@@ -164,30 +164,30 @@ class ErodibleBed {
   }
 
   // Sets the bed mass available to each candidate node. Call after the basal law has been evaluated.
-  void distribute(const TileTables<Dim>& tables, const mpm::ParticleView<Dim, Real>& particles,
-                  const mpm::SizesOfBodies<Real>& sizes, const Ground<Backend, Dim, Real>& ground, Real cell,
-                  const NodeViews<Dim, Real>& nodes) {
+  void distribute(const TileTables<Dim>& tables, const mpm::ParticleView<Dim>& particles,
+                  const mpm::SizesOfBodies& sizes, const Ground<Backend, Dim>& ground, Real cell,
+                  const NodeViews<Dim>& nodes) {
     constexpr std::size_t threads = 128;
     backend_.for_groups(
         tables.tiles, threads, 0,
-        CoverBed<Dim, Real>{tables, particles, sizes, ground.sees_candidates(), cell, stack_.data(), covered_.data()});
+        CoverBed<Dim>{tables, particles, sizes, ground.sees_candidates(), cell, stack_.data(), covered_.data()});
     backend_.for_each(parts_.size(), PackParts<Dim>{covered_.data(), parts_.data()});
-    backend_.for_each(loads_.size(), PackLoad<Dim, Real>{nodes, ground.candidates(), loads_.data()});
+    backend_.for_each(loads_.size(), PackLoad<Dim>{nodes, ground.candidates(), loads_.data()});
     available_.set(cpu_.distribute(parts_.get(), loads_.get()));
-    backend_.for_each(loads_.size(), OfferBed<Dim, Real>{available_.data(), records_.data()});
+    backend_.for_each(loads_.size(), OfferBed<Dim>{available_.data(), records_.data()});
   }
 
-  [[nodiscard]] BedBelowNodes<Dim, Real> below_nodes() { return {cpu_.material, records_.data()}; }
+  [[nodiscard]] BedBelowNodes<Dim> below_nodes() { return {cpu_.material, records_.data()}; }
 
   // Call after contact has been resolved.
-  void collect(const NodeViews<Dim, Real>& nodes, const std::uint32_t* candidates) {
-    backend_.for_each(loads_.size(), PackPressure<Dim, Real>{nodes, candidates, records_.data()});
+  void collect(const NodeViews<Dim>& nodes, const std::uint32_t* candidates) {
+    backend_.for_each(loads_.size(), PackPressure<Dim>{nodes, candidates, records_.data()});
     cpu_.collect(records_.get());
   }
 
  private:
   Backend& backend_;
-  HostBed<Dim, Real> cpu_;
+  HostBed<Dim> cpu_;
   Array<std::uint32_t, Backend> stack_{backend_}, parts_{backend_};
   Array<std::uint8_t, Backend> covered_{backend_};
   Array<Real, Backend> loads_{backend_}, available_{backend_}, records_{backend_};

@@ -14,7 +14,7 @@
 namespace thawslide::device {
 
 // Counts escaped particles: a kernel (mpm/kernel.hpp).
-template <int Dim, class Real>
+template <int Dim>
 struct CountEscaped {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
@@ -51,13 +51,13 @@ struct CountEscaped {
 };
 
 // Marks each escaped particle.
-template <int Dim, class Real>
+template <int Dim>
 struct MarkEscaped {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
   using Account = mpm::NoAccount;
 
-  CountEscaped<Dim, Real> count;
+  CountEscaped<Dim> count;
   std::uint32_t* marks;  // by particle: 1 or 0
 
   [[nodiscard]] THAWSLIDE_HD MarkEscaped in_tile(std::size_t tile) const { return {count.in_tile(tile), marks}; }
@@ -70,9 +70,9 @@ struct MarkEscaped {
 };
 
 // Compacts the positions of marked particles.
-template <int Dim, class Real>
+template <int Dim>
 struct ListEscaped {
-  mpm::ParticleView<Dim, Real> particles;
+  mpm::ParticleView<Dim> particles;
   const std::uint32_t* marks;
   const std::uint32_t* marked_before;
   Vector<Real, Dim>* places;
@@ -86,22 +86,22 @@ struct ListEscaped {
   }
 };
 
-template <class Backend, int Dim, class Real>
+template <class Backend, int Dim>
 class EscapeCheck {
  public:
   explicit EscapeCheck(Backend& backend) : marks_(backend), marked_before_(backend), places_(backend) {}
 
   // Positions [m] of the escaped particles. escapes: their number.
   template <class Passes>
-  std::vector<Vector<Real, Dim>> places(Passes& passes, const CountEscaped<Dim, Real>& count, std::size_t escapes) {
+  std::vector<Vector<Real, Dim>> places(Passes& passes, const CountEscaped<Dim>& count, std::size_t escapes) {
     const std::size_t particles = passes.particles.size();
     marks_.resize(particles);
     marked_before_.resize(particles);
     places_.resize(escapes);
-    passes.run(passes.linear(), MarkEscaped<Dim, Real>{count, marks_.data()});
+    passes.run(passes.linear(), MarkEscaped<Dim>{count, marks_.data()});
     passes.backend.sum_before(marks_.data(), marked_before_.data(), particles);
-    passes.backend.for_each(particles, ListEscaped<Dim, Real>{passes.particles.view(), marks_.data(),
-                                                              marked_before_.data(), places_.data()});
+    passes.backend.for_each(
+        particles, ListEscaped<Dim>{passes.particles.view(), marks_.data(), marked_before_.data(), places_.data()});
     return places_.get();
   }
 

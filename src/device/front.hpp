@@ -15,10 +15,10 @@
 namespace thawslide::device {
 
 // Sort key of each particle, by rank in canonical order: its distance along the path.
-template <int Dim, class Real>
+template <int Dim>
 struct ListAlongPath {
   mpm::Transformation<Dim> way;
-  mpm::ParticleView<Dim, Real> particles;
+  mpm::ParticleView<Dim> particles;
   const std::uint32_t* order;
   std::uint64_t* keys;
 
@@ -28,17 +28,17 @@ struct ListAlongPath {
 };
 
 // The last particles of a sorted list, in reverse order.
-template <int Dim, class Real>
+template <int Dim>
 struct KeepForemost {
   mpm::Transformation<Dim> way;
-  mpm::ParticleView<Dim, Real> particles;
+  mpm::ParticleView<Dim> particles;
   const std::uint32_t* end;
   mpm::PathSample* taken;
 
   THAWSLIDE_HD void operator()(std::size_t k) const { taken[k] = way.of(particles, *(end - 1 - k)); }
 };
 
-template <class Backend, int Dim, class Real>
+template <class Backend, int Dim>
 class Front {
  public:
   explicit Front(Backend& backend) : backend_(backend) {}
@@ -46,19 +46,19 @@ class Front {
   // count: number of particles, at least one. mass: their total mass [kg]. Among equal distances, the higher rank in
   // canonical order is further ahead.
   mpm::PathSample find(const mpm::Transformation<Dim>& way, double mass, const TileTables<Dim>& tables,
-                       const mpm::ParticleView<Dim, Real>& particles, std::size_t count) {
+                       const mpm::ParticleView<Dim>& particles, std::size_t count) {
     const mpm::Transformation<Dim> here{copied(way.line), way.origin};
     keys_.resize(count);
     sorted_keys_.resize(count);
     sorted_.resize(count);
-    backend_.for_each(count, ListAlongPath<Dim, Real>{here, particles, tables.order, keys_.data()});
+    backend_.for_each(count, ListAlongPath<Dim>{here, particles, tables.order, keys_.data()});
     backend_.sort(keys_.data(), tables.order, sorted_keys_.data(), sorted_.data(), count);
     mpm::FrontSearch search(mass);
     // Chunk size: slightly more particles than are ahead of the front if all masses are equal.
     const std::size_t at_a_time = count / 150 + 1024;
     for (std::size_t left = count;; left -= taken_.size()) {
       taken_.resize(std::min(left, at_a_time));
-      backend_.for_each(taken_.size(), KeepForemost<Dim, Real>{here, particles, sorted_.data() + left, taken_.data()});
+      backend_.for_each(taken_.size(), KeepForemost<Dim>{here, particles, sorted_.data() + left, taken_.data()});
       for (const mpm::PathSample& one : taken_.get()) {
         if (search.is_at(one.mass)) {
           return one;

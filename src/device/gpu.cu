@@ -6,14 +6,14 @@
 namespace thawslide::device {
 
 template <int Dim>
-SolverFactory<Dim, double> on_gpu(Launching launching) {
-  return [launching](const StepModel<Dim, double>& model, const mpm::ParticleView<Dim, double>& particles,
-                     std::size_t count, HostCallbacks<Dim, double> ask) {
+SolverFactory<Dim> on_gpu(Launching launching) {
+  return [launching](const StepModel<Dim>& model, const mpm::ParticleView<Dim>& particles, std::size_t count,
+                     HostCallbacks<Dim> ask) {
     return steps_on<Cuda>(model, particles, count, std::move(ask), launching);
   };
 }
-template SolverFactory<2, double> on_gpu<2>(Launching);
-template SolverFactory<3, double> on_gpu<3>(Launching);
+template SolverFactory<2> on_gpu<2>(Launching);
+template SolverFactory<3> on_gpu<3>(Launching);
 
 Gpu find_gpu() {
   Gpu gpu;
@@ -22,22 +22,22 @@ Gpu find_gpu() {
   if (found == cudaErrorInsufficientDriver) {
     int driver = 0;
     static_cast<void>(cudaDriverGetVersion(&driver));
-    gpu.why_not =
+    gpu.unavailable_reason =
         driver == 0 ? "no NVIDIA driver found"
                     : "the NVIDIA driver is too old for CUDA " + std::to_string(CUDART_VERSION / 1000) + ": update it";
     return gpu;
   }
   if (found != cudaSuccess && found != cudaErrorNoDevice) {
-    gpu.why_not = std::string("CUDA cannot be used: ") + cudaGetErrorString(found);
+    gpu.unavailable_reason = std::string("CUDA cannot be used: ") + cudaGetErrorString(found);
     return gpu;
   }
   if (count == 0) {
-    gpu.why_not = "no NVIDIA GPU found";
+    gpu.unavailable_reason = "no NVIDIA GPU found";
     return gpu;
   }
   cudaDeviceProp known{};
   if (cudaGetDeviceProperties(&known, 0) != cudaSuccess) {
-    gpu.why_not = "the NVIDIA GPU does not respond";
+    gpu.unavailable_reason = "the NVIDIA GPU does not respond";
     return gpu;
   }
   gpu.name = std::string(known.name) + ", compute capability " + std::to_string(known.major) + "." +
@@ -50,8 +50,8 @@ Gpu find_gpu() {
   } catch (const GpuError& error) {
     const bool is_of_others =
         error.code() == cudaErrorNoKernelImageForDevice || error.code() == cudaErrorInvalidDeviceFunction;
-    gpu.why_not = "the GPU (" + gpu.name + ") cannot run this program: " + error.what() +
-                  (is_of_others ? ". Build with THAWSLIDE_CUDA_ARCHITECTURES for it" : "");
+    gpu.unavailable_reason = "the GPU (" + gpu.name + ") cannot run this program: " + error.what() +
+                             (is_of_others ? ". Build with THAWSLIDE_CUDA_ARCHITECTURES for it" : "");
     return gpu;
   }
   gpu.is_usable = true;

@@ -15,10 +15,10 @@
 namespace thawslide::device {
 
 // Marks the cells of a tile whose particles reach a candidate node with any shape function. One thread per cell.
-template <int Dim, class Real>
+template <int Dim>
 struct FindNear {
   TileTables<Dim> tables;
-  const terrain::GroundAtNode<Dim, Real>* known;
+  const terrain::GroundAtNode<Dim>* known;
   std::uint8_t* near;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
@@ -58,9 +58,9 @@ struct FindNearTile {
 
 // Copies the ground data of each node, from the former blocks or from newly queried blocks; sets its record and
 // candidate flag. One thread per node.
-template <int Dim, class Real>
+template <int Dim>
 struct CopyGround {
-  using AtNode = terrain::GroundAtNode<Dim, Real>;
+  using AtNode = terrain::GroundAtNode<Dim>;
 
   const std::int32_t* block_before;  // by block; from `before` on: index among newly queried blocks
   std::size_t before;
@@ -111,15 +111,15 @@ struct SeesCandidates {
   }
 };
 
-template <class Backend, int Dim, class Real>
+template <class Backend, int Dim>
 class Ground {
   using T = mpm::Tile<Dim>;
-  using AtNode = terrain::GroundAtNode<Dim, Real>;
+  using AtNode = terrain::GroundAtNode<Dim>;
   static constexpr auto nodes = static_cast<std::size_t>(T::nodes);
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<mpm::Planes, Dim>);
 
  public:
-  Ground(Backend& backend, GroundQuery<Dim, Real> ask) : backend_(backend), host_(std::move(ask)) {}
+  Ground(Backend& backend, GroundQuery<Dim> ask) : backend_(backend), host_(std::move(ask)) {}
 
   [[nodiscard]] bool exists() const { return static_cast<bool>(host_); }
 
@@ -129,7 +129,7 @@ class Ground {
     list_candidates_of(blocks.size() * nodes);
     near_.resize(tables.tiles * nodes);
     any_near_.resize(tables.tiles);
-    backend_.for_each(near_.size(), FindNear<Dim, Real>{tables, known_.data(), near_.data()});
+    backend_.for_each(near_.size(), FindNear<Dim>{tables, known_.data(), near_.data()});
     backend_.for_each(any_near_.size(), FindNearTile<Dim>{near_.data(), any_near_.data()});
   }
 
@@ -167,8 +167,8 @@ class Ground {
     records_.resize(known_.size() * size);
     is_candidate_.resize(known_.size());
     backend_.for_each(known_.size(),
-                      CopyGround<Dim, Real>{block_before_.data(), blocks_.size(), known_before_.data(), queried_.data(),
-                                            known_.data(), records_.data(), is_candidate_.data()});
+                      CopyGround<Dim>{block_before_.data(), blocks_.size(), known_before_.data(), queried_.data(),
+                                      known_.data(), records_.data(), is_candidate_.data()});
     blocks_ = blocks;
     is_partly_unknown_ = std::move(partly_unknown);
   }
@@ -183,7 +183,7 @@ class Ground {
   }
 
   Backend& backend_;
-  GroundQuery<Dim, Real> host_;
+  GroundQuery<Dim> host_;
   std::vector<std::uint64_t> blocks_;            // known blocks
   std::vector<std::uint8_t> is_partly_unknown_;  // by block
   Array<std::int32_t, Backend> block_before_{backend_};

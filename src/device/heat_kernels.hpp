@@ -11,7 +11,6 @@
 namespace thawslide::device {
 
 // Scaling xi of particles in the band: uniform, or from the thickness of the cells along the ground.
-template <class Real>
 struct OneScaling {
   Real scaling;
 
@@ -21,7 +20,7 @@ struct OneScaling {
     return scaling;
   }
 };
-template <int Dim, class Real>
+template <int Dim>
 struct ScalingByLayer {
   LayersOfTile<Dim> layers;
   Real thickness;  // of the band [m]
@@ -42,7 +41,7 @@ struct ScalingByLayer {
 };
 
 // Sets the scaling of particles in the band, or of all particles; sums the heat that the change of scaling adds.
-template <int Dim, class Real, class Content, class Scaling>
+template <int Dim, class Content, class Scaling>
 struct RescaleBand {
   using Law = band::ParticleHeat<Content, band::InitialMasses>;
   using Reads = mpm::RecordList<>;
@@ -50,7 +49,7 @@ struct RescaleBand {
   using Account = Real;
 
   Content content;
-  band::BandPhysics<Real> physics;
+  band::BandPhysics physics;
   bool has_water, scales_all;
   Scaling in_band;
 
@@ -68,17 +67,17 @@ struct RescaleBand {
   }
 };
 
-template <int Dim, class Real, class Content>
+template <int Dim, class Content>
 struct HeatFlows {
   using Law = band::ParticleHeat<Content, band::InitialMasses>;
-  using Kernel = band::HeatFlows<Dim, Real, Law>;
+  using Kernel = band::HeatFlows<Dim, Law>;
   using Reads = typename Kernel::Reads;
   using Adds = typename Kernel::Adds;
   using Account = typename Kernel::Account;
 
   Content content;
-  band::BandPhysics<Real> physics;
-  band::HydraulicConductivity<Real> hydraulic;
+  band::BandPhysics physics;
+  band::HydraulicConductivity hydraulic;
   Real dt, inverse_cell;
   bool subgrid;
 
@@ -91,10 +90,10 @@ struct HeatFlows {
   }
 };
 
-template <int Dim, class Real, class Content>
+template <int Dim, class Content>
 struct SecantCapacity {
   using Law = band::ParticleHeat<Content, band::InitialMasses>;
-  using Kernel = band::SecantCapacity<Dim, Real, Law>;
+  using Kernel = band::SecantCapacity<Dim, Law>;
   using Reads = typename Kernel::Reads;
   using Adds = typename Kernel::Adds;
   using Account = typename Kernel::Account;
@@ -111,16 +110,16 @@ struct SecantCapacity {
   }
 };
 
-template <int Dim, class Real, class Content>
+template <int Dim, class Content>
 struct UpdateHeat {
   using Law = band::ParticleHeat<Content, band::InitialMasses>;
-  using Kernel = band::UpdateHeat<Dim, Real, Law>;
+  using Kernel = band::UpdateHeat<Dim, Law>;
   using Reads = typename Kernel::Reads;
   using Adds = typename Kernel::Adds;
   using Account = typename Kernel::Account;
 
   Content content;
-  band::BandPhysics<Real> physics;
+  band::BandPhysics physics;
   Real dt;
 
   template <class Particles, class At, class Seen, class Scatter>
@@ -134,19 +133,19 @@ struct UpdateHeat {
 
 // Nodal temperature rates, from sums with the tangent capacity, or with the secant capacity in blocks with temperature
 // changes.
-template <int Dim, class Real>
+template <int Dim>
 struct SolveRates {
-  using Part = band::NodalHeat<Real>;
+  using Part = band::NodalHeat;
   using Sum = Part;
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
 
-  NodeViews<Dim, Real> nodes;
+  NodeViews<Dim> nodes;
   const Real *tangent_rates, *secant_rates;
   const std::uint8_t* changing_blocks;  // null: none yet
   Real* unreached_heat;
   Real dt;
   const std::uint64_t* block_keys;
-  band::HeatFaces<Dim, Real> faces;
+  band::HeatFaces<Dim> faces;
   bool has_faces, first_step;
   Real cell;
 
@@ -179,10 +178,10 @@ struct SolveRates {
 };
 
 // Tile condition (device/marks.hpp): a temperature may change by more than is negligible.
-template <int Dim, class Real, class Content>
+template <int Dim, class Content>
 struct MayChange {
-  NodeViews<Dim, Real> nodes;
-  mpm::ParticleView<Dim, Real> particles;
+  NodeViews<Dim> nodes;
+  mpm::ParticleView<Dim> particles;
   Content content;
   Real dt;
 
@@ -195,7 +194,7 @@ struct MayChange {
 };
 
 // Tile condition: nodes hold friction heat to be passed on to particles.
-template <int Dim, class Real>
+template <int Dim>
 struct HasHeat {
   const Real* unreached_heat;
 

@@ -43,7 +43,7 @@ struct LayersOfTile {
   }
 };
 
-template <class Backend, int Dim, class Real>
+template <class Backend, int Dim>
 class LayerThickness {
  public:
   LayerThickness(Backend& backend, LayerAtMiddle<Dim> at_middle)

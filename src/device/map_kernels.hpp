@@ -53,15 +53,14 @@ struct ListMapCells {
 
 // Contributions of each tile's particles to its map cells, one thread group per tile. For each chunk of particles, one
 // thread per particle finds the cells below its box; then one thread per cell adds the boxes in order.
-template <class Real>
 struct SumMapInTile {
   static constexpr std::size_t at_a_time = 128;
 
   MapPlaces places;
   TileTables<3> tables;
-  mpm::ParticleView<3, Real> particles;
-  mpm::SizesOfBodies<Real> sizes;  // half sizes of particles [m]
-  mpm::MapSums* parts;             // by tile and place
+  mpm::ParticleView<3> particles;
+  mpm::SizesOfBodies sizes;  // half sizes of particles [m]
+  mpm::MapSums* parts;       // by tile and place
 
   struct Box {
     mpm::CellRange columns, rows;
@@ -89,7 +88,7 @@ struct SumMapInTile {
 
  private:
   [[nodiscard]] THAWSLIDE_HD Box box_of(std::uint32_t p) const {
-    const auto size = sizes.of(particles, mpm::ScalarIndex<Real>{{p}});
+    const auto size = sizes.of(particles, mpm::ScalarIndex{{p}});
     const double half = size.half, inverse = size.inverse;
     const mpm::MapCells& cells = places.cells;
     const auto spans = [half, inverse](double position, double corner, double cell, double inverse_cell, int count) {

@@ -15,7 +15,7 @@
 
 namespace thawslide::device {
 
-template <class Backend, class Real>
+template <class Backend>
 class Maps {
  public:
   // cell: mesh size [m]. half_sizes: of particles, by body, in cells.
@@ -26,8 +26,8 @@ class Maps {
   void forget_tiles() { knows_tiles_ = false; }
 
   // Sums over particles at their positions after a step, with the tiles from its beginning.
-  void sum(const mpm::MapCells& cells, const TileTables<3>& tables, const mpm::ParticleView<3, Real>& particles,
-           MapSample& look) {
+  void sum(const mpm::MapCells& cells, const TileTables<3>& tables, const mpm::ParticleView<3>& particles,
+           MapSample& sample) {
     if (!knows_tiles_ || !(cells == places_.cells)) {
       number_cells(cells, tables);
       known_keys_ = keys_.get();
@@ -36,14 +36,14 @@ class Maps {
       }
       knows_tiles_ = true;
     }
-    look.keys = known_keys_;
-    using InTile = SumMapInTile<Real>;
+    sample.keys = known_keys_;
+    using InTile = SumMapInTile;
     backend_.for_groups(tables.tiles, InTile::at_a_time, InTile::bytes,
                         InTile{places_, tables, particles, sizes_.view(), parts_.data()});
     backend_.for_each(keys_.size(), SumParts<mpm::MapSums>{first_seen_.data(), seen_.data(), keys_.size(), seen_.size(),
                                                            parts_.data(), sums_.data()});
-    look.sums.resize(look.keys.size());
-    backend_.copy_out(look.sums.data(), sums_.data(), look.sums.size());
+    sample.sums.resize(sample.keys.size());
+    backend_.copy_out(sample.sums.data(), sums_.data(), sample.sums.size());
   }
 
  private:
@@ -67,7 +67,7 @@ class Maps {
 
   Backend& backend_;
   Real cell_;
-  BodySizes<Backend, Real> sizes_;  // half sizes of particles [m]
+  BodySizes<Backend> sizes_;  // half sizes of particles [m]
   MapPlaces places_;
   bool knows_tiles_ = false;
   std::vector<std::uint64_t> known_keys_;  // of cells below at least one tile

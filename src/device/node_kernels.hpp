@@ -4,22 +4,22 @@
 
 #include <limits>
 
+#include "band/averages_kernel.hpp"
 #include "band/heat_face.hpp"
-#include "band/nodal_state.hpp"
 #include "device/step_model.hpp"
 #include "device/tile_tables.hpp"
 #include "mpm/records.hpp"
 #include "physics/basal/laws.hpp"
-#include "physics/basal_friction.hpp"
+#include "physics/contact.hpp"
 #include "terrain/contact_node.hpp"
 
 namespace thawslide::device {
 
 // Records of nodes, accessed by the node's number over all blocks.
-template <int Dim, class Real>
+template <int Dim>
 struct NodeViews {
   Real *averages, *state, *momentum, *near_ground, *base, *contact, *motion, *velocity;
-  const terrain::GroundAtNode<Dim, Real>* known;  // null: no ground
+  const terrain::GroundAtNode<Dim>* known;  // null: no ground
 
   template <class Name>
   [[nodiscard]] THAWSLIDE_HD static Real* record(Real* numbers, std::size_t node) {
@@ -40,7 +40,7 @@ struct NodeViews {
 };
 
 // Position [m, relative to the domain's lower corner] of a node, by its number over all blocks.
-template <int Dim, class Real>
+template <int Dim>
 THAWSLIDE_HD Vector<Real, Dim> place_of_node(const std::uint64_t* block_keys, std::size_t node, Real cell) {
   using T = mpm::Tile<Dim>;
   constexpr auto block_nodes = static_cast<std::size_t>(T::nodes);
@@ -54,9 +54,9 @@ THAWSLIDE_HD Vector<Real, Dim> place_of_node(const std::uint64_t* block_keys, st
 }
 
 // Faces of the domain at one node.
-template <int Dim, class Real>
+template <int Dim>
 struct FacesAtNode {
-  const mpm::DomainFaces<Dim, Real>& faces;
+  const mpm::DomainFaces<Dim>& faces;
   Vector<Real, Dim> position;
 
   [[nodiscard]] THAWSLIDE_HD bool any() const {
@@ -75,21 +75,21 @@ struct FacesAtNode {
 };
 
 // Arguments common to all node kernels of a step.
-template <int Dim, class Real>
+template <int Dim>
 struct NodeStageArgs {
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
 
   TileTables<Dim> tables;
-  NodeViews<Dim, Real> nodes;
-  mpm::DomainFaces<Dim, Real> faces;
+  NodeViews<Dim> nodes;
+  mpm::DomainFaces<Dim> faces;
   Vector<Real, Dim> gravity;
   Real cell, mass_damping, time, dt;
   bool distance_check, pore_pressure, base_holds;
 
-  [[nodiscard]] THAWSLIDE_HD FacesAtNode<Dim, Real> walls(std::size_t node) const {
+  [[nodiscard]] THAWSLIDE_HD FacesAtNode<Dim> walls(std::size_t node) const {
     return {faces, place_of_node<Dim>(tables.block_keys, node, cell)};
   }
-  [[nodiscard]] THAWSLIDE_HD terrain::NodeState<Dim, Real> trial(std::size_t node) const {
+  [[nodiscard]] THAWSLIDE_HD terrain::NodeState<Dim> trial(std::size_t node) const {
     return terrain::trial_state<Dim>(walls(node), dt, mass_damping, static_cast<const Real*>(nodes.momentum_at(node)));
   }
   [[nodiscard]] THAWSLIDE_HD bool has_mass(std::size_t node) const {
@@ -105,31 +105,31 @@ struct NodeStageArgs {
 };
 
 // Sets the temperature and pore pressure of a node, with prescribed temperatures on faces of the domain.
-template <int Dim, class Real>
+template <int Dim>
 struct SetState {
-  NodeViews<Dim, Real> nodes;
+  NodeViews<Dim> nodes;
   const std::uint64_t* block_keys;
-  band::HeatFaces<Dim, Real> faces;
+  band::HeatFaces<Dim> faces;
   bool has_faces;
   Real cell;
 
   THAWSLIDE_HD void operator()(std::size_t node) const {
     Real* state = nodes.state_at(node);
-    if (band::set_nodal_state<Dim, Real>(static_cast<const Real*>(nodes.averages_at(node)), state) && has_faces) {
+    if (band::set_nodal_state<Dim>(static_cast<const Real*>(nodes.averages_at(node)), state) && has_faces) {
       band::prescribe_temperature(faces.at(place_of_node<Dim>(block_keys, node, cell)), state);
     }
   }
 };
 
 // Load of a candidate node on the ground, and the ground area that the sliding mass covers.
-template <int Dim, class Real>
+template <int Dim>
 struct PressOnGround {
-  NodeStageArgs<Dim, Real> step;
+  NodeStageArgs<Dim> step;
   const std::uint32_t* candidates;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     const std::size_t node = candidates[k];
-    const terrain::GroundAtNode<Dim, Real>& known = step.nodes.known[node];
+    const terrain::GroundAtNode<Dim>& known = step.nodes.known[node];
     Real* base = step.nodes.base_at(node);
     base[mpm::BaseLayout::load] = Real(0);
     if (step.has_mass(node)) {
@@ -139,9 +139,9 @@ struct PressOnGround {
                                          step.nodes.near_ground_at(node)[mpm::NearGround::clearance], step.dt,
                                          state.mass, Real(state.momentum.dot(known.normal)));
     }
-    const std::size_t local = node % NodeStageArgs<Dim, Real>::block_nodes;
+    const std::size_t local = node % NodeStageArgs<Dim>::block_nodes;
     base[mpm::BaseLayout::covered] =
-        known.area * terrain::covered_share<Dim, Real>(local, known.normal, [&](int direction, int further) {
+        known.area * terrain::covered_share<Dim>(local, known.normal, [&](int direction, int further) {
           return filled(node, static_cast<std::size_t>(direction), static_cast<std::size_t>(further));
         });
   }
@@ -153,34 +153,33 @@ struct PressOnGround {
       return Real(0);
     }
     const Real cell = step.cell;
-    const terrain::GroundAtNode<Dim, Real>& known = step.nodes.known[other];
+    const terrain::GroundAtNode<Dim>& known = step.nodes.known[other];
     const Real space = known.candidate ? known.space : Dim == 2 ? cell * cell : cell * cell * cell;
     return terrain::filled_share(step.nodes.momentum_at(other)[mpm::MomentumLayout<Dim>::volume], space);
   }
 };
 
 // Input of the basal laws at a candidate node, and their results.
-template <class Real>
 struct ContactInput {
-  physics::basal::ContactNode<Real> node;
+  physics::basal::ContactNode node;
   Real area;  // [m2]; 0: not in contact
   // mu_e, pore pressure that reduces friction [Pa], drag [Pa], c_S [Pa]
   Real friction, relief, drag, cohesion;
 };
 
-template <int Dim, class Real>
+template <int Dim>
 struct GatherContactInput {
-  NodeStageArgs<Dim, Real> step;
+  NodeStageArgs<Dim> step;
   const std::uint32_t* candidates;
   Real smallest_area, gravity;
   const Real* columns;  // records of BaseState by candidate; null without band columns
-  ContactInput<Real>* bases;
+  ContactInput* bases;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     using mpm::BaseLayout;
     const std::size_t node = candidates[k];
-    const NodeViews<Dim, Real>& nodes = step.nodes;
-    ContactInput<Real>& base = bases[k];
+    const NodeViews<Dim>& nodes = step.nodes;
+    ContactInput& base = bases[k];
     base.area = Real(0);
     const Real load = nodes.base_at(node)[BaseLayout::load];
     if (!step.has_mass(node) || !(load > Real(0))) {
@@ -208,7 +207,7 @@ struct GatherContactInput {
   // Neighbour n of 3^Dim, x fastest.
   THAWSLIDE_HD bool find_neighbour(std::size_t node, std::size_t n, std::size_t& other) const {
     using T = mpm::Tile<Dim>;
-    typename T::Index index = T::node({}, static_cast<int>(node % NodeStageArgs<Dim, Real>::block_nodes));
+    typename T::Index index = T::node({}, static_cast<int>(node % NodeStageArgs<Dim>::block_nodes));
     for (std::size_t a = 0; a < Dim; ++a) {
       index[a] += static_cast<int>(n % 3) - 1;
       n /= 3;
@@ -219,16 +218,16 @@ struct GatherContactInput {
 };
 
 // Friction and cohesion by the laws of one substrate, at its nodes.
-template <class Law, int Dim, class Real>
+template <class Law, int Dim>
 struct EvaluateFriction {
   Law law;
   int substrate;
-  const terrain::GroundAtNode<Dim, Real>* known;
+  const terrain::GroundAtNode<Dim>* known;
   const std::uint32_t* candidates;
-  ContactInput<Real>* bases;
+  ContactInput* bases;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    ContactInput<Real>& base = bases[k];
+    ContactInput& base = bases[k];
     if (known[candidates[k]].substrate == substrate && base.area > Real(0)) {
       base.friction = law.coefficient(base.node);
       base.drag = physics::basal::drag_of(law, base.node);
@@ -236,16 +235,16 @@ struct EvaluateFriction {
     }
   }
 };
-template <class Law, int Dim, class Real>
+template <class Law, int Dim>
 struct EvaluateCohesion {
   Law law;
   int substrate;
-  const terrain::GroundAtNode<Dim, Real>* known;
+  const terrain::GroundAtNode<Dim>* known;
   const std::uint32_t* candidates;
-  ContactInput<Real>* bases;
+  ContactInput* bases;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    ContactInput<Real>& base = bases[k];
+    ContactInput& base = bases[k];
     if (known[candidates[k]].substrate == substrate && base.area > Real(0)) {
       base.cohesion = law.cohesion(base.node);
     }
@@ -254,7 +253,6 @@ struct EvaluateCohesion {
 
 // Used when there is no erodible bed.
 struct NoBeds {
-  template <class Real>
   [[nodiscard]] THAWSLIDE_HD terrain::NoBed below(std::size_t /*candidate*/, Real /*area*/, Real /*strength*/,
                                                   Real /*dt*/, Real /*mass*/) const {
     return {};
@@ -263,24 +261,24 @@ struct NoBeds {
 
 // From nodal momentum and force to nodal motion. Beds provides below(candidate, area, strength, dt, mass), the bed
 // argument of apply_contact.
-template <class Beds, int Dim, class Real>
+template <class Beds, int Dim>
 struct ResolveContact {
   struct Part {
-    terrain::ContactWork<Dim, Real> contact, motion;
+    terrain::ContactWork<Dim> contact, motion;
     bool touches = false;
   };
-  using Sum = terrain::ContactWork<Dim, Real>;
+  using Sum = terrain::ContactWork<Dim>;
 
-  NodeStageArgs<Dim, Real> step;
+  NodeStageArgs<Dim> step;
   const std::int32_t* number;  // by node, index among candidates; null: no ground
-  const ContactInput<Real>* bases;
+  const ContactInput* bases;
   physics::FrictionClamp clamp;
   bool cap_pressure;
   Real heat_fraction;
   Beds beds;
 
   THAWSLIDE_HD void visit(std::size_t node, Part& part) const {
-    const NodeViews<Dim, Real>& nodes = step.nodes;
+    const NodeViews<Dim>& nodes = step.nodes;
     Real* motion = nodes.motion_at(node);
     Real* contact = nodes.contact_at(node);
     clear<mpm::Motion>(motion);
@@ -291,7 +289,7 @@ struct ResolveContact {
       return;
     }
     auto state = step.trial(node);
-    const FacesAtNode<Dim, Real> walls = step.walls(node);
+    const FacesAtNode<Dim> walls = step.walls(node);
     if (candidate != absent && bases[candidate].area > Real(0)) {
       part.touches = true;
       touch(static_cast<std::size_t>(candidate), node, walls, state, part.contact, contact);
@@ -321,15 +319,15 @@ struct ResolveContact {
       record[c] = Real(0);
     }
   }
-  THAWSLIDE_HD void touch(std::size_t candidate, std::size_t node, const FacesAtNode<Dim, Real>& walls,
-                          terrain::NodeState<Dim, Real>& state, Sum& work, Real* contact) const {
-    const ContactInput<Real>& base = bases[candidate];
+  THAWSLIDE_HD void touch(std::size_t candidate, std::size_t node, const FacesAtNode<Dim>& walls,
+                          terrain::NodeState<Dim>& state, Sum& work, Real* contact) const {
+    const ContactInput& base = bases[candidate];
     const Real held = physics::sliding_strength(base.friction, base.node.normal_pressure, base.relief, base.cohesion,
                                                 clamp, cap_pressure) +
                       base.drag;
     const Real strength = step.base_holds ? std::numeric_limits<Real>::infinity() : held;
-    const terrain::GroundAtNode<Dim, Real>& known = step.nodes.known[node];
-    const terrain::ContactConditions<Dim, Real> hold{
+    const terrain::GroundAtNode<Dim>& known = step.nodes.known[node];
+    const terrain::ContactConditions<Dim> hold{
         known.normal, step.nodes.base_at(node)[mpm::BaseLayout::load], known.bend, base.area, strength, base.friction};
     terrain::apply_contact(walls, hold, heat_fraction, step.dt,
                            beds.below(candidate, base.area, strength, step.dt, state.mass), state, work, contact);
@@ -337,20 +335,20 @@ struct ResolveContact {
 };
 
 // Velocities from the momentum that particles map back.
-template <int Dim, class Real>
+template <int Dim>
 struct MapBack {
   using Part = Real;
   using Sum = Real;
 
-  NodeStageArgs<Dim, Real> step;
+  NodeStageArgs<Dim> step;
 
   THAWSLIDE_HD void visit(std::size_t node, Part& work) const {
-    const NodeViews<Dim, Real>& nodes = step.nodes;
+    const NodeViews<Dim>& nodes = step.nodes;
     if (!step.has_mass(node)) {
       return;
     }
     const bool touching = nodes.contact_at(node)[mpm::Contact::touching] > Real(0);
-    const terrain::GroundOfMappedBack<Dim, Real> below{
+    const terrain::GroundOfMappedBack<Dim> below{
         touching, step.distance_check, touching ? &nodes.known[node].normal : nullptr,
         touching ? nodes.near_ground_at(node)[mpm::NearGround::clearance] : Real(0)};
     Real* velocity = nodes.velocity_at(node);

@@ -7,7 +7,7 @@
 
 namespace thawslide::device {
 
-template <class Backend, int Dim, class Real>
+template <class Backend, int Dim>
 class NodeMemory {
  public:
   explicit NodeMemory(Backend& backend) : backend_(backend) {}
@@ -18,7 +18,7 @@ class NodeMemory {
     (of<Names>().resize(nodes * mpm::record_size(mpm::components_of<Names, Dim>)), ...);
   }
   void clear_base(std::size_t nodes) {
-    base_.resize(nodes * NodeViews<Dim, Real>::base_size);
+    base_.resize(nodes * NodeViews<Dim>::base_size);
     backend_.for_each(base_.size(), Fill<Real>{base_.data(), Real(0)});
   }
 
@@ -31,7 +31,7 @@ class NodeMemory {
     return records_.template of<Name>();
   }
   // known: ground data by node; null without ground.
-  [[nodiscard]] NodeViews<Dim, Real> views(const terrain::GroundAtNode<Dim, Real>* known) {
+  [[nodiscard]] NodeViews<Dim> views(const terrain::GroundAtNode<Dim>* known) {
     return {of<mpm::Averages>().data(),
             of<mpm::NodalState>().data(),
             of<mpm::Momentum>().data(),
@@ -46,7 +46,7 @@ class NodeMemory {
  private:
   Backend& backend_;
   Array<Real, Backend> base_{backend_};
-  NodeArrays<Backend, Real, mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact, mpm::Motion,
+  NodeArrays<Backend, mpm::Averages, mpm::NodalState, mpm::Momentum, mpm::NearGround, mpm::Contact, mpm::Motion,
              mpm::Velocity, mpm::HeatRates, mpm::UnreachedHeat, mpm::Seepage, mpm::SeepingWater, mpm::FilterMoments,
              mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>
       records_{backend_};

@@ -11,7 +11,7 @@
 namespace thawslide::device {
 
 // Records of one name, consecutive over the nodes of all blocks.
-template <class Name, int Dim, class Real>
+template <class Name, int Dim>
 struct RecordsOf {
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
   Real* numbers;
@@ -21,10 +21,10 @@ struct RecordsOf {
 };
 
 // Pointers to the records that a pass reads.
-template <class Names, class Real>
+template <class Names>
 struct RecordsRead;
-template <class... Names, class Real>
-struct RecordsRead<mpm::RecordList<Names...>, Real> {
+template <class... Names>
+struct RecordsRead<mpm::RecordList<Names...>> {
   using Type = mpm::ByName<mpm::Named<Names, const Real*>...>;
   template <class Records>
   static Type from([[maybe_unused]] const Records& records) {
@@ -34,7 +34,7 @@ struct RecordsRead<mpm::RecordList<Names...>, Real> {
 
 // Sum, over the tiles around a node, of their patches, its own tile first; the minimum for min-reduced components. One
 // thread per component of a node. MinReduced: a name with such components, or void.
-template <class Name, class MinReduced, class TileFilter, int Dim, class Real>
+template <class Name, class MinReduced, class TileFilter, int Dim>
 struct SumPatches {
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
 

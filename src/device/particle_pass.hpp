@@ -19,20 +19,20 @@ struct AllTiles {
 };
 
 // Arguments of a pass except its kernels. TileFilter: called with a tile, or with a tile and one of its cells.
-template <class Weights, class TileFilter, int Dim, class Real>
+template <class Weights, class TileFilter, int Dim>
 struct PassOver {
   TileTables<Dim> tables;
-  mpm::ParticleView<Dim, Real> particles;
+  mpm::ParticleView<Dim> particles;
   Weights weights;
   TileFilter accepts;
   Real cell;
 };
 
-template <class Over, class Reads, class Adds, int Dim, class Real, class... Kernels>
+template <class Over, class Reads, class Adds, int Dim, class... Kernels>
 struct ParticlePass;
-template <class Over, class... Reads, class... Adds, int Dim, class Real, class... Kernels>
-struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...> {
-  using MemoryLayout = SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...>;
+template <class Over, class... Reads, class... Adds, int Dim, class... Kernels>
+struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Kernels...> {
+  using MemoryLayout = SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Kernels...>;
   using T = mpm::Tile<Dim>;
   using Sums = SumsOf<Kernels...>;
   static constexpr auto nodes = static_cast<std::size_t>(T::nodes);
@@ -58,14 +58,14 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
 
   template <class Group>
   THAWSLIDE_HD void operator()(Group& group, std::size_t tile) const {
-    const MemoryLayout room(group.shared());
+    const MemoryLayout memory(group.shared());
     const std::size_t end = first_of_cell(tile, nodes);
     if (!over.accepts(tile)) {
       group.each(1, [this, tile](std::size_t /*k*/) { sums[tile] = {}; });
       return;
     }
-    (this->template fetch<Reads>(group, room, tile), ...);
-    prepare(group, room, tile);
+    (this->template fetch<Reads>(group, memory, tile), ...);
+    prepare(group, memory, tile);
     group.barrier();
     Chunk chunk{tile, first_of_cell(tile, 0), 0, 0, 0, 0};
     for (; chunk.first < end; chunk.first = chunk.last, ++chunk.number) {
@@ -75,17 +75,17 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
       chunk.cells = chunk.cell + MemoryLayout::most_cells < nodes ? MemoryLayout::most_cells : nodes - chunk.cell;
       const std::size_t of_cells = first_of_cell(tile, chunk.cell + chunk.cells);
       chunk.last = chunk.first + MemoryLayout::capacity < of_cells ? chunk.first + MemoryLayout::capacity : of_cells;
-      group.each(chunk.last - chunk.first, [this, chunk, room](std::size_t k) { visit(chunk, room, k); });
+      group.each(chunk.last - chunk.first, [this, chunk, memory](std::size_t k) { visit(chunk, memory, k); });
       group.barrier();
       if constexpr (adds_up) {
-        group.each(1, [chunk, room](std::size_t /*k*/) { add_up(chunk, room); });
+        group.each(1, [chunk, memory](std::size_t /*k*/) { add_up(chunk, memory); });
       }
-      (this->template add<Adds>(group, room, chunk), ...);
+      (this->template add<Adds>(group, memory, chunk), ...);
       if constexpr (!adds && adds_up) {
         group.barrier();
       }
     }
-    leave(group, room, tile);
+    leave(group, memory, tile);
   }
 
  private:
@@ -95,13 +95,13 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
 
   // Loads a record of the patch into shared memory. One thread per number.
   template <class Name, class Group>
-  THAWSLIDE_HD void fetch(Group& group, const MemoryLayout& room, std::size_t tile) const {
+  THAWSLIDE_HD void fetch(Group& group, const MemoryLayout& memory, std::size_t tile) const {
     constexpr std::size_t of_record = mpm::record_size(mpm::components_of<Name, Dim>);
-    group.each(patch_nodes * of_record, [this, room, tile](std::size_t k) {
+    group.each(patch_nodes * of_record, [this, memory, tile](std::size_t k) {
       const PlaceInBlock<Dim> place = place_in_block<Dim>(k / of_record);
       const std::int32_t block =
           over.tables.blocks_about_tile[tile * static_cast<std::size_t>(T::stencil) + place.direction];
-      room.template read<Name>()[k] =
+      memory.template read<Name>()[k] =
           records
               .template of<Name>()[(static_cast<std::size_t>(block) * nodes + place.node) * of_record + k % of_record];
     });
@@ -109,26 +109,26 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
 
   // Initializes the patch. A record that aliases another one continues the sums of an earlier pass.
   template <class Group>
-  THAWSLIDE_HD void prepare(Group& group, const MemoryLayout& room, std::size_t tile) const {
+  THAWSLIDE_HD void prepare(Group& group, const MemoryLayout& memory, std::size_t tile) const {
     if constexpr (adds) {
-      group.each(patch_nodes * size, [this, room, tile](std::size_t k) {
-        room.patch()[k] = MemoryLayout::goes_on ? patches[tile * patch_nodes * size + k] : Real(0);
-        (raise<Adds>(k % size, room.patch()[k]), ...);
+      group.each(patch_nodes * size, [this, memory, tile](std::size_t k) {
+        memory.patch()[k] = MemoryLayout::accumulates ? patches[tile * patch_nodes * size + k] : Real(0);
+        (raise<Adds>(k % size, memory.patch()[k]), ...);
       });
     }
     if constexpr (adds_up) {
-      group.each(1, [room](std::size_t /*k*/) { *room.sums() = {}; });
+      group.each(1, [memory](std::size_t /*k*/) { *memory.sums() = {}; });
     }
   }
   template <class Group>
-  THAWSLIDE_HD void leave(Group& group, const MemoryLayout& room, std::size_t tile) const {
+  THAWSLIDE_HD void leave(Group& group, const MemoryLayout& memory, std::size_t tile) const {
     if constexpr (adds) {
       group.barrier();
       group.each(patch_nodes * size,
-                 [this, room, tile](std::size_t k) { patches[tile * patch_nodes * size + k] = room.patch()[k]; });
+                 [this, memory, tile](std::size_t k) { patches[tile * patch_nodes * size + k] = memory.patch()[k]; });
     }
     if constexpr (adds_up) {
-      group.each(1, [this, room, tile](std::size_t /*k*/) { sums[tile] = *room.sums(); });
+      group.each(1, [this, memory, tile](std::size_t /*k*/) { sums[tile] = *memory.sums(); });
     }
   }
 
@@ -149,8 +149,8 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   }
 
   // Runs the kernels. One thread per particle.
-  THAWSLIDE_HD void visit(const Chunk& chunk, const MemoryLayout& room, std::size_t k) const {
-    auto& slot = room.slots()[k];
+  THAWSLIDE_HD void visit(const Chunk& chunk, const MemoryLayout& memory, std::size_t k) const {
+    auto& slot = memory.slots()[k];
     slot.sums = {};
     const TileTables<Dim>& tables = over.tables;
     const std::size_t place = chunk.first + k;
@@ -158,23 +158,23 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     if (!over.accepts(chunk.tile, node)) {
       return;
     }
-    const mpm::ScalarIndex<Real> at{{tables.order[place]}};
+    const mpm::ScalarIndex at{{tables.order[place]}};
     const Real inverse_cell = Real(1) / over.cell;
     const typename T::Index nearest = T::node(T::index(tables.tile_keys[chunk.tile]), static_cast<int>(node));
-    mpm::OnePlace<Dim, Real> from_node{{}, lowest, {}};
+    mpm::OnePlace<Dim> from_node{{}, lowest, {}};
     for (std::size_t a = 0; a < Dim; ++a) {
       const int axis = static_cast<int>(a);
       from_node.offset[axis] =
           over.particles.position(at.particle[0], axis) * inverse_cell - static_cast<Real>(nearest[a]);
       from_node.at_side[a] = over.weights.template at_side<Dim>(a, nearest[a]);
     }
-    mpm::OneWeights<Dim, Real> weights;
+    mpm::OneWeights<Dim> weights;
     over.weights.set(weights, from_node, over.particles, at, over.cell, inverse_cell);
-    const auto patches_read = room.patches_read();
-    const mpm::ScalarGather<mpm::OneWeights<Dim, Real>, typename MemoryLayout::PatchesRead> seen{weights, patches_read};
+    const auto patches_read = memory.patches_read();
+    const mpm::ScalarGather<mpm::OneWeights<Dim>, typename MemoryLayout::PatchesRead> seen{weights, patches_read};
     typename MemoryLayout::Carried carried{};
     Sums of_particle{};
-    mpm::ParticleView<Dim, Real> particles = over.particles;
+    mpm::ParticleView<Dim> particles = over.particles;
     (run(kernel_of(kernels.template of<Kernels>(), chunk.tile), particles, at, seen, carried,
          of_particle.template of<Kernels>()),
      ...);
@@ -183,18 +183,17 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     slot.keep(weights);
   }
   template <class Kernel, class Seen, class Sum>
-  THAWSLIDE_HD static void run(const Kernel& kernel, mpm::ParticleView<Dim, Real>& particles,
-                               const mpm::ScalarIndex<Real>& at, const Seen& seen,
-                               typename MemoryLayout::Carried& carried, Sum& sum) {
+  THAWSLIDE_HD static void run(const Kernel& kernel, mpm::ParticleView<Dim>& particles, const mpm::ScalarIndex& at,
+                               const Seen& seen, typename MemoryLayout::Carried& carried, Sum& sum) {
     kernel(particles, at, seen, carried, sum);
   }
 
-  THAWSLIDE_HD static void add_up(const Chunk& chunk, const MemoryLayout& room) {
-    Sums sum = *room.sums();
+  THAWSLIDE_HD static void add_up(const Chunk& chunk, const MemoryLayout& memory) {
+    Sums sum = *memory.sums();
     for (std::size_t k = 0; k < chunk.last - chunk.first; ++k) {
-      sum += room.slots()[k].sums;
+      sum += memory.slots()[k].sums;
     }
-    *room.sums() = sum;
+    *memory.sums() = sum;
   }
 
   // Particles of a cell that belong to a chunk.
@@ -216,21 +215,21 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
 
   // Adds contributions with one thread per node of a cell, then one thread per number of the patch.
   template <class Name, class Group>
-  THAWSLIDE_HD void add(Group& group, const MemoryLayout& room, const Chunk& chunk) const {
+  THAWSLIDE_HD void add(Group& group, const MemoryLayout& memory, const Chunk& chunk) const {
     constexpr std::size_t carried = mpm::scatter_size<Name, Dim>;
     if (!MemoryLayout::template is_first<Name>()) {
       group.barrier();
     }
-    group.each(chunk.cells * cell_nodes, [this, room, chunk](std::size_t k) { sum_in_cell<Name>(room, chunk, k); });
+    group.each(chunk.cells * cell_nodes, [this, memory, chunk](std::size_t k) { sum_in_cell<Name>(memory, chunk, k); });
     group.barrier();
     const Layers layers = layers_of(chunk);
-    group.each((layers.end - layers.first + 2) * layer_nodes * carried, [this, room, chunk, layers](std::size_t k) {
-      add_cells<Name>(room, chunk, layers, layers.first * layer_nodes + k / carried, k % carried);
+    group.each((layers.end - layers.first + 2) * layer_nodes * carried, [this, memory, chunk, layers](std::size_t k) {
+      add_cells<Name>(memory, chunk, layers, layers.first * layer_nodes + k / carried, k % carried);
     });
   }
 
   template <class Name>
-  THAWSLIDE_HD void sum_in_cell(const MemoryLayout& room, const Chunk& chunk, std::size_t k) const {
+  THAWSLIDE_HD void sum_in_cell(const MemoryLayout& memory, const Chunk& chunk, std::size_t k) const {
     constexpr std::size_t carried = mpm::scatter_size<Name, Dim>;
     const CellPart part = part_of_cell(chunk, k / cell_nodes);
     if (!part.is_present()) {
@@ -238,30 +237,31 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     }
     const std::size_t node = k % cell_nodes;
     const std::array<std::size_t, 3> along{node % 3, node / 3 % 3, node / 9};
-    const Real* open = room.template open<Name>(chunk.number) + node * carried;
+    const Real* open = memory.template open<Name>(chunk.number) + node * carried;
     Real sum[carried];
     for (std::size_t c = 0; c < carried; ++c) {
       sum[c] = part.begins ? start<Name> : open[c];
     }
     for (std::size_t p = part.first; p < part.last; ++p) {
-      const auto& slot = room.slots()[p - chunk.first];
-      const mpm::OneAtNode<Dim, Real> at = mpm::at_node<Dim>(slot.template stencil<Name>(), along);
+      const auto& slot = memory.slots()[p - chunk.first];
+      const mpm::OneAtNode<Dim> at = mpm::at_node<Dim>(slot.template stencil<Name>(), along);
       const auto& brought = slot.carried.template of<Name>();
       for (std::size_t c = 0; c < carried && at.is_seen; ++c) {
         sum[c] = mpm::add_particle(at, brought, c, sum[c]);
       }
     }
-    Real* to = part.ends ? room.cell_sums() + k * carried : room.template open<Name>(chunk.number + 1) + node * carried;
+    Real* to =
+        part.ends ? memory.cell_sums() + k * carried : memory.template open<Name>(chunk.number + 1) + node * carried;
     for (std::size_t c = 0; c < carried; ++c) {
       to[c] = sum[c];
     }
   }
 
   template <class Name>
-  THAWSLIDE_HD void add_cells(const MemoryLayout& room, const Chunk& chunk, const Layers& layers, std::size_t node,
+  THAWSLIDE_HD void add_cells(const MemoryLayout& memory, const Chunk& chunk, const Layers& layers, std::size_t node,
                               std::size_t component) const {
     constexpr std::size_t carried = mpm::scatter_size<Name, Dim>;
-    Real& number = room.patch()[node * size + first_component<Name> + component];
+    Real& number = memory.patch()[node * size + first_component<Name> + component];
     for_cells_that_see(layers, node, [&](std::size_t cell, std::size_t node_of_cell) {
       const std::size_t k = cell - chunk.cell;
       if (cell < chunk.cell || k >= chunk.cells) {
@@ -269,7 +269,7 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
       }
       const CellPart part = part_of_cell(chunk, k);
       if (part.is_present() && part.ends) {
-        const Real brought = room.cell_sums()[(k * cell_nodes + node_of_cell) * carried + component];
+        const Real brought = memory.cell_sums()[(k * cell_nodes + node_of_cell) * carried + component];
         number = mpm::IsMinReduced<Name> ? min(number, brought) : number + brought;
       }
     });

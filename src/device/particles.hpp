@@ -42,10 +42,10 @@ struct GatherPlace {
   THAWSLIDE_HD void operator()(std::size_t k) const { particles[k] = place[particles[k]]; }
 };
 
-template <class Backend, int Dim, class Real>
+template <class Backend, int Dim>
 class Particles {
  public:
-  using View = mpm::ParticleView<Dim, Real>;
+  using View = mpm::ParticleView<Dim>;
 
   // Copies particles from CPU memory. Fields that are absent there stay absent.
   Particles(Backend& backend, const View& from, std::size_t count) : backend_(backend), count_(count) {

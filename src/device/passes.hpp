@@ -9,7 +9,7 @@
 namespace thawslide::device {
 
 // Memory of passes, reused in all steps: patches, and sums of kernels.
-template <class Backend, class Real>
+template <class Backend>
 class PassMemory {
  public:
   explicit PassMemory(Backend& backend) : patches_(backend), sums_(backend) {}
@@ -31,7 +31,7 @@ class PassMemory {
 };
 
 // Nodal records, one array per name.
-template <class Backend, class Real, class... Names>
+template <class Backend, class... Names>
 struct NodeArrays : mpm::ByName<mpm::Named<Names, Array<Real, Backend>>...> {
   explicit NodeArrays(Backend& backend)
       : mpm::ByName<mpm::Named<Names, Array<Real, Backend>>...>{
@@ -41,17 +41,17 @@ struct NodeArrays : mpm::ByName<mpm::Named<Names, Array<Real, Backend>>...> {
 // Equivalent of mpm::particle_pass, with kernels that hold their parameters by value. Contributions are left in the
 // patches of `memory`. Returns a pointer, in device memory, to the kernels' sums over particles, valid until the next
 // pass. records: nodal records to read, by name.
-template <class Backend, class Weights, class TileFilter, int Dim, class Real, class Records, class... Kernels>
-SumsOf<Kernels...>* particle_pass(Backend& backend, PassMemory<Backend, Real>& memory,
-                                  const PassOver<Weights, TileFilter, Dim, Real>& over, const Records& records,
+template <class Backend, class Weights, class TileFilter, int Dim, class Records, class... Kernels>
+SumsOf<Kernels...>* particle_pass(Backend& backend, PassMemory<Backend>& memory,
+                                  const PassOver<Weights, TileFilter, Dim>& over, const Records& records,
                                   const Kernels&... kernels) {
   using Reads = mpm::AllOf<typename Kernels::Reads...>;
   using Adds = mpm::AllOf<typename Kernels::Adds...>;
-  using Pass = ParticlePass<PassOver<Weights, TileFilter, Dim, Real>, Reads, Adds, Dim, Real, Kernels...>;
+  using Pass = ParticlePass<PassOver<Weights, TileFilter, Dim>, Reads, Adds, Dim, Kernels...>;
   const std::size_t tiles = over.tables.tiles;
   auto* sums = memory.template sums<SumsOf<Kernels...>>(partial_sum_count(tiles));
   const Pass pass{over,
-                  RecordsRead<Reads, Real>::from(records),
+                  RecordsRead<Reads>::from(records),
                   memory.patches(tiles * Pass::patch_nodes * Pass::size),
                   sums,
                   {{kernels}...}};
@@ -63,21 +63,21 @@ SumsOf<Kernels...>* particle_pass(Backend& backend, PassMemory<Backend, Real>& m
 }
 
 // Calls, for one particle in memory order, a kernel that neither accesses nodes nor sums.
-template <int Dim, class Real, class Kernel>
+template <int Dim, class Kernel>
 struct VisitInMemory {
   static_assert(std::is_same_v<typename Kernel::Reads, mpm::RecordList<>> &&
                 std::is_same_v<typename Kernel::Adds, mpm::RecordList<>> &&
                 std::is_same_v<typename Kernel::Account, mpm::NoAccount>);
 
-  mpm::ParticleView<Dim, Real> particles;
+  mpm::ParticleView<Dim> particles;
   Kernel kernel;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    mpm::ParticleView<Dim, Real> view = particles;
+    mpm::ParticleView<Dim> view = particles;
     const mpm::ByName<> seen{};
     mpm::ByName<> added{};
     mpm::NoAccount account;
-    kernel(view, mpm::ScalarIndex<Real>{{static_cast<std::uint32_t>(k)}}, seen, added, account);
+    kernel(view, mpm::ScalarIndex{{static_cast<std::uint32_t>(k)}}, seen, added, account);
   }
 };
 

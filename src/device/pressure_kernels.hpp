@@ -12,47 +12,47 @@ namespace thawslide::device {
 
 // Tile conditions (device/marks.hpp): water seeps to or from particles in their current state, or did before heat
 // changed them.
-template <int Dim, class Real>
+template <int Dim>
 struct SeepingNow {
-  mpm::ParticleView<Dim, Real> particles;
-  band::BandPhysics<Real> physics;
-  band::HydraulicConductivity<Real> hydraulic;
+  mpm::ParticleView<Dim> particles;
+  band::BandPhysics physics;
+  band::HydraulicConductivity hydraulic;
 
   [[nodiscard]] THAWSLIDE_HD bool of_node(std::size_t /*node*/) const { return false; }
   [[nodiscard]] THAWSLIDE_HD bool of_particle(std::uint32_t particle) const {
-    return band::seeps(physics, hydraulic, particles, mpm::ScalarIndex<Real>{{particle}});
+    return band::seeps(physics, hydraulic, particles, mpm::ScalarIndex{{particle}});
   }
 };
-template <int Dim, class Real>
-struct SeepingBefore : SeepingNow<Dim, Real> {
+template <int Dim>
+struct SeepingBefore : SeepingNow<Dim> {
   [[nodiscard]] THAWSLIDE_HD bool of_particle(std::uint32_t particle) const {
-    return band::any_seeped(this->physics, this->hydraulic, this->particles, mpm::ScalarIndex<Real>{{particle}});
+    return band::any_seeped(this->physics, this->hydraulic, this->particles, mpm::ScalarIndex{{particle}});
   }
 };
 
 // Sets the pore pressure at nodes of marked blocks to that of the seeping water.
-template <int Dim, class Real>
+template <int Dim>
 struct SetSeepingPressure {
-  NodeViews<Dim, Real> nodes;
+  NodeViews<Dim> nodes;
   const Real* seeping_water;
   const std::uint8_t* blocks;
 
   THAWSLIDE_HD void operator()(std::size_t node) const {
     if (blocks[node / static_cast<std::size_t>(mpm::Tile<Dim>::nodes)] != 0) {
-      nodes.state_at(node)[mpm::NodalState::pore_pressure] = band::seeping_pressure<Real>(
-          seeping_water + node * mpm::record_size(mpm::components_of<mpm::SeepingWater, Dim>));
+      nodes.state_at(node)[mpm::NodalState::pore_pressure] =
+          band::seeping_pressure(seeping_water + node * mpm::record_size(mpm::components_of<mpm::SeepingWater, Dim>));
     }
   }
 };
 
 // Nodal pressure change by seepage; sums the water absorbed by frozen pores. If no particle in reach of a node seeps,
 // the sums contain only pore space, and the change is zero.
-template <int Dim, class Real>
+template <int Dim>
 struct SolveSeepage {
   using Part = Real;
   using Sum = Real;
 
-  NodeViews<Dim, Real> nodes;
+  NodeViews<Dim> nodes;
   const Real* seepage;
   Real dt;
 
@@ -68,51 +68,50 @@ struct SolveSeepage {
     }
   }
 };
-template <class Real>
 struct KeepVented {
   const Real* taken;
-  physics::Phases<Real> phases;
+  physics::Phases phases;
   Real* vented;
 
   THAWSLIDE_HD void operator()(std::size_t /*k*/) const { *vented = band::mass_of_taken(phases, *taken); }
 };
 
 // Kernels created from parameters held by value.
-template <int Dim, class Real>
+template <int Dim>
 struct AddSeepingWater {
-  using Kernel = band::AddSeepingWater<Dim, Real>;
+  using Kernel = band::AddSeepingWater<Dim>;
   using Reads = typename Kernel::Reads;
   using Adds = typename Kernel::Adds;
   using Account = typename Kernel::Account;
 
-  band::BandPhysics<Real> physics;
-  band::HydraulicConductivity<Real> hydraulic;
+  band::BandPhysics physics;
+  band::HydraulicConductivity hydraulic;
 
   [[nodiscard]] THAWSLIDE_HD Kernel kernel() const { return {physics, hydraulic}; }
 };
-template <int Dim, class Real>
+template <int Dim>
 struct SeepageFlows {
-  using Kernel = band::SeepageFlows<Dim, Real>;
+  using Kernel = band::SeepageFlows<Dim>;
   using Reads = typename Kernel::Reads;
   using Adds = typename Kernel::Adds;
   using Account = typename Kernel::Account;
 
-  band::BandPhysics<Real> physics;
-  band::HydraulicConductivity<Real> hydraulic;
+  band::BandPhysics physics;
+  band::HydraulicConductivity hydraulic;
   Real dt, inverse_cell;
 
   [[nodiscard]] THAWSLIDE_HD Kernel kernel() const { return {physics, hydraulic, dt, inverse_cell}; }
 };
 
 // Normal load of a particle, from columns that hold the load per depth in place of the cosine.
-template <int Dim, class Real>
+template <int Dim>
 struct AddPressureLoad {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
   using Account = mpm::NoAccount;
 
   struct InTile {
-    typename ColumnsByTile<Dim, Real>::OfTile columns;
+    typename ColumnsByTile<Dim>::OfTile columns;
 
     template <class Particles, class At, class Seen, class Scatter>
     THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
@@ -121,21 +120,21 @@ struct AddPressureLoad {
     }
   };
 
-  ColumnsByTile<Dim, Real> columns;
+  ColumnsByTile<Dim> columns;
 
   [[nodiscard]] THAWSLIDE_HD InTile in_tile(std::size_t tile) const { return InTile{columns.of_tile(tile)}; }
 };
 
-template <int Dim, class Real, bool Seeps, bool Balances>
+template <int Dim, bool Seeps, bool Balances>
 struct UpdatePorePressure {
-  using InTile = band::PorePressure<Real, typename ColumnsByTile<Dim, Real>::OfTile, Seeps, Balances>;
+  using InTile = band::PorePressure<typename ColumnsByTile<Dim>::OfTile, Seeps, Balances>;
   using Reads = typename InTile::Reads;
   using Adds = typename InTile::Adds;
   using Account = typename InTile::Account;
 
-  band::BandPhysics<Real> physics;
-  band::HydraulicConductivity<Real> hydraulic;
-  ColumnsByTile<Dim, Real> columns;
+  band::BandPhysics physics;
+  band::HydraulicConductivity hydraulic;
+  ColumnsByTile<Dim> columns;
 
   [[nodiscard]] THAWSLIDE_HD InTile in_tile(std::size_t tile) const {
     return {physics, hydraulic, Real(0.5) * columns.cell, columns.of_tile(tile)};

@@ -9,31 +9,31 @@
 namespace thawslide::device {
 
 // Sums for the run monitor (failure checks, rest).
-template <int Dim, class Real>
+template <int Dim>
 struct RunMonitor {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Account = mpm::MonitorSums<Real>;
+  using Account = mpm::MonitorSums;
 
-  mpm::MonitorKernel<Dim, Real> look;
+  mpm::MonitorKernel<Dim> kernel;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
                                Account& sums) const {
-    sums = look(particles, at.particle[0]);
+    sums = kernel(particles, at.particle[0]);
   }
 };
 
 // Extremes that determine the next step.
-template <int Dim, class Real>
+template <int Dim>
 struct FindExtremes {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
   using Account = band::StepExtremes;
 
-  band::BandPhysics<Real> physics;
-  band::HydraulicConductivity<Real> hydraulic;
-  band::FreeGaps<Real> free_gaps;
+  band::BandPhysics physics;
+  band::HydraulicConductivity hydraulic;
+  band::FreeGaps free_gaps;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
@@ -43,13 +43,13 @@ struct FindExtremes {
 };
 
 // Sums for history rows.
-template <int Dim, class Real>
+template <int Dim>
 struct SumOverBody {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Account = band::BodySums<Dim, Real>;
+  using Account = band::BodySums<Dim>;
 
-  band::SumsOfParticle<Dim, Real> of_particle;
+  band::SumsOfParticle<Dim> of_particle;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,

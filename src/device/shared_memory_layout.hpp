@@ -1,11 +1,13 @@
 // Layout of a thread group's shared memory in a particle pass (device/particle_pass.hpp).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <type_traits>
 
-#include "device/pass_weights.hpp"
+#include "mpm/body_sizes.hpp"
 #include "mpm/kernel.hpp"
+#include "mpm/one_particle.hpp"
 #include "mpm/particle_view.hpp"
 
 namespace thawslide::device {
@@ -32,16 +34,15 @@ THAWSLIDE_HD decltype(auto) kernel_of(const Kernel& kernel, [[maybe_unused]] std
   }
 }
 
-template <class Functions, int Dim, class Real>
-using StencilBy = mpm::OneStencil<Real, Dim, std::is_same_v<Functions, mpm::LinearFunctions> ? 2 : 3>;
+template <class Functions, int Dim>
+using StencilBy = mpm::OneStencil<Dim, std::is_same_v<Functions, mpm::LinearFunctions> ? 2 : 3>;
 
 // Weights with which a particle adds.
-template <class List, int Dim, class Real>
+template <class List, int Dim>
 struct Stencils;
-template <class... Functions, int Dim, class Real>
-struct Stencils<mpm::RecordList<Functions...>, Dim, Real>
-    : mpm::ByName<mpm::Named<Functions, StencilBy<Functions, Dim, Real>>...> {
-  THAWSLIDE_HD void keep([[maybe_unused]] const mpm::OneWeights<Dim, Real>& weights) {
+template <class... Functions, int Dim>
+struct Stencils<mpm::RecordList<Functions...>, Dim> : mpm::ByName<mpm::Named<Functions, StencilBy<Functions, Dim>>...> {
+  THAWSLIDE_HD void keep([[maybe_unused]] const mpm::OneWeights<Dim>& weights) {
     ((this->template of<Functions>() = weights.template of<Functions>()), ...);
   }
 };
@@ -59,25 +60,25 @@ struct OwnerOfList<mpm::RecordList<Name, Names...>> {
 };
 
 // Contents with or without one number of padding.
-template <class Contents, class Real, bool is_padded>
+template <class Contents, bool is_padded>
 struct PaddedTo : Contents {};
-template <class Contents, class Real>
-struct PaddedTo<Contents, Real, true> : Contents {
+template <class Contents>
+struct PaddedTo<Contents, true> : Contents {
   Real after;
 };
 
 // Patch that is read.
-template <class Name, int Dim, class Real>
+template <class Name, int Dim>
 struct PatchRead {
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<Name, Dim>);
   static constexpr std::size_t count = static_cast<std::size_t>(mpm::Tile<Dim>::patch_nodes) * size;
   const Real* numbers;
 };
 
-template <class Reads, class Adds, int Dim, class Real, class... Kernels>
+template <class Reads, class Adds, int Dim, class... Kernels>
 class SharedMemoryLayout;
-template <class... Reads, class... Adds, int Dim, class Real, class... Kernels>
-class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Real, Kernels...> {
+template <class... Reads, class... Adds, int Dim, class... Kernels>
+class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Dim, Kernels...> {
   using Names = mpm::RecordList<Adds...>;
   static_assert(mpm::all_apart<Names, Dim>, "particles add to these components of a record in different ways");
   static_assert(mpm::one_record<Names>, "a pass can add to one record only");
@@ -89,25 +90,25 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
   static constexpr std::size_t capacity = Dim == 2 ? 64 : 128, most_cells = 16, threads = capacity;
   static constexpr std::size_t cell_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
   static constexpr std::size_t size = mpm::record_size(OwnerOfList<Names>::template size<Dim>);
-  // adds_up: kernels sum over particles. goes_on: the record already has sums from an earlier pass.
+  // adds_up: kernels sum over particles. accumulates: the record already has sums from an earlier pass.
   static constexpr bool adds_up = (!std::is_same_v<typename Kernels::Account, mpm::NoAccount> || ...);
-  static constexpr bool goes_on = (mpm::OfAnOwner<Adds> && ...);
+  static constexpr bool accumulates = (mpm::OfAnOwner<Adds> && ...);
 
-  using Carried = mpm::ByName<mpm::Named<Adds, mpm::CarriedByOne<Adds, Dim, Real>>...>;
-  using PatchesRead = mpm::ByName<mpm::Named<Reads, PatchRead<Reads, Dim, Real>>...>;
+  using Carried = mpm::ByName<mpm::Named<Adds, mpm::CarriedByOne<Adds, Dim>>...>;
+  using PatchesRead = mpm::ByName<mpm::Named<Reads, PatchRead<Reads, Dim>>...>;
 
   // Data of a particle.
   struct Contents {
     Carried carried;
-    Stencils<mpm::AllOf<mpm::RecordList<typename Adds::Functions>...>, Dim, Real> stencils;
+    Stencils<mpm::AllOf<mpm::RecordList<typename Adds::Functions>...>, Dim> stencils;
     SumsOf<Kernels...> sums;
   };
   template <class T>
   static constexpr bool has_even_numbers = alignof(T) == alignof(Real) && sizeof(T) / sizeof(Real) > 0 &&
                                            sizeof(T) / sizeof(Real) % 2 == 0;
   // An odd size in numbers avoids bank conflicts between adjacent threads.
-  struct Slot : PaddedTo<Contents, Real, has_even_numbers<Contents>> {
-    THAWSLIDE_HD void keep(const mpm::OneWeights<Dim, Real>& weights) { this->stencils.keep(weights); }
+  struct Slot : PaddedTo<Contents, has_even_numbers<Contents>> {
+    THAWSLIDE_HD void keep(const mpm::OneWeights<Dim>& weights) { this->stencils.keep(weights); }
     template <class Name>
     [[nodiscard]] THAWSLIDE_HD const auto& stencil() const {
       return this->stencils.template of<typename Name::Functions>();
@@ -158,7 +159,7 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
     if constexpr (std::is_same_v<Name, First>) {
       return 0;
     } else {
-      return PatchRead<First, Dim, Real>::count + before_read<Name, Rest...>();
+      return PatchRead<First, Dim>::count + before_read<Name, Rest...>();
     }
   }
 
@@ -180,7 +181,49 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
 
  public:
   static constexpr std::size_t bytes =
-      reads_at + up((std::size_t{0} + ... + PatchRead<Reads, Dim, Real>::count) * sizeof(Real));
+      reads_at + up((std::size_t{0} + ... + PatchRead<Reads, Dim>::count) * sizeof(Real));
+};
+
+// Linear shape functions for all records of the pass.
+struct LinearWeights {
+  template <int Dim>
+  [[nodiscard]] THAWSLIDE_HD static bool at_side(std::size_t /*axis*/, int /*node*/) {
+    return false;
+  }
+  template <int Dim, class Particles>
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OnePlace<Dim>& place, const Particles& /*particles*/,
+                        const mpm::ScalarIndex& /*at*/, Real /*cell*/, Real inverse_cell) const {
+    weights.set_linear(place, inverse_cell);
+  }
+};
+
+// Shape: shape functions of momentum. sizes: of particles, in cells, in device memory.
+template <class Shape, int Dim>
+struct MomentumWeights {
+  mpm::SizesOfBodies sizes;
+  mpm::HeldSides<Dim> sides;
+
+  template <int>
+  [[nodiscard]] THAWSLIDE_HD bool at_side(std::size_t axis, int node) const {
+    return node == sides.lower[axis] || node == sides.upper[axis];
+  }
+  template <class Particles>
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OnePlace<Dim>& place, const Particles& particles,
+                        const mpm::ScalarIndex& at, Real /*cell*/, Real inverse_cell) const {
+    weights.set_linear(place, inverse_cell);
+    weights.template set_momentum<Shape>(place, sizes.of(particles, at), inverse_cell);
+  }
+};
+
+// Adds the weights of APIC.
+template <class Shape, int Dim>
+struct AffineWeights : MomentumWeights<Shape, Dim> {
+  template <class Particles>
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OnePlace<Dim>& place, const Particles& particles,
+                        const mpm::ScalarIndex& at, Real cell, Real inverse_cell) const {
+    MomentumWeights<Shape, Dim>::set(weights, place, particles, at, cell, inverse_cell);
+    weights.template set_affine<Shape>(place, cell, inverse_cell);
+  }
 };
 
 }  // namespace thawslide::device

@@ -18,7 +18,7 @@
 namespace thawslide::device {
 
 // Device errors are thrown as a Failure; errors of the CPU callbacks propagate unchanged.
-template <int Dim, class Real>
+template <int Dim>
 class Solver {
  public:
   Solver() = default;
@@ -27,13 +27,13 @@ class Solver {
   Solver& operator=(const Solver&) = delete;
 
   // Advances the solution by dt [s], from time [s].
-  virtual StepSums<Dim, Real> step(Real time, Real dt) = 0;
+  virtual StepSums<Dim> step(Real time, Real dt) = 0;
   // Monitor sums over the particles after a step.
-  virtual mpm::MonitorSums<Real> watch(const mpm::MonitorKernel<Dim, Real>& look) = 0;
+  virtual mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) = 0;
   // Sums for maps (3D only).
-  virtual void sample_map(const mpm::MapCells& cells, MapSample& look) = 0;
+  virtual void sample_map(const mpm::MapCells& cells, MapSample& sample) = 0;
   // Sums for a history row.
-  virtual band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) = 0;
+  virtual band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) = 0;
   // Particle at the front. mass: total mass of the particles [kg].
   virtual mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) = 0;
   // Positions [m, relative to the domain's lower corner] of the particles that the last step counted as escaped.
@@ -41,15 +41,15 @@ class Solver {
   // Sorts particles in memory into canonical order. Does not affect results.
   virtual void sort_in_memory() = 0;
   // Copies to the same number of particles, in their original order.
-  virtual void copy_to(const mpm::ParticleView<Dim, Real>& particles) = 0;
+  virtual void copy_to(const mpm::ParticleView<Dim>& particles) = 0;
   // Measures stages [s] from now on, with a synchronization after each.
   virtual void time_stages() = 0;
   [[nodiscard]] virtual std::map<std::string, double> seconds() const = 0;
 };
 
 // Copies `count` particles to a device and creates the solver there.
-template <int Dim, class Real>
-using SolverFactory = std::function<std::unique_ptr<Solver<Dim, Real>>(
-    const StepModel<Dim, Real>&, const mpm::ParticleView<Dim, Real>&, std::size_t count, HostCallbacks<Dim, Real>)>;
+template <int Dim>
+using SolverFactory = std::function<std::unique_ptr<Solver<Dim>>(const StepModel<Dim>&, const mpm::ParticleView<Dim>&,
+                                                                 std::size_t count, HostCallbacks<Dim>)>;
 
 }  // namespace thawslide::device

@@ -9,42 +9,41 @@
 
 namespace thawslide::device {
 
-template <class Backend, class Shape, int Dim, class Real>
-class SolverImpl final : public Solver<Dim, Real> {
+template <class Backend, class Shape, int Dim>
+class SolverImpl final : public Solver<Dim> {
  public:
   // backend: constructor arguments of Backend.
   template <class... Words>
-  SolverImpl(const StepModel<Dim, Real>& model, const mpm::ParticleView<Dim, Real>& particles, std::size_t count,
-             HostCallbacks<Dim, Real> ask, Words&&... backend)
+  SolverImpl(const StepModel<Dim>& model, const mpm::ParticleView<Dim>& particles, std::size_t count,
+             HostCallbacks<Dim> ask, Words&&... backend)
       : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(ask)) {}
 
-  StepSums<Dim, Real> step(Real time, Real dt) override { return step_.step(time, dt); }
-  mpm::MonitorSums<Real> watch(const mpm::MonitorKernel<Dim, Real>& look) override { return step_.watch(look); }
-  void sample_map(const mpm::MapCells& cells, MapSample& look) override { step_.sample_map(cells, look); }
-  band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) override {
+  StepSums<Dim> step(Real time, Real dt) override { return step_.step(time, dt); }
+  mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) override { return step_.monitor(kernel); }
+  void sample_map(const mpm::MapCells& cells, MapSample& sample) override { step_.sample_map(cells, sample); }
+  band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) override {
     return step_.sum_over_body(of_particle);
   }
   mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) override { return step_.front(way, mass); }
   std::vector<Vector<Real, Dim>> escaped_positions() override { return step_.escaped_positions(); }
   void sort_in_memory() override { step_.sort_in_memory(); }
-  void copy_to(const mpm::ParticleView<Dim, Real>& particles) override { step_.copy_to(particles); }
+  void copy_to(const mpm::ParticleView<Dim>& particles) override { step_.copy_to(particles); }
   void time_stages() override { backend_.time_stages(); }
   [[nodiscard]] std::map<std::string, double> seconds() const override { return backend_.seconds(); }
 
  private:
   Backend backend_;
-  Step<Backend, Shape, Dim, Real> step_;
+  Step<Backend, Shape, Dim> step_;
 };
 
 // Creates the solver with the shape functions of the model.
-template <class Backend, int Dim, class Real, class... Words>
-std::unique_ptr<Solver<Dim, Real>> steps_on(const StepModel<Dim, Real>& model,
-                                            const mpm::ParticleView<Dim, Real>& particles, std::size_t count,
-                                            HostCallbacks<Dim, Real> ask, const Words&... backend) {
-  std::unique_ptr<Solver<Dim, Real>> made;
-  mpm::with_shape<Real>(model.shape, [&](auto shape) {
-    made = std::make_unique<SolverImpl<Backend, decltype(shape), Dim, Real>>(model, particles, count, std::move(ask),
-                                                                             backend...);
+template <class Backend, int Dim, class... Words>
+std::unique_ptr<Solver<Dim>> steps_on(const StepModel<Dim>& model, const mpm::ParticleView<Dim>& particles,
+                                      std::size_t count, HostCallbacks<Dim> ask, const Words&... backend) {
+  std::unique_ptr<Solver<Dim>> made;
+  mpm::with_shape(model.shape, [&](auto shape) {
+    made = std::make_unique<SolverImpl<Backend, decltype(shape), Dim>>(model, particles, count, std::move(ask),
+                                                                       backend...);
   });
   return made;
 }

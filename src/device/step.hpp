@@ -2,35 +2,105 @@
 // of simulation.cpp on the CPU.
 #pragma once
 
+#include <cstdint>
 #include <variant>
 
 #include "device/band_columns.hpp"
 #include "device/band_stages.hpp"
-#include "device/base_laws.hpp"
 #include "device/erodible_bed.hpp"
 #include "device/escape_check.hpp"
 #include "device/front.hpp"
+#include "device/ground.hpp"
 #include "device/maps.hpp"
-#include "device/material_stress.hpp"
+#include "device/node_kernels.hpp"
 #include "device/reductions.hpp"
 #include "device/step_passes.hpp"
 #include "device/velocity_filter.hpp"
 #include "mpm/motion_kernels.hpp"
 #include "mpm/position_kernel.hpp"
+#include "mpm/stress_kernel.hpp"
 #include "terrain/band_marks_kernel.hpp"
 
 namespace thawslide::device {
 
+template <int Dim, class Law>
+struct DeformMaterial {
+  using Kernel = mpm::Deform<Dim, Law>;
+  using Reads = typename Kernel::Reads;
+  using Adds = typename Kernel::Adds;
+  using Account = typename Kernel::Account;
+
+  // Parameters of mpm::Deform.
+  Law law;
+  physics::Elastic elastic;
+  physics::Phases phases;
+  bool gaps_close_first;
+  Real viscosity_time;
+  bool effective_stress;
+  Real dt;
+  std::int32_t material;
+  bool is_only_one;  // all particles have this material
+
+  // Kernel for material m of a step model.
+  template <class Model>
+  static DeformMaterial of(const Law& law, const Model& model, std::size_t m, Real dt) {
+    const auto& material = model.materials[m];
+    return {law,
+            material.elastic,
+            model.phases,
+            material.gaps_close_first,
+            material.viscosity_time,
+            model.effective_stress,
+            dt,
+            static_cast<std::int32_t>(m),
+            model.materials.size() == 1};
+  }
+
+  template <class Particles, class At, class Seen, class Scatter>
+  THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
+                               Account& account) const {
+    if (is_only_one || particles.material(at.particle[0]) == material) {
+      const Kernel deform{law, elastic, phases, gaps_close_first, viscosity_time, effective_stress, dt};
+      deform(particles, at, seen, added, account);
+    }
+  }
+};
+
+// cell: mesh size [m]. columns: records of BaseState by candidate node, or null. bases: by candidate node.
+template <class Backend, int Dim>
+void evaluate_law_at_nodes(Backend& backend, const NodeStageArgs<Dim>& step, const terrain::BasalLaw& base, Real cell,
+                           const Ground<Backend, Dim>& ground, const Real* columns, ContactInput* bases) {
+  const std::size_t count = ground.candidate_count();
+  const std::uint32_t* candidates = ground.candidates();
+  backend.for_each(count, PressOnGround<Dim>{step, candidates});
+  const Real face = Dim == 2 ? cell : cell * cell;
+  backend.for_each(count, GatherContactInput<Dim>{step, candidates, static_cast<Real>(terrain::smallest_area) * face,
+                                                  base.gravity, columns, bases});
+  for (std::size_t g = 0; g < base.grounds.size(); ++g) {
+    const int substrate = static_cast<int>(g);
+    std::visit(
+        [&]<class Law>(const Law& law) {
+          backend.for_each(count, EvaluateFriction<Law, Dim>{law, substrate, ground.known(), candidates, bases});
+        },
+        base.grounds[g].friction);
+    std::visit(
+        [&]<class Law>(const Law& law) {
+          backend.for_each(count, EvaluateCohesion<Law, Dim>{law, substrate, ground.known(), candidates, bases});
+        },
+        base.grounds[g].cohesion);
+  }
+}
+
 // Shape: shape functions of momentum (mpm/shape.hpp).
-template <class Backend, class Shape, int Dim, class Real>
+template <class Backend, class Shape, int Dim>
 class Step {
-  using Passes = StepPasses<Backend, Shape, Dim, Real>;
-  using Sums = StepSums<Dim, Real>;
+  using Passes = StepPasses<Backend, Shape, Dim>;
+  using Sums = StepSums<Dim>;
 
  public:
   // Copies `count` particles from CPU memory.
-  Step(Backend& backend, const StepModel<Dim, Real>& model, const mpm::ParticleView<Dim, Real>& particles,
-       std::size_t count, const HostCallbacks<Dim, Real>& ask)
+  Step(Backend& backend, const StepModel<Dim>& model, const mpm::ParticleView<Dim>& particles, std::size_t count,
+       const HostCallbacks<Dim>& ask)
       : passes_(backend, model, particles, count, ask.ground),
         sums_(backend, 1),
         band_(passes_, ask, sums_.data()),
@@ -42,7 +112,7 @@ class Step {
   }
 
   // Copies to the same number of particles, in their original order.
-  void copy_to(const mpm::ParticleView<Dim, Real>& particles) { passes_.particles.copy_to(particles); }
+  void copy_to(const mpm::ParticleView<Dim>& particles) { passes_.particles.copy_to(particles); }
   [[nodiscard]] TileTables<Dim> tables() const { return passes_.cells.tables(); }
 
   // Sorts particles in memory into canonical order. Does not affect results.
@@ -83,11 +153,11 @@ class Step {
   }
 
   // Reductions over the particles after a step.
-  mpm::MonitorSums<Real> watch(const mpm::MonitorKernel<Dim, Real>& look) {
-    return passes_.sum_over_particles(RunMonitor<Dim, Real>{look}, watched_);
+  mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) {
+    return passes_.sum_over_particles(RunMonitor<Dim>{kernel}, monitored_);
   }
-  band::BodySums<Dim, Real> sum_over_body(const band::SumsOfParticle<Dim, Real>& of_particle) {
-    return passes_.sum_over_particles(SumOverBody<Dim, Real>{of_particle}, body_);
+  band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) {
+    return passes_.sum_over_particles(SumOverBody<Dim>{of_particle}, body_);
   }
   mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) {
     return front_.find(way, mass, passes_.cells.tables(), passes_.particles.view(), passes_.particles.size());
@@ -96,10 +166,10 @@ class Step {
   std::vector<Vector<Real, Dim>> escaped_positions() {
     return escape_check_.places(passes_, escape_kernel(), sums_.get(0).escapes);
   }
-  void sample_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapSample& look) {
+  void sample_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapSample& sample) {
     if constexpr (Dim == 3) {
-      look.moments = passes_.sum_over_particles(SumMoments{}, moments_);
-      maps_.sum(cells, passes_.cells.tables(), passes_.particles.view(), look);
+      sample.moments = passes_.sum_over_particles(SumMoments{}, moments_);
+      maps_.sum(cells, passes_.cells.tables(), passes_.particles.view(), sample);
     }
   }
 
@@ -144,20 +214,18 @@ class Step {
   }
 
   void add_momentum() {
-    passes_.run(passes_.momentum(), mpm::AddMomentum<Dim, Real>{passes_.model.gravity, passes_.model.effective_stress,
-                                                                passes_.model.is_viscous()});
-    passes_.if_affine([&](const auto& weights) {
-      passes_.run(passes_.over(weights, AllTiles{}), mpm::AddAffineMomentum<Dim, Real>{});
-    });
+    passes_.run(passes_.momentum(), mpm::AddMomentum<Dim>{passes_.model.gravity, passes_.model.effective_stress,
+                                                          passes_.model.is_viscous()});
+    passes_.if_affine(
+        [&](const auto& weights) { passes_.run(passes_.over(weights, AllTiles{}), mpm::AddAffineMomentum<Dim>{}); });
     passes_.template sum<mpm::Momentum, void>(AllTiles{});
   }
 
   void resolve_contact(Real time, Real dt) {
-    const NodeStageArgs<Dim, Real> step = passes_.nodes_in_step(time, dt);
+    const NodeStageArgs<Dim> step = passes_.nodes_in_step(time, dt);
     if (passes_.ground.exists()) {
       const SeesCandidates<Dim> sees = passes_.ground.sees_candidates();
-      passes_.run(passes_.momentum(sees),
-                  terrain::AddNearGround<Dim, Real>{passes_.model.phases, passes_.model.lubrication});
+      passes_.run(passes_.momentum(sees), terrain::AddNearGround<Dim>{passes_.model.phases, passes_.model.lubrication});
       passes_.template sum<mpm::NearGround, mpm::Clearance>(sees);
       evaluate_law_at_nodes(passes_.backend, step, passes_.model.base, passes_.model.cell, passes_.ground,
                             band_columns_.states(), bases_.data());
@@ -173,31 +241,30 @@ class Step {
     band_columns_.follow(step.nodes);
     if (passes_.ground.exists()) {
       passes_.backend.for_each(passes_.particles.size(),
-                               VisitInMemory<Dim, Real, terrain::LeaveBand<Dim, Real>>{passes_.particles.view(), {}});
-      passes_.run(passes_.linear(passes_.ground.sees_candidates()), terrain::MarkBand<Dim, Real>{dt});
+                               VisitInMemory<Dim, terrain::LeaveBand<Dim>>{passes_.particles.view(), {}});
+      passes_.run(passes_.linear(passes_.ground.sees_candidates()), terrain::MarkBand<Dim>{dt});
     }
   }
 
   template <class Beds>
-  void resolve_contact(const NodeStageArgs<Dim, Real>& step, const Beds& beds) {
+  void resolve_contact(const NodeStageArgs<Dim>& step, const Beds& beds) {
     const std::size_t blocks = step.tables.blocks;
-    passes_.keep(
-        block_pass<Dim>(
-            passes_.backend, blocks,
-            ResolveContact<Beds, Dim, Real>{step, passes_.ground.exists() ? passes_.ground.number() : nullptr,
-                                            bases_.data(), passes_.model.base.clamp, passes_.model.base.cap_pressure,
-                                            passes_.model.base.heat_fraction, beds},
-            passes_.memory.template sums<terrain::ContactWork<Dim, Real>>(partial_sum_count(blocks))),
-        &sums_.data()->contact);
+    passes_.keep(block_pass<Dim>(
+                     passes_.backend, blocks,
+                     ResolveContact<Beds, Dim>{step, passes_.ground.exists() ? passes_.ground.number() : nullptr,
+                                               bases_.data(), passes_.model.base.clamp, passes_.model.base.cap_pressure,
+                                               passes_.model.base.heat_fraction, beds},
+                     passes_.memory.template sums<terrain::ContactWork<Dim>>(partial_sum_count(blocks))),
+                 &sums_.data()->contact);
   }
 
   void move(Real time, Real dt) {
-    using Kernel = mpm::Move<Dim, Real>;
+    using Kernel = mpm::Move<Dim>;
     passes_.keep(&passes_.run(passes_.momentum(), Kernel{passes_.model.affine ? Real(1) : passes_.model.pic_share, dt})
                       ->template of<Kernel>(),
                  &sums_.data()->particle_kinetic);
     passes_.if_affine([&](const auto& weights) {
-      using Affine = mpm::MoveAffine<Dim, Real>;
+      using Affine = mpm::MoveAffine<Dim>;
       const auto* more = passes_.run(passes_.over(weights, AllTiles{}), Affine{dt});
       passes_.backend.for_each(1, Add<Real>{&more->template of<Affine>(), &sums_.data()->particle_kinetic});
     });
@@ -207,19 +274,19 @@ class Step {
     }
     passes_.template sum<mpm::Velocity, void>(AllTiles{});
     const std::size_t blocks = passes_.cells.tables().blocks;
-    passes_.keep(block_pass<Dim>(passes_.backend, blocks, MapBack<Dim, Real>{passes_.nodes_in_step(time, dt)},
+    passes_.keep(block_pass<Dim>(passes_.backend, blocks, MapBack<Dim>{passes_.nodes_in_step(time, dt)},
                                  passes_.memory.template sums<Real>(partial_sum_count(blocks))),
                  &sums_.data()->mapped_back);
   }
 
   void update_stress(Real dt) {
-    passes_.backend.for_each(1, Fill<mpm::Deformed<Real>>{&sums_.data()->deformed, {}});
+    passes_.backend.for_each(1, Fill<mpm::Deformed>{&sums_.data()->deformed, {}});
     for (std::size_t m = 0; m < passes_.model.materials.size(); ++m) {
       std::visit(
           [&]<class Law>(const Law& law) {
-            using Kernel = DeformMaterial<Dim, Real, Law>;
+            using Kernel = DeformMaterial<Dim, Law>;
             const auto* all = passes_.run(passes_.momentum(), Kernel::of(law, passes_.model, m, dt));
-            passes_.backend.for_each(1, Add<mpm::Deformed<Real>>{&all->template of<Kernel>(), &sums_.data()->deformed});
+            passes_.backend.for_each(1, Add<mpm::Deformed>{&all->template of<Kernel>(), &sums_.data()->deformed});
           },
           passes_.model.materials[m].law);
     }
@@ -227,9 +294,9 @@ class Step {
 
   // Updates positions and evaluates the reductions that the CPU requested.
   void update_positions() {
-    const mpm::UpdatePosition<Dim, Real> take{passes_.model.lower, passes_.model.upper};
-    const FindExtremes<Dim, Real> extremes{passes_.model.band, band_.hydraulic(), {free_gaps_.data()}};
-    const CountEscaped<Dim, Real> escapes = escape_kernel();
+    const mpm::UpdatePosition<Dim> take{passes_.model.lower, passes_.model.upper};
+    const FindExtremes<Dim> extremes{passes_.model.band, band_.hydraulic(), {free_gaps_.data()}};
+    const CountEscaped<Dim> escapes = escape_kernel();
     if (passes_.model.finds_extremes && passes_.model.counts_escaped) {
       update_positions(take, extremes, escapes);
     } else if (passes_.model.finds_extremes) {
@@ -240,7 +307,7 @@ class Step {
       update_positions(take);
     }
   }
-  [[nodiscard]] CountEscaped<Dim, Real> escape_kernel() const {
+  [[nodiscard]] CountEscaped<Dim> escape_kernel() const {
     return {passes_.cells.tables().blocks_about_tile,
             passes_.ground.exists() ? passes_.ground.partly_unknown() : nullptr, passes_.model.faces.extent};
   }
@@ -256,16 +323,16 @@ class Step {
 
   Passes passes_;
   Array<Sums, Backend> sums_;
-  BandStages<Backend, Shape, Dim, Real> band_;
-  Maps<Backend, Real> maps_;
-  BandColumns<Backend, Dim, Real> band_columns_;
-  ErodibleBed<Backend, Dim, Real> bed_;
+  BandStages<Backend, Shape, Dim> band_;
+  Maps<Backend> maps_;
+  BandColumns<Backend, Dim> band_columns_;
+  ErodibleBed<Backend, Dim> bed_;
   Array<Real, Backend> free_gaps_{passes_.backend};
-  Array<ContactInput<Real>, Backend> bases_{passes_.backend};
-  EscapeCheck<Backend, Dim, Real> escape_check_{passes_.backend};
-  Front<Backend, Dim, Real> front_{passes_.backend};
-  Array<mpm::MonitorSums<Real>, Backend> watched_{passes_.backend, 1};
-  Array<band::BodySums<Dim, Real>, Backend> body_{passes_.backend, 1};
+  Array<ContactInput, Backend> bases_{passes_.backend};
+  EscapeCheck<Backend, Dim> escape_check_{passes_.backend};
+  Front<Backend, Dim> front_{passes_.backend};
+  Array<mpm::MonitorSums, Backend> monitored_{passes_.backend, 1};
+  Array<band::BodySums<Dim>, Backend> body_{passes_.backend, 1};
   Array<mpm::MassMoments, Backend> moments_{passes_.backend, 1};
 };
 

@@ -7,7 +7,6 @@
 #include <functional>
 #include <vector>
 
-#include "band/any_heat_content.hpp"
 #include "band/at_columns.hpp"
 #include "band/heat_face.hpp"
 #include "band/nodal_heat.hpp"
@@ -30,7 +29,7 @@
 
 namespace thawslide::device {
 
-template <int Dim, class Real>
+template <int Dim>
 struct StepModel {
   Real cell = 0;                                         // mesh size [m]
   std::vector<Real> half_sizes;                          // of particles, by body, in cells
@@ -43,15 +42,15 @@ struct StepModel {
   int filter_order = 0;                                  // of the velocity filter; 0: none
   std::function<bool(Real time, Real dt)> filters_in_step;
   Real mass_damping = 0;  // [1/s]
-  std::vector<mpm::MaterialModel<Real>> materials;
-  physics::Phases<Real> phases;
+  std::vector<mpm::MaterialModel> materials;
+  physics::Phases phases;
   bool effective_stress = false;  // pore pressure also acts inside the body
   bool lubrication = true;        // off: the base uses the initial porosity and saturation
-  mpm::DomainFaces<Dim, Real> faces;
+  mpm::DomainFaces<Dim> faces;
   Vector<Real, Dim> lower, upper;  // bounds of particle positions [m]
   bool finds_extremes = false;     // StepSums::extremes is required
   bool counts_escaped = false;     // StepSums::escapes is required
-  terrain::BasalLaw<Real> base;
+  terrain::BasalLaw base;
   bool base_holds = false;        // no slip
   bool pore_pressure = true;      // off: P = 0 at contact nodes
   bool distance_check = false;    // contact acts only after a node has closed its clearance
@@ -59,9 +58,9 @@ struct StepModel {
   // Heat of particles, with the masses at t = 0 and the secant of their heat content.
   bool heat = false;   // off: temperatures are constant
   bool starts = true;  // the next step is the first one, from t = 0
-  band::AnyHeatContent<Real> heat_content;
-  band::HeatFaces<Dim, Real> heat_faces;
-  band::BandPhysics<Real> band;
+  band::AnyHeatContent heat_content;
+  band::HeatFaces<Dim> heat_faces;
+  band::BandPhysics band;
   std::vector<Real> hydraulic_conductivity;       // by material [m/s]
   std::vector<Real> free_gaps;                    // as in band::FreeGaps
   std::function<Real(Real time)> band_thickness;  // [m]; 0: no band, xi = 1
@@ -80,8 +79,8 @@ struct StepModel {
 
 // Returns the ground data of all nodes of a block, x fastest. The result is true if the ground is known everywhere
 // below the block and within one cell around it. Empty without ground.
-template <int Dim, class Real>
-using GroundQuery = std::function<bool(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes)>;
+template <int Dim>
+using GroundQuery = std::function<bool(std::uint64_t block, terrain::GroundAtNode<Dim>* nodes)>;
 
 // Thickness [m] of the cells along the ground at the middle of a column of cells, by its indices along the horizontal
 // axes (terrain/layer_thickness.hpp). Empty: one cell.
@@ -89,7 +88,6 @@ template <int Dim>
 using LayerAtMiddle = std::function<double(const std::array<int, Dim - 1>&)>;
 
 // Band columns below the sliding mass, stored on the CPU; empty without band columns.
-template <class Real>
 struct HostColumns {
   // Called after the active blocks have changed, with their ascending keys. Returns the numbers of the blocks whose
   // nodes `follow` needs.
@@ -104,11 +102,11 @@ template <int Dim>
 inline constexpr std::size_t column_record_size = static_cast<std::size_t>(mpm::Contact::size<Dim> + 1 + Dim);
 
 // Erodible bed, stored on the CPU; empty without one.
-template <int Dim, class Real>
+template <int Dim>
 struct HostBed {
   using Columns = std::vector<std::array<int, Dim - 1>>;  // by the indices of their nodes along the horizontal axes
 
-  terrain::BedMaterial<Real> material;
+  terrain::BedMaterial material;
   // Called after blocks have changed, with the columns of the active blocks and those of the candidate nodes. Some are
   // outside the domain.
   std::function<void(const Columns& of_blocks, const Columns& of_candidates)> set_columns;
@@ -124,14 +122,14 @@ template <int Dim>
 inline constexpr std::size_t bed_record_size = static_cast<std::size_t>(mpm::BedLayout<Dim>::size) + 1;
 
 // CPU functions called during a step.
-template <int Dim, class Real>
+template <int Dim>
 struct HostCallbacks {
-  GroundQuery<Dim, Real> ground;
+  GroundQuery<Dim> ground;
   // As in band/flow_depth.hpp. Without slope_cosine, thickness is vertical; normal_gravity is only needed for loads.
-  band::OfPlace<Dim, Real> slope_cosine, normal_gravity;
+  band::OfPlace<Dim> slope_cosine, normal_gravity;
   LayerAtMiddle<Dim> layer_at_middle;
-  HostColumns<Real> columns;
-  HostBed<Dim, Real> bed;
+  HostColumns columns;
+  HostBed<Dim> bed;
 };
 
 // Sums for maps and for the path of the centre of mass after a step (3D only).
@@ -142,18 +140,18 @@ struct MapSample {
 };
 
 // Sums over particles and nodes of one step; energies [J].
-template <int Dim, class Real>
+template <int Dim>
 struct StepSums {
-  terrain::ContactWork<Dim, Real> contact;
+  terrain::ContactWork<Dim> contact;
   Real particle_kinetic = 0;  // as in mpm::MoveWork
   Real filtered = 0;          // kinetic energy added by the velocity filter
   Real mapped_back = 0;       // work of internal forces at mid-step velocities minus that at mapped-back velocities
-  mpm::Deformed<Real> deformed;
+  mpm::Deformed deformed;
   Real band_rescale = 0;  // heat added by changes of scaling
-  band::HeatGain<Real> heat;
-  band::DrainedWater<Real> drained;  // at the surface
-  Real vented = 0;                   // water lost to frozen pores [kg]
-  mpm::InvalidParticle invalid;      // after particles have moved
+  band::HeatGain heat;
+  band::DrainedWater drained;    // at the surface
+  Real vented = 0;               // water lost to frozen pores [kg]
+  mpm::InvalidParticle invalid;  // after particles have moved
   band::StepExtremes extremes;
   std::uint64_t escapes = 0;  // particles outside the domain, or in a block with partly unknown ground
 };

@@ -1,26 +1,27 @@
 // Data common to all stages of a step on a device: particles, cells, nodal records, and the passes over them.
 #pragma once
 
-#include "device/block_pass.hpp"
+#include "device/add_up.hpp"
 #include "device/body_sizes.hpp"
 #include "device/cells.hpp"
 #include "device/ground.hpp"
 #include "device/marks.hpp"
 #include "device/node_memory.hpp"
 #include "device/particles.hpp"
+#include "device/tile_tables.hpp"
 #include "terrain/near_ground_kernel.hpp"
 
 namespace thawslide::device {
 
 // Shape: shape functions of momentum (mpm/shape.hpp).
-template <class Backend, class Shape, int Dim, class Real>
+template <class Backend, class Shape, int Dim>
 class StepPasses {
  public:
   static constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
 
   // Copies `count` particles from CPU memory.
-  StepPasses(Backend& used, const StepModel<Dim, Real>& known, const mpm::ParticleView<Dim, Real>& of_cpu,
-             std::size_t count, const GroundQuery<Dim, Real>& query_ground)
+  StepPasses(Backend& used, const StepModel<Dim>& known, const mpm::ParticleView<Dim>& of_cpu, std::size_t count,
+             const GroundQuery<Dim>& query_ground)
       : backend(used),
         model(known),
         particles(used, of_cpu, count),
@@ -31,22 +32,22 @@ class StepPasses {
   StepPasses& operator=(const StepPasses&) = delete;
 
   Backend& backend;
-  StepModel<Dim, Real> model;
-  Particles<Backend, Dim, Real> particles;
-  Cells<Backend, Dim, Real> cells;
-  Ground<Backend, Dim, Real> ground;
-  NodeMemory<Backend, Dim, Real> nodes{backend};
-  PassMemory<Backend, Real> memory{backend};
+  StepModel<Dim> model;
+  Particles<Backend, Dim> particles;
+  Cells<Backend, Dim> cells;
+  Ground<Backend, Dim> ground;
+  NodeMemory<Backend, Dim> nodes{backend};
+  PassMemory<Backend> memory{backend};
   Marks<Backend, Dim> marks{backend};
 
-  [[nodiscard]] mpm::SizesOfBodies<Real> body_sizes() const { return sizes_.view(); }  // in cells
-  [[nodiscard]] MomentumWeights<Shape, Dim, Real> weights() const { return {sizes_.view(), model.sides}; }
+  [[nodiscard]] mpm::SizesOfBodies body_sizes() const { return sizes_.view(); }  // in cells
+  [[nodiscard]] MomentumWeights<Shape, Dim> weights() const { return {sizes_.view(), model.sides}; }
   // Calls work(weights) with the weights of APIC if the model uses it.
   template <class Work>
   void if_affine(const Work& work) const {
-    if constexpr (!std::is_same_v<Shape, mpm::Linear<Real>>) {
+    if constexpr (!std::is_same_v<Shape, mpm::Linear>) {
       if (model.affine) {
-        work(AffineWeights<Shape, Dim, Real>{weights()});
+        work(AffineWeights<Shape, Dim>{weights()});
       }
     }
   }
@@ -60,7 +61,7 @@ class StepPasses {
     return over(weights(), accepts);
   }
   template <class Weights, class TileFilter>
-  [[nodiscard]] PassOver<Weights, TileFilter, Dim, Real> over(const Weights& weights, const TileFilter& accepts) const {
+  [[nodiscard]] PassOver<Weights, TileFilter, Dim> over(const Weights& weights, const TileFilter& accepts) const {
     return {cells.tables(), particles.view(), weights, accepts, model.cell};
   }
   template <class Over, class... Kernels>
@@ -70,8 +71,8 @@ class StepPasses {
   template <class Name, class MinReduced, class TileFilter>
   void sum(const TileFilter& accepts) {
     const std::size_t numbers = of<Name>().size();
-    backend.for_each(numbers, SumPatches<Name, MinReduced, TileFilter, Dim, Real>{
-                                  cells.tables(), accepts, memory.patches(0), of<Name>().data()});
+    backend.for_each(numbers, SumPatches<Name, MinReduced, TileFilter, Dim>{cells.tables(), accepts, memory.patches(0),
+                                                                            of<Name>().data()});
   }
   template <class Kernel, class Sum>
   Sum sum_over_particles(const Kernel& kernel, Array<Sum, Backend>& sum) {
@@ -88,8 +89,8 @@ class StepPasses {
   [[nodiscard]] Array<Real, Backend>& of() {
     return nodes.template of<Name>();
   }
-  [[nodiscard]] NodeViews<Dim, Real> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }
-  [[nodiscard]] NodeStageArgs<Dim, Real> nodes_in_step(Real time, Real dt) {
+  [[nodiscard]] NodeViews<Dim> views() { return nodes.views(ground.exists() ? ground.known() : nullptr); }
+  [[nodiscard]] NodeStageArgs<Dim> nodes_in_step(Real time, Real dt) {
     return {cells.tables(), views(), model.faces,          model.gravity,       model.cell,      model.mass_damping,
             time,           dt,      model.distance_check, model.pore_pressure, model.base_holds};
   }
@@ -105,7 +106,44 @@ class StepPasses {
   }
 
  private:
-  BodySizes<Backend, Real> sizes_;
+  BodySizes<Backend> sizes_;
 };
+
+// Work provides visit(node, part), which fills the part of one node (numbered over all blocks), and add(parts, count,
+// sum), which reduces the parts of one block.
+template <class Work, int Dim>
+struct BlockPass {
+  using Part = typename Work::Part;
+  using Sum = typename Work::Sum;
+  static constexpr auto nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+  static constexpr std::size_t bytes = nodes * sizeof(Part);
+
+  Work work;
+  Sum* sums;  // by block
+
+  template <class Group>
+  THAWSLIDE_HD void operator()(Group& group, std::size_t block) const {
+    auto* parts = reinterpret_cast<Part*>(group.shared());
+    group.each(nodes, [this, block, parts](std::size_t k) {
+      Part part{};
+      work.visit(block * nodes + k, part);
+      parts[k] = part;
+    });
+    group.barrier();
+    group.each(1, [this, block, parts](std::size_t /*k*/) {
+      Sum sum{};
+      work.add(parts, nodes, sum);
+      sums[block] = sum;
+    });
+  }
+};
+
+// sums: buffer of partial_sum_count(blocks) entries. Returns a pointer to the total within it.
+template <int Dim, class Backend, class Work>
+typename Work::Sum* block_pass(Backend& backend, std::size_t blocks, const Work& work, typename Work::Sum* sums) {
+  using Pass = BlockPass<Work, Dim>;
+  backend.for_groups(blocks, Pass::nodes, Pass::bytes, Pass{work, sums});
+  return add_up(backend, sums, blocks);
+}
 
 }  // namespace thawslide::device

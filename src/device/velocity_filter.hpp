@@ -8,7 +8,7 @@
 namespace thawslide::device {
 
 // One thread per node.
-template <int Dim, class Real>
+template <int Dim>
 struct MakeIncrement {
   bool first;
   Real least_square;
@@ -31,27 +31,27 @@ struct MakeIncrement {
 };
 
 // Recomputes the momentum in the patches of Velocity. gained: kinetic energy [J], in device memory.
-template <class Backend, class Shape, int Dim, class Real>
-void filter_velocities(StepPasses<Backend, Shape, Dim, Real>& passes, Real* gained) {
-  using Passes = StepPasses<Backend, Shape, Dim, Real>;
-  using Taking = mpm::ApplyFiltered<Dim, Real>;
+template <class Backend, class Shape, int Dim>
+void filter_velocities(StepPasses<Backend, Shape, Dim>& passes, Real* gained) {
+  using Passes = StepPasses<Backend, Shape, Dim>;
+  using Taking = mpm::ApplyFiltered<Dim>;
   const std::size_t nodes = passes.cells.tables().blocks * Passes::block_nodes;
   passes.nodes.template resize_for<mpm::FilterMoments, mpm::FilterMomentum, mpm::FilterIncrement, mpm::FilterTotal>(
       nodes);
   const auto make_increments = [&](bool first) {
     passes.template sum<mpm::FilterMomentum, void>(AllTiles{});
     passes.backend.for_each(
-        nodes, MakeIncrement<Dim, Real>{
+        nodes, MakeIncrement<Dim>{
                    first, mpm::least_square_of(passes.model.cell), passes.template of<mpm::Momentum>().data(),
                    passes.template of<mpm::FilterMoments>().data(), passes.template of<mpm::FilterMomentum>().data(),
                    passes.template of<mpm::FilterIncrement>().data(), passes.template of<mpm::FilterTotal>().data()});
   };
-  passes.run(passes.momentum(), mpm::AddFilterMoments<Dim, Real>{});
+  passes.run(passes.momentum(), mpm::AddFilterMoments<Dim>{});
   passes.template sum<mpm::FilterMoments, void>(AllTiles{});
-  passes.run(passes.momentum(), mpm::AddFilterMomentum<Dim, Real>{});
+  passes.run(passes.momentum(), mpm::AddFilterMomentum<Dim>{});
   make_increments(true);
   for (int order = 2; order <= passes.model.filter_order; ++order) {
-    passes.run(passes.momentum(), mpm::SweepFilter<Dim, Real>{});
+    passes.run(passes.momentum(), mpm::SweepFilter<Dim>{});
     make_increments(false);
   }
   passes.keep(&passes.run(passes.momentum(), Taking{})->template of<Taking>(), gained);

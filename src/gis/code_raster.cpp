@@ -83,7 +83,7 @@ Raster read_codes(const config::Case& parameters, const std::string& key, const 
     if (Reprojection(codes.crs, ground.crs).changes_nothing()) {
       return codes;
     }
-    warnings.push_back(fmt::format("the codes of {}, which is in {}, were resampled to the points of the DEM",
+    warnings.push_back(fmt::format("note: the codes of {}, which is in {}, were resampled to the points of the DEM",
                                    name_of_file(file), name_of(codes.crs)));
     return nearest_codes(file, codes, ground);
   });

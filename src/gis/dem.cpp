@@ -32,7 +32,7 @@ std::string system_of(const config::Case& parameters, const RasterFile& file, st
     warnings.push_back(warning);
   }
   if (!given.empty() && name_of(system) != name_of(layout.crs)) {
-    warnings.push_back(fmt::format("{} is read as {}, as set by terrain.crs; the file specifies {}",
+    warnings.push_back(fmt::format("note: {} is read as {}, as set by terrain.crs; the file specifies {}",
                                    std::filesystem::path(file.file()).filename().string(), name_of(system),
                                    layout.crs.empty() ? "nothing" : name_of(layout.crs)));
   }
@@ -192,12 +192,12 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& warnings)
   warnings.insert(warnings.end(), of_reading.begin(), of_reading.end());
   const std::string name = std::filesystem::path(file.file()).filename().string();
   if (terrain.resample > 0.0) {
-    warnings.push_back(fmt::format("{} was resampled from points {:g} m x {:g} m apart to points {:g} m apart", name,
-                                   file.layout().cell_x, file.layout().cell_y, terrain.resample));
+    warnings.push_back(fmt::format("note: {} was resampled from points {:g} m x {:g} m apart to points {:g} m apart",
+                                   name, file.layout().cell_x, file.layout().cell_y, terrain.resample));
   }
   if (width > 0.0) {
     warnings.push_back(fmt::format(
-        "{} was smoothed with a standard deviation of {:g} m{}", name, width,
+        "note: {} was smoothed with a standard deviation of {:g} m{}", name, width,
         terrain.smooth.is_auto
             ? fmt::format(", as it has noise of {:.2g} m rms and bumps with an rms slope of {:.2g} (terrain.smooth = "
                           "\"auto\")",

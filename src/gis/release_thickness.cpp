@@ -9,7 +9,6 @@
 #include "gis/map_raster.hpp"
 #include "gis/point_window.hpp"
 #include "gis/sampling.hpp"
-#include "gis/slope.hpp"
 #include "gis/taper.hpp"
 #include "gis/valued_areas.hpp"
 

@@ -77,7 +77,7 @@ LikelySystem likely_system(const std::string& file, const std::string& specified
   if (Reprojection(specified, ground).changes_nothing()) {
     return {ground, ""};
   }
-  return {specified, fmt::format("{} was reprojected from {} to {}", name, name_of(specified), name_of(ground))};
+  return {specified, fmt::format("note: {} was reprojected from {} to {}", name, name_of(specified), name_of(ground))};
 }
 
 }  // namespace thawslide::gis

@@ -308,8 +308,8 @@ config::Roughness roughness_of(const Raster& raster, const Rectangle& rectangle,
   found.bump_slope = bump_slope(waves, rectangle, cell, 0.0);
   const Filtered filtered{waves, rectangle, found.noise, found.spacing, cell};
   found.width = smooth.is_auto ? filtered.fitting_width() : smooth.number;
-  found.slope_left = filtered.slope(found.width);
-  found.apparent_friction = apparent_friction(found.slope_left);
+  found.remaining_slope = filtered.slope(found.width);
+  found.apparent_friction = apparent_friction(found.remaining_slope);
   found.narrow_valley = narrow_valley(found.width);
   return found;
 }
@@ -325,7 +325,7 @@ std::string roughness_warning(const config::Case& parameters, const config::Site
         "{:g} m wide it takes more than 3 % of the friction of the sides. Usual: \"auto\", or at most {:g} m.",
         found.width, found.narrow_valley, widest);
   }
-  if (is_auto ? found.slope_left <= largest_slope : found.apparent_friction <= much_friction) {
+  if (is_auto ? found.remaining_slope <= largest_slope : found.apparent_friction <= much_friction) {
     return "";
   }
   const std::string remedy = is_auto
@@ -334,8 +334,8 @@ std::string roughness_warning(const config::Case& parameters, const config::Site
   return fmt::format(
       "terrain.smooth: noise and bumps shorter than {} m add about {:.2g} % to the friction, with a filter of "
       "{:g} m (rms slope {:.2g}; at most {:g} is intended). {}",
-      rounded_text(found.bump_length, 2), 100.0 * found.apparent_friction, found.width, found.slope_left, largest_slope,
-      remedy);
+      rounded_text(found.bump_length, 2), 100.0 * found.apparent_friction, found.width, found.remaining_slope,
+      largest_slope, remedy);
 }
 
 }  // namespace thawslide::gis

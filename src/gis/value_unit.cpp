@@ -170,7 +170,7 @@ UnitConversion with_warning(const StatedUnits& stated, const std::string& unit, 
                             const char* own) {
   UnitConversion conversion{found.factor, found.offset, ""};
   if (found.factor != 1.0 || found.offset != 0.0) {
-    conversion.warning = fmt::format("{} states the unit '{}': its values were converted to {}",
+    conversion.warning = fmt::format("note: {} states the unit '{}': its values were converted to {}",
                                      std::filesystem::path(stated.file).filename().string(), config::shown(unit), own);
   }
   return conversion;

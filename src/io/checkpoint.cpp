@@ -14,7 +14,7 @@ namespace thawslide::io {
 namespace {
 
 constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" as bytes
-constexpr std::uint64_t format_version = 8;
+constexpr std::uint64_t format_version = 9;
 
 class Writer {
  public:
@@ -75,9 +75,9 @@ class Reader {
 };
 
 // Bytes per particle of each field in a checkpoint.
-template <int Dim, class Real>
+template <int Dim>
 std::vector<std::size_t> row_sizes() {
-  mpm::Particles<Dim, Real> one;
+  mpm::Particles<Dim> one;
   one.resize(1);
   std::vector<std::size_t> sizes;
   for (const mpm::FieldBase* field : one.fields.all()) {
@@ -173,10 +173,9 @@ WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder) {
   throw UserError(found.warning + ". Use another copy, or run the case from its start.");
 }
 
-template <int Dim, class Real>
-void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<Dim, Real>& particles,
-                      std::size_t at_start, const std::vector<double>& scalars, const NamedNumbers& blocks,
-                      const std::string& case_text) {
+template <int Dim>
+void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<Dim>& particles, std::size_t at_start,
+                      const std::vector<double>& scalars, const NamedNumbers& blocks, const std::string& case_text) {
   Writer writer;
   writer.put(magic);
   writer.put(format_version);
@@ -208,8 +207,8 @@ void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<
   write_file_atomically(folder / checkpoint_name, writer.text(), folder / previous_checkpoint_name);
 }
 
-template <int Dim, class Real>
-NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<Dim, Real>& particles,
+template <int Dim>
+NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<Dim>& particles,
                              std::vector<double>& scalars) {
   const std::filesystem::path& file = checkpoint.file;
   Reader reader = reader_of(checkpoint);
@@ -217,7 +216,7 @@ NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<D
   reader.expect(Dim, "dimension");
   reader.expect(sizeof(Real), "number size");
   reader.expect(particles.size(), "particles at t = 0:");
-  const std::vector<std::size_t> record_bytes = row_sizes<Dim, Real>();
+  const std::vector<std::size_t> record_bytes = row_sizes<Dim>();
   // The number of particles may have changed, by removal or entrainment.
   particles.resize(reader.number());
   scalars = reader.numbers();
@@ -237,21 +236,19 @@ NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<D
 
 template <int Dim>
 std::size_t checkpoint_bytes_of_particle() {
-  const std::vector<std::size_t> sizes = row_sizes<Dim, double>();
+  const std::vector<std::size_t> sizes = row_sizes<Dim>();
   return std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
 }
 
 template std::size_t checkpoint_bytes_of_particle<2>();
 template std::size_t checkpoint_bytes_of_particle<3>();
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                    \
-  template void write_checkpoint<Dim, Real>(const std::filesystem::path&, const mpm::Particles<Dim, Real>&, \
-                                            std::size_t, const std::vector<double>&, const NamedNumbers&,   \
-                                            const std::string&);                                            \
-  template NamedNumbers read_checkpoint<Dim, Real>(const WholeCheckpoint&, mpm::Particles<Dim, Real>&,      \
-                                                   std::vector<double>&);
-THAWSLIDE_INSTANTIATE(2, double)
-THAWSLIDE_INSTANTIATE(3, double)
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                           \
+  template void write_checkpoint<Dim>(const std::filesystem::path&, const mpm::Particles<Dim>&, std::size_t, \
+                                      const std::vector<double>&, const NamedNumbers&, const std::string&);  \
+  template NamedNumbers read_checkpoint<Dim>(const WholeCheckpoint&, mpm::Particles<Dim>&, std::vector<double>&);
+THAWSLIDE_INSTANTIATE(2)
+THAWSLIDE_INSTANTIATE(3)
 #undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::io

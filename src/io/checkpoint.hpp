@@ -18,9 +18,9 @@ inline constexpr const char* previous_checkpoint_name = "checkpoint.previous.bin
 // Writes checkpoint.bin into `folder`; an existing one becomes checkpoint.previous.bin. Rows are sorted by id, so the
 // bytes do not depend on storage order. at_start: number of particles at t = 0; blocks: further state of the run;
 // case_text: its resolved case. Throws WriteError.
-template <int Dim, class Real>
-void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<Dim, Real>& particles,
-                      std::size_t at_start, const std::vector<double>& scalars, const NamedNumbers& blocks = {},
+template <int Dim>
+void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<Dim>& particles, std::size_t at_start,
+                      const std::vector<double>& scalars, const NamedNumbers& blocks = {},
                       const std::string& case_text = {});
 
 // Size of a particle in a checkpoint [bytes].
@@ -47,8 +47,8 @@ struct WholeCheckpoint {
 // particles: those at t = 0, which are replaced by those of the checkpoint. Returns the blocks. Throws UserError for a
 // checkpoint of another kind of run (dimension, number type, fields, particles at t = 0), and for invalid bytes with a
 // valid checksum. Memory use is limited to that of particles and numbers in a file of this size.
-template <int Dim, class Real>
-NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<Dim, Real>& particles,
+template <int Dim>
+NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<Dim>& particles,
                              std::vector<double>& scalars);
 
 }  // namespace thawslide::io

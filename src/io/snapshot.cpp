@@ -28,12 +28,12 @@ SnapshotField copy_field(const mpm::FieldBase& field, const std::vector<std::siz
   return taken;
 }
 
-// Group "base": one dataset per column, whose name ends with the unit.
+// Group "basal_segments": one dataset per column, whose name ends with the unit.
 void write_base(hid_t file, const NamedNumbers& base) {
   if (base.empty()) {
     return;
   }
-  const hdf5::Handle group = hdf5::make_group(file, "base");
+  const hdf5::Handle group = hdf5::make_group(file, "basal_segments");
   const std::size_t segments = base.at("position_m").size() / 3;
   for (const auto& [name, numbers] : base) {
     const hdf5::Shape shape = numbers.size() == segments ? hdf5::Shape{segments} : hdf5::Shape{segments, 3};
@@ -43,8 +43,8 @@ void write_base(hid_t file, const NamedNumbers& base) {
 
 }  // namespace
 
-template <int Dim, class Real>
-std::vector<std::size_t> order_by_id(const mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+std::vector<std::size_t> order_by_id(const mpm::Particles<Dim>& particles) {
   std::vector<std::size_t> order(particles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
@@ -52,8 +52,8 @@ std::vector<std::size_t> order_by_id(const mpm::Particles<Dim, Real>& particles)
   return order;
 }
 
-template <int Dim, class Real>
-Snapshot take_snapshot(const mpm::Particles<Dim, Real>& particles, const Vector<double, Dim>& origin, double time,
+template <int Dim>
+Snapshot take_snapshot(const mpm::Particles<Dim>& particles, const Vector<double, Dim>& origin, double time,
                        std::int64_t step) {
   const std::vector<std::size_t> order = order_by_id(particles);
   Snapshot snapshot{time, step, {}, {}, {}};
@@ -113,7 +113,7 @@ std::vector<std::byte> snapshot_bytes(const Snapshot& snapshot) {
 
 template <int Dim>
 std::size_t snapshot_bytes_of_particle() {
-  const mpm::Particles<Dim, double> particles;
+  const mpm::Particles<Dim> particles;
   std::size_t numbers = 3 + 2;  // coordinates, and two numbers of the vertex
   for (const mpm::FieldBase* field : particles.fields.all()) {
     numbers += field->info().in_snapshot() ? written_components(field->info().shape) : 0;
@@ -124,12 +124,11 @@ std::size_t snapshot_bytes_of_particle() {
 template std::size_t snapshot_bytes_of_particle<2>();
 template std::size_t snapshot_bytes_of_particle<3>();
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                           \
-  template std::vector<std::size_t> order_by_id<Dim, Real>(const mpm::Particles<Dim, Real>&);                      \
-  template Snapshot take_snapshot<Dim, Real>(const mpm::Particles<Dim, Real>&, const Vector<double, Dim>&, double, \
-                                             std::int64_t);
-THAWSLIDE_INSTANTIATE(2, double)
-THAWSLIDE_INSTANTIATE(3, double)
+#define THAWSLIDE_INSTANTIATE(Dim)                                                \
+  template std::vector<std::size_t> order_by_id<Dim>(const mpm::Particles<Dim>&); \
+  template Snapshot take_snapshot<Dim>(const mpm::Particles<Dim>&, const Vector<double, Dim>&, double, std::int64_t);
+THAWSLIDE_INSTANTIATE(2)
+THAWSLIDE_INSTANTIATE(3)
 #undef THAWSLIDE_INSTANTIATE
 
 }  // namespace thawslide::io

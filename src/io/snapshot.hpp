@@ -32,8 +32,8 @@ struct Snapshot {
 
 // Fields marked for snapshots, with rows by id, the local origin added, three components in 2D (z = 0), tensors as xx
 // yy zz xy yz xz.
-template <int Dim, class Real>
-Snapshot take_snapshot(const mpm::Particles<Dim, Real>& particles, const Vector<double, Dim>& origin, double time,
+template <int Dim>
+Snapshot take_snapshot(const mpm::Particles<Dim>& particles, const Vector<double, Dim>& origin, double time,
                        std::int64_t step);
 
 // Bytes of the file; the same snapshot gives the same bytes.
@@ -44,7 +44,7 @@ template <int Dim>
 std::size_t snapshot_bytes_of_particle();
 
 // Memory indices of the particles in order of id.
-template <int Dim, class Real>
-std::vector<std::size_t> order_by_id(const mpm::Particles<Dim, Real>& particles);
+template <int Dim>
+std::vector<std::size_t> order_by_id(const mpm::Particles<Dim>& particles);
 
 }  // namespace thawslide::io

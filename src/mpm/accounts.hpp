@@ -8,7 +8,6 @@
 namespace thawslide::mpm {
 
 // Energies of one step [J].
-template <class Real>
 struct StressWork {
   Real total = 0;    // of the constitutive stress on the strain
   Real plastic = 0;  // dissipated in plastic strain

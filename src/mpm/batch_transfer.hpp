@@ -9,9 +9,9 @@
 namespace thawslide::mpm {
 
 // Nodes and their weights. Constructed as an aggregate, because g++ copies an array of registers by a call.
-template <int Dim, class Real, std::size_t Width = 3>
+template <int Dim, std::size_t Width = 3>
 struct BatchStencil {
-  BatchNodes<Real> nodes;
+  BatchNodes nodes;
   std::array<AxisWeights<Simd<Real>, Width>, Dim> axis;
 };
 
@@ -27,16 +27,15 @@ THAWSLIDE_ALWAYS_INLINE auto for_axes(const Make& make) {
 }
 
 // Positions of the particles of a batch: nearest nodes, and offsets from them in cells.
-template <int Dim, class Real>
+template <int Dim>
 struct BatchPlace {
   Vector<Simd<Real>, Dim> node, offset;
 };
 
-template <int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE BatchPlace<Dim, Real> place_of(const SparseGrid<Dim, Real>& grid,
-                                                       const Particles<Dim, Real>& particles,
-                                                       const TileBatch<Dim, Real>& batch) {
-  BatchPlace<Dim, Real> place;
+template <int Dim>
+THAWSLIDE_ALWAYS_INLINE BatchPlace<Dim> place_of(const SparseGrid<Dim>& grid, const Particles<Dim>& particles,
+                                                 const TileBatch<Dim>& batch) {
+  BatchPlace<Dim> place;
   for (int a = 0; a < Dim; ++a) {
     place.node[a] = Simd<Real>::load_whole(batch.nearest[static_cast<std::size_t>(a)].data());
     place.offset[a] = particles.position.load(batch, a) * grid.inverse_cell() - place.node[a];
@@ -45,19 +44,17 @@ THAWSLIDE_ALWAYS_INLINE BatchPlace<Dim, Real> place_of(const SparseGrid<Dim, Rea
 }
 
 // Lanes at a side of the domain that prescribes velocity.
-template <int Dim, class Real>
+template <int Dim>
 THAWSLIDE_ALWAYS_INLINE SimdMask<Real> at_side(const HeldSides<Dim>& sides, int axis, Simd<Real> node) {
   const auto a = static_cast<std::size_t>(axis);
   return (node == static_cast<Real>(sides.lower[a])) | (node == static_cast<Real>(sides.upper[a]));
 }
 
 // Stencil for shape functions Shape (Ugimp, Linear, Quadratic). size: of the particles, in cells.
-template <class Shape, int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> make_stencil(const SparseGrid<Dim, Real>& grid,
-                                                             const TileBatch<Dim, Real>& batch,
-                                                             const BatchPlace<Dim, Real>& place,
-                                                             const HalfSize<Simd<Real>>& size,
-                                                             const HeldSides<Dim>& sides) {
+template <class Shape, int Dim>
+THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim> make_stencil(const SparseGrid<Dim>& grid, const TileBatch<Dim>& batch,
+                                                       const BatchPlace<Dim>& place, const HalfSize<Simd<Real>>& size,
+                                                       const HeldSides<Dim>& sides) {
   return {batch.nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
             return Shape::weights(place.offset[a], size, at_side(sides, a, place.node[a]), grid.inverse_cell());
           })};
@@ -65,20 +62,20 @@ THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> make_stencil(const SparseGrid<Di
 
 // Corners of the grid cells that particles lie in, as places in the patch and among the 3^Dim nodes around the nearest
 // node.
-template <int Dim, class Real>
-struct CornerStencil : BatchStencil<Dim, Real, 2> {
+template <int Dim>
+struct CornerStencil : BatchStencil<Dim, 2> {
   std::array<std::int32_t, simd_width<Real>> first_in_cell;  // of the lowest corner, by lane
 };
 
 // Linear shape functions of a batch. Scatter uses the corners of the particles' cells. Gather uses all nodes around the
 // nearest ones, because neighbours share these more often than corners.
-template <int Dim, class Real>
+template <int Dim>
 struct LinearStencil {
   Vector<Simd<Real>, Dim> offset;  // from the nearest node, in cells
-  const BatchNodes<Real>& nodes;
+  const BatchNodes& nodes;
   Real inverse_cell;
 
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE CornerStencil<Dim, Real> corners() const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE CornerStencil<Dim> corners() const {
     const Simd<Real> zero = Real(0), one = Real(1), slope = inverse_cell;
     Simd<Real> place = Simd<Real>::load_whole(nodes.first.data()), in_cell = zero;
     for (int a = 0; a < Dim; ++a) {
@@ -86,49 +83,46 @@ struct LinearStencil {
       place += select(right, Simd<Real>(Real(power(Tile<Dim>::patch_edge, a))), zero);
       in_cell += select(right, Simd<Real>(Real(power(3, a))), zero);
     }
-    BatchNodes<Real> corner_nodes;
+    BatchNodes corner_nodes;
     place.store_whole(corner_nodes.first.data());
-    corner_nodes.runs = BatchNodes<Real>::irregular;
-    CornerStencil<Dim, Real> corners{{corner_nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
-                                        const Simd<Real> along = select(offset[a] >= zero, offset[a], one + offset[a]);
-                                        const Simd<Real> back = select(offset[a] >= zero, one - offset[a], -offset[a]);
-                                        return AxisWeights<Simd<Real>, 2>{{back, along}, {-slope, slope}};
-                                      })},
-                                     {}};
+    corner_nodes.runs = BatchNodes::irregular;
+    CornerStencil<Dim> corners{{corner_nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
+                                  const Simd<Real> along = select(offset[a] >= zero, offset[a], one + offset[a]);
+                                  const Simd<Real> back = select(offset[a] >= zero, one - offset[a], -offset[a]);
+                                  return AxisWeights<Simd<Real>, 2>{{back, along}, {-slope, slope}};
+                                })},
+                               {}};
     in_cell.store_whole(corners.first_in_cell.data());
     return corners;
   }
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim, Real> about() const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim> about() const {
     return {nodes,
             for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA { return linear_weights(offset[a], inverse_cell); })};
   }
 };
 
-template <int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE LinearStencil<Dim, Real> linear_stencil(const SparseGrid<Dim, Real>& grid,
-                                                                const Particles<Dim, Real>& particles,
-                                                                const TileBatch<Dim, Real>& batch) {
+template <int Dim>
+THAWSLIDE_ALWAYS_INLINE LinearStencil<Dim> linear_stencil(const SparseGrid<Dim>& grid, const Particles<Dim>& particles,
+                                                          const TileBatch<Dim>& batch) {
   return {place_of(grid, particles, batch).offset, batch.nodes, grid.inverse_cell()};
 }
 
 // Same nodes and weights for APIC: S_i (x_i - x_p)/D replaces the gradient G_i, so that node velocities give the affine
 // velocity C. moment: second moments D [m2] along each axis.
-template <int Dim, class Real>
+template <int Dim>
 struct AffineBatch {
-  BatchStencil<Dim, Real> nodes;
+  BatchStencil<Dim> nodes;
   Vector<Simd<Real>, Dim> moment;
 };
 
-template <class Shape, int Dim, class Real>
-THAWSLIDE_ALWAYS_INLINE AffineBatch<Dim, Real> make_affine(const SparseGrid<Dim, Real>& grid,
-                                                           const BatchStencil<Dim, Real>& stencil,
-                                                           const BatchPlace<Dim, Real>& place,
-                                                           const HeldSides<Dim>& sides) {
+template <class Shape, int Dim>
+THAWSLIDE_ALWAYS_INLINE AffineBatch<Dim> make_affine(const SparseGrid<Dim>& grid, const BatchStencil<Dim>& stencil,
+                                                     const BatchPlace<Dim>& place, const HeldSides<Dim>& sides) {
   const auto axis = [&](int a) THAWSLIDE_INLINE_LAMBDA {
     return Shape::affine(stencil.axis[static_cast<std::size_t>(a)], place.offset[a], at_side(sides, a, place.node[a]),
                          grid.inverse_cell());
   };
-  AffineBatch<Dim, Real> affine{{stencil.nodes, for_axes<Dim>(axis)}, {}};
+  AffineBatch<Dim> affine{{stencil.nodes, for_axes<Dim>(axis)}, {}};
   for (int a = 0; a < Dim; ++a) {
     affine.moment[a] =
         second_moment(stencil.axis[static_cast<std::size_t>(a)], place.offset[a]) * (grid.cell() * grid.cell());
@@ -138,18 +132,18 @@ THAWSLIDE_ALWAYS_INLINE AffineBatch<Dim, Real> make_affine(const SparseGrid<Dim,
 
 // Fetch(place, component) for read_nodes: one number for all lanes if they have the same nodes, two for two runs of
 // such lanes, otherwise a gather.
-template <int Dim, class Real, int Components>
+template <int Dim, int Components>
 struct SharedNodes {
-  const Patch<Dim, Real, Components>& patch;
+  const Patch<Dim, Components>& patch;
   std::size_t first;
 
   THAWSLIDE_ALWAYS_INLINE Simd<Real> operator()(std::size_t offset, std::size_t component) const {
     return patch.records[first + offset][component];
   }
 };
-template <int Dim, class Real, int Components>
+template <int Dim, int Components>
 struct NodesOfTwoRuns {
-  const Patch<Dim, Real, Components>& patch;
+  const Patch<Dim, Components>& patch;
   std::size_t first, second;
   SimdMask<Real> in_first;
 
@@ -158,12 +152,12 @@ struct NodesOfTwoRuns {
                   Simd<Real>(patch.records[second + offset][component]));
   }
 };
-template <int Dim, class Real, int Components>
+template <int Dim, int Components>
 struct OwnNodes {
-  const Patch<Dim, Real, Components>& patch;
+  const Patch<Dim, Components>& patch;
   typename Simd<Real>::Whole first;  // index of the first number, by lane
 
-  OwnNodes(const Patch<Dim, Real, Components>& from, const BatchNodes<Real>& nodes)
+  OwnNodes(const Patch<Dim, Components>& from, const BatchNodes& nodes)
       : patch(from),
         first(whole_lanes<Real>(nodes.first.data()) * static_cast<std::int32_t>(record_size(Components))) {}
 
@@ -173,37 +167,36 @@ struct OwnNodes {
 };
 
 // Calls read(fetch) with the fetch that matches the nodes of a batch.
-template <int Dim, class Real, int Components, class Read>
-THAWSLIDE_ALWAYS_INLINE auto with_fetch(const BatchNodes<Real>& nodes, const Patch<Dim, Real, Components>& patch,
+template <int Dim, int Components, class Read>
+THAWSLIDE_ALWAYS_INLINE auto with_fetch(const BatchNodes& nodes, const Patch<Dim, Components>& patch,
                                         const Read& read) {
   const auto first = static_cast<std::size_t>(nodes.first[0]);
   if (nodes.runs == 1) {
-    return read(SharedNodes<Dim, Real, Components>{patch, first});
+    return read(SharedNodes<Dim, Components>{patch, first});
   }
   if (nodes.runs == 2) {
     const auto second = static_cast<std::size_t>(nodes.first[simd_width<Real> - 1]);
-    return read(
-        NodesOfTwoRuns<Dim, Real, Components>{patch, first, second, lanes_before<Real>(nodes.second_run_begin)});
+    return read(NodesOfTwoRuns<Dim, Components>{patch, first, second, lanes_before<Real>(nodes.second_run_begin)});
   }
-  return read(OwnNodes<Dim, Real, Components>(patch, nodes));
+  return read(OwnNodes<Dim, Components>(patch, nodes));
 }
 
 // Interpolates `Count` components of the surrounding records to the particles.
-template <std::size_t Count, int Dim, class Real, std::size_t Width, int Components>
-THAWSLIDE_ALWAYS_INLINE Reading<Dim, Simd<Real>, Count> read_nodes(const BatchStencil<Dim, Real, Width>& stencil,
-                                                                   const Patch<Dim, Real, Components>& patch,
+template <std::size_t Count, int Dim, std::size_t Width, int Components>
+THAWSLIDE_ALWAYS_INLINE Reading<Dim, Simd<Real>, Count> read_nodes(const BatchStencil<Dim, Width>& stencil,
+                                                                   const Patch<Dim, Components>& patch,
                                                                    std::size_t first_component = 0) {
   return with_fetch(stencil.nodes, patch, [&](const auto& fetch) THAWSLIDE_INLINE_LAMBDA {
     return read_along_axes<Count>(stencil.axis, fetch, first_component);
   });
 }
-template <std::size_t Count, int Dim, class Real, int Components>
-THAWSLIDE_ALWAYS_INLINE Reading<Dim, Simd<Real>, Count> read_nodes(const LinearStencil<Dim, Real>& linear,
-                                                                   const Patch<Dim, Real, Components>& patch,
+template <std::size_t Count, int Dim, int Components>
+THAWSLIDE_ALWAYS_INLINE Reading<Dim, Simd<Real>, Count> read_nodes(const LinearStencil<Dim>& linear,
+                                                                   const Patch<Dim, Components>& patch,
                                                                    std::size_t first_component = 0) {
-  if (linear.nodes.runs == BatchNodes<Real>::irregular) {
+  if (linear.nodes.runs == BatchNodes::irregular) {
     const auto corners = linear.corners();
-    return read_along_axes<Count>(corners.axis, OwnNodes<Dim, Real, Components>(patch, corners.nodes), first_component);
+    return read_along_axes<Count>(corners.axis, OwnNodes<Dim, Components>(patch, corners.nodes), first_component);
   }
   return read_nodes<Count>(linear.about(), patch, first_component);
 }
@@ -213,8 +206,7 @@ template <int Dim, class Register, std::size_t Width>
 struct SpreadWeights {
   Register weight[Dim][Width];
 
-  template <class Real>
-  THAWSLIDE_ALWAYS_INLINE SpreadWeights(const BatchStencil<Dim, Real, Width>& stencil, std::size_t lane) {
+  THAWSLIDE_ALWAYS_INLINE SpreadWeights(const BatchStencil<Dim, Width>& stencil, std::size_t lane) {
     unrolled<Dim * Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
       weight[k / Width][k % Width] = stencil.axis[k / Width].weight[k % Width][lane];
     });
@@ -222,7 +214,7 @@ struct SpreadWeights {
 };
 
 // Interpolates one register of the surrounding records to one particle.
-template <int Axis, int Dim, class Register, std::size_t Width, class Real>
+template <int Axis, int Dim, class Register, std::size_t Width>
 THAWSLIDE_ALWAYS_INLINE Register sum_along_axes(const SpreadWeights<Dim, Register, Width>& spread,
                                                 std::size_t record_size, const Real* records) {
   constexpr auto stride = static_cast<std::size_t>(power(Tile<Dim>::patch_edge, Axis));
@@ -240,13 +232,13 @@ THAWSLIDE_ALWAYS_INLINE Register sum_along_axes(const SpreadWeights<Dim, Registe
 
 // Interpolates all components of the surrounding records, without gradients, to a batch. For irregular nodes, the loop
 // runs over particles with a register of components at a time.
-template <int Dim, class Real, std::size_t Width, int Components>
+template <int Dim, std::size_t Width, int Components>
 THAWSLIDE_ALWAYS_INLINE std::array<Simd<Real>, record_size(Components)> read_values(
-    const BatchStencil<Dim, Real, Width>& stencil, const Patch<Dim, Real, Components>& patch) {
-  using Register = RecordRegister<Real, Components>;
+    const BatchStencil<Dim, Width>& stencil, const Patch<Dim, Components>& patch) {
+  using Register = RecordRegister<Components>;
   constexpr std::size_t lanes = simd_width<Real>, size = record_size(Components), width = Register::count;
   std::array<Simd<Real>, size> values;
-  if (stencil.nodes.runs != BatchNodes<Real>::irregular) {
+  if (stencil.nodes.runs != BatchNodes::irregular) {
     const auto seen = read_nodes<static_cast<std::size_t>(Components)>(stencil, patch);
     unrolled<static_cast<std::size_t>(Components)>([&](auto c) THAWSLIDE_INLINE_LAMBDA { values[c] = seen.value[c]; });
     return values;
@@ -265,9 +257,9 @@ THAWSLIDE_ALWAYS_INLINE std::array<Simd<Real>, record_size(Components)> read_val
 
 // Contribution of a batch to the surrounding records: weight * value, plus gradient . flux in the components of one
 // register.
-template <int Dim, class Real, std::size_t Components>
+template <int Dim, std::size_t Components>
 struct Contribution {
-  using Register = RecordRegister<Real, static_cast<int>(Components)>;
+  using Register = RecordRegister<static_cast<int>(Components)>;
   static constexpr std::size_t width = Register::count;  // components per register
   static constexpr std::size_t groups = record_size(static_cast<int>(Components)) / width;
 

@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/real.hpp"
+
 namespace thawslide::mpm {
 
-template <class Real>
 struct BetweenBodies {
   std::vector<std::uint8_t> layer_of_body;  // by body number; empty: all share nodes
   std::size_t layers = 1;

@@ -8,7 +8,7 @@
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
 #include "mpm/scalar_index.hpp"
-#include "physics/body_contact.hpp"
+#include "physics/contact.hpp"
 
 namespace thawslide::mpm {
 
@@ -45,8 +45,8 @@ typename Tile<Dim>::Index shifted(typename Tile<Dim>::Index index, std::size_t a
 }
 
 // Volumes [m3] at the nodes of a block and two more on each side; 0 if there is no block.
-template <int Dim, class Real>
-std::array<Real, About<Dim, 2>::count> volumes_about(const SparseGrid<Dim, Real>& grid, const Nodes<Dim, Real>& nodes,
+template <int Dim>
+std::array<Real, About<Dim, 2>::count> volumes_about(const SparseGrid<Dim>& grid, const Nodes<Dim>& nodes,
                                                      std::size_t block) {
   using T = Tile<Dim>;
   std::array<Real, About<Dim, 2>::count> volumes;
@@ -67,7 +67,7 @@ std::array<Real, About<Dim, 2>::count> volumes_about(const SparseGrid<Dim, Real>
 }
 
 // Change of a quantity over two cells around a node, along each axis.
-template <int Dim, class Real>
+template <int Dim>
 Vector<Real, Dim> change_about(const std::array<Real, About<Dim, 2>::count>& quantity,
                                const typename Tile<Dim>::Index& node) {
   using Near = About<Dim, 2>;
@@ -80,20 +80,19 @@ Vector<Real, Dim> change_about(const std::array<Real, About<Dim, 2>::count>& qua
 }
 
 // Particle that may reach nodes of a block.
-template <int Dim, class Real>
+template <int Dim>
 struct ParticleAbout {
   Vector<Real, Dim> place;            // [m]
   Real half;                          // half size of its box [m]
   typename Tile<Dim>::Index nearest;  // node, relative to the block's first one
 };
 
-template <int Dim, class Real>
-std::vector<ParticleAbout<Dim, Real>> particles_about(const SparseGrid<Dim, Real>& grid,
-                                                      const Particles<Dim, Real>& particles,
-                                                      const BodySizes<Real>& sizes, std::size_t block) {
+template <int Dim>
+std::vector<ParticleAbout<Dim>> particles_about(const SparseGrid<Dim>& grid, const Particles<Dim>& particles,
+                                                const BodySizes& sizes, std::size_t block) {
   using T = Tile<Dim>;
   const typename T::Index first_node = T::node(T::index(grid.blocks()[block]), 0);
-  std::vector<ParticleAbout<Dim, Real>> about;
+  std::vector<ParticleAbout<Dim>> about;
   for (std::size_t d = 0; d < static_cast<std::size_t>(T::stencil); ++d) {
     const std::int32_t t = grid.tiles_about_block(block)[d];
     if (t == KeyIndex::absent) {
@@ -102,8 +101,8 @@ std::vector<ParticleAbout<Dim, Real>> particles_about(const SparseGrid<Dim, Real
     const auto& tile = grid.tiles()[static_cast<std::size_t>(t)];
     for (std::uint32_t k = tile.first; k < tile.last; ++k) {
       const std::uint32_t p = grid.order()[k];
-      ParticleAbout<Dim, Real> one;
-      one.place = particles.position.template load_vector<Dim>(ScalarIndex<Real>{p});
+      ParticleAbout<Dim> one;
+      one.place = particles.position.template load_vector<Dim>(ScalarIndex{p});
       one.half = sizes.half(static_cast<std::size_t>(particles.body(p))) * grid.cell();
       bool reaches = true;
       for (std::size_t a = 0; a < Dim; ++a) {
@@ -120,19 +119,18 @@ std::vector<ParticleAbout<Dim, Real>> particles_about(const SparseGrid<Dim, Real
 }
 
 // Extent of a particle's box along a normal [m], as in contact with the ground (terrain::set_contact_offset).
-template <int Dim, class Real>
+template <int Dim>
 struct Edge {
   Real along;
-  const ParticleAbout<Dim, Real>* of;
+  const ParticleAbout<Dim>* of;
 };
 
 // Selects the particles that reach a node.
-template <int Dim, class Real>
-void find_seen(const std::vector<ParticleAbout<Dim, Real>>& about, std::size_t node,
-               std::vector<Edge<Dim, Real>>& seen) {
+template <int Dim>
+void find_seen(const std::vector<ParticleAbout<Dim>>& about, std::size_t node, std::vector<Edge<Dim>>& seen) {
   const typename Tile<Dim>::Index here = Tile<Dim>::node({}, static_cast<int>(node));
   seen.clear();
-  for (const ParticleAbout<Dim, Real>& one : about) {
+  for (const ParticleAbout<Dim>& one : about) {
     bool sees = true;
     for (std::size_t a = 0; a < Dim; ++a) {
       sees = sees && std::abs(one.nearest[a] - here[a]) <= 1;
@@ -144,11 +142,11 @@ void find_seen(const std::vector<ParticleAbout<Dim, Real>>& about, std::size_t n
 }
 
 // Computes the edges of particles on the side given by a sign; returns the foremost one.
-template <int Dim, class Real>
-Real set_edges(const Vector<Real, Dim>& normal, Real sign, std::vector<Edge<Dim, Real>>& seen) {
+template <int Dim>
+Real set_edges(const Vector<Real, Dim>& normal, Real sign, std::vector<Edge<Dim>>& seen) {
   const Real stretch = sign * normal.cwiseAbs().maxCoeff();
   Real foremost = -std::numeric_limits<Real>::max();
-  for (Edge<Dim, Real>& edge : seen) {
+  for (Edge<Dim>& edge : seen) {
     edge.along = edge.of->place.dot(normal) + stretch * edge.of->half;
     foremost = std::max(foremost, sign * edge.along);
   }
@@ -157,12 +155,12 @@ Real set_edges(const Vector<Real, Dim>& normal, Real sign, std::vector<Edge<Dim,
 
 // Gap along a normal between two bodies: the smallest one between particles that face each other across it, or the
 // largest number if there are none. Edges are sorted with the foremost first.
-template <int Dim, class Real>
-Real gap_between(const std::vector<Edge<Dim, Real>>& first, const std::vector<Edge<Dim, Real>>& second,
+template <int Dim>
+Real gap_between(const std::vector<Edge<Dim>>& first, const std::vector<Edge<Dim>>& second,
                  const Vector<Real, Dim>& normal) {
   Real gap = std::numeric_limits<Real>::max();
-  for (const Edge<Dim, Real>& from : first) {
-    for (const Edge<Dim, Real>& to : second) {
+  for (const Edge<Dim>& from : first) {
+    for (const Edge<Dim>& to : second) {
       if (to.along - from.along >= gap) {
         break;
       }
@@ -177,8 +175,8 @@ Real gap_between(const std::vector<Edge<Dim, Real>>& first, const std::vector<Ed
 
 }  // namespace
 
-template <int Dim, class Real>
-void BodyContact<Dim, Real>::find_pairs(const SparseGrid<Dim, Real>& grid, const BetweenBodies<Real>& between) {
+template <int Dim>
+void BodyContact<Dim>::find_pairs(const SparseGrid<Dim>& grid, const BetweenBodies& between) {
   pairs_.clear();
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
     const std::uint64_t key = grid.blocks()[b];
@@ -205,8 +203,8 @@ void BodyContact<Dim, Real>::find_pairs(const SparseGrid<Dim, Real>& grid, const
 }
 
 // Finds the nodes at which both bodies have mass; returns false if there are none.
-template <int Dim, class Real>
-bool BodyContact<Dim, Real>::find_meetings(const Nodes<Dim, Real>& nodes, Pair& pair) {
+template <int Dim>
+bool BodyContact<Dim>::find_meetings(const Nodes<Dim>& nodes, Pair& pair) {
   constexpr std::size_t mass = MomentumLayout<Dim>::mass;
   bool any = false;
   for (std::size_t k = 0; k < block_nodes; ++k) {
@@ -220,9 +218,9 @@ bool BodyContact<Dim, Real>::find_meetings(const Nodes<Dim, Real>& nodes, Pair& 
 // Normals from the nodal volumes V_1 and V_2, averaged over the surrounding nodes. The first, V_1 grad V_2 - V_2 grad
 // V_1, is along the gradient of ln(V_2 / V_1); a cut through both bodies, as by the ground, does not rotate it. The
 // others are -grad V_1 and grad V_2. Zero if undefined.
-template <int Dim, class Real>
-auto BodyContact<Dim, Real>::find_normals(const SparseGrid<Dim, Real>& grid, const Nodes<Dim, Real>& nodes,
-                                          const Pair& pair) -> std::array<Normals, block_nodes> {
+template <int Dim>
+auto BodyContact<Dim>::find_normals(const SparseGrid<Dim>& grid, const Nodes<Dim>& nodes, const Pair& pair)
+    -> std::array<Normals, block_nodes> {
   using Near = About<Dim, 1>;
   const auto first = volumes_about<Dim>(grid, nodes, pair.block), second = volumes_about<Dim>(grid, nodes, pair.other);
   std::array<Normals, Near::count> directions;
@@ -254,13 +252,12 @@ auto BodyContact<Dim, Real>::find_normals(const SparseGrid<Dim, Real>& grid, con
 
 // Selects the normal of a node along which the bodies are furthest apart, and computes the gap along it. At a corner of
 // one body, the normal of the other is correct, and the combined one is rotated.
-template <int Dim, class Real>
-void BodyContact<Dim, Real>::find_gaps(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
-                                       const BodySizes<Real>& sizes, const std::array<Normals, block_nodes>& normals,
-                                       Pair& pair) {
+template <int Dim>
+void BodyContact<Dim>::find_gaps(const SparseGrid<Dim>& grid, const Particles<Dim>& particles, const BodySizes& sizes,
+                                 const std::array<Normals, block_nodes>& normals, Pair& pair) {
   const auto about = particles_about(grid, particles, sizes, pair.block),
              other_about = particles_about(grid, particles, sizes, pair.other);
-  std::vector<Edge<Dim, Real>> edges, other_edges;
+  std::vector<Edge<Dim>> edges, other_edges;
   for (std::size_t k = 0; k < block_nodes; ++k) {
     Meeting& meeting = pair.at[k];
     if (!meeting.in_contact) {
@@ -286,12 +283,12 @@ void BodyContact<Dim, Real>::find_gaps(const SparseGrid<Dim, Real>& grid, const 
   }
 }
 
-template <int Dim, class Real>
-void BodyContact<Dim, Real>::exchange(Real mass_damping, Real dt, Nodes<Dim, Real>& nodes, Pair& pair) {
+template <int Dim>
+void BodyContact<Dim>::exchange(Real mass_damping, Real dt, Nodes<Dim>& nodes, Pair& pair) {
   using Layout = MomentumLayout<Dim>;
   const auto trial_velocity = [&](const auto& record) {
-    return Vec(((Real(1) - mass_damping * dt) * vector_at<Dim, Real>(record, Layout::momentum) +
-                dt * vector_at<Dim, Real>(record, Layout::force)) /
+    return Vec(((Real(1) - mass_damping * dt) * vector_at<Dim>(record, Layout::momentum) +
+                dt * vector_at<Dim>(record, Layout::force)) /
                record[Layout::mass]);
   };
   for (std::size_t k = 0; k < block_nodes; ++k) {
@@ -316,15 +313,15 @@ void BodyContact<Dim, Real>::exchange(Real mass_damping, Real dt, Nodes<Dim, Rea
       meeting.impulse += (impulse.tangential / slip_speed) * slip;
     }
     const Vec force = meeting.impulse / dt;
-    set_vector<Dim>(first, Layout::force, Vec(vector_at<Dim, Real>(first, Layout::force) - force));
-    set_vector<Dim>(second, Layout::force, Vec(vector_at<Dim, Real>(second, Layout::force) + force));
+    set_vector<Dim>(first, Layout::force, Vec(vector_at<Dim>(first, Layout::force) - force));
+    set_vector<Dim>(second, Layout::force, Vec(vector_at<Dim>(second, Layout::force) + force));
   }
 }
 
-template <int Dim, class Real>
-void BodyContact<Dim, Real>::add_forces(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
-                                        const BetweenBodies<Real>& between, const BodySizes<Real>& sizes,
-                                        Real mass_damping, Real dt, Nodes<Dim, Real>& nodes) {
+template <int Dim>
+void BodyContact<Dim>::add_forces(const SparseGrid<Dim>& grid, const Particles<Dim>& particles,
+                                  const BetweenBodies& between, const BodySizes& sizes, Real mass_damping, Real dt,
+                                  Nodes<Dim>& nodes) {
   find_pairs(grid, between);
   parallel_for(first_of_place_.size() - 1, [&](std::size_t place) {
     // Serial: three bodies that meet at a node exchange its momentum in turn.
@@ -337,11 +334,11 @@ void BodyContact<Dim, Real>::add_forces(const SparseGrid<Dim, Real>& grid, const
   });
 }
 
-template <int Dim, class Real>
-BodyContactWork<Real> BodyContact<Dim, Real>::constrain_mapped_back(const Vector<Real, Dim>& gravity, Real dt,
-                                                                    Nodes<Dim, Real>& nodes) const {
+template <int Dim>
+BodyContactWork BodyContact<Dim>::constrain_mapped_back(const Vector<Real, Dim>& gravity, Real dt,
+                                                        Nodes<Dim>& nodes) const {
   using Layout = MomentumLayout<Dim>;
-  using Work = BodyContactWork<Real>;
+  using Work = BodyContactWork;
   return parallel_sum<Work>(first_of_place_.size() - 1, [&](std::size_t place, Work& work) {
     for (std::size_t p = first_of_place_[place]; p < first_of_place_[place + 1]; ++p) {
       const Pair& pair = pairs_[p];
@@ -354,16 +351,16 @@ BodyContactWork<Real> BodyContact<Dim, Real>::constrain_mapped_back(const Vector
         auto& other_mapped = nodes.velocity(pair.other, k);
         const Real mass = nodes.momentum(pair.block, k)[Layout::mass],
                    other_mass = nodes.momentum(pair.other, k)[Layout::mass];
-        const Vec approach = vector_at<Dim, Real>(mapped, 0) - vector_at<Dim, Real>(other_mapped, 0);
+        const Vec approach = vector_at<Dim>(mapped, 0) - vector_at<Dim>(other_mapped, 0);
         const auto impulse = physics::body_impulse(mass, other_mass, Real(approach.dot(meeting.normal)), Real(0),
                                                    meeting.gap, dt, Real(0));
         const auto turn = [&](std::size_t block, auto& velocity, Real sign, Real of_mass) {
           const auto& record = nodes.momentum(block, k);
-          const Vec before = vector_at<Dim, Real>(velocity, 0);
+          const Vec before = vector_at<Dim>(velocity, 0);
           const Vec change = (sign * impulse.normal / of_mass) * meeting.normal;
-          const Vec middle = vector_at<Dim, Real>(nodes.motion(block, k), MotionLayout<Dim>::middle_velocity);
+          const Vec middle = vector_at<Dim>(nodes.motion(block, k), MotionLayout<Dim>::middle_velocity);
           const Vec taken = sign * meeting.impulse;
-          const Vec internal = dt * (vector_at<Dim, Real>(record, Layout::force) - of_mass * gravity);
+          const Vec internal = dt * (vector_at<Dim>(record, Layout::force) - of_mass * gravity);
           set_vector<Dim>(velocity, 0, Vec(before + change));
           work.loss -= taken.dot(middle);
           work.numerical -= taken.dot(Vec(middle - before - change)) + internal.dot(change);
@@ -375,7 +372,7 @@ BodyContactWork<Real> BodyContact<Dim, Real>::constrain_mapped_back(const Vector
   });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) template class BodyContact<Dim, Real>;
+#define THAWSLIDE_INSTANTIATE(Dim) template class BodyContact<Dim>;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

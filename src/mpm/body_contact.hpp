@@ -15,7 +15,6 @@
 namespace thawslide::mpm {
 
 // Contribution of contact between bodies to the energy budget [J].
-template <class Real>
 struct BodyContactWork {
   Real loss = 0;       // dissipated by impact and friction
   Real numerical = 0;  // correction of map_back, which counts contact among internal forces
@@ -27,16 +26,15 @@ struct BodyContactWork {
   }
 };
 
-template <int Dim, class Real>
+template <int Dim>
 class BodyContact {
  public:
   // Adds the contact forces between bodies in this step to nodes.momentum.
-  void add_forces(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
-                  const BetweenBodies<Real>& between, const BodySizes<Real>& sizes, Real mass_damping, Real dt,
-                  Nodes<Dim, Real>& nodes);
+  void add_forces(const SparseGrid<Dim>& grid, const Particles<Dim>& particles, const BetweenBodies& between,
+                  const BodySizes& sizes, Real mass_damping, Real dt, Nodes<Dim>& nodes);
   // Removes the approach of bodies in contact from the mapped-back velocities, without friction.
-  [[nodiscard]] BodyContactWork<Real> constrain_mapped_back(const Vector<Real, Dim>& gravity, Real dt,
-                                                            Nodes<Dim, Real>& nodes) const;
+  [[nodiscard]] BodyContactWork constrain_mapped_back(const Vector<Real, Dim>& gravity, Real dt,
+                                                      Nodes<Dim>& nodes) const;
 
  private:
   using T = Tile<Dim>;
@@ -60,13 +58,13 @@ class BodyContact {
     std::array<Meeting, block_nodes> at;
   };
 
-  void find_pairs(const SparseGrid<Dim, Real>& grid, const BetweenBodies<Real>& between);
-  [[nodiscard]] static bool find_meetings(const Nodes<Dim, Real>& nodes, Pair& pair);
-  [[nodiscard]] static std::array<Normals, block_nodes> find_normals(const SparseGrid<Dim, Real>& grid,
-                                                                     const Nodes<Dim, Real>& nodes, const Pair& pair);
-  static void find_gaps(const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
-                        const BodySizes<Real>& sizes, const std::array<Normals, block_nodes>& normals, Pair& pair);
-  static void exchange(Real mass_damping, Real dt, Nodes<Dim, Real>& nodes, Pair& pair);
+  void find_pairs(const SparseGrid<Dim>& grid, const BetweenBodies& between);
+  [[nodiscard]] static bool find_meetings(const Nodes<Dim>& nodes, Pair& pair);
+  [[nodiscard]] static std::array<Normals, block_nodes> find_normals(const SparseGrid<Dim>& grid,
+                                                                     const Nodes<Dim>& nodes, const Pair& pair);
+  static void find_gaps(const SparseGrid<Dim>& grid, const Particles<Dim>& particles, const BodySizes& sizes,
+                        const std::array<Normals, block_nodes>& normals, Pair& pair);
+  static void exchange(Real mass_damping, Real dt, Nodes<Dim>& nodes, Pair& pair);
 
   std::vector<Pair> pairs_;                  // by place, then by block
   std::vector<std::size_t> first_of_place_;  // with the end appended

@@ -12,7 +12,6 @@
 namespace thawslide::mpm {
 
 // Half sizes by body, as used by kernels.
-template <class Real>
 struct SizesOfBodies {
   const Real *half, *inverse;
   bool is_uniform;  // there is one body
@@ -30,7 +29,6 @@ struct SizesOfBodies {
   }
 };
 
-template <class Real>
 class BodySizes {
  public:
   BodySizes() = default;
@@ -54,7 +52,7 @@ class BodySizes {
     return other;
   }
 
-  [[nodiscard]] SizesOfBodies<Real> view() const { return {half_.data(), inverse_.data(), half_.size() == 1}; }
+  [[nodiscard]] SizesOfBodies view() const { return {half_.data(), inverse_.data(), half_.size() == 1}; }
   template <class Particles, class At>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE HalfSize<typename At::Value> of(const Particles& particles,
                                                                         const At& at) const {

@@ -24,9 +24,9 @@ struct CellNodes {
 // Cell-wise sums in a patch. Contributions of a cell's particles are accumulated from zero in registers, a register of
 // components at a time, and added to the patch at once. The sums are therefore independent of batch boundaries. First:
 // first component. FluxGroup: number of the register, from there, to which the flux adds.
-template <int FluxGroup, std::size_t First, std::size_t Carried, int Dim, class Real, int Components>
+template <int FluxGroup, std::size_t First, std::size_t Carried, int Dim, int Components>
 class CellSums {
-  using Scatter = Contribution<Dim, Real, Carried>;
+  using Scatter = Contribution<Dim, Carried>;
   using Register = typename Scatter::Register;
   static constexpr std::size_t lanes = simd_width<Real>, size = record_size(Components);
   static constexpr std::size_t groups = Scatter::groups, width = Scatter::width, nodes_per_axis = 3;
@@ -34,7 +34,7 @@ class CellSums {
   static_assert(size % width == 0 && First % width == 0 && First + groups * width <= size);
 
  public:
-  explicit CellSums(Patch<Dim, Real, Components>& patch, std::uint64_t /*rows*/ = 0) : patch_(patch) {}
+  explicit CellSums(Patch<Dim, Components>& patch, std::uint64_t /*rows*/ = 0) : patch_(patch) {}
   CellSums(const CellSums&) = delete;
   CellSums& operator=(const CellSums&) = delete;
 
@@ -42,7 +42,7 @@ class CellSums {
   void skip() { is_open_ = false; }
 
   // Adds the next `count` particles in canonical order.
-  THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim, Real>& stencil, std::size_t count, const Scatter& carried) {
+  THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim>& stencil, std::size_t count, const Scatter& carried) {
     Register value[groups][lanes], flux[Dim][lanes];
     unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA { transpose_to_rows(&carried.value[g * width], value[g]); });
     unrolled<static_cast<std::size_t>(Dim)>(
@@ -52,21 +52,21 @@ class CellSums {
       while (last < count && nodes[last] == nodes[first]) {
         ++last;
       }
-      const bool begins = first > 0 || !is_open_, ends = last < count || !stencil.nodes.goes_on;
+      const bool begins = first > 0 || !is_open_, ends = last < count || !stencil.nodes.continues;
       Real* records = patch_.records[static_cast<std::size_t>(nodes[first])].data() + First;
       unrolled<groups>([&](auto g) THAWSLIDE_INLINE_LAMBDA {
         add_particles<static_cast<int>(g()) == FluxGroup>(stencil, first, last, value[g], flux, begins, ends, sums_[g],
                                                           records + g * width);
       });
     }
-    is_open_ = stencil.nodes.goes_on;
+    is_open_ = stencil.nodes.continues;
   }
 
  private:
   // Adds particles first .. last-1 of a batch, all of one cell, by layers of nodes. Loops over axes, the last one
   // first, need fewer products than loops over nodes. value, flux: one row per particle.
   template <bool HasFlux>
-  THAWSLIDE_ALWAYS_INLINE static void add_particles(const BatchStencil<Dim, Real>& stencil, std::size_t first,
+  THAWSLIDE_ALWAYS_INLINE static void add_particles(const BatchStencil<Dim>& stencil, std::size_t first,
                                                     std::size_t last, const Register (&value)[lanes],
                                                     const Register (&flux)[Dim][lanes], bool begins, bool ends,
                                                     Register (&of_cell)[layers * layer_nodes], Real* records) {
@@ -115,23 +115,23 @@ class CellSums {
     });
   }
 
-  Patch<Dim, Real, Components>& patch_;
+  Patch<Dim, Components>& patch_;
   bool is_open_ = false;                           // the last cell of the last batch continues
   Register sums_[groups][layers * layer_nodes]{};  // of that cell
 };
 
 // The same for the linear shape functions. Particles reach the corners of the grid cell that they lie in, which can
 // differ between particles with the same nearest node.
-template <bool HasFlux, std::size_t First, std::size_t Carried, int Dim, class Real, int Components>
+template <bool HasFlux, std::size_t First, std::size_t Carried, int Dim, int Components>
 class LinearCellSums {
-  using Scatter = Contribution<Dim, Real, Carried>;
+  using Scatter = Contribution<Dim, Carried>;
   using Register = typename Scatter::Register;
   static constexpr std::size_t lanes = simd_width<Real>, size = record_size(Components), width = Scatter::width;
   static constexpr std::size_t nodes = CellNodes<Dim>::count;
   static_assert(Scatter::groups == 1 && First % width == 0 && First + width <= size);
 
  public:
-  explicit LinearCellSums(Patch<Dim, Real, Components>& patch, std::uint64_t /*rows*/ = 0) : patch_(patch) {}
+  explicit LinearCellSums(Patch<Dim, Components>& patch, std::uint64_t /*rows*/ = 0) : patch_(patch) {}
   LinearCellSums(const LinearCellSums&) = delete;
   LinearCellSums& operator=(const LinearCellSums&) = delete;
 
@@ -139,7 +139,7 @@ class LinearCellSums {
   void skip() { is_open_ = false; }
 
   // Adds the next `count` particles in canonical order.
-  THAWSLIDE_ALWAYS_INLINE void add(const LinearStencil<Dim, Real>& linear, std::size_t count, const Scatter& carried) {
+  THAWSLIDE_ALWAYS_INLINE void add(const LinearStencil<Dim>& linear, std::size_t count, const Scatter& carried) {
     Register value[lanes], flux[Dim][lanes];
     transpose_to_rows(carried.value, value);
     if constexpr (HasFlux) {
@@ -153,16 +153,16 @@ class LinearCellSums {
         sums_.fill(Register(Real(0)));
       }
       add_particle(corners, lane, value[lane], flux, &sums_[static_cast<std::size_t>(corners.first_in_cell[lane])]);
-      if (lane + 1 < count ? cells[lane] != cells[lane + 1] : !linear.nodes.goes_on) {
+      if (lane + 1 < count ? cells[lane] != cells[lane + 1] : !linear.nodes.continues) {
         end_cell(static_cast<std::size_t>(cells[lane]));
       }
     }
-    is_open_ = linear.nodes.goes_on;
+    is_open_ = linear.nodes.continues;
   }
 
  private:
   // Loops over axes, the last one first.
-  THAWSLIDE_ALWAYS_INLINE static void add_particle(const CornerStencil<Dim, Real>& corners, std::size_t lane,
+  THAWSLIDE_ALWAYS_INLINE static void add_particle(const CornerStencil<Dim>& corners, std::size_t lane,
                                                    const Register& value, const Register (&flux)[Dim][lanes],
                                                    Register* sums) {
     const auto weight = [&](std::size_t axis, std::size_t k)
@@ -207,24 +207,24 @@ class LinearCellSums {
     });
   }
 
-  Patch<Dim, Real, Components>& patch_;
+  Patch<Dim, Components>& patch_;
   bool is_open_ = false;                // the last cell of the last batch continues
   std::array<Register, nodes> sums_{};  // of the current cell
 };
 
 // Contribution of a batch to min-reduced components.
-template <int Dim, class Real>
-using GapsOfBatch = GapsToPlanes<Simd<Real>, Dim, const Patch<Dim, Real, components_of<Planes, Dim>>*>;
+template <int Dim>
+using GapsOfBatch = GapsToPlanes<Simd<Real>, Dim, const Patch<Dim, components_of<Planes, Dim>>*>;
 
 // Minimum of component `Component` over a patch: the smallest gap between a node's plane and the particles that reach
 // the node. Independent of the order.
-template <std::size_t Component, int Dim, class Real, int Components>
+template <std::size_t Component, int Dim, int Components>
 class PatchMinima {
   static constexpr Real largest = std::numeric_limits<Real>::max();
 
  public:
   // rows: rows in which the particles have nodes (Tile::rows_from).
-  PatchMinima(Patch<Dim, Real, Components>& patch, std::uint64_t rows) : patch_(patch) {
+  PatchMinima(Patch<Dim, Components>& patch, std::uint64_t rows) : patch_(patch) {
     patch.for_rows(rows, [](auto* row) {
       std::for_each_n(row, Tile<Dim>::patch_edge, [](auto& record) { record[Component] = largest; });
     });
@@ -236,9 +236,8 @@ class PatchMinima {
   void skip() {}
 
   // Adds the next `count` particles.
-  THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim, Real>& stencil, std::size_t count,
-                                   const GapsOfBatch<Dim, Real>& gaps) {
-    const BatchNodes<Real>& nodes = stencil.nodes;
+  THAWSLIDE_ALWAYS_INLINE void add(const BatchStencil<Dim>& stencil, std::size_t count, const GapsOfBatch<Dim>& gaps) {
+    const BatchNodes& nodes = stencil.nodes;
     const auto in_first = lanes_before<Real>(nodes.runs == 1 ? simd_width<Real> : nodes.second_run_begin);
     with_fetch(nodes, *gaps.planes, [&](const auto& fetch) {
       for_each_node<Dim>(
@@ -247,8 +246,8 @@ class PatchMinima {
                                                      [&](std::size_t component)
                                                          THAWSLIDE_INLINE_LAMBDA { return fetch(offset, component); });
             // Round-off decides whether a box that ends at the edge of a node's support overlaps it.
-            const Simd<Real> seen = select(weight > round_off<Real>, gap, Simd<Real>(largest));
-            if (nodes.runs == BatchNodes<Real>::irregular) {
+            const Simd<Real> seen = select(weight > round_off, gap, Simd<Real>(largest));
+            if (nodes.runs == BatchNodes::irregular) {
               for (std::size_t lane = 0; lane < count; ++lane) {
                 lower(nodes.first[lane], offset, seen[lane]);
               }
@@ -268,16 +267,16 @@ class PatchMinima {
     known = std::min(known, seen);
   }
 
-  Patch<Dim, Real, Components>& patch_;
+  Patch<Dim, Components>& patch_;
 };
 
-template <int FluxGroup, std::size_t Carried, std::size_t First = 0, int Dim, class Real, int Components>
-THAWSLIDE_ALWAYS_INLINE auto cell_sums(Patch<Dim, Real, Components>& patch) {
-  return CellSums<FluxGroup, First, Carried, Dim, Real, Components>(patch);
+template <int FluxGroup, std::size_t Carried, std::size_t First = 0, int Dim, int Components>
+THAWSLIDE_ALWAYS_INLINE auto cell_sums(Patch<Dim, Components>& patch) {
+  return CellSums<FluxGroup, First, Carried, Dim, Components>(patch);
 }
-template <bool HasFlux, std::size_t Carried, int Dim, class Real, int Components>
-THAWSLIDE_ALWAYS_INLINE auto linear_cell_sums(Patch<Dim, Real, Components>& patch) {
-  return LinearCellSums<HasFlux, 0, Carried, Dim, Real, Components>(patch);
+template <bool HasFlux, std::size_t Carried, int Dim, int Components>
+THAWSLIDE_ALWAYS_INLINE auto linear_cell_sums(Patch<Dim, Components>& patch) {
+  return LinearCellSums<HasFlux, 0, Carried, Dim, Components>(patch);
 }
 
 }  // namespace thawslide::mpm

@@ -10,7 +10,7 @@
 namespace thawslide::mpm {
 
 // Box that moves along one axis and prescribes that component of velocity at the nodes inside.
-template <int Dim, class Real>
+template <int Dim>
 struct RigidFrame {
   Vector<Real, Dim> lower, upper;  // at t = 0 [m], relative to the domain's lower corner
   int axis = 0;
@@ -23,15 +23,15 @@ struct RigidFrame {
   }
 };
 
-template <int Dim, class Real>
-struct Constraints : DomainFaces<Dim, Real> {
-  std::vector<RigidFrame<Dim, Real>> frames;
+template <int Dim>
+struct Constraints : DomainFaces<Dim> {
+  std::vector<RigidFrame<Dim>> frames;
 
   // Sets the prescribed components of a node's momentum; true if a frame has set one.
   bool apply(const Vector<Real, Dim>& position, Real mass, Real time, Vector<Real, Dim>& momentum) const {
     this->apply_faces(position, momentum);
     bool in_frame = false;
-    for (const RigidFrame<Dim, Real>& frame : frames) {
+    for (const RigidFrame<Dim>& frame : frames) {
       const Vector<Real, Dim> place = position - frame.shift(time);
       if ((place.array() >= frame.lower.array()).all() && (place.array() <= frame.upper.array()).all()) {
         momentum[frame.axis] = mass * frame.velocity;
@@ -49,7 +49,7 @@ struct Constraints : DomainFaces<Dim, Real> {
         return true;
       }
     }
-    return std::any_of(frames.begin(), frames.end(), [&](const RigidFrame<Dim, Real>& frame) {
+    return std::any_of(frames.begin(), frames.end(), [&](const RigidFrame<Dim>& frame) {
       const Vector<Real, Dim> shift = frame.shift(time);
       return ((upper - shift).array() >= frame.lower.array()).all() &&
              ((lower - shift).array() <= frame.upper.array()).all();
@@ -58,11 +58,10 @@ struct Constraints : DomainFaces<Dim, Real> {
 };
 
 // Constraints on the nodes of one block; most blocks have none.
-template <int Dim, class Real>
+template <int Dim>
 class BlockConstraints {
  public:
-  BlockConstraints(const SparseGrid<Dim, Real>& grid, const Constraints<Dim, Real>& constraints, std::size_t block,
-                   Real time)
+  BlockConstraints(const SparseGrid<Dim>& grid, const Constraints<Dim>& constraints, std::size_t block, Real time)
       : grid_(&grid),
         constraints_(&constraints),
         block_(block),
@@ -77,17 +76,17 @@ class BlockConstraints {
   }
 
  private:
-  const SparseGrid<Dim, Real>* grid_;
-  const Constraints<Dim, Real>* constraints_;
+  const SparseGrid<Dim>* grid_;
+  const Constraints<Dim>* constraints_;
   std::size_t block_;
   Real time_;
   bool any_;
 };
 
 // Constraints at one node of a block.
-template <int Dim, class Real>
+template <int Dim>
 struct NodeConstraints {
-  const BlockConstraints<Dim, Real>& of_block;
+  const BlockConstraints<Dim>& of_block;
   std::size_t node;
 
   [[nodiscard]] bool any() const { return of_block.any(); }

@@ -9,14 +9,14 @@ namespace thawslide::mpm {
 
 using physics::BoundaryKind;
 
-template <int Dim, class Real>
+template <int Dim>
 struct DomainFaces {
   Vector<Real, Dim> extent;          // upper corner of the domain [m]; the lower corner is the origin
   BoundaryKind faces[2 * Dim] = {};  // lower and upper face of each axis
 
-  [[nodiscard]] THAWSLIDE_HD bool at_lower(Real along, int a) const { return along <= round_off<Real> * extent[a]; }
+  [[nodiscard]] THAWSLIDE_HD bool at_lower(Real along, int a) const { return along <= round_off * extent[a]; }
   [[nodiscard]] THAWSLIDE_HD bool at_upper(Real along, int a) const {
-    return along >= extent[a] * (Real(1) - round_off<Real>);
+    return along >= extent[a] * (Real(1) - round_off);
   }
 
   // Sets the prescribed components of the momentum of a node at a position.

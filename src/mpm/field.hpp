@@ -110,7 +110,7 @@ class Field final : public FieldBase {
   }
 
   // Values of a batch, by lane.
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Simd<T> load(const SimdBatch<T>& batch, int component = 0) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Simd<T> load(const SimdBatch& batch, int component = 0) const {
     if (batch.contiguous) {
       const T* numbers = &(*this)(batch.particle[0], component);
       prefetch(numbers, prefetched_blocks * lanes * Components * sizeof(T));
@@ -118,7 +118,7 @@ class Field final : public FieldBase {
     }
     return Simd<T>::gather(&data_[position(0, component)], places(batch));
   }
-  THAWSLIDE_ALWAYS_INLINE void store(const SimdBatch<T>& batch, const Simd<T>& values, int component = 0) {
+  THAWSLIDE_ALWAYS_INLINE void store(const SimdBatch& batch, const Simd<T>& values, int component = 0) {
     if (batch.contiguous) {
       values.store(&(*this)(batch.particle[0], component));
       return;
@@ -126,30 +126,26 @@ class Field final : public FieldBase {
     values.scatter(&data_[position(0, component)], places(batch), batch.count);
   }
   // Value of one particle.
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE T load(const ScalarIndex<T>& one, int component = 0) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE T load(const ScalarIndex& one, int component = 0) const {
     return (*this)(one.particle[0], component);
   }
-  THAWSLIDE_ALWAYS_INLINE void store(const ScalarIndex<T>& one, T value, int component = 0) {
+  THAWSLIDE_ALWAYS_INLINE void store(const ScalarIndex& one, T value, int component = 0) {
     (*this)(one.particle[0], component) = value;
   }
   // Integers, converted from and to a real type.
-  template <class Real>
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Real load_whole(const ScalarIndex<Real>& one) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Real load_whole(const ScalarIndex& one) const {
     return static_cast<Real>((*this)(one.particle[0]));
   }
-  template <class Real>
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Simd<Real> load_whole(const SimdBatch<Real>& batch) const {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE Simd<Real> load_whole(const SimdBatch& batch) const {
     if (batch.contiguous) {
       return Simd<Real>::load_whole(&(*this)(batch.particle[0]));
     }
     return Simd<Real>::of([&](std::size_t lane) { return (*this)(batch.particle[lane]); });
   }
-  template <class Real>
-  THAWSLIDE_ALWAYS_INLINE void store_whole(const ScalarIndex<Real>& one, Real value) {
+  THAWSLIDE_ALWAYS_INLINE void store_whole(const ScalarIndex& one, Real value) {
     (*this)(one.particle[0]) = static_cast<T>(value);
   }
-  template <class Real>
-  THAWSLIDE_ALWAYS_INLINE void store_whole(const SimdBatch<Real>& batch, const Simd<Real>& values) {
+  THAWSLIDE_ALWAYS_INLINE void store_whole(const SimdBatch& batch, const Simd<Real>& values) {
     if (batch.contiguous) {
       values.store_whole(&(*this)(batch.particle[0]));
       return;
@@ -257,7 +253,7 @@ class Field final : public FieldBase {
     return place_in_field<Components>(particle, component);
   }
   // position(particle, 0), by lane.
-  THAWSLIDE_ALWAYS_INLINE static typename Simd<T>::Whole places(const SimdBatch<T>& batch) {
+  THAWSLIDE_ALWAYS_INLINE static typename Simd<T>::Whole places(const SimdBatch& batch) {
     constexpr auto within = static_cast<std::int32_t>(lanes) - 1;
     const auto particle = whole_lanes<T>(batch.particle.data());
     return particle + (particle & ~within) * (Components - 1);

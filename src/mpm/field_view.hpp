@@ -27,24 +27,22 @@ struct FieldView {
   [[nodiscard]] THAWSLIDE_HD T& operator()(std::size_t particle, int component = 0) const {
     return numbers[place_in_field<Components>(particle, component)];
   }
-  [[nodiscard]] THAWSLIDE_HD T load(const ScalarIndex<T>& one, int component = 0) const {
+  [[nodiscard]] THAWSLIDE_HD T load(const ScalarIndex& one, int component = 0) const {
     return (*this)(one.particle[0], component);
   }
-  THAWSLIDE_HD void store(const ScalarIndex<T>& one, T value, int component = 0) const {
+  THAWSLIDE_HD void store(const ScalarIndex& one, T value, int component = 0) const {
     (*this)(one.particle[0], component) = value;
   }
   // Integers, converted from and to a real type.
-  template <class Real>
-  [[nodiscard]] THAWSLIDE_HD Real load_whole(const ScalarIndex<Real>& one) const {
+  [[nodiscard]] THAWSLIDE_HD Real load_whole(const ScalarIndex& one) const {
     return static_cast<Real>((*this)(one.particle[0]));
   }
-  template <class Real>
-  THAWSLIDE_HD void store_whole(const ScalarIndex<Real>& one, Real value) const {
+  THAWSLIDE_HD void store_whole(const ScalarIndex& one, Real value) const {
     (*this)(one.particle[0]) = static_cast<T>(value);
   }
   // All components of vectors and tensors.
   template <int Size>
-  [[nodiscard]] THAWSLIDE_HD Vector<T, Size> load_vector(const ScalarIndex<T>& one) const {
+  [[nodiscard]] THAWSLIDE_HD Vector<T, Size> load_vector(const ScalarIndex& one) const {
     Vector<T, Size> v;
     unrolled<static_cast<std::size_t>(Size)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
       constexpr int c = static_cast<int>(k());
@@ -53,7 +51,7 @@ struct FieldView {
     return v;
   }
   template <class Values>
-  THAWSLIDE_HD void store_vector(const ScalarIndex<T>& one, const Values& values) const {
+  THAWSLIDE_HD void store_vector(const ScalarIndex& one, const Values& values) const {
     unrolled<static_cast<std::size_t>(Components)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
       constexpr int c = static_cast<int>(k());
       store(one, values[c], c);

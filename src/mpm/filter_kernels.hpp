@@ -41,7 +41,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, Dim> rigid_velocity(const See
 }
 
 // First and second moments of mass around the nodes.
-template <int Dim, class Real>
+template <int Dim>
 struct AddFilterMoments {
   using Reads = RecordList<>;
   using Adds = RecordList<FilterMoments>;
@@ -61,7 +61,7 @@ struct AddFilterMoments {
 };
 
 // Momentum and angular momentum of the particles' velocities.
-template <int Dim, class Real>
+template <int Dim>
 struct AddFilterMomentum {
   using Reads = RecordList<>;
   using Adds = RecordList<FilterMomentum>;
@@ -77,7 +77,7 @@ struct AddFilterMomentum {
 };
 
 // Sweep: the same for the velocities that the last nodal increments give at the particles.
-template <int Dim, class Real>
+template <int Dim>
 struct SweepFilter {
   using Reads = RecordList<FilterIncrement>;
   using Adds = RecordList<FilterMomentum>;
@@ -94,7 +94,7 @@ struct SweepFilter {
 
 // Replaces particle velocities by those of the nodes' rigid motions, and maps their momentum back to the nodes (MUSL).
 // Sums the kinetic energy gained [J].
-template <int Dim, class Real>
+template <int Dim>
 struct ApplyFiltered {
   using Reads = RecordList<FilterTotal>;
   using Adds = RecordList<Velocity>;

@@ -12,15 +12,14 @@
 namespace thawslide::mpm {
 
 // Mean square distance [m2] of mass from an axis below which rotation around it is ignored. cell: mesh size [m].
-template <class Real>
-THAWSLIDE_HD Real least_square_of(Real cell) {
+inline THAWSLIDE_HD Real least_square_of(Real cell) {
   constexpr Real least = static_cast<Real>(1e-8);  // in cells squared
   return least * cell * cell;
 }
 
 // Next increment of a node's rigid motion from the particle sums: the fit itself, or the last increment minus the fit.
 // Records: of Momentum, FilterMoments, FilterMomentum, FilterIncrement and FilterTotal.
-template <int Dim, class Real, class MassRecord, class Moments, class Brought, class Increment, class Total>
+template <int Dim, class MassRecord, class Moments, class Brought, class Increment, class Total>
 THAWSLIDE_HD void make_increment(bool first, Real least_square, const MassRecord& mass, const Moments& moments,
                                  const Brought& brought, Increment& increment, Total& total) {
   constexpr int turns = physics::rotations<Dim>, size = components_of<FilterMomentum, Dim>;
@@ -32,16 +31,16 @@ THAWSLIDE_HD void make_increment(bool first, Real least_square, const MassRecord
   if (!(mass[MomentumLayout<Dim>::mass] > Real(0))) {
     return;
   }
-  const physics::MassPoints<Dim, Real> points{
-      mass[MomentumLayout<Dim>::mass], vector_at<Dim, Real>(moments, FilterMoments::first),
-      vector_at<physics::squares<Dim>, Real>(moments, Dim), vector_at<Dim, Real>(brought, FilterMomentum::momentum),
-      vector_at<turns, Real>(brought, Dim)};
-  const physics::RigidMotion<Dim, Real> motion = physics::nearest_rigid_motion(points, least_square);
+  const physics::MassPoints<Dim> points{mass[MomentumLayout<Dim>::mass], vector_at<Dim>(moments, FilterMoments::first),
+                                        vector_at<physics::squares<Dim>>(moments, Dim),
+                                        vector_at<Dim>(brought, FilterMomentum::momentum),
+                                        vector_at<turns>(brought, Dim)};
+  const physics::RigidMotion<Dim> motion = physics::nearest_rigid_motion(points, least_square);
   Vector<Real, size> fit;
   fit << motion.at_origin, motion.rotation;
-  const Vector<Real, size> next = first ? fit : Vector<Real, size>(vector_at<size, Real>(increment, 0) - fit);
+  const Vector<Real, size> next = first ? fit : Vector<Real, size>(vector_at<size>(increment, 0) - fit);
   set_vector<size>(increment, 0, next);
-  set_vector<size>(total, 0, Vector<Real, size>(vector_at<size, Real>(total, 0) + next));
+  set_vector<size>(total, 0, Vector<Real, size>(vector_at<size>(total, 0) + next));
 }
 
 }  // namespace thawslide::mpm

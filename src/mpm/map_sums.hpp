@@ -57,7 +57,7 @@ template <class Value>
 [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE CellSpans<Value> cell_spans(Value middle, Value half,
                                                                                Value inverse_width, int cells) {
   using std::floor, thawslide::min, thawslide::max, thawslide::select;
-  const Value begin = middle - half, end = middle + half, sliver = round_off<double> * half;
+  const Value begin = middle - half, end = middle + half, sliver = round_off * half;
   const Value last_cell(static_cast<double>(cells) - 1.0);
   CellSpans<Value> spans;
   spans.first = max(Value(0.0), min(Value(floor(Value(begin + sliver))), last_cell));

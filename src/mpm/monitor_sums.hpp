@@ -8,7 +8,6 @@
 
 namespace thawslide::mpm {
 
-template <class Real>
 struct MonitorSums {
   Real kinetic = 0, potential = 0;  // [J]
   Real mass = 0, fast_mass = 0;     // [kg]
@@ -24,17 +23,17 @@ struct MonitorSums {
   }
 };
 
-template <int Dim, class Real>
+template <int Dim>
 struct MonitorKernel {
   Vector<Real, Dim> gravity, origin;     // [m/s2]; of positions [m]
   Real fast_distance;                    // displacement in a step above which a particle counts as fast [m]
   Real smallest_volume, largest_volume;  // relative to the volume at t = 0
 
   template <class Particles>
-  [[nodiscard]] THAWSLIDE_HD MonitorSums<Real> operator()(const Particles& particles, std::uint32_t p) const {
+  [[nodiscard]] THAWSLIDE_HD MonitorSums operator()(const Particles& particles, std::uint32_t p) const {
     const Real mass = particles.mass(p);
     Real speed2 = 0, way2 = 0;
-    MonitorSums<Real> seen;
+    MonitorSums seen;
     for (int a = 0; a < Dim; ++a) {
       speed2 += particles.velocity(p, a) * particles.velocity(p, a);
       way2 += particles.step_displacement(p, a) * particles.step_displacement(p, a);

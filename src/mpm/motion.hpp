@@ -19,11 +19,11 @@ namespace thawslide::mpm {
 // velocities with the affine velocity around the particle (APIC; Jiang et al. 2015).
 enum class TransferKind { flip_pic, apic };
 
-template <int Dim, class Real>
+template <int Dim>
 struct MotionModel {
   [[nodiscard]] bool viscous() const {
     return std::any_of(materials.begin(), materials.end(),
-                       [](const MaterialModel<Real>& material) { return material.viscosity_time > Real(0); });
+                       [](const MaterialModel& material) { return material.viscosity_time > Real(0); });
   }
 
   ShapeFunction shape = ShapeFunction::ugimp;
@@ -31,18 +31,17 @@ struct MotionModel {
   TransferKind transfer = TransferKind::flip_pic;
   Real pic_share = 0;         // of TransferKind::flip_pic; 0: FLIP
   int filter_order = 0;       // of the velocity filter (mpm/velocity_filter.hpp); 0: none
-  SectionWidth<Real> width;   // of a 2D section
+  SectionWidth width;         // of a 2D section
   Vector<Real, Dim> gravity;  // [m/s2]
   Real mass_damping = 0;      // [1/s]
-  BodySizes<Real> sizes;      // of particles, in cells
-  std::vector<MaterialModel<Real>> materials;
-  physics::Phases<Real> phases;
+  BodySizes sizes;            // of particles, in cells
+  std::vector<MaterialModel> materials;
+  physics::Phases phases;
   bool effective_stress = false;  // stress is effective: the pore pressure also acts inside the body
   bool lubrication = true;        // off: Eq. 25 uses the initial porosity and saturation (Sec. 3.3)
 };
 
 // Energy change by moving the particles.
-template <class Real>
 struct MoveWork {
   // Kinetic energy gained by particles minus sum p_i.dv_i over the nodes [J]; sum m |dv_p|^2/2 in FLIP. Subtracting sum
   // m_i |dv_i|^2/2 gives the energy created by the transfers between particles and nodes.
@@ -50,32 +49,32 @@ struct MoveWork {
 };
 
 // Converts total to effective stress, sigma + P I, of particles at memory index `first` and above.
-template <int Dim, class Real>
-void split_total_stress(Particles<Dim, Real>& particles, std::size_t first = 0);
+template <int Dim>
+void split_total_stress(Particles<Dim>& particles, std::size_t first = 0);
 
 // Transfers particle mass, momentum, force (Eq. 12) and volume to the nodes. Returns the force of the walls along x [N]
 // if the section width varies.
-template <int Dim, class Real>
-Real momentum_to_grid(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
-                      const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes);
+template <int Dim>
+Real momentum_to_grid(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
+                      Nodes<Dim>& nodes);
 
 // Computes new velocities (Eq. 13, or another transfer) and displacements (Eq. 14, with its missing summation sign)
 // from nodal motion; then adds the particles' momentum to the patches of nodes.velocity (MUSL), without summing these.
 // update_positions applies the displacement.
-template <int Dim, class Real>
-MoveWork<Real> move_particles(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
-                              const MotionModel<Dim, Real>& model, Real dt, Nodes<Dim, Real>& nodes);
+template <int Dim>
+MoveWork move_particles(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model, Real dt,
+                        Nodes<Dim>& nodes);
 
 // Updates strain, rotation, stress (Eq. 11), volume and porosity (Eq. 6, mechanical part) from the mapped-back
 // velocities.
-template <int Dim, class Real>
-StressWork<Real> update_stress_and_porosity(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
-                                            const MotionModel<Dim, Real>& model, Real dt, Nodes<Dim, Real>& nodes,
-                                            InvalidParticle& invalid);
+template <int Dim>
+StressWork update_stress_and_porosity(const SparseGrid<Dim>& grid, Particles<Dim>& particles,
+                                      const MotionModel<Dim>& model, Real dt, Nodes<Dim>& nodes,
+                                      InvalidParticle& invalid);
 
 // Applies the displacement of the step; reports a particle that is not finite or outside [lower, upper].
-template <int Dim, class Real>
-void update_positions(Particles<Dim, Real>& particles, const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper,
+template <int Dim>
+void update_positions(Particles<Dim>& particles, const Vector<Real, Dim>& lower, const Vector<Real, Dim>& upper,
                       InvalidParticle& invalid);
 
 }  // namespace thawslide::mpm

@@ -12,7 +12,7 @@
 namespace thawslide::mpm {
 
 // Mass, momentum, force (Eq. 12) and volume to the nodes. Sums the force of the walls along x if the width varies.
-template <int Dim, class Real, class Width = EvenWidth>
+template <int Dim, class Width = EvenWidth>
 struct AddMomentum {
   using Reads = RecordList<>;
   using Adds = RecordList<Momentum>;
@@ -94,7 +94,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add_affine_momentum(const Particles& p
   });
 }
 
-template <int Dim, class Real>
+template <int Dim>
 struct AddAffineMomentum {
   using Reads = RecordList<>;
   using Adds = RecordList<AffineMomentum>;
@@ -109,7 +109,7 @@ struct AddAffineMomentum {
 
 // New velocities (Eq. 13, or another transfer) and displacements (Eq. 14, with its missing summation sign); then the
 // particles' momentum back to the nodes (MUSL). Sums the kinetic energy of MoveWork.
-template <int Dim, class Real>
+template <int Dim>
 struct Move {
   using Reads = RecordList<Motion>;
   using Adds = RecordList<Velocity>;
@@ -148,7 +148,7 @@ struct Move {
 
 // New affine velocities of APIC, after Move. Subtracts the contribution of the old affine velocities from the kinetic
 // energy.
-template <int Dim, class Real>
+template <int Dim>
 struct MoveAffine {
   using Reads = RecordList<AffineMotion>;
   using Adds = RecordList<AffineVelocity>;

@@ -7,20 +7,18 @@ namespace thawslide::mpm {
 
 // Sums particle contributions to a block's records, from the tiles for which accepts(t) is true. Returns the rows of
 // the block in which particles have nodes, one bit per row. Records of other rows are undefined.
-template <class Name, int Dim, class Real, class TileFilter>
-std::uint32_t sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes,
-                        const TileFilter& accepts) {
+template <class Name, int Dim, class TileFilter>
+std::uint32_t sum_block(const SparseGrid<Dim>& grid, std::size_t block, Nodes<Dim>& nodes, const TileFilter& accepts) {
   auto& records = nodes.template of<Name>();
   return sum_patches_in_block(grid, block, records.patches(grid.tiles().size()), records.of_block(block), accepts);
 }
-template <class Name, int Dim, class Real>
-std::uint32_t sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes) {
+template <class Name, int Dim>
+std::uint32_t sum_block(const SparseGrid<Dim>& grid, std::size_t block, Nodes<Dim>& nodes) {
   return sum_block<Name>(grid, block, nodes, every_tile);
 }
 // The same for min-reduced names. Call after summing the record of their owner.
-template <IsMinReduced Name, int Dim, class Real, class TileFilter>
-void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, Real>& nodes,
-               const TileFilter& accepts) {
+template <IsMinReduced Name, int Dim, class TileFilter>
+void sum_block(const SparseGrid<Dim>& grid, std::size_t block, Nodes<Dim>& nodes, const TileFilter& accepts) {
   auto& records = nodes.template of<Name>();
   unrolled<part_of<Name, Dim>.count>([&](auto c) {
     take_smallest_in_block<part_of<Name, Dim>.from + c>(grid, block, records.patches(grid.tiles().size()),
@@ -30,8 +28,8 @@ void sum_block(const SparseGrid<Dim, Real>& grid, std::size_t block, Nodes<Dim, 
 
 // For each block, calls begin(block), which returns the rows of nodes to visit, one bit per row, and then of_node(node,
 // account) for their nodes. Returns the sum of the accounts.
-template <class Account, int Dim, class Real, class Begin, class OfNode>
-Account node_pass(const SparseGrid<Dim, Real>& grid, const Begin& begin, const OfNode& of_node) {
+template <class Account, int Dim, class Begin, class OfNode>
+Account node_pass(const SparseGrid<Dim>& grid, const Begin& begin, const OfNode& of_node) {
   constexpr std::size_t edge = static_cast<std::size_t>(Tile<Dim>::edge);
   return parallel_sum<Account>(grid.blocks().size(), [&](std::size_t b, Account& account) {
     for (std::uint32_t rows = begin(b); rows != 0; rows &= rows - 1) {

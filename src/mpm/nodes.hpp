@@ -7,12 +7,12 @@
 
 namespace thawslide::mpm {
 
-template <class Name, int Dim, class Real>
-using PatchOf = Patch<Dim, Real, components_of<Name, Dim>>;
-template <class Name, int Dim, class Real>
-using RecordsOf = NodeRecords<Dim, Real, components_of<Name, Dim>>;
-template <class Name, int Dim, class Real>
-using SparseRecordsOf = SparseRecords<Dim, Real, components_of<Name, Dim>>;
+template <class Name, int Dim>
+using PatchOf = Patch<Dim, components_of<Name, Dim>>;
+template <class Name, int Dim>
+using RecordsOf = NodeRecords<Dim, components_of<Name, Dim>>;
+template <class Name, int Dim>
+using SparseRecordsOf = SparseRecords<Dim, components_of<Name, Dim>>;
 
 // Marks of temperature changes and seepage: tiles with such particles, and the blocks in their reach.
 struct ActivityMarks {
@@ -20,30 +20,30 @@ struct ActivityMarks {
   std::vector<std::uint8_t> seeping_tiles, seeping_blocks;
 };
 
-template <int Dim, class Real>
+template <int Dim>
 struct Nodes {
-  std::shared_ptr<PatchPool> room = std::make_shared<PatchPool>();
-  RecordsOf<Momentum, Dim, Real> momentum{room};
-  RecordsOf<Motion, Dim, Real> motion;
-  RecordsOf<Velocity, Dim, Real> velocity{room};
-  RecordsOf<Averages, Dim, Real> averages{room};
-  RecordsOf<NodalState, Dim, Real> state;
-  RecordsOf<HeatRates, Dim, Real> heat_rates{room};
+  std::shared_ptr<PatchPool> pool = std::make_shared<PatchPool>();
+  RecordsOf<Momentum, Dim> momentum{pool};
+  RecordsOf<Motion, Dim> motion;
+  RecordsOf<Velocity, Dim> velocity{pool};
+  RecordsOf<Averages, Dim> averages{pool};
+  RecordsOf<NodalState, Dim> state;
+  RecordsOf<HeatRates, Dim> heat_rates{pool};
   // In steps that filter velocities.
-  RecordsOf<FilterMoments, Dim, Real> filter_moments{room};
-  RecordsOf<FilterMomentum, Dim, Real> filter_momentum{room};
-  RecordsOf<FilterIncrement, Dim, Real> filter_increment;
-  RecordsOf<FilterTotal, Dim, Real> filter_total;
+  RecordsOf<FilterMoments, Dim> filter_moments{pool};
+  RecordsOf<FilterMomentum, Dim> filter_momentum{pool};
+  RecordsOf<FilterIncrement, Dim> filter_increment;
+  RecordsOf<FilterTotal, Dim> filter_total;
   // In blocks with candidate nodes.
-  SparseRecords<Dim, Real, BaseLayout::size> base;
-  SparseRecordsOf<Contact, Dim, Real> contact;
-  SparseRecordsOf<NearGround, Dim, Real> near_ground{room};
-  SparseRecords<Dim, Real, BedLayout<Dim>::size> bed;  // with an erodible bed
-  SparseRecordsOf<UnreachedHeat, Dim, Real> unreached_heat;
-  SparseRecordsOf<BaseState, Dim, Real> base_state;    // with band columns
-  SparseRecordsOf<HeatRates, Dim, Real> secant_rates;  // with the secant capacity, in blocks with temperature changes
-  SparseRecordsOf<Seepage, Dim, Real> seepage{room};   // in blocks that water can seep to
-  SparseRecordsOf<SeepingWater, Dim, Real> seeping_water{room};
+  SparseRecords<Dim, BaseLayout::size> base;
+  SparseRecordsOf<Contact, Dim> contact;
+  SparseRecordsOf<NearGround, Dim> near_ground{pool};
+  SparseRecords<Dim, BedLayout<Dim>::size> bed;  // with an erodible bed
+  SparseRecordsOf<UnreachedHeat, Dim> unreached_heat;
+  SparseRecordsOf<BaseState, Dim> base_state;    // with band columns
+  SparseRecordsOf<HeatRates, Dim> secant_rates;  // with the secant capacity, in blocks with temperature changes
+  SparseRecordsOf<Seepage, Dim> seepage{pool};   // in blocks that water can seep to
+  SparseRecordsOf<SeepingWater, Dim> seeping_water{pool};
   ActivityMarks marks;
 
   template <class Name>
@@ -53,8 +53,8 @@ struct Nodes {
 };
 
 // Position [m, relative to the domain's lower corner] of a node of a block.
-template <int Dim, class Real>
-Vector<Real, Dim> node_position(const SparseGrid<Dim, Real>& grid, std::size_t block, std::size_t node) {
+template <int Dim>
+Vector<Real, Dim> node_position(const SparseGrid<Dim>& grid, std::size_t block, std::size_t node) {
   using T = Tile<Dim>;
   const typename T::Index index = T::node(T::index(grid.blocks()[block]), static_cast<int>(node));
   Vector<Real, Dim> position;

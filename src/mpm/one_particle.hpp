@@ -16,31 +16,31 @@
 namespace thawslide::mpm {
 
 // Contribution of one particle to a record: weight * value, plus gradient . flux in the first `record_step` components.
-template <class Real, int Dim, bool HasFlux>
+template <int Dim, bool HasFlux>
 struct OneFlux {};
-template <class Real, int Dim>
-struct OneFlux<Real, Dim, true> {
+template <int Dim>
+struct OneFlux<Dim, true> {
   Real flux[Dim][record_step] = {};
 };
-template <class Real, int Dim, std::size_t Components, bool HasFlux>
-struct OneContribution : OneFlux<Real, Dim, HasFlux> {
+template <int Dim, std::size_t Components, bool HasFlux>
+struct OneContribution : OneFlux<Dim, HasFlux> {
   static constexpr std::size_t size = record_size(static_cast<int>(Components));
 
   Real value[size] = {};
 };
 
 // Contribution to min-reduced components. planes: consecutive records of the tile's patch.
-template <class Real, int Dim>
+template <int Dim>
 using OneGaps = GapsToPlanes<Real, Dim, const Real*>;
 
 // Contribution of one particle to a record, by name.
-template <class Name, int Dim, class Real>
-using CarriedByOne = std::conditional_t<IsMinReduced<Name>, OneGaps<Real, Dim>,
-                                        OneContribution<Real, Dim, scatter_size<Name, Dim>, Name::flux != no_flux>>;
+template <class Name, int Dim>
+using CarriedByOne = std::conditional_t<IsMinReduced<Name>, OneGaps<Dim>,
+                                        OneContribution<Dim, scatter_size<Name, Dim>, Name::flux != no_flux>>;
 
 // Position of a particle: offset from its nearest node, in cells; place in the tile's patch of the lowest node in
 // reach; and, along each axis, whether the nearest node lies on a side of the domain that prescribes velocity.
-template <int Dim, class Real>
+template <int Dim>
 struct OnePlace {
   Vector<Real, Dim> offset;
   std::size_t first_node;
@@ -48,7 +48,7 @@ struct OnePlace {
 };
 
 // Weights by axis, and place in the patch of the lowest node.
-template <class Real, int Dim, std::size_t Width>
+template <int Dim, std::size_t Width>
 struct OneStencil {
   std::array<AxisWeights<Real, Width>, static_cast<std::size_t>(Dim)> axis;
   std::uint32_t first = 0;
@@ -57,16 +57,16 @@ struct OneStencil {
 };
 
 // Weights of one particle; those of momentum and APIC if the pass has them.
-template <int Dim, class Real>
+template <int Dim>
 struct OneWeights {
   static constexpr int dimensions = Dim;
 
-  OneStencil<Real, Dim, 2> linear;
-  OneStencil<Real, Dim, 3> momentum, affine;
+  OneStencil<Dim, 2> linear;
+  OneStencil<Dim, 3> momentum, affine;
   Vector<Real, Dim> moment;
 
   // Weights at the corners of the grid cell that contains the particle.
-  THAWSLIDE_HD void set_linear(const OnePlace<Dim, Real>& place, Real inverse_cell) {
+  THAWSLIDE_HD void set_linear(const OnePlace<Dim>& place, Real inverse_cell) {
     linear.first = static_cast<std::uint32_t>(place.first_node);
     for (std::size_t a = 0; a < Dim; ++a) {
       const Real along = place.offset[static_cast<int>(a)];
@@ -78,7 +78,7 @@ struct OneWeights {
     }
   }
   template <class Shape>
-  THAWSLIDE_HD void set_momentum(const OnePlace<Dim, Real>& place, const HalfSize<Real>& size, Real inverse_cell) {
+  THAWSLIDE_HD void set_momentum(const OnePlace<Dim>& place, const HalfSize<Real>& size, Real inverse_cell) {
     momentum.first = static_cast<std::uint32_t>(place.first_node);
     for (std::size_t a = 0; a < Dim; ++a) {
       momentum.axis[a] = Shape::weights(place.offset[static_cast<int>(a)], size, place.at_side[a], inverse_cell);
@@ -86,7 +86,7 @@ struct OneWeights {
   }
   // Call after set_momentum.
   template <class Shape>
-  THAWSLIDE_HD void set_affine(const OnePlace<Dim, Real>& place, Real cell, Real inverse_cell) {
+  THAWSLIDE_HD void set_affine(const OnePlace<Dim>& place, Real cell, Real inverse_cell) {
     affine = momentum;
     for (std::size_t a = 0; a < Dim; ++a) {
       const Real along = place.offset[static_cast<int>(a)];
@@ -137,17 +137,16 @@ struct ScalarGather {
 
 // Weights and slopes of a particle at a node along each axis, and the node's place in the tile's patch. is_seen: the
 // node is in reach.
-template <int Dim, class Real>
+template <int Dim>
 struct OneAtNode {
   bool is_seen = true;
   std::size_t place = 0;
   Real weight[Dim], slope[Dim];
 };
 // node: index along each axis in the particle's cell.
-template <int Dim, class Real, std::size_t Width>
-THAWSLIDE_HD OneAtNode<Dim, Real> at_node(const OneStencil<Real, Dim, Width>& stencil,
-                                          const std::array<std::size_t, 3>& node) {
-  OneAtNode<Dim, Real> at;
+template <int Dim, std::size_t Width>
+THAWSLIDE_HD OneAtNode<Dim> at_node(const OneStencil<Dim, Width>& stencil, const std::array<std::size_t, 3>& node) {
+  OneAtNode<Dim> at;
   at.place = stencil.first;
   for (std::size_t a = 0; a < Dim; ++a) {
     const std::size_t k = node[a] - stencil.in_cell[a];  // wraps to a large number if it would be negative
@@ -160,10 +159,9 @@ THAWSLIDE_HD OneAtNode<Dim, Real> at_node(const OneStencil<Real, Dim, Width>& st
 }
 
 // Component c of a node after adding a particle in reach. sum: value before.
-template <int Dim, class Real, std::size_t Components, bool HasFlux>
-THAWSLIDE_HD Real add_particle(const OneAtNode<Dim, Real>& at,
-                               const OneContribution<Real, Dim, Components, HasFlux>& carried, std::size_t c,
-                               Real sum) {
+template <int Dim, std::size_t Components, bool HasFlux>
+THAWSLIDE_HD Real add_particle(const OneAtNode<Dim>& at, const OneContribution<Dim, Components, HasFlux>& carried,
+                               std::size_t c, Real sum) {
   const bool with_flux = HasFlux && c < record_step;
   Real in_layer = carried.value[c];
   Real along_0 = 0, along_1 = 0;
@@ -192,14 +190,14 @@ THAWSLIDE_HD Real add_particle(const OneAtNode<Dim, Real>& at,
   }
   return sum;
 }
-template <int Dim, class Real>
-THAWSLIDE_HD Real add_particle(const OneAtNode<Dim, Real>& at, const OneGaps<Real, Dim>& carried, std::size_t /*c*/,
+template <int Dim>
+THAWSLIDE_HD Real add_particle(const OneAtNode<Dim>& at, const OneGaps<Dim>& carried, std::size_t /*c*/,
                                Real smallest) {
   Real weight = Real(1);
   for (std::size_t a = 0; a < Dim; ++a) {
     weight *= at.weight[a];
   }
-  if (!(weight > round_off<Real>)) {
+  if (!(weight > round_off)) {
     return smallest;
   }
   const Real* record = carried.planes + at.place * record_size(components_of<Planes, Dim>);

@@ -14,23 +14,23 @@
 namespace thawslide::mpm {
 
 // Shape functions of momentum with their parameters.
-template <class Shape, int Dim, class Real>
+template <class Shape, int Dim>
 struct MomentumWeights {
-  const BodySizes<Real>& sizes;  // of particles, in cells
+  const BodySizes& sizes;  // of particles, in cells
   const HeldSides<Dim>& sides;
 };
 // Linear shape functions for all records of a pass.
 struct LinearWeights {};
 
 // Weights of a batch.
-template <class Weights, int Dim, class Real>
+template <class Weights, int Dim>
 struct BatchWeights;
-template <int Dim, class Real>
-struct BatchWeights<LinearWeights, Dim, Real> {
-  LinearStencil<Dim, Real> linear;
+template <int Dim>
+struct BatchWeights<LinearWeights, Dim> {
+  LinearStencil<Dim> linear;
 
-  THAWSLIDE_ALWAYS_INLINE BatchWeights(const LinearWeights& /*weights*/, const SparseGrid<Dim, Real>& grid,
-                                       const Particles<Dim, Real>& particles, const TileBatch<Dim, Real>& batch)
+  THAWSLIDE_ALWAYS_INLINE BatchWeights(const LinearWeights& /*weights*/, const SparseGrid<Dim>& grid,
+                                       const Particles<Dim>& particles, const TileBatch<Dim>& batch)
       : linear(linear_stencil(grid, particles, batch)) {}
   template <class Functions>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE const auto& of() const {
@@ -38,14 +38,13 @@ struct BatchWeights<LinearWeights, Dim, Real> {
     return linear;
   }
 };
-template <class Shape, int Dim, class Real>
-struct BatchWeights<MomentumWeights<Shape, Dim, Real>, Dim, Real> {
-  BatchStencil<Dim, Real> momentum;
-  LinearStencil<Dim, Real> linear;
+template <class Shape, int Dim>
+struct BatchWeights<MomentumWeights<Shape, Dim>, Dim> {
+  BatchStencil<Dim> momentum;
+  LinearStencil<Dim> linear;
 
-  THAWSLIDE_ALWAYS_INLINE BatchWeights(const MomentumWeights<Shape, Dim, Real>& weights,
-                                       const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
-                                       const TileBatch<Dim, Real>& batch)
+  THAWSLIDE_ALWAYS_INLINE BatchWeights(const MomentumWeights<Shape, Dim>& weights, const SparseGrid<Dim>& grid,
+                                       const Particles<Dim>& particles, const TileBatch<Dim>& batch)
       : BatchWeights(weights, grid, particles, batch, place_of(grid, particles, batch)) {}
   template <class Functions>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE const auto& of() const {
@@ -57,25 +56,23 @@ struct BatchWeights<MomentumWeights<Shape, Dim, Real>, Dim, Real> {
   }
 
  private:
-  THAWSLIDE_ALWAYS_INLINE BatchWeights(const MomentumWeights<Shape, Dim, Real>& weights,
-                                       const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
-                                       const TileBatch<Dim, Real>& batch, const BatchPlace<Dim, Real>& place)
+  THAWSLIDE_ALWAYS_INLINE BatchWeights(const MomentumWeights<Shape, Dim>& weights, const SparseGrid<Dim>& grid,
+                                       const Particles<Dim>& particles, const TileBatch<Dim>& batch,
+                                       const BatchPlace<Dim>& place)
       : momentum(make_stencil<Shape>(grid, batch, place, weights.sizes.of(particles, batch), weights.sides)),
         linear{place.offset, batch.nodes, grid.inverse_cell()} {}
 };
 
 // Weights of momentum with those of APIC.
-template <class Shape, int Dim, class Real>
-struct AffineWeights : MomentumWeights<Shape, Dim, Real> {};
-template <class Shape, int Dim, class Real>
-struct BatchWeights<AffineWeights<Shape, Dim, Real>, Dim, Real>
-    : BatchWeights<MomentumWeights<Shape, Dim, Real>, Dim, Real> {
-  using Base = BatchWeights<MomentumWeights<Shape, Dim, Real>, Dim, Real>;
-  AffineBatch<Dim, Real> affine;
+template <class Shape, int Dim>
+struct AffineWeights : MomentumWeights<Shape, Dim> {};
+template <class Shape, int Dim>
+struct BatchWeights<AffineWeights<Shape, Dim>, Dim> : BatchWeights<MomentumWeights<Shape, Dim>, Dim> {
+  using Base = BatchWeights<MomentumWeights<Shape, Dim>, Dim>;
+  AffineBatch<Dim> affine;
 
-  THAWSLIDE_ALWAYS_INLINE BatchWeights(const AffineWeights<Shape, Dim, Real>& weights,
-                                       const SparseGrid<Dim, Real>& grid, const Particles<Dim, Real>& particles,
-                                       const TileBatch<Dim, Real>& batch)
+  THAWSLIDE_ALWAYS_INLINE BatchWeights(const AffineWeights<Shape, Dim>& weights, const SparseGrid<Dim>& grid,
+                                       const Particles<Dim>& particles, const TileBatch<Dim>& batch)
       : Base(weights, grid, particles, batch),
         affine(make_affine<Shape>(grid, this->momentum, place_of(grid, particles, batch), weights.sides)) {}
   template <class Functions>
@@ -113,39 +110,39 @@ struct BatchGather {
 };
 
 // Contributions of batches to a record, and their sums in a tile.
-template <class Name, int Dim, class Real>
+template <class Name, int Dim>
 struct PartialSums {
   static constexpr int size = components_of<Name, Dim>;
   static constexpr std::size_t first = first_in_register<Name, Dim>;
   static constexpr std::size_t carried = scatter_size<Name, Dim>;
   static constexpr bool has_flux = Name::flux != no_flux;
   static_assert(first == 0 || carried <= record_step);
-  using Carried = Contribution<Dim, Real, carried>;
+  using Carried = Contribution<Dim, carried>;
   using Sums = std::conditional_t<std::is_same_v<typename Name::Functions, LinearFunctions>,
-                                  LinearCellSums<has_flux, first, carried, Dim, Real, size>,
-                                  CellSums<Name::flux, first, carried, Dim, Real, size>>;
+                                  LinearCellSums<has_flux, first, carried, Dim, size>,
+                                  CellSums<Name::flux, first, carried, Dim, size>>;
 };
-template <IsMinReduced Name, int Dim, class Real>
-struct PartialSums<Name, Dim, Real> {
+template <IsMinReduced Name, int Dim>
+struct PartialSums<Name, Dim> {
   static_assert(part_of<Name, Dim>.count == 1);
-  using Carried = GapsOfBatch<Dim, Real>;
-  using Sums = PatchMinima<part_of<Name, Dim>.from, Dim, Real, components_of<Name, Dim>>;
+  using Carried = GapsOfBatch<Dim>;
+  using Sums = PatchMinima<part_of<Name, Dim>.from, Dim, components_of<Name, Dim>>;
 };
-template <class Name, int Dim, class Real>
-using SumsOf = typename PartialSums<Name, Dim, Real>::Sums;
+template <class Name, int Dim>
+using SumsOf = typename PartialSums<Name, Dim>::Sums;
 
 // Gather and scatter of a tile's particles.
-template <class Reads, class Adds, int Dim, class Real>
+template <class Reads, class Adds, int Dim>
 class TileScatter;
-template <class... Reads, class... Adds, int Dim, class Real>
-class TileScatter<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
-  using Patches = ByName<Named<Reads, PatchOf<Reads, Dim, Real>>...>;
+template <class... Reads, class... Adds, int Dim>
+class TileScatter<RecordList<Reads...>, RecordList<Adds...>, Dim> {
+  using Patches = ByName<Named<Reads, PatchOf<Reads, Dim>>...>;
 
  public:
   template <class Records>
-  TileScatter([[maybe_unused]] const SparseGrid<Dim, Real>& grid, [[maybe_unused]] std::size_t tile,
+  TileScatter([[maybe_unused]] const SparseGrid<Dim>& grid, [[maybe_unused]] std::size_t tile,
               [[maybe_unused]] Records& records)
-      : sums_{{SumsOf<Adds, Dim, Real>(cleared<Adds>(records, grid, tile), grid.rows_seen(tile))}...} {
+      : sums_{{SumsOf<Adds, Dim>(cleared<Adds>(records, grid, tile), grid.rows_seen(tile))}...} {
     (load_patch(grid, tile, records.template of<Reads>(), patches_.template of<Reads>()), ...);
   }
 
@@ -154,7 +151,7 @@ class TileScatter<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
     return {weights, patches_};
   }
 
-  using Scatter = ByName<Named<Adds, typename PartialSums<Adds, Dim, Real>::Carried>...>;
+  using Scatter = ByName<Named<Adds, typename PartialSums<Adds, Dim>::Carried>...>;
   template <class Weights>
   THAWSLIDE_ALWAYS_INLINE void add([[maybe_unused]] const Weights& weights, [[maybe_unused]] std::size_t count,
                                    [[maybe_unused]] const Scatter& added) {
@@ -166,7 +163,7 @@ class TileScatter<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
 
  private:
   template <class Name, class Records>
-  static auto& cleared(Records& records, const SparseGrid<Dim, Real>& grid, std::size_t tile) {
+  static auto& cleared(Records& records, const SparseGrid<Dim>& grid, std::size_t tile) {
     auto& patch = records.template of<Name>().patches(grid.tiles().size())[tile];
     if constexpr (!OfAnOwner<Name>) {
       patch.clear(grid.rows_seen(tile));
@@ -175,7 +172,7 @@ class TileScatter<RecordList<Reads...>, RecordList<Adds...>, Dim, Real> {
   }
 
   Patches patches_;
-  ByName<Named<Adds, SumsOf<Adds, Dim, Real>>...> sums_;
+  ByName<Named<Adds, SumsOf<Adds, Dim>>...> sums_;
 };
 
 // Sums over particles, by kernel.
@@ -227,10 +224,9 @@ constexpr void check_records() {
 // Runs kernels over the particles of the tiles that accepts(t) selects, restricted by accepts(t, nodes) if defined.
 // Each batch is passed to all kernels in turn. Contributions are left in the patches, for a node_pass to sum. Records:
 // of Nodes.
-template <class Weights, int Dim, class Real, class Records, class TileFilter, class... Kernels>
-Accounts<Kernels...> particle_pass(const SparseGrid<Dim, Real>& grid, const Weights& weights,
-                                   Particles<Dim, Real>& particles, Records& records, const TileFilter& accepts,
-                                   const Kernels&... kernels) {
+template <class Weights, int Dim, class Records, class TileFilter, class... Kernels>
+Accounts<Kernels...> particle_pass(const SparseGrid<Dim>& grid, const Weights& weights, Particles<Dim>& particles,
+                                   Records& records, const TileFilter& accepts, const Kernels&... kernels) {
   using Reads = AllOf<typename Kernels::Reads...>;
   using Adds = AllOf<typename Kernels::Adds...>;
   check_records<Reads, Adds, Dim>();
@@ -239,15 +235,15 @@ Accounts<Kernels...> particle_pass(const SparseGrid<Dim, Real>& grid, const Weig
     if (!accepts(t)) {
       return;
     }
-    TileScatter<Reads, Adds, Dim, Real> work(grid, t, records);
+    TileScatter<Reads, Adds, Dim> work(grid, t, records);
     const auto run = [&]<std::size_t... K>(std::index_sequence<K...> /*kernels*/, const auto&... of_tile) {
-      for (const TileBatch<Dim, Real>& batch : grid.batches(t)) {
+      for (const TileBatch<Dim>& batch : grid.batches(t)) {
         if (!accepts_nodes(accepts, t, batch.nodes)) {
           work.skip();
           continue;
         }
-        const BatchWeights<Weights, Dim, Real> of_batch(weights, grid, particles, batch);
-        typename TileScatter<Reads, Adds, Dim, Real>::Scatter added;
+        const BatchWeights<Weights, Dim> of_batch(weights, grid, particles, batch);
+        typename TileScatter<Reads, Adds, Dim>::Scatter added;
         (of_tile(particles, batch, work.seen(of_batch), added, std::get<K>(accounts)), ...);
         work.add(of_batch, batch.count, added);
       }
@@ -258,8 +254,8 @@ Accounts<Kernels...> particle_pass(const SparseGrid<Dim, Real>& grid, const Weig
 
 // Runs a kernel that neither reads nor adds to nodes over all particles in memory order; returns its account. A batch
 // can contain particles of several tiles and materials.
-template <int Dim, class Real, class Kernel>
-typename Kernel::Account for_particles_in_memory(Particles<Dim, Real>& particles, const Kernel& kernel) {
+template <int Dim, class Kernel>
+typename Kernel::Account for_particles_in_memory(Particles<Dim>& particles, const Kernel& kernel) {
   static_assert(std::is_same_v<typename Kernel::Reads, RecordList<>> &&
                 std::is_same_v<typename Kernel::Adds, RecordList<>>);
   using Account = typename Kernel::Account;
@@ -269,8 +265,8 @@ typename Kernel::Account for_particles_in_memory(Particles<Dim, Real>& particles
     const ByName<> seen{};
     ByName<> added{};
     const std::size_t last = std::min(particles.size(), (task + 1) * chunk);
-    for (std::size_t p = task * chunk; p < last; p += SimdBatch<Real>::most) {
-      kernel(particles, batch_in_memory<Real>(p, last), seen, added, account);
+    for (std::size_t p = task * chunk; p < last; p += SimdBatch::most) {
+      kernel(particles, batch_in_memory(p, last), seen, added, account);
     }
   });
 }

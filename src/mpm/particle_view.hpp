@@ -8,7 +8,7 @@
 namespace thawslide::mpm {
 
 // Members, units and order as in mpm/particles.hpp. Fields that are not stored must not be accessed.
-template <int Dim, class Real>
+template <int Dim>
 struct ParticleView {
   using Scalar = FieldView<Real, 1>;
   using VectorField = FieldView<Real, Dim>;
@@ -77,9 +77,9 @@ void for_fields_of(A& a, B& b, const Visit& visit) {
 }
 
 // Valid until the number of particles changes.
-template <int Dim, class Real, template <int, class> class Particles>
-ParticleView<Dim, Real> view_of(Particles<Dim, Real>& particles) {
-  ParticleView<Dim, Real> view{};
+template <int Dim, template <int> class Particles>
+ParticleView<Dim> view_of(Particles<Dim>& particles) {
+  ParticleView<Dim> view{};
   for_fields_of(view, particles, [](auto& of_view, auto& field) { of_view = field.view(); });
   return view;
 }

@@ -10,7 +10,7 @@
 
 namespace thawslide::mpm {
 
-template <int Dim, class Real>
+template <int Dim>
 class Particles {
  public:
   static constexpr int tensor_components = Dim == 2 ? 4 : 6;
@@ -133,10 +133,10 @@ class Particles {
 };
 
 // Particle tensor as a full six-component tensor; plane strain has zz but no yz, xz.
-template <int Dim, class Real>
-SymmetricTensor<Real> full_tensor(const typename Particles<Dim, Real>::TensorField& field, std::size_t particle) {
+template <int Dim>
+SymmetricTensor<Real> full_tensor(const typename Particles<Dim>::TensorField& field, std::size_t particle) {
   SymmetricTensor<Real> s = SymmetricTensor<Real>::Zero();
-  for (int c = 0; c < Particles<Dim, Real>::tensor_components; ++c) {
+  for (int c = 0; c < Particles<Dim>::tensor_components; ++c) {
     s[c] = field(particle, c);
   }
   return s;

@@ -13,7 +13,7 @@ namespace thawslide::mpm {
 
 // Applies the displacement of the step, except to particles that are not finite or would leave [lower, upper]; records
 // these.
-template <int Dim, class Real>
+template <int Dim>
 struct UpdatePosition {
   using Reads = RecordList<>;
   using Adds = RecordList<>;

@@ -61,18 +61,18 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Reading<static_cast<int>(Dim), Value, Count
 }
 
 // Gradient of component c, and of the vector of the first Dim components: d v_a / d x_b.
-template <int Dim, class Real, std::size_t Count>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Real, Dim> gradient_of(const Reading<Dim, Real, Count>& reading,
-                                                                   std::size_t c) {
-  Vector<Real, Dim> gradient;
+template <int Dim, class Value, std::size_t Count>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, Dim> gradient_of(const Reading<Dim, Value, Count>& reading,
+                                                                    std::size_t c) {
+  Vector<Value, Dim> gradient;
   for (int b = 0; b < Dim; ++b) {
     gradient[b] = reading.gradient[static_cast<std::size_t>(b)][c];
   }
   return gradient;
 }
-template <int Dim, class Real, std::size_t Count>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Matrix<Real, Dim> gradient_of(const Reading<Dim, Real, Count>& reading) {
-  Matrix<Real, Dim> gradient;
+template <int Dim, class Value, std::size_t Count>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Matrix<Value, Dim> gradient_of(const Reading<Dim, Value, Count>& reading) {
+  Matrix<Value, Dim> gradient;
   for (int a = 0; a < Dim; ++a) {
     for (int b = 0; b < Dim; ++b) {
       gradient(a, b) = reading.gradient[static_cast<std::size_t>(b)][static_cast<std::size_t>(a)];

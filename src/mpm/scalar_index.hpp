@@ -8,7 +8,6 @@
 
 namespace thawslide::mpm {
 
-template <class Real>
 struct ScalarIndex {
   using Value = Real;
 

@@ -16,7 +16,6 @@
 
 namespace thawslide::mpm {
 
-template <class Real>
 class SectionWidth {
  public:
   SectionWidth() = default;  // uniform
@@ -55,10 +54,9 @@ class SectionWidth {
 };
 
 // Width for kernels; EvenWidth if uniform (mpm/kernel.hpp).
-template <class Real>
 struct UnevenWidth {
   static constexpr bool varies = true;
-  const SectionWidth<Real>& width;
+  const SectionWidth& width;
 
   template <class Value>
   [[nodiscard]] Value at(const Value& x) const {
@@ -71,11 +69,11 @@ struct UnevenWidth {
 };
 
 // Calls work(width) with the width for kernels; only 2D sections have one.
-template <int Dim, class Real, class Work>
-decltype(auto) with_width(const SectionWidth<Real>& width, const Work& work) {
+template <int Dim, class Work>
+decltype(auto) with_width(const SectionWidth& width, const Work& work) {
   if constexpr (Dim == 2) {
     if (width.varies()) {
-      return work(UnevenWidth<Real>{width});
+      return work(UnevenWidth{width});
     }
   }
   return work(EvenWidth{});

@@ -23,7 +23,7 @@ struct AxisWeights {
 };
 
 // Linear shape functions. offset: particle minus nearest node, in cells, within [-1/2, 1/2].
-template <class Value, class Real>
+template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> linear_weights(Value offset, Real inverse_cell) {
   const auto right = offset >= Real(0);
   const Value zero = Real(0), slope = inverse_cell;
@@ -44,7 +44,7 @@ struct HalfSize {
 };
 
 // uGIMP (Bardenhagen and Kober 2004): linear shape function averaged over the undeformed particle. size: in cells.
-template <class Value, class Real>
+template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> ugimp_weights(Value offset,
                                                                       const std::type_identity_t<HalfSize<Value>>& size,
                                                                       Real inverse_cell) {
@@ -63,7 +63,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> ugimp_weights(Value offs
 }
 
 // Quadratic B-spline (Steffen, Kirby and Berzins 2008). offset as above.
-template <class Value, class Real>
+template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> quadratic_weights(Value offset, Real inverse_cell) {
   const Real half = static_cast<Real>(0.5);
   const Value left = half - offset;
@@ -81,7 +81,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value second_moment(const AxisWeights<Value
 // Weights of APIC, which give the affine velocity from node velocities and replace the slopes: w_k (x_k - x_p)/D with
 // the second moment D. They do not exist for linear shape functions: D is 0 at nodes, and a node without weight, and
 // hence without mass, would contribute fully.
-template <class Value, class Real>
+template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> by_second_moment(const AxisWeights<Value>& axis, Value offset,
                                                                          Real inverse_cell) {
   AxisWeights<Value> affine = axis;
@@ -107,7 +107,6 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value, Width> select(const Cond
 }
 
 // size: of the particle, in cells. at_side: the nearest node lies on a side of the domain that prescribes velocity.
-template <class Real>
 struct Ugimp {
   template <class Value, class Condition>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(
@@ -122,7 +121,6 @@ struct Ugimp {
   }
 };
 
-template <class Real>
 struct Linear {
   template <class Value, class Condition>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(
@@ -133,7 +131,6 @@ struct Linear {
 
 // In the half cell at a side, the spline would need a node outside the domain. Linear extrapolation from the two nodes
 // inside gives the linear shape functions, which join the spline with a continuous slope.
-template <class Real>
 struct Quadratic {
   template <class Value, class Condition>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(
@@ -149,15 +146,15 @@ struct Quadratic {
 };
 
 // Calls work(shape) with the shape functions of a kind. Dispatch is outside the loop over particles.
-template <class Real, class Work>
+template <class Work>
 void with_shape(ShapeFunction kind, const Work& work) {
   switch (kind) {
     case ShapeFunction::ugimp:
-      return work(Ugimp<Real>{});
+      return work(Ugimp{});
     case ShapeFunction::linear:
-      return work(Linear<Real>{});
+      return work(Linear{});
     case ShapeFunction::quadratic:
-      return work(Quadratic<Real>{});
+      return work(Quadratic{});
   }
 }
 

@@ -12,7 +12,6 @@
 
 namespace thawslide::mpm {
 
-template <class Real>
 struct SimdBatch {
   using Value = Simd<Real>;
   static constexpr std::size_t most = simd_width<Real>;
@@ -43,34 +42,32 @@ struct SimdBatch {
 };
 
 // Batch of particles first, first + 1, ... of `size` particles in memory order; first is a multiple of the lane count.
-template <class Real>
-THAWSLIDE_ALWAYS_INLINE SimdBatch<Real> batch_in_memory(std::size_t first, std::size_t size) {
-  SimdBatch<Real> batch;
-  batch.count = std::min(SimdBatch<Real>::most, size - first);
-  batch.contiguous = batch.count == SimdBatch<Real>::most;
+THAWSLIDE_ALWAYS_INLINE SimdBatch batch_in_memory(std::size_t first, std::size_t size) {
+  SimdBatch batch;
+  batch.count = std::min(SimdBatch::most, size - first);
+  batch.contiguous = batch.count == SimdBatch::most;
   const auto from = static_cast<std::uint32_t>(first), last = static_cast<std::uint32_t>(first + batch.count - 1);
-  for (std::uint32_t lane = 0; lane < SimdBatch<Real>::most; ++lane) {
+  for (std::uint32_t lane = 0; lane < SimdBatch::most; ++lane) {
     batch.particle[lane] = std::min(from + lane, last);
   }
   return batch;
 }
 
 // Nodes in reach of the particles of a batch: places of the lowest ones in the tile's patch.
-template <class Real>
 struct BatchNodes {
   static constexpr std::uint8_t irregular = 3;
 
   std::array<std::int32_t, simd_width<Real>> first;  // by lane
   std::uint8_t runs;                                 // runs of lanes with the same nodes: 1, 2 or `irregular`
   std::uint8_t second_run_begin;                     // first lane of the second of two runs
-  bool goes_on;  // the next batch begins with a particle of the same nodes as the last one of this batch
+  bool continues;  // the next batch begins with a particle of the same nodes as the last one of this batch
 };
 
 // Batch of one tile and one material. It remains valid until the nearest node of a particle of the tile changes.
-template <int Dim, class Real>
-struct TileBatch : SimdBatch<Real> {
+template <int Dim>
+struct TileBatch : SimdBatch {
   std::array<std::array<std::int32_t, simd_width<Real>>, Dim> nearest;  // index of the nearest node, by axis
-  BatchNodes<Real> nodes;                                               // 3 per axis, from the one before the nearest
+  BatchNodes nodes;                                                     // 3 per axis, from the one before the nearest
 };
 
 }  // namespace thawslide::mpm

@@ -19,8 +19,8 @@ constexpr double most_scattered = 4;
 constexpr std::size_t none = ~std::size_t{0};
 
 // Places of nodes in the patch of a tile, from their indices along the axes.
-template <int Dim, class Real>
-BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Simd<Real>, Dim>& lowest) {
+template <int Dim>
+BatchNodes nodes_from(std::uint64_t tile_key, const Vector<Simd<Real>, Dim>& lowest) {
   using T = Tile<Dim>;
   const typename T::Index tile = T::index(tile_key);
   Simd<Real> place = Real(0);
@@ -28,14 +28,14 @@ BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Simd<Real>, Dim
     const auto before = static_cast<Real>(tile[static_cast<std::size_t>(a)] * T::edge - 1);
     place = place * Real(T::patch_edge) + (lowest[a] - before);
   }
-  BatchNodes<Real> nodes;
+  BatchNodes nodes;
   place.store_whole(nodes.first.data());
   nodes.runs = 1;
   nodes.second_run_begin = 0;
   for (std::uint8_t lane = 1; lane < simd_width<Real>; ++lane) {
     if (nodes.first[lane] != nodes.first[lane - 1u]) {
       nodes.second_run_begin = nodes.runs == 1 ? lane : nodes.second_run_begin;
-      nodes.runs = nodes.runs == 1 ? 2 : BatchNodes<Real>::irregular;
+      nodes.runs = nodes.runs == 1 ? 2 : BatchNodes::irregular;
     }
   }
   return nodes;
@@ -43,8 +43,8 @@ BatchNodes<Real> nodes_from(std::uint64_t tile_key, const Vector<Simd<Real>, Dim
 
 }  // namespace
 
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval) {
+template <int Dim>
+void SparseGrid<Dim>::update(Particles<Dim>& particles, int interval) {
   const bool first_call = keys_.empty();
   THAWSLIDE_ASSERT(particles.size() >= keys_.size(), "{} particles are left of {}, and which is not known",
                    particles.size(), keys_.size());
@@ -72,8 +72,8 @@ void SparseGrid<Dim, Real>::update(Particles<Dim, Real>& particles, int interval
 
 // Cost of the order in memory: batches that are not contiguous, minus those right after sorting, summed over the steps
 // since the last sorting.
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::update_sort_heuristic(bool sorted) {
+template <int Dim>
+void SparseGrid<Dim>::update_sort_heuristic(bool sorted) {
   const std::size_t broken =
       std::accumulate(made_.begin(), made_.end(), std::size_t{0},
                       [](std::size_t sum, const MadeBatches& of_tile) { return sum + of_tile.broken; });
@@ -82,14 +82,14 @@ void SparseGrid<Dim, Real>::update_sort_heuristic(bool sorted) {
     disorder_ = 0;
     fewest_broken_ = broken;
   } else if (broken > fewest_broken_) {
-    const std::size_t contiguous = order_.size() / SimdBatch<Real>::most + 1;
+    const std::size_t contiguous = order_.size() / SimdBatch::most + 1;
     disorder_ += static_cast<double>(broken - fewest_broken_) / static_cast<double>(contiguous);
   }
 }
 
 // Sorts particles in memory into canonical order.
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::reorder(Particles<Dim, Real>& particles) {
+template <int Dim>
+void SparseGrid<Dim>::reorder(Particles<Dim>& particles) {
   particles.reorder(order_);
   for (std::size_t a = 0; a < Dim; ++a) {
     thawslide::reorder<std::int32_t>(
@@ -102,17 +102,17 @@ void SparseGrid<Dim, Real>::reorder(Particles<Dim, Real>& particles) {
 }
 
 // Most particles keep their nearest node and need no update.
-template <int Dim, class Real>
-bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) {
+template <int Dim>
+bool SparseGrid<Dim>::compute_keys(const Particles<Dim>& particles) {
   const std::size_t count = particles.size();
   const std::size_t tasks = (count + keys_per_task - 1) / keys_per_task;
   task_movers_.resize(tasks);
   parallel_for(tasks, [&](std::size_t task) {
-    constexpr std::size_t most = SimdBatch<Real>::most;
+    constexpr std::size_t most = SimdBatch::most;
     const std::size_t last = std::min(count, (task + 1) * keys_per_task);
     task_movers_[task].clear();
     for (std::size_t first = task * keys_per_task; first < last; first += most) {
-      const auto batch = batch_in_memory<Real>(first, last);
+      const auto batch = batch_in_memory(first, last);
       std::int32_t nearest[Dim * most];
       for (int a = 0; a < Dim; ++a) {
         floor(particles.position.load(batch, a) * inverse_cell_ + Real(0.5))
@@ -133,8 +133,8 @@ bool SparseGrid<Dim, Real>::compute_keys(const Particles<Dim, Real>& particles) 
 }
 
 // Key of a particle, from its nearest node and the layer of its body.
-template <int Dim, class Real>
-std::uint64_t SparseGrid<Dim, Real>::key_of(const Particles<Dim, Real>& particles, std::size_t particle) const {
+template <int Dim>
+std::uint64_t SparseGrid<Dim>::key_of(const Particles<Dim>& particles, std::size_t particle) const {
   Index node{}, tile{};
   int local = 0;
   for (std::size_t a = 0; a < Dim; ++a) {
@@ -147,9 +147,9 @@ std::uint64_t SparseGrid<Dim, Real>::key_of(const Particles<Dim, Real>& particle
 }
 
 // Updates the keys of `count` particles from `first` on, from their nearest nodes.
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::add_cell_changes(const Particles<Dim, Real>& particles, std::size_t first,
-                                             std::size_t count, std::vector<CellChange>& movers) {
+template <int Dim>
+void SparseGrid<Dim>::add_cell_changes(const Particles<Dim>& particles, std::size_t first, std::size_t count,
+                                       std::vector<CellChange>& movers) {
   for (std::size_t p = first; p < first + count; ++p) {
     const std::uint64_t key = key_of(particles, p);
     if (key != keys_[p]) {
@@ -161,8 +161,8 @@ void SparseGrid<Dim, Real>::add_cell_changes(const Particles<Dim, Real>& particl
 }
 
 // Sorts the particles that changed cell and merges them with the others, which are still in order.
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::merge_moved(const Particles<Dim, Real>& particles) {
+template <int Dim>
+void SparseGrid<Dim>::merge_moved(const Particles<Dim>& particles) {
   const auto before = [&](std::uint32_t a, std::uint32_t b) {
     return keys_[a] != keys_[b] ? keys_[a] < keys_[b] : particles.id(a) < particles.id(b);
   };
@@ -176,9 +176,9 @@ void SparseGrid<Dim, Real>::merge_moved(const Particles<Dim, Real>& particles) {
 }
 
 // Order of one tile's particles, from those that stayed in their cell and those that changed cell or tile.
-template <int Dim, class Real>
+template <int Dim>
 template <class Before>
-void SparseGrid<Dim, Real>::merge_tile(std::size_t t, const Before& before) {
+void SparseGrid<Dim>::merge_tile(std::size_t t, const Before& before) {
   const TileChange& change = changes_[t];
   auto to = order_.begin() + tiles_[t].first;
   auto mover = movers_.begin() + static_cast<std::ptrdiff_t>(change.first_mover);
@@ -203,8 +203,8 @@ void SparseGrid<Dim, Real>::merge_tile(std::size_t t, const Before& before) {
   }
 }
 
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::count_leaving() {
+template <int Dim>
+void SparseGrid<Dim>::count_leaving() {
   leaving_.assign(tiles_.size(), 0);
   for (const CellChange& mover : movers_) {
     if (mover.former_tile != no_key) {
@@ -216,8 +216,8 @@ void SparseGrid<Dim, Real>::count_leaving() {
 }
 
 // Lists the occupied tiles, from the former ones and the particles that left or entered.
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::list_tiles() {
+template <int Dim>
+void SparseGrid<Dim>::list_tiles() {
   former_tiles_.swap(tiles_);
   tiles_.clear();
   changes_.clear();
@@ -258,9 +258,9 @@ void SparseGrid<Dim, Real>::list_tiles() {
   }
 }
 
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::mark_blocks_about(const std::vector<std::uint8_t>& tiles,
-                                              std::vector<std::uint8_t>& blocks) const {
+template <int Dim>
+void SparseGrid<Dim>::mark_blocks_about(const std::vector<std::uint8_t>& tiles,
+                                        std::vector<std::uint8_t>& blocks) const {
   blocks.assign(blocks_.size(), 0);
   for (std::size_t t = 0; t < tiles.size(); ++t) {
     for (std::size_t d = 0; d < stencil && tiles[t] != 0; ++d) {
@@ -269,8 +269,8 @@ void SparseGrid<Dim, Real>::mark_blocks_about(const std::vector<std::uint8_t>& t
   }
 }
 
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::make_stale_batches(const Particles<Dim, Real>& particles) {
+template <int Dim>
+void SparseGrid<Dim>::make_stale_batches(const Particles<Dim>& particles) {
   parallel_for(tiles_.size(), [&](std::size_t t) {
     if (stale_[t] != 0) {
       make_batches(particles, t);
@@ -280,9 +280,9 @@ void SparseGrid<Dim, Real>::make_stale_batches(const Particles<Dim, Real>& parti
 
 // Forms batches of particles that are consecutive in memory, as many as lanes; the remaining particles fill other
 // batches.
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, std::size_t t) {
-  constexpr std::size_t most = SimdBatch<Real>::most;
+template <int Dim>
+void SparseGrid<Dim>::make_batches(const Particles<Dim>& particles, std::size_t t) {
+  constexpr std::size_t most = SimdBatch::most;
   const OccupiedTile& tile = tiles_[t];
   const auto material = [&](std::uint32_t k) { return one_material_ ? 0 : particles.material(order_[k]); };
   const auto side_by_side = [&](std::uint32_t k) {
@@ -298,7 +298,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
   batches.reserve(contiguous + contiguous / 8 + 2);  // some batches are not contiguous
   made_[t] = {};
   for (std::uint32_t k = tile.first; k < tile.last;) {
-    TileBatch<Dim, Real> batch;
+    TileBatch<Dim> batch;
     batch.contiguous = side_by_side(k);
     batch.count = 0;
     const std::int32_t of_one = material(k);
@@ -320,11 +320,11 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
       }
       before_nearest[a] = Simd<Real>::load_whole(nearest.data()) - Real(1);
     }
-    batch.nodes = nodes_from<Dim, Real>(tile.key, before_nearest);
-    batch.nodes.goes_on = false;
+    batch.nodes = nodes_from<Dim>(tile.key, before_nearest);
+    batch.nodes.continues = false;
     if (!batches.empty()) {
-      const TileBatch<Dim, Real>& before = batches.back();
-      batches.back().nodes.goes_on = before.nodes.first[before.count - 1] == batch.nodes.first[0];
+      const TileBatch<Dim>& before = batches.back();
+      batches.back().nodes.continues = before.nodes.first[before.count - 1] == batch.nodes.first[0];
     }
     batches.push_back(batch);
     made_[t].broken += batch.contiguous ? 0 : 1;
@@ -334,7 +334,7 @@ void SparseGrid<Dim, Real>::make_batches(const Particles<Dim, Real>& particles, 
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) template class SparseGrid<Dim, Real>;
+#define THAWSLIDE_INSTANTIATE(Dim) template class SparseGrid<Dim>;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

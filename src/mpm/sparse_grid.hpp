@@ -14,7 +14,7 @@
 
 namespace thawslide::mpm {
 
-template <int Dim, class Real>
+template <int Dim>
 class SparseGrid {
  public:
   using T = Tile<Dim>;
@@ -36,10 +36,10 @@ class SparseGrid {
   // have been passed to `remove`. The canonical order is by nearest node, then by id, independent of the order in
   // memory. Particles are sorted in memory if many are out of order and every `interval` calls; with an interval of 0,
   // at the first call only.
-  void update(Particles<Dim, Real>& particles, int interval);
+  void update(Particles<Dim>& particles, int interval);
 
   // Follows Particles::remove. now_at: its result.
-  void remove(const Particles<Dim, Real>& particles, const std::vector<std::uint32_t>& now_at);
+  void remove(const Particles<Dim>& particles, const std::vector<std::uint32_t>& now_at);
 
   // Sets the active blocks of a grid without particles, by ascending key.
   void set_blocks(std::vector<std::uint64_t> keys);
@@ -48,7 +48,7 @@ class SparseGrid {
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
   [[nodiscard]] const std::vector<OccupiedTile>& tiles() const { return tiles_; }
   // Batches of tile t, in canonical order.
-  [[nodiscard]] const std::vector<TileBatch<Dim, Real>>& batches(std::size_t t) const { return batches_[t]; }
+  [[nodiscard]] const std::vector<TileBatch<Dim>>& batches(std::size_t t) const { return batches_[t]; }
   // Rows of tile t's patch (Tile::rows_from) in which its particles have nodes.
   [[nodiscard]] std::uint64_t rows_seen(std::size_t t) const { return made_[t].rows_seen; }
   // Keys of the active blocks: occupied tiles and their neighbours, ascending.
@@ -99,26 +99,26 @@ class SparseGrid {
     std::uint32_t broken;  // batches that are not contiguous
   };
 
-  void add_appended(const Particles<Dim, Real>& particles);
+  void add_appended(const Particles<Dim>& particles);
   void drop_from_tiles(const std::vector<std::uint32_t>& now_at);
-  bool compute_keys(const Particles<Dim, Real>& particles);
-  [[nodiscard]] std::uint64_t key_of(const Particles<Dim, Real>& particles, std::size_t particle) const;
-  void add_cell_changes(const Particles<Dim, Real>& particles, std::size_t first, std::size_t count,
+  bool compute_keys(const Particles<Dim>& particles);
+  [[nodiscard]] std::uint64_t key_of(const Particles<Dim>& particles, std::size_t particle) const;
+  void add_cell_changes(const Particles<Dim>& particles, std::size_t first, std::size_t count,
                         std::vector<CellChange>& movers);
-  void merge_moved(const Particles<Dim, Real>& particles);
+  void merge_moved(const Particles<Dim>& particles);
   template <class Before>
   void merge_tile(std::size_t t, const Before& before);
   void count_leaving();
   void list_tiles();
-  void reorder(Particles<Dim, Real>& particles);
+  void reorder(Particles<Dim>& particles);
   void update_sort_heuristic(bool sorted);
   void list_blocks();
   void connect_blocks();
-  void make_stale_batches(const Particles<Dim, Real>& particles);
-  void make_batches(const Particles<Dim, Real>& particles, std::size_t t);
+  void make_stale_batches(const Particles<Dim>& particles);
+  void make_batches(const Particles<Dim>& particles, std::size_t t);
   // Place in nearest_ of a particle's index along an axis: groups of as many particles as lanes, axis by axis.
   static std::size_t in_nearest(std::size_t particle, std::size_t axis) {
-    constexpr std::size_t most = SimdBatch<Real>::most;
+    constexpr std::size_t most = SimdBatch::most;
     return (particle / most * Dim + axis) * most + particle % most;
   }
 
@@ -133,10 +133,10 @@ class SparseGrid {
   std::vector<CellChange> movers_;
   std::vector<std::uint32_t> order_, former_order_;
   std::vector<OccupiedTile> tiles_, former_tiles_;
-  std::vector<std::uint32_t> leaving_;                      // particles that left, by former tile
-  std::vector<TileChange> changes_;                         // by tile
-  std::vector<std::vector<TileBatch<Dim, Real>>> batches_;  // by tile
-  std::vector<std::uint8_t> stale_;                         // by tile: its batches must be rebuilt
+  std::vector<std::uint32_t> leaving_;                // particles that left, by former tile
+  std::vector<TileChange> changes_;                   // by tile
+  std::vector<std::vector<TileBatch<Dim>>> batches_;  // by tile
+  std::vector<std::uint8_t> stale_;                   // by tile: its batches must be rebuilt
   std::vector<std::uint64_t> blocks_;
   KeyIndex tile_number_, block_number_;
   std::vector<std::int32_t> tiles_about_block_, blocks_about_tile_, blocks_about_block_;

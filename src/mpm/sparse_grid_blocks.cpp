@@ -35,8 +35,8 @@ void find_about(std::size_t count, const KeyOf& key_of, const KeyIndex& others, 
 
 }  // namespace
 
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::list_blocks() {
+template <int Dim>
+void SparseGrid<Dim>::list_blocks() {
   blocks_.clear();
   for (const OccupiedTile& tile : tiles_) {
     for (int d = 0; d < T::stencil; ++d) {
@@ -47,8 +47,8 @@ void SparseGrid<Dim, Real>::list_blocks() {
   blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
 }
 
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::connect_blocks() {
+template <int Dim>
+void SparseGrid<Dim>::connect_blocks() {
   tile_number_.clear();
   for (const OccupiedTile& tile : tiles_) {
     tile_number_.insert(tile.key);
@@ -64,18 +64,18 @@ void SparseGrid<Dim, Real>::connect_blocks() {
       tiles_.size(), [&](std::size_t t) { return tiles_[t].key; }, block_number_, blocks_about_tile_);
 }
 
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::set_blocks(std::vector<std::uint64_t> keys) {
+template <int Dim>
+void SparseGrid<Dim>::set_blocks(std::vector<std::uint64_t> keys) {
   THAWSLIDE_ASSERT(tiles_.empty(), "{} tiles hold particles, whose blocks others cannot set", tiles_.size());
   blocks_ = std::move(keys);
   connect_blocks();
   blocks_changed_ = true;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                 \
-  template void SparseGrid<Dim, Real>::list_blocks();    \
-  template void SparseGrid<Dim, Real>::connect_blocks(); \
-  template void SparseGrid<Dim, Real>::set_blocks(std::vector<std::uint64_t>);
+#define THAWSLIDE_INSTANTIATE(Dim)                 \
+  template void SparseGrid<Dim>::list_blocks();    \
+  template void SparseGrid<Dim>::connect_blocks(); \
+  template void SparseGrid<Dim>::set_blocks(std::vector<std::uint64_t>);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

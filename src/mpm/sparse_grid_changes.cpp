@@ -5,12 +5,12 @@
 namespace thawslide::mpm {
 
 // New particles have no nearest node yet.
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::add_appended(const Particles<Dim, Real>& particles) {
+template <int Dim>
+void SparseGrid<Dim>::add_appended(const Particles<Dim>& particles) {
   const std::size_t before = keys_.size(), count = particles.size();
   keys_.resize(count, no_key);
-  moved_.resize(count + SimdBatch<Real>::most, 0);
-  nearest_.resize((count + SimdBatch<Real>::most) * Dim, never);
+  moved_.resize(count + SimdBatch::most, 0);
+  nearest_.resize((count + SimdBatch::most) * Dim, never);
   for (std::size_t p = before; p < count; ++p) {
     for (std::size_t a = 0; a < Dim; ++a) {
       nearest_[in_nearest(p, a)] = never;
@@ -19,11 +19,11 @@ void SparseGrid<Dim, Real>::add_appended(const Particles<Dim, Real>& particles) 
   }
 }
 
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::remove(const Particles<Dim, Real>& particles, const std::vector<std::uint32_t>& now_at) {
+template <int Dim>
+void SparseGrid<Dim>::remove(const Particles<Dim>& particles, const std::vector<std::uint32_t>& now_at) {
   const std::size_t count = particles.size();
   for (std::size_t p = count; p < now_at.size(); ++p) {
-    if (now_at[p] != Particles<Dim, Real>::nowhere) {
+    if (now_at[p] != Particles<Dim>::nowhere) {
       keys_[now_at[p]] = keys_[p];
       for (std::size_t a = 0; a < Dim; ++a) {
         nearest_[in_nearest(now_at[p], a)] = nearest_[in_nearest(p, a)];
@@ -31,16 +31,16 @@ void SparseGrid<Dim, Real>::remove(const Particles<Dim, Real>& particles, const 
     }
   }
   keys_.resize(count);
-  moved_.resize(count + SimdBatch<Real>::most);
-  nearest_.resize((count + SimdBatch<Real>::most) * Dim);
+  moved_.resize(count + SimdBatch::most);
+  nearest_.resize((count + SimdBatch::most) * Dim);
   drop_from_tiles(now_at);
   order_.resize(count);
   make_stale_batches(particles);
 }
 
 // Drops removed particles from order and tiles. Tiles are stale if their particles changed or moved in memory.
-template <int Dim, class Real>
-void SparseGrid<Dim, Real>::drop_from_tiles(const std::vector<std::uint32_t>& now_at) {
+template <int Dim>
+void SparseGrid<Dim>::drop_from_tiles(const std::vector<std::uint32_t>& now_at) {
   std::uint32_t placed = 0;
   std::size_t tiles = 0;
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
@@ -50,7 +50,7 @@ void SparseGrid<Dim, Real>::drop_from_tiles(const std::vector<std::uint32_t>& no
     for (std::uint32_t k = tile.first; k < tile.last; ++k) {
       const std::uint32_t p = order_[k], now = now_at[p];
       stale = now != p ? 1 : stale;
-      if (now != Particles<Dim, Real>::nowhere) {
+      if (now != Particles<Dim>::nowhere) {
         order_[placed++] = now;
       }
     }
@@ -73,9 +73,9 @@ void SparseGrid<Dim, Real>::drop_from_tiles(const std::vector<std::uint32_t>& no
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                          \
-  template void SparseGrid<Dim, Real>::add_appended(const Particles<Dim, Real>&); \
-  template void SparseGrid<Dim, Real>::remove(const Particles<Dim, Real>&, const std::vector<std::uint32_t>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                    \
+  template void SparseGrid<Dim>::add_appended(const Particles<Dim>&); \
+  template void SparseGrid<Dim>::remove(const Particles<Dim>&, const std::vector<std::uint32_t>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -23,9 +23,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value double_contraction(const SymmetricTen
 }
 
 // Results of straining: energies, and the invalid particle of smallest id.
-template <class Real>
 struct Deformed {
-  StressWork<Real> work;
+  StressWork work;
   InvalidParticle invalid;
 
   THAWSLIDE_HD Deformed& operator+=(const Deformed& part) {
@@ -37,15 +36,15 @@ struct Deformed {
 
 // Strain, rotation, stress, volume and porosity (Eqs. 6, 11) from the mapped-back velocities, for particles of one
 // material with the constitutive law Law.
-template <int Dim, class Real, class Law, class Width = EvenWidth>
+template <int Dim, class Law, class Width = EvenWidth>
 struct Deform {
   using Reads = RecordList<Velocity>;
   using Adds = RecordList<>;
-  using Account = Deformed<Real>;
+  using Account = Deformed;
 
   const Law& law;
-  const physics::Elastic<Real>& elastic;
-  const physics::Phases<Real>& phases;
+  const physics::Elastic& elastic;
+  const physics::Phases& phases;
   bool gaps_close_first;  // physics/tension_gap.hpp
   Real viscosity_time;    // Kelvin-Voigt [s]
   bool effective_stress;  // pore pressure also acts inside the body
@@ -71,7 +70,7 @@ struct Deform {
     Tensor stress = physics::rotate<Value, Dim>(old_stress, increment.rotation) + change;
     Value plastic_work_density, opening;
     admit(particles, at, stress, plastic_work_density, opening);
-    StressWork<Real>& work = account.work;
+    StressWork& work = account.work;
     const Value volume = particles.volume.load(at);
     at.add_to(work.total, volume * Real(0.5) * double_contraction<Value>(old_stress + stress, increment.strain));
     particles.stress.store_vector(at, stress);
@@ -145,14 +144,14 @@ struct Deform {
 };
 
 // The same for particles of any material. The CPU selects the law per batch, because a batch has one material.
-template <int Dim, class Real, class Width = EvenWidth>
+template <int Dim, class Width = EvenWidth>
 struct UpdateStress {
   using Reads = RecordList<Velocity>;
   using Adds = RecordList<>;
-  using Account = Deformed<Real>;
+  using Account = Deformed;
 
-  const MaterialModel<Real>* materials;
-  const physics::Phases<Real>& phases;
+  const MaterialModel* materials;
+  const physics::Phases& phases;
   bool effective_stress;
   Real dt;
   Width width{};
@@ -160,9 +159,9 @@ struct UpdateStress {
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
                                           Account& account) const {
-    const MaterialModel<Real>& material = materials[static_cast<std::size_t>(particles.material(at.particle[0]))];
+    const MaterialModel& material = materials[static_cast<std::size_t>(particles.material(at.particle[0]))];
     const auto deform = [&]<class Law>(const Law& law) {
-      const Deform<Dim, Real, Law, Width> with_law{
+      const Deform<Dim, Law, Width> with_law{
           law,  material.elastic, phases, material.gaps_close_first, material.viscosity_time, effective_stress, dt,
           width};
       with_law(particles, at, seen, added, account);

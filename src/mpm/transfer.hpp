@@ -25,11 +25,11 @@
 namespace thawslide::mpm {
 
 // Widest register that divides a record.
-template <class Real, int Components>
+template <int Components>
 using RecordRegister = Simd<Real, record_size(Components) % simd_width<Real> == 0 ? simd_width<Real> : record_step>;
 
 // Records around one tile, with a margin of one node.
-template <int Dim, class Real, int Components>
+template <int Dim, int Components>
 struct Patch {
   using Record = std::array<Real, record_size(Components)>;
   alignas(cache_line) std::array<Record, static_cast<std::size_t>(Tile<Dim>::patch_nodes)> records;
@@ -79,7 +79,7 @@ struct NodeAt {
 };
 
 // One record per node of every active block, and the patches that are summed into it.
-template <int Dim, class Real, int Components>
+template <int Dim, int Components>
 class NodeRecords {
  public:
   using Record = std::array<Real, record_size(Components)>;
@@ -87,7 +87,7 @@ class NodeRecords {
 
   // Without memory for patches: for records that nodes compute, or sum from the patches of others.
   NodeRecords() = default;
-  explicit NodeRecords(std::shared_ptr<PatchPool> room) : room_(std::move(room)) {}
+  explicit NodeRecords(std::shared_ptr<PatchPool> pool) : pool_(std::move(pool)) {}
 
   [[nodiscard]] Record& operator()(std::size_t block, std::size_t node) { return records_[block * nodes + node]; }
   [[nodiscard]] const Record& operator()(std::size_t block, std::size_t node) const {
@@ -100,25 +100,25 @@ class NodeRecords {
 
   // Patches of the tiles. The caller must clear and fill them, and sum them before other records with the same memory
   // request theirs.
-  [[nodiscard]] std::span<Patch<Dim, Real, Components>> patches(std::size_t tiles) {
-    THAWSLIDE_ASSERT(room_ != nullptr, "{} components without memory for patches", Components);
-    return room_->take<Patch<Dim, Real, Components>>(tiles);
+  [[nodiscard]] std::span<Patch<Dim, Components>> patches(std::size_t tiles) {
+    THAWSLIDE_ASSERT(pool_ != nullptr, "{} components without memory for patches", Components);
+    return pool_->take<Patch<Dim, Components>>(tiles);
   }
 
  private:
   AlignedVector<Record> records_;
-  std::shared_ptr<PatchPool> room_;
+  std::shared_ptr<PatchPool> pool_;
 };
 
 // One record per node of selected active blocks; those of other blocks read as zeros.
-template <int Dim, class Real, int Components>
+template <int Dim, int Components>
 class SparseRecords {
  public:
   using Record = std::array<Real, record_size(Components)>;
   static constexpr std::size_t nodes = static_cast<std::size_t>(Tile<Dim>::nodes);
 
   SparseRecords() = default;
-  explicit SparseRecords(std::shared_ptr<PatchPool> room) : records_(std::move(room)) {}
+  explicit SparseRecords(std::shared_ptr<PatchPool> pool) : records_(std::move(pool)) {}
 
   // Selects the blocks for which holds(block) is true; their contents are undefined. blocks: number of active blocks.
   template <class Holds>
@@ -142,18 +142,18 @@ class SparseRecords {
     return records_.of_block(place_[block]);
   }
 
-  [[nodiscard]] std::span<Patch<Dim, Real, Components>> patches(std::size_t tiles) { return records_.patches(tiles); }
+  [[nodiscard]] std::span<Patch<Dim, Components>> patches(std::size_t tiles) { return records_.patches(tiles); }
 
  private:
-  NodeRecords<Dim, Real, Components> records_;  // zeros, then the selected blocks
-  std::vector<std::uint32_t> place_;            // by block
+  NodeRecords<Dim, Components> records_;  // zeros, then the selected blocks
+  std::vector<std::uint32_t> place_;      // by block
 };
 
 inline constexpr auto every_tile = [](std::size_t /*tile*/) { return true; };
 
 // Rows of a block in which particles have nodes, one bit per row.
-template <int Dim, class Real>
-std::uint32_t rows_seen_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block) {
+template <int Dim>
+std::uint32_t rows_seen_in_block(const SparseGrid<Dim>& grid, std::size_t block) {
   const std::int32_t* tiles = grid.tiles_about_block(block);
   std::uint32_t seen = 0;
   for_each_direction<Dim>([&](auto d) {
@@ -166,12 +166,12 @@ std::uint32_t rows_seen_in_block(const SparseGrid<Dim, Real>& grid, std::size_t 
 // Sums patches at the nodes of one block, from the tiles for which accepts(t) is true, in a fixed order: the block's
 // own tile, then those around it. Only rows in which a patch's own particles have nodes are added. Returns the rows of
 // the block in which particles of any tile have nodes, one bit per row; other records are not computed.
-template <int Dim, class Real, int Components, class TileFilter>
-std::uint32_t sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
-                                   std::span<Patch<Dim, Real, Components>> patches,
-                                   typename Patch<Dim, Real, Components>::Record* records, const TileFilter& accepts) {
-  using Record = typename Patch<Dim, Real, Components>::Record;
-  using Register = RecordRegister<Real, Components>;
+template <int Dim, int Components, class TileFilter>
+std::uint32_t sum_patches_in_block(const SparseGrid<Dim>& grid, std::size_t block,
+                                   std::span<Patch<Dim, Components>> patches,
+                                   typename Patch<Dim, Components>::Record* records, const TileFilter& accepts) {
+  using Record = typename Patch<Dim, Components>::Record;
+  using Register = RecordRegister<Components>;
   constexpr std::size_t size = std::tuple_size_v<Record>, edge = static_cast<std::size_t>(Tile<Dim>::edge);
   constexpr std::size_t own = static_cast<std::size_t>(Tile<Dim>::stencil) / 2;
   const std::int32_t* tiles = grid.tiles_about_block(block);
@@ -229,8 +229,8 @@ std::uint32_t sum_patches_in_block(const SparseGrid<Dim, Real>& grid, std::size_
 }
 
 // The same at the nodes of all blocks, with 0 in rows without nodes of particles. Calls then(block) after each sum.
-template <int Dim, class Real, int Components, class Then>
-void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Components>& nodes, const Then& then) {
+template <int Dim, int Components, class Then>
+void sum_patches(const SparseGrid<Dim>& grid, NodeRecords<Dim, Components>& nodes, const Then& then) {
   constexpr std::size_t edge = static_cast<std::size_t>(Tile<Dim>::edge);
   nodes.resize(grid.blocks().size());
   const auto patches = nodes.patches(grid.tiles().size());
@@ -244,18 +244,17 @@ void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Compo
     then(block);
   });
 }
-template <int Dim, class Real, int Components>
-void sum_patches(const SparseGrid<Dim, Real>& grid, NodeRecords<Dim, Real, Components>& nodes) {
+template <int Dim, int Components>
+void sum_patches(const SparseGrid<Dim>& grid, NodeRecords<Dim, Components>& nodes) {
   sum_patches(grid, nodes, [](std::size_t /*block*/) {});
 }
 
 // Minimum of one component at the nodes of one block, over the patches of the tiles for which accepts(t) is true; the
 // largest number if there are none.
-template <std::size_t Component, int Dim, class Real, int Components, class TileFilter>
-void take_smallest_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block,
-                            std::span<Patch<Dim, Real, Components>> patches,
-                            typename Patch<Dim, Real, Components>::Record* records, const TileFilter& accepts) {
-  for (std::size_t k = 0; k < NodeRecords<Dim, Real, Components>::nodes; ++k) {
+template <std::size_t Component, int Dim, int Components, class TileFilter>
+void take_smallest_in_block(const SparseGrid<Dim>& grid, std::size_t block, std::span<Patch<Dim, Components>> patches,
+                            typename Patch<Dim, Components>::Record* records, const TileFilter& accepts) {
+  for (std::size_t k = 0; k < NodeRecords<Dim, Components>::nodes; ++k) {
     records[k][Component] = std::numeric_limits<Real>::max();
   }
   const std::int32_t* tiles = grid.tiles_about_block(block);
@@ -273,10 +272,10 @@ void take_smallest_in_block(const SparseGrid<Dim, Real>& grid, std::size_t block
 }
 
 // Copies the records of the nodes around tile t into a patch, only in rows in which its particles have nodes.
-template <int Dim, class Real, template <int, class, int> class Records, int Components>
-void load_patch(const SparseGrid<Dim, Real>& grid, std::size_t t, const Records<Dim, Real, Components>& nodes,
-                Patch<Dim, Real, Components>& patch) {
-  using Register = RecordRegister<Real, Components>;
+template <int Dim, template <int, int> class Records, int Components>
+void load_patch(const SparseGrid<Dim>& grid, std::size_t t, const Records<Dim, Components>& nodes,
+                Patch<Dim, Components>& patch) {
+  using Register = RecordRegister<Components>;
   constexpr std::size_t size = record_size(Components);
   const std::int32_t* blocks = grid.blocks_about_tile(t);
   const std::uint64_t rows = grid.rows_seen(t);

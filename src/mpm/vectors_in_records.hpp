@@ -9,14 +9,14 @@
 
 namespace thawslide::mpm {
 
-template <int Dim, class Real>
+template <int Dim>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Real, Dim> vector_at(const Real* record, std::size_t first) {
   return Eigen::Map<const Vector<Real, Dim>>(record + first);
 }
-template <int Dim, class Real, class Record>
+template <int Dim, class Record>
 requires requires(const Record& record) { record.data(); }
 THAWSLIDE_ALWAYS_INLINE Vector<Real, Dim> vector_at(const Record& record, std::size_t first) {
-  return vector_at<Dim, Real>(record.data(), first);
+  return vector_at<Dim>(record.data(), first);
 }
 
 template <int Dim, class Record, class Value>

@@ -11,9 +11,9 @@ namespace {
 
 // Sums the particle contributions, and computes the next increments: the fit itself, or the last increment minus the
 // fit.
-template <int Dim, class Real>
-void make_increments(const SparseGrid<Dim, Real>& grid, bool first, Nodes<Dim, Real>& nodes) {
-  const Real least = least_square_of<Real>(grid.cell());
+template <int Dim>
+void make_increments(const SparseGrid<Dim>& grid, bool first, Nodes<Dim>& nodes) {
+  const Real least = least_square_of(grid.cell());
   sum_patches(grid, nodes.filter_momentum, [&](std::size_t b) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(Tile<Dim>::nodes); ++k) {
       make_increment<Dim>(first, least, nodes.momentum(b, k), nodes.filter_moments(b, k), nodes.filter_momentum(b, k),
@@ -24,33 +24,32 @@ void make_increments(const SparseGrid<Dim, Real>& grid, bool first, Nodes<Dim, R
 
 }  // namespace
 
-template <int Dim, class Real>
-Real filter_velocities(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
-                       const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes) {
+template <int Dim>
+Real filter_velocities(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
+                       Nodes<Dim>& nodes) {
   Real gained = 0;
   nodes.filter_increment.resize(grid.blocks().size());
   nodes.filter_total.resize(grid.blocks().size());
-  with_shape<Real>(model.shape, [&](auto shape) {
-    const MomentumWeights<decltype(shape), Dim, Real> weights{model.sizes, model.sides};
+  with_shape(model.shape, [&](auto shape) {
+    const MomentumWeights<decltype(shape), Dim> weights{model.sizes, model.sides};
     const auto pass = [&](const auto& kernel) {
       return std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, kernel));
     };
-    pass(AddFilterMoments<Dim, Real>{});
+    pass(AddFilterMoments<Dim>{});
     sum_patches(grid, nodes.filter_moments);
-    pass(AddFilterMomentum<Dim, Real>{});
+    pass(AddFilterMomentum<Dim>{});
     make_increments(grid, true, nodes);
     for (int order = 2; order <= model.filter_order; ++order) {
-      pass(SweepFilter<Dim, Real>{});
+      pass(SweepFilter<Dim>{});
       make_increments(grid, false, nodes);
     }
-    gained = pass(ApplyFiltered<Dim, Real>{});
+    gained = pass(ApplyFiltered<Dim>{});
   });
   return gained;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                          \
-  template Real filter_velocities<Dim, Real>(const SparseGrid<Dim, Real>&, Particles<Dim, Real>&, \
-                                             const MotionModel<Dim, Real>&, Nodes<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim) \
+  template Real filter_velocities<Dim>(const SparseGrid<Dim>&, Particles<Dim>&, const MotionModel<Dim>&, Nodes<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -17,8 +17,8 @@ namespace thawslide::mpm {
 // Applies the filter with the order of the model, after move_particles. The patches of nodes.velocity then contain the
 // momenta of the filtered velocities. Requires nodal masses (momentum_to_grid). Returns the kinetic energy gained by
 // particles [J], at most 0.
-template <int Dim, class Real>
-Real filter_velocities(const SparseGrid<Dim, Real>& grid, Particles<Dim, Real>& particles,
-                       const MotionModel<Dim, Real>& model, Nodes<Dim, Real>& nodes);
+template <int Dim>
+Real filter_velocities(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
+                       Nodes<Dim>& nodes);
 
 }  // namespace thawslide::mpm

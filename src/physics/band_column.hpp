@@ -32,11 +32,11 @@ struct ColumnCells {
   static constexpr int all = ground + slide;
 };
 
-template <class Real, class Curve>
+template <class Curve>
 struct ColumnModel {
-  Phases<Real> phases;
+  Phases phases;
   Curve curve;
-  WaterExpansion<Real> water_expansion;
+  WaterExpansion water_expansion;
   Real porosity = 0;                  // n
   Real hydraulic_conductivity = 0;    // k_L [m/s]
   Real skeleton_compressibility = 0;  // m_v [1/Pa]
@@ -51,7 +51,6 @@ struct ColumnModel {
       static_cast<Real>(1.4);  // height of a cell over that of its neighbour nearer to the band; above: at most
 };
 
-template <class Real>
 struct BandColumn {
   Real thickness;                      // of the band, e [m]
   Real cell_growth;                    // r: height ratio of a cell above the band to the one below it
@@ -64,7 +63,6 @@ struct BandColumn {
 };
 
 // Input of a column's time step.
-template <class Real>
 struct ColumnDrive {
   Real dt;               // [s]
   Real normal_pressure;  // N [Pa], at least 0
@@ -78,15 +76,14 @@ struct ColumnDrive {
 };
 
 // Budget of a column, per area at the end of the step.
-template <class Real>
 struct ColumnAccount {
   Real friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0;  // [J/m2]
   Real body_water = 0, vented_water = 0, steam = 0;                                         // [kg/m2]
 };
 
 // Ice and water [kg/m3] of material with full pores at a temperature [C].
-template <class Real, class Curve>
-THAWSLIDE_HD Real water_of_full_pores(const ColumnModel<Real, Curve>& model, Real temperature) {
+template <class Curve>
+THAWSLIDE_HD Real water_of_full_pores(const ColumnModel<Curve>& model, Real temperature) {
   const Real saturation = model.curve.saturation(temperature);
   return model.porosity * (saturation * model.phases.water_density + (Real(1) - saturation) * model.phases.ice_density);
 }
@@ -96,10 +93,9 @@ THAWSLIDE_HD Real water_of_full_pores(const ColumnModel<Real, Curve>& model, Rea
 // For depths at least that of the column of ratio `full`, r is exactly `full`. For depths below 2.5 e, r is 1: all
 // cells have the same height, and the column is higher than the sliding mass. The sum is convex in r; Newton's
 // iteration therefore descends from `full` to the root without passing it.
-template <class Real>
-THAWSLIDE_HD Real cell_growth_below(Real depth, Real thickness, Real full) {
+inline THAWSLIDE_HD Real cell_growth_below(Real depth, Real thickness, Real full) {
   constexpr int most_iterations = 50;
-  constexpr Real close = by_precision<Real>(1e-15, 1e-7);
+  constexpr Real close = by_precision(1e-15, 1e-7);
   const Real cells = ColumnCells::band * (depth / thickness - Real(1));  // required value of the sum
   Real growth = full;
   THAWSLIDE_ROLLED for (int iteration = 0; iteration < most_iterations; ++iteration) {
@@ -124,7 +120,6 @@ THAWSLIDE_HD Real cell_growth_below(Real depth, Real thickness, Real full) {
 
 // Cell heights of a column with a band of thickness e. Heights increase by the ratio r above the band, and by a
 // separate ratio in the ground. Face f of the sliding mass is the lower one of its cell f; face 0 is the base.
-template <class Real>
 class ColumnGrid {
  public:
   THAWSLIDE_HD ColumnGrid(Real thickness, Real cell_growth, Real ground_cell, Real ground_growth) {
@@ -154,12 +149,12 @@ class ColumnGrid {
   Real height_[ColumnCells::all];
 };
 
-template <class Real, class Curve>
-THAWSLIDE_HD ColumnGrid<Real> grid_of(const ColumnModel<Real, Curve>& model, Real thickness, Real cell_growth) {
+template <class Curve>
+THAWSLIDE_HD ColumnGrid grid_of(const ColumnModel<Curve>& model, Real thickness, Real cell_growth) {
   return {thickness, cell_growth, model.ground_cell, model.growth};
 }
-template <class Real, class Curve>
-THAWSLIDE_HD ColumnGrid<Real> grid_of(const ColumnModel<Real, Curve>& model, const BandColumn<Real>& column) {
+template <class Curve>
+THAWSLIDE_HD ColumnGrid grid_of(const ColumnModel<Curve>& model, const BandColumn& column) {
   return grid_of(model, column.thickness, column.cell_growth);
 }
 

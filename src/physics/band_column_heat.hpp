@@ -8,19 +8,17 @@
 namespace thawslide::physics {
 
 // Capacities and latent heat of a cell of the sliding mass, per area: rock by volume, ice and water by mass [kg/m2].
-template <class Real, class Curve>
-THAWSLIDE_HD EnthalpyCoefficients<Real> slide_coefficients(const ColumnModel<Real, Curve>& model, Real height,
-                                                           Real water) {
-  const Phases<Real>& phases = model.phases;
+template <class Curve>
+THAWSLIDE_HD EnthalpyCoefficients<Real> slide_coefficients(const ColumnModel<Curve>& model, Real height, Real water) {
+  const Phases& phases = model.phases;
   const Real rock = (Real(1) - model.porosity) * height * phases.rock_density * phases.rock_heat_capacity;
   return {rock + water * phases.ice_heat_capacity, water * (phases.water_heat_capacity - phases.ice_heat_capacity),
           model.latent ? water * phases.latent_heat : Real(0)};
 }
 
-template <class Real, class Curve>
-THAWSLIDE_HD EnthalpyCoefficients<Real> cell_coefficients(const ColumnModel<Real, Curve>& model,
-                                                          const ColumnGrid<Real>& grid, const BandColumn<Real>& column,
-                                                          int cell) {
+template <class Curve>
+THAWSLIDE_HD EnthalpyCoefficients<Real> cell_coefficients(const ColumnModel<Curve>& model, const ColumnGrid& grid,
+                                                          const BandColumn& column, int cell) {
   if (cell < ColumnCells::ground) {
     return {model.ground_capacity * grid.height(cell), Real(0), Real(0)};
   }
@@ -28,43 +26,41 @@ THAWSLIDE_HD EnthalpyCoefficients<Real> cell_coefficients(const ColumnModel<Real
 }
 
 // Enthalpy of melted water [J/kg], relative to ice at Tref.
-template <class Real, class Curve>
-THAWSLIDE_HD Real water_enthalpy(const ColumnModel<Real, Curve>& model, Real temperature) {
+template <class Curve>
+THAWSLIDE_HD Real water_enthalpy(const ColumnModel<Curve>& model, Real temperature) {
   return (model.latent ? model.phases.latent_heat : Real(0)) +
          model.phases.water_heat_capacity * (temperature - model.curve.reference_temperature);
 }
 
 // True if the last ice of a cell of the sliding mass has melted.
-template <class Real, class Curve>
-THAWSLIDE_HD bool is_melted(const ColumnModel<Real, Curve>& model, const BandColumn<Real>& column, int cell) {
+template <class Curve>
+THAWSLIDE_HD bool is_melted(const ColumnModel<Curve>& model, const BandColumn& column, int cell) {
   return column.temperature[ColumnCells::ground + cell] >= model.curve.reference_temperature;
 }
 
 // Temperature [C] of a cell with this enthalpy [J/m2]. guess: initial value of the iteration. The ground does not
 // freeze.
-template <class Real, class Curve>
-THAWSLIDE_HD Real cell_temperature(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
-                                   const BandColumn<Real>& column, int cell, Real heat, Real guess) {
+template <class Curve>
+THAWSLIDE_HD Real cell_temperature(const ColumnModel<Curve>& model, const ColumnGrid& grid, const BandColumn& column,
+                                   int cell, Real heat, Real guess) {
   const auto of = cell_coefficients(model, grid, column, cell);
   return cell < ColumnCells::ground ? model.curve.reference_temperature + heat / of.frozen
                                     : temperature_of_enthalpy(model.curve, of, heat, guess);
 }
 
-template <class Real, class Curve>
-THAWSLIDE_HD void temperatures_from_heat(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
-                                         BandColumn<Real>& column) {
+template <class Curve>
+THAWSLIDE_HD void temperatures_from_heat(const ColumnModel<Curve>& model, const ColumnGrid& grid, BandColumn& column) {
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::all; ++k) {
     column.temperature[k] = cell_temperature(model, grid, column, k, column.heat[k], column.temperature[k]);
   }
 }
 
 // Heat conductance [W/m2/K] between cells k and k + 1.
-template <class Real, class Curve>
+template <class Curve>
 struct ColumnConductance {
   Real between[ColumnCells::all - 1];
 
-  THAWSLIDE_HD ColumnConductance(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
-                                 const BandColumn<Real>& column) {
+  THAWSLIDE_HD ColumnConductance(const ColumnModel<Curve>& model, const ColumnGrid& grid, const BandColumn& column) {
     Real below = half_resistance(model, grid, column, 0);
     THAWSLIDE_ROLLED for (int k = 0; k + 1 < ColumnCells::all; ++k) {
       const Real above = half_resistance(model, grid, column, k + 1);
@@ -75,8 +71,8 @@ struct ColumnConductance {
 
  private:
   // Only the fraction of the pores filled with ice and water conducts; steam and air do not.
-  THAWSLIDE_HD static Real of_slide(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
-                                    const BandColumn<Real>& column, int k) {
+  THAWSLIDE_HD static Real of_slide(const ColumnModel<Curve>& model, const ColumnGrid& grid, const BandColumn& column,
+                                    int k) {
     const Real saturation = model.curve.saturation(column.temperature[k]);
     const Real full = saturation * model.phases.water_density + (Real(1) - saturation) * model.phases.ice_density;
     const Real volume = column.water[k - ColumnCells::ground] / (full * grid.height(k));
@@ -85,8 +81,8 @@ struct ColumnConductance {
     return rock + of_pores * min(Real(1), max(Real(0), volume / model.porosity));
   }
 
-  THAWSLIDE_HD static Real half_resistance(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
-                                           const BandColumn<Real>& column, int k) {
+  THAWSLIDE_HD static Real half_resistance(const ColumnModel<Curve>& model, const ColumnGrid& grid,
+                                           const BandColumn& column, int k) {
     return grid.height(k) /
            (Real(2) * (k < ColumnCells::ground ? model.ground_conductivity : of_slide(model, grid, column, k)));
   }
@@ -94,7 +90,7 @@ struct ColumnConductance {
 
 // Solves a tridiagonal system in place; the solution replaces `right`. below[k] and above[k] couple k to its
 // neighbours.
-template <int Count, class Real>
+template <int Count>
 THAWSLIDE_HD void solve_tridiagonal(const Real* below, Real* diagonal, const Real* above, Real* right) {
   diagonal[0] = Real(1) / diagonal[0];  // inverse from here on
   THAWSLIDE_ROLLED for (int k = 1; k < Count; ++k) {
@@ -111,12 +107,12 @@ THAWSLIDE_HD void solve_tridiagonal(const Real* below, Real* diagonal, const Rea
 // One step of conduction, implicit in temperature (Newton's iteration on enthalpies, because latent heat makes H(T)
 // nonlinear). Conservative: the heat that leaves a cell enters its neighbour. `column.heat` holds the enthalpies
 // including the friction heat of the step.
-template <class Real, class Curve>
-THAWSLIDE_HD void conduct_in_column(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real dt,
-                                    BandColumn<Real>& column) {
+template <class Curve>
+THAWSLIDE_HD void conduct_in_column(const ColumnModel<Curve>& model, const ColumnGrid& grid, Real dt,
+                                    BandColumn& column) {
   constexpr int count = ColumnCells::all, most_iterations = 12;
-  constexpr Real close = by_precision<Real>(1e-7, 1e-3);  // [K]
-  const ColumnConductance<Real, Curve> conductance(model, grid, column);
+  constexpr Real close = by_precision(1e-7, 1e-3);  // [K]
+  const ColumnConductance<Curve> conductance(model, grid, column);
   Real guess[count], flow[count + 1];  // enthalpies; heat through the lower face of each cell [J/m2]
   THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { guess[k] = column.heat[k]; }
   THAWSLIDE_ROLLED for (int iteration = 0; iteration < most_iterations; ++iteration) {
@@ -151,9 +147,9 @@ THAWSLIDE_HD void conduct_in_column(const ColumnModel<Real, Curve>& model, const
 }
 
 // Removes water from a cell as steam, with its heat. steam [kg/m2].
-template <class Real, class Curve>
-THAWSLIDE_HD void give_off_steam(const ColumnModel<Real, Curve>& model, Real steam, int cell, BandColumn<Real>& column,
-                                 ColumnAccount<Real>& account) {
+template <class Curve>
+THAWSLIDE_HD void give_off_steam(const ColumnModel<Curve>& model, Real steam, int cell, BandColumn& column,
+                                 ColumnAccount& account) {
   const Real temperature = column.temperature[ColumnCells::ground + cell];
   const Real heat = steam * (water_enthalpy(model, temperature) + heat_of_vaporization(temperature));
   column.water[cell] -= steam;
@@ -164,13 +160,13 @@ THAWSLIDE_HD void give_off_steam(const ColumnModel<Real, Curve>& model, Real ste
 
 // Boils water at the temperature at which its steam pressure reaches the load. Heat above that temperature converts
 // water to steam, which escapes from below the sliding mass, until no water is left. Dry material is heated further.
-template <class Real, class Curve>
-THAWSLIDE_HD void boil(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real normal_pressure,
-                       BandColumn<Real>& column, ColumnAccount<Real>& account) {
+template <class Curve>
+THAWSLIDE_HD void boil(const ColumnModel<Curve>& model, const ColumnGrid& grid, Real normal_pressure,
+                       BandColumn& column, ColumnAccount& account) {
   Real boiling = 0;  // [C], 0: not computed yet
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     Real& temperature = column.temperature[ColumnCells::ground + k];
-    if (!(temperature > Steam<Real>::boiling_at_atmosphere) || !(column.water[k] > Real(0))) {
+    if (!(temperature > Steam::boiling_at_atmosphere) || !(column.water[k] > Real(0))) {
       continue;
     }
     if (boiling == Real(0)) {
@@ -187,13 +183,13 @@ THAWSLIDE_HD void boil(const ColumnModel<Real, Curve>& model, const ColumnGrid<R
 }
 
 // Steam pressure in a cell with water [Pa], above atmospheric pressure: 0 below 100 C.
-template <class Real, class Curve>
-THAWSLIDE_HD Real steam_pressure(const ColumnModel<Real, Curve>& model, const BandColumn<Real>& column, int cell) {
+template <class Curve>
+THAWSLIDE_HD Real steam_pressure(const ColumnModel<Curve>& model, const BandColumn& column, int cell) {
   const Real temperature = column.temperature[ColumnCells::ground + cell];
-  if (!model.steam || !(temperature > Steam<Real>::boiling_at_atmosphere) || !(column.water[cell] > Real(0))) {
+  if (!model.steam || !(temperature > Steam::boiling_at_atmosphere) || !(column.water[cell] > Real(0))) {
     return Real(0);
   }
-  return saturation_pressure(temperature) - Steam<Real>::atmosphere;
+  return saturation_pressure(temperature) - Steam::atmosphere;
 }
 
 }  // namespace thawslide::physics

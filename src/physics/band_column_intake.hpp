@@ -10,8 +10,7 @@ namespace thawslide::physics {
 
 // Largest fraction of a cell's content that moves to its neighbours or the body when faces move from one grid to
 // another while material spreads. left: old area over new area. Up to 1, no cell loses more than its content.
-template <class Real>
-THAWSLIDE_HD Real largest_share_given(const ColumnGrid<Real>& before, const ColumnGrid<Real>& after, Real left) {
+inline THAWSLIDE_HD Real largest_share_given(const ColumnGrid& before, const ColumnGrid& after, Real left) {
   Real largest = 0, below = 0;  // below: height swept by the cell's lower face [m]
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     const Real above = after.face(k + 1) - left * before.face(k + 1);
@@ -23,7 +22,6 @@ THAWSLIDE_HD Real largest_share_given(const ColumnGrid<Real>& before, const Colu
 }
 
 // Motion of a column's faces in a step.
-template <class Real>
 struct ColumnChange {
   Real stretch;                        // logarithm of new area over old area
   Real thickness, next_thickness;      // of the band, before and after [m]
@@ -40,8 +38,8 @@ struct ColumnChange {
 
 // Number of substeps of a change: in each, a segment stretches by at most a tenth, and no cell loses more than its
 // content. The second condition matters if cells are thin compared with their height above the base.
-template <class Real, class Curve>
-THAWSLIDE_HD int parts_of(const ColumnModel<Real, Curve>& model, const ColumnChange<Real>& change) {
+template <class Curve>
+THAWSLIDE_HD int parts_of(const ColumnModel<Curve>& model, const ColumnChange& change) {
   constexpr Real most_stretch = static_cast<Real>(0.1);
   int parts = static_cast<int>(max(Real(1), std::ceil(std::abs(change.stretch) / most_stretch)));
   while (true) {
@@ -62,10 +60,9 @@ THAWSLIDE_HD int parts_of(const ColumnModel<Real, Curve>& model, const ColumnCha
 
 // Moves the faces of a column's cells, by changes of band thickness and cell growth and by the spreading of a
 // stretching segment. The swept volume moves between cells; at the top, it is exchanged with the body.
-template <class Real, class Curve>
-THAWSLIDE_HD void take_in(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& before,
-                          const ColumnGrid<Real>& after, const ColumnDrive<Real>& drive, BandColumn<Real>& column,
-                          ColumnAccount<Real>& account) {
+template <class Curve>
+THAWSLIDE_HD void take_in(const ColumnModel<Curve>& model, const ColumnGrid& before, const ColumnGrid& after,
+                          const ColumnDrive& drive, BandColumn& column, ColumnAccount& account) {
   constexpr int count = ColumnCells::slide;
   const Real left = Real(1) / (Real(1) + drive.stretching * drive.dt);        // old area over new area
   Real heat[count + 1] = {}, water[count + 1] = {}, thawing[count + 1] = {};  // downward through each lower face
@@ -102,16 +99,16 @@ THAWSLIDE_HD void take_in(const ColumnModel<Real, Curve>& model, const ColumnGri
 }
 
 // Changes the cell growth of a column, with exchange with the body at the top [J/m3, kg/m3]. Pressures are not updated.
-template <class Real, class Curve>
-THAWSLIDE_HD ColumnAccount<Real> take_cell_growth(const ColumnModel<Real, Curve>& model, Real cell_growth,
-                                                  Real body_heat, Real body_water, BandColumn<Real>& column) {
-  ColumnAccount<Real> account;
+template <class Curve>
+THAWSLIDE_HD ColumnAccount take_cell_growth(const ColumnModel<Curve>& model, Real cell_growth, Real body_heat,
+                                            Real body_water, BandColumn& column) {
+  ColumnAccount account;
   if (cell_growth == column.cell_growth) {
     return account;
   }
-  const ColumnChange<Real> change{Real(0), column.thickness, column.thickness, column.cell_growth, cell_growth};
+  const ColumnChange change{Real(0), column.thickness, column.thickness, column.cell_growth, cell_growth};
   const int parts = parts_of(model, change);
-  ColumnDrive<Real> drive{};
+  ColumnDrive drive{};
   drive.thickness = column.thickness;
   drive.body_heat = body_heat;
   drive.body_water = body_water;

@@ -8,21 +8,18 @@ namespace thawslide::physics {
 
 // Means over the band, used by basal friction. P is limited to the current load, because the load may decrease between
 // two steps of the column; excess water volume then counts as opening.
-template <class Real>
 struct BandMeans {
   Real temperature, pore_pressure, saturation, solid_fraction;  // [C], [Pa], S, n_e of Eq. 2
 };
 
 // Volumes of a whole column per area [m]: opening, by which water lifts the sliding mass, and voids.
-template <class Real>
 struct ColumnVolumes {
   Real opening, gas_void;
 };
 
 // Mixes the band by shear: its cells, all of one height, approach their mean by the fraction `share`.
-template <class Real, class Curve>
-THAWSLIDE_HD void mix_band(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real share,
-                           BandColumn<Real>& column) {
+template <class Curve>
+THAWSLIDE_HD void mix_band(const ColumnModel<Curve>& model, const ColumnGrid& grid, Real share, BandColumn& column) {
   for (Real* of_band : {column.heat + ColumnCells::ground, &column.water[0], &column.thawing[0]}) {
     Real mean = 0;
     THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) { mean += of_band[k] / ColumnCells::band; }
@@ -33,12 +30,11 @@ THAWSLIDE_HD void mix_band(const ColumnModel<Real, Curve>& model, const ColumnGr
 
 // Advances a column by drive.dt. Friction heat is distributed over the band; then heat is conducted, and water boils
 // and seeps.
-template <class Real, class Curve>
-THAWSLIDE_HD ColumnAccount<Real> step_column(const ColumnModel<Real, Curve>& model, const ColumnDrive<Real>& drive,
-                                             BandColumn<Real>& column) {
-  ColumnAccount<Real> account;
+template <class Curve>
+THAWSLIDE_HD ColumnAccount step_column(const ColumnModel<Curve>& model, const ColumnDrive& drive, BandColumn& column) {
+  ColumnAccount account;
   bool was_melted[ColumnCells::slide];
-  const ColumnGrid<Real> grid = grid_of(model, drive.thickness, drive.cell_growth);
+  const ColumnGrid grid = grid_of(model, drive.thickness, drive.cell_growth);
   if (drive.stretching != Real(0) || drive.thickness != column.thickness || drive.cell_growth != column.cell_growth) {
     take_in(model, grid_of(model, column), grid, drive, column, account);
   }
@@ -65,32 +61,30 @@ THAWSLIDE_HD ColumnAccount<Real> step_column(const ColumnModel<Real, Curve>& mod
     seep_in_column(model, grid, drive.dt, drive.normal_pressure, column, account);
     temperatures_from_heat(model, grid, column);
   }
-  set_pressures(model, PressureBounds<Real>(model, drive.normal_pressure, column), column);
+  set_pressures(model, PressureBounds(model, drive.normal_pressure, column), column);
   return account;
 }
 
 // Heat [J/m2], and ice and water [kg/m2], of a column.
-template <class Real>
-THAWSLIDE_HD Real heat_of(const BandColumn<Real>& column) {
+inline THAWSLIDE_HD Real heat_of(const BandColumn& column) {
   Real sum = 0;
   THAWSLIDE_ROLLED for (const Real heat : column.heat) { sum += heat; }
   return sum;
 }
-template <class Real>
-THAWSLIDE_HD Real water_of(const BandColumn<Real>& column) {
+inline THAWSLIDE_HD Real water_of(const BandColumn& column) {
   Real sum = 0;
   THAWSLIDE_ROLLED for (const Real water : column.water) { sum += water; }
   return sum;
 }
 
 // Column in material of uniform temperature [C], with pores full of ice and water.
-template <class Real, class Curve>
-THAWSLIDE_HD BandColumn<Real> start_column(const ColumnModel<Real, Curve>& model, Real thickness, Real cell_growth,
-                                           Real temperature, Real ground_temperature, Real normal_pressure) {
-  BandColumn<Real> column{};
+template <class Curve>
+THAWSLIDE_HD BandColumn start_column(const ColumnModel<Curve>& model, Real thickness, Real cell_growth,
+                                     Real temperature, Real ground_temperature, Real normal_pressure) {
+  BandColumn column{};
   column.thickness = thickness;
   column.cell_growth = cell_growth;
-  const ColumnGrid<Real> grid = grid_of(model, column);
+  const ColumnGrid grid = grid_of(model, column);
   const Real water = water_of_full_pores(model, temperature);
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) { column.water[k] = water * grid.slide_height(k); }
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::all; ++k) {
@@ -107,20 +101,19 @@ THAWSLIDE_HD BandColumn<Real> start_column(const ColumnModel<Real, Curve>& model
       column.surplus[k] = full;
     }
   }
-  set_pressures(model, PressureBounds<Real>(model, normal_pressure, column), column);
+  set_pressures(model, PressureBounds(model, normal_pressure, column), column);
   return column;
 }
 
 // Enthalpy [J/m3] of the body's material at a temperature [C], with full pores.
-template <class Real, class Curve>
-THAWSLIDE_HD Real body_enthalpy(const ColumnModel<Real, Curve>& model, Real temperature) {
+template <class Curve>
+THAWSLIDE_HD Real body_enthalpy(const ColumnModel<Curve>& model, Real temperature) {
   return enthalpy(model.curve, slide_coefficients(model, Real(1), water_of_full_pores(model, temperature)),
                   temperature);
 }
 
 // Mean pore pressure [Pa] of the band, limited in each cell to the load N [Pa].
-template <class Real>
-THAWSLIDE_HD Real band_pressure(Real normal_pressure, const BandColumn<Real>& column) {
+inline THAWSLIDE_HD Real band_pressure(Real normal_pressure, const BandColumn& column) {
   Real mean = 0;
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) {
     mean += Real(1) / ColumnCells::band * min(column.pressure[k], normal_pressure);
@@ -128,10 +121,9 @@ THAWSLIDE_HD Real band_pressure(Real normal_pressure, const BandColumn<Real>& co
   return mean;
 }
 
-template <class Real, class Curve>
-THAWSLIDE_HD BandMeans<Real> band_means(const ColumnModel<Real, Curve>& model, Real normal_pressure,
-                                        const BandColumn<Real>& column) {
-  BandMeans<Real> means{};
+template <class Curve>
+THAWSLIDE_HD BandMeans band_means(const ColumnModel<Curve>& model, Real normal_pressure, const BandColumn& column) {
+  BandMeans means{};
   constexpr Real share = Real(1) / ColumnCells::band;
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) {
     const Real temperature = column.temperature[ColumnCells::ground + k];
@@ -144,11 +136,11 @@ THAWSLIDE_HD BandMeans<Real> band_means(const ColumnModel<Real, Curve>& model, R
   return means;
 }
 
-template <class Real, class Curve>
-THAWSLIDE_HD ColumnVolumes<Real> column_volumes(const ColumnModel<Real, Curve>& model, Real normal_pressure,
-                                                const BandColumn<Real>& column) {
-  ColumnVolumes<Real> volumes{};
-  const ColumnGrid<Real> grid = grid_of(model, column);
+template <class Curve>
+THAWSLIDE_HD ColumnVolumes column_volumes(const ColumnModel<Curve>& model, Real normal_pressure,
+                                          const BandColumn& column) {
+  ColumnVolumes volumes{};
+  const ColumnGrid grid = grid_of(model, column);
   const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     if (is_melted(model, column, k)) {
@@ -161,8 +153,8 @@ THAWSLIDE_HD ColumnVolumes<Real> column_volumes(const ColumnModel<Real, Curve>& 
 }
 
 // Volume of liquid water in a whole column, per area [m].
-template <class Real, class Curve>
-THAWSLIDE_HD Real liquid_volume(const ColumnModel<Real, Curve>& model, const BandColumn<Real>& column) {
+template <class Curve>
+THAWSLIDE_HD Real liquid_volume(const ColumnModel<Curve>& model, const BandColumn& column) {
   Real volume = 0;
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     const Real melted = model.curve.saturation(column.temperature[ColumnCells::ground + k]);
@@ -173,11 +165,10 @@ THAWSLIDE_HD Real liquid_volume(const ColumnModel<Real, Curve>& model, const Ban
 
 // Merges two columns of the same cell growth, with area fractions `share` and 1 - share. Heat, water and rock are
 // conserved, because cell heights are proportional to the band thickness.
-template <class Real, class Curve>
-THAWSLIDE_HD BandColumn<Real> joined_columns(const ColumnModel<Real, Curve>& model, Real share,
-                                             const BandColumn<Real>& first, const BandColumn<Real>& second,
-                                             Real normal_pressure) {
-  BandColumn<Real> column = first;
+template <class Curve>
+THAWSLIDE_HD BandColumn joined_columns(const ColumnModel<Curve>& model, Real share, const BandColumn& first,
+                                       const BandColumn& second, Real normal_pressure) {
+  BandColumn column = first;
   const auto mean = [&](Real of_first, Real of_second) { return share * of_first + (Real(1) - share) * of_second; };
   column.thickness = mean(first.thickness, second.thickness);
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::all; ++k) { column.heat[k] = mean(first.heat[k], second.heat[k]); }
@@ -186,12 +177,12 @@ THAWSLIDE_HD BandColumn<Real> joined_columns(const ColumnModel<Real, Curve>& mod
     column.thawing[k] =
         mean(first.thickness * first.thawing[k], second.thickness * second.thawing[k]) / column.thickness;
   }
-  const ColumnGrid<Real> grid = grid_of(model, column);
+  const ColumnGrid grid = grid_of(model, column);
   temperatures_from_heat(model, grid, column);
   bool was_melted[ColumnCells::slide];
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) { was_melted[k] = is_melted(model, column, k); }
   fill_pores(model, grid, normal_pressure, was_melted, column);
-  set_pressures(model, PressureBounds<Real>(model, normal_pressure, column), column);
+  set_pressures(model, PressureBounds(model, normal_pressure, column), column);
   return column;
 }
 

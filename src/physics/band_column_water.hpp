@@ -8,9 +8,9 @@
 namespace thawslide::physics {
 
 // Surplus theta of each cell. In a newly thawed cell, water takes over the part of the load that the ice carried.
-template <class Real, class Curve>
-THAWSLIDE_HD void fill_pores(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real normal_pressure,
-                             const bool* was_melted, BandColumn<Real>& column) {
+template <class Curve>
+THAWSLIDE_HD void fill_pores(const ColumnModel<Curve>& model, const ColumnGrid& grid, Real normal_pressure,
+                             const bool* was_melted, BandColumn& column) {
   const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
   const Real on_thawing = thawing_surplus(storage, normal_pressure, model.residual_stress, Real(0)) -
                           model.skeleton_compressibility * normal_pressure;
@@ -33,21 +33,20 @@ THAWSLIDE_HD void fill_pores(const ColumnModel<Real, Curve>& model, const Column
 
 // Water mobility per pressure and area [m/s/Pa]: between cells k - 1 and k, and from cells into air. Water flows
 // through the fraction of the pores that it fills, steam through the rest.
-template <class Real>
 struct ColumnMobility {
   Real between[ColumnCells::slide + 1];
   Real to_air[ColumnCells::slide], steam_to_air[ColumnCells::slide];
 };
 
-template <class Real, class Curve>
-THAWSLIDE_HD ColumnMobility<Real> mobilities(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid,
-                                             const BandColumn<Real>& column) {
+template <class Curve>
+THAWSLIDE_HD ColumnMobility mobilities(const ColumnModel<Curve>& model, const ColumnGrid& grid,
+                                       const BandColumn& column) {
   const Real mobility = model.hydraulic_conductivity / model.phases.water_unit_weight;
   const auto wet = [&](int k) {
     const Real filled = column.water[k] / (model.phases.water_density * grid.slide_height(k) * model.porosity);
     return min(Real(1), max(Real(0), filled));
   };
-  ColumnMobility<Real> result{};
+  ColumnMobility result{};
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     if (!is_melted(model, column, k)) {
       continue;
@@ -71,13 +70,11 @@ THAWSLIDE_HD ColumnMobility<Real> mobilities(const ColumnModel<Real, Curve>& mod
 }
 
 // Bounds within which the pressure of each cell follows its surplus [Pa]. Steam maintains the lower bound in a void.
-template <class Real>
 struct PressureBounds {
   Real lower[ColumnCells::slide], upper;
 
   template <class Curve>
-  THAWSLIDE_HD PressureBounds(const ColumnModel<Real, Curve>& model, Real normal_pressure,
-                              const BandColumn<Real>& column)
+  THAWSLIDE_HD PressureBounds(const ColumnModel<Curve>& model, Real normal_pressure, const BandColumn& column)
       : upper(normal_pressure) {
     THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
       lower[k] = min(upper, steam_pressure(model, column, k));
@@ -85,9 +82,8 @@ struct PressureBounds {
   }
 };
 
-template <class Real, class Curve>
-THAWSLIDE_HD void set_pressures(const ColumnModel<Real, Curve>& model, const PressureBounds<Real>& bounds,
-                                BandColumn<Real>& column) {
+template <class Curve>
+THAWSLIDE_HD void set_pressures(const ColumnModel<Curve>& model, const PressureBounds& bounds, BandColumn& column) {
   const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     const bool acts = model.pressurization && is_melted(model, column, k);
@@ -97,9 +93,9 @@ THAWSLIDE_HD void set_pressures(const ColumnModel<Real, Curve>& model, const Pre
 
 // Moves water, with its heat, upward through the lower face of each cell and into the air. flow, to_air: volumes per
 // area [m]. All outflows of a cell are reduced by the same factor if they exceed its water.
-template <class Real, class Curve>
-THAWSLIDE_HD void carry_water(const ColumnModel<Real, Curve>& model, const Real* flow, const Real* to_air,
-                              BandColumn<Real>& column, ColumnAccount<Real>& account) {
+template <class Curve>
+THAWSLIDE_HD void carry_water(const ColumnModel<Curve>& model, const Real* flow, const Real* to_air, BandColumn& column,
+                              ColumnAccount& account) {
   constexpr int count = ColumnCells::slide;
   const Real density = model.phases.water_density;
   Real share[count], water[count + 1] = {}, heat[count + 1] = {};
@@ -127,14 +123,14 @@ THAWSLIDE_HD void carry_water(const ColumnModel<Real, Curve>& model, const Real*
 }
 
 // Seepage of steam into the air, by Darcy's law with the density and viscosity of steam.
-template <class Real, class Curve>
-THAWSLIDE_HD void vent_steam(const ColumnModel<Real, Curve>& model, const ColumnMobility<Real>& mobility, Real dt,
-                             BandColumn<Real>& column, ColumnAccount<Real>& account) {
+template <class Curve>
+THAWSLIDE_HD void vent_steam(const ColumnModel<Curve>& model, const ColumnMobility& mobility, Real dt,
+                             BandColumn& column, ColumnAccount& account) {
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     const Real pressure = mobility.steam_to_air[k] > Real(0) ? steam_pressure(model, column, k) : Real(0);
     if (pressure > Real(0)) {
-      const Real absolute = column.temperature[ColumnCells::ground + k] + celsius_to_kelvin<Real>;
-      const Real density = (pressure + Steam<Real>::atmosphere) / (Steam<Real>::gas_constant * absolute);
+      const Real absolute = column.temperature[ColumnCells::ground + k] + celsius_to_kelvin;
+      const Real density = (pressure + Steam::atmosphere) / (Steam::gas_constant * absolute);
       const Real volume = dt * mobility.steam_to_air[k] * model.water_to_steam_viscosity * pressure;
       give_off_steam(model, min(column.water[k], density * volume), k, column, account);
     }
@@ -143,14 +139,14 @@ THAWSLIDE_HD void vent_steam(const ColumnModel<Real, Curve>& model, const Column
 
 // One step of seepage, implicit: pressures follow from the surplus at the end of the step. At a bound, P is independent
 // of the surplus; Newton's iteration finds the cells at a bound.
-template <class Real, class Curve>
-THAWSLIDE_HD void seep_in_column(const ColumnModel<Real, Curve>& model, const ColumnGrid<Real>& grid, Real dt,
-                                 Real normal_pressure, BandColumn<Real>& column, ColumnAccount<Real>& account) {
+template <class Curve>
+THAWSLIDE_HD void seep_in_column(const ColumnModel<Curve>& model, const ColumnGrid& grid, Real dt, Real normal_pressure,
+                                 BandColumn& column, ColumnAccount& account) {
   constexpr int count = ColumnCells::slide, most_iterations = 40;
-  const PressureBounds<Real> bounds(model, normal_pressure, column);
-  const ColumnMobility<Real> mobility = mobilities(model, grid, column);
+  const PressureBounds bounds(model, normal_pressure, column);
+  const ColumnMobility mobility = mobilities(model, grid, column);
   const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
-  const Real close = by_precision<Real>(1e-12, 1e-5) * storage * max(normal_pressure, Real(1));
+  const Real close = by_precision(1e-12, 1e-5) * storage * max(normal_pressure, Real(1));
   Real before[count], flow[count + 1],
       to_air[count];  // volumes per area, upward through the lower face of each cell [m]
   THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { before[k] = column.surplus[k]; }

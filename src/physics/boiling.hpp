@@ -11,7 +11,6 @@
 
 namespace thawslide::physics {
 
-template <class Real>
 struct Steam {
   static constexpr Real atmosphere = static_cast<Real>(101325);            // P_atm [Pa]
   static constexpr Real gas_constant = static_cast<Real>(461.5);           // R_v [J/kg/K]
@@ -21,33 +20,30 @@ struct Steam {
 };
 
 // L_v [J/kg] at temperature [C].
-template <class Real>
-THAWSLIDE_HD Real heat_of_vaporization(Real temperature) {
-  return Steam<Real>::heat_at_zero - Steam<Real>::heat_lost_per_kelvin * temperature;
+inline THAWSLIDE_HD Real heat_of_vaporization(Real temperature) {
+  return Steam::heat_at_zero - Steam::heat_lost_per_kelvin * temperature;
 }
 
 // Absolute pressure [Pa] at which water of this temperature [C] boils.
-template <class Real>
-THAWSLIDE_HD Real saturation_pressure(Real temperature) {
-  using Water = Steam<Real>;
-  const Real absolute = temperature + celsius_to_kelvin<Real>;
-  const Real at_atmosphere = Water::boiling_at_atmosphere + celsius_to_kelvin<Real>;
-  const Real extrapolated = Water::heat_at_zero + Water::heat_lost_per_kelvin * celsius_to_kelvin<Real>;
+inline THAWSLIDE_HD Real saturation_pressure(Real temperature) {
+  using Water = Steam;
+  const Real absolute = temperature + celsius_to_kelvin;
+  const Real at_atmosphere = Water::boiling_at_atmosphere + celsius_to_kelvin;
+  const Real extrapolated = Water::heat_at_zero + Water::heat_lost_per_kelvin * celsius_to_kelvin;
   const Real exponent = extrapolated * (Real(1) / at_atmosphere - Real(1) / absolute) -
                         Water::heat_lost_per_kelvin * std::log(absolute / at_atmosphere);
   return Water::atmosphere * std::exp(exponent / Water::gas_constant);
 }
 
 // T_sat [C]: boiling temperature at a pore pressure [Pa] above atmospheric pressure.
-template <class Real>
-THAWSLIDE_HD Real boiling_temperature(Real pore_pressure) {
-  using Water = Steam<Real>;
+inline THAWSLIDE_HD Real boiling_temperature(Real pore_pressure) {
+  using Water = Steam;
   const Real wanted = std::log(Real(1) + pore_pressure / Water::atmosphere);
   Real temperature = Water::boiling_at_atmosphere;
   constexpr int most_iterations = 20;
-  constexpr Real close = by_precision<Real>(1e-9, 1e-3);
+  constexpr Real close = by_precision(1e-9, 1e-3);
   for (int k = 0; k < most_iterations; ++k) {  // Newton's iteration: ln P is concave in T
-    const Real absolute = temperature + celsius_to_kelvin<Real>;
+    const Real absolute = temperature + celsius_to_kelvin;
     const Real excess = wanted - std::log(saturation_pressure(temperature) / Water::atmosphere);
     const Real change = excess * Water::gas_constant * absolute * absolute / heat_of_vaporization(temperature);
     temperature += change;

@@ -13,19 +13,19 @@
 namespace thawslide::physics {
 
 // P_I [Pa]; gravity [m/s2], depth H [m].
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value ice_pressure(const Phases<Real>& phases, Real gravity, Value depth) {
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value ice_pressure(const Phases& phases, Real gravity, Value depth) {
   return phases.ice_density * gravity * depth;
 }
 
 // P_L of Eq. 4 [Pa]; temperatures [C]; sign +1, or -1 as published. Only meaningful with the weights of Eq. 21: far
 // below 0 C it is about -12 MPa times a saturation of 1e-5.
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value liquid_pressure_clapeyron(const Phases<Real>& phases, Value ice_pressure,
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value liquid_pressure_clapeyron(const Phases& phases, Value ice_pressure,
                                                                      Value temperature, Real reference_temperature,
                                                                      Real sign) {
-  const Value absolute = temperature + celsius_to_kelvin<Real>;
-  const Real reference = reference_temperature + celsius_to_kelvin<Real>;
+  const Value absolute = temperature + celsius_to_kelvin;
+  const Real reference = reference_temperature + celsius_to_kelvin;
   return phases.water_density / phases.ice_density * ice_pressure +
          sign * phases.water_density * phases.latent_heat * log_of_ratio(absolute, Value(reference));
 }

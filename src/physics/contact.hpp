@@ -6,11 +6,12 @@
 #pragma once
 
 #include "base/portability.hpp"
+#include "base/select.hpp"
+#include "physics/options.hpp"
 
 namespace thawslide::physics {
 
 // Momentum transferred from a node to the terrain [kg m/s], along n and along the slip.
-template <class Real>
 struct ContactImpulse {
   Real normal;
   Real tangential;
@@ -19,14 +20,62 @@ struct ContactImpulse {
 
 // normal_momentum p.n > 0 and tangential_momentum |p.t| >= 0 of the trial [kg m/s], contact area [m2], dt [s], sliding
 // strength [Pa].
-template <class Real>
-THAWSLIDE_HD ContactImpulse<Real> contact_impulse(Real normal_momentum, Real tangential_momentum, Real area, Real dt,
-                                                  Real sliding_strength) {
+inline THAWSLIDE_HD ContactImpulse contact_impulse(Real normal_momentum, Real tangential_momentum, Real area, Real dt,
+                                                   Real sliding_strength) {
   const Real available = sliding_strength * area * dt;
   if (tangential_momentum <= available) {
     return {normal_momentum, tangential_momentum, false};
   }
   return {normal_momentum, available, true};
+}
+
+// Basal strength from friction coefficient, pore pressure and cohesion (their laws: basal/laws.hpp).
+//   S_slide = mu_e (N - P) + c_S, never negative                                                             (Eq. 17)
+// The pore pressure can exceed the normal pressure; results depend strongly on how Eq. 17 is limited to non-negative
+// values: FrictionClamp.
+
+// S_slide of Eq. 17 [Pa]. Pressures [Pa]. cap_pressure: P is limited to N.
+inline THAWSLIDE_HD Real sliding_strength(Real friction_coefficient, Real normal_pressure, Real pore_pressure,
+                                          Real cohesion, FrictionClamp clamp, bool cap_pressure) {
+  Real effective = normal_pressure - pore_pressure;
+  if (cap_pressure && effective < Real(0)) {
+    effective = Real(0);
+  }
+  if (clamp == FrictionClamp::joint) {
+    const Real strength = friction_coefficient * effective + cohesion;
+    return strength > Real(0) ? strength : Real(0);
+  }
+  return friction_coefficient * (effective > Real(0) ? effective : Real(0)) + cohesion;
+}
+
+// Slice of a sliding mass on a curved path: Eq. 12 normal to the path, whose normal rotates by kappa per path length.
+//   N A = m (g.n + v^2 kappa), at least 0: no load if the ground drops away faster than the slice falls
+// kappa: curvature of the path, positive for concave ground; g.n: gravity into the ground. Not in the paper.
+
+// N A [N] of a mass m [kg], with gravity into the ground g.n [m/s2], speed v [m/s] and curvature kappa [1/m].
+inline Real load_in_bend(Real mass, Real gravity_into_ground, Real speed, Real curvature) {
+  return max(Real(0), mass * (gravity_into_ground + speed * speed * curvature));
+}
+
+// Contact of two bodies at a node where both have mass (Bardenhagen et al. 2000; Nairn 2013): impulse between them.
+
+// Impulse [kg m/s]: normal, which keeps the bodies apart, and tangential, by friction along the slip.
+struct BodyImpulse {
+  Real normal, tangential;
+};
+
+// Closing speed of two bodies in a step, minus the part that closes the gap [m] between them; 0 if they separate.
+inline THAWSLIDE_HD Real closing_speed_beyond_gap(Real closing_speed, Real gap, Real dt) {
+  return max(Real(0), closing_speed - max(Real(0), gap) / dt);
+}
+
+// N = m (closing speed beyond the gap), T = min(m |slip speed|, mu N), m = m_1 m_2 / (m_1 + m_2): the bodies leave the
+// node with one velocity across the contact, and stick or slide along it by Coulomb's law.
+inline THAWSLIDE_HD BodyImpulse body_impulse(Real mass, Real other_mass, Real closing_speed, Real slip_speed, Real gap,
+                                             Real dt, Real friction) {
+  const Real reduced_mass = mass * other_mass / (mass + other_mass);
+  const Real normal = reduced_mass * closing_speed_beyond_gap(closing_speed, gap, dt);
+  return {normal, min(reduced_mass * slip_speed, friction * normal)};
 }
 
 }  // namespace thawslide::physics

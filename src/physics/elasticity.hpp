@@ -9,7 +9,6 @@
 
 namespace thawslide::physics {
 
-template <class Real>
 struct Elastic {
   Real lame_lambda = 0;    // lambda [Pa]
   Real shear_modulus = 0;  // G [Pa]
@@ -25,8 +24,8 @@ struct Elastic {
 };
 
 // Stress increment [Pa] of a strain increment.
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Value> stress_increment(const Elastic<Real>& elastic,
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Value> stress_increment(const Elastic& elastic,
                                                                              const SymmetricTensor<Value>& strain) {
   SymmetricTensor<Value> stress = Value(Real(2) * elastic.shear_modulus) * strain;
   const Value pressure = elastic.lame_lambda * (strain[0] + strain[1] + strain[2]);
@@ -37,13 +36,35 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Value> stress_increment(con
 }
 
 // Elastic energy density [J/m3] of a stress [Pa].
-template <class Real>
-Real elastic_energy_density(const Elastic<Real>& elastic, const SymmetricTensor<Real>& stress) {
+inline Real elastic_energy_density(const Elastic& elastic, const SymmetricTensor<Real>& stress) {
   const Real trace = stress[0] + stress[1] + stress[2];
   const Real square = stress[0] * stress[0] + stress[1] * stress[1] + stress[2] * stress[2] +
                       Real(2) * (stress[3] * stress[3] + stress[4] * stress[4] + stress[5] * stress[5]);
   const Real lateral = elastic.lame_lambda / (Real(3) * elastic.lame_lambda + Real(2) * elastic.shear_modulus);
   return (square - lateral * trace * trace) / (Real(4) * elastic.shear_modulus);
 }
+
+// Result of mapping an elastic trial stress by a constitutive law (Eq. 11), and the linear elastic law (Eq. 10).
+
+template <class Value>
+struct ReturnResult {
+  using Condition = decltype(Value() < Value());
+
+  SymmetricTensor<Value> stress;                  // [Pa]
+  Value equivalent_plastic_strain_increment = 0;  // sqrt(2/3 de_p:de_p)
+  Value plastic_work_density = 0;                 // stress : de_p [J/m3]
+  Value opening = 0;  // volumetric plastic strain at the apex or the cut-off: opening of a gap
+  Condition yielded = Value(0) < Value(0);
+};
+
+struct LinearElastic {
+  static constexpr bool yields = false;
+
+  template <int Dim = 3, class Value>
+  [[nodiscard]] THAWSLIDE_HD ReturnResult<Value> update(const SymmetricTensor<Value>& trial,
+                                                        Value /*plastic_strain*/) const {
+    return {trial};
+  }
+};
 
 }  // namespace thawslide::physics

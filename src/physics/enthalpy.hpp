@@ -40,10 +40,9 @@ template <class Curve, class Value>
 THAWSLIDE_HD Value temperature_of_enthalpy(const Curve& curve, const EnthalpyCoefficients<Value>& of, Value heat,
                                            Value guess) {
   using std::abs;
-  using Real = typename NumberOf<Value>::Type;
   const auto melted = heat >= of.melting;
   constexpr int most_iterations = 100;
-  constexpr Real close = by_precision<Real>(1e-6, 1e-3);  // converges quadratically: the next change is round-off
+  constexpr Real close = by_precision(1e-6, 1e-3);  // converges quadratically: the next change is round-off
   Value below = min(guess - curve.reference_temperature, Value(0));
   auto open = !melted;
   for (int k = 0; k < most_iterations && any(open); ++k) {

@@ -19,27 +19,21 @@
 namespace thawslide::physics {
 
 // Bed strength [Pa]: cohesion c_b and normal pressure N [Pa], tan(phi_b) [1].
-template <class Real>
-THAWSLIDE_HD Real bed_strength(Real cohesion, Real tangent, Real normal_pressure) {
+inline THAWSLIDE_HD Real bed_strength(Real cohesion, Real tangent, Real normal_pressure) {
   return cohesion + tangent * normal_pressure;
 }
 
 // E of the strength law [m/s]: tau and tau_b [Pa], speed v [m/s], e [1].
-template <class Real>
-THAWSLIDE_HD Real erosion_by_strength(Real shear, Real strength, Real speed, Real depth_per_slip) {
+inline THAWSLIDE_HD Real erosion_by_strength(Real shear, Real strength, Real speed, Real depth_per_slip) {
   return shear >= strength ? depth_per_slip * speed : Real(0);
 }
 
 // E of the momentum law [m/s]: tau and tau_b [Pa], rho_b [kg/m3], speed v > 0 [m/s], e [1].
-template <class Real>
-THAWSLIDE_HD Real erosion_by_momentum(Real shear, Real strength, Real density, Real speed, Real depth_per_slip) {
+inline THAWSLIDE_HD Real erosion_by_momentum(Real shear, Real strength, Real density, Real speed, Real depth_per_slip) {
   return min(depth_per_slip * speed, max(shear - strength, Real(0)) / (density * speed));
 }
 
 // v' [m/s] of a mass m at speed v after entraining the mass dm from rest [kg].
-template <class Real>
-THAWSLIDE_HD Real speed_with_taken(Real mass, Real speed, Real taken) {
-  return mass * speed / (mass + taken);
-}
+inline THAWSLIDE_HD Real speed_with_taken(Real mass, Real speed, Real taken) { return mass * speed / (mass + taken); }
 
 }  // namespace thawslide::physics

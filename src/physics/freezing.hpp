@@ -3,7 +3,7 @@
 //   linear     S = 1 + m (T - Tref), between 0 and 1                                               (Sec. 3.1)
 // A curve provides S, dS/dT [1/K] (at Tref that of the frozen side, because Sec. 3.1 starts exactly there) and the
 // integral of S from Tref to T [K], for the heat content. A new curve needs the same members and its line in the list
-// of curves of HeatContent (band/any_heat_content.hpp).
+// of curves of HeatContent (band/physics.hpp).
 #pragma once
 
 #include <cmath>
@@ -19,15 +19,14 @@ struct CurveValues {
 };
 
 // The exponent as an integer if it is one between 0 and 16, otherwise -1.
-template <class Real>
-THAWSLIDE_HD int whole_exponent(Real exponent) {
+inline THAWSLIDE_HD int whole_exponent(Real exponent) {
   constexpr Real largest = 16;
   const bool whole = exponent >= Real(0) && exponent <= largest && exponent == std::floor(exponent);
   return whole ? static_cast<int>(exponent) : -1;
 }
 
 // base^exponent, by multiplication unless `whole`, the exponent's whole_exponent, is -1.
-template <class Value, class Real>
+template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent, int whole) {
   if (whole < 0) {
     return cold_call(base, [&](Real number) { return std::pow(number, exponent); });
@@ -47,12 +46,11 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent, int 
   return result;
 }
 
-template <class Value, class Real>
+template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value power(Value base, Real exponent) {
   return power(base, exponent, whole_exponent(exponent));
 }
 
-template <class Real>
 struct PowerLawCurve {
   Real reference_temperature;            // Tref [C]
   Real exponent;                         // m
@@ -79,7 +77,6 @@ struct PowerLawCurve {
   }
 };
 
-template <class Real>
 struct LinearCurve {
   Real reference_temperature;  // Tref [C]
   Real slope;                  // m [1/K]

@@ -11,9 +11,9 @@
 
 namespace thawslide::physics {
 
-template <class Real, class Curve>
+template <class Curve>
 struct HeatContent {
-  Phases<Real> phases;
+  Phases phases;
   Curve curve;
   bool latent;  // off: melting consumes no heat (required by the 5 s of Sec. 3.2)
 
@@ -33,7 +33,7 @@ struct HeatContent {
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto is_negligible(Value change) const {
     using std::abs;
-    constexpr Real smallest_change = by_precision<Real>(1e-7, 1e-3);
+    constexpr Real smallest_change = by_precision(1e-7, 1e-3);
     return abs(change) < smallest_change;
   }
 

@@ -9,52 +9,52 @@
 
 namespace thawslide::physics {
 
-template <class Real, int Dim>
+template <class Value, int Dim>
 struct StrainIncrement {
-  SymmetricTensor<Real> strain;
-  Matrix<Real, Dim> rotation;
-  Real volume_ratio;  // new volume over old volume
+  SymmetricTensor<Value> strain;
+  Matrix<Value, Dim> rotation;
+  Value volume_ratio;  // new volume over old volume
 };
 
-template <class Real, int Dim>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE StrainIncrement<Real, Dim> strain_increment(
-    const Matrix<Real, Dim>& displacement_gradient) {
-  using Square = Matrix<Real, Dim>;
+template <class Value, int Dim>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE StrainIncrement<Value, Dim> strain_increment(
+    const Matrix<Value, Dim>& displacement_gradient) {
+  using Square = Matrix<Value, Dim>;
   const Square identity = Square::Identity();
-  const Square to_middle = identity + displacement_gradient / Real(2);
+  const Square to_middle = identity + displacement_gradient / Value(2);
   const Square middle = displacement_gradient * to_middle.inverse();
-  const Square strain = (middle + middle.transpose()) / Real(2);
-  const Square half_spin = (middle - middle.transpose()) / Real(4);
-  StrainIncrement<Real, Dim> increment;
+  const Square strain = (middle + middle.transpose()) / Value(2);
+  const Square half_spin = (middle - middle.transpose()) / Value(4);
+  StrainIncrement<Value, Dim> increment;
   increment.strain[0] = strain(0, 0);
   increment.strain[1] = strain(1, 1);
-  increment.strain[2] = Dim == 3 ? strain(Dim - 1, Dim - 1) : Real(0);
+  increment.strain[2] = Dim == 3 ? strain(Dim - 1, Dim - 1) : Value(0);
   increment.strain[3] = strain(0, 1);
-  increment.strain[4] = Dim == 3 ? strain(1, Dim - 1) : Real(0);
-  increment.strain[5] = Dim == 3 ? strain(0, Dim - 1) : Real(0);
+  increment.strain[4] = Dim == 3 ? strain(1, Dim - 1) : Value(0);
+  increment.strain[5] = Dim == 3 ? strain(0, Dim - 1) : Value(0);
   // (I - S)^-1 (I + S) of a skew S in closed form (Cayley): |s|^2 = S:S/2
-  const Real turn = Real(2) / (Real(1) + Real(0.5) * half_spin.squaredNorm());
+  const Value turn = Value(2) / (Value(1) + Value(0.5) * half_spin.squaredNorm());
   increment.rotation = identity + turn * (half_spin + half_spin * half_spin);
   increment.volume_ratio = (identity + displacement_gradient).determinant();
   return increment;
 }
 
 // Q s Q^T; in 2D, zz is unchanged.
-template <class Real, int Dim>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Real> rotate(const SymmetricTensor<Real>& tensor,
-                                                                  const Matrix<Real, Dim>& rotation) {
-  SymmetricTensor<Real> rotated = tensor;
+template <class Value, int Dim>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE SymmetricTensor<Value> rotate(const SymmetricTensor<Value>& tensor,
+                                                                   const Matrix<Value, Dim>& rotation) {
+  SymmetricTensor<Value> rotated = tensor;
   if constexpr (Dim == 2) {
-    Matrix<Real, 2> plane;
+    Matrix<Value, 2> plane;
     plane << tensor[0], tensor[3], tensor[3], tensor[1];
-    const Matrix<Real, 2> turned = rotation * plane * rotation.transpose();
+    const Matrix<Value, 2> turned = rotation * plane * rotation.transpose();
     rotated[0] = turned(0, 0);
     rotated[1] = turned(1, 1);
     rotated[3] = turned(0, 1);
   } else {
-    Matrix<Real, 3> full;
+    Matrix<Value, 3> full;
     full << tensor[0], tensor[3], tensor[5], tensor[3], tensor[1], tensor[4], tensor[5], tensor[4], tensor[2];
-    const Matrix<Real, 3> turned = rotation * full * rotation.transpose();
+    const Matrix<Value, 3> turned = rotation * full * rotation.transpose();
     rotated << turned(0, 0), turned(1, 1), turned(2, 2), turned(0, 1), turned(1, 2), turned(0, 2);
   }
   return rotated;

@@ -16,7 +16,6 @@ namespace thawslide::physics {
 
 // Properties of the three phases (Table 1). The paper rounds rho_I/rho_S of Eq. 2 to 1/3; the ratio is a separate
 // parameter because the limits of Eq. 25 were chosen with the rounded value.
-template <class Real>
 struct Phases {
   Real rock_density, ice_density, water_density;                    // rho [kg/m3]
   Real rock_heat_capacity, ice_heat_capacity, water_heat_capacity;  // C [J/kg/K]
@@ -29,44 +28,42 @@ struct Phases {
 };
 
 // Bounds of the porosity: a particle always contains some rock and some pore.
-template <class Real>
 inline constexpr Real smallest_porosity = static_cast<Real>(1e-6);
-template <class Real>
 inline constexpr Real largest_porosity = static_cast<Real>(0.95);
 
 // n_e of Eq. 2.
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value effective_solid_fraction(const Phases<Real>& phases, Value porosity,
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value effective_solid_fraction(const Phases& phases, Value porosity,
                                                                     Value saturation) {
   return Real(1) - porosity + porosity * (Real(1) - saturation) * phases.ice_to_rock_density_ratio;
 }
 
 // Density of the mixture [kg/m3].
-template <class Real, class Value>
-THAWSLIDE_HD Value mixture_density(const Phases<Real>& phases, Value porosity, Value saturation) {
+template <class Value>
+THAWSLIDE_HD Value mixture_density(const Phases& phases, Value porosity, Value saturation) {
   return (Real(1) - porosity) * phases.rock_density +
          porosity * (saturation * phases.water_density + (Real(1) - saturation) * phases.ice_density);
 }
 
 // C of Eq. 9 [J/m3/K], depending on saturation.
-template <class Real, class Value>
-THAWSLIDE_HD Value heat_capacity(const Phases<Real>& phases, Value porosity, Value saturation) {
+template <class Value>
+THAWSLIDE_HD Value heat_capacity(const Phases& phases, Value porosity, Value saturation) {
   return (Real(1) - porosity) * phases.rock_density * phases.rock_heat_capacity +
          porosity * (saturation * phases.water_density * phases.water_heat_capacity +
                      (Real(1) - saturation) * phases.ice_density * phases.ice_heat_capacity);
 }
 
 // k of Eq. 9 [W/m/K], depending on saturation.
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value conductivity(const Phases<Real>& phases, Value porosity, Value saturation) {
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value conductivity(const Phases& phases, Value porosity, Value saturation) {
   return (Real(1) - porosity) * phases.rock_conductivity +
          porosity * (saturation * phases.water_conductivity + (Real(1) - saturation) * phases.ice_conductivity);
 }
 
 // beta_m of Eq. 8 [1/K], with r = rho_I/rho_L (the paper has rho_L/rho_L, an erratum). water_expansion [1/K]: at the
 // current temperature.
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value expansion(const Phases<Real>& phases, Value porosity, Value saturation,
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value expansion(const Phases& phases, Value porosity, Value saturation,
                                                      Value water_expansion) {
   const Real ratio = phases.ice_density / phases.water_density;
   return (Real(1) - porosity) * (saturation + (Real(1) - saturation) * ratio) * phases.rock_expansion +
@@ -74,8 +71,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value expansion(const Phases<Real>& phases,
 }
 
 // The same with the constant expansion of Table 1.
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value expansion(const Phases<Real>& phases, Value porosity, Value saturation) {
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value expansion(const Phases& phases, Value porosity, Value saturation) {
   return expansion(phases, porosity, saturation, Value(phases.water_expansion));
 }
 
@@ -89,7 +86,6 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value mixed(Value first, Value second, Valu
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value exponential_minus_one(Value x) {
   using std::abs;
-  using Real = typename NumberOf<Value>::Type;
   const auto is_small = abs(x) < static_cast<Real>(1e-2);
   const auto one_over = [](int divisor) { return Value(Real(1) / static_cast<Real>(divisor)); };
   const Value tail = one_over(6) + x * (one_over(24) + x * (one_over(120) + x * one_over(720)));
@@ -105,7 +101,6 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value exponential_minus_one(Value x) {
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value log_of_ratio(Value a, Value b) {
   using std::abs;
-  using Real = typename NumberOf<Value>::Type;
   constexpr int terms = 9;
   const Value argument = (a - b) / (a + b);
   const auto is_small = abs(argument) < static_cast<Real>(0.112);  // the first omitted term is below 1e-17
@@ -124,12 +119,12 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value log_of_ratio(Value a, Value b) {
 // Eq. 6 integrated over a step: the grains conserve mass; 1 - n therefore decreases with the volume and increases with
 // their thermal expansion. volume_strain: change of the logarithm of the volume, approximated by the mid-point strain
 // of a step (error of third order). temperature_change [K].
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value updated_porosity(const Phases<Real>& phases, Value porosity,
-                                                            Value volume_strain, Value temperature_change) {
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value updated_porosity(const Phases& phases, Value porosity, Value volume_strain,
+                                                            Value temperature_change) {
   const Value exponent = phases.rock_expansion * temperature_change - volume_strain;
   const Value updated = porosity - (Real(1) - porosity) * exponential_minus_one(exponent);
-  return max(min(updated, Value(largest_porosity<Real>)), Value(smallest_porosity<Real>));
+  return max(min(updated, Value(largest_porosity)), Value(smallest_porosity));
 }
 
 }  // namespace thawslide::physics

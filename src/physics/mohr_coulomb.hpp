@@ -19,12 +19,10 @@
 #include "base/select.hpp"
 #include "physics/elasticity.hpp"
 #include "physics/principal.hpp"
-#include "physics/return_result.hpp"
 
 namespace thawslide::physics {
 
 // Angles in degrees.
-template <class Real>
 struct Strength {
   Real friction_angle, dilation_angle;
   Real cohesion, residual_cohesion;               // c_0, c_f [Pa]
@@ -34,10 +32,10 @@ struct Strength {
 };
 
 // friction_falls: the friction angle softens too. Otherwise, quantities that depend only on it are precomputed.
-template <class Real, bool friction_falls = false>
+template <bool friction_falls = false>
 class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifier-naming): clang copying its arrays
  public:
-  static MohrCoulomb make(const Elastic<Real>& elastic, const Strength<Real>& strength) {
+  static MohrCoulomb make(const Elastic& elastic, const Strength& strength) {
     MohrCoulomb law;
     law.sine_ = sine_of(strength.friction_angle);
     law.residual_sine_ = sine_of(strength.residual_friction_angle);
@@ -132,7 +130,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
  private:
   // Planes for ordered principal stresses: Mohr-Coulomb of (s1, s3), (s1, s2), (s2, s3); cut-off of s1, s2, s3.
   static constexpr int planes = 6;
-  static constexpr Real round_off = by_precision<Real>(1e-12, 1e-6);
+  static constexpr Real round_off = by_precision(1e-12, 1e-6);
 
   // k s1 - s3 = shear limit: k and 2 c sqrt(k) [Pa].
   template <class Value>
@@ -215,7 +213,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     return is_elastic(mean + reach, mean - reach, surface);
   }
 
-  static Real sine_of(Real degrees) { return std::sin(degrees * pi<Real> / Real(180)); }
+  static Real sine_of(Real degrees) { return std::sin(degrees * pi / Real(180)); }
 
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static Value pressure_ratio(Value sine) {
@@ -387,13 +385,12 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   Real ratio_ = 1, root_of_ratio_ = 1;  // of phi_0: k, sqrt(k)
   Real cohesion_ = 0, residual_cohesion_ = 0, tension_cutoff_ = 0;
   Real softening_rate_ = 1;  // 1/eps_c
-  Elastic<Real> elastic_;
+  Elastic elastic_;
   Vector<Real, 3> relaxation_[planes];  // elastic stress of a plane's flow [Pa per unit multiplier]
   std::conditional_t<friction_falls, Nothing, OfAngle> of_angle_;
 };
 
 // Dispatched once per batch of particles of one material, never per particle.
-template <class Real>
-using ConstitutiveLaw = std::variant<LinearElastic<Real>, MohrCoulomb<Real>, MohrCoulomb<Real, true>>;
+using ConstitutiveLaw = std::variant<LinearElastic, MohrCoulomb<>, MohrCoulomb<true>>;
 
 }  // namespace thawslide::physics

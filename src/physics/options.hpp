@@ -4,7 +4,7 @@
 
 namespace thawslide::physics {
 
-// Basal strength (physics/basal_friction.hpp) if the pore pressure exceeds the normal pressure.
+// Basal strength (physics/contact.hpp) if the pore pressure exceeds the normal pressure.
 enum class FrictionClamp {
   keep_cohesion,  // mu max(0, N - P) + c_S: pressure reduces friction but not cohesion (default)
   joint           // max(0, mu (N - P) + c_S): excess pressure also reduces cohesion

@@ -19,7 +19,6 @@
 namespace thawslide::physics {
 
 // Volumetric expansion of water beta_L [1/K].
-template <class Real>
 struct WaterExpansion {
   WaterExpansionLaw law = WaterExpansionLaw::constant;
   Real constant = 0;  // [1/K]
@@ -78,38 +77,37 @@ struct WaterExpansion {
 
 // Integral of beta_m dT of melted material (S = 1) between two temperatures [C]: swelling of grains and water as a
 // fraction of the volume [1].
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value melted_swelling(const Phases<Real>& phases,
-                                                           const WaterExpansion<Real>& water, Value porosity,
-                                                           Value from, Value to) {
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value melted_swelling(const Phases& phases, const WaterExpansion& water,
+                                                           Value porosity, Value from, Value to) {
   return (Real(1) - porosity) * phases.rock_expansion * (to - from) + porosity * water.swelling(from, to);
 }
 
 // n/K_L + m_v [1/Pa]: volume of water stored per rise of pressure and volume of mixture. skeleton_compressibility: m_v
 // [1/Pa]; 0: rigid pore.
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_storage(const Phases<Real>& phases, Value porosity,
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_storage(const Phases& phases, Value porosity,
                                                         Real skeleton_compressibility) {
   return porosity / phases.water_bulk_modulus + skeleton_compressibility;
 }
 
 // n + K_L m_v [1]: porosity of a rigid pore with the same storage; replaces n in the denominators of Eqs. 8 and 23.
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value storing_porosity(const Phases<Real>& phases, Value porosity,
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value storing_porosity(const Phases& phases, Value porosity,
                                                             Real skeleton_compressibility) {
   return porosity + phases.water_bulk_modulus * skeleton_compressibility;
 }
 
 // n (1 - r) dS: void left by melting, per volume of mixture [1]. melted: dS, fraction of the pore.
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value melting_void(const Phases<Real>& phases, Value porosity, Value melted) {
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value melting_void(const Phases& phases, Value porosity, Value melted) {
   return porosity * (Real(1) - phases.ice_density / phases.water_density) * melted;
 }
 
 // dP = m_v dN/(n/K_L + m_v) [Pa]: pressure change of a full, undrained pore by a change of the normal load [Pa]; 0 for
 // a rigid pore.
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value undrained_loading(const Phases<Real>& phases, Value porosity,
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value undrained_loading(const Phases& phases, Value porosity,
                                                              Real skeleton_compressibility, Value load_change) {
   return skeleton_compressibility / pore_storage(phases, porosity, skeleton_compressibility) * load_change;
 }

@@ -10,17 +10,16 @@
 namespace thawslide::physics {
 
 // Lambda = K_L beta_m/(n S) [Pa/K]: pressure per kelvin of undrained heating.
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value undrained_pressure_coefficient(const Phases<Real>& phases, Value porosity,
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value undrained_pressure_coefficient(const Phases& phases, Value porosity,
                                                                           Value saturation) {
   return phases.water_bulk_modulus * expansion(phases, porosity, saturation) / (porosity * saturation);
 }
 
 // K_L/(n S) [Pa]: pressure per volumetric compression of an undrained pore (Eq. 8, r = rho_I/rho_L, times S + (1 - S)
 // r, which is 1 once melted).
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_stiffness(const Phases<Real>& phases, Value porosity,
-                                                          Value saturation) {
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_stiffness(const Phases& phases, Value porosity, Value saturation) {
   const Real ratio = phases.ice_density / phases.water_density;
   return phases.water_bulk_modulus * (saturation + (Real(1) - saturation) * ratio) / (porosity * saturation);
 }
@@ -33,9 +32,9 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value pore_space_scaling(Value scaling, boo
 }
 
 // D = K_L k_L/(n S gamma_w) [m2/s]; hydraulic conductivity k_L [m/s].
-template <class Real, class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value hydraulic_diffusivity(const Phases<Real>& phases, Value porosity,
-                                                                 Value saturation, Value hydraulic_conductivity) {
+template <class Value>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value hydraulic_diffusivity(const Phases& phases, Value porosity, Value saturation,
+                                                                 Value hydraulic_conductivity) {
   return phases.water_bulk_modulus * hydraulic_conductivity / (porosity * saturation * phases.water_unit_weight);
 }
 
@@ -43,7 +42,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value hydraulic_diffusivity(const Phases<Re
 // removes in a step: 1 - exp(-dt D sum_a 2/h_a^2), where h is the mesh size to which D applies (Gerya and Yuen 2003,
 // Eq. 23). Nodes do not resolve differences within a cell; diffusion between nodes alone would preserve them.
 // inverse_mesh_size: 1/h [1/m].
-template <class Real, class Value>
+template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value share_of_subgrid_diffusion(Value diffusivity, Value inverse_mesh_size,
                                                                       int dimension, Real dt) {
   return -exponential_minus_one((-dt * Real(2 * dimension)) * (inverse_mesh_size * inverse_mesh_size) * diffusivity);

@@ -48,7 +48,6 @@ struct PlaneAxis {
 
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE PlaneAxis(Value xx, Value yy, Value xy) {
     using std::abs, std::sqrt;
-    using Real = typename NumberOf<Value>::Type;
     const Value half_difference = Real(0.5) * (xx - yy);
     radius = sqrt(half_difference * half_difference + xy * xy);
     const auto distinct = radius > Value(0);
@@ -68,7 +67,6 @@ struct PlaneAxis {
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value isolated_root(Value h) {
   using std::abs;
-  using Real = typename NumberOf<Value>::Type;
   const Value size = abs(h);
   const Real root_of_3 = static_cast<Real>(1.7320508075688772935);
   Value x = root_of_3 + size * (Real(1) / Real(3) - size * (root_of_3 + Real(1) / Real(3) - Real(2)));
@@ -82,7 +80,6 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value isolated_root(Value h) {
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, 3> isolated_axis(const Matrix<Value, 3>& deviator) {
   using std::sqrt;
-  using Real = typename NumberOf<Value>::Type;
   const Value size = sqrt(deviator.squaredNorm() / Real(6));
   const Value inverse = Real(1) / select(size > Value(0), size, Value(1));
   const Matrix<Value, 3> scaled = inverse * deviator;
@@ -122,7 +119,6 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, 3> across(const Vector<Value,
 // tensor: xx yy zz xy yz xz. Dim 2: plane strain, with yz = xz = 0.
 template <int Dim = 3, class Value>
 THAWSLIDE_HD Principal<Value> principal(const SymmetricTensor<Value>& tensor) {
-  using Real = typename NumberOf<Value>::Type;
   Principal<Value> result;
   if constexpr (Dim == 2) {
     const detail::PlaneAxis<Value> plane(tensor[0], tensor[1], tensor[3]);

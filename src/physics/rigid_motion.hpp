@@ -66,7 +66,7 @@ template <int Dim, class Value>
 }
 
 // Sums over mass points.
-template <int Dim, class Real>
+template <int Dim>
 struct MassPoints {
   Real mass;                            // [kg]
   Vector<Real, Dim> first;              // sum m x [kg m]
@@ -75,7 +75,7 @@ struct MassPoints {
   Vector<Real, rotations<Dim>> moment;  // sum m x x v [kg m2/s]
 };
 
-template <int Dim, class Real>
+template <int Dim>
 struct RigidMotion {
   Vector<Real, Dim> at_origin = Vector<Real, Dim>::Zero();                       // v(0) [m/s]
   Vector<Real, rotations<Dim>> rotation = Vector<Real, rotations<Dim>>::Zero();  // w [1/s]
@@ -83,13 +83,12 @@ struct RigidMotion {
 
 // Rotation around an axis is ignored if the moment of inertia is at most mass times least_square [m2], for points too
 // close to the axis.
-template <int Dim, class Real>
-[[nodiscard]] THAWSLIDE_HD RigidMotion<Dim, Real> nearest_rigid_motion(const MassPoints<Dim, Real>& points,
-                                                                       Real least_square) {
+template <int Dim>
+[[nodiscard]] THAWSLIDE_HD RigidMotion<Dim> nearest_rigid_motion(const MassPoints<Dim>& points, Real least_square) {
   const Vector<Real, Dim> centre = points.first / points.mass, velocity = points.momentum / points.mass;
   const Vector<Real, rotations<Dim>> spin = points.moment - moment_of<Dim>(centre, points.momentum);
   const Vector<Real, squares<Dim>> about_centre = points.second - points.mass * squares_of<Dim>(centre);
-  RigidMotion<Dim, Real> motion;
+  RigidMotion<Dim> motion;
   if constexpr (Dim == 2) {
     if (about_centre[0] > points.mass * least_square) {
       motion.rotation = spin / about_centre[0];

@@ -12,9 +12,9 @@ namespace thawslide::sim {
 namespace {
 
 // Volume averages over the particles in the band, which must all be of one material.
-template <int Dim, class Real>
-ColumnMaterial material_of_base(const config::Case& parameters, const Model<Dim, Real>& model,
-                                const mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+ColumnMaterial material_of_base(const config::Case& parameters, const Model<Dim>& model,
+                                const mpm::Particles<Dim>& particles) {
   ColumnMaterial material{};
   double volume = 0.0;
   std::int32_t index = -1;
@@ -51,20 +51,20 @@ ColumnMaterial material_of_base(const config::Case& parameters, const Model<Dim,
 
 }  // namespace
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::restore_band_columns(const std::vector<double>& state) {
+template <int Dim>
+void Simulation<Dim>::restore_band_columns(const std::vector<double>& state) {
   band_columns_->restore(state);
   // Segments move with the slide, whose cells extend beyond the domain.
   const Real margin = Real(8) * static_cast<Real>(parameters_.grid.cell);
   for (const auto& segment : band_columns_->segments()) {
-    if (!is_about_domain<Dim, Real>(segment.position, model_.constraints.extent, margin)) {
+    if (!is_about_domain<Dim>(segment.position, model_.constraints.extent, margin)) {
       StateNumbers(state, "band columns").fail(fmt::format("segment {} lies far beyond the domain", segment.id));
     }
   }
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::start_band_columns() {
+template <int Dim>
+void Simulation<Dim>::start_band_columns() {
   if (!model_.contact.band_columns) {
     return;
   }
@@ -79,23 +79,22 @@ void Simulation<Dim, Real>::start_band_columns() {
   column_time_ = 0.0;
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::band_columns_follow(const mpm::SparseGrid<Dim, Real>& grid,
-                                                const terrain::GroundOnGrid<Dim, Real>& ground_on_grid,
-                                                mpm::Nodes<Dim, Real>& nodes) {
+template <int Dim>
+void Simulation<Dim>::band_columns_follow(const mpm::SparseGrid<Dim>& grid,
+                                          const terrain::GroundOnGrid<Dim>& ground_on_grid, mpm::Nodes<Dim>& nodes) {
   if (!band_columns_) {
     return;
   }
   const double cell = parameters_.grid.cell;
   const terrain::Surface<Dim>& surface = *model_.ground;
-  const typename band::BasalSegments<Dim, Real>::Ground ground{
+  const typename band::BasalSegments<Dim>::Ground ground{
       [&](const auto& place) { return static_cast<Real>(surface.height(place.template cast<double>())); },
       [&](const auto& place) -> Vector<Real, Dim> {
         return surface.normal_below(place.template cast<double>(), cell).template cast<Real>();
       },
       [&](const auto& place) { return model_.motion.width.at(place[0]); }};
   const auto node_ground = [&](std::size_t b, std::size_t k) {
-    using NodeGround = typename band::BasalSegments<Dim, Real>::NodeGround;
+    using NodeGround = typename band::BasalSegments<Dim>::NodeGround;
     if (!ground_on_grid.any_candidate(b) || !ground_on_grid.block(b)[k].candidate) {
       return NodeGround{nullptr, Real(0)};
     }
@@ -113,11 +112,11 @@ void Simulation<Dim, Real>::band_columns_follow(const mpm::SparseGrid<Dim, Real>
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                 \
-  template void Simulation<Dim, Real>::restore_band_columns(const std::vector<double>&); \
-  template void Simulation<Dim, Real>::start_band_columns();                             \
-  template void Simulation<Dim, Real>::band_columns_follow(                              \
-      const mpm::SparseGrid<Dim, Real>&, const terrain::GroundOnGrid<Dim, Real>&, mpm::Nodes<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                   \
+  template void Simulation<Dim>::restore_band_columns(const std::vector<double>&);                                   \
+  template void Simulation<Dim>::start_band_columns();                                                               \
+  template void Simulation<Dim>::band_columns_follow(const mpm::SparseGrid<Dim>&, const terrain::GroundOnGrid<Dim>&, \
+                                                     mpm::Nodes<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -6,16 +6,16 @@
 
 namespace thawslide::sim {
 
-template <int Dim, class Real>
-NamedNumbers base_table(const Simulation<Dim, Real>& simulation) {
+template <int Dim>
+NamedNumbers base_table(const Simulation<Dim>& simulation) {
   NamedNumbers table;
   const auto* columns = simulation.band_columns();
   if (columns == nullptr) {
     return table;
   }
   const auto add = [&](const char* name, Real number) { table[name].push_back(static_cast<double>(number)); };
-  for (const band::BasalSegment<Dim, Real>& segment : columns->segments()) {
-    const physics::BandMeans<Real> means = columns->means_now(segment);
+  for (const band::BasalSegment<Dim>& segment : columns->segments()) {
+    const physics::BandMeans means = columns->means_now(segment);
     const Real* slide = segment.column.temperature + physics::ColumnCells::ground;
     for (int a = 0; a < 3; ++a) {
       table["position_m"].push_back(
@@ -26,7 +26,7 @@ NamedNumbers base_table(const Simulation<Dim, Real>& simulation) {
     add("normal_pressure_Pa", segment.load);
     add("pore_pressure_Pa", means.pore_pressure);
     add("temperature_C", means.temperature);
-    add("hottest_C", *std::max_element(slide, slide + physics::ColumnCells::slide));
+    add("max_temperature_C", *std::max_element(slide, slide + physics::ColumnCells::slide));
     add("liquid_saturation", means.saturation);
     add("opening_m", columns->volumes_of(segment).opening);
     add("slip_m", segment.slip);
@@ -35,7 +35,7 @@ NamedNumbers base_table(const Simulation<Dim, Real>& simulation) {
   return table;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) template NamedNumbers base_table<Dim, Real>(const Simulation<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim) template NamedNumbers base_table<Dim>(const Simulation<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -7,9 +7,9 @@
 namespace thawslide::sim {
 
 // Columns by name with unit; `position_m` holds x, y, z of each segment (z = 0 in 2D). The table is empty unless the
-// band consists of columns. P, T and S are means over the band; `hottest_C` is the maximum of the column's cells above
-// the ground.
-template <int Dim, class Real>
-NamedNumbers base_table(const Simulation<Dim, Real>& simulation);
+// band consists of columns. P, T and S are means over the band; `max_temperature_C` is the maximum of the column's
+// cells above the ground.
+template <int Dim>
+NamedNumbers base_table(const Simulation<Dim>& simulation);
 
 }  // namespace thawslide::sim

@@ -7,13 +7,13 @@
 
 namespace thawslide::sim {
 
-template <int Dim, class Real>
-device::HostBed<Dim, Real> Simulation<Dim, Real>::host_bed() {
+template <int Dim>
+device::HostBed<Dim> Simulation<Dim>::host_bed() {
   if (bed_in_reach() == nullptr) {
     return {};
   }
-  using Columns = typename device::HostBed<Dim, Real>::Columns;
-  bed_of_device_ = std::make_unique<BedOfDevice<Dim, Real>>();
+  using Columns = typename device::HostBed<Dim>::Columns;
+  bed_of_device_ = std::make_unique<BedOfDevice<Dim>>();
   return {bed_->material(),
           [this](const Columns& of_blocks, const Columns& of_candidates) {
             bed_of_device_->columns.clear();
@@ -26,9 +26,9 @@ device::HostBed<Dim, Real> Simulation<Dim, Real>::host_bed() {
             }
           },
           [this](const std::vector<std::uint32_t>& parts, const std::vector<Real>& loads) -> const std::vector<Real>& {
-            BedOfDevice<Dim, Real>& below = *bed_of_device_;
+            BedOfDevice<Dim>& below = *bed_of_device_;
             for (std::size_t c = 0; c < parts.size(); ++c) {
-              if (below.columns[c] != terrain::Bed<Dim, Real>::outside) {
+              if (below.columns[c] != terrain::Bed<Dim>::outside) {
                 bed_->cover(below.columns[c], parts[c]);
               }
             }
@@ -54,7 +54,7 @@ device::HostBed<Dim, Real> Simulation<Dim, Real>::host_bed() {
           }};
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) template device::HostBed<Dim, Real> Simulation<Dim, Real>::host_bed();
+#define THAWSLIDE_INSTANTIATE(Dim) template device::HostBed<Dim> Simulation<Dim>::host_bed();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -8,11 +8,11 @@
 
 namespace thawslide::sim {
 
-template <int Dim, class Real>
+template <int Dim>
 struct BedOfDevice {
-  std::vector<std::size_t> columns;                               // below the active blocks: column numbers in the bed
-  std::vector<typename terrain::Bed<Dim, Real>::Pressing> nodes;  // that may touch the ground
-  std::vector<Real> available;                                    // mass available to these nodes [kg]
+  std::vector<std::size_t> columns;                         // below the active blocks: column numbers in the bed
+  std::vector<typename terrain::Bed<Dim>::Pressing> nodes;  // that may touch the ground
+  std::vector<Real> available;                              // mass available to these nodes [kg]
 };
 
 }  // namespace thawslide::sim

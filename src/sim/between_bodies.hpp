@@ -10,9 +10,8 @@
 
 namespace thawslide::sim {
 
-template <class Real>
-[[nodiscard]] mpm::BetweenBodies<Real> between_bodies(const config::Case& parameters) {
-  mpm::BetweenBodies<Real> between;
+[[nodiscard]] inline mpm::BetweenBodies between_bodies(const config::Case& parameters) {
+  mpm::BetweenBodies between;
   const config::BodyLayers layers = config::body_layers(parameters);
   if (layers.count == 1) {
     return between;
@@ -22,7 +21,7 @@ template <class Real>
     between.layer_of_body.push_back(static_cast<std::uint8_t>(layer));
   }
   for (const double angle : layers.friction_angle) {
-    between.friction.push_back(static_cast<Real>(std::tan(angle * pi<double> / 180.0)));
+    between.friction.push_back(static_cast<Real>(std::tan(angle * pi / 180.0)));
   }
   return between;
 }

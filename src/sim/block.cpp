@@ -8,7 +8,6 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
-#include "physics/bend.hpp"
 #include "physics/contact.hpp"
 #include "sim/block_band_column.hpp"
 #include "sim/block_column.hpp"
@@ -64,8 +63,8 @@ struct Slices {
   double middle_x = 0;   // absolute coordinate
 };
 
-Slices make_slices(const config::Case& parameters, const Model<2, double>& model, const Path& path,
-                   const mpm::Particles<2, double>& particles) {
+Slices make_slices(const config::Case& parameters, const Model<2>& model, const Path& path,
+                   const mpm::Particles<2>& particles) {
   const double cell = parameters.grid.cell;
   std::map<long, std::pair<double, double>> columns;  // by cell number: mass, volume
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -89,7 +88,7 @@ Slices make_slices(const config::Case& parameters, const Model<2, double>& model
   return slices;
 }
 
-Vector<double, 2> normal_below(const Model<2, double>& model, double x) {
+Vector<double, 2> normal_below(const Model<2>& model, double x) {
   return model.ground->normal_below(Vector<double, 1>(x), 0.0);
 }
 
@@ -98,7 +97,7 @@ struct Forces {
 };
 
 // speed: of the slices along the curved ground [m/s].
-Forces forces_on_slices(const Model<2, double>& model, const Path& path, const Slices& slices, double displacement,
+Forces forces_on_slices(const Model<2>& model, const Path& path, const Slices& slices, double displacement,
                         double speed) {
   Forces forces;
   for (const Slice& slice : slices.all) {
@@ -118,8 +117,7 @@ Forces forces_on_slices(const Model<2, double>& model, const Path& path, const S
 // Rigid block of slices with its column, advanced step by step.
 class Block {
  public:
-  Block(const config::Case& parameters, Table valley_factor, const Model<2, double>& model,
-        const mpm::Particles<2, double>& particles)
+  Block(const config::Case& parameters, Table valley_factor, const Model<2>& model, const mpm::Particles<2>& particles)
       : parameters_(parameters),
         model_(model),
         path_(*model.profile),
@@ -260,14 +258,14 @@ class Block {
   }
 
   const config::Case& parameters_;
-  const Model<2, double>& model_;
+  const Model<2>& model_;
   Path path_;
   Table valley_factor_;  // over absolute x
   Slices slices_;
   double time_ = 0, velocity_ = 0, displacement_ = 0, slip_ = 0;  // along the ground, towards +x
   double direction_ = 1;  // +1 or -1: direction along x in which output is positive
   AnyColumn column_;
-  terrain::BasalNodes<double> basal_;
+  terrain::BasalNodes basal_;
   double base_area_ = 0;                // ground below the slices, including the valley factor [m2 per m of width]
   double strength_ = 0, friction_ = 0;  // current basal strength [Pa]; mu_e
   double friction_work_ = 0, friction_heat_ = 0, heat_gain_ = 0;
@@ -299,8 +297,8 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
                     config::place_of(parameters, "case.width")));
   }
   require_one_body(parameters);
-  const Model<2, double> model = make_model<2, double>(parameters, site);
-  mpm::Particles<2, double> particles;
+  const Model<2> model = make_model<2>(parameters, site);
+  mpm::Particles<2> particles;
   fill_bodies(parameters, site, model, particles);
   Block block(parameters, std::move(valley_factor), model, particles);
   const StepLimit limit =

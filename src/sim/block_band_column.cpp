@@ -4,8 +4,7 @@
 
 namespace thawslide::sim {
 
-BlockBandColumn::BlockBandColumn(const band::ColumnsModel<double>& model, double thickness, double load,
-                                 double column_step)
+BlockBandColumn::BlockBandColumn(const band::ColumnsModel& model, double thickness, double load, double column_step)
     : model_(model), column_step_(column_step) {
   segment_.position.setZero();
   segment_.normal.setZero();
@@ -30,13 +29,13 @@ double BlockBandColumn::step(const BlockDrive& drive) {
 }
 
 BlockBase BlockBandColumn::base(double normal_pressure) const {
-  const physics::BandMeans<double> means = band::means_of(model_, segment_);
+  const physics::BandMeans means = band::means_of(model_, segment_);
   return {band::pressure_ratio(means, segment_) * normal_pressure, means.saturation, means.solid_fraction,
           means.temperature};
 }
 
 BlockBand BlockBandColumn::band() const {
-  const physics::BandMeans<double> means = band::means_of(model_, segment_);
+  const physics::BandMeans means = band::means_of(model_, segment_);
   return {means.temperature, means.saturation, means.pore_pressure};
 }
 

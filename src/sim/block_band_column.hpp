@@ -10,18 +10,18 @@ namespace thawslide::sim {
 class BlockBandColumn {
  public:
   // load: initial normal pressure [Pa]; column_step: maximum time step of the column [s].
-  BlockBandColumn(const band::ColumnsModel<double>& model, double thickness, double load, double column_step);
+  BlockBandColumn(const band::ColumnsModel& model, double thickness, double load, double column_step);
 
   // Returns the heat gained by the column [J/m2], including heat that is pending until its next step.
   double step(const BlockDrive& drive);
   // Basal state for the basal law under a normal pressure [Pa].
   [[nodiscard]] BlockBase base(double normal_pressure) const;
   [[nodiscard]] BlockBand band() const;
-  [[nodiscard]] const band::BasalSegment<2, double>& segment() const { return segment_; }
+  [[nodiscard]] const band::BasalSegment<2>& segment() const { return segment_; }
 
  private:
-  band::ColumnsModel<double> model_;
-  band::BasalSegment<2, double> segment_;
+  band::ColumnsModel model_;
+  band::BasalSegment<2> segment_;
   double column_step_, waiting_ = 0.0;
 };
 

@@ -15,15 +15,15 @@ namespace thawslide::sim {
 namespace {
 
 // The sides of the domain exchange no heat, and the flow depth is constant because the body keeps its shape.
-band::BandModel<2, double> of_a_rigid_body(band::BandModel<2, double> model) {
-  std::fill(std::begin(model.at_faces.faces), std::end(model.at_faces.faces), band::HeatFace<double>{});
+band::BandModel<2> of_a_rigid_body(band::BandModel<2> model) {
+  std::fill(std::begin(model.at_faces.faces), std::end(model.at_faces.faces), band::HeatFace{});
   model.thickness_each_step = false;
   return model;
 }
 
 }  // namespace
 
-BlockColumn::BlockColumn(const band::BandModel<2, double>& model, const Initial& initial)
+BlockColumn::BlockColumn(const band::BandModel<2>& model, const Initial& initial)
     : model_(of_a_rigid_body(model)), grid_(initial.cell), thickness_(initial.thickness) {
   const double row_height = initial.cell / initial.rows_per_cell;
   band::keep_fields(model_, rows_);
@@ -65,8 +65,7 @@ void BlockColumn::find_base_nodes() {
   }
   nodes_.contact.hold(grid_.blocks().size(), [&](std::size_t b) { return is_base[b] != 0; });
   for (const mpm::NodeAt& node : base_nodes_) {
-    std::fill_n(nodes_.contact.of_block(node.block), mpm::Tile<2>::nodes,
-                mpm::RecordsOf<mpm::Contact, 2, double>::Record{});
+    std::fill_n(nodes_.contact.of_block(node.block), mpm::Tile<2>::nodes, mpm::RecordsOf<mpm::Contact, 2>::Record{});
   }
 }
 
@@ -79,7 +78,7 @@ void BlockColumn::set_normal_load(double normal_pressure) {
 }
 
 double BlockColumn::step(const BlockDrive& drive) {
-  band::rescale_band<2, double>(grid_, model_, drive.band_thickness, {}, rows_);
+  band::rescale_band<2>(grid_, model_, drive.band_thickness, {}, rows_);
   band::average_on_grid(grid_, model_, rows_, nodes_);
   band::average_seeping_water(grid_, model_, rows_, nodes_);
   const double before = heat();
@@ -115,7 +114,7 @@ BlockBase BlockColumn::base(double /*normal_pressure*/) const {
     base.temperature += weight * rows_.temperature(p);
     base.saturation += weight * rows_.liquid_saturation(p);
     base.solid_fraction +=
-        weight * terrain::basal_solid_fraction(model_.phases, model_.lubrication, rows_, mpm::ScalarIndex<double>{{p}});
+        weight * terrain::basal_solid_fraction(model_.phases, model_.lubrication, rows_, mpm::ScalarIndex{{p}});
   }
   return {base.pore_pressure / weights, base.saturation / weights, base.solid_fraction / weights,
           base.temperature / weights};

@@ -37,13 +37,13 @@ class BlockColumn {
     std::function<double(double depth)> temperature;                  // [C]
     std::function<double(double depth, double saturation)> porosity;  // saturation: water fraction of the pores
   };
-  BlockColumn(const band::BandModel<2, double>& model, const Initial& initial);
+  BlockColumn(const band::BandModel<2>& model, const Initial& initial);
 
   // Returns the heat gained by the rows per base area [J/m2].
   double step(const BlockDrive& drive);
 
   // Quantities per base area; heights are above the base, in the unscaled cells of the MPM.
-  [[nodiscard]] const mpm::Particles<2, double>& rows() const { return rows_; }
+  [[nodiscard]] const mpm::Particles<2>& rows() const { return rows_; }
   [[nodiscard]] BlockBase base(double normal_pressure) const;
   [[nodiscard]] BlockBand band() const;
 
@@ -53,11 +53,11 @@ class BlockColumn {
   void set_normal_load(double normal_pressure);
   [[nodiscard]] double heat() const;
 
-  band::BandModel<2, double> model_;
-  mpm::SparseGrid<2, double> grid_;
-  mpm::Particles<2, double> rows_;
-  mpm::Nodes<2, double> nodes_;
-  band::FlowDepth<2, double> flow_depth_;
+  band::BandModel<2> model_;
+  mpm::SparseGrid<2> grid_;
+  mpm::Particles<2> rows_;
+  mpm::Nodes<2> nodes_;
+  band::FlowDepth<2> flow_depth_;
   std::vector<mpm::NodeAt> base_nodes_;
   double thickness_;
 };

@@ -10,7 +10,6 @@
 #include "sim/body_shape.hpp"
 #include "sim/initial_state.hpp"
 #include "sim/seed.hpp"
-#include "sim/starting_noise.hpp"
 
 namespace thawslide::sim {
 
@@ -81,9 +80,8 @@ void require_volume(const config::Case& parameters, const std::string& name, con
   }
   if (!(std::abs(1.0 / share - 1.0) <= volume_tolerance)) {
     throw UserError(fmt::format(
-        "{}: body '{}' has a volume of {:.6g} {}, and its {} particles, which stand {} m apart, {:.6g}; allowed: "
-        "within {:g} %. Put its corners on multiples of the spacing, or make grid.cell smaller or particles_per_axis "
-        "larger.",
+        "{}: body '{}' has a volume of {:.6g} {}, and its {} particles, {} m apart, {:.6g}; allowed: within {:g} %. "
+        "Place its corners at multiples of the spacing, or use a smaller grid.cell or more particles_per_axis.",
         config::place_of(parameters, "body." + name), name, shape.volume(), Dim == 2 ? "m3 per m" : "m3",
         seeds.size() - first, spacing, seeded, 100.0 * volume_tolerance));
   }
@@ -113,9 +111,9 @@ void require_apart(const config::Case& parameters, const std::vector<std::string
 
 // Geostatic normal stress and K0 in the axes of the ground below (of gravity if there is no ground). With slope shear,
 // if requested, the stress balances an infinite slope.
-template <int Dim, class Real>
-SymmetricTensor<Real> initial_stress(const config::Case& parameters, const Model<Dim, Real>& model,
-                                     const Seed<Dim>& seed, double density, double poisson_ratio) {
+template <int Dim>
+SymmetricTensor<Real> initial_stress(const config::Case& parameters, const Model<Dim>& model, const Seed<Dim>& seed,
+                                     double density, double poisson_ratio) {
   SymmetricTensor<Real> stress = SymmetricTensor<Real>::Zero();
   if (parameters.mechanics.initial_stress != config::InitialStress::geostatic) {
     return stress;
@@ -154,8 +152,8 @@ SymmetricTensor<Real> initial_stress(const config::Case& parameters, const Model
   return stress;
 }
 
-template <int Dim, class Real>
-std::optional<ReleaseBody> release_of(const config::Site& site, const Model<Dim, Real>& model, const std::string& name,
+template <int Dim>
+std::optional<ReleaseBody> release_of(const config::Site& site, const Model<Dim>& model, const std::string& name,
                                       const config::Body& body) {
   if constexpr (Dim == 3) {
     if (body.shape == config::BodyShape::release) {
@@ -166,8 +164,8 @@ std::optional<ReleaseBody> release_of(const config::Site& site, const Model<Dim,
 }
 
 // Checks bodies on a DEM; on other terrain, the case was checked when it was read.
-template <int Dim, class Real>
-void require_above_ground(const config::Case& parameters, const Model<Dim, Real>& model, const std::string& name,
+template <int Dim>
+void require_above_ground(const config::Case& parameters, const Model<Dim>& model, const std::string& name,
                           std::size_t first, const std::vector<Seed<Dim>>& seeds) {
   if (parameters.terrain.kind != config::TerrainKind::dem) {
     return;
@@ -208,9 +206,9 @@ void require_within_domain(const config::Case& parameters, const std::string& na
 
 // Position of a seed displaced by initial.noise, or its regular position if the displacement would move it out of its
 // body or below the ground. All other properties of the particle follow from the regular position.
-template <int Dim, class Real>
-Vector<double, Dim> starting_place(const config::Case& parameters, const Model<Dim, Real>& model,
-                                   const config::Body& body, const BodyShape<Dim>& shape, const Seed<Dim>& seed) {
+template <int Dim>
+Vector<double, Dim> starting_place(const config::Case& parameters, const Model<Dim>& model, const config::Body& body,
+                                   const BodyShape<Dim>& shape, const Seed<Dim>& seed) {
   if (parameters.initial.noise == 0.0) {
     return seed.place;
   }
@@ -224,9 +222,9 @@ Vector<double, Dim> starting_place(const config::Case& parameters, const Model<D
 
 }  // namespace
 
-template <int Dim, class Real>
-void fill_bodies(const config::Case& parameters, const config::Site& site, const Model<Dim, Real>& model,
-                 mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+void fill_bodies(const config::Case& parameters, const config::Site& site, const Model<Dim>& model,
+                 mpm::Particles<Dim>& particles) {
   std::vector<Seed<Dim>> seeds;
   std::vector<const config::Body*> bodies;
   std::vector<std::size_t> material_of;
@@ -278,15 +276,14 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
     }
     const auto stress = initial_stress(parameters, model, seed, static_cast<double>(density),
                                        parameters.materials.at(body.material).poisson_ratio);
-    for (int c = 0; c < mpm::Particles<Dim, Real>::tensor_components; ++c) {
+    for (int c = 0; c < mpm::Particles<Dim>::tensor_components; ++c) {
       particles.stress(p, c) = stress[c];
     }
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                  \
-  template void fill_bodies<Dim, Real>(const config::Case&, const config::Site&, const Model<Dim, Real>&, \
-                                       mpm::Particles<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim) \
+  template void fill_bodies<Dim>(const config::Case&, const config::Site&, const Model<Dim>&, mpm::Particles<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -9,8 +9,8 @@ namespace thawslide::sim {
 
 // Fills in the particles of all bodies. Ids 0, 1, ... are assigned body by body, in lattice order. Throws UserError for
 // a body without particles.
-template <int Dim, class Real>
-void fill_bodies(const config::Case& parameters, const config::Site& site, const Model<Dim, Real>& model,
-                 mpm::Particles<Dim, Real>& particles);
+template <int Dim>
+void fill_bodies(const config::Case& parameters, const config::Site& site, const Model<Dim>& model,
+                 mpm::Particles<Dim>& particles);
 
 }  // namespace thawslide::sim

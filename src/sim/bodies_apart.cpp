@@ -20,8 +20,7 @@ constexpr double cube = 2.0;  // cells
 
 // Particles touch if their boxes are less than half a spacing apart along each axis.
 template <int Dim>
-bool do_touch(const mpm::Particles<Dim, double>& particles, std::size_t p, std::size_t other, double half,
-              double other_half) {
+bool do_touch(const mpm::Particles<Dim>& particles, std::size_t p, std::size_t other, double half, double other_half) {
   const double reach = half + other_half + std::min(half, other_half);
   bool touches = true;
   for (int a = 0; a < Dim; ++a) {
@@ -35,7 +34,7 @@ template <int Dim>
 using Cubes = std::map<Place<Dim>, std::map<std::size_t, std::vector<std::size_t>>>;
 
 template <int Dim>
-Cubes<Dim> cubes_of(const Simulation<Dim, double>& simulation) {
+Cubes<Dim> cubes_of(const Simulation<Dim>& simulation) {
   const auto& particles = simulation.particles();
   Cubes<Dim> cubes;
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -51,7 +50,7 @@ Cubes<Dim> cubes_of(const Simulation<Dim, double>& simulation) {
 
 // For each body, the lowest number in its group of bodies that touch directly or through others.
 template <int Dim>
-std::vector<std::size_t> groups_of_touching(const Simulation<Dim, double>& simulation) {
+std::vector<std::size_t> groups_of_touching(const Simulation<Dim>& simulation) {
   const auto& particles = simulation.particles();
   const auto half = [&](std::size_t body) {
     return simulation.model().motion.sizes.half(body) * simulation.parameters().grid.cell;
@@ -90,7 +89,7 @@ std::vector<std::size_t> groups_of_touching(const Simulation<Dim, double>& simul
 }  // namespace
 
 template <int Dim>
-std::string warning_of_bodies_apart(const Simulation<Dim, double>& simulation) {
+std::string warning_of_bodies_apart(const Simulation<Dim>& simulation) {
   const config::Case& parameters = simulation.parameters();
   if (!parameters.mechanics.enabled || parameters.bodies.size() < 2 ||
       config::was_given(parameters, "contact.between_bodies")) {
@@ -115,7 +114,7 @@ std::string warning_of_bodies_apart(const Simulation<Dim, double>& simulation) {
   return "";
 }
 
-template std::string warning_of_bodies_apart<2>(const Simulation<2, double>&);
-template std::string warning_of_bodies_apart<3>(const Simulation<3, double>&);
+template std::string warning_of_bodies_apart<2>(const Simulation<2>&);
+template std::string warning_of_bodies_apart<3>(const Simulation<3>&);
 
 }  // namespace thawslide::sim

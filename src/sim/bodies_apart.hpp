@@ -10,6 +10,6 @@ namespace thawslide::sim {
 // Requires a simulation before its first step. Returns an empty string if there is nothing to report, also if the case
 // specifies contact.between_bodies.
 template <int Dim>
-[[nodiscard]] std::string warning_of_bodies_apart(const Simulation<Dim, double>& simulation);
+[[nodiscard]] std::string warning_of_bodies_apart(const Simulation<Dim>& simulation);
 
 }  // namespace thawslide::sim

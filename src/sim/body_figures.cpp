@@ -28,7 +28,7 @@ struct Column {
 template <int Dim>
 class Bodies {
  public:
-  explicit Bodies(const Simulation<Dim, double>& simulation) : simulation_(simulation) {
+  explicit Bodies(const Simulation<Dim>& simulation) : simulation_(simulation) {
     for (const std::string& name : simulation.model().body_names) {
       const auto body = parameters().bodies.find(name);
       const int per_axis = body == parameters().bodies.end() ? 1 : body->second.particles_per_axis;
@@ -65,7 +65,7 @@ class Bodies {
     }
     figures.mean_thickness = section / figures.area;
     figures.particles_across = figures.median_thickness / figures.spacing;
-    figures.most_particles_across = figures.largest_thickness / figures.spacing;
+    figures.max_particles_across = figures.largest_thickness / figures.spacing;
     return figures;
   }
 
@@ -142,7 +142,7 @@ class Bodies {
     }
     const auto columns = static_cast<double>(thickness.values.size());
     figures.area = columns * width;
-    figures.standing_share = standing / columns;
+    figures.resting_fraction = standing / columns;
     figures.median_thickness = config::median_thickness(thickness);
     figures.largest_thickness = *std::max_element(thickness.values.begin(), thickness.values.end());
   }
@@ -221,7 +221,7 @@ class Bodies {
     return clearance;
   }
 
-  const Simulation<Dim, double>& simulation_;
+  const Simulation<Dim>& simulation_;
   std::vector<double> spacing_;                             // by body [m]
   std::map<OfBody, Column> columns_;                        // on a lattice with the body's spacing
   std::map<Place<Dim>, std::vector<std::size_t>> by_cell_;  // particle indices; empty for one body
@@ -230,7 +230,7 @@ class Bodies {
 }  // namespace
 
 template <int Dim>
-std::vector<BodyFigures> body_figures(const Simulation<Dim, double>& simulation) {
+std::vector<BodyFigures> body_figures(const Simulation<Dim>& simulation) {
   const Bodies<Dim> bodies(simulation);
   std::vector<BodyFigures> all;
   for (std::size_t b = 0; b < simulation.parameters().bodies.size(); ++b) {
@@ -239,7 +239,7 @@ std::vector<BodyFigures> body_figures(const Simulation<Dim, double>& simulation)
   return all;
 }
 
-template std::vector<BodyFigures> body_figures<2>(const Simulation<2, double>&);
-template std::vector<BodyFigures> body_figures<3>(const Simulation<3, double>&);
+template std::vector<BodyFigures> body_figures<2>(const Simulation<2>&);
+template std::vector<BodyFigures> body_figures<3>(const Simulation<3>&);
 
 }  // namespace thawslide::sim

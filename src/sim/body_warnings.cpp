@@ -32,8 +32,8 @@ std::string volume_warning(const config::Case& parameters, const BodyFigures& bo
   }
   const std::string key = "body." + body.name;
   return fmt::format(
-      "{}: {} has {:.6g} {}; its particles, which stand {:g} m apart and are what slides, have {:.6g}, {:.2g} % {}. "
-      "Put its corners on multiples of that distance, or make grid.cell smaller.",
+      "{}: {} has {:.6g} {}; its particles, {:g} m apart, have {:.6g}, {:.2g} % {}. Place its corners at multiples of "
+      "that distance, or use a smaller grid.cell.",
       config::place_of(parameters, key), key, body.shape_volume,
       parameters.general.dimension == 2 ? "m3 per m of width" : "m3", body.spacing, body.volume, 100.0 * std::abs(more),
       more > 0.0 ? "more" : "less");
@@ -58,11 +58,11 @@ std::string standing_warning(const config::Case& parameters, const BodyFigures& 
         "Begin it on that, or set shape = \"surface\" or \"release\", which follow the ground.",
         config::place_of(parameters, key), key, body.clearance, time);
   }
-  if (body.standing_share < least_standing) {
+  if (body.resting_fraction < least_standing) {
     return fmt::format(
         "{}: {} rests on {:.2g} % of its area; the gap below the rest is at least {:.3g} m, one distance of its "
         "particles. Use a shape that follows the terrain: shape = \"surface\", \"release\", or a polygon.",
-        config::place_of(parameters, key), key, 100.0 * body.standing_share, body.spacing);
+        config::place_of(parameters, key), key, 100.0 * body.resting_fraction, body.spacing);
   }
   return "";
 }
@@ -99,8 +99,8 @@ bool is_plastic(const config::Case& parameters, const config::Material& material
          material.law == config::LawKind::mohr_coulomb;
 }
 
-double sine_of(double degrees) { return std::sin(degrees * pi<double> / 180.0); }
-double cosine_of(double degrees) { return std::cos(degrees * pi<double> / 180.0); }
+double sine_of(double degrees) { return std::sin(degrees * pi / 180.0); }
+double cosine_of(double degrees) { return std::cos(degrees * pi / 180.0); }
 
 // Pressure of the body's weight at its median thickness [Pa].
 double usual_load(const config::Case& parameters, const BodyFigures& body) {
@@ -118,16 +118,16 @@ std::string strength_warning(const config::Case& parameters, const BodyFigures& 
   if (!is_plastic(parameters, material) || parameters.terrain.kind == config::TerrainKind::none || !(load > 0.0)) {
     return "";
   }
-  const physics::basal::ContactNode<double> frozen{.normal_pressure = load, .solid_fraction = 1.0};
-  const double base = std::visit([&](const auto& law) { return law.coefficient(frozen); },
-                                 config::friction_of<double>(parameters.basal));
+  const physics::basal::ContactNode frozen{.normal_pressure = load, .solid_fraction = 1.0};
+  const double base =
+      std::visit([&](const auto& law) { return law.coefficient(frozen); }, config::friction_of(parameters.basal));
   const double strain = std::max(material.softening_strain,
                                  physics::softening_strain_of_slip(material.softening_slip, parameters.grid.cell));
   const bool is_unbroken = strain >= strain_of_unbroken;
   const double angle = is_unbroken ? material.friction_angle : material.residual_friction_angle;
   const double cohesion = is_unbroken ? material.cohesion : material.residual_cohesion;
-  const double borne = std::tan(angle * pi<double> / 180.0) + cohesion / load;
-  if (base <= borne * (1.0 + round_off<double>)) {
+  const double borne = std::tan(angle * pi / 180.0) + cohesion / load;
+  if (base <= borne * (1.0 + round_off)) {
     return "";
   }
   const bool softens = material.residual_friction_angle < material.friction_angle;
@@ -138,7 +138,7 @@ std::string strength_warning(const config::Case& parameters, const BodyFigures& 
       "slide shears above its base, the base stays cold, and the results depend on grid.cell. Set a larger {}, or a "
       "basal friction of at most {:.3f} (an angle of {:.1f} degrees).",
       config::place_of(parameters, key), body.name, base, borne, key, borne,
-      std::floor(10.0 * std::atan(borne) * 180.0 / pi<double>) / 10.0);
+      std::floor(10.0 * std::atan(borne) * 180.0 / pi) / 10.0);
 }
 
 // Warns of material that softens over a slip and releases more elastic energy in a cell than its rupture consumes.

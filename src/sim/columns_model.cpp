@@ -8,11 +8,11 @@ namespace thawslide::sim {
 
 namespace {
 
-template <class Real, class Curve>
-physics::ColumnModel<Real, Curve> column_model(const config::Case& parameters, const physics::Phases<Real>& phases,
-                                               const Curve& curve, const ColumnMaterial& material) {
+template <class Curve>
+physics::ColumnModel<Curve> column_model(const config::Case& parameters, const physics::Phases& phases,
+                                         const Curve& curve, const ColumnMaterial& material) {
   const config::Pressure& pressure = parameters.pressure;
-  physics::ColumnModel<Real, Curve> column;
+  physics::ColumnModel<Curve> column;
   column.phases = phases;
   column.curve = curve;
   column.water_expansion = {parameters.phases.water_expansion_law, phases.water_expansion};
@@ -37,12 +37,12 @@ physics::ColumnModel<Real, Curve> column_model(const config::Case& parameters, c
 
 }  // namespace
 
-template <int Dim, class Real>
-band::ColumnsModel<Real> make_columns_model(const config::Case& parameters, const Model<Dim, Real>& model,
-                                            const ColumnMaterial& material) {
+template <int Dim>
+band::ColumnsModel make_columns_model(const config::Case& parameters, const Model<Dim>& model,
+                                      const ColumnMaterial& material) {
   const config::Band& band = parameters.band;
-  band::ColumnsModel<Real> columns;
-  columns.column = model.band.with_heat_content([&](const auto& content) -> band::AnyColumnModel<Real> {
+  band::ColumnsModel columns;
+  columns.column = model.band.with_heat_content([&](const auto& content) -> band::AnyColumnModel {
     return column_model(parameters, model.motion.phases, content.curve, material);
   });
   columns.body_temperature = static_cast<Real>(material.temperature);
@@ -63,9 +63,8 @@ band::ColumnsModel<Real> make_columns_model(const config::Case& parameters, cons
   return columns;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                        \
-  template band::ColumnsModel<Real> make_columns_model<Dim, Real>(const config::Case&, const Model<Dim, Real>&, \
-                                                                  const ColumnMaterial&);
+#define THAWSLIDE_INSTANTIATE(Dim) \
+  template band::ColumnsModel make_columns_model<Dim>(const config::Case&, const Model<Dim>&, const ColumnMaterial&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -13,8 +13,8 @@ struct ColumnMaterial {
   double temperature, porosity, hydraulic_conductivity, depth;
 };
 
-template <int Dim, class Real>
-band::ColumnsModel<Real> make_columns_model(const config::Case& parameters, const Model<Dim, Real>& model,
-                                            const ColumnMaterial& material);
+template <int Dim>
+band::ColumnsModel make_columns_model(const config::Case& parameters, const Model<Dim>& model,
+                                      const ColumnMaterial& material);
 
 }  // namespace thawslide::sim

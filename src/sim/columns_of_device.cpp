@@ -12,9 +12,8 @@ namespace {
 using mpm::BaseState, mpm::Contact;
 
 // Updates the active blocks. Basal segments read nodes in blocks with candidate nodes and in adjacent blocks.
-template <int Dim, class Real>
-void update_blocks(const Model<Dim, Real>& model, const std::vector<std::uint64_t>& keys,
-                   GridOfDevice<Dim, Real>& base) {
+template <int Dim>
+void update_blocks(const Model<Dim>& model, const std::vector<std::uint64_t>& keys, GridOfDevice<Dim>& base) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   const auto near = [&](std::size_t b) { return base.ground.any_candidate(b); };
   base.grid.set_blocks(keys);
@@ -25,8 +24,7 @@ void update_blocks(const Model<Dim, Real>& model, const std::vector<std::uint64_
   base.nodes.motion.resize(keys.size());
   base.asked.clear();
   for (std::size_t b = 0; b < keys.size(); ++b) {
-    std::fill_n(base.nodes.momentum.of_block(b), block_nodes,
-                typename mpm::RecordsOf<mpm::Momentum, Dim, Real>::Record{});
+    std::fill_n(base.nodes.momentum.of_block(b), block_nodes, typename mpm::RecordsOf<mpm::Momentum, Dim>::Record{});
     const std::int32_t* about = base.grid.blocks_about_block(b);
     if (std::any_of(about, about + mpm::Tile<Dim>::stencil, [&](std::int32_t other) {
           return other != KeyIndex::absent && near(static_cast<std::size_t>(other));
@@ -36,8 +34,8 @@ void update_blocks(const Model<Dim, Real>& model, const std::vector<std::uint64_
   }
 }
 
-template <int Dim, class Real>
-void list_states(band::BasalSegments<Dim, Real>& columns, GridOfDevice<Dim, Real>& base) {
+template <int Dim>
+void list_states(band::BasalSegments<Dim>& columns, GridOfDevice<Dim>& base) {
   columns.to_nodes(base.grid, base.nodes);
   base.states.clear();
   for (std::size_t b = 0; b < base.grid.blocks().size(); ++b) {
@@ -54,8 +52,8 @@ void list_states(band::BasalSegments<Dim, Real>& columns, GridOfDevice<Dim, Real
   }
 }
 
-template <int Dim, class Real>
-void take_nodes(const std::vector<Real>& numbers, GridOfDevice<Dim, Real>& base) {
+template <int Dim>
+void take_nodes(const std::vector<Real>& numbers, GridOfDevice<Dim>& base) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   constexpr auto of_contact = static_cast<std::size_t>(Contact::size<Dim>);
   const Real* record = numbers.data();
@@ -73,12 +71,12 @@ void take_nodes(const std::vector<Real>& numbers, GridOfDevice<Dim, Real>& base)
 
 }  // namespace
 
-template <int Dim, class Real>
-device::HostColumns<Real> Simulation<Dim, Real>::host_columns() {
+template <int Dim>
+device::HostColumns Simulation<Dim>::host_columns() {
   if (!band_columns_) {
     return {};
   }
-  grid_of_device_ = std::make_unique<GridOfDevice<Dim, Real>>(grid_.cell());
+  grid_of_device_ = std::make_unique<GridOfDevice<Dim>>(grid_.cell());
   return {[this](const std::vector<std::uint64_t>& blocks) {
             update_blocks(model_, blocks, *grid_of_device_);
             return grid_of_device_->asked;
@@ -93,7 +91,7 @@ device::HostColumns<Real> Simulation<Dim, Real>::host_columns() {
           }};
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) template device::HostColumns<Real> Simulation<Dim, Real>::host_columns();
+#define THAWSLIDE_INSTANTIATE(Dim) template device::HostColumns Simulation<Dim>::host_columns();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

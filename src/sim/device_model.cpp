@@ -10,8 +10,8 @@
 
 namespace thawslide::sim {
 
-template <int Dim, class Real>
-std::string not_on_devices(const config::Case& parameters, const Model<Dim, Real>& model) {
+template <int Dim>
+std::string not_on_devices(const config::Case& parameters, const Model<Dim>& model) {
   const struct {
     bool is_asked;
     const char* what;
@@ -31,10 +31,9 @@ std::string not_on_devices(const config::Case& parameters, const Model<Dim, Real
   return "";
 }
 
-template <int Dim, class Real>
-device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, const Model<Dim, Real>& model,
-                                             bool starts) {
-  device::StepModel<Dim, Real> device;
+template <int Dim>
+device::StepModel<Dim> device_model_of(const config::Case& parameters, const Model<Dim>& model, bool starts) {
+  device::StepModel<Dim> device;
   device.cell = static_cast<Real>(parameters.grid.cell);
   for (std::size_t body = 0; body < model.body_names.size(); ++body) {
     device.half_sizes.push_back(model.motion.sizes.half(body));
@@ -55,7 +54,7 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   device.phases = model.motion.phases;
   device.effective_stress = model.motion.effective_stress;
   device.lubrication = model.motion.lubrication;
-  device.faces = static_cast<const mpm::DomainFaces<Dim, Real>&>(model.constraints);
+  device.faces = static_cast<const mpm::DomainFaces<Dim>&>(model.constraints);
   // Particles that will be removed may leave the domain before the end of the step.
   const Real margin = parameters.grid.leaving == config::Policy::remove ? device.cell : Real(0);
   const Vector<Real, Dim> beyond = Vector<Real, Dim>::Constant(margin);
@@ -74,7 +73,7 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   device.starts = starts;
   device.heat_content = model.band.heat_content;
   device.heat_faces = model.band.at_faces;
-  device.band = static_cast<const band::BandPhysics<Real>&>(model.band);
+  device.band = static_cast<const band::BandPhysics&>(model.band);
   device.rescales_band = !has_columns;
   device.hydraulic_conductivity = model.band.hydraulic_conductivity;
   device.band_thickness = [thickness = parameters.band.thickness](Real time) {
@@ -84,22 +83,22 @@ device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, con
   return device;
 }
 
-template <int Dim, class Real>
-device::HostCallbacks<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, double cell) {
-  device::HostCallbacks<Dim, Real> ask;
+template <int Dim>
+device::HostCallbacks<Dim> terrain_for_device(const Model<Dim>& model, double cell) {
+  device::HostCallbacks<Dim> ask;
   if (model.ground) {
-    ask.ground = [&model, cell](std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
-      std::array<terrain::GroundAtNode<Dim, double>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> found;
+    ask.ground = [&model, cell](std::uint64_t block, terrain::GroundAtNode<Dim>* nodes) {
+      std::array<terrain::GroundAtNode<Dim>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> found;
       terrain::query_ground<Dim>(*model.ground, model.substrates.get(), block, cell, found.data());
       std::transform(found.begin(), found.end(), nodes, [](const auto& node) {
-        return terrain::GroundAtNode<Dim, Real>{node.candidate,
-                                                node.substrate,
-                                                node.normal.template cast<Real>(),
-                                                static_cast<Real>(node.area),
-                                                static_cast<Real>(node.bend),
-                                                static_cast<Real>(node.plane),
-                                                static_cast<Real>(node.space),
-                                                static_cast<Real>(node.distance)};
+        return terrain::GroundAtNode<Dim>{node.candidate,
+                                          node.substrate,
+                                          node.normal.template cast<Real>(),
+                                          static_cast<Real>(node.area),
+                                          static_cast<Real>(node.bend),
+                                          static_cast<Real>(node.plane),
+                                          static_cast<Real>(node.space),
+                                          static_cast<Real>(node.distance)};
       });
       return terrain::is_ground_known<Dim>(*model.ground, block, cell);
     };
@@ -112,11 +111,10 @@ device::HostCallbacks<Dim, Real> terrain_for_device(const Model<Dim, Real>& mode
   return ask;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                         \
-  template std::string not_on_devices<Dim, Real>(const config::Case&, const Model<Dim, Real>&);                  \
-  template device::StepModel<Dim, Real> device_model_of<Dim, Real>(const config::Case&, const Model<Dim, Real>&, \
-                                                                   bool);                                        \
-  template device::HostCallbacks<Dim, Real> terrain_for_device<Dim, Real>(const Model<Dim, Real>&, double);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                    \
+  template std::string not_on_devices<Dim>(const config::Case&, const Model<Dim>&);                   \
+  template device::StepModel<Dim> device_model_of<Dim>(const config::Case&, const Model<Dim>&, bool); \
+  template device::HostCallbacks<Dim> terrain_for_device<Dim>(const Model<Dim>&, double);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -10,16 +10,15 @@
 namespace thawslide::sim {
 
 // Feature of the case, with its key, that no device supports; empty if all are supported.
-template <int Dim, class Real>
-std::string not_on_devices(const config::Case& parameters, const Model<Dim, Real>& model);
+template <int Dim>
+std::string not_on_devices(const config::Case& parameters, const Model<Dim>& model);
 
 // starts: true before the first step.
-template <int Dim, class Real>
-device::StepModel<Dim, Real> device_model_of(const config::Case& parameters, const Model<Dim, Real>& model,
-                                             bool starts);
+template <int Dim>
+device::StepModel<Dim> device_model_of(const config::Case& parameters, const Model<Dim>& model, bool starts);
 
 // Queries of the model's terrain; the model must outlive the result.
-template <int Dim, class Real>
-device::HostCallbacks<Dim, Real> terrain_for_device(const Model<Dim, Real>& model, double cell);
+template <int Dim>
+device::HostCallbacks<Dim> terrain_for_device(const Model<Dim>& model, double cell);
 
 }  // namespace thawslide::sim

@@ -17,18 +17,17 @@ namespace thawslide::sim {
 
 // Returns 1 or -1 (towards +x or -x) for bodies at t = 0; 1 in 3D and if there is no direction. cell: of the grid [m],
 // over which slopes are averaged.
-template <int Dim, class Real>
-[[nodiscard]] double direction_at_start(const Model<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles,
-                                        double cell);
+template <int Dim>
+[[nodiscard]] double direction_at_start(const Model<Dim>& model, const mpm::Particles<Dim>& particles, double cell);
 
 // The same for a moving slide, which lies ahead of its initial rear end (Simulation::rear_at_start). The direction of a
 // slide that moved uphill and returned past that end is reversed there.
-template <int Dim, class Real>
-[[nodiscard]] double direction_along_x(const Simulation<Dim, Real>& simulation);
+template <int Dim>
+[[nodiscard]] double direction_along_x(const Simulation<Dim>& simulation);
 
 // In 2D: x coordinate that contains 99.5 % of the mass behind it, in that direction [m].
-template <int Dim, class Real>
-[[nodiscard]] double front_along_x(const Simulation<Dim, Real>& simulation, double direction);
+template <int Dim>
+[[nodiscard]] double front_along_x(const Simulation<Dim>& simulation, double direction);
 
 // Reverses the site's path if its bodies leave against it. If there is no direction, the end nearer to the bodies
 // becomes the first one; without a body, the higher end. Then reverses each probe line that the path crosses from right

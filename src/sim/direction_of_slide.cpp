@@ -9,8 +9,8 @@
 
 namespace thawslide::sim {
 
-template <int Dim, class Real>
-double direction_at_start(const Model<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles, double cell) {
+template <int Dim>
+double direction_at_start(const Model<Dim>& model, const mpm::Particles<Dim>& particles, double cell) {
   if (Dim == 3) {
     return 1.0;
   }
@@ -31,14 +31,14 @@ double direction_at_start(const Model<Dim, Real>& model, const mpm::Particles<Di
   return departure.direction(extent.length()) < 0 ? -1.0 : 1.0;
 }
 
-template <int Dim, class Real>
-double front_along_x(const Simulation<Dim, Real>& simulation, double direction) {
+template <int Dim>
+double front_along_x(const Simulation<Dim>& simulation, double direction) {
   const PathLine towards_lower_x(config::Polyline2{{0.0, 0.0}, {-1.0, 0.0}});
   return simulation.front(direction < 0.0 ? towards_lower_x.view() : LineView{}).place[0];
 }
 
-template <int Dim, class Real>
-double direction_along_x(const Simulation<Dim, Real>& simulation) {
+template <int Dim>
+double direction_along_x(const Simulation<Dim>& simulation) {
   if (Dim == 3) {
     return 1.0;
   }
@@ -46,10 +46,10 @@ double direction_along_x(const Simulation<Dim, Real>& simulation) {
   return middle < simulation.rear_at_start() ? -1.0 : 1.0;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                            \
-  template double direction_at_start<Dim, Real>(const Model<Dim, Real>&, const mpm::Particles<Dim, Real>&, double); \
-  template double direction_along_x<Dim, Real>(const Simulation<Dim, Real>&);                                       \
-  template double front_along_x<Dim, Real>(const Simulation<Dim, Real>&, double);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                \
+  template double direction_at_start<Dim>(const Model<Dim>&, const mpm::Particles<Dim>&, double); \
+  template double direction_along_x<Dim>(const Simulation<Dim>&);                                 \
+  template double front_along_x<Dim>(const Simulation<Dim>&, double);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -8,7 +8,7 @@
 namespace thawslide::sim {
 
 template <int Dim>
-EndState end_state(const Simulation<Dim, double>& simulation, bool slide_left) {
+EndState end_state(const Simulation<Dim>& simulation, bool slide_left) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const config::Case& parameters = simulation.parameters();
   const double width = parameters.general.width.factor();
@@ -16,21 +16,21 @@ EndState end_state(const Simulation<Dim, double>& simulation, bool slide_left) {
   state.time = simulation.time();
   state.rest_rule = simulation.rest_rule();
   state.left_particles = simulation.removed().left;
-  const Ledger<Dim, double>& ledger = simulation.ledger();
+  const Ledger<Dim>& ledger = simulation.ledger();
   state.left_mass = width * ledger.left_mass;
   state.guarded_mass = width * ledger.removed_mass;
   state.whole_mass = width * (ledger.initial_mass + ledger.joined_mass);
   if (slide_left || simulation.device_has_failed() || simulation.particle_count() == 0) {
-    state.rest_since = state.mean_velocity = state.dilation_volume = state.dilation_share = unknown;
+    state.rest_since = state.mean_velocity = state.dilation_volume = state.dilation_fraction = unknown;
     return state;
   }
-  const BodySums<Dim, double> sums = simulation.sum_over_body();
+  const BodySums<Dim> sums = simulation.sum_over_body();
   state.is_known = parameters.mechanics.enabled;
   state.at_rest = state.is_known && simulation.is_at_rest();
   state.rest_since = state.at_rest ? simulation.rest_since() : unknown;
   state.mean_velocity = sums.momentum.norm() / static_cast<double>(sums.mass);
   state.dilation_volume = width * sums.volume_change;
-  state.dilation_share = sums.volume_change / sums.initial_volume;
+  state.dilation_fraction = sums.volume_change / sums.initial_volume;
   return state;
 }
 
@@ -38,7 +38,7 @@ std::vector<std::pair<std::string, double>> named(const EndState& state) {
   return {{"rest_since_s", state.rest_since},
           {"mean_velocity_m_s", state.mean_velocity},
           {"dilation_volume_m3", state.dilation_volume},
-          {"dilation_share", state.dilation_share},
+          {"dilation_fraction", state.dilation_fraction},
           {"left_mass_kg", state.left_mass}};
 }
 
@@ -55,13 +55,13 @@ std::vector<std::string> warnings_of(const EndState& state, bool is_over) {
                     "and a later --end.",
                     state.time, state.mean_velocity, state.rest_rule));
   }
-  if (std::abs(state.dilation_share) > noticed_dilation) {
+  if (std::abs(state.dilation_fraction) > noticed_dilation) {
     warnings.push_back(
         fmt::format("Dilation has changed the volume of the slide by {:+.1f} %, {} m3 (expected: at most {:g} %). "
                     "Thicknesses, areas and volumes are too {} by about as much. Check dilation_angle and "
                     "gaps_close_first of the materials.",
-                    100.0 * state.dilation_share, rounded_text(state.dilation_volume, 2), 100.0 * noticed_dilation,
-                    state.dilation_share > 0.0 ? "large" : "small"));
+                    100.0 * state.dilation_fraction, rounded_text(state.dilation_volume, 2), 100.0 * noticed_dilation,
+                    state.dilation_fraction > 0.0 ? "large" : "small"));
   }
   if (state.left_particles > 0) {
     const double mass = state.left_mass - state.guarded_mass;
@@ -73,7 +73,7 @@ std::vector<std::string> warnings_of(const EndState& state, bool is_over) {
   return warnings;
 }
 
-template EndState end_state<2>(const Simulation<2, double>&, bool);
-template EndState end_state<3>(const Simulation<3, double>&, bool);
+template EndState end_state<2>(const Simulation<2>&, bool);
+template EndState end_state<3>(const Simulation<3>&, bool);
 
 }  // namespace thawslide::sim

@@ -18,14 +18,14 @@ namespace thawslide::sim {
 inline constexpr double noticed_dilation = 0.05;
 
 struct EndState {
-  double time = 0.0;             // [s]
-  bool is_known = false;         // of the motion; false if no slide is left, a device failed, or nothing moves
-  bool at_rest = false;          // Simulation::is_at_rest
-  double rest_since = 0.0;       // [s]; NaN while moving
-  std::string rest_rule;         // criterion of rest as text
-  double mean_velocity = 0.0;    // magnitude of the mean velocity, as in the history [m/s]
-  double dilation_volume = 0.0;  // [m3]; in 2D per metre of width, times case.width if specified
-  double dilation_share = 0.0;   // fraction of the initial volume
+  double time = 0.0;               // [s]
+  bool is_known = false;           // of the motion; false if no slide is left, a device failed, or nothing moves
+  bool at_rest = false;            // Simulation::is_at_rest
+  double rest_since = 0.0;         // [s]; NaN while moving
+  std::string rest_rule;           // criterion of rest as text
+  double mean_velocity = 0.0;      // magnitude of the mean velocity, as in the history [m/s]
+  double dilation_volume = 0.0;    // [m3]; in 2D per metre of width, times case.width if specified
+  double dilation_fraction = 0.0;  // fraction of the initial volume
   double left_mass = 0.0;     // of removed particles, guards included, as in the history [kg]; in 2D as dilation_volume
   double guarded_mass = 0.0;  // part of left_mass removed by guards [kg]
   double whole_mass = 0.0;    // of all particles, including removed ones [kg]
@@ -34,7 +34,7 @@ struct EndState {
 
 // slide_left: the whole slide has left.
 template <int Dim>
-[[nodiscard]] EndState end_state(const Simulation<Dim, double>& simulation, bool slide_left);
+[[nodiscard]] EndState end_state(const Simulation<Dim>& simulation, bool slide_left);
 
 // Name with unit and value, for run.json.
 [[nodiscard]] std::vector<std::pair<std::string, double>> named(const EndState& state);

@@ -23,46 +23,44 @@ constexpr std::int64_t joining_interval = 8;
 // the same number of points along each axis.
 template <int Dim>
 double volume_below(const config::Case& parameters, const config::Site& site,
-                    const typename terrain::Bed<Dim, double>::Column& column) {
-  constexpr int looks = 4;
+                    const typename terrain::Bed<Dim>::Column& column) {
+  constexpr int samples = 4;
   const config::Grid& grid = parameters.grid;
   const InitialField& depth = parameters.bed.depth;
   double sum = 0.0;
-  const auto look = [&](int number, std::size_t axis) {
-    const double part = (static_cast<double>(number) + 0.5) / looks - 0.5;
+  const auto coordinate = [&](int number, std::size_t axis) {
+    const double part = (static_cast<double>(number) + 0.5) / samples - 0.5;
     return grid.min[axis] + (static_cast<double>(column[axis]) + part) * grid.cell;
   };
   const auto is_inside = [&](double place, std::size_t axis) {
     return place > grid.min[axis] && place < grid.max[axis];
   };
-  for (int i = 0; i < looks; ++i) {
-    const double x = look(i, 0);
-    for (int j = 0; j < (Dim == 3 ? looks : 1); ++j) {
-      const double y = Dim == 3 ? look(j, Dim - 2) : 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const double x = coordinate(i, 0);
+    for (int j = 0; j < (Dim == 3 ? samples : 1); ++j) {
+      const double y = Dim == 3 ? coordinate(j, Dim - 2) : 0.0;
       if (is_inside(x, 0) && (Dim == 2 || is_inside(y, 1))) {
         sum += depth.is_map() ? bilinear(site.bed_depth, x, y, Missing::zero) : depth.at(0.0, x);
       }
     }
   }
-  return sum * std::pow(grid.cell / looks, Dim - 1);
+  return sum * std::pow(grid.cell / samples, Dim - 1);
 }
 
-template <class Real>
-terrain::BedMaterial<Real> make_bed_material(const config::Bed& bed, Real density) {
-  return {bed.law, static_cast<Real>(bed.strength),
-          static_cast<Real>(std::tan(bed.friction_angle * pi<double> / 180.0)), static_cast<Real>(bed.depth_per_slip),
-          density};
+terrain::BedMaterial make_bed_material(const config::Bed& bed, Real density) {
+  return {bed.law, static_cast<Real>(bed.strength), static_cast<Real>(std::tan(bed.friction_angle * pi / 180.0)),
+          static_cast<Real>(bed.depth_per_slip), density};
 }
 
 }  // namespace
 
-template <int Dim, class Real>
-std::optional<terrain::Bed<Dim, Real>> make_bed(const config::Case& parameters, const config::Site& site,
-                                                const Model<Dim, Real>& model) {
+template <int Dim>
+std::optional<terrain::Bed<Dim>> make_bed(const config::Case& parameters, const config::Site& site,
+                                          const Model<Dim>& model) {
   if (parameters.bed.law == config::BedLaw::none) {
     return std::nullopt;
   }
-  typename terrain::Bed<Dim, Real>::Column columns{}, at{};
+  typename terrain::Bed<Dim>::Column columns{}, at{};
   std::size_t count = 1;
   for (std::size_t a = 0; a < columns.size(); ++a) {
     columns[a] =
@@ -76,29 +74,29 @@ std::optional<terrain::Bed<Dim, Real>> make_bed(const config::Case& parameters, 
       at[a] = 0;
     }
   }
-  return terrain::Bed<Dim, Real>(make_bed_material(parameters.bed, model.bed_density), columns, std::move(mass));
+  return terrain::Bed<Dim>(make_bed_material(parameters.bed, model.bed_density), columns, std::move(mass));
 }
 
 // Positions below the slide at which material removed from columns may join, relative to the domain's lower corner:
 // below the lowest particle over each column. Particles farther ahead or to the side would carry the slide to bed that
 // it has not reached. A column without particles above it uses its centre.
-template <int Dim, class Real>
-std::vector<Vector<double, Dim - 1>> Simulation<Dim, Real>::places_below_slide(
-    const std::vector<typename terrain::Bed<Dim, Real>::Column>& columns) const {
+template <int Dim>
+std::vector<Vector<double, Dim - 1>> Simulation<Dim>::places_below_slide(
+    const std::vector<typename terrain::Bed<Dim>::Column>& columns) const {
   struct Lowest {
     Vector<double, Dim - 1> place;
     double height = HUGE_VAL;
     std::int64_t id = -1;
   };
   const double cell = parameters_.grid.cell;
-  std::map<typename terrain::Bed<Dim, Real>::Column, Lowest> lowest;
+  std::map<typename terrain::Bed<Dim>::Column, Lowest> lowest;
   for (const auto& column : columns) {
     for (int a = 0; a + 1 < Dim; ++a) {
       lowest[column].place[a] = column[static_cast<std::size_t>(a)] * cell;
     }
   }
   for (const std::uint32_t p : grid_.order()) {
-    typename terrain::Bed<Dim, Real>::Column column;
+    typename terrain::Bed<Dim>::Column column;
     for (int a = 0; a + 1 < Dim; ++a) {
       column[static_cast<std::size_t>(a)] =
           static_cast<int>(std::lround(static_cast<double>(particles_.position(p, a)) / cell));
@@ -120,10 +118,10 @@ std::vector<Vector<double, Dim - 1>> Simulation<Dim, Real>::places_below_slide(
 // Creates a bed particle on the ground, within one particle length behind a position below the slide. Consecutive
 // numbers fill this length evenly (multiples of the golden ratio). The particle carries no stress at first, so nodal
 // forces do not change.
-template <int Dim, class Real>
-NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(Vector<double, Dim - 1> place,
-                                                              const terrain::LooseMaterial<Dim, Real>& material,
-                                                              std::int64_t number) const {
+template <int Dim>
+NewParticle<Dim> Simulation<Dim>::particle_of_bed(Vector<double, Dim - 1> place,
+                                                  const terrain::LooseMaterial<Dim>& material,
+                                                  std::int64_t number) const {
   const double cell = parameters_.grid.cell;
   const auto body = static_cast<std::int32_t>(model_.body_names.size() - 1);
   const double half = static_cast<double>(model_.motion.sizes.half(static_cast<std::size_t>(body))) * cell;
@@ -136,7 +134,7 @@ NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(Vector<double, Dim
     place[a] = std::clamp(place[a], half, static_cast<double>(model_.constraints.extent[a]) - half);
   }
   const Vector<double, Dim> normal = model_.ground->normal_below(place, cell);
-  NewParticle<Dim, Real> one;
+  NewParticle<Dim> one;
   one.body = body;
   one.material = static_cast<std::int32_t>(
       std::find(model_.material_names.begin(), model_.material_names.end(), parameters_.bed.material) -
@@ -157,8 +155,8 @@ NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(Vector<double, Dim
 }
 
 // Bed in contact with the slide in this step; null like bed_in_reach.
-template <int Dim, class Real>
-const terrain::Bed<Dim, Real>* Simulation<Dim, Real>::bed_to_meet() {
+template <int Dim>
+const terrain::Bed<Dim>* Simulation<Dim>::bed_to_meet() {
   if (bed_in_reach() != nullptr) {
     bed_->cover(grid_, ground_, model_.motion.sizes, particles_);
   }
@@ -166,8 +164,8 @@ const terrain::Bed<Dim, Real>* Simulation<Dim, Real>::bed_to_meet() {
 }
 
 // Collects the mass that contact nodes entrained in this step.
-template <int Dim, class Real>
-void Simulation<Dim, Real>::collect_bed() {
+template <int Dim>
+void Simulation<Dim>::collect_bed() {
   if (bed_in_reach() != nullptr) {
     bed_->collect(grid_, nodes_, dt_);
   }
@@ -175,23 +173,23 @@ void Simulation<Dim, Real>::collect_bed() {
 
 // Adds loose material as soon as it suffices for a particle. Smaller particles are added if the bed is exhausted, or if
 // the slide has moved on by a cell.
-template <int Dim, class Real>
-void Simulation<Dim, Real>::entrain_bed() {
+template <int Dim>
+void Simulation<Dim>::entrain_bed() {
   if (step_number_ % joining_interval != 0) {
     return;
   }
   const Real whole =
       model_.bed_density * static_cast<Real>(std::pow(parameters_.grid.cell / parameters_.bed.particles_per_axis, Dim));
-  std::vector<typename terrain::Bed<Dim, Real>::Column> columns;
-  std::vector<terrain::LooseMaterial<Dim, Real>> parts;
-  bed_->release([&](const auto& column, const terrain::LooseMaterial<Dim, Real>& material) {
+  std::vector<typename terrain::Bed<Dim>::Column> columns;
+  std::vector<terrain::LooseMaterial<Dim>> parts;
+  bed_->release([&](const auto& column, const terrain::LooseMaterial<Dim>& material) {
     const bool has_passed = material.idle * material.momentum.norm() > grid_.cell() * material.mass;
     const bool is_last = bed_->is_exhausted(column) || has_passed;
     if (!(material.mass >= whole || (is_last && material.mass >= static_cast<Real>(least_share) * whole))) {
       return false;
     }
     const auto count = static_cast<std::size_t>(std::max(Real(1), std::floor(material.mass / whole)));
-    terrain::LooseMaterial<Dim, Real> part = material;
+    terrain::LooseMaterial<Dim> part = material;
     part.mass /= static_cast<Real>(count);
     part.momentum /= static_cast<Real>(count);
     part.work /= static_cast<Real>(count);
@@ -204,7 +202,7 @@ void Simulation<Dim, Real>::entrain_bed() {
   }
   sync_to_host();
   const auto places = places_below_slide(columns);
-  std::vector<NewParticle<Dim, Real>> joining;
+  std::vector<NewParticle<Dim>> joining;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     joining.push_back(particle_of_bed(places[k], parts[k], next_id_ + static_cast<std::int64_t>(k)));
     ledger_.bed_joined_mass += parts[k].mass;
@@ -214,16 +212,16 @@ void Simulation<Dim, Real>::entrain_bed() {
   append(joining);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                        \
-  template std::optional<terrain::Bed<Dim, Real>> make_bed<Dim, Real>(const config::Case&, const config::Site&, \
-                                                                      const Model<Dim, Real>&);                 \
-  template std::vector<Vector<double, Dim - 1>> Simulation<Dim, Real>::places_below_slide(                      \
-      const std::vector<typename terrain::Bed<Dim, Real>::Column>&) const;                                      \
-  template NewParticle<Dim, Real> Simulation<Dim, Real>::particle_of_bed(                                       \
-      Vector<double, Dim - 1>, const terrain::LooseMaterial<Dim, Real>&, std::int64_t) const;                   \
-  template const terrain::Bed<Dim, Real>* Simulation<Dim, Real>::bed_to_meet();                                 \
-  template void Simulation<Dim, Real>::collect_bed();                                                           \
-  template void Simulation<Dim, Real>::entrain_bed();
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                    \
+  template std::optional<terrain::Bed<Dim>> make_bed<Dim>(const config::Case&, const config::Site&,                   \
+                                                          const Model<Dim>&);                                         \
+  template std::vector<Vector<double, Dim - 1>> Simulation<Dim>::places_below_slide(                                  \
+      const std::vector<typename terrain::Bed<Dim>::Column>&) const;                                                  \
+  template NewParticle<Dim> Simulation<Dim>::particle_of_bed(Vector<double, Dim - 1>,                                 \
+                                                             const terrain::LooseMaterial<Dim>&, std::int64_t) const; \
+  template const terrain::Bed<Dim>* Simulation<Dim>::bed_to_meet();                                                   \
+  template void Simulation<Dim>::collect_bed();                                                                       \
+  template void Simulation<Dim>::entrain_bed();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -11,8 +11,8 @@
 namespace thawslide::sim {
 
 // Empty if the case has no bed.
-template <int Dim, class Real>
-std::optional<terrain::Bed<Dim, Real>> make_bed(const config::Case& parameters, const config::Site& site,
-                                                const Model<Dim, Real>& model);
+template <int Dim>
+std::optional<terrain::Bed<Dim>> make_bed(const config::Case& parameters, const config::Site& site,
+                                          const Model<Dim>& model);
 
 }  // namespace thawslide::sim

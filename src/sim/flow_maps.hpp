@@ -35,8 +35,8 @@ struct SegmentBelow {
 // work scale with the slide's extent.
 class FlowMaps {
  public:
-  using Grid = mpm::SparseGrid<3, double>;
-  using Particles = mpm::Particles<3, double>;
+  using Grid = mpm::SparseGrid<3>;
+  using Particles = mpm::Particles<3>;
 
   // origin: of the particles' positions [m]; half_sizes: of particles by body [m]; arrival_thickness: of the maps [m].
   // Particle centres must lie over the map grid. drawn: the releases; if unknown, the initially covered area follows
@@ -124,8 +124,8 @@ class FlowMaps {
 
   MapGrid map_grid_;
   mpm::MapCells cells_;
-  mpm::BodySizes<double> sizes_;  // of particles [m]
-  double arrival_thickness_;      // [m]
+  mpm::BodySizes sizes_;      // of particles [m]
+  double arrival_thickness_;  // [m]
   DrawnArea drawn_;
   bool band_is_of_particles_ = true;
   KeyIndex tile_index_;

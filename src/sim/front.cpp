@@ -9,8 +9,8 @@
 
 namespace thawslide::sim {
 
-template <int Dim, class Real>
-mpm::PathSample Simulation<Dim, Real>::front(const LineView& line) const {
+template <int Dim>
+mpm::PathSample Simulation<Dim>::front(const LineView& line) const {
   THAWSLIDE_ASSERT(particle_count() > 0, "the front of {} particles", particle_count());
   mpm::Transformation<Dim> way{line};
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
@@ -31,7 +31,7 @@ mpm::PathSample Simulation<Dim, Real>::front(const LineView& line) const {
   return way.of(particles_, order[front_of(masses, mass).rank]);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) template mpm::PathSample Simulation<Dim, Real>::front(const LineView&) const;
+#define THAWSLIDE_INSTANTIATE(Dim) template mpm::PathSample Simulation<Dim>::front(const LineView&) const;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

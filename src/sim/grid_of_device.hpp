@@ -10,13 +10,13 @@
 
 namespace thawslide::sim {
 
-template <int Dim, class Real>
+template <int Dim>
 struct GridOfDevice {
   explicit GridOfDevice(Real cell) : grid(cell) {}
 
-  mpm::SparseGrid<Dim, Real> grid;
-  terrain::GroundOnGrid<Dim, Real> ground;
-  mpm::Nodes<Dim, Real> nodes;
+  mpm::SparseGrid<Dim> grid;
+  terrain::GroundOnGrid<Dim> ground;
+  mpm::Nodes<Dim> nodes;
   std::vector<std::uint32_t> asked;  // blocks whose nodes the device transfers
   std::vector<Real> states;          // records of BaseState of candidate nodes
 };

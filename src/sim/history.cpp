@@ -9,21 +9,21 @@ namespace thawslide::sim {
 namespace {
 
 // Adds the means of the band, over its particles or, if the band consists of columns, over the base.
-template <int Dim, class Real>
-void add_band(const Simulation<Dim, Real>& simulation, const BodySums<Dim, Real>& sums, HistoryRow& row) {
+template <int Dim>
+void add_band(const Simulation<Dim>& simulation, const BodySums<Dim>& sums, HistoryRow& row) {
   const auto add = [&](const char* name, double value) { row.emplace_back(name, value); };
   if (const auto* columns = simulation.band_columns()) {
-    const band::BaseMeans<Real> base = columns->means();
+    const band::BaseMeans base = columns->means();
     add("band_temperature_C", static_cast<double>(base.temperature));
     add("band_saturation", static_cast<double>(base.saturation));
     add("band_pore_pressure_Pa", static_cast<double>(base.pore_pressure));
     add("band_normal_pressure_Pa", static_cast<double>(base.load));
     add("band_shear_Pa", static_cast<double>(simulation.contact().shear_force / simulation.contact().area));
     add("band_thickness_m", static_cast<double>(base.thickness));
-    add("band_hottest_C", static_cast<double>(base.hottest));
-    add("band_hottest_wet_C", static_cast<double>(base.hottest_wet));
-    add("band_dry_share", static_cast<double>(base.dry_share));
-    add("band_largest_pressure_ratio", static_cast<double>(base.largest_pressure_ratio));
+    add("band_max_temperature_C", static_cast<double>(base.max_temperature));
+    add("band_max_wet_temperature_C", static_cast<double>(base.max_wet_temperature));
+    add("band_dry_fraction", static_cast<double>(base.dry_fraction));
+    add("band_max_pressure_ratio", static_cast<double>(base.max_pressure_ratio));
     return;
   }
   const double mass = sums.band_mass > Real(0) ? static_cast<double>(sums.band_mass) : std::nan("");
@@ -33,14 +33,14 @@ void add_band(const Simulation<Dim, Real>& simulation, const BodySums<Dim, Real>
 }
 
 // Adds the heat and water balances of band columns; returns the heat held by the columns minus the heat supplied.
-template <int Dim, class Real, class Add>
-Real add_columns(const Simulation<Dim, Real>& simulation, const Add& add) {
+template <int Dim, class Add>
+Real add_columns(const Simulation<Dim>& simulation, const Add& add) {
   const auto* columns = simulation.band_columns();
   if (columns == nullptr) {
     return Real(0);
   }
-  const band::ColumnSums<Real> sums = columns->sums();
-  const band::ColumnLedger<Real>& ledger = columns->ledger();
+  const band::ColumnSums sums = columns->sums();
+  const band::ColumnLedger& ledger = columns->ledger();
   const Real heat_in = ledger.created_heat + ledger.body_heat + ledger.ground_heat;
   const Real heat_out = ledger.vented_heat + ledger.steam_heat + ledger.left_heat;
   const Real water_in = ledger.created_water + ledger.body_water;
@@ -64,14 +64,14 @@ Real add_columns(const Simulation<Dim, Real>& simulation, const Add& add) {
 
 // Adds the entrained mass, the remaining bed, and the balances of both. `add` takes the name and a number per metre of
 // width.
-template <int Dim, class Real, class Add>
-void add_bed(const Simulation<Dim, Real>& simulation, const Add& add) {
+template <int Dim, class Add>
+void add_bed(const Simulation<Dim>& simulation, const Add& add) {
   const auto* bed = simulation.bed();
   if (bed == nullptr) {
     return;
   }
   const auto sums = bed->sums();
-  const Ledger<Dim, Real>& ledger = simulation.ledger();
+  const Ledger<Dim>& ledger = simulation.ledger();
   const Real taken = sums.loose + ledger.bed_joined_mass;
   add("entrained_mass_kg", taken);
   add("entrained_volume_m3", taken / bed->material().density);
@@ -83,10 +83,9 @@ void add_bed(const Simulation<Dim, Real>& simulation, const Add& add) {
   add("bed_residual_J", ledger.bed_work - ledger.bed_joined_kinetic - ledger.bed_heat - sums.loose_work);
 }
 
-template <int Dim, class Real>
-void add_ledger(const Simulation<Dim, Real>& simulation, const BodySums<Dim, Real>& sums, double width,
-                HistoryRow& row) {
-  const Ledger<Dim, Real>& ledger = simulation.ledger();
+template <int Dim>
+void add_ledger(const Simulation<Dim>& simulation, const BodySums<Dim>& sums, double width, HistoryRow& row) {
+  const Ledger<Dim>& ledger = simulation.ledger();
   const auto add = [&](const char* name, Real value) { row.emplace_back(name, width * static_cast<double>(value)); };
   const Real strain = ledger.stress_work - ledger.plastic;
   const Real stored = sums.kinetic + sums.potential + strain;
@@ -159,21 +158,21 @@ void add_ledger(const Simulation<Dim, Real>& simulation, const BodySums<Dim, Rea
 
 }  // namespace
 
-template <int Dim, class Real>
-double front_position(const Simulation<Dim, Real>& simulation) {
+template <int Dim>
+double front_position(const Simulation<Dim>& simulation) {
   return front_along_x(simulation, direction_along_x(simulation));
 }
 
-template <int Dim, class Real>
-HistoryRow history_row(const Simulation<Dim, Real>& simulation) {
+template <int Dim>
+HistoryRow history_row(const Simulation<Dim>& simulation) {
   const double direction = direction_along_x(simulation), front = front_along_x(simulation, direction);
   return history_row(simulation, {front, direction * (front - simulation.rear_at_start())});
 }
 
-template <int Dim, class Real>
-HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow& front) {
+template <int Dim>
+HistoryRow history_row(const Simulation<Dim>& simulation, const FrontInRow& front) {
   const config::Case& parameters = simulation.parameters();
-  const BodySums<Dim, Real> sums = simulation.sum_over_body();
+  const BodySums<Dim> sums = simulation.sum_over_body();
   const auto& contact = simulation.contact();
   const double width = parameters.general.width.factor();
   HistoryRow row;
@@ -191,7 +190,7 @@ HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow
                    contact.area > Real(0) ? static_cast<double>(contact.friction_area / contact.area) : std::nan(""));
   row.emplace_back("mean_plastic_strain", mean(sums.plastic_strain));
   row.emplace_back("dilation_volume_m3", width * static_cast<double>(sums.volume_change));
-  row.emplace_back("dilation_share", static_cast<double>(sums.volume_change / sums.initial_volume));
+  row.emplace_back("dilation_fraction", static_cast<double>(sums.volume_change / sums.initial_volume));
   const char* axes = Dim == 2 ? "xy" : "xyz";
   // No force is known before the first step.
   const double known = simulation.step_number() > 0 ? width : std::nan("");
@@ -207,11 +206,11 @@ HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow
   return row;
 }
 
-template HistoryRow history_row<2, double>(const Simulation<2, double>&);
-template HistoryRow history_row<3, double>(const Simulation<3, double>&);
-template HistoryRow history_row<2, double>(const Simulation<2, double>&, const FrontInRow&);
-template HistoryRow history_row<3, double>(const Simulation<3, double>&, const FrontInRow&);
-template double front_position<2, double>(const Simulation<2, double>&);
-template double front_position<3, double>(const Simulation<3, double>&);
+template HistoryRow history_row<2>(const Simulation<2>&);
+template HistoryRow history_row<3>(const Simulation<3>&);
+template HistoryRow history_row<2>(const Simulation<2>&, const FrontInRow&);
+template HistoryRow history_row<3>(const Simulation<3>&, const FrontInRow&);
+template double front_position<2>(const Simulation<2>&);
+template double front_position<3>(const Simulation<3>&);
 
 }  // namespace thawslide::sim

@@ -18,13 +18,13 @@ struct FrontInRow {
 
 // State after the last step. The front is measured along x, or given by the caller. In 2D, extensive values are per
 // metre of width, times case.width if specified.
-template <int Dim, class Real>
-HistoryRow history_row(const Simulation<Dim, Real>& simulation);
-template <int Dim, class Real>
-HistoryRow history_row(const Simulation<Dim, Real>& simulation, const FrontInRow& front);
+template <int Dim>
+HistoryRow history_row(const Simulation<Dim>& simulation);
+template <int Dim>
+HistoryRow history_row(const Simulation<Dim>& simulation, const FrontInRow& front);
 
 // x coordinate of the front (99.5 % of the mass), in the direction in which the slide left [m].
-template <int Dim, class Real>
-double front_position(const Simulation<Dim, Real>& simulation);
+template <int Dim>
+double front_position(const Simulation<Dim>& simulation);
 
 }  // namespace thawslide::sim

@@ -32,8 +32,8 @@ double initial_value(const InitialField& field, const config::Release* release, 
 }
 
 // [C]; given, or computed from the saturation by the freezing curve.
-template <int Dim, class Real>
-double initial_temperature(const Model<Dim, Real>& model, const config::Body& body, const config::Release* release,
+template <int Dim>
+double initial_temperature(const Model<Dim>& model, const config::Body& body, const config::Release* release,
                            const Seed<Dim>& seed) {
   if (!body.saturation.is_given()) {
     return initial_value(body.temperature, release, "temperature", seed);

@@ -5,7 +5,7 @@
 
 namespace thawslide::sim {
 
-template <int Dim, class Real>
+template <int Dim>
 struct Ledger {
   // Mechanical: stress work by kind, work of contact and constraints.
   Real stress_work = 0, plastic = 0, viscous = 0, damping = 0, pore_work = 0;

@@ -5,8 +5,8 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "config/basal_laws.hpp"
-#include "physics/free_gap.hpp"
 #include "physics/softening.hpp"
+#include "physics/tension_gap.hpp"
 #include "sim/between_bodies.hpp"
 #include "sim/substrates.hpp"
 #include "terrain/height_field.hpp"
@@ -17,11 +17,10 @@ namespace thawslide::sim {
 
 namespace {
 
-double radians(double degrees) { return degrees * pi<double> / 180.0; }
+double radians(double degrees) { return degrees * pi / 180.0; }
 
-template <class Real>
-physics::Phases<Real> make_phases(const config::Phases& p) {
-  physics::Phases<Real> phases;
+physics::Phases make_phases(const config::Phases& p) {
+  physics::Phases phases;
   phases.rock_density = static_cast<Real>(p.rock_density);
   phases.ice_density = static_cast<Real>(p.ice_density);
   phases.water_density = static_cast<Real>(p.water_density);
@@ -41,45 +40,43 @@ physics::Phases<Real> make_phases(const config::Phases& p) {
   return phases;
 }
 
-template <class Real>
-physics::Strength<Real> strength_of(const config::Material& material, double cell) {
+physics::Strength strength_of(const config::Material& material, double cell) {
   const double of_slip = physics::softening_strain_of_slip(material.softening_slip, cell);
   const double softening_strain = material.softening_slip > 0.0 ? of_slip : material.softening_strain;
-  physics::Strength<Real> strength{.friction_angle = static_cast<Real>(material.friction_angle),
-                                   .dilation_angle = static_cast<Real>(material.dilation_angle),
-                                   .cohesion = static_cast<Real>(material.cohesion),
-                                   .residual_cohesion = static_cast<Real>(material.residual_cohesion),
-                                   .tension_cutoff = static_cast<Real>(material.tension_cutoff),
-                                   .residual_friction_angle = static_cast<Real>(material.residual_friction_angle)};
+  physics::Strength strength{.friction_angle = static_cast<Real>(material.friction_angle),
+                             .dilation_angle = static_cast<Real>(material.dilation_angle),
+                             .cohesion = static_cast<Real>(material.cohesion),
+                             .residual_cohesion = static_cast<Real>(material.residual_cohesion),
+                             .tension_cutoff = static_cast<Real>(material.tension_cutoff),
+                             .residual_friction_angle = static_cast<Real>(material.residual_friction_angle)};
   if (softening_strain > 0.0) {  // otherwise nothing softens
     strength.softening_strain = static_cast<Real>(softening_strain);
   }
   return strength;
 }
 
-template <class Real>
-mpm::MaterialModel<Real> make_material(const config::Material& material, double cell, bool deformation) {
-  mpm::MaterialModel<Real> model;
-  model.elastic = physics::Elastic<Real>::from_young_poisson(static_cast<Real>(material.youngs_modulus),
-                                                             static_cast<Real>(material.poisson_ratio));
+mpm::MaterialModel make_material(const config::Material& material, double cell, bool deformation) {
+  mpm::MaterialModel model;
+  model.elastic = physics::Elastic::from_young_poisson(static_cast<Real>(material.youngs_modulus),
+                                                       static_cast<Real>(material.poisson_ratio));
   model.gaps_close_first = material.gaps_close_first;
   model.viscosity_time = static_cast<Real>(material.viscosity_time);
   model.hydraulic_conductivity = static_cast<Real>(material.hydraulic_conductivity);
   if (material.law == config::LawKind::mohr_coulomb && deformation) {
-    const physics::Strength<Real> strength = strength_of<Real>(material, cell);
+    const physics::Strength strength = strength_of(material, cell);
     if (strength.residual_friction_angle < strength.friction_angle) {
-      model.law = physics::MohrCoulomb<Real, true>::make(model.elastic, strength);
+      model.law = physics::MohrCoulomb<true>::make(model.elastic, strength);
     } else {
-      model.law = physics::MohrCoulomb<Real>::make(model.elastic, strength);
+      model.law = physics::MohrCoulomb<>::make(model.elastic, strength);
     }
   } else {
-    model.law = physics::LinearElastic<Real>{};
+    model.law = physics::LinearElastic{};
   }
   return model;
 }
 
-template <int Dim, class Real>
-void set_transfer(const config::Case& parameters, mpm::MotionModel<Dim, Real>& motion) {
+template <int Dim>
+void set_transfer(const config::Case& parameters, mpm::MotionModel<Dim>& motion) {
   const config::Mechanics& mechanics = parameters.mechanics;
   motion.shape = mechanics.shape_function;
   motion.transfer =
@@ -97,9 +94,9 @@ void set_transfer(const config::Case& parameters, mpm::MotionModel<Dim, Real>& m
   }
 }
 
-template <int Dim, class Real>
-mpm::Constraints<Dim, Real> make_constraints(const config::Case& parameters, const Vector<double, Dim>& origin) {
-  mpm::Constraints<Dim, Real> constraints;
+template <int Dim>
+mpm::Constraints<Dim> make_constraints(const config::Case& parameters, const Vector<double, Dim>& origin) {
+  mpm::Constraints<Dim> constraints;
   for (std::size_t a = 0; a < Dim; ++a) {
     const int i = static_cast<int>(a);
     constraints.extent[i] = static_cast<Real>(parameters.grid.max[a] - origin[i]);
@@ -108,7 +105,7 @@ mpm::Constraints<Dim, Real> make_constraints(const config::Case& parameters, con
     }
   }
   for (const auto& [name, frame] : parameters.frames) {
-    mpm::RigidFrame<Dim, Real> rigid;
+    mpm::RigidFrame<Dim> rigid;
     for (std::size_t a = 0; a < Dim; ++a) {
       const int i = static_cast<int>(a);
       rigid.lower[i] = static_cast<Real>(frame.min[a] - origin[i]);
@@ -121,13 +118,12 @@ mpm::Constraints<Dim, Real> make_constraints(const config::Case& parameters, con
   return constraints;
 }
 
-template <class Real>
-terrain::BasalLaw<Real> make_basal_law(const config::Case& parameters) {
+terrain::BasalLaw make_basal_law(const config::Case& parameters) {
   const config::Basal& basal = parameters.basal;
-  terrain::BasalLaw<Real> law;
-  law.grounds = {{config::friction_of<Real>(basal), config::cohesion_of<Real>(basal)}};
+  terrain::BasalLaw law;
+  law.grounds = {{config::friction_of(basal), config::cohesion_of(basal)}};
   for (const auto& [name, substrate] : parameters.substrates) {
-    law.grounds.push_back({config::friction_of<Real>(substrate), config::cohesion_of<Real>(substrate)});
+    law.grounds.push_back({config::friction_of(substrate), config::cohesion_of(substrate)});
   }
   law.clamp = basal.clamp;
   law.cap_pressure = basal.cap_pressure;
@@ -136,21 +132,18 @@ terrain::BasalLaw<Real> make_basal_law(const config::Case& parameters) {
   return law;
 }
 
-template <class Real>
-band::AnyHeatContent<Real> make_heat_content(const config::Case& parameters, const physics::Phases<Real>& phases) {
+band::AnyHeatContent make_heat_content(const config::Case& parameters, const physics::Phases& phases) {
   const config::Freezing& freezing = parameters.freezing;
   const Real reference = static_cast<Real>(freezing.reference_temperature);
   const bool latent = parameters.heat.latent;
   if (freezing.curve == config::CurveKind::linear) {
-    return physics::HeatContent<Real, physics::LinearCurve<Real>>{
-        phases, {reference, static_cast<Real>(freezing.slope)}, latent};
+    return physics::HeatContent<physics::LinearCurve>{phases, {reference, static_cast<Real>(freezing.slope)}, latent};
   }
-  return physics::HeatContent<Real, physics::PowerLawCurve<Real>>{
+  return physics::HeatContent<physics::PowerLawCurve>{
       phases, {reference, static_cast<Real>(freezing.exponent)}, latent};
 }
 
-template <class Real>
-void set_water_balance(const config::Case& parameters, band::BandPhysics<Real>& band) {
+void set_water_balance(const config::Case& parameters, band::BandPhysics& band) {
   const config::Pressure& pressure = parameters.pressure;
   band.frozen_rows = pressure.frozen_rows;
   band.ice_presses = pressure.frozen == config::FrozenPressure::ice_pressure;
@@ -165,10 +158,10 @@ void set_water_balance(const config::Case& parameters, band::BandPhysics<Real>& 
       parameters.heat.enabled && parameters.band.thickness_change == config::ThicknessChange::conserving;
 }
 
-template <int Dim, class Real>
-band::BandModel<Dim, Real> make_band(const config::Case& parameters, const mpm::MotionModel<Dim, Real>& motion,
-                                     const Vector<Real, Dim>& extent) {
-  band::BandModel<Dim, Real> band;
+template <int Dim>
+band::BandModel<Dim> make_band(const config::Case& parameters, const mpm::MotionModel<Dim>& motion,
+                               const Vector<Real, Dim>& extent) {
+  band::BandModel<Dim> band;
   band.phases = motion.phases;
   band.heat_content = make_heat_content(parameters, band.phases);
   band.reference_temperature = static_cast<Real>(parameters.freezing.reference_temperature);
@@ -238,7 +231,7 @@ template <int Dim>
 std::shared_ptr<const terrain::Surface<Dim>> make_ground(const config::Case& parameters, const config::Site& site,
                                                          const Vector<double, Dim>& origin,
                                                          const std::optional<terrain::Polyline>& profile,
-                                                         const mpm::SectionWidth<double>& width) {
+                                                         const mpm::SectionWidth& width) {
   if constexpr (Dim == 3) {
     if (parameters.terrain.kind == config::TerrainKind::dem) {
       THAWSLIDE_ASSERT(site.ground != nullptr, "{}: no raster was read from {}", parameters.name,
@@ -263,8 +256,8 @@ std::shared_ptr<const terrain::Surface<Dim>> make_ground(const config::Case& par
 }
 
 // Sets the thickness of the cells that form the band if it follows the ground, and its maximum at the initial bodies.
-template <int Dim, class Real>
-void set_layer_thickness(const config::Case& parameters, const config::Site& site, Model<Dim, Real>& model) {
+template <int Dim>
+void set_layer_thickness(const config::Case& parameters, const config::Site& site, Model<Dim>& model) {
   using Layer = terrain::LayerThickness<Dim>;
   using Place = typename Layer::Place;
   model.largest_layer = static_cast<Real>(parameters.grid.cell);
@@ -297,29 +290,27 @@ void set_layer_thickness(const config::Case& parameters, const config::Site& sit
 
 }  // namespace
 
-template <int Dim, class Real>
-Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& site) {
-  Model<Dim, Real> model;
+template <int Dim>
+Model<Dim> make_model(const config::Case& parameters, const config::Site& site) {
+  Model<Dim> model;
   for (std::size_t a = 0; a < Dim; ++a) {
     model.origin[static_cast<int>(a)] = parameters.grid.min[a];
   }
   set_transfer(parameters, model.motion);
   const double tilt = radians(parameters.general.gravity_tilt);
   if (parameters.general.width.varies()) {
-    model.motion.width = mpm::SectionWidth<Real>(parameters.general.width.table, model.origin[0]);
+    model.motion.width = mpm::SectionWidth(parameters.general.width.table, model.origin[0]);
   }
   model.motion.gravity.setZero();
   model.motion.gravity[0] = static_cast<Real>(parameters.general.gravity * std::sin(tilt));
   model.motion.gravity[Dim - 1] = static_cast<Real>(-parameters.general.gravity * std::cos(tilt));
-  model.motion.phases = make_phases<Real>(parameters.phases);
+  model.motion.phases = make_phases(parameters.phases);
   model.motion.effective_stress = parameters.mechanics.effective_stress && parameters.pressure.enabled;
   model.motion.lubrication = parameters.mechanisms.lubrication;
   for (const auto& [name, material] : parameters.materials) {
     model.material_names.push_back(name);
-    model.motion.materials.push_back(
-        make_material<Real>(material, parameters.grid.cell, parameters.mechanisms.deformation));
-    const bool is_free =
-        material.gaps_close_first && physics::gap_is_free(strength_of<Real>(material, parameters.grid.cell));
+    model.motion.materials.push_back(make_material(material, parameters.grid.cell, parameters.mechanisms.deformation));
+    const bool is_free = material.gaps_close_first && physics::gap_is_free(strength_of(material, parameters.grid.cell));
     model.free_gaps.push_back(is_free ? Real(1) : Real(0));
   }
   for (const auto& [name, body] : parameters.bodies) {
@@ -330,15 +321,15 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
     model.body_names.emplace_back("bed");
     model.motion.sizes.add(Real(1) / static_cast<Real>(2 * parameters.bed.particles_per_axis));
   }
-  model.constraints = make_constraints<Dim, Real>(parameters, model.origin);
-  model.between_bodies = between_bodies<Real>(parameters);
-  model.contact.law = make_basal_law<Real>(parameters);
+  model.constraints = make_constraints<Dim>(parameters, model.origin);
+  model.between_bodies = between_bodies(parameters);
+  model.contact.law = make_basal_law(parameters);
   model.contact.width = model.motion.width;
   model.contact.pore_pressure = parameters.mechanisms.pressurization && parameters.pressure.enabled;
   model.contact.mass_damping = static_cast<Real>(parameters.mechanics.mass_damping);
   model.contact.band_columns = parameters.band.model == config::BandKind::columns;
   model.contact.distance_check = parameters.basal.distance_check;
-  model.band = make_band<Dim, Real>(parameters, model.motion, model.constraints.extent);
+  model.band = make_band<Dim>(parameters, model.motion, model.constraints.extent);
   if (parameters.bed.law != config::BedLaw::none) {
     const auto saturation = model.band.with_heat_content(
         [&](const auto& content) { return content.curve.saturation(static_cast<Real>(parameters.bed.temperature)); });
@@ -348,16 +339,15 @@ Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& 
   model.profile = make_profile<Dim>(parameters, site, model.origin);
   // The ground uses double precision, whatever the precision of the step.
   const auto width = parameters.general.width.varies()
-                         ? mpm::SectionWidth<double>(parameters.general.width.table, model.origin[0])
-                         : mpm::SectionWidth<double>();
+                         ? mpm::SectionWidth(parameters.general.width.table, model.origin[0])
+                         : mpm::SectionWidth();
   model.ground = make_ground<Dim>(parameters, site, model.origin, model.profile, width);
   model.substrates = make_substrates(parameters, site);
   set_layer_thickness(parameters, site, model);
   return model;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) \
-  template Model<Dim, Real> make_model<Dim, Real>(const config::Case&, const config::Site&);
+#define THAWSLIDE_INSTANTIATE(Dim) template Model<Dim> make_model<Dim>(const config::Case&, const config::Site&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

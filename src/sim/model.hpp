@@ -19,14 +19,14 @@
 
 namespace thawslide::sim {
 
-template <int Dim, class Real>
+template <int Dim>
 struct Model {
   Vector<double, Dim> origin;  // lower corner of the domain [m]; positions are relative to it
-  mpm::MotionModel<Dim, Real> motion;
-  mpm::Constraints<Dim, Real> constraints;
-  mpm::BetweenBodies<Real> between_bodies;
-  terrain::ContactModel<Dim, Real> contact;
-  band::BandModel<Dim, Real> band;
+  mpm::MotionModel<Dim> motion;
+  mpm::Constraints<Dim> constraints;
+  mpm::BetweenBodies between_bodies;
+  terrain::ContactModel<Dim> contact;
+  band::BandModel<Dim> band;
   std::shared_ptr<const terrain::Surface<Dim>> ground;    // null if there is none
   std::shared_ptr<const terrain::Substrates> substrates;  // null if the ground is of one kind
   std::optional<terrain::Polyline> profile;               // ground, if it is a line over x
@@ -41,7 +41,7 @@ struct Model {
 };
 
 // site: contents of the map files of the case; required if the terrain is a DEM.
-template <int Dim, class Real>
-Model<Dim, Real> make_model(const config::Case& parameters, const config::Site& site = {});
+template <int Dim>
+Model<Dim> make_model(const config::Case& parameters, const config::Site& site = {});
 
 }  // namespace thawslide::sim

@@ -41,8 +41,8 @@ constexpr double not_sampled = -1.0;
 // Energy present or accounted for, minus energy supplied [J]: the energy gained or lost by the transfers and the time
 // steps. It is the sum of mechanical_residual_J and numerical_J of the history, which compensate each other in a stable
 // run.
-template <int Dim, class Real>
-double energy_made(const Ledger<Dim, Real>& ledger, const mpm::MonitorSums<Real>& seen) {
+template <int Dim>
+double energy_made(const Ledger<Dim>& ledger, const mpm::MonitorSums& seen) {
   const Real there = seen.kinetic + seen.potential + ledger.stress_work + ledger.pore_work + ledger.left_mechanical;
   const Real gone = ledger.viscous + ledger.damping + ledger.friction_work + ledger.contact_loss + ledger.bed_work;
   const Real came = ledger.frame_work + ledger.joined_mechanical + ledger.initial_mechanical;
@@ -50,15 +50,15 @@ double energy_made(const Ledger<Dim, Real>& ledger, const mpm::MonitorSums<Real>
 }
 
 // Total energy so far: held by the material, kinetic or dissipated [J].
-template <int Dim, class Real>
-double energy_so_far(const Ledger<Dim, Real>& ledger, const mpm::MonitorSums<Real>& seen, double held_at_start) {
+template <int Dim>
+double energy_so_far(const Ledger<Dim>& ledger, const mpm::MonitorSums& seen, double held_at_start) {
   return held_at_start + static_cast<double>(seen.kinetic + std::abs(ledger.stress_work) + ledger.viscous +
                                              ledger.damping + ledger.friction_work + ledger.contact_loss);
 }
 
 // True if more than moving_fraction_at_rest of the mass moves faster than `speed` [m/s].
-template <int Dim, class Real>
-bool starts_faster(const mpm::Particles<Dim, Real>& particles, double speed) {
+template <int Dim>
+bool starts_faster(const mpm::Particles<Dim>& particles, double speed) {
   double mass = 0.0, fast_mass = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const auto velocity = particles.velocity.template get<Vector<Real, Dim>>(p);
@@ -74,8 +74,8 @@ double rest_time_from_start(const config::Time& times, double gravity) {
 }
 
 // True if more than moving_fraction_at_rest of the mass has moved farther than a distance [m].
-template <int Dim, class Real>
-bool has_gone_further(const mpm::Particles<Dim, Real>& particles, Real way) {
+template <int Dim>
+bool has_gone_further(const mpm::Particles<Dim>& particles, Real way) {
   Real mass = 0, far_mass = 0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     mass += particles.mass(p);
@@ -86,24 +86,24 @@ bool has_gone_further(const mpm::Particles<Dim, Real>& particles, Real way) {
 
 }  // namespace
 
-template <int Dim, class Real>
-mpm::MonitorSums<Real> Simulation<Dim, Real>::monitor_sums() const {
+template <int Dim>
+mpm::MonitorSums Simulation<Dim>::monitor_sums() const {
   // Displacement per step above which a particle is fast. Particle velocity also contains FLIP noise, which the grid
   // does not resolve and which displaces nothing.
   const Real fast_distance = static_cast<Real>(rest_speed(parameters_.time)) * dt_;
-  const mpm::MonitorKernel<Dim, Real> look{model_.motion.gravity, model_.origin.template cast<Real>(), fast_distance,
-                                           static_cast<Real>(parameters_.guards.smallest_volume),
-                                           static_cast<Real>(parameters_.guards.largest_volume)};
-  mpm::MonitorSums<Real> seen;
+  const mpm::MonitorKernel<Dim> kernel{model_.motion.gravity, model_.origin.template cast<Real>(), fast_distance,
+                                       static_cast<Real>(parameters_.guards.smallest_volume),
+                                       static_cast<Real>(parameters_.guards.largest_volume)};
+  mpm::MonitorSums seen;
   if (device_solver_) {
-    on_device([&] { seen = device_solver_->watch(look); });
+    on_device([&] { seen = device_solver_->monitor(kernel); });
     return seen;
   }
-  return mpm::sum_over_particles<mpm::MonitorSums<Real>>(grid_, [&](std::uint32_t p) { return look(particles_, p); });
+  return mpm::sum_over_particles<mpm::MonitorSums>(grid_, [&](std::uint32_t p) { return kernel(particles_, p); });
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::start_monitor() {
+template <int Dim>
+void Simulation<Dim>::start_monitor() {
   monitor_ = {};
   removed_ = {};
   monitor_.first_step = parameters_.time.stepping == config::Stepping::adaptive ? adaptive_step() : 0.0;
@@ -112,7 +112,7 @@ void Simulation<Dim, Real>::start_monitor() {
   }
   for (const std::uint32_t p : grid_.order()) {
     const auto& material = model_.motion.materials[static_cast<std::size_t>(particles_.material(p))];
-    const SymmetricTensor<Real> stress = mpm::full_tensor<Dim, Real>(particles_.stress, p);
+    const SymmetricTensor<Real> stress = mpm::full_tensor<Dim>(particles_.stress, p);
     monitor_.held_at_start +=
         static_cast<double>(particles_.volume(p) * physics::elastic_energy_density(material.elastic, stress));
   }
@@ -120,19 +120,19 @@ void Simulation<Dim, Real>::start_monitor() {
   monitor_.rest_since = starts_faster(particles_, rest_speed(parameters_.time)) ? -1.0 : 0.0;
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::watch() {
+template <int Dim>
+void Simulation<Dim>::monitor() {
   if (!parameters_.mechanics.enabled || (step_number_ % watch_interval != 0 && invalid_.id < 0)) {
     return;
   }
-  const mpm::MonitorSums<Real> seen = monitor_sums();
+  const mpm::MonitorSums seen = monitor_sums();
   stop_if_energy_grows(seen);
   invalid_ += seen.volumes;
   update_rest(seen);
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::MonitorSums<Real>& seen) {
+template <int Dim>
+void Simulation<Dim>::stop_if_energy_grows(const mpm::MonitorSums& seen) {
   const double made = energy_made(ledger_, seen);
   monitor_.lowest_made = std::min(made, monitor_.lowest_made + forgotten_share * (made - monitor_.lowest_made));
   monitor_.largest_energy = std::max(monitor_.largest_energy, energy_so_far(ledger_, seen, monitor_.held_at_start));
@@ -146,8 +146,8 @@ void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::MonitorSums<Real>& s
   }
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::update_rest(const mpm::MonitorSums<Real>& seen) {
+template <int Dim>
+void Simulation<Dim>::update_rest(const mpm::MonitorSums& seen) {
   const bool moves = seen.fast_mass > static_cast<Real>(moving_fraction_at_rest) * seen.mass;
   if (parameters_.time.stop_at_rest <= 0.0) {
     monitor_.has_moved = not_sampled;
@@ -165,8 +165,8 @@ void Simulation<Dim, Real>::update_rest(const mpm::MonitorSums<Real>& seen) {
   }
 }
 
-template <int Dim, class Real>
-bool Simulation<Dim, Real>::is_at_rest() const {
+template <int Dim>
+bool Simulation<Dim>::is_at_rest() const {
   const config::Time& times = parameters_.time;
   const double needed = monitor_.rest_since > 0.0
                             ? times.rest_time
@@ -175,13 +175,13 @@ bool Simulation<Dim, Real>::is_at_rest() const {
          time_ - monitor_.rest_since >= needed * (1.0 - 1e-9);
 }
 
-template <int Dim, class Real>
-bool Simulation<Dim, Real>::ends_at_rest() const {
+template <int Dim>
+bool Simulation<Dim>::ends_at_rest() const {
   return parameters_.time.stop_at_rest > 0.0 && monitor_.has_moved > 0.0 && is_at_rest();
 }
 
-template <int Dim, class Real>
-std::string Simulation<Dim, Real>::rest_rule() const {
+template <int Dim>
+std::string Simulation<Dim>::rest_rule() const {
   const config::Time& times = parameters_.time;
   const double from_start = rest_time_from_start(times, static_cast<double>(model_.motion.gravity.norm()));
   const std::string or_from_start =
@@ -190,43 +190,42 @@ std::string Simulation<Dim, Real>::rest_rule() const {
                      or_from_start, 100.0 * moving_fraction_at_rest, rest_speed(times));
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::restart_rest_time() {
+template <int Dim>
+void Simulation<Dim>::restart_rest_time() {
   monitor_.rest_since = -1.0;
 }
 
-template <int Dim, class Real>
-std::string Simulation<Dim, Real>::energy_warning() const {
+template <int Dim>
+std::string Simulation<Dim>::energy_warning() const {
   if (monitor_.made_share <= parameters_.guards.energy_growth) {
     return "";
   }
   return fmt::format(
-      "warning: by t = {:.6g} s the steps have made {:.3g} % of all energy, little by little and without a cause: do "
-      "not trust what the slide does from here on. A body without viscosity flutters: give its material a "
-      "viscosity_time "
-      "(0.001 to 0.02 s), or take smaller steps",
+      "warning: by t = {:.6g} s the time steps have created {:.3g} % of all energy, gradually and without a physical "
+      "cause. The results from here on are not reliable. Set a viscosity_time (0.001 to 0.02 s) in materials without "
+      "viscosity, or a smaller time.step",
       time_, 100.0 * monitor_.made_share);
 }
 
-template <int Dim, class Real>
-std::string Simulation<Dim, Real>::rest_text() const {
+template <int Dim>
+std::string Simulation<Dim>::rest_text() const {
   return fmt::format(
       "{}: since t = {:g} s no more than {:g} % of its mass has moved faster than {:g} m/s (time.stop_at_rest)",
       at_rest, monitor_.rest_since, 100.0 * moving_fraction_at_rest, parameters_.time.stop_at_rest);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                    \
-  template mpm::MonitorSums<Real> Simulation<Dim, Real>::monitor_sums() const;              \
-  template void Simulation<Dim, Real>::start_monitor();                                     \
-  template void Simulation<Dim, Real>::watch();                                             \
-  template void Simulation<Dim, Real>::stop_if_energy_grows(const mpm::MonitorSums<Real>&); \
-  template void Simulation<Dim, Real>::update_rest(const mpm::MonitorSums<Real>&);          \
-  template bool Simulation<Dim, Real>::is_at_rest() const;                                  \
-  template bool Simulation<Dim, Real>::ends_at_rest() const;                                \
-  template std::string Simulation<Dim, Real>::rest_rule() const;                            \
-  template std::string Simulation<Dim, Real>::energy_warning() const;                       \
-  template void Simulation<Dim, Real>::restart_rest_time();                                 \
-  template std::string Simulation<Dim, Real>::rest_text() const;
+#define THAWSLIDE_INSTANTIATE(Dim)                                              \
+  template mpm::MonitorSums Simulation<Dim>::monitor_sums() const;              \
+  template void Simulation<Dim>::start_monitor();                               \
+  template void Simulation<Dim>::monitor();                                     \
+  template void Simulation<Dim>::stop_if_energy_grows(const mpm::MonitorSums&); \
+  template void Simulation<Dim>::update_rest(const mpm::MonitorSums&);          \
+  template bool Simulation<Dim>::is_at_rest() const;                            \
+  template bool Simulation<Dim>::ends_at_rest() const;                          \
+  template std::string Simulation<Dim>::rest_rule() const;                      \
+  template std::string Simulation<Dim>::energy_warning() const;                 \
+  template void Simulation<Dim>::restart_rest_time();                           \
+  template std::string Simulation<Dim>::rest_text() const;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

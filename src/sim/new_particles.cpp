@@ -9,11 +9,11 @@
 namespace thawslide::sim {
 
 // Fills in the new particles at the end of the arrays, from `first` on; ids count from `next_id`.
-template <int Dim, class Real>
-void fill_new(const std::vector<NewParticle<Dim, Real>>& joining, std::size_t first, std::int64_t& next_id,
-              const Model<Dim, Real>& model, mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+void fill_new(const std::vector<NewParticle<Dim>>& joining, std::size_t first, std::int64_t& next_id,
+              const Model<Dim>& model, mpm::Particles<Dim>& particles) {
   for (std::size_t k = 0; k < joining.size(); ++k) {
-    const NewParticle<Dim, Real>& one = joining[k];
+    const NewParticle<Dim>& one = joining[k];
     const std::size_t p = first + k;
     THAWSLIDE_ASSERT(static_cast<std::size_t>(one.body) < model.body_names.size() &&
                          static_cast<std::size_t>(one.material) < model.material_names.size() && one.volume > Real(0),
@@ -28,14 +28,14 @@ void fill_new(const std::vector<NewParticle<Dim, Real>>& joining, std::size_t fi
     particles.porosity(p) = particles.initial_porosity(p) = one.porosity;
     particles.flow_depth(p) = one.flow_depth;
     particles.thermal_scaling(p) = Real(1);
-    for (int c = 0; c < mpm::Particles<Dim, Real>::tensor_components; ++c) {
+    for (int c = 0; c < mpm::Particles<Dim>::tensor_components; ++c) {
       particles.stress(p, c) = one.stress[c];
     }
   }
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::append(const std::vector<NewParticle<Dim, Real>>& joining) {
+template <int Dim>
+void Simulation<Dim>::append(const std::vector<NewParticle<Dim>>& joining) {
   if (joining.empty()) {
     return;
   }
@@ -69,15 +69,14 @@ void Simulation<Dim, Real>::append(const std::vector<NewParticle<Dim, Real>>& jo
   }
   std::vector<std::uint8_t> is_new(particles_.size(), 0);
   std::fill(is_new.begin() + static_cast<std::ptrdiff_t>(first), is_new.end(), std::uint8_t{1});
-  const BodySums<Dim, Real> sums = sum_over_marked(is_new);
+  const BodySums<Dim> sums = sum_over_marked(is_new);
   ledger_.joined_mass += sums.mass;
   ledger_.joined_mechanical += sums.kinetic + sums.potential;
   ledger_.joined_thermal += sums.sensible + sums.latent;
   ledger_.joined_momentum += sums.momentum;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) \
-  template void Simulation<Dim, Real>::append(const std::vector<NewParticle<Dim, Real>>&);
+#define THAWSLIDE_INSTANTIATE(Dim) template void Simulation<Dim>::append(const std::vector<NewParticle<Dim>>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -38,25 +38,25 @@ std::string advice_on(LimitKind kind) {
 
 }  // namespace
 
-template <int Dim, class Real>
-band::StepExtremes Simulation<Dim, Real>::extremes() const {
+template <int Dim>
+band::StepExtremes Simulation<Dim>::extremes() const {
   const bool are_told = device_solver_ && parameters_.time.stepping == config::Stepping::adaptive;
   return are_told ? device_sums_.extremes : extremes_of(model_, particles());
 }
 
-template <int Dim, class Real>
-StepLimit Simulation<Dim, Real>::step_limit() const {
+template <int Dim>
+StepLimit Simulation<Dim>::step_limit() const {
   return sim::step_limit(parameters_, model_, band_thickness(), extremes());
 }
 
-template <int Dim, class Real>
-double Simulation<Dim, Real>::adaptive_step() const {
+template <int Dim>
+double Simulation<Dim>::adaptive_step() const {
   const double dt = parameters_.time.safety * largest_stable_step(parameters_, model_, band_thickness(), extremes());
   return parameters_.time.step > 0.0 ? std::min(dt, parameters_.time.step) : dt;
 }
 
-template <int Dim, class Real>
-double Simulation<Dim, Real>::next_step(double until) const {
+template <int Dim>
+double Simulation<Dim>::next_step(double until) const {
   if (parameters_.time.stepping == config::Stepping::fixed) {
     const double left = parameters_.time.end - time_;  // the last step may be shorter
     return left > (1.0 - round_off) * parameters_.time.step ? parameters_.time.step : left;
@@ -68,8 +68,8 @@ double Simulation<Dim, Real>::next_step(double until) const {
   return left / std::max(1.0, steps);
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::stop_if_step_collapses(double dt) const {
+template <int Dim>
+void Simulation<Dim>::stop_if_step_collapses(double dt) const {
   const config::Guards& guards = parameters_.guards;
   const double steps = (parameters_.time.end - time_) / dt;
   std::string why;
@@ -96,12 +96,12 @@ void Simulation<Dim, Real>::stop_if_step_collapses(double dt) const {
                   time_, step_number_, dt, why, limit.what, where, advice_on(limit.kind)));
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                               \
-  template band::StepExtremes Simulation<Dim, Real>::extremes() const; \
-  template StepLimit Simulation<Dim, Real>::step_limit() const;        \
-  template double Simulation<Dim, Real>::adaptive_step() const;        \
-  template double Simulation<Dim, Real>::next_step(double) const;      \
-  template void Simulation<Dim, Real>::stop_if_step_collapses(double) const;
+#define THAWSLIDE_INSTANTIATE(Dim)                               \
+  template band::StepExtremes Simulation<Dim>::extremes() const; \
+  template StepLimit Simulation<Dim>::step_limit() const;        \
+  template double Simulation<Dim>::adaptive_step() const;        \
+  template double Simulation<Dim>::next_step(double) const;      \
+  template void Simulation<Dim>::stop_if_step_collapses(double) const;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

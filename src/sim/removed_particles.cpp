@@ -34,8 +34,8 @@ Mark mark_of(mpm::Fault fault, const config::Guards& guards) {
 }
 
 // Fault of a single particle after a step.
-template <int Dim, class Real>
-mpm::Fault fault_of(const mpm::Particles<Dim, Real>& particles, std::size_t p, const config::Guards& guards) {
+template <int Dim>
+mpm::Fault fault_of(const mpm::Particles<Dim>& particles, std::size_t p, const config::Guards& guards) {
   const Real volume = particles.volume(p);
   if (!std::isfinite(volume)) {
     return mpm::Fault::volume_not_finite;
@@ -58,8 +58,8 @@ mpm::Fault fault_of(const mpm::Particles<Dim, Real>& particles, std::size_t p, c
 }
 
 // Marks particles outside the domain.
-template <int Dim, class Real>
-void mark_left_domain(const mpm::Particles<Dim, Real>& particles, const Vector<Real, Dim>& extent,
+template <int Dim>
+void mark_left_domain(const mpm::Particles<Dim>& particles, const Vector<Real, Dim>& extent,
                       std::vector<std::uint8_t>& marks) {
   constexpr std::size_t of_a_task = 1024;
   parallel_for((marks.size() + of_a_task - 1) / of_a_task, [&](std::size_t task) {
@@ -80,8 +80,8 @@ std::int64_t count_of(const std::vector<std::uint8_t>& marks, Mark mark) {
 }  // namespace
 
 // Sets invalid_ to the fault that must end the run.
-template <int Dim, class Real>
-void Simulation<Dim, Real>::mark_invalid_particles() {
+template <int Dim>
+void Simulation<Dim>::mark_invalid_particles() {
   const config::Guards& guards = parameters_.guards;
   marks_.clear();
   if (invalid_.id < 0 || mark_of(invalid_.fault, guards) == stays) {
@@ -98,12 +98,12 @@ void Simulation<Dim, Real>::mark_invalid_particles() {
   }
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::mark_left_particles() {
+template <int Dim>
+void Simulation<Dim>::mark_left_particles() {
   const bool removes = parameters_.grid.leaving == config::Policy::remove;
   if (removes) {
     marks_.resize(particles_.size(), stays);
-    mark_left_domain<Dim, Real>(particles_, model_.constraints.extent, marks_);
+    mark_left_domain<Dim>(particles_, model_.constraints.extent, marks_);
   }
   const std::size_t tiles = model_.ground ? grid_.tiles().size() : 0;
   invalid_ += parallel_sum<mpm::InvalidParticle>(tiles, [&](std::size_t t, mpm::InvalidParticle& invalid) {
@@ -130,8 +130,8 @@ void Simulation<Dim, Real>::mark_left_particles() {
 
 // Adds the budget terms of the marked particles. For a non-finite particle, only mass and position are known; the
 // residuals of the other terms show its content.
-template <int Dim, class Real>
-void Simulation<Dim, Real>::add_removed_particles() {
+template <int Dim>
+void Simulation<Dim>::add_removed_particles() {
   std::vector<std::uint8_t> known = marks_;
   for (const std::uint32_t p : grid_.order()) {
     if (marks_[p] == is_not_finite) {
@@ -141,7 +141,7 @@ void Simulation<Dim, Real>::add_removed_particles() {
     }
     ledger_.removed_mass += marks_[p] == is_not_finite || marks_[p] == has_inverted ? particles_.mass(p) : Real(0);
   }
-  const BodySums<Dim, Real> sums = sum_over_marked(known);
+  const BodySums<Dim> sums = sum_over_marked(known);
   ledger_.left_mass += sums.mass;
   ledger_.left_mechanical += sums.kinetic + sums.potential;
   ledger_.left_thermal += sums.sensible + sums.latent;
@@ -150,8 +150,8 @@ void Simulation<Dim, Real>::add_removed_particles() {
 }
 
 // The effect of a step with a non-finite particle is unknown as well, so its budget terms stay unchanged.
-template <int Dim, class Real>
-void Simulation<Dim, Real>::correct_energy_for_removal() {
+template <int Dim>
+void Simulation<Dim>::correct_energy_for_removal() {
   std::vector<Real> before;
   ledger_before_.for_each([&](const Real& account) { before.push_back(account); });
   std::size_t k = 0;
@@ -162,8 +162,8 @@ void Simulation<Dim, Real>::correct_energy_for_removal() {
 }
 
 // Reports the particle with the smallest id among those marked last as invalid.
-template <int Dim, class Real>
-void Simulation<Dim, Real>::stop_for_removed_mass(double share) {
+template <int Dim>
+void Simulation<Dim>::stop_for_removed_mass(double share) {
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     if (marks_[p] == is_not_finite || marks_[p] == has_inverted) {
       invalid_.record(particles_.id(p), fault_of(particles_, p, parameters_.guards));
@@ -177,8 +177,8 @@ void Simulation<Dim, Real>::stop_for_removed_mass(double share) {
                   particle_text(last), fault_text(last), likely_cause(last)));
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::remove_marked_particles() {
+template <int Dim>
+void Simulation<Dim>::remove_marked_particles() {
   const Removed now{count_of(marks_, has_left), count_of(marks_, is_not_finite), count_of(marks_, has_inverted)};
   if (now.left + now.by_guards() == 0) {
     return;
@@ -187,8 +187,8 @@ void Simulation<Dim, Real>::remove_marked_particles() {
   if (none_stays && now.by_guards() == 0) {
     throw SlideLeft(fmt::format(
         "the whole slide has left the domain or the known ground at t = {:.6g} s (step {}); the last {:.4g} kg{} "
-        "of it, which left in this step, still stand in mass_kg. Widen [grid] min and max, or give a DEM "
-        "that reaches further, to follow it on.",
+        "of it, which left in this step, are still included in mass_kg. Use a larger domain ([grid] min and max) "
+        "or a larger DEM to continue the simulation.",
         time_, step_number_, static_cast<double>(sum_over_body().mass), Dim == 2 ? " per m of width" : ""));
   }
   if (now.not_finite > 0) {
@@ -208,13 +208,13 @@ void Simulation<Dim, Real>::remove_marked_particles() {
   update_ground();
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                              \
-  template void Simulation<Dim, Real>::mark_invalid_particles();      \
-  template void Simulation<Dim, Real>::mark_left_particles();         \
-  template void Simulation<Dim, Real>::add_removed_particles();       \
-  template void Simulation<Dim, Real>::correct_energy_for_removal();  \
-  template void Simulation<Dim, Real>::stop_for_removed_mass(double); \
-  template void Simulation<Dim, Real>::remove_marked_particles();
+#define THAWSLIDE_INSTANTIATE(Dim)                              \
+  template void Simulation<Dim>::mark_invalid_particles();      \
+  template void Simulation<Dim>::mark_left_particles();         \
+  template void Simulation<Dim>::add_removed_particles();       \
+  template void Simulation<Dim>::correct_energy_for_removal();  \
+  template void Simulation<Dim>::stop_for_removed_mass(double); \
+  template void Simulation<Dim>::remove_marked_particles();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

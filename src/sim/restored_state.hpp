@@ -11,7 +11,7 @@
 namespace thawslide::sim {
 
 // True if a position [m] lies in the domain or within `margin` [m] of it. extent: the domain's upper corner.
-template <int Dim, class Real>
+template <int Dim>
 bool is_about_domain(const Vector<Real, Dim>& place, const Vector<Real, Dim>& extent, Real margin) {
   for (int a = 0; a < Dim; ++a) {
     if (!(place[a] >= -margin && place[a] <= extent[a] + margin)) {
@@ -23,8 +23,8 @@ bool is_about_domain(const Vector<Real, Dim>& place, const Vector<Real, Dim>& ex
 
 // Checks that all numbers of the state were read, and that each particle has a position in the domain, mass and volume,
 // a body and a material of the case, and a unique id below next_id.
-template <int Dim, class Real>
-void require_sound(const mpm::Particles<Dim, Real>& particles, const Model<Dim, Real>& model, std::int64_t next_id,
+template <int Dim>
+void require_sound(const mpm::Particles<Dim>& particles, const Model<Dim>& model, std::int64_t next_id,
                    const StateNumbers& state) {
   state.expect_end();
   const auto is_number_of = [](std::int32_t number, const std::vector<std::string>& names) {
@@ -39,7 +39,7 @@ void require_sound(const mpm::Particles<Dim, Real>& particles, const Model<Dim, 
     }
     before = id;
     const auto place = particles.position.template get<Vector<Real, Dim>>(p);
-    if (!is_about_domain<Dim, Real>(place, model.constraints.extent, Real(0))) {
+    if (!is_about_domain<Dim>(place, model.constraints.extent, Real(0))) {
       state.fail(fmt::format("particle {} lies outside the domain", id));
     }
     if (!is_number_of(particles.body(p), model.body_names) ||

@@ -21,7 +21,7 @@ constexpr double runaway = 5.0;
 constexpr double hot = 1000.0;
 
 // Advice for a DEM that ends too soon.
-constexpr const char* anew =
+constexpr const char* advice_to_recrop =
     "`thawslide new` crops the DEM to the domain: create the case again with a smaller --reach-angle, which uses more "
     "of the DEM, or from a larger DEM.";
 
@@ -36,7 +36,7 @@ std::string heading(double x, double y) {
 }
 
 // Axis along which a particle within the domain reaches a side first.
-template <int Dim, class Real>
+template <int Dim>
 int axis_of_exit(const Vector<Real, Dim>& place, const Vector<Real, Dim>& velocity, const Vector<Real, Dim>& extent) {
   int first = 0;
   double soonest = HUGE_VAL;
@@ -58,19 +58,19 @@ double distance_to_domain_edge(const config::Site& site, const Place2& place, co
   const Raster& ground = *site.ground;
   const auto [low, high] = site.terrain_model.value_or(
       std::array<Place2, 2>{Place2{ground.x, ground.y}, Place2{ground.x_end(), ground.y_end()}});
-  double room = HUGE_VAL;
+  double to_edge = HUGE_VAL;
   for (std::size_t a = 0; a < 2; ++a) {
     const double forward = velocity[a] / speed;
     if (forward != 0.0) {
-      room = std::min(room, ((forward > 0.0 ? high[a] : low[a]) - place[a]) / forward);
+      to_edge = std::min(to_edge, ((forward > 0.0 ? high[a] : low[a]) - place[a]) / forward);
     }
   }
-  return std::max(room, 0.0);
+  return std::max(to_edge, 0.0);
 }
 
 // Index in memory; ties are broken by the smallest id.
-template <int Dim, class Real>
-std::size_t fastest_particle(const mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+std::size_t fastest_particle(const mpm::Particles<Dim>& particles) {
   const auto speed = [&](std::size_t p) { return particles.velocity.template get<Vector<Real, Dim>>(p).norm(); };
   std::size_t fastest = 0;
   for (std::size_t p = 1; p < particles.size(); ++p) {
@@ -82,8 +82,8 @@ std::size_t fastest_particle(const mpm::Particles<Dim, Real>& particles) {
 }
 
 // Failure due to pores closed by heat, if any: their water has no volume left, and its pressure is unbounded.
-template <int Dim, class Real>
-std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+std::string closed_pores(const mpm::Particles<Dim>& particles) {
   std::size_t closed = 0;
   double hottest = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -92,7 +92,7 @@ std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
       temperature = std::max(temperature, static_cast<double>(one));
     }
     hottest = std::max(hottest, temperature);
-    closed += particles.porosity(p) <= physics::smallest_porosity<Real> && temperature > hot ? 1u : 0u;
+    closed += particles.porosity(p) <= physics::smallest_porosity && temperature > hot ? 1u : 0u;
   }
   if (closed == 0) {
     return "";
@@ -108,8 +108,8 @@ std::string closed_pores(const mpm::Particles<Dim, Real>& particles) {
 }  // namespace
 
 // Throws if no particle has that id.
-template <int Dim, class Real>
-std::size_t Simulation<Dim, Real>::place_in_memory(std::int64_t id) const {
+template <int Dim>
+std::size_t Simulation<Dim>::place_in_memory(std::int64_t id) const {
   std::size_t p = 0;
   while (p < particles_.size() && particles_.id(p) != id) {
     ++p;
@@ -119,8 +119,8 @@ std::size_t Simulation<Dim, Real>::place_in_memory(std::int64_t id) const {
 }
 
 // Position in the coordinates of the case [m].
-template <int Dim, class Real>
-Vector<double, Dim> Simulation<Dim, Real>::place_of(std::size_t p) const {
+template <int Dim>
+Vector<double, Dim> Simulation<Dim>::place_of(std::size_t p) const {
   Vector<double, Dim> place;
   for (int a = 0; a < Dim; ++a) {
     place[a] = static_cast<double>(particles_.position(p, a)) + model_.origin[a];
@@ -128,8 +128,8 @@ Vector<double, Dim> Simulation<Dim, Real>::place_of(std::size_t p) const {
   return place;
 }
 
-template <int Dim, class Real>
-std::string Simulation<Dim, Real>::particle_text(std::size_t p) const {
+template <int Dim>
+std::string Simulation<Dim>::particle_text(std::size_t p) const {
   const Vector<double, Dim> place = place_of(p);
   std::string numbers;
   for (int a = 0; a < Dim; ++a) {
@@ -140,8 +140,8 @@ std::string Simulation<Dim, Real>::particle_text(std::size_t p) const {
 }
 
 // Describes the fault of the particle in invalid_.
-template <int Dim, class Real>
-std::string Simulation<Dim, Real>::fault_text(std::size_t p) const {
+template <int Dim>
+std::string Simulation<Dim>::fault_text(std::size_t p) const {
   const auto ratio = static_cast<double>(particles_.volume(p) / particles_.initial_volume(p));
   const config::Guards& guards = parameters_.guards;
   switch (invalid_.fault) {
@@ -168,11 +168,11 @@ std::string Simulation<Dim, Real>::fault_text(std::size_t p) const {
 }
 
 // Stopping distance of a particle by friction, v2/(2 g tan(angle)), compared with the distance to the edge of the DEM.
-template <int Dim, class Real>
-std::string Simulation<Dim, Real>::terrain_ahead(std::size_t p) const {
+template <int Dim>
+std::string Simulation<Dim>::terrain_ahead(std::size_t p) const {
   const Vector<double, Dim> velocity = particles_.velocity.template get<Vector<Real, Dim>>(p).template cast<double>();
   const double gravity = static_cast<double>(model_.motion.gravity.norm());
-  constexpr double angle = config::usual_reach_angle, degree = pi<double> / 180.0, rounded_to = 10.0;
+  constexpr double angle = config::usual_reach_angle, degree = pi / 180.0, rounded_to = 10.0;
   const double energy_height = velocity.squaredNorm() / (2.0 * gravity);
   const double further = std::ceil(energy_height / std::tan(angle * degree) / rounded_to) * rounded_to;
   const std::string level = fmt::format(
@@ -184,31 +184,31 @@ std::string Simulation<Dim, Real>::terrain_ahead(std::size_t p) const {
   }
   const Place2 place{static_cast<double>(particles_.position(p, 0)) + model_.origin[0],
                      static_cast<double>(particles_.position(p, 1)) + model_.origin[1]};
-  const double room = distance_to_domain_edge(site_, place, {velocity[0], velocity[1]});
-  return level + (room <= further
+  const double to_edge = distance_to_domain_edge(site_, place, {velocity[0], velocity[1]});
+  return level + (to_edge <= further
                       ? fmt::format("The DEM ends {:.0f} m ahead of it: it has to be larger, and [grid] with "
                                     "it. {}",
-                                    room, anew)
-                      : fmt::format("The DEM ends {:.0f} m ahead of it: widen [grid] that way.", room));
+                                    to_edge, advice_to_recrop)
+                      : fmt::format("The DEM ends {:.0f} m ahead of it: widen [grid] that way.", to_edge));
 }
 
-template <int Dim, class Real>
-bool Simulation<Dim, Real>::is_too_soft(std::size_t p) const {
+template <int Dim>
+bool Simulation<Dim>::is_too_soft(std::size_t p) const {
   const std::string& material = model_.material_names[static_cast<std::size_t>(particles_.material(p))];
   return parameters_.materials.at(material).youngs_modulus < config::softest_modulus;
 }
 
-template <int Dim, class Real>
-std::string Simulation<Dim, Real>::step_to_halve() const {
+template <int Dim>
+std::string Simulation<Dim>::step_to_halve() const {
   return parameters_.time.stepping == config::Stepping::fixed ? "time.step" : "time.safety";
 }
 
-template <int Dim, class Real>
-std::string Simulation<Dim, Real>::cause_in_material(std::size_t p) const {
+template <int Dim>
+std::string Simulation<Dim>::cause_in_material(std::size_t p) const {
   if (is_too_soft(p)) {
     const std::string& material = model_.material_names[static_cast<std::size_t>(particles_.material(p))];
     return fmt::format(
-        "Likely cause: material '{}' is too soft (youngs_modulus {:g} Pa), and its own weight squeezes it flat; broken "
+        "Likely cause: material '{}' is too soft (youngs_modulus {:g} Pa) and collapses under its own weight. Broken "
         "rock and ice have 1e7 Pa and more.",
         material, parameters_.materials.at(material).youngs_modulus);
   }
@@ -219,8 +219,8 @@ std::string Simulation<Dim, Real>::cause_in_material(std::size_t p) const {
       step_to_halve());
 }
 
-template <int Dim, class Real>
-std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
+template <int Dim>
+std::string Simulation<Dim>::likely_cause(std::size_t p) const {
   const std::string too_long = cause_in_material(p);
   if (is_too_soft(p)) {
     return too_long;
@@ -238,12 +238,12 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
     return fmt::format("It moves at {:.4g} m/s{}. {}", own, towards, terrain_ahead(p)) +
            "Give a DEM that reaches further there, and [grid] with it, or set grid.leaving = \"remove\" to let such "
            "particles go. " +
-           anew;
+           advice_to_recrop;
   }
   if (invalid_.fault != mpm::Fault::left_domain) {
     return too_long;
   }
-  const BodySums<Dim, Real> sums = sum_over_body();
+  const BodySums<Dim> sums = sum_over_body();
   const double mean = std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass));
   const std::string speeds =
       fmt::format("It moves at {:.4g} m/s{}, the slide at {:.4g} m/s on average. ", own, towards, mean);
@@ -252,8 +252,8 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
                        speeds, step_to_halve());
   }
   const std::string too_far = speeds + "Likely cause: the slide ran further than [grid] min and max allow";
-  const int exit_axis = axis_of_exit<Dim, Real>(particles_.position.template get<Vector<Real, Dim>>(p), velocity,
-                                                model_.constraints.extent);
+  const int exit_axis =
+      axis_of_exit<Dim>(particles_.position.template get<Vector<Real, Dim>>(p), velocity, model_.constraints.extent);
   if (Dim == 2) {
     return too_far + "; widen them in its direction.";
   }
@@ -263,8 +263,8 @@ std::string Simulation<Dim, Real>::likely_cause(std::size_t p) const {
   return too_far + ". " + terrain_ahead(p) + (site_.ground ? "" : "Widen [grid] that way.");
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::stop_if_invalid() {
+template <int Dim>
+void Simulation<Dim>::stop_if_invalid() {
   if (invalid_.id < 0) {
     return;
   }
@@ -273,16 +273,16 @@ void Simulation<Dim, Real>::stop_if_invalid() {
                              particle_text(p), fault_text(p), likely_cause(p)));
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::stop_for_energy(double growth, double share) const {
+template <int Dim>
+void Simulation<Dim>::stop_for_energy(double growth, double share) const {
   sync_to_host();
   const std::size_t fastest = fastest_particle(particles_);
-  const BodySums<Dim, Real> sums = sum_over_body();
+  const BodySums<Dim> sums = sum_over_body();
   const std::string cause =
       parameters_.basal.distance_check || !model_.ground || is_too_soft(fastest)
           ? cause_in_material(fastest)
-          : "Likely cause: without basal.distance_check the ground is felt up to a cell early, and throws back what "
-            "falls onto it with more energy than it had; set it to true.";
+          : "Likely cause: without basal.distance_check the terrain acts up to a cell early, and falling material "
+            "rebounds with more energy than it had. Set it to true.";
   throw RunError(fmt::format(
       "the run failed at t = {:.6g} s (step {}): energy grew by {:.3g} J{} without a physical cause, {:.3g} % of all "
       "energy so far (guards.energy_growth allows {:g} %). The fastest particle, {}, moves at {:.4g} m/s, the slide at "
@@ -293,18 +293,18 @@ void Simulation<Dim, Real>::stop_for_energy(double growth, double share) const {
       std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass)), cause));
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                            \
-  template std::size_t Simulation<Dim, Real>::place_in_memory(std::int64_t) const;  \
-  template Vector<double, Dim> Simulation<Dim, Real>::place_of(std::size_t) const;  \
-  template std::string Simulation<Dim, Real>::particle_text(std::size_t) const;     \
-  template std::string Simulation<Dim, Real>::fault_text(std::size_t) const;        \
-  template std::string Simulation<Dim, Real>::terrain_ahead(std::size_t) const;     \
-  template bool Simulation<Dim, Real>::is_too_soft(std::size_t) const;              \
-  template std::string Simulation<Dim, Real>::step_to_halve() const;                \
-  template std::string Simulation<Dim, Real>::cause_in_material(std::size_t) const; \
-  template std::string Simulation<Dim, Real>::likely_cause(std::size_t) const;      \
-  template void Simulation<Dim, Real>::stop_for_energy(double, double) const;       \
-  template void Simulation<Dim, Real>::stop_if_invalid();
+#define THAWSLIDE_INSTANTIATE(Dim)                                            \
+  template std::size_t Simulation<Dim>::place_in_memory(std::int64_t) const;  \
+  template Vector<double, Dim> Simulation<Dim>::place_of(std::size_t) const;  \
+  template std::string Simulation<Dim>::particle_text(std::size_t) const;     \
+  template std::string Simulation<Dim>::fault_text(std::size_t) const;        \
+  template std::string Simulation<Dim>::terrain_ahead(std::size_t) const;     \
+  template bool Simulation<Dim>::is_too_soft(std::size_t) const;              \
+  template std::string Simulation<Dim>::step_to_halve() const;                \
+  template std::string Simulation<Dim>::cause_in_material(std::size_t) const; \
+  template std::string Simulation<Dim>::likely_cause(std::size_t) const;      \
+  template void Simulation<Dim>::stop_for_energy(double, double) const;       \
+  template void Simulation<Dim>::stop_if_invalid();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -15,7 +15,7 @@ std::vector<std::pair<std::string, double>> named(const RunFigures& figures) {
   return {{"covered_volume_m3", figures.covered_volume},  {"covered_area_m2", figures.covered_area},
           {"affected_area_m2", figures.affected_area},    {"front_distance_m", figures.front_distance},
           {"travel_distance_m", figures.travel_distance}, {"drop_height_m", figures.drop_height},
-          {"angle_of_reach_degrees", figures.reach_angle}};
+          {"reach_angle_degrees", figures.reach_angle}};
 }
 
 }  // namespace thawslide::sim

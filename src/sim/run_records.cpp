@@ -18,7 +18,7 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // Half sizes of particles by body [m].
 template <int Dim>
-std::vector<double> half_sizes(const Simulation<Dim, double>& simulation) {
+std::vector<double> half_sizes(const Simulation<Dim>& simulation) {
   std::vector<double> halves;
   for (std::size_t body = 0; body < simulation.model().body_names.size(); ++body) {
     halves.push_back(simulation.model().motion.sizes.half(body) * simulation.grid().cell());
@@ -26,13 +26,13 @@ std::vector<double> half_sizes(const Simulation<Dim, double>& simulation) {
   return halves;
 }
 
-mpm::MassMoments mass_moments(const Simulation<3, double>& simulation) {
+mpm::MassMoments mass_moments(const Simulation<3>& simulation) {
   const auto& particles = simulation.particles();
   return mpm::sum_over_particles<mpm::MassMoments>(simulation.grid(),
                                                    [&](std::uint32_t p) { return mpm::mass_moments_of(particles, p); });
 }
 
-double highest_point(const Simulation<3, double>& simulation) {
+double highest_point(const Simulation<3>& simulation) {
   const auto& particles = simulation.particles();
   const std::vector<double> halves = half_sizes(simulation);
   double highest = -HUGE_VAL;
@@ -43,7 +43,7 @@ double highest_point(const Simulation<3, double>& simulation) {
 }
 
 // Basal segments in the form that maps need; empty unless the band consists of columns.
-std::vector<SegmentBelow> segments_below(const Simulation<3, double>& simulation) {
+std::vector<SegmentBelow> segments_below(const Simulation<3>& simulation) {
   std::vector<SegmentBelow> segments;
   const auto* columns = simulation.band_columns();
   if (columns == nullptr) {
@@ -134,13 +134,13 @@ void RunRecords<Dim>::after_step(const Simulation& simulation) {
   if constexpr (Dim == 3) {
     const std::vector<SegmentBelow> segments = segments_below(simulation);
     const std::vector<SegmentBelow>* below = simulation.band_columns() != nullptr ? &segments : nullptr;
-    if (const device::MapSample* look = simulation.sample_map(maps_->cells())) {
-      const double mass = std::accumulate(look->sums.begin(), look->sums.end(), 0.0,
+    if (const device::MapSample* sample = simulation.sample_map(maps_->cells())) {
+      const double mass = std::accumulate(sample->sums.begin(), sample->sums.end(), 0.0,
                                           [](double sum, const mpm::MapSums& cell) { return sum + cell.column.mass; });
-      THAWSLIDE_ASSERT(std::abs(mass - look->moments.mass) <= round_off<double> * look->moments.mass,
-                       "{} kg of {} kg lie over map cells that particles may reach", mass, look->moments.mass);
-      maps_->gather(look->keys, look->sums, simulation.time(), below);
-      add_to_path(simulation, look->moments);
+      THAWSLIDE_ASSERT(std::abs(mass - sample->moments.mass) <= round_off * sample->moments.mass,
+                       "{} kg of {} kg lie over map cells that particles may reach", mass, sample->moments.mass);
+      maps_->gather(sample->keys, sample->sums, simulation.time(), below);
+      add_to_path(simulation, sample->moments);
       return;
     }
     maps_->gather(simulation.grid(), simulation.particles(), simulation.time(), below);

@@ -24,7 +24,7 @@ struct Front {
 template <int Dim>
 class RunRecords {
  public:
-  using Simulation = sim::Simulation<Dim, double>;
+  using Simulation = sim::Simulation<Dim>;
 
   // Creates empty records for the simulation of a case on a site. Throws UserError for maps with too many cells, and
   // for probes outside the maps.

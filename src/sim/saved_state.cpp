@@ -6,8 +6,8 @@
 
 namespace thawslide::sim {
 
-template <int Dim, class Real>
-std::vector<double> Simulation<Dim, Real>::scalars() const {
+template <int Dim>
+std::vector<double> Simulation<Dim>::scalars() const {
   std::vector<double> numbers{time_,
                               last_step_,
                               rear_at_start_,
@@ -17,18 +17,18 @@ std::vector<double> Simulation<Dim, Real>::scalars() const {
                               fixed_step_clock_.step,
                               fixed_step_clock_.from_time,
                               static_cast<double>(fixed_step_clock_.from_number)};
-  Ledger<Dim, Real> ledger = ledger_;
+  Ledger<Dim> ledger = ledger_;
   ledger.for_each([&](const Real& account) { numbers.push_back(static_cast<double>(account)); });
-  RunMonitor watch = monitor_;
-  watch.for_each([&](double number) { numbers.push_back(number); });
+  RunMonitor monitor = monitor_;
+  monitor.for_each([&](double number) { numbers.push_back(number); });
   for (const std::int64_t count : {removed_.left, removed_.not_finite, removed_.volume}) {
     numbers.push_back(static_cast<double>(count));
   }
   return numbers;
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
+template <int Dim>
+void Simulation<Dim>::restore(const std::vector<double>& scalars) {
   StateNumbers state(scalars, "run");
   time_ = state.next_finite();
   last_step_ = state.next_finite();
@@ -46,7 +46,7 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
   }
   require_sound(particles_, model_, next_id_, state);
   // Rows are sorted by id after a restart, so the former order is invalid.
-  grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell), model_.between_bodies.layer_of_body);
+  grid_ = mpm::SparseGrid<Dim>(static_cast<Real>(parameters_.grid.cell), model_.between_bodies.layer_of_body);
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     particles_.previous_temperature(p) = particles_.temperature(p);
   }
@@ -56,9 +56,9 @@ void Simulation<Dim, Real>::restore(const std::vector<double>& scalars) {
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                               \
-  template std::vector<double> Simulation<Dim, Real>::scalars() const; \
-  template void Simulation<Dim, Real>::restore(const std::vector<double>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                               \
+  template std::vector<double> Simulation<Dim>::scalars() const; \
+  template void Simulation<Dim>::restore(const std::vector<double>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -8,20 +8,20 @@
 
 namespace thawslide::sim {
 
-template <int Dim, class Real>
-bool Simulation<Dim, Real>::needs_settling() const {
+template <int Dim>
+bool Simulation<Dim>::needs_settling() const {
   return parameters_.mechanics.enabled && parameters_.mechanics.initial_stress == config::InitialStress::settle;
 }
 
-template <int Dim, class Real>
-bool Simulation<Dim, Real>::settle(const std::function<bool()>& goes_on) {
+template <int Dim>
+bool Simulation<Dim>::settle(const std::function<bool()>& may_continue) {
   if (!needs_settling()) {
     return true;
   }
   THAWSLIDE_ASSERT(particles_.size() == static_cast<std::size_t>(next_id_), "{} particles joined before the settling",
                    static_cast<std::size_t>(next_id_) - particles_at_start_);
   release_device();
-  const Model<Dim, Real> model = model_;
+  const Model<Dim> model = model_;
   model_.band.heat = model_.band.pressure = false;
   model_.constraints.frames.clear();
   model_.contact.base_holds = true;
@@ -36,7 +36,7 @@ bool Simulation<Dim, Real>::settle(const std::function<bool()>& goes_on) {
                                                                          : parameters_.time.safety * step_limit().step;
   const auto steps = static_cast<std::int64_t>(std::ceil(parameters_.mechanics.settle_time / dt));
   for (std::int64_t k = 0; k < steps; ++k) {
-    if (!goes_on()) {
+    if (!may_continue()) {
       time_ = 0.0;  // no time of the run itself has been simulated
       step_number_ = 0;
       return false;
@@ -49,12 +49,12 @@ bool Simulation<Dim, Real>::settle(const std::function<bool()>& goes_on) {
   // Assigns the settled stress to the particles as seeded, so nothing else of the settling remains.
   std::vector<SymmetricTensor<Real>> settled(particles_.size());
   for (std::size_t p = 0; p < particles_.size(); ++p) {
-    settled[static_cast<std::size_t>(particles_.id(p))] = mpm::full_tensor<Dim, Real>(particles_.stress, p);
+    settled[static_cast<std::size_t>(particles_.id(p))] = mpm::full_tensor<Dim>(particles_.stress, p);
   }
   model_ = model;
   seed();
   for (std::size_t p = 0; p < particles_.size(); ++p) {
-    for (int c = 0; c < mpm::Particles<Dim, Real>::tensor_components; ++c) {
+    for (int c = 0; c < mpm::Particles<Dim>::tensor_components; ++c) {
       particles_.stress(p, c) = settled[static_cast<std::size_t>(particles_.id(p))][c];
     }
   }
@@ -62,9 +62,9 @@ bool Simulation<Dim, Real>::settle(const std::function<bool()>& goes_on) {
   return true;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                       \
-  template bool Simulation<Dim, Real>::needs_settling() const; \
-  template bool Simulation<Dim, Real>::settle(const std::function<bool()>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                       \
+  template bool Simulation<Dim>::needs_settling() const; \
+  template bool Simulation<Dim>::settle(const std::function<bool()>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -31,8 +31,8 @@ namespace thawslide::sim {
 //   stress and porosity from the mapped-back velocities                                        Eqs. 11, 6
 //   heat content from conduction, advection and the friction heat of the contact nodes         Eqs. 9, 18-20
 //   pore pressure: Clapeyron, then thermal pressurization and seepage                          Eqs. 4, 8, 22, 23
-template <int Dim, class Real>
-void Simulation<Dim, Real>::step(double dt) {
+template <int Dim>
+void Simulation<Dim>::step(double dt) {
   THAWSLIDE_ASSERT(!device_has_failed_, "a step after {} has failed", device_name_);
   dt_ = static_cast<Real>(dt);
   ledger_before_ = ledger_;
@@ -52,8 +52,8 @@ void Simulation<Dim, Real>::step(double dt) {
 
 // Time at the end of the step. Fixed steps are counted from the first step of their size, so round-off does not
 // accumulate.
-template <int Dim, class Real>
-double Simulation<Dim, Real>::time_after(double dt) {
+template <int Dim>
+double Simulation<Dim>::time_after(double dt) {
   if (parameters_.time.stepping != config::Stepping::fixed || dt != parameters_.time.step) {
     fixed_step_clock_ = {};
     return time_ + dt;
@@ -64,8 +64,8 @@ double Simulation<Dim, Real>::time_after(double dt) {
   return fixed_step_clock_.from_time + static_cast<double>(step_number_ - fixed_step_clock_.from_number) * dt;
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::step_on_cpu() {
+template <int Dim>
+void Simulation<Dim>::step_on_cpu() {
   stopwatch_.time("find_cells", [&] { find_particles_cells(); });
   stopwatch_.time("average_band_on_grid", [&] { average_band_on_grid(); });
   if (parameters_.mechanics.enabled) {
@@ -80,9 +80,9 @@ void Simulation<Dim, Real>::step_on_cpu() {
 }
 
 // Ends the run, or removes or adds particles, if necessary.
-template <int Dim, class Real>
-void Simulation<Dim, Real>::post_step() {
-  watch();
+template <int Dim>
+void Simulation<Dim>::post_step() {
+  monitor();
   if (!needs_no_host_check()) {
     sync_to_host();
     stop_for_or_remove_particles();
@@ -92,20 +92,20 @@ void Simulation<Dim, Real>::post_step() {
   }
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::stop_for_or_remove_particles() {
+template <int Dim>
+void Simulation<Dim>::stop_for_or_remove_particles() {
   mark_invalid_particles();
   stop_if_invalid();
   mark_left_particles();
   if (invalid_.id >= 0) {
-    watch();  // reports an instability before an out-of-DEM error, so that the user is not advised to enlarge the DEM
+    monitor();  // reports an instability before an out-of-DEM error, so that the user is not advised to enlarge the DEM
   }
   stop_if_invalid();
   remove_marked_particles();
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::find_particles_cells() {
+template <int Dim>
+void Simulation<Dim>::find_particles_cells() {
   grid_.update(particles_, sorting_interval_);
   update_ground();
   if (grid_.blocks_changed() && !parameters_.mechanics.enabled) {
@@ -113,15 +113,15 @@ void Simulation<Dim, Real>::find_particles_cells() {
   }
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::update_ground() const {
+template <int Dim>
+void Simulation<Dim>::update_ground() const {
   if (model_.ground && grid_.blocks_changed()) {
     ground_.update(*model_.ground, grid_, model_.substrates.get());
   }
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::average_band_on_grid() {
+template <int Dim>
+void Simulation<Dim>::average_band_on_grid() {
   if (model_.band.rescaling_mixes) {
     rescale_band();  // changes temperatures
   }
@@ -130,14 +130,14 @@ void Simulation<Dim, Real>::average_band_on_grid() {
   }
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::momentum_to_grid() {
+template <int Dim>
+void Simulation<Dim>::momentum_to_grid() {
   force_of_walls_ = mpm::momentum_to_grid(grid_, particles_, model_.motion, nodes_);
 }
 
 // Nodes within reach of band columns take the state of the base from these. Only the other nodes need the particles.
-template <int Dim, class Real>
-void Simulation<Dim, Real>::press_on_ground() {
+template <int Dim>
+void Simulation<Dim>::press_on_ground() {
   if (!model_.ground) {
     return;
   }
@@ -154,8 +154,8 @@ void Simulation<Dim, Real>::press_on_ground() {
   }
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::resolve_contact() {
+template <int Dim>
+void Simulation<Dim>::resolve_contact() {
   if (body_contact_) {
     body_contact_->add_forces(grid_, particles_, model_.between_bodies, model_.motion.sizes,
                               model_.contact.mass_damping, dt_, nodes_);
@@ -173,8 +173,8 @@ void Simulation<Dim, Real>::resolve_contact() {
   band_columns_follow(grid_, ground_, nodes_);
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::move_particles() {
+template <int Dim>
+void Simulation<Dim>::move_particles() {
   const auto work = mpm::move_particles(grid_, particles_, model_.motion, dt_, nodes_);
   ledger_.numerical += work.particle_kinetic - contact_.node_kinetic;
   if (model_.motion.filter_order > 0 && filters_in_step(parameters_, time_, static_cast<double>(dt_))) {
@@ -189,13 +189,13 @@ void Simulation<Dim, Real>::move_particles() {
   }
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::update_stress_and_porosity() {
+template <int Dim>
+void Simulation<Dim>::update_stress_and_porosity() {
   add_stress_work(mpm::update_stress_and_porosity(grid_, particles_, model_.motion, dt_, nodes_, invalid_));
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::rescale_band() {
+template <int Dim>
+void Simulation<Dim>::rescale_band() {
   if (model_.contact.band_columns) {
     return;
   }
@@ -209,8 +209,8 @@ void Simulation<Dim, Real>::rescale_band() {
   ledger_.band_rescale += model_.band.heat ? added : Real(0);
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::conduct_heat() {
+template <int Dim>
+void Simulation<Dim>::conduct_heat() {
   if (!model_.band.rescaling_mixes) {
     rescale_band();
   }
@@ -225,8 +225,8 @@ void Simulation<Dim, Real>::conduct_heat() {
   add_heat_gain(band::conduct_heat(grid_, model_.band, dt_, step_number_ == 0, nodes_, particles_));
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::drain_pore_pressure() {
+template <int Dim>
+void Simulation<Dim>::drain_pore_pressure() {
   if (!model_.band.pressure || band_columns_) {
     return;
   }
@@ -238,8 +238,8 @@ void Simulation<Dim, Real>::drain_pore_pressure() {
   ledger_.vented_water += loss.vented;
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::update_positions() {
+template <int Dim>
+void Simulation<Dim>::update_positions() {
   if (parameters_.mechanics.enabled) {
     // Particles that will be removed may leave the domain before the end of the step.
     const Real margin = parameters_.grid.leaving == config::Policy::remove ? grid_.cell() : Real(0);
@@ -258,9 +258,9 @@ void Simulation<Dim, Real>::update_positions() {
 namespace {
 
 // Material parameter behind a fast wave, possibly a typing error in the case; empty for other limits.
-template <int Dim, class Real>
-std::string material_text(const config::Case& parameters, const Model<Dim, Real>& model,
-                          const mpm::Particles<Dim, Real>& particles, const StepLimit& limit) {
+template <int Dim>
+std::string material_text(const config::Case& parameters, const Model<Dim>& model, const mpm::Particles<Dim>& particles,
+                          const StepLimit& limit) {
   if (limit.kind != LimitKind::wave && limit.kind != LimitKind::viscosity) {
     return "";
   }
@@ -275,15 +275,15 @@ std::string material_text(const config::Case& parameters, const Model<Dim, Real>
 
 }  // namespace
 
-template <int Dim, class Real>
-Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::Site& site)
+template <int Dim>
+Simulation<Dim>::Simulation(const config::Case& parameters, const config::Site& site)
     : parameters_(require_memory<Dim>(parameters, site)),  // checked before any allocation
       site_(site),
-      model_(make_model<Dim, Real>(parameters, site)),
+      model_(make_model<Dim>(parameters, site)),
       grid_(static_cast<Real>(parameters.grid.cell), model_.between_bodies.layer_of_body),
-      bed_(make_bed<Dim, Real>(parameters, site, model_)) {
+      bed_(make_bed<Dim>(parameters, site, model_)) {
   if (model_.between_bodies.any()) {
-    body_contact_ = std::make_unique<mpm::BodyContact<Dim, Real>>();
+    body_contact_ = std::make_unique<mpm::BodyContact<Dim>>();
   }
   seed();
   if (parameters_.time.stepping == config::Stepping::fixed) {
@@ -304,11 +304,11 @@ Simulation<Dim, Real>::Simulation(const config::Case& parameters, const config::
 }
 
 // Defined here, because instantiation wherever a run ends took half of the compile time of those sources.
-template <int Dim, class Real>
-Simulation<Dim, Real>::~Simulation() = default;
+template <int Dim>
+Simulation<Dim>::~Simulation() = default;
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::begin() {
+template <int Dim>
+void Simulation<Dim>::begin() {
   time_ = last_step_ = 0.0;
   step_number_ = 0;
   fixed_step_clock_ = {};
@@ -330,8 +330,8 @@ void Simulation<Dim, Real>::begin() {
   start_monitor();
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::seed() {
+template <int Dim>
+void Simulation<Dim>::seed() {
   const auto& materials = model_.motion.materials;
   particles_.affine_velocity.keep(model_.motion.transfer == mpm::TransferKind::apic);
   particles_.viscous_stress.keep(model_.motion.viscous());
@@ -342,26 +342,26 @@ void Simulation<Dim, Real>::seed() {
   particles_at_start_ = particles_.size();
   next_id_ = static_cast<std::int64_t>(particles_at_start_);
   band::set_heat_content(model_.band, particles_);
-  grid_ = mpm::SparseGrid<Dim, Real>(static_cast<Real>(parameters_.grid.cell), model_.between_bodies.layer_of_body);
+  grid_ = mpm::SparseGrid<Dim>(static_cast<Real>(parameters_.grid.cell), model_.between_bodies.layer_of_body);
 }
 
 // Marks the particles in the band before anything has moved.
-template <int Dim, class Real>
-void Simulation<Dim, Real>::mark_band() {
+template <int Dim>
+void Simulation<Dim>::mark_band() {
   terrain::start_contact(grid_, ground(), nodes_);
   if (model_.ground) {
     terrain::mark_band_and_slip(grid_, ground_, Real(0), nodes_, particles_);
   }
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::update_columns() {
+template <int Dim>
+void Simulation<Dim>::update_columns() {
   flow_depth_.update(grid_, model_.band, slope_cosine_of(model_, parameters_.grid.cell), particles_);
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::start_ledger() {
-  const BodySums<Dim, Real> sums = sum_over_body();
+template <int Dim>
+void Simulation<Dim>::start_ledger() {
+  const BodySums<Dim> sums = sum_over_body();
   ledger_ = {};
   ledger_.initial_mechanical = sums.kinetic + sums.potential;
   ledger_.initial_thermal = sums.sensible + sums.latent;
@@ -376,7 +376,7 @@ void Simulation<Dim, Real>::start_ledger() {
   rear_at_start_ = direction * rear + model_.origin[0];
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) template class Simulation<Dim, Real>;
+#define THAWSLIDE_INSTANTIATE(Dim) template class Simulation<Dim>;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

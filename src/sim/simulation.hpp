@@ -26,14 +26,14 @@
 #include "terrain/ground_on_grid.hpp"
 
 namespace thawslide::mpm {
-template <int Dim, class Real>
+template <int Dim>
 class BodyContact;
 }  // namespace thawslide::mpm
 
 namespace thawslide::sim {
 
 // Particle that joins a run; properties not listed here are those at t = 0.
-template <int Dim, class Real>
+template <int Dim>
 struct NewParticle {
   std::int32_t body = 0, material = 0;                     // numbers, as in Model
   Vector<Real, Dim> position = Vector<Real, Dim>::Zero();  // relative to the domain's lower corner [m]
@@ -47,7 +47,7 @@ struct NewParticle {
 
 using band::BodySums;
 
-template <int Dim, class Real>
+template <int Dim>
 class Simulation {
  public:
   // Initializes particles at t = 0, not yet settled. site: contents of the map files of the case, required if the
@@ -61,9 +61,9 @@ class Simulation {
   // True if the case applies gravity before t = 0, with damping and on a fixed base.
   [[nodiscard]] bool needs_settling() const;
   // Settles the initial stress; afterwards everything but the stress is as at the start. Does nothing if the case does
-  // not request it. goes_on: called before each step; if it returns false, settling is aborted, false is returned, and
-  // the run cannot continue. Throws RunError if a particle becomes invalid.
-  bool settle(const std::function<bool()>& goes_on = [] { return true; });
+  // not request it. may_continue: called before each step; if it returns false, settling is aborted, false is returned,
+  // and the run cannot continue. Throws RunError if a particle becomes invalid.
+  bool settle(const std::function<bool()>& may_continue = [] { return true; });
 
   // Performs one time step of dt [s]. Throws RunError if a particle becomes invalid; the state is then that of the
   // failed step.
@@ -71,10 +71,10 @@ class Simulation {
 
   // Performs all further steps on a device. Throws UserError, with the key, for features that no device supports; a
   // step throws DeviceError if the device fails.
-  void use_device(const std::string& device, device::SolverFactory<Dim, Real> make);
+  void use_device(const std::string& device, device::SolverFactory<Dim> make);
 
   // Appends particles between two steps, with new ids. They are in no band until the next step.
-  void append(const std::vector<NewParticle<Dim, Real>>& joining);
+  void append(const std::vector<NewParticle<Dim>>& joining);
 
   // Next step [s]: the fixed one, or the largest adaptive one, shortened to end at `until`. Throws RunError if the
   // adaptive step becomes too small (guards.smallest_step, guards.most_steps).
@@ -103,48 +103,48 @@ class Simulation {
 
   [[nodiscard]] const config::Case& parameters() const { return parameters_; }
   [[nodiscard]] const config::Site& site() const { return site_; }
-  [[nodiscard]] const Model<Dim, Real>& model() const { return model_; }
+  [[nodiscard]] const Model<Dim>& model() const { return model_; }
   [[nodiscard]] double time() const { return time_; }
   [[nodiscard]] double last_step() const { return last_step_; }
   [[nodiscard]] std::int64_t step_number() const { return step_number_; }
   // Callers that modify particles must not keep the reference over a step on a device.
-  [[nodiscard]] mpm::Particles<Dim, Real>& particles() {
+  [[nodiscard]] mpm::Particles<Dim>& particles() {
     release_device();
     return particles_;
   }
-  [[nodiscard]] const mpm::Particles<Dim, Real>& particles() const {
+  [[nodiscard]] const mpm::Particles<Dim>& particles() const {
     copy_particles_back();
     return particles_;
   }
-  [[nodiscard]] const mpm::SparseGrid<Dim, Real>& grid() const {
+  [[nodiscard]] const mpm::SparseGrid<Dim>& grid() const {
     sync_to_host();
     return grid_;
   }
   [[nodiscard]] std::size_t particle_count() const { return particles_.size(); }
   // Sums over all particles, in host or device memory, or over marked ones, by particle.
-  [[nodiscard]] BodySums<Dim, Real> sum_over_body() const;
-  [[nodiscard]] BodySums<Dim, Real> sum_over_marked(const std::vector<std::uint8_t>& marked) const;
+  [[nodiscard]] BodySums<Dim> sum_over_body() const;
+  [[nodiscard]] BodySums<Dim> sum_over_marked(const std::vector<std::uint8_t>& marked) const;
   // Particle at the front along a line, or along the x axis if the line has no segments. At least one particle must
   // exist.
   [[nodiscard]] mpm::PathSample front(const LineView& line = {}) const;
   // Map sums of a step on a device; null after a step on the CPU.
   [[nodiscard]] const device::MapSample* sample_map(const mpm::MapCells& cells) const;
   // Nodes of a step on the CPU.
-  [[nodiscard]] const mpm::Nodes<Dim, Real>& nodes() const {
+  [[nodiscard]] const mpm::Nodes<Dim>& nodes() const {
     THAWSLIDE_ASSERT(device_name_.empty(), "nodes are asked for, which {} keeps", device_name_);
     return nodes_;
   }
   // Null without terrain.
-  [[nodiscard]] const terrain::GroundOnGrid<Dim, Real>* ground() const { return model_.ground ? &ground_ : nullptr; }
-  [[nodiscard]] const Ledger<Dim, Real>& ledger() const { return ledger_; }
-  [[nodiscard]] const terrain::ContactWork<Dim, Real>& contact() const { return contact_; }
+  [[nodiscard]] const terrain::GroundOnGrid<Dim>* ground() const { return model_.ground ? &ground_ : nullptr; }
+  [[nodiscard]] const Ledger<Dim>& ledger() const { return ledger_; }
+  [[nodiscard]] const terrain::ContactWork<Dim>& contact() const { return contact_; }
   // Null unless the band consists of columns.
-  [[nodiscard]] const band::BasalSegments<Dim, Real>* band_columns() const {
+  [[nodiscard]] const band::BasalSegments<Dim>* band_columns() const {
     return band_columns_ ? &*band_columns_ : nullptr;
   }
   void restore_band_columns(const std::vector<double>& state);
   // Null without an erodible bed.
-  [[nodiscard]] const terrain::Bed<Dim, Real>* bed() const { return bed_ ? &*bed_ : nullptr; }
+  [[nodiscard]] const terrain::Bed<Dim>* bed() const { return bed_ ? &*bed_ : nullptr; }
   void restore_bed(const std::vector<double>& state) { bed_->restore(state); }
   [[nodiscard]] const Stopwatch& stopwatch() const { return stopwatch_; }
   [[nodiscard]] double rear_at_start() const { return rear_at_start_; }
@@ -164,14 +164,14 @@ class Simulation {
   // The step on a device (step_on_device.cpp).
   void advance_on_device();
   void on_device(const std::function<void()>& work) const;
-  [[nodiscard]] device::StepSums<Dim, Real> step_on_device();
+  [[nodiscard]] device::StepSums<Dim> step_on_device();
   // Copies particles from the device, where they remain; sync_to_host() also updates the grid to their positions.
   void copy_particles_back() const;
   void sync_to_host() const;
   // The same; the next step on the device begins with the host's particles.
   void release_device();
-  [[nodiscard]] BodySums<Dim, Real> sum_over_particles(const std::uint8_t* marked) const;
-  [[nodiscard]] band::SumsOfParticle<Dim, Real> sums_of_particle() const;
+  [[nodiscard]] BodySums<Dim> sum_over_particles(const std::uint8_t* marked) const;
+  [[nodiscard]] band::SumsOfParticle<Dim> sums_of_particle() const;
   [[nodiscard]] bool any_has_left(const std::vector<Vector<Real, Dim>>& places) const;
   // True if a device performed the step and no particle is invalid or has left: the device counts them.
   [[nodiscard]] bool needs_no_host_check() const;
@@ -179,8 +179,8 @@ class Simulation {
   // Adds the terms of a step to the budget (step_accounts.cpp).
   void add_contact_energy();
   void add_bed_energy();
-  void add_stress_work(const mpm::StressWork<Real>& work);
-  void add_heat_gain(const band::HeatGain<Real>& gain);
+  void add_stress_work(const mpm::StressWork& work);
+  void add_heat_gain(const band::HeatGain& gain);
 
   // The stages of a step, in order (simulation.cpp).
   [[nodiscard]] double time_after(double dt);
@@ -197,16 +197,14 @@ class Simulation {
   void conduct_heat();
   void drain_pore_pressure();
   void update_positions();
-  void watch();
+  void monitor();
   void stop_for_or_remove_particles();
   void mark_invalid_particles();
   void mark_left_particles();
   void remove_marked_particles();
   // Null without an erodible bed, and while the base is fixed.
-  [[nodiscard]] const terrain::Bed<Dim, Real>* bed_in_reach() const {
-    return model_.contact.base_holds ? nullptr : bed();
-  }
-  const terrain::Bed<Dim, Real>* bed_to_meet();
+  [[nodiscard]] const terrain::Bed<Dim>* bed_in_reach() const { return model_.contact.base_holds ? nullptr : bed(); }
+  const terrain::Bed<Dim>* bed_to_meet();
   void collect_bed();
   void entrain_bed();
 
@@ -214,9 +212,9 @@ class Simulation {
   // Initializes everything that follows from positions and stress at t = 0.
   void begin();
   void start_monitor();
-  [[nodiscard]] mpm::MonitorSums<Real> monitor_sums() const;
-  void stop_if_energy_grows(const mpm::MonitorSums<Real>& seen);
-  void update_rest(const mpm::MonitorSums<Real>& seen);
+  [[nodiscard]] mpm::MonitorSums monitor_sums() const;
+  void stop_if_energy_grows(const mpm::MonitorSums& seen);
+  void update_rest(const mpm::MonitorSums& seen);
   void add_removed_particles();
   void correct_energy_for_removal();
   [[nodiscard]] band::StepExtremes extremes() const;
@@ -238,43 +236,43 @@ class Simulation {
   void update_normal_load(std::size_t first = 0);
   void rescale_band();
   void start_band_columns();
-  void band_columns_follow(const mpm::SparseGrid<Dim, Real>& grid, const terrain::GroundOnGrid<Dim, Real>& ground,
-                           mpm::Nodes<Dim, Real>& nodes);
+  void band_columns_follow(const mpm::SparseGrid<Dim>& grid, const terrain::GroundOnGrid<Dim>& ground,
+                           mpm::Nodes<Dim>& nodes);
   // Callbacks of a device for band columns (columns_of_device.cpp).
-  [[nodiscard]] device::HostColumns<Real> host_columns();
+  [[nodiscard]] device::HostColumns host_columns();
   // Callbacks of a device for the erodible bed (bed_of_device.cpp).
-  [[nodiscard]] device::HostBed<Dim, Real> host_bed();
+  [[nodiscard]] device::HostBed<Dim> host_bed();
   void start_ledger();
   [[nodiscard]] std::vector<Vector<double, Dim - 1>> places_below_slide(
-      const std::vector<typename terrain::Bed<Dim, Real>::Column>& columns) const;
-  [[nodiscard]] NewParticle<Dim, Real> particle_of_bed(Vector<double, Dim - 1> place,
-                                                       const terrain::LooseMaterial<Dim, Real>& material,
-                                                       std::int64_t number) const;
+      const std::vector<typename terrain::Bed<Dim>::Column>& columns) const;
+  [[nodiscard]] NewParticle<Dim> particle_of_bed(Vector<double, Dim - 1> place,
+                                                 const terrain::LooseMaterial<Dim>& material,
+                                                 std::int64_t number) const;
   void stop_if_invalid();
   [[nodiscard]] double band_thickness() const { return parameters_.band.thickness.at(time_); }
 
   config::Case parameters_;
   config::Site site_;
-  Model<Dim, Real> model_;
+  Model<Dim> model_;
   // With a device, these are copies of the last synchronization, which does not change the logical state.
-  mutable mpm::Particles<Dim, Real> particles_;
-  mutable mpm::SparseGrid<Dim, Real> grid_;
-  mutable terrain::GroundOnGrid<Dim, Real> ground_;
-  mpm::Nodes<Dim, Real> nodes_;
-  device::SolverFactory<Dim, Real> make_solver_;  // empty: steps on the CPU
+  mutable mpm::Particles<Dim> particles_;
+  mutable mpm::SparseGrid<Dim> grid_;
+  mutable terrain::GroundOnGrid<Dim> ground_;
+  mpm::Nodes<Dim> nodes_;
+  device::SolverFactory<Dim> make_solver_;  // empty: steps on the CPU
   // Null if particles have changed on the host since, or the device has failed.
-  mutable std::unique_ptr<device::Solver<Dim, Real>> device_solver_;
-  device::StepSums<Dim, Real> device_sums_;  // of its last step
-  mutable device::MapSample map_sample_;     // of the last step
+  mutable std::unique_ptr<device::Solver<Dim>> device_solver_;
+  device::StepSums<Dim> device_sums_;     // of its last step
+  mutable device::MapSample map_sample_;  // of the last step
   std::string device_name_;
-  band::FlowDepth<Dim, Real> flow_depth_;
-  std::optional<band::BasalSegments<Dim, Real>> band_columns_;
-  std::unique_ptr<GridOfDevice<Dim, Real>> grid_of_device_;  // as band columns read it; null without band columns
-  std::optional<terrain::Bed<Dim, Real>> bed_;
-  std::unique_ptr<BedOfDevice<Dim, Real>> bed_of_device_;  // null without a bed below a device step
-  terrain::ContactWork<Dim, Real> contact_;
-  std::unique_ptr<mpm::BodyContact<Dim, Real>> body_contact_;  // null if all bodies share nodes
-  Ledger<Dim, Real> ledger_, ledger_before_;                   // current, and before the step
+  band::FlowDepth<Dim> flow_depth_;
+  std::optional<band::BasalSegments<Dim>> band_columns_;
+  std::unique_ptr<GridOfDevice<Dim>> grid_of_device_;  // as band columns read it; null without band columns
+  std::optional<terrain::Bed<Dim>> bed_;
+  std::unique_ptr<BedOfDevice<Dim>> bed_of_device_;  // null without a bed below a device step
+  terrain::ContactWork<Dim> contact_;
+  std::unique_ptr<mpm::BodyContact<Dim>> body_contact_;  // null if all bodies share nodes
+  Ledger<Dim> ledger_, ledger_before_;                   // current, and before the step
   RunMonitor monitor_;
   Removed removed_;
   mpm::InvalidParticle invalid_;

@@ -5,8 +5,8 @@
 namespace thawslide::sim {
 
 // Adds contact and all terms that act on the slide as a whole.
-template <int Dim, class Real>
-void Simulation<Dim, Real>::add_contact_energy() {
+template <int Dim>
+void Simulation<Dim>::add_contact_energy() {
   ledger_.friction_work += contact_.friction_work;
   ledger_.converted += model_.band.heat ? contact_.converted : contact_.friction_work;
   ledger_.contact_loss += contact_.loss;
@@ -18,24 +18,24 @@ void Simulation<Dim, Real>::add_contact_energy() {
   ledger_.constraint_impulse += contact_.constraint_impulse;
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::add_bed_energy() {
+template <int Dim>
+void Simulation<Dim>::add_bed_energy() {
   if (bed_in_reach() != nullptr) {
     ledger_.bed_work += contact_.bed_work;
     ledger_.bed_impulse += contact_.bed_impulse;
   }
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::add_stress_work(const mpm::StressWork<Real>& work) {
+template <int Dim>
+void Simulation<Dim>::add_stress_work(const mpm::StressWork& work) {
   ledger_.stress_work += work.total;
   ledger_.plastic += work.plastic;
   ledger_.viscous += work.viscous;
   ledger_.pore_work += model_.motion.effective_stress ? work.pore : Real(0);
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::add_heat_gain(const band::HeatGain<Real>& gain) {
+template <int Dim>
+void Simulation<Dim>::add_heat_gain(const band::HeatGain& gain) {
   ledger_.friction_heat += gain.friction;
   ledger_.boundary_heat += gain.boundary;
   ledger_.advection += gain.advection;
@@ -43,11 +43,11 @@ void Simulation<Dim, Real>::add_heat_gain(const band::HeatGain<Real>& gain) {
   ledger_.porosity_heat += gain.porosity;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                              \
-  template void Simulation<Dim, Real>::add_contact_energy();                          \
-  template void Simulation<Dim, Real>::add_bed_energy();                              \
-  template void Simulation<Dim, Real>::add_stress_work(const mpm::StressWork<Real>&); \
-  template void Simulation<Dim, Real>::add_heat_gain(const band::HeatGain<Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                        \
+  template void Simulation<Dim>::add_contact_energy();                    \
+  template void Simulation<Dim>::add_bed_energy();                        \
+  template void Simulation<Dim>::add_stress_work(const mpm::StressWork&); \
+  template void Simulation<Dim>::add_heat_gain(const band::HeatGain&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

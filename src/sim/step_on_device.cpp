@@ -9,8 +9,8 @@
 
 namespace thawslide::sim {
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::use_device(const std::string& device, device::SolverFactory<Dim, Real> make) {
+template <int Dim>
+void Simulation<Dim>::use_device(const std::string& device, device::SolverFactory<Dim> make) {
   const std::string missing = not_on_devices(parameters_, model_);
   if (!missing.empty()) {
     throw UserError(fmt::format("{}: {} is not supported on {}. Run the case on the CPU: --device cpu",
@@ -23,8 +23,8 @@ void Simulation<Dim, Real>::use_device(const std::string& device, device::Solver
 
 // Runs work on the device. If the device fails, the host keeps the particles of the last synchronization, or a mixture
 // if it fails during one.
-template <int Dim, class Real>
-void Simulation<Dim, Real>::on_device(const std::function<void()>& work) const {
+template <int Dim>
+void Simulation<Dim>::on_device(const std::function<void()>& work) const {
   try {
     work();
   } catch (const device::Failure& error) {
@@ -34,10 +34,10 @@ void Simulation<Dim, Real>::on_device(const std::function<void()>& work) const {
   }
 }
 
-template <int Dim, class Real>
-device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device() {
+template <int Dim>
+device::StepSums<Dim> Simulation<Dim>::step_on_device() {
   if (!device_solver_) {
-    device::HostCallbacks<Dim, Real> ask = terrain_for_device(model_, parameters_.grid.cell);
+    device::HostCallbacks<Dim> ask = terrain_for_device(model_, parameters_.grid.cell);
     ask.columns = host_columns();
     ask.bed = host_bed();
     device_solver_ = make_solver_(device_model_of(parameters_, model_, step_number_ == 0), mpm::view_of(particles_),
@@ -50,10 +50,10 @@ device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device() {
   return device_solver_->step(static_cast<Real>(time_), dt_);
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::advance_on_device() {
+template <int Dim>
+void Simulation<Dim>::advance_on_device() {
   on_device([&] { device_sums_ = step_on_device(); });
-  const device::StepSums<Dim, Real>& sums = device_sums_;
+  const device::StepSums<Dim>& sums = device_sums_;
   if (parameters_.mechanics.enabled) {
     contact_ = sums.contact;
     add_contact_energy();
@@ -76,8 +76,8 @@ void Simulation<Dim, Real>::advance_on_device() {
   invalid_ += sums.invalid;
 }
 
-template <int Dim, class Real>
-bool Simulation<Dim, Real>::needs_no_host_check() const {
+template <int Dim>
+bool Simulation<Dim>::needs_no_host_check() const {
   if (!device_solver_ || invalid_.id >= 0) {
     return false;
   }
@@ -88,8 +88,8 @@ bool Simulation<Dim, Real>::needs_no_host_check() const {
   return !any_has_left(escapes);
 }
 
-template <int Dim, class Real>
-bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>& places) const {
+template <int Dim>
+bool Simulation<Dim>::any_has_left(const std::vector<Vector<Real, Dim>>& places) const {
   const Vector<Real, Dim>& extent = model_.constraints.extent;
   const auto left = [&](const Vector<Real, Dim>& place) {
     return (place.array() < Real(0)).any() || (place.array() > extent.array()).any() ||
@@ -104,8 +104,8 @@ bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>& p
              }) > 0;
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::copy_particles_back() const {
+template <int Dim>
+void Simulation<Dim>::copy_particles_back() const {
   if (!host_particles_valid_) {
     on_device([&] { device_solver_->copy_to(mpm::view_of(particles_)); });
     host_particles_valid_ = true;
@@ -113,8 +113,8 @@ void Simulation<Dim, Real>::copy_particles_back() const {
 }
 
 // Rebuilds the grid from the particles' positions: sums in its order then do not depend on the time of synchronization.
-template <int Dim, class Real>
-void Simulation<Dim, Real>::sync_to_host() const {
+template <int Dim>
+void Simulation<Dim>::sync_to_host() const {
   copy_particles_back();
   if (!host_grid_valid_) {
     grid_.update(particles_, 0);
@@ -123,8 +123,8 @@ void Simulation<Dim, Real>::sync_to_host() const {
   }
 }
 
-template <int Dim, class Real>
-const device::MapSample* Simulation<Dim, Real>::sample_map(const mpm::MapCells& cells) const {
+template <int Dim>
+const device::MapSample* Simulation<Dim>::sample_map(const mpm::MapCells& cells) const {
   if (!device_solver_) {
     return nullptr;
   }
@@ -132,25 +132,25 @@ const device::MapSample* Simulation<Dim, Real>::sample_map(const mpm::MapCells& 
   return &map_sample_;
 }
 
-template <int Dim, class Real>
-void Simulation<Dim, Real>::release_device() {
+template <int Dim>
+void Simulation<Dim>::release_device() {
   sync_to_host();
   device_solver_.reset();
   grid_of_device_.reset();
   bed_of_device_.reset();
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                 \
-  template void Simulation<Dim, Real>::use_device(const std::string&, device::SolverFactory<Dim, Real>); \
-  template void Simulation<Dim, Real>::on_device(const std::function<void()>&) const;                    \
-  template device::StepSums<Dim, Real> Simulation<Dim, Real>::step_on_device();                          \
-  template void Simulation<Dim, Real>::advance_on_device();                                              \
-  template bool Simulation<Dim, Real>::needs_no_host_check() const;                                      \
-  template bool Simulation<Dim, Real>::any_has_left(const std::vector<Vector<Real, Dim>>&) const;        \
-  template void Simulation<Dim, Real>::copy_particles_back() const;                                      \
-  template void Simulation<Dim, Real>::sync_to_host() const;                                             \
-  template const device::MapSample* Simulation<Dim, Real>::sample_map(const mpm::MapCells&) const;       \
-  template void Simulation<Dim, Real>::release_device();
+#define THAWSLIDE_INSTANTIATE(Dim)                                                           \
+  template void Simulation<Dim>::use_device(const std::string&, device::SolverFactory<Dim>); \
+  template void Simulation<Dim>::on_device(const std::function<void()>&) const;              \
+  template device::StepSums<Dim> Simulation<Dim>::step_on_device();                          \
+  template void Simulation<Dim>::advance_on_device();                                        \
+  template bool Simulation<Dim>::needs_no_host_check() const;                                \
+  template bool Simulation<Dim>::any_has_left(const std::vector<Vector<Real, Dim>>&) const;  \
+  template void Simulation<Dim>::copy_particles_back() const;                                \
+  template void Simulation<Dim>::sync_to_host() const;                                       \
+  template const device::MapSample* Simulation<Dim>::sample_map(const mpm::MapCells&) const; \
+  template void Simulation<Dim>::release_device();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -10,8 +10,8 @@
 namespace thawslide::sim {
 
 // Empty without ground. cell: mesh size [m].
-template <int Dim, class Real>
-band::OfPlace<Dim, Real> slope_cosine_of(const Model<Dim, Real>& model, double cell) {
+template <int Dim>
+band::OfPlace<Dim> slope_cosine_of(const Model<Dim>& model, double cell) {
   if (!model.ground) {
     return {};
   }
@@ -20,8 +20,8 @@ band::OfPlace<Dim, Real> slope_cosine_of(const Model<Dim, Real>& model, double c
   };
 }
 
-template <int Dim, class Real>
-band::OfPlace<Dim, Real> normal_gravity_of(const Model<Dim, Real>& model, double cell) {
+template <int Dim>
+band::OfPlace<Dim> normal_gravity_of(const Model<Dim>& model, double cell) {
   return [&model, cell](const Vector<Real, Dim - 1>& place) {
     const Vector<double, Dim> gravity = model.motion.gravity.template cast<double>();
     if (!model.ground) {

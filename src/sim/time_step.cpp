@@ -49,8 +49,8 @@ std::string wave_text(const std::string& material, double cell, const WaveSpeeds
 }
 
 // Calls take(step [s], kind, id of the limiting particle, text) for every limit; text() describes it.
-template <int Dim, class Real, class Take>
-void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
+template <int Dim, class Take>
+void for_limits(const config::Case& parameters, const Model<Dim>& model, double thickness,
                 const band::StepExtremes& found, const Take& take) {
   const double cell = parameters.grid.cell;
   if (parameters.mechanics.enabled) {
@@ -97,23 +97,23 @@ void for_limits(const config::Case& parameters, const Model<Dim, Real>& model, d
 
 }  // namespace
 
-template <int Dim, class Real>
-band::StepExtremes extremes_of(const Model<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+band::StepExtremes extremes_of(const Model<Dim>& model, const mpm::Particles<Dim>& particles) {
   constexpr std::size_t of_a_task = 1024;
   const std::vector<Real>& conductivity = model.band.hydraulic_conductivity;
-  const band::HydraulicConductivity<Real> hydraulic{conductivity.data(), conductivity.size() == 1};
-  const band::FreeGaps<Real> free_gaps{model.free_gaps.data()};
+  const band::HydraulicConductivity hydraulic{conductivity.data(), conductivity.size() == 1};
+  const band::FreeGaps free_gaps{model.free_gaps.data()};
   const std::size_t count = particles.size(), tasks = (count + of_a_task - 1) / of_a_task;
   return parallel_sum<band::StepExtremes>(tasks, [&](std::size_t task, band::StepExtremes& found) {
     for (std::size_t p = task * of_a_task; p < std::min(count, (task + 1) * of_a_task); ++p) {
-      found += band::extremes_of_particle<Dim, Real>(model.band, hydraulic, free_gaps, particles,
-                                                     static_cast<std::uint32_t>(p));
+      found +=
+          band::extremes_of_particle<Dim>(model.band, hydraulic, free_gaps, particles, static_cast<std::uint32_t>(p));
     }
   });
 }
 
-template <int Dim, class Real>
-double largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
+template <int Dim>
+double largest_stable_step(const config::Case& parameters, const Model<Dim>& model, double thickness,
                            const band::StepExtremes& extremes) {
   double smallest = HUGE_VAL;
   for_limits(parameters, model, thickness, extremes,
@@ -123,8 +123,8 @@ double largest_stable_step(const config::Case& parameters, const Model<Dim, Real
   return smallest;
 }
 
-template <int Dim, class Real>
-StepLimit step_limit(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
+template <int Dim>
+StepLimit step_limit(const config::Case& parameters, const Model<Dim>& model, double thickness,
                      const band::StepExtremes& extremes) {
   StepLimit limit{HUGE_VAL, "no limit"};
   const auto take = [&](double step, LimitKind kind, std::int64_t particle, const auto& text) {
@@ -136,12 +136,10 @@ StepLimit step_limit(const config::Case& parameters, const Model<Dim, Real>& mod
   return limit;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                         \
-  template band::StepExtremes extremes_of<Dim, Real>(const Model<Dim, Real>&, const mpm::Particles<Dim, Real>&); \
-  template double largest_stable_step<Dim, Real>(const config::Case&, const Model<Dim, Real>&, double,           \
-                                                 const band::StepExtremes&);                                     \
-  template StepLimit step_limit<Dim, Real>(const config::Case&, const Model<Dim, Real>&, double,                 \
-                                           const band::StepExtremes&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                     \
+  template band::StepExtremes extremes_of<Dim>(const Model<Dim>&, const mpm::Particles<Dim>&);                         \
+  template double largest_stable_step<Dim>(const config::Case&, const Model<Dim>&, double, const band::StepExtremes&); \
+  template StepLimit step_limit<Dim>(const config::Case&, const Model<Dim>&, double, const band::StepExtremes&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

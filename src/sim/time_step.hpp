@@ -22,17 +22,17 @@ struct StepLimit {
 };
 
 // Extremes over particles that set limits. Allocates nothing, because adaptive steps call it every time.
-template <int Dim, class Real>
-band::StepExtremes extremes_of(const Model<Dim, Real>& model, const mpm::Particles<Dim, Real>& particles);
+template <int Dim>
+band::StepExtremes extremes_of(const Model<Dim>& model, const mpm::Particles<Dim>& particles);
 
 // Minimum of the limits by wave speed (with viscosity), particle speed, heat conduction and seepage [s].
-template <int Dim, class Real>
-double largest_stable_step(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
+template <int Dim>
+double largest_stable_step(const config::Case& parameters, const Model<Dim>& model, double thickness,
                            const band::StepExtremes& extremes);
 
 // The same, with its cause.
-template <int Dim, class Real>
-StepLimit step_limit(const config::Case& parameters, const Model<Dim, Real>& model, double thickness,
+template <int Dim>
+StepLimit step_limit(const config::Case& parameters, const Model<Dim>& model, double thickness,
                      const band::StepExtremes& extremes);
 
 }  // namespace thawslide::sim

@@ -7,17 +7,16 @@
 
 namespace thawslide::terrain {
 
-template <int Dim, class Real>
-void mark_band_and_slip(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground, Real dt,
-                        mpm::Nodes<Dim, Real>& nodes, mpm::Particles<Dim, Real>& particles) {
-  mpm::for_particles_in_memory(particles, LeaveBand<Dim, Real>{});
-  mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, SeesCandidates<Dim, Real>{ground},
-                     MarkBand<Dim, Real>{dt});
+template <int Dim>
+void mark_band_and_slip(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground, Real dt,
+                        mpm::Nodes<Dim>& nodes, mpm::Particles<Dim>& particles) {
+  mpm::for_particles_in_memory(particles, LeaveBand<Dim>{});
+  mpm::particle_pass(grid, mpm::LinearWeights{}, particles, nodes, SeesCandidates<Dim>{ground}, MarkBand<Dim>{dt});
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                               \
-  template void mark_band_and_slip<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&, Real, \
-                                              mpm::Nodes<Dim, Real>&, mpm::Particles<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                     \
+  template void mark_band_and_slip<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>&, Real, mpm::Nodes<Dim>&, \
+                                        mpm::Particles<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

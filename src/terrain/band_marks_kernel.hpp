@@ -8,7 +8,7 @@
 namespace thawslide::terrain {
 
 // Resets the band mark: particles without a candidate node nearby are outside the band.
-template <int Dim, class Real>
+template <int Dim>
 struct LeaveBand {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
@@ -23,7 +23,7 @@ struct LeaveBand {
 
 // Marks particles in a cell with a candidate corner as band particles; adds nodal slip to particles in a cell with a
 // contact node.
-template <int Dim, class Real>
+template <int Dim>
 struct MarkBand {
   using Reads = mpm::RecordList<mpm::Contact>;
   using Adds = mpm::RecordList<>;

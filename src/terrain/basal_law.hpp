@@ -9,21 +9,19 @@
 
 #include "mpm/tile.hpp"
 #include "physics/basal/laws.hpp"
-#include "physics/basal_friction.hpp"
+#include "physics/contact.hpp"
 
 namespace thawslide::terrain {
 
 // Laws of one substrate.
-template <class Real>
 struct GroundLaw {
-  physics::basal::FrictionLaw<Real> friction;
-  physics::basal::CohesionLaw<Real> cohesion;
+  physics::basal::FrictionLaw friction;
+  physics::basal::CohesionLaw cohesion;
 };
 
-template <class Real>
 struct BasalLaw {
   // By substrate number; entry 0 applies outside all substrates.
-  std::vector<GroundLaw<Real>> grounds{1};
+  std::vector<GroundLaw> grounds{1};
   physics::FrictionClamp clamp = physics::FrictionClamp::keep_cohesion;
   bool cap_pressure = false;  // P at most N
   Real heat_fraction = 1;     // fraction of the friction work converted to heat (conversion coefficient)
@@ -31,7 +29,6 @@ struct BasalLaw {
 };
 
 // State and strength of up to `capacity` contact nodes, one array per quantity.
-template <class Real>
 struct BasalNodes {
   static constexpr std::size_t capacity = static_cast<std::size_t>(mpm::Tile<3>::nodes);
   template <class T>
@@ -47,7 +44,7 @@ struct BasalNodes {
   // [Pa].
   Column<Real> friction, relief, drag, cohesion, strength;
 
-  [[nodiscard]] physics::basal::ContactNode<Real> node(std::size_t k, Real time) const {
+  [[nodiscard]] physics::basal::ContactNode node(std::size_t k, Real time) const {
     return {normal_pressure[k], pore_pressure[k], temperature[k], saturation[k],
             solid_fraction[k],  slip[k],          speed[k],       time,
             unit_weight[k]};
@@ -56,8 +53,7 @@ struct BasalNodes {
 
 // Computes friction, relief, drag and cohesion of the nodes on one substrate. The laws are dispatched once, outside the
 // loop over nodes.
-template <class Real>
-void evaluate_ground_law(const GroundLaw<Real>& law, int substrate, Real time, BasalNodes<Real>& nodes) {
+inline void evaluate_ground_law(const GroundLaw& law, int substrate, Real time, BasalNodes& nodes) {
   std::visit(
       [&]<class Friction>(const Friction& friction) {
         for (std::size_t k = 0; k < nodes.count; ++k) {
@@ -82,8 +78,7 @@ void evaluate_ground_law(const GroundLaw<Real>& law, int substrate, Real time, B
 }
 
 // Computes friction, cohesion and strength of all nodes. time [s].
-template <class Real>
-void evaluate_basal_law(const BasalLaw<Real>& law, Real time, BasalNodes<Real>& nodes) {
+inline void evaluate_basal_law(const BasalLaw& law, Real time, BasalNodes& nodes) {
   const auto end = nodes.substrate.begin() + static_cast<std::ptrdiff_t>(nodes.count);
   for (std::size_t number = 0; number < law.grounds.size(); ++number) {
     const int substrate = static_cast<int>(number);

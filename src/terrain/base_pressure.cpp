@@ -6,10 +6,10 @@
 
 namespace thawslide::terrain {
 
-template <int Dim, class Real>
-std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(const mpm::SparseGrid<Dim, Real>& grid,
-                                                                                const GroundOnGrid<Dim, Real>& ground,
-                                                                                const mpm::Nodes<Dim, Real>& nodes,
+template <int Dim>
+std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(const mpm::SparseGrid<Dim>& grid,
+                                                                                const GroundOnGrid<Dim>& ground,
+                                                                                const mpm::Nodes<Dim>& nodes,
                                                                                 std::size_t b, Real dt,
                                                                                 Real smallest_area) {
   using T = mpm::Tile<Dim>;
@@ -23,7 +23,7 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
   if (first_loaded == pressure.size()) {
     return pressure;
   }
-  mpm::Patch<Dim, Real, BaseLayout::size> patch;
+  mpm::Patch<Dim, BaseLayout::size> patch;
   patch.clear();
   const std::int32_t* blocks = grid.blocks_about_block(b);
   mpm::for_each_direction<Dim>([&](auto d) {
@@ -50,10 +50,9 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
   return pressure;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                            \
-  template std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(                         \
-      const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&, const mpm::Nodes<Dim, Real>&, std::size_t, \
-      Real, Real);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                          \
+  template std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure( \
+      const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>&, const mpm::Nodes<Dim>&, std::size_t, Real, Real);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

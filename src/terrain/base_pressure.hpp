@@ -12,10 +12,10 @@ namespace thawslide::terrain {
 // the area of a single node are unrelated, but their local sums are consistent. Exact if a deep body ends on a grid
 // line; the covered area is too small if the body is thinner than a cell. Without ground nearby, the area is
 // `smallest_area` [m2].
-template <int Dim, class Real>
-std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(const mpm::SparseGrid<Dim, Real>& grid,
-                                                                                const GroundOnGrid<Dim, Real>& ground,
-                                                                                const mpm::Nodes<Dim, Real>& nodes,
+template <int Dim>
+std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(const mpm::SparseGrid<Dim>& grid,
+                                                                                const GroundOnGrid<Dim>& ground,
+                                                                                const mpm::Nodes<Dim>& nodes,
                                                                                 std::size_t b, Real dt,
                                                                                 Real smallest_area);
 

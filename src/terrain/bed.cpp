@@ -10,9 +10,9 @@ namespace thawslide::terrain {
 
 using mpm::BaseLayout;
 
-template <int Dim, class Real>
-typename Bed<Dim, Real>::Column Bed<Dim, Real>::column_of(const mpm::SparseGrid<Dim, Real>& grid, std::size_t block,
-                                                          std::size_t node) const {
+template <int Dim>
+typename Bed<Dim>::Column Bed<Dim>::column_of(const mpm::SparseGrid<Dim>& grid, std::size_t block,
+                                              std::size_t node) const {
   using T = mpm::Tile<Dim>;
   const typename T::Index index = T::node(T::index(grid.blocks()[block]), static_cast<int>(node));
   Column column{};
@@ -20,8 +20,8 @@ typename Bed<Dim, Real>::Column Bed<Dim, Real>::column_of(const mpm::SparseGrid<
   return column;
 }
 
-template <int Dim, class Real>
-std::size_t Bed<Dim, Real>::number_of(const Column& column) const {
+template <int Dim>
+std::size_t Bed<Dim>::number_of(const Column& column) const {
   std::size_t number = 0;
   for (std::size_t a = column.size(); a-- > 0;) {
     if (column[a] < 0 || column[a] >= columns_[a]) {
@@ -32,8 +32,8 @@ std::size_t Bed<Dim, Real>::number_of(const Column& column) const {
   return number;
 }
 
-template <int Dim, class Real>
-typename Bed<Dim, Real>::Column Bed<Dim, Real>::column_at(std::size_t number) const {
+template <int Dim>
+typename Bed<Dim>::Column Bed<Dim>::column_at(std::size_t number) const {
   const auto along_x = static_cast<std::size_t>(columns_[0]);
   Column column{static_cast<int>(number % along_x)};
   if constexpr (Dim == 3) {
@@ -42,8 +42,8 @@ typename Bed<Dim, Real>::Column Bed<Dim, Real>::column_at(std::size_t number) co
   return column;
 }
 
-template <int Dim, class Real>
-void Bed<Dim, Real>::cover_part(const Column& part) {
+template <int Dim>
+void Bed<Dim>::cover_part(const Column& part) {
   Column column{};
   int bit = 0;
   for (std::size_t a = part.size(); a-- > 0;) {
@@ -56,9 +56,9 @@ void Bed<Dim, Real>::cover_part(const Column& part) {
 }
 
 // A part is covered if the box of a particle near the ground reaches its centre.
-template <int Dim, class Real>
-void Bed<Dim, Real>::cover(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                           const mpm::BodySizes<Real>& sizes, const mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+void Bed<Dim>::cover(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground, const mpm::BodySizes& sizes,
+                     const mpm::Particles<Dim>& particles) {
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
     if (!ground.any_near(t)) {
       continue;
@@ -86,8 +86,8 @@ void Bed<Dim, Real>::cover(const mpm::SparseGrid<Dim, Real>& grid, const GroundO
   }
 }
 
-template <int Dim, class Real>
-void Bed<Dim, Real>::distribute(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const {
+template <int Dim>
+void Bed<Dim>::distribute(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<Dim>& nodes) const {
   nodes.bed.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.base.holds(b); });
   struct Place {
     std::size_t block, node;
@@ -109,8 +109,8 @@ void Bed<Dim, Real>::distribute(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nod
   }
 }
 
-template <int Dim, class Real>
-void Bed<Dim, Real>::distribute(std::vector<Pressing>& nodes) const {
+template <int Dim>
+void Bed<Dim>::distribute(std::vector<Pressing>& nodes) const {
   const auto has_bed = [&](const Pressing& node) {
     return node.load > Real(0) && node.column != outside && left_[node.column] > Real(0);
   };
@@ -131,8 +131,8 @@ void Bed<Dim, Real>::distribute(std::vector<Pressing>& nodes) const {
   }
 }
 
-template <int Dim, class Real>
-void Bed<Dim, Real>::collect(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes, Real dt) {
+template <int Dim>
+void Bed<Dim>::collect(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes, Real dt) {
   age(dt);
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
     for (std::size_t k = 0; nodes.bed.holds(b) && k < nodes.bed.nodes; ++k) {
@@ -145,34 +145,34 @@ void Bed<Dim, Real>::collect(const mpm::SparseGrid<Dim, Real>& grid, const mpm::
   }
 }
 
-template <int Dim, class Real>
-void Bed<Dim, Real>::age(Real dt) {
+template <int Dim>
+void Bed<Dim>::age(Real dt) {
   for (auto& [column, material] : loose_) {
     material.idle += dt;
   }
 }
 
-template <int Dim, class Real>
-void Bed<Dim, Real>::collect(std::size_t column, const Real* record, Real normal_pressure) {
+template <int Dim>
+void Bed<Dim>::collect(std::size_t column, const Real* record, Real normal_pressure) {
   const Real taken = record[Layout::taken];
-  LooseMaterial<Dim, Real>& material = loose_[column];
+  LooseMaterial<Dim>& material = loose_[column];
   left_[column] = std::max(left_[column] - taken, Real(0));  // the shares sum to it up to round-off
   material.mass += taken;
-  material.momentum += mpm::vector_at<Dim, Real>(record, Layout::impulse);
+  material.momentum += mpm::vector_at<Dim>(record, Layout::impulse);
   material.work += record[Layout::work];
   material.normal_pressure = normal_pressure;
   material.idle = Real(0);
 }
 
-template <int Dim, class Real>
-void Bed<Dim, Real>::release(const std::function<bool(const Column&, const LooseMaterial<Dim, Real>&)>& join) {
+template <int Dim>
+void Bed<Dim>::release(const std::function<bool(const Column&, const LooseMaterial<Dim>&)>& join) {
   for (auto at = loose_.begin(); at != loose_.end();) {
     at = join(column_at(at->first), at->second) ? loose_.erase(at) : std::next(at);
   }
 }
 
-template <int Dim, class Real>
-typename Bed<Dim, Real>::Sums Bed<Dim, Real>::sums() const {
+template <int Dim>
+typename Bed<Dim>::Sums Bed<Dim>::sums() const {
   Sums sums;
   for (std::size_t c = 0; c < left_.size(); ++c) {
     sums.initial += initial_[c];
@@ -187,8 +187,8 @@ typename Bed<Dim, Real>::Sums Bed<Dim, Real>::sums() const {
 
 // Checkpoint state: number, remaining mass and covered parts of the columns that have been covered or entrained; then
 // the loose material.
-template <int Dim, class Real>
-std::vector<double> Bed<Dim, Real>::state() const {
+template <int Dim>
+std::vector<double> Bed<Dim>::state() const {
   std::vector<double> numbers{0.0};
   for (std::size_t c = 0; c < left_.size(); ++c) {
     if (left_[c] != initial_[c] || covered_[c] != 0) {
@@ -209,8 +209,8 @@ std::vector<double> Bed<Dim, Real>::state() const {
   return numbers;
 }
 
-template <int Dim, class Real>
-void Bed<Dim, Real>::restore(const std::vector<double>& numbers) {
+template <int Dim>
+void Bed<Dim>::restore(const std::vector<double>& numbers) {
   left_ = initial_;
   covered_.assign(covered_.size(), 0);
   loose_.clear();
@@ -227,7 +227,7 @@ void Bed<Dim, Real>::restore(const std::vector<double>& numbers) {
     covered_[column] = static_cast<std::uint16_t>(state.whole(std::numeric_limits<std::uint16_t>::max()));
   }
   while (state.left() > 0) {
-    LooseMaterial<Dim, Real>& material = loose_[next_column()];
+    LooseMaterial<Dim>& material = loose_[next_column()];
     for (Real* number : {&material.mass, &material.work, &material.normal_pressure, &material.idle}) {
       *number = next();
     }
@@ -237,7 +237,7 @@ void Bed<Dim, Real>::restore(const std::vector<double>& numbers) {
   }
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real) template class Bed<Dim, Real>;
+#define THAWSLIDE_INSTANTIATE(Dim) template class Bed<Dim>;
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -16,7 +16,7 @@
 namespace thawslide::terrain {
 
 // Entrained bed material that has not yet joined the sliding mass as a particle.
-template <int Dim, class Real>
+template <int Dim>
 struct LooseMaterial {
   Real mass = 0;                                           // [kg]
   Vector<Real, Dim> momentum = Vector<Real, Dim>::Zero();  // [kg m/s]
@@ -25,7 +25,7 @@ struct LooseMaterial {
   Real idle = 0;                                           // time since then [s]
 };
 
-template <int Dim, class Real>
+template <int Dim>
 class Bed {
  public:
   using Column = std::array<int, Dim - 1>;  // nodes with the same indices along the horizontal axes
@@ -33,7 +33,7 @@ class Bed {
 
   // columns: number along each axis, the first at the domain's lower corner. mass: of the bed below each column [kg], x
   // fastest.
-  Bed(const BedMaterial<Real>& material, const Column& columns, std::vector<Real> mass)
+  Bed(const BedMaterial& material, const Column& columns, std::vector<Real> mass)
       : material_(material),
         columns_(columns),
         initial_(std::move(mass)),
@@ -45,14 +45,14 @@ class Bed {
   [[nodiscard]] std::size_t number_of(const Column& column) const;
 
   // Marks the parts of the bed that the sliding mass covers, with bed_parts along each axis of a column of nodes.
-  void cover(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-             const mpm::BodySizes<Real>& sizes, const mpm::Particles<Dim, Real>& particles);
+  void cover(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground, const mpm::BodySizes& sizes,
+             const mpm::Particles<Dim>& particles);
   // Marks parts of one column, given as a bit mask.
   void cover(std::size_t column, std::uint32_t parts) { covered_[column] |= static_cast<std::uint16_t>(parts); }
 
   // Distributes the remaining bed below each column over its nodes, in proportion to their loads (nodes.base). Nodes
   // therefore cannot entrain the same mass twice, nor bed that was never covered. Fills nodes.bed.
-  void distribute(const mpm::SparseGrid<Dim, Real>& grid, mpm::Nodes<Dim, Real>& nodes) const;
+  void distribute(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<Dim>& nodes) const;
   // The same for a list of nodes of any columns.
   struct Pressing {
     std::size_t column = outside;
@@ -62,15 +62,15 @@ class Bed {
   void distribute(std::vector<Pressing>& nodes) const;
 
   // Transfers the mass entrained by nodes in a step of dt from the bed to the loose material.
-  void collect(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes, Real dt);
+  void collect(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes, Real dt);
   // The same node by node, after age(dt). record: of BedLayout.
   void age(Real dt);
   void collect(std::size_t column, const Real* record, Real normal_pressure);
 
   // Passes loose material to join(column, material) and removes it if the result is true.
-  void release(const std::function<bool(const Column&, const LooseMaterial<Dim, Real>&)>& join);
+  void release(const std::function<bool(const Column&, const LooseMaterial<Dim>&)>& join);
 
-  [[nodiscard]] const BedMaterial<Real>& material() const { return material_; }
+  [[nodiscard]] const BedMaterial& material() const { return material_; }
   [[nodiscard]] bool is_exhausted(const Column& column) const { return !(left_[number_of(column)] > Real(0)); }
   [[nodiscard]] const std::vector<Real>& left() const { return left_; }  // [kg], by column
   [[nodiscard]] const Column& columns() const { return columns_; }
@@ -87,14 +87,14 @@ class Bed {
 
  private:
   void cover_part(const Column& part);
-  [[nodiscard]] Column column_of(const mpm::SparseGrid<Dim, Real>& grid, std::size_t block, std::size_t node) const;
+  [[nodiscard]] Column column_of(const mpm::SparseGrid<Dim>& grid, std::size_t block, std::size_t node) const;
   [[nodiscard]] Column column_at(std::size_t number) const;
 
-  BedMaterial<Real> material_;
+  BedMaterial material_;
   Column columns_;
-  std::vector<Real> initial_, left_;                       // [kg], by column
-  std::vector<std::uint16_t> covered_;                     // by column: one bit per part
-  std::map<std::size_t, LooseMaterial<Dim, Real>> loose_;  // by column number
+  std::vector<Real> initial_, left_;                 // [kg], by column
+  std::vector<std::uint16_t> covered_;               // by column: one bit per part
+  std::map<std::size_t, LooseMaterial<Dim>> loose_;  // by column number
 };
 
 }  // namespace thawslide::terrain

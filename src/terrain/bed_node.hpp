@@ -15,7 +15,6 @@ namespace thawslide::terrain {
 
 using physics::BedLaw;
 
-template <class Real>
 struct BedMaterial {
   BedLaw law = BedLaw::momentum;
   Real cohesion = 0, tangent = 0;  // of the bed strength: c_b [Pa], tan(phi_b)
@@ -31,8 +30,7 @@ inline constexpr int bed_parts = 4;
 struct PartsCovered {
   int first, last;
 };
-template <class Real>
-THAWSLIDE_HD PartsCovered parts_covered(Real position, Real half, Real cell) {
+inline THAWSLIDE_HD PartsCovered parts_covered(Real position, Real half, Real cell) {
   using std::ceil, std::floor;
   const Real middle = (position / cell + Real(0.5)) * bed_parts - Real(0.5);
   const Real reach = half * bed_parts;
@@ -41,9 +39,9 @@ THAWSLIDE_HD PartsCovered parts_covered(Real position, Real half, Real cell) {
 
 // Entrainment by a node of a mass [kg] that slides at `speed` > 0 [m/s] after friction with the strength `shear` [Pa].
 // available: bed mass available to it [kg].
-template <class Real>
-THAWSLIDE_HD EntrainmentImpulse<Real> entrainment_of(const BedMaterial<Real>& material, Real available, Real mass,
-                                                     Real speed, Real shear, Real normal_pressure, Real area, Real dt) {
+inline THAWSLIDE_HD EntrainmentImpulse entrainment_of(const BedMaterial& material, Real available, Real mass,
+                                                      Real speed, Real shear, Real normal_pressure, Real area,
+                                                      Real dt) {
   const Real strength = physics::bed_strength(material.cohesion, material.tangent, normal_pressure);
   const Real rate =
       material.law == BedLaw::strength
@@ -58,22 +56,21 @@ THAWSLIDE_HD EntrainmentImpulse<Real> entrainment_of(const BedMaterial<Real>& ma
 
 // Entrainment by a sliding node. Fills its record of BedLayout; the momentum along the slip is that after friction.
 // material: null if there is no bed.
-template <int Dim, class Real>
+template <int Dim>
 struct BedBelowNode {
-  const BedMaterial<Real>* material;
+  const BedMaterial* material;
   Real* record;
   Real area, strength, dt, mass;
 
   template <int>
-  [[nodiscard]] THAWSLIDE_HD EntrainmentImpulse<Real> entrain(const physics::ContactImpulse<Real>& impulse,
-                                                              Real normal_pressure, const Vector<Real, Dim>& along,
-                                                              Real tangential_size) const {
+  [[nodiscard]] THAWSLIDE_HD EntrainmentImpulse entrain(const physics::ContactImpulse& impulse, Real normal_pressure,
+                                                        const Vector<Real, Dim>& along, Real tangential_size) const {
     using Layout = mpm::BedLayout<Dim>;
     if (material == nullptr || !impulse.slides || !(record[Layout::available] > Real(0))) {
       return {};
     }
     const Real speed = (tangential_size - impulse.tangential) / mass;
-    const EntrainmentImpulse<Real> entrain =
+    const EntrainmentImpulse entrain =
         entrainment_of(*material, record[Layout::available], mass, speed, strength, normal_pressure, area, dt);
     record[Layout::taken] = entrain.taken;
     for (std::size_t a = 0; a < Dim; ++a) {

@@ -19,30 +19,30 @@ using mpm::MomentumLayout;
 using mpm::NearGround;
 
 // Contact nodes of one block, with the input of the basal law.
-template <int Dim, class Real>
+template <int Dim>
 struct BlockContact {
   template <class T>
-  using Column = typename BasalNodes<Real>::template Column<T>;
+  using Column = typename BasalNodes::template Column<T>;
 
-  BasalNodes<Real> basal;
+  BasalNodes basal;
   Column<std::size_t> node;
   Column<Real> area;
-  Column<NodeState<Dim, Real>> state;
+  Column<NodeState<Dim>> state;
 };
 
-template <int Dim, class Real>
-void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
-                      const ContactModel<Dim, Real>& model, const GroundAtNode<Dim, Real>& ground,
-                      const NodeState<Dim, Real>& state, BlockContact<Dim, Real>& contact) {
+template <int Dim>
+void add_contact_node(const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k, Real pressure, Real dt,
+                      const ContactModel<Dim>& model, const GroundAtNode<Dim>& ground, const NodeState<Dim>& state,
+                      BlockContact<Dim>& contact) {
   const bool on_columns = model.band_columns && nodes.base_state(b, k)[mpm::BaseState::area] > Real(0);
   auto known = on_columns
-                   ? loaded_node<Dim, Real>(pressure, ground.normal, state)
+                   ? loaded_node<Dim>(pressure, ground.normal, state)
                    : contact_node_of(nodes.state(b, k), nodes.averages(b, k)[Averages::volume], nodes.near_ground(b, k),
                                      pressure, model.pore_pressure, ground.normal, state);
   if (model.band_columns) {
     take_columns_state(nodes.base_state(b, k), model.pore_pressure, known);
   }
-  BasalNodes<Real>& basal = contact.basal;
+  BasalNodes& basal = contact.basal;
   const std::size_t c = basal.count++;
   const Real load = nodes.base(b, k)[BaseLayout::load];
   const Real area = load / (pressure * dt);  // the basal area is divided among nodes in proportion to their loads
@@ -61,10 +61,9 @@ void add_contact_node(const mpm::Nodes<Dim, Real>& nodes, std::size_t b, std::si
 }
 
 // Filled fraction of a node's space, 0 to 1.
-template <int Dim, class Real>
-Real filled_share_at(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                     const mpm::SectionWidth<Real>& width, const mpm::Nodes<Dim, Real>& nodes, std::size_t b,
-                     std::size_t k) {
+template <int Dim>
+Real filled_share_at(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground, const mpm::SectionWidth& width,
+                     const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k) {
   const bool near_ground = ground.any_candidate(b) && ground.block(b)[k].candidate;
   const Real cell = grid.cell();
   const Real space = near_ground ? ground.block(b)[k].space
@@ -74,11 +73,10 @@ Real filled_share_at(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
 }
 
 // Covered fraction of the ground below a node.
-template <int Dim, class Real>
-Real covered_share_at(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                      const mpm::SectionWidth<Real>& width, const mpm::Nodes<Dim, Real>& nodes, std::size_t b,
-                      std::size_t k) {
-  return covered_share<Dim, Real>(k, ground.block(b)[k].normal, [&](int direction, int node) {
+template <int Dim>
+Real covered_share_at(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground, const mpm::SectionWidth& width,
+                      const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k) {
+  return covered_share<Dim>(k, ground.block(b)[k].normal, [&](int direction, int node) {
     const std::int32_t block = grid.blocks_about_block(b)[direction];
     return block == KeyIndex::absent ? Real(0)
                                      : filled_share_at(grid, ground, width, nodes, static_cast<std::size_t>(block),
@@ -87,49 +85,49 @@ Real covered_share_at(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid
 }
 
 // Initializes a block without contact. known: ground at its nodes.
-template <int Dim, class Real>
-void start_block(const typename GroundOnGrid<Dim, Real>::Block& known, std::size_t b, mpm::Nodes<Dim, Real>& nodes) {
+template <int Dim>
+void start_block(const typename GroundOnGrid<Dim>::Block& known, std::size_t b, mpm::Nodes<Dim>& nodes) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
     nodes.contact.of_block(b)[k] = {known[k].candidate ? Real(1) : Real(0)};
   }
 }
 
 // Ground at the nodes of a block; null if it has no candidate node.
-template <int Dim, class Real>
-const typename GroundOnGrid<Dim, Real>::Block* candidates_of(const GroundOnGrid<Dim, Real>* ground, std::size_t b) {
+template <int Dim>
+const typename GroundOnGrid<Dim>::Block* candidates_of(const GroundOnGrid<Dim>* ground, std::size_t b) {
   return ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
 }
 
-template <int Dim, class Real>
-void apply_contact_conditions(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
-                              mpm::Nodes<Dim, Real>& nodes) {
+template <int Dim>
+void apply_contact_conditions(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
+                              mpm::Nodes<Dim>& nodes) {
   nodes.contact.hold(grid.blocks().size(), [&](std::size_t b) { return candidates_of(ground, b) != nullptr; });
 }
 
 }  // namespace
 
-template <int Dim, class Real>
-void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                     const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model, Real time,
-                     Real dt, mpm::Nodes<Dim, Real>& nodes) {
+template <int Dim>
+void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
+                     const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, Real time, Real dt,
+                     mpm::Nodes<Dim>& nodes) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   // by block: 1 if a node is loaded; persistent, to avoid allocation in each step
-  thread_local std::vector<std::uint8_t> room;
-  room.assign(grid.blocks().size(), 0);
-  auto& loaded = room;  // the buffer of the calling thread, shared by all threads
+  thread_local std::vector<std::uint8_t> buffer;
+  buffer.assign(grid.blocks().size(), 0);
+  auto& loaded = buffer;  // the buffer of the calling thread, shared by all threads
   nodes.base.hold(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (!ground.any_candidate(b)) {
       return;
     }
-    const mpm::BlockConstraints<Dim, Real> on_block(grid, constraints, b, time);
+    const mpm::BlockConstraints<Dim> on_block(grid, constraints, b, time);
     for (std::size_t k = 0; k < block_nodes; ++k) {
       auto& base = nodes.base.of_block(b)[k];
       base.fill(Real(0));
-      const GroundAtNode<Dim, Real>& known = ground.block(b)[k];
+      const GroundAtNode<Dim>& known = ground.block(b)[k];
       const auto& record = nodes.momentum(b, k);
       if (known.candidate && record[MomentumLayout<Dim>::mass] > Real(0)) {
-        const mpm::NodeConstraints<Dim, Real> walls{on_block, k};
+        const mpm::NodeConstraints<Dim> walls{on_block, k};
         const auto state = trial_state<Dim>(walls, dt, model.mass_damping, record);
         base[BaseLayout::load] =
             known.bend * approach(model.distance_check, nodes.near_ground(b, k)[NearGround::clearance], dt, state.mass,
@@ -149,7 +147,7 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
       return;
     }
     for (std::size_t k = 0; k < block_nodes; ++k) {
-      const GroundAtNode<Dim, Real>& known = ground.block(b)[k];
+      const GroundAtNode<Dim>& known = ground.block(b)[k];
       if (known.candidate) {
         nodes.base.of_block(b)[k][BaseLayout::covered] =
             known.area * covered_share_at(grid, ground, model.width, nodes, b, k);
@@ -158,9 +156,8 @@ void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<
   });
 }
 
-template <int Dim, class Real>
-void start_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
-                   mpm::Nodes<Dim, Real>& nodes) {
+template <int Dim>
+void start_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground, mpm::Nodes<Dim>& nodes) {
   apply_contact_conditions(grid, ground, nodes);
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (nodes.contact.holds(b)) {
@@ -169,8 +166,8 @@ void start_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Di
   });
 }
 
-template <int Dim, class Real>
-bool loads_bare_ground(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes) {
+template <int Dim>
+bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) {
   return parallel_any(grid.blocks().size(), [&](std::size_t b) {
     for (std::size_t k = 0; nodes.base.holds(b) && k < nodes.base.nodes; ++k) {
       if (nodes.base(b, k)[BaseLayout::load] > Real(0) && !(nodes.base_state(b, k)[mpm::BaseState::area] > Real(0))) {
@@ -181,11 +178,10 @@ bool loads_bare_ground(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<
   });
 }
 
-template <int Dim, class Real>
-ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
-                                       const mpm::Constraints<Dim, Real>& constraints,
-                                       const ContactModel<Dim, Real>& model, Real time, Real dt,
-                                       mpm::Nodes<Dim, Real>& nodes, const Bed<Dim, Real>* bed) {
+template <int Dim>
+ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
+                                 const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, Real time,
+                                 Real dt, mpm::Nodes<Dim>& nodes, const Bed<Dim>* bed) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   nodes.motion.resize(grid.blocks().size());
   apply_contact_conditions(grid, ground, nodes);
@@ -193,25 +189,25 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
   if (bed != nullptr) {
     bed->distribute(grid, nodes);
   }
-  using Work = ContactWork<Dim, Real>;
+  using Work = ContactWork<Dim>;
   return parallel_sum<Work>(grid.blocks().size(), [&](std::size_t b, Work& work) {
-    const mpm::BlockConstraints<Dim, Real> on_block(grid, constraints, b, time);
+    const mpm::BlockConstraints<Dim> on_block(grid, constraints, b, time);
     const auto* known = candidates_of(ground, b);
     std::array<Real, block_nodes> pressure{};
     if (known != nullptr) {
       start_block(*known, b, nodes);
       pressure = base_pressure(grid, *ground, nodes, b, dt, smallest);
     }
-    const auto finish = [&](const NodeState<Dim, Real>& state, std::size_t k) {
+    const auto finish = [&](const NodeState<Dim>& state, std::size_t k) {
       finish_node<Dim>(state, on_block.any(), model.mass_damping, dt, work, nodes.motion(b, k));
     };
-    BlockContact<Dim, Real> contact;
+    BlockContact<Dim> contact;
     for (std::size_t k = 0; k < block_nodes; ++k) {
       nodes.motion(b, k).fill(Real(0));
       if (!(nodes.momentum(b, k)[MomentumLayout<Dim>::mass] > Real(0))) {
         continue;
       }
-      const mpm::NodeConstraints<Dim, Real> walls{on_block, k};
+      const mpm::NodeConstraints<Dim> walls{on_block, k};
       const auto state = trial_state<Dim>(walls, dt, model.mass_damping, nodes.momentum(b, k));
       if (known != nullptr && nodes.base(b, k)[BaseLayout::load] > Real(0)) {
         add_contact_node(nodes, b, k, pressure[k], dt, model, (*known)[k], state, contact);
@@ -223,32 +219,31 @@ ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, c
     for (std::size_t c = 0; c < contact.basal.count; ++c) {
       const std::size_t k = contact.node[c];
       const Real strength = model.base_holds ? std::numeric_limits<Real>::infinity() : contact.basal.strength[c];
-      const BedBelowNode<Dim, Real> below{bed != nullptr ? &bed->material() : nullptr,
-                                          bed != nullptr ? nodes.bed.of_block(b)[k].data() : nullptr,
-                                          contact.area[c],
-                                          strength,
-                                          dt,
-                                          contact.state[c].mass};
-      const ContactConditions<Dim, Real> hold{(*known)[k].normal, nodes.base(b, k)[BaseLayout::load],
-                                              (*known)[k].bend,   contact.area[c],
-                                              strength,           contact.basal.friction[c]};
-      apply_contact(mpm::NodeConstraints<Dim, Real>{on_block, k}, hold, model.law.heat_fraction, dt, below,
-                    contact.state[c], work, nodes.contact.of_block(b)[k]);
+      const BedBelowNode<Dim> below{bed != nullptr ? &bed->material() : nullptr,
+                                    bed != nullptr ? nodes.bed.of_block(b)[k].data() : nullptr,
+                                    contact.area[c],
+                                    strength,
+                                    dt,
+                                    contact.state[c].mass};
+      const ContactConditions<Dim> hold{(*known)[k].normal, nodes.base(b, k)[BaseLayout::load],
+                                        (*known)[k].bend,   contact.area[c],
+                                        strength,           contact.basal.friction[c]};
+      apply_contact(mpm::NodeConstraints<Dim>{on_block, k}, hold, model.law.heat_fraction, dt, below, contact.state[c],
+                    work, nodes.contact.of_block(b)[k]);
       finish(contact.state[c], k);
     }
   });
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                             \
-  template void start_contact<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*,          \
-                                         mpm::Nodes<Dim, Real>&);                                                    \
-  template void press_on_ground<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,        \
-                                           const mpm::Constraints<Dim, Real>&, const ContactModel<Dim, Real>&, Real, \
-                                           Real, mpm::Nodes<Dim, Real>&);                                            \
-  template bool loads_bare_ground<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const mpm::Nodes<Dim, Real>&);       \
-  template ContactWork<Dim, Real> resolve_contact<Dim, Real>(                                                        \
-      const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>*, const mpm::Constraints<Dim, Real>&,         \
-      const ContactModel<Dim, Real>&, Real, Real, mpm::Nodes<Dim, Real>&, const Bed<Dim, Real>*);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                   \
+  template void start_contact<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>*, mpm::Nodes<Dim>&);         \
+  template void press_on_ground<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>&,                          \
+                                     const mpm::Constraints<Dim>&, const ContactModel<Dim>&, Real, Real,             \
+                                     mpm::Nodes<Dim>&);                                                              \
+  template bool loads_bare_ground<Dim>(const mpm::SparseGrid<Dim>&, const mpm::Nodes<Dim>&);                         \
+  template ContactWork<Dim> resolve_contact<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>*,              \
+                                                 const mpm::Constraints<Dim>&, const ContactModel<Dim>&, Real, Real, \
+                                                 mpm::Nodes<Dim>&, const Bed<Dim>*);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

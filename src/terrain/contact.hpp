@@ -13,40 +13,38 @@
 
 namespace thawslide::terrain {
 
-template <int Dim, class Real>
+template <int Dim>
 struct ContactModel {
-  BasalLaw<Real> law;
-  mpm::SectionWidth<Real> width;  // of a 2D section
-  bool base_holds = false;        // no slip, during gravity settling
-  bool pore_pressure = true;      // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
-  bool band_columns = false;      // the basal state is that of nodes.base_state
-  Real mass_damping = 0;          // [1/s]
-  bool distance_check = false;    // contact acts only after a node has closed its clearance
+  BasalLaw law;
+  mpm::SectionWidth width;      // of a 2D section
+  bool base_holds = false;      // no slip, during gravity settling
+  bool pore_pressure = true;    // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
+  bool band_columns = false;    // the basal state is that of nodes.base_state
+  Real mass_damping = 0;        // [1/s]
+  bool distance_check = false;  // contact acts only after a node has closed its clearance
 };
 
 // Fills nodes.base of the blocks with candidate nodes: load on the ground and covered area. Requires the clearance in
 // nodes.near_ground of this step.
-template <int Dim, class Real>
-void press_on_ground(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                     const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model, Real time,
-                     Real dt, mpm::Nodes<Dim, Real>& nodes);
+template <int Dim>
+void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
+                     const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, Real time, Real dt,
+                     mpm::Nodes<Dim>& nodes);
 
 // True if a loaded node has no band column in reach (nodes.base_state).
-template <int Dim, class Real>
-bool loads_bare_ground(const mpm::SparseGrid<Dim, Real>& grid, const mpm::Nodes<Dim, Real>& nodes);
+template <int Dim>
+bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes);
 
 // From nodal momentum and force to nodal motion: trial momentum, constraints, contact. `ground` may be null; with
 // ground, call press_on_ground before. Requires nodes.averages, nodes.state and nodes.near_ground of this step, except
 // at nodes with band columns. Entrainment is stored in nodes.bed; bed may be null.
-template <int Dim, class Real>
-ContactWork<Dim, Real> resolve_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
-                                       const mpm::Constraints<Dim, Real>& constraints,
-                                       const ContactModel<Dim, Real>& model, Real time, Real dt,
-                                       mpm::Nodes<Dim, Real>& nodes, const Bed<Dim, Real>* bed = nullptr);
+template <int Dim>
+ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
+                                 const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, Real time,
+                                 Real dt, mpm::Nodes<Dim>& nodes, const Bed<Dim>* bed = nullptr);
 
 // Initializes nodes.contact before the first motion, without contact. `ground` may be null.
-template <int Dim, class Real>
-void start_contact(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
-                   mpm::Nodes<Dim, Real>& nodes);
+template <int Dim>
+void start_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground, mpm::Nodes<Dim>& nodes);
 
 }  // namespace thawslide::terrain

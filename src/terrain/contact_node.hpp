@@ -3,7 +3,10 @@
 // apply(mass, momentum), true if a rigid frame acted.
 #pragma once
 
+#include <cmath>
+
 #include "base/linear.hpp"
+#include "base/portability.hpp"
 #include "base/select.hpp"
 #include "mpm/records.hpp"
 #include "mpm/tile.hpp"
@@ -11,15 +14,26 @@
 #include "physics/basal/contact_node.hpp"
 #include "physics/contact.hpp"
 #include "terrain/contact_work.hpp"
-#include "terrain/main_axis.hpp"
 
 namespace thawslide::terrain {
+
+// At 45 degrees, the vertical axis is chosen with a tolerance, to be independent of round-off.
+template <int Dim>
+THAWSLIDE_HD int main_axis(const Vector<Real, Dim>& normal) {
+  int axis = Dim - 1;
+  for (int a = Dim - 2; a >= 0; --a) {
+    if (std::abs(normal[a]) > (Real(1) + round_off) * std::abs(normal[axis])) {
+      axis = a;
+    }
+  }
+  return axis;
+}
 
 // Smallest contact area, as a fraction of a cell's face: keeps N = p.n / (A dt) finite without ground nearby.
 inline constexpr double smallest_area = 1e-6;
 
 // State of one node between trial and final momentum.
-template <int Dim, class Real>
+template <int Dim>
 struct NodeState {
   Real mass;
   Vector<Real, Dim> old_momentum, momentum;
@@ -27,8 +41,8 @@ struct NodeState {
   bool in_frame;
 };
 
-template <int Dim, class Real, class Walls>
-THAWSLIDE_HD void constrain(const Walls& walls, NodeState<Dim, Real>& state) {
+template <int Dim, class Walls>
+THAWSLIDE_HD void constrain(const Walls& walls, NodeState<Dim>& state) {
   if (walls.any()) {
     const Vector<Real, Dim> before = state.momentum;
     state.in_frame = walls.apply(state.mass, state.momentum);
@@ -37,14 +51,14 @@ THAWSLIDE_HD void constrain(const Walls& walls, NodeState<Dim, Real>& state) {
 }
 
 // Trial momentum: old momentum with forces, damping and constraints. record: of MomentumLayout.
-template <int Dim, class Real, class Walls, class Record>
-THAWSLIDE_HD NodeState<Dim, Real> trial_state(const Walls& walls, Real dt, Real damping, const Record& record) {
+template <int Dim, class Walls, class Record>
+THAWSLIDE_HD NodeState<Dim> trial_state(const Walls& walls, Real dt, Real damping, const Record& record) {
   using Layout = mpm::MomentumLayout<Dim>;
-  NodeState<Dim, Real> state;
+  NodeState<Dim> state;
   state.mass = record[Layout::mass];
-  state.old_momentum = mpm::vector_at<Dim, Real>(record, Layout::momentum);
+  state.old_momentum = mpm::vector_at<Dim>(record, Layout::momentum);
   state.momentum =
-      state.old_momentum + dt * mpm::vector_at<Dim, Real>(record, Layout::force) - damping * dt * state.old_momentum;
+      state.old_momentum + dt * mpm::vector_at<Dim>(record, Layout::force) - damping * dt * state.old_momentum;
   state.constraint_impulse.setZero();
   state.in_frame = false;
   constrain(walls, state);
@@ -52,25 +66,21 @@ THAWSLIDE_HD NodeState<Dim, Real> trial_state(const Walls& walls, Real dt, Real 
 }
 
 // Momentum of a node into the ground in this step, minus the part that closes the clearance [m].
-template <class Real>
-THAWSLIDE_HD Real approach(bool distance_check, Real clearance, Real dt, Real mass, Real inward_momentum) {
+inline THAWSLIDE_HD Real approach(bool distance_check, Real clearance, Real dt, Real mass, Real inward_momentum) {
   const Real left = max(Real(0), clearance);
   return max(Real(0), distance_check ? inward_momentum - mass * (left / dt) : inward_momentum);
 }
 
 // Filled fraction of a node's space [m3], 0 to 1.
-template <class Real>
-THAWSLIDE_HD Real filled_share(Real volume, Real space) {
-  return volume < space ? volume / space : Real(1);
-}
+inline THAWSLIDE_HD Real filled_share(Real volume, Real space) { return volume < space ? volume / space : Real(1); }
 
 // Covered fraction of the ground below a node of a block: the largest filled fraction of the node's space and of the
 // spaces of the next two nodes away from the ground, because contact acts before the gap below the mass is closed.
 // filled(direction, node): filled fraction at a node of the block in that direction; 0 if there is none.
-template <int Dim, class Real, class Filled>
+template <int Dim, class Filled>
 THAWSLIDE_HD Real covered_share(std::size_t node, const Vector<Real, Dim>& into_ground, const Filled& filled) {
   using T = mpm::Tile<Dim>;
-  const int axis = main_axis<Dim, Real>(into_ground);
+  const int axis = main_axis<Dim>(into_ground);
   const int outward = into_ground[axis] > Real(0) ? -1 : 1;
   Real share = filled(T::stencil / 2, static_cast<int>(node));
   for (int step = 1; step <= 2 && share < Real(1); ++step) {
@@ -82,10 +92,10 @@ THAWSLIDE_HD Real covered_share(std::size_t node, const Vector<Real, Dim>& into_
 
 // Normal pressure [Pa] of a node on the ground (terrain/base_pressure.hpp). base(k): record of BaseLayout of neighbour
 // k of 3^Dim, including the node itself, x fastest.
-template <int Dim, class Real, class Base>
+template <int Dim, class Base>
 THAWSLIDE_HD Real base_pressure_of_node(const Vector<Real, Dim>& into_ground, Real dt, Real smallest_area,
                                         const Base& base) {
-  const int across = main_axis<Dim, Real>(into_ground);
+  const int across = main_axis<Dim>(into_ground);
   const auto weight = [&](int axis, std::size_t k) {
     return axis == across ? Real(1) : k == 1 ? Real(0.5) : Real(0.25);
   };
@@ -103,10 +113,10 @@ THAWSLIDE_HD Real base_pressure_of_node(const Vector<Real, Dim>& into_ground, Re
 }
 
 // Contact node with normal pressure [Pa] and slip speed; all other members are 0.
-template <int Dim, class Real>
-THAWSLIDE_HD physics::basal::ContactNode<Real> loaded_node(Real pressure, const Vector<Real, Dim>& into_ground,
-                                                           const NodeState<Dim, Real>& state) {
-  physics::basal::ContactNode<Real> node{};
+template <int Dim>
+THAWSLIDE_HD physics::basal::ContactNode loaded_node(Real pressure, const Vector<Real, Dim>& into_ground,
+                                                     const NodeState<Dim>& state) {
+  physics::basal::ContactNode node{};
   node.normal_pressure = pressure;
   node.speed = (state.momentum - state.momentum.dot(into_ground) * into_ground).norm() / state.mass;
   return node;
@@ -114,17 +124,17 @@ THAWSLIDE_HD physics::basal::ContactNode<Real> loaded_node(Real pressure, const 
 
 // Input of the basal laws at a node. known: record of NodalState. volume: sum S V of the linear shape functions.
 // near_ground: record of NearGround. pore_pressure: off means P = 0.
-template <int Dim, class Real, class StateRecord, class NearGroundRecord>
-THAWSLIDE_HD physics::basal::ContactNode<Real> contact_node_of(const StateRecord& known, Real volume,
-                                                               const NearGroundRecord& near_ground, Real pressure,
-                                                               bool pore_pressure, const Vector<Real, Dim>& into_ground,
-                                                               const NodeState<Dim, Real>& state) {
+template <int Dim, class StateRecord, class NearGroundRecord>
+THAWSLIDE_HD physics::basal::ContactNode contact_node_of(const StateRecord& known, Real volume,
+                                                         const NearGroundRecord& near_ground, Real pressure,
+                                                         bool pore_pressure, const Vector<Real, Dim>& into_ground,
+                                                         const NodeState<Dim>& state) {
   using mpm::NearGround, mpm::NodalState;
   // A node can have GIMP mass without linear weight; its averages are then weighted by mass.
   const auto average = [&](Real by_linear, std::size_t by_mass) {
     return volume > Real(0) ? by_linear : near_ground[by_mass] / state.mass;
   };
-  auto node = loaded_node<Dim, Real>(pressure, into_ground, state);
+  auto node = loaded_node<Dim>(pressure, into_ground, state);
   node.pore_pressure = pore_pressure ? average(known[NodalState::pore_pressure], NearGround::pore_pressure) : Real(0);
   node.saturation = average(near_ground[NearGround::saturation_by_linear] / volume, NearGround::saturation);
   node.solid_fraction = average(near_ground[NearGround::solid_fraction_by_linear] / volume, NearGround::solid_fraction);
@@ -134,7 +144,7 @@ THAWSLIDE_HD physics::basal::ContactNode<Real> contact_node_of(const StateRecord
 }
 
 // Unit weight rho g [N/m3] of the sliding mass at a node. record: of MomentumLayout.
-template <int Dim, class Real, class Record>
+template <int Dim, class Record>
 THAWSLIDE_HD Real unit_weight_of(const Record& record, Real gravity) {
   using Layout = mpm::MomentumLayout<Dim>;
   return gravity * record[Layout::mass] / record[Layout::volume];
@@ -142,8 +152,8 @@ THAWSLIDE_HD Real unit_weight_of(const Record& record, Real gravity) {
 
 // Replaces the basal state by that of the band columns. Without columns yet, the state is that of the body, with zero
 // pore pressure. state: record of BaseState.
-template <class Record, class Real>
-THAWSLIDE_HD void take_columns_state(const Record& state, bool pore_pressure, physics::basal::ContactNode<Real>& node) {
+template <class Record>
+THAWSLIDE_HD void take_columns_state(const Record& state, bool pore_pressure, physics::basal::ContactNode& node) {
   using mpm::BaseState;
   const Real area = state[BaseState::area];
   if (!(area > Real(0))) {
@@ -158,7 +168,6 @@ THAWSLIDE_HD void take_columns_state(const Record& state, bool pore_pressure, ph
 }
 
 // Transfer from a contact node to the bed material in a step.
-template <class Real>
 struct EntrainmentImpulse {
   Real taken = 0;        // [kg]
   Real impulse = 0;      // along the slip [N s]
@@ -167,13 +176,11 @@ struct EntrainmentImpulse {
 
 // Used when there is no bed.
 struct NoBed {
-  template <int Dim, class Real>
-  THAWSLIDE_HD EntrainmentImpulse<Real> entrain(const physics::ContactImpulse<Real>& /*impulse*/,
-                                                Real /*normal_pressure*/, const Vector<Real, Dim>& /*along*/,
-                                                Real /*tangential_size*/) const {
+  template <int Dim>
+  THAWSLIDE_HD EntrainmentImpulse entrain(const physics::ContactImpulse& /*impulse*/, Real /*normal_pressure*/,
+                                          const Vector<Real, Dim>& /*along*/, Real /*tangential_size*/) const {
     return {};
   }
-  template <class Real>
   THAWSLIDE_HD void note_work(Real /*work*/) const {}
 };
 
@@ -181,7 +188,7 @@ struct NoBed {
 // their resultant, the normal impulse, is smaller by `bend` than the load on the ground. Friction, cohesion and
 // entrainment use the load (GroundAtNode::bend; a V-shaped channel of half angle a has 1/sin(a)). The paper has one
 // contact normal per node and flat ground.
-template <int Dim, class Real>
+template <int Dim>
 struct ContactConditions {
   const Vector<Real, Dim>& normal;  // into the ground
   Real load;                        // normal impulse times bend [kg m/s]
@@ -191,10 +198,9 @@ struct ContactConditions {
 
 // Applies the contact impulse of one node and adds its work. Updates state.momentum from trial to final. left: record
 // of Contact.
-template <int Dim, class Real, class Walls, class FromBed, class Record>
-THAWSLIDE_HD void apply_contact(const Walls& walls, const ContactConditions<Dim, Real>& hold, Real heat_fraction,
-                                Real dt, const FromBed& bed, NodeState<Dim, Real>& state, ContactWork<Dim, Real>& work,
-                                Record& left) {
+template <int Dim, class Walls, class FromBed, class Record>
+THAWSLIDE_HD void apply_contact(const Walls& walls, const ContactConditions<Dim>& hold, Real heat_fraction, Real dt,
+                                const FromBed& bed, NodeState<Dim>& state, ContactWork<Dim>& work, Record& left) {
   using mpm::Contact;
   const Vector<Real, Dim>& normal = hold.normal;
   const Vector<Real, Dim> tangential = state.momentum - state.momentum.dot(normal) * normal;
@@ -204,7 +210,7 @@ THAWSLIDE_HD void apply_contact(const Walls& walls, const ContactConditions<Dim,
   if (tangential_size > Real(0)) {
     along = tangential / tangential_size;
   }
-  const EntrainmentImpulse<Real> entrain =
+  const EntrainmentImpulse entrain =
       bed.template entrain<Dim>(impulse, hold.load / (hold.area * dt), along, tangential_size);
   impulse.tangential -= entrain.of_friction;
   const Vector<Real, Dim> total = -impulse.normal * normal - impulse.tangential * along;
@@ -235,9 +241,9 @@ THAWSLIDE_HD void apply_contact(const Walls& walls, const ContactConditions<Dim,
 
 // Stores the motion of a node, and sums the energy dissipated by constraints, damping and FLIP. constrained: walls or
 // frames may have acted. motion: record of MotionLayout.
-template <int Dim, class Real, class Record>
-THAWSLIDE_HD void finish_node(const NodeState<Dim, Real>& state, bool constrained, Real damping, Real dt,
-                              ContactWork<Dim, Real>& work, Record& motion) {
+template <int Dim, class Record>
+THAWSLIDE_HD void finish_node(const NodeState<Dim>& state, bool constrained, Real damping, Real dt,
+                              ContactWork<Dim>& work, Record& motion) {
   using mpm::MotionLayout;
   const Real inverse_mass = Real(1) / state.mass, inverse_dt = Real(1) / dt;
   const Vector<Real, Dim> change = state.momentum - state.old_momentum;
@@ -258,7 +264,7 @@ THAWSLIDE_HD void finish_node(const NodeState<Dim, Real>& state, bool constraine
 }
 
 // Ground below a node whose velocity is mapped back; only used if touching.
-template <int Dim, class Real>
+template <int Dim>
 struct GroundOfMappedBack {
   bool touching, distance_check;
   const Vector<Real, Dim>* normal;
@@ -268,13 +274,12 @@ struct GroundOfMappedBack {
 // Velocity of a node from the momentum that particles map back (MUSL), in its record of Velocity, with the same
 // conditions as in the step. Returns the work of internal forces [J] at the mid-step velocity minus that at the
 // mapped-back velocity.
-template <int Dim, class Real, class Walls, class MomentumRecord, class MotionRecord, class VelocityRecord>
-THAWSLIDE_HD Real map_back(const Walls& walls, const GroundOfMappedBack<Dim, Real>& ground,
-                           const Vector<Real, Dim>& gravity, Real dt, const MomentumRecord& record,
-                           const MotionRecord& motion, VelocityRecord& mapped) {
+template <int Dim, class Walls, class MomentumRecord, class MotionRecord, class VelocityRecord>
+THAWSLIDE_HD Real map_back(const Walls& walls, const GroundOfMappedBack<Dim>& ground, const Vector<Real, Dim>& gravity,
+                           Real dt, const MomentumRecord& record, const MotionRecord& motion, VelocityRecord& mapped) {
   using Layout = mpm::MomentumLayout<Dim>;
   const Real mass = record[Layout::mass];
-  Vector<Real, Dim> momentum = mpm::vector_at<Dim, Real>(mapped, 0);
+  Vector<Real, Dim> momentum = mpm::vector_at<Dim>(mapped, 0);
   if (ground.touching) {
     const Vector<Real, Dim>& normal = *ground.normal;
     momentum -= approach(ground.distance_check, ground.clearance, dt, mass, Real(momentum.dot(normal))) * normal;
@@ -282,8 +287,8 @@ THAWSLIDE_HD Real map_back(const Walls& walls, const GroundOfMappedBack<Dim, Rea
   walls.apply(mass, momentum);
   const Vector<Real, Dim> velocity = momentum * (Real(1) / mass);
   mpm::set_vector<Dim>(mapped, 0, velocity);
-  const Vector<Real, Dim> internal_force = mpm::vector_at<Dim, Real>(record, Layout::force) - mass * gravity;
-  const auto middle = mpm::vector_at<Dim, Real>(motion, mpm::MotionLayout<Dim>::middle_velocity);
+  const Vector<Real, Dim> internal_force = mpm::vector_at<Dim>(record, Layout::force) - mass * gravity;
+  const auto middle = mpm::vector_at<Dim>(motion, mpm::MotionLayout<Dim>::middle_velocity);
   return dt * internal_force.dot(middle - velocity);
 }
 

@@ -7,7 +7,7 @@
 namespace thawslide::terrain {
 
 // Sums over contact and constraints in one step. Energies [J], forces [N], areas [m2].
-template <int Dim, class Real>
+template <int Dim>
 struct ContactWork {
   Real friction_work = 0;                               // dissipated by sliding
   Real loss = 0;                                        // dissipated by impact on ground and walls, and by sticking

@@ -37,7 +37,7 @@ bool is_ground_known(const Surface<Dim>& surface, std::uint64_t block, double ce
 // Ground at the nodes of a block. substrates: null if there is only one.
 template <int Dim>
 void query_ground(const Surface<Dim>& surface, const Substrates* substrates, std::uint64_t block, double cell,
-                  GroundAtNode<Dim, double>* nodes) {
+                  GroundAtNode<Dim>* nodes) {
   using T = mpm::Tile<Dim>;
   const typename T::Index first = first_node_of<Dim>(block);
   surface.at_block(first, cell, T::edge, nodes);
@@ -48,17 +48,16 @@ void query_ground(const Surface<Dim>& surface, const Substrates* substrates, std
   }
 }
 
-template <int Dim, class Real>
+template <int Dim>
 class GroundOnGrid {
   using T = mpm::Tile<Dim>;
 
  public:
-  using Block = std::array<GroundAtNode<Dim, Real>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)>;
+  using Block = std::array<GroundAtNode<Dim>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)>;
 
   // Updates blocks and tiles; call after the grid's blocks have changed. Blocks that the sliding mass has left are kept
   // for a while. substrates: null if there is only one.
-  void update(const Surface<Dim>& surface, const mpm::SparseGrid<Dim, Real>& grid,
-              const Substrates* substrates = nullptr) {
+  void update(const Surface<Dim>& surface, const mpm::SparseGrid<Dim>& grid, const Substrates* substrates = nullptr) {
     forget_left_blocks(grid);
     number_.resize(grid.blocks().size());
     const std::size_t known_before = blocks_.size();
@@ -89,7 +88,7 @@ class GroundOnGrid {
   [[nodiscard]] bool any_near(std::size_t t) const { return near_of(t).any; }
   // The same for one particle, by the place of its lowest node in the tile's patch, and for a batch.
   [[nodiscard]] bool any_near(std::size_t t, std::size_t lowest) const { return near_of(t).from[lowest] != 0; }
-  [[nodiscard]] bool any_near(std::size_t t, const mpm::BatchNodes<Real>& nodes) const {
+  [[nodiscard]] bool any_near(std::size_t t, const mpm::BatchNodes& nodes) const {
     const auto is_near = [&](std::int32_t lowest) { return any_near(t, static_cast<std::size_t>(lowest)); };
     return nodes.runs == 1 ? is_near(nodes.first[0]) : std::any_of(nodes.first.begin(), nodes.first.end(), is_near);
   }
@@ -116,7 +115,7 @@ class GroundOnGrid {
   [[nodiscard]] const Nearness& near_of(std::size_t t) const { return near_[static_cast<std::size_t>(tile_[t])]; }
 
   // Removes inactive blocks from the cache when most of its blocks are inactive.
-  void forget_left_blocks(const mpm::SparseGrid<Dim, Real>& grid) {
+  void forget_left_blocks(const mpm::SparseGrid<Dim>& grid) {
     constexpr std::size_t held_per_active = 3;
     if (blocks_.size() <= held_per_active * grid.blocks().size()) {
       return;
@@ -145,12 +144,12 @@ class GroundOnGrid {
   }
 
   void learn(const Surface<Dim>& surface, const Substrates* substrates, double cell, std::size_t k) {
-    std::array<GroundAtNode<Dim, double>, static_cast<std::size_t>(T::nodes)> nodes;
+    std::array<GroundAtNode<Dim>, static_cast<std::size_t>(T::nodes)> nodes;
     query_ground<Dim>(surface, substrates, keys_[k], cell, nodes.data());
     any_candidate_[k] = 0;
     partly_unknown_[k] = is_ground_known<Dim>(surface, keys_[k], cell) ? 0 : 1;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
-      GroundAtNode<Dim, Real>& known = blocks_[k][n];
+      GroundAtNode<Dim>& known = blocks_[k][n];
       known.candidate = nodes[n].candidate;
       known.substrate = nodes[n].substrate;
       known.normal = nodes[n].normal.template cast<Real>();
@@ -163,7 +162,7 @@ class GroundOnGrid {
     }
   }
 
-  void find_near(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, Nearness& found) const {
+  void find_near(const mpm::SparseGrid<Dim>& grid, std::size_t t, Nearness& found) const {
     found.is_known = true;
     const std::int32_t* blocks = grid.blocks_about_tile(t);
     if (std::none_of(blocks, blocks + T::stencil,

@@ -185,7 +185,7 @@ double HeightField::highest(const Place& from, const Place& to) const {
   if (columns.first < columns.last && rows.first < rows.last) {
     top = summary_of_points({columns.first + 1, columns.last}, {rows.first + 1, rows.last}).highest;
   }
-  const auto look = [&](int column, int row) {
+  const auto examine = [&](int column, int row) {
     if (std::max({height_at(column, row), height_at(column + 1, row), height_at(column, row + 1),
                   height_at(column + 1, row + 1)}) <= top) {
       return;
@@ -199,7 +199,7 @@ double HeightField::highest(const Place& from, const Place& to) const {
     const bool whole_row = row == rows.first || row == rows.last;
     for (int column = columns.first; column <= columns.last;
          column += whole_row ? 1 : std::max(1, columns.last - columns.first)) {
-      look(column, row);
+      examine(column, row);
     }
   }
   return top;
@@ -219,12 +219,12 @@ bool HeightField::is_known(const Place& from, const Place& to) const {
   return summary(low, (to - margin).cwiseMax(low)).known;
 }
 
-void HeightField::at_block(const NodeIndex& first, double cell_size, int edge, GroundAtNode<3, double>* nodes) const {
+void HeightField::at_block(const NodeIndex& first, double cell_size, int edge, GroundAtNode<3>* nodes) const {
   at_nodes_from(cell_size * Vector<double, 3>(first[0], first[1], first[2]), cell_size, edge, nodes);
 }
 
 void HeightField::at_nodes_from(const Vector<double, 3>& lowest, double cell_size, int edge,
-                                GroundAtNode<3, double>* nodes) const {
+                                GroundAtNode<3>* nodes) const {
   const Place from = lowest.head<2>().array() - cell_size;
   const Place to = lowest.head<2>().array() + edge * cell_size;
   const Summary below = summary(from, to);
@@ -241,13 +241,13 @@ void HeightField::at_nodes_from(const Vector<double, 3>& lowest, double cell_siz
 }
 
 void HeightField::set_distances(const Vector<double, 3>& lowest, double cell_size, int edge,
-                                GroundAtNode<3, double>* nodes) const {
+                                GroundAtNode<3>* nodes) const {
   const double reach = reach_in_cells * cell_size;
   const double width = (edge - 1) * cell_size;
   const Summary about = summary(lowest.head<2>().array() - reach, lowest.head<2>().array() + width + reach);
   const bool any_near = about.highest > lowest[2] - reach && about.lowest < lowest[2] + width + reach;
   for (int k = 0; k < edge * edge * edge; ++k) {
-    GroundAtNode<3, double>& node = nodes[k];
+    GroundAtNode<3>& node = nodes[k];
     const int column = k % edge, row = k / edge % edge, layer = k / (edge * edge);
     const Vector<double, 3> position = lowest + cell_size * Vector<double, 3>(column, row, layer);
     const Place place = position.head<2>();
@@ -271,7 +271,7 @@ std::optional<Vector<double, 3>> HeightField::nearest(const Vector<double, 3>& p
   const Place from = place.array() - reach, to = place.array() + reach;
   std::optional<Vector<double, 3>> nearest;
   double least = reach * reach;
-  const auto look = [&](int column, int row) {
+  const auto examine = [&](int column, int row) {
     if (squared_distance_of_cell(position, column, row) >= least) {
       return;
     }
@@ -288,13 +288,13 @@ std::optional<Vector<double, 3>> HeightField::nearest(const Vector<double, 3>& p
   // Starts at the foot on the plane of the triangle below, because nearly all other cells are then known to be too far.
   const Place slope = gradient(place, 0.0);
   const Place foot = place + slope * ((position[2] - height(place)) / (1.0 + slope.squaredNorm()));
-  look(cell_columns(foot[0], foot[0]).first, cell_rows(foot[1], foot[1]).first);
+  examine(cell_columns(foot[0], foot[0]).first, cell_rows(foot[1], foot[1]).first);
   const double rest = std::sqrt(least);
   const Span columns = cell_columns(place[0] - rest, place[0] + rest);
   const Span rows = cell_rows(place[1] - rest, place[1] + rest);
   for (int row = rows.first; row <= rows.last; ++row) {
     for (int column = columns.first; column <= columns.last; ++column) {
-      look(column, row);
+      examine(column, row);
     }
   }
   return nearest;

@@ -31,9 +31,9 @@ class HeightField final : public Surface<3> {
   // Area and space are exact to round-off. The normal is along the integral of S n dA if the node has area, otherwise
   // towards the nearest point of the surface. If the surface is further than `reach_in_cells`, the distance is that
   // limit, with its sign, and the normal is that of the ground vertically below or above.
-  void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<3, double>* nodes) const override;
+  void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<3>* nodes) const override;
   // The same for nodes at any position. lowest: position of the first node.
-  void at_nodes_from(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const;
+  void at_nodes_from(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3>* nodes) const;
 
   // True within the outermost points if all points of the cells there have data.
   [[nodiscard]] bool is_known(const Place& place) const override;
@@ -85,7 +85,7 @@ class HeightField final : public Surface<3> {
 
   // Squared distance [m2] to the bounding box of a cell of the DEM: a lower bound of that to its ground.
   [[nodiscard]] double squared_distance_of_cell(const Vector<double, 3>& position, int column, int row) const;
-  void set_distances(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes) const;
+  void set_distances(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3>* nodes) const;
 
   Raster points_;                       // without no-data points
   std::vector<bool> no_data_;           // by point; empty if all have data

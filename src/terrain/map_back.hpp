@@ -9,9 +9,9 @@ namespace thawslide::terrain {
 // contact nodes, the inward normal component is removed except for the part that closes the clearance (no friction, no
 // heat). Returns sum f_int.(v_mid - v_mapped) dt [J]: the work of internal forces on the nodes, minus the stress work
 // at the mapped-back velocities.
-template <int Dim, class Real>
-Real constrain_mapped_back(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>* ground,
-                           const mpm::Constraints<Dim, Real>& constraints, const ContactModel<Dim, Real>& model,
-                           const Vector<Real, Dim>& gravity, Real time, Real dt, mpm::Nodes<Dim, Real>& nodes);
+template <int Dim>
+Real constrain_mapped_back(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
+                           const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model,
+                           const Vector<Real, Dim>& gravity, Real time, Real dt, mpm::Nodes<Dim>& nodes);
 
 }  // namespace thawslide::terrain

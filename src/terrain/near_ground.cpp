@@ -13,7 +13,7 @@ namespace {
 
 // Contact offset of boxes of half size `half` [m]: their extent towards the ground, if that lies along a grid axis.
 // seen: planes interpolated from the patch.
-template <int Dim, class Real>
+template <int Dim>
 Simd<Real> contact_offset_of_box(const mpm::Reading<Dim, Simd<Real>, 1 + Dim>& seen, Simd<Real> half) {
   Simd<Real> largest = Real(0);
   for (std::size_t a = 0; a < Dim; ++a) {
@@ -23,9 +23,9 @@ Simd<Real> contact_offset_of_box(const mpm::Reading<Dim, Simd<Real>, 1 + Dim>& s
 }
 
 // Smallest distance of particles from the planes of the nodes in reach [m].
-template <int Dim, class Real>
-Simd<Real> smallest_gap(const mpm::BatchStencil<Dim, Real>& stencil, const mpm::Particles<Dim, Real>& particles,
-                        const mpm::TileBatch<Dim, Real>& batch, const mpm::PatchOf<mpm::Planes, Dim, Real>& planes) {
+template <int Dim>
+Simd<Real> smallest_gap(const mpm::BatchStencil<Dim>& stencil, const mpm::Particles<Dim>& particles,
+                        const mpm::TileBatch<Dim>& batch, const mpm::PatchOf<mpm::Planes, Dim>& planes) {
   Simd<Real> place[Dim];
   for (int a = 0; a < Dim; ++a) {
     place[a] = particles.position.load(batch, a);
@@ -36,7 +36,7 @@ Simd<Real> smallest_gap(const mpm::BatchStencil<Dim, Real>& stencil, const mpm::
         stencil.axis, 0, [&](std::size_t offset, Simd<Real> weight, const Vector<Simd<Real>, Dim>& /*slope*/) {
           const Simd<Real> gap = mpm::gap_to_plane<Dim>(
               place, Simd<Real>(Real(0)), [&](std::size_t component) { return fetch(offset, component); });
-          smallest = select(weight > round_off<Real>, min(smallest, gap), smallest);
+          smallest = select(weight > round_off, min(smallest, gap), smallest);
         });
   });
   return smallest;
@@ -44,20 +44,19 @@ Simd<Real> smallest_gap(const mpm::BatchStencil<Dim, Real>& stencil, const mpm::
 
 }  // namespace
 
-template <int Dim, class Real>
-void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                        const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,
-                        std::size_t first) {
+template <int Dim>
+void set_contact_offset(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
+                        const mpm::MotionModel<Dim>& model, mpm::Particles<Dim>& particles, std::size_t first) {
   // in units of a particle's contact offset
-  constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off<Real>);
-  mpm::PatchOf<mpm::Planes, Dim, Real> patch;
-  mpm::with_shape<Real>(model.shape, [&](auto shape) {
-    const mpm::MomentumWeights<decltype(shape), Dim, Real> weights{model.sizes, model.sides};
+  constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off);
+  mpm::PatchOf<mpm::Planes, Dim> patch;
+  mpm::with_shape(model.shape, [&](auto shape) {
+    const mpm::MomentumWeights<decltype(shape), Dim> weights{model.sizes, model.sides};
     for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
-      load_patch(grid, t, PlanesOfGround<Dim, Real>{ground}, patch);
-      for (const mpm::TileBatch<Dim, Real>& batch : grid.batches(t)) {
-        const mpm::BatchWeights<mpm::MomentumWeights<decltype(shape), Dim, Real>, Dim, Real> of_batch(weights, grid,
-                                                                                                      particles, batch);
+      load_patch(grid, t, PlanesOfGround<Dim>{ground}, patch);
+      for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
+        const mpm::BatchWeights<mpm::MomentumWeights<decltype(shape), Dim>, Dim> of_batch(weights, grid, particles,
+                                                                                          batch);
         const auto seen = mpm::read_nodes<1 + Dim>(of_batch.linear, patch);
         const Simd<Real> of_box = contact_offset_of_box(seen, model.sizes.of(particles, batch).half * grid.cell());
         const Simd<Real> gap = smallest_gap(of_batch.momentum, particles, batch, patch);
@@ -75,14 +74,14 @@ void set_contact_offset(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGr
 namespace {
 
 // Scatters particles to the candidate nodes with a kernel, and sums the named parts of their records over tiles.
-template <class... Parts, int Dim, class Real, class Kernel>
-void to_candidates(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                   const mpm::MotionModel<Dim, Real>& model, const Kernel& kernel, mpm::Particles<Dim, Real>& particles,
-                   mpm::Nodes<Dim, Real>& nodes) {
-  const SeesCandidates<Dim, Real> sees_candidates{ground};
-  NodesOnGround<Dim, Real> records{nodes, ground};
-  mpm::with_shape<Real>(model.shape, [&](auto shape) {
-    const mpm::MomentumWeights<decltype(shape), Dim, Real> weights{model.sizes, model.sides};
+template <class... Parts, int Dim, class Kernel>
+void to_candidates(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
+                   const mpm::MotionModel<Dim>& model, const Kernel& kernel, mpm::Particles<Dim>& particles,
+                   mpm::Nodes<Dim>& nodes) {
+  const SeesCandidates<Dim> sees_candidates{ground};
+  NodesOnGround<Dim> records{nodes, ground};
+  mpm::with_shape(model.shape, [&](auto shape) {
+    const mpm::MomentumWeights<decltype(shape), Dim> weights{model.sizes, model.sides};
     mpm::particle_pass(grid, weights, particles, records, sees_candidates, kernel);
   });
   nodes.near_ground.hold(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
@@ -95,31 +94,26 @@ void to_candidates(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Di
 
 }  // namespace
 
-template <int Dim, class Real>
-void near_ground_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                         const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,
-                         mpm::Nodes<Dim, Real>& nodes) {
-  to_candidates<mpm::NearGround, mpm::Clearance>(
-      grid, ground, model, AddNearGround<Dim, Real>{model.phases, model.lubrication}, particles, nodes);
+template <int Dim>
+void near_ground_to_grid(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
+                         const mpm::MotionModel<Dim>& model, mpm::Particles<Dim>& particles, mpm::Nodes<Dim>& nodes) {
+  to_candidates<mpm::NearGround, mpm::Clearance>(grid, ground, model,
+                                                 AddNearGround<Dim>{model.phases, model.lubrication}, particles, nodes);
 }
 
-template <int Dim, class Real>
-void clearance_to_grid(const mpm::SparseGrid<Dim, Real>& grid, const GroundOnGrid<Dim, Real>& ground,
-                       const mpm::MotionModel<Dim, Real>& model, mpm::Particles<Dim, Real>& particles,
-                       mpm::Nodes<Dim, Real>& nodes) {
-  to_candidates<mpm::Clearance>(grid, ground, model, LowerClearance<Dim, Real>{}, particles, nodes);
+template <int Dim>
+void clearance_to_grid(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
+                       const mpm::MotionModel<Dim>& model, mpm::Particles<Dim>& particles, mpm::Nodes<Dim>& nodes) {
+  to_candidates<mpm::Clearance>(grid, ground, model, LowerClearance<Dim>{}, particles, nodes);
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim, Real)                                                                          \
-  template void set_contact_offset<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,  \
-                                              const mpm::MotionModel<Dim, Real>&, mpm::Particles<Dim, Real>&,     \
-                                              std::size_t);                                                       \
-  template void clearance_to_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&,   \
-                                             const mpm::MotionModel<Dim, Real>&, mpm::Particles<Dim, Real>&,      \
-                                             mpm::Nodes<Dim, Real>&);                                             \
-  template void near_ground_to_grid<Dim, Real>(const mpm::SparseGrid<Dim, Real>&, const GroundOnGrid<Dim, Real>&, \
-                                               const mpm::MotionModel<Dim, Real>&, mpm::Particles<Dim, Real>&,    \
-                                               mpm::Nodes<Dim, Real>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                            \
+  template void set_contact_offset<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>&,                \
+                                        const mpm::MotionModel<Dim>&, mpm::Particles<Dim>&, std::size_t);     \
+  template void clearance_to_grid<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>&,                 \
+                                       const mpm::MotionModel<Dim>&, mpm::Particles<Dim>&, mpm::Nodes<Dim>&); \
+  template void near_ground_to_grid<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>&,               \
+                                         const mpm::MotionModel<Dim>&, mpm::Particles<Dim>&, mpm::Nodes<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -9,8 +9,8 @@
 namespace thawslide::terrain {
 
 // n_e of Eq. 2 for the basal law, from the current or, without lubrication, initial state.
-template <class Real, class Particles, class At>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value basal_solid_fraction(const physics::Phases<Real>& phases,
+template <class Particles, class At>
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value basal_solid_fraction(const physics::Phases& phases,
                                                                              bool lubrication,
                                                                              const Particles& particles, const At& at) {
   const auto& porosity = lubrication ? particles.porosity : particles.initial_porosity;
@@ -19,7 +19,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE typename At::Value basal_solid_fraction(con
 }
 
 // Reduces the clearance of nodes near the ground to the minimum.
-template <int Dim, class Real>
+template <int Dim>
 struct LowerClearance {
   using Reads = mpm::RecordList<mpm::Planes>;
   using Adds = mpm::RecordList<mpm::Clearance>;
@@ -38,13 +38,13 @@ struct LowerClearance {
 
 // Scatters state and slip to the nodes near the ground, by mass with the momentum shape functions and by volume with
 // the linear ones; reduces the clearance.
-template <int Dim, class Real>
+template <int Dim>
 struct AddNearGround {
   using Reads = mpm::RecordList<mpm::Planes>;
   using Adds = mpm::RecordList<mpm::NearGround, mpm::NearGroundByLinear, mpm::Clearance>;
   using Account = mpm::NoAccount;
 
-  physics::Phases<Real> phases;
+  physics::Phases phases;
   bool lubrication;  // off: the solid fraction uses the initial porosity and saturation
 
   template <class Particles, class At, class Seen, class Scatter>
@@ -65,7 +65,7 @@ struct AddNearGround {
     constexpr std::size_t first = mpm::first_in_register<NearGroundByLinear, Dim>;
     by_linear.value[NearGround::saturation_by_linear - first] = volume * saturation;
     by_linear.value[NearGround::solid_fraction_by_linear - first] = volume * solid_fraction;
-    LowerClearance<Dim, Real>{}(particles, at, seen, added, account);
+    LowerClearance<Dim>{}(particles, at, seen, added, account);
   }
 };
 

@@ -11,44 +11,44 @@
 namespace thawslide::terrain {
 
 // Planes of nodes, from the ground at nodes.
-template <int Dim, class Real>
+template <int Dim>
 struct PlanesOfGround {
   using Record = std::array<Real, mpm::record_size(mpm::components_of<mpm::Planes, Dim>)>;
 
-  static Record record_of(const GroundAtNode<Dim, Real>& known) {
+  static Record record_of(const GroundAtNode<Dim>& known) {
     Record record{known.plane};
     mpm::set_vector<Dim>(record, mpm::Planes::normal, known.normal);
     return record;
   }
   [[nodiscard]] Record operator()(const mpm::NodeAt& at) const { return record_of(ground.block(at.block)[at.node]); }
 
-  const GroundOnGrid<Dim, Real>& ground;
+  const GroundOnGrid<Dim>& ground;
 };
 
-template <int Dim, class Real>
-void load_patch(const mpm::SparseGrid<Dim, Real>& grid, std::size_t t, const PlanesOfGround<Dim, Real>& records,
-                mpm::PatchOf<mpm::Planes, Dim, Real>& patch) {
+template <int Dim>
+void load_patch(const mpm::SparseGrid<Dim>& grid, std::size_t t, const PlanesOfGround<Dim>& records,
+                mpm::PatchOf<mpm::Planes, Dim>& patch) {
   const std::int32_t* blocks = grid.blocks_about_tile(t);
   mpm::for_each_direction<Dim>([&](auto d) {
     const auto& block = records.ground.block(static_cast<std::size_t>(blocks[d]));
     mpm::for_shared_nodes<Dim, d>(
         [&](std::size_t in_block, std::size_t in_patch) {
-          patch.records[in_patch] = PlanesOfGround<Dim, Real>::record_of(block[in_block]);
+          patch.records[in_patch] = PlanesOfGround<Dim>::record_of(block[in_block]);
         },
         grid.rows_seen(t));
   });
 }
 
 // Records of a pass that reads ground data.
-template <int Dim, class Real>
+template <int Dim>
 struct NodesOnGround {
-  mpm::Nodes<Dim, Real>& nodes;
-  const GroundOnGrid<Dim, Real>& ground;
+  mpm::Nodes<Dim>& nodes;
+  const GroundOnGrid<Dim>& ground;
 
   template <class Name>
   [[nodiscard]] decltype(auto) of() const {
     if constexpr (std::is_same_v<Name, mpm::Planes>) {
-      return PlanesOfGround<Dim, Real>{ground};
+      return PlanesOfGround<Dim>{ground};
     } else {
       return nodes.template of<Name>();
     }
@@ -56,9 +56,9 @@ struct NodesOnGround {
 };
 
 // Filter for tiles, batches and particles that reach candidate nodes with any shape function.
-template <int Dim, class Real>
+template <int Dim>
 struct SeesCandidates {
-  const GroundOnGrid<Dim, Real>& ground;
+  const GroundOnGrid<Dim>& ground;
 
   [[nodiscard]] bool operator()(std::size_t tile) const { return ground.any_near(tile); }
   // nodes: of a batch, or the place of the lowest node of a particle.

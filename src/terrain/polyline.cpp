@@ -44,7 +44,7 @@ Polyline::Nearest Polyline::nearest(double x, double z) const {
   double best = HUGE_VAL;
   Vector<double, 2> foot = point;
   std::size_t at = 0;
-  const auto look = [&](std::size_t k) {
+  const auto compare = [&](std::size_t k) {
     const Vector<double, 2> a(x_[k], height_[k]);
     const Vector<double, 2> along = Vector<double, 2>(x_[k + 1], height_[k + 1]) - a;
     double t = (point - a).dot(along) / along.squaredNorm();
@@ -60,12 +60,12 @@ Polyline::Nearest Polyline::nearest(double x, double z) const {
   };
   // Searches outwards from the segment below, until the horizontal distance alone exceeds the smallest distance found.
   const std::size_t start = segment(x);
-  look(start);
+  compare(start);
   for (std::size_t k = start; k > 0 && x - x_[k] < best; --k) {
-    look(k - 1);
+    compare(k - 1);
   }
   for (std::size_t k = start + 1; k + 1 < x_.size() && x_[k] - x < best; ++k) {
-    look(k);
+    compare(k);
   }
   const double sign = z >= height(x) ? 1.0 : -1.0;
   const double scale = std::max(1.0, std::abs(x) + std::abs(z));

@@ -15,7 +15,7 @@ typename ProfileSurface<Dim>::Place ProfileSurface<Dim>::gradient(const Place& p
 }
 
 template <int Dim>
-void ProfileSurface<Dim>::fit_to_points(double x, double z, double cell, GroundAtNode<Dim, double>& node) const {
+void ProfileSurface<Dim>::fit_to_points(double x, double z, double cell, GroundAtNode<Dim>& node) const {
   const RigidPoints::AtNode rock = RigidPoints(line_, spacing_, layers_).at_node(x, z, cell);
   const double across = Dim == 2 ? width_.at(x) : cell;
   const double slide = std::max(0.0, cell * cell - rock.volume);
@@ -28,11 +28,11 @@ void ProfileSurface<Dim>::fit_to_points(double x, double z, double cell, GroundA
 }
 
 template <int Dim>
-GroundAtNode<Dim, double> ProfileSurface<Dim>::at_node(const Vector<double, Dim>& position, double cell) const {
+GroundAtNode<Dim> ProfileSurface<Dim>::at_node(const Vector<double, Dim>& position, double cell) const {
   constexpr double round_off = 1e-9;
   const double x = position[0], z = position[Dim - 1];
   const Polyline::Nearest nearest = line_.nearest(x, z);
-  GroundAtNode<Dim, double> node;
+  GroundAtNode<Dim> node;
   node.normal.setZero();
   node.distance = nearest.distance;
   if (spacing_ > 0.0) {
@@ -65,8 +65,7 @@ GroundAtNode<Dim, double> ProfileSurface<Dim>::at_node(const Vector<double, Dim>
 }
 
 template <int Dim>
-void ProfileSurface<Dim>::at_block(const NodeIndex& first, double cell, int edge,
-                                   GroundAtNode<Dim, double>* nodes) const {
+void ProfileSurface<Dim>::at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<Dim>* nodes) const {
   int count = 1;
   for (int a = 0; a < Dim; ++a) {
     count *= edge;

@@ -15,10 +15,10 @@ class ProfileSurface final : public Surface<Dim> {
   using NodeIndex = typename Surface<Dim>::NodeIndex;
 
   // width: of a 2D section.
-  explicit ProfileSurface(Polyline line, mpm::SectionWidth<double> width = {})
+  explicit ProfileSurface(Polyline line, mpm::SectionWidth width = {})
       : line_(std::move(line)), width_(std::move(width)) {}
   // Ground data from rigid points in `layers` layers, `spacing` [m] apart.
-  ProfileSurface(Polyline line, double spacing, int layers, mpm::SectionWidth<double> width = {})
+  ProfileSurface(Polyline line, double spacing, int layers, mpm::SectionWidth width = {})
       : line_(std::move(line)), width_(std::move(width)), spacing_(spacing), layers_(layers) {}
 
   [[nodiscard]] double height(const Place& place) const override { return line_.height(place[0]); }
@@ -27,15 +27,15 @@ class ProfileSurface final : public Surface<Dim> {
   [[nodiscard]] double highest(const Place& from, const Place& to) const override {
     return line_.highest(from[0], to[0]);
   }
-  void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<Dim, double>* nodes) const override;
+  void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<Dim>* nodes) const override;
 
-  [[nodiscard]] GroundAtNode<Dim, double> at_node(const Vector<double, Dim>& position, double cell) const;
+  [[nodiscard]] GroundAtNode<Dim> at_node(const Vector<double, Dim>& position, double cell) const;
 
  private:
-  void fit_to_points(double x, double height, double cell, GroundAtNode<Dim, double>& node) const;
+  void fit_to_points(double x, double height, double cell, GroundAtNode<Dim>& node) const;
 
   Polyline line_;
-  mpm::SectionWidth<double> width_;
+  mpm::SectionWidth width_;
   double spacing_ = 0;  // of the rigid points; 0: none, the line itself is the ground
   int layers_ = 0;
 };

@@ -10,7 +10,7 @@
 namespace thawslide::terrain {
 
 // Ground at a node, computed once.
-template <int Dim, class Real>
+template <int Dim>
 struct GroundAtNode {
   bool candidate = false;    // the node's linear shape function overlaps the ground
   int substrate = 0;         // below the node (substrates.hpp)
@@ -43,7 +43,7 @@ class Surface {
 
   // Fills the ground data of the `edge`^Dim nodes of a block, x fastest. first: index of its first node along each axis
   // of a grid with cells of side `cell` [m].
-  virtual void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<Dim, double>* nodes) const = 0;
+  virtual void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<Dim>* nodes) const = 0;
 
   // True if the ground is known at a place, or everywhere in the rectangle between two places. On unknown ground, the
   // other functions extrapolate.

@@ -80,15 +80,14 @@ Moments moments(const ConvexPolygon& segment, const Vector<double, 3>& floor) {
 
 }  // namespace
 
-SurfaceIntegrals::SurfaceIntegrals(const Vector<double, 3>& lowest, double cell, int edge,
-                                   GroundAtNode<3, double>* nodes)
+SurfaceIntegrals::SurfaceIntegrals(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3>* nodes)
     : corner_(lowest.array() - cell),
       cell_(cell),
       edge_(edge),
       nodes_(nodes),
       moment_(static_cast<std::size_t>(edge * edge * edge), Vector<double, 3>::Zero()),
       top_(static_cast<std::size_t>((edge + 1) * (edge + 1)), -HUGE_VAL) {
-  GroundAtNode<3, double> empty;
+  GroundAtNode<3> empty;
   empty.normal.setZero();
   std::fill_n(nodes, edge * edge * edge, empty);
 }
@@ -129,7 +128,7 @@ void SurfaceIntegrals::add_to_cell(int column, int row, int layer, const Facet& 
       continue;
     }
     const auto add = [&](int k, double surface, const Vector<double, 3>& from_node, double space) {
-      GroundAtNode<3, double>& at = nodes_[node(i, j, k)];
+      GroundAtNode<3>& at = nodes_[node(i, j, k)];
       at.area += facet.stretch * surface;
       at.normal += surface * Vector<double, 3>(facet.slope_x, facet.slope_y, -1.0);
       at.space += space;
@@ -161,7 +160,7 @@ void SurfaceIntegrals::finish() {
     for (int i = 0; i < edge_; ++i) {
       const double highest = std::max({top(i, j), top(i + 1, j), top(i, j + 1), top(i + 1, j + 1)});
       for (int k = 0; k < edge_; ++k) {
-        GroundAtNode<3, double>& at = nodes_[node(i, j, k)];
+        GroundAtNode<3>& at = nodes_[node(i, j, k)];
         at.candidate = highest > k + round_off;
         at.space = at.candidate ? at.space * cell_ * cell_ * cell_ : cell_ * cell_ * cell_;
         const double resultant = at.normal.norm();

@@ -19,7 +19,7 @@ namespace thawslide::terrain {
 class SurfaceIntegrals {
  public:
   // nodes: as in Surface::at_block. Sets all members except `distance`, and `plane` only if there is area.
-  SurfaceIntegrals(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3, double>* nodes);
+  SurfaceIntegrals(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3>* nodes);
 
   // Adds a triangle of the surface, counter-clockwise from above. All triangles that overlap the footprint of the shape
   // functions are required, each once.
@@ -44,7 +44,7 @@ class SurfaceIntegrals {
   Vector<double, 3> corner_;  // lowest corner of the shape functions' reach
   double cell_;
   int edge_;
-  GroundAtNode<3, double>* nodes_;
+  GroundAtNode<3>* nodes_;
   std::vector<Vector<double, 3>> moment_;  // by node: integral of S (x - x_node) over the surface, in cells
   std::vector<double>
       top_;  // highest ground over a grid cell's column, by cells from the corner; shape [edge+1, edge+1]

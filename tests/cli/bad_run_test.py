@@ -53,7 +53,7 @@ def test_matter_as_soft_as_air(thawslide: Program, tmp_path: Path) -> None:
         thawslide, LAMPLUGH, tmp_path / "run", *sets(time__end=20, material__rock_ice__youngs_modulus=0.5)
     )
     assert reported[8] == (
-        "material 'rock_ice' is too soft (youngs_modulus 0.5 Pa), and its own weight squeezes it flat; broken rock and "
+        "material 'rock_ice' is too soft (youngs_modulus 0.5 Pa) and collapses under its own weight. Broken rock and "
         "ice have 1e7 Pa and more."
     )
 

@@ -134,7 +134,8 @@ def test_facts_are_reported_of_a_case_that_goes_bad_in_its_first_steps(thawslide
     assert said.returncode == 3
     assert "case.toml: the run fails in its first steps\n" in said.stdout and "  particles   64\n" in said.stdout
     sound = json.loads(thawslide("check", small_case, "--json").stdout)
-    assert sound["error"] is None and (sound["gpu"]["why_not"] is None) == (sound["gpu"]["wall_s"] is not None)
+    gpu = sound["gpu"]
+    assert sound["error"] is None and (gpu["unavailable_reason"] is None) == (gpu["wall_s"] is not None)
 
 
 def test_drainage_is_doubted_in_the_folder_of_a_run_too(thawslide: Program, small_case: Path, tmp_path: Path) -> None:

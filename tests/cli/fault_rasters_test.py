@@ -111,7 +111,7 @@ def test_masked_temperature_is_missing(maker: Maker) -> None:
     ],
 )
 def test_thickness_is_converted_to_metres(maker: Maker, name: str, unit: str) -> None:
-    note = f"warning: {name} states the unit '{unit}': its values were converted to metres\n"
+    note = f"note: {name} states the unit '{unit}': its values were converted to metres\n"
     assert note in maker.made(UNITS / "dem.tif", UNITS / name)
     assert maker.volume() == pytest.approx(BLOCK, rel=1e-4)
 
@@ -145,7 +145,7 @@ def test_surface_is_converted_to_metres(maker: Maker) -> None:
     ],
 )
 def test_elevations_are_converted_to_metres(maker: Maker, name: str, unit: str, metres: float) -> None:
-    note = f"warning: {name} states the unit '{unit}': its values were converted to metres\n"
+    note = f"note: {name} states the unit '{unit}': its values were converted to metres\n"
     assert note in maker.made(UNITS / name, UNITS / "release.gpkg", "--thickness", 10)
     assert maker.volume() == pytest.approx(BLOCK, rel=1e-6)
     with (

@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[2]
 FAILING_WRITES = ROOT / "build" / "release" / "tests" / "failing_writes.so"
 LEFT_OUT = ("run.json", "run.lock")  # what tells of processes, not of the slide
 LONG = sets(time__end=150, time__history_interval=0.05, time__output_interval=50)
-NOT_BEGUN = "holds no run to continue"
+NOT_BEGUN = "is not a run folder"
 
 
 @dataclass(frozen=True)

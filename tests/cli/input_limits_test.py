@@ -32,8 +32,8 @@ def test_large_case_file(thawslide: Program, small_case: Path) -> None:
     file = small_case / "case.toml"
     file.write_text(file.read_text() + "#" * 10_000_000 + "\n")
     assert refusal(thawslide, "check", file) == (
-        f"error: {file}: the file has 10 MB; allowed: 10 MB. A profile, polygons and rasters stand in files of their "
-        "own.\n"
+        f"error: {file}: the file has 10 MB; allowed: 10 MB. Profiles, polygons and rasters are separate "
+        "files.\n"
     )
 
 

@@ -82,7 +82,7 @@ def test_dem_with_a_wrong_tag(thawslide: Program, tmp_path: Path, slope: Slope, 
     given = made(thawslide, folder, wrong, release, "--thickness", THICKNESS, "--crs", "EPSG:32632")
     assert given.returncode == 0, given.stderr
     assert given.stdout.startswith(
-        "warning: wrong.tif is read as EPSG:32632, as set by --crs; the file specifies EPSG:4326\n"
+        "note: wrong.tif is read as EPSG:32632, as set by --crs; the file specifies EPSG:4326\n"
     )
 
 

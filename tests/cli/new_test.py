@@ -157,7 +157,7 @@ def test_a_run_stopped_by_a_signal_continues_to_the_same_bits(
     assert_same_bits(whole, parts)
     after, complete = run_facts(parts), run_facts(whole)
     keys = ("steps", "covered_volume_m3", "covered_area_m2", "affected_area_m2")
-    for key in (*keys, "travel_distance_m", "angle_of_reach_degrees"):
+    for key in (*keys, "travel_distance_m", "reach_angle_degrees"):
         assert complete[key] is not None and after[key] == complete[key], key
     for name in ("checkpoint.bin", "probes.csv"):
         assert (whole / name).read_bytes() == (parts / name).read_bytes(), name

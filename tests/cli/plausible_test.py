@@ -171,9 +171,9 @@ def test_json_holds_what_the_text_says(thawslide: Program, plain_case: Path) -> 
     assert body["name"] == "block" and body["particles"] == reported["particles"] == 48
     assert body["volume_m3"] == pytest.approx(12.0, rel=1e-12) and body["area_m2"] == pytest.approx(4.0, rel=1e-12)
     assert body["mass_kg"] == pytest.approx(12.0 * 2200.1, rel=1e-6)
-    assert body["mean_thickness_m"] == body["median_thickness_m"] == body["largest_thickness_m"] == 3.0
+    assert body["mean_thickness_m"] == body["median_thickness_m"] == body["max_thickness_m"] == 3.0
     assert body["spacing_m"] == 0.5 and body["particles_across"] == 6.0
-    assert body["clearance_m"] == pytest.approx(0.0, abs=1e-12) and body["standing_share"] == 1.0
+    assert body["clearance_m"] == pytest.approx(0.0, abs=1e-12) and body["resting_fraction"] == 1.0
     assert body["coldest_C"] == body["warmest_C"] == -10.0
     assert reported["cells"] == 240 and reported["steps"] == 200 and reported["step_s"] == 0.001
     assert reported["memory"]["particles_bytes"] == 48 * 631 and reported["memory"]["available_bytes"] > 1e6

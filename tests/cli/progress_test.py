@@ -62,7 +62,7 @@ def test_summary_reports_throughput_and_result(said: tuple[list[str], Path]) -> 
         lines[first + 1],
     )
     shown = dict(line.split() for line in lines[first + 2 : -2])
-    assert set(shown) == {"mean_velocity_m_s", "dilation_volume_m3", "dilation_share", "left_mass_kg"}
+    assert set(shown) == {"mean_velocity_m_s", "dilation_volume_m3", "dilation_fraction", "left_mass_kg"}
     assert all(float(value.replace(",", "")) == pytest.approx(facts[name], rel=5e-4) for name, value in shown.items())
     assert facts["at_rest"] is False and len(facts["warnings"]) == 1
     assert lines[-2] == f"warning: {facts['warnings'][0]}"
@@ -136,8 +136,8 @@ def test_a_run_whose_whole_slide_has_left_is_done(
     facts, columns = run_facts(run), history(run)
     reported = re.fullmatch(
         r"the whole slide has left the domain or the known ground at t = (\S+) s \(step \d+\); the last (\S+) kg of "
-        r"it, which left in this step, still stand in mass_kg\. Widen \[grid\] min and max, or give a DEM that reaches "
-        r"further, to follow it on\.",
+        r"it, which left in this step, are still included in mass_kg\. Use a larger domain \(\[grid\] min and "
+        r"max\) or a larger DEM to continue the simulation\.",
         facts["message"],
     )
     assert reported and facts["status"] == "done"

@@ -89,7 +89,7 @@ def test_a_finished_run_without_checkpoints_gets_no_later_end(thawslide: Program
     assert outcome.returncode == 0
     assert outcome.stdout == (
         f"{done} has reached its end at 0.2 s; nothing to do\n"
-        f"note: {done} holds no checkpoint: it cannot be given a later end\n"
+        f"note: {done} has no checkpoint, so --end cannot extend it\n"
     )
     edit(done, "\nend = 0.2 ", "\nend = 0.4 ")
     outcome = thawslide("resume", done)

@@ -152,8 +152,8 @@ def test_resume_where_there_is_no_run(thawslide: Program, tmp_path: Path) -> Non
     outcome = thawslide("resume", tmp_path)
     assert outcome.returncode == 2
     assert outcome.stderr == (
-        f"error: {tmp_path} holds no run to continue: run.json is missing, which a run writes at its start. Run "
-        "the case again.\n"
+        f"error: {tmp_path} is not a run folder: run.json not found. Specify the folder that `thawslide run` printed, "
+        "or run the case again.\n"
     )
     assert list(tmp_path.iterdir()) == []
 

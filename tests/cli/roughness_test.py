@@ -21,7 +21,7 @@ KEYS = [
     "bump_length_m",
     "bump_slope",
     "filter_m",
-    "slope_left",
+    "remaining_slope",
     "apparent_friction",
     "narrow_valley_m",
 ]
@@ -80,7 +80,7 @@ def test_check_reports_noise_filter_and_what_is_left(thawslide: Program, rough_c
         WIDTH,
         40 * WIDTH,
     )
-    assert facts["slope_left"] == pytest.approx(facts["noise_m"] * 10.0 / (2.0 * np.sqrt(np.pi) * WIDTH**2))
+    assert facts["remaining_slope"] == pytest.approx(facts["noise_m"] * 10.0 / (2.0 * np.sqrt(np.pi) * WIDTH**2))
     assert facts["apparent_friction"] < 0.03
 
 

@@ -70,11 +70,11 @@ def test_energy_that_comes_slowly_is_reported_once(thawslide: Program, small_cas
     outcome = thawslide("run", small_case, "--output", tmp_path / "run", *slow, "--set", "body.block.max=[15.0, 5.0]")
     assert outcome.returncode == 0, outcome.stderr
     said = outcome.stdout + outcome.stderr
-    assert said.count("little by little and without a cause") == 1
+    assert said.count("gradually and without a physical cause") == 1
     assert "viscosity_time" in said
     damped = thawslide(
         *("run", small_case, "--output", tmp_path / "damped", *slow, "--set", "body.block.max=[15.0, 5.0]"),
         *sets(material__rock__viscosity_time=0.002),
     )
     assert damped.returncode == 0
-    assert "without a cause" not in damped.stdout + damped.stderr
+    assert "without a physical cause" not in damped.stdout + damped.stderr

@@ -166,7 +166,10 @@ def test_a_run_that_sets_up_is_alive(thawslide: Program, tmp_path: Path) -> None
 def test_status_where_there_is_no_run(thawslide: Program, tmp_path: Path) -> None:
     outcome = thawslide("status", tmp_path)
     assert outcome.returncode == 2
-    assert outcome.stderr == f"error: {tmp_path} holds no run: run.json is missing, which a run writes at its start.\n"
+    assert outcome.stderr == (
+        f"error: {tmp_path} is not a run folder: run.json not found. "
+        "Specify the folder that `thawslide run` printed.\n"
+    )
 
 
 def test_a_run_does_not_take_its_own_case_away(thawslide: Program, small_case: Path, tmp_path: Path) -> None:

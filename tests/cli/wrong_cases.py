@@ -126,8 +126,8 @@ def faults_of_value(table: str, key: dict[str, Any]) -> Iterator[Fault]:
         said = f"{dotted} is {outside}; allowed: {key['allowed']}{unit} ({key['text']})"
         written = f"[{outside}]" if key["type"].startswith("an array") else outside
         yield Fault(table, name, dimension, OUT_OF_RANGE, f"{name} = {written}", said)
-    if key["words"]:
-        words = [word["word"] for word in key["words"]]
+    if key["keywords"]:
+        words = [word["name"] for word in key["keywords"]]
         wrong = words[-1] + "s"
         listed = ", ".join(f'"{word}"' for word in words)
         hint = f"; did you mean '{words[-1]}'? Allowed" if len(words[-1]) > 1 else "; allowed"

@@ -7,6 +7,6 @@
 namespace thawslide::device {
 
 template <int Dim>
-SolverFactory<Dim, double> emulated(ThreadOrder order = ThreadOrder::forward);
+SolverFactory<Dim> emulated(ThreadOrder order = ThreadOrder::forward);
 
 }  // namespace thawslide::device

@@ -5,13 +5,10 @@
 
 #include "physics/band_column_step.hpp"
 #include "physics/basal/laws.hpp"
-#include "physics/basal_friction.hpp"
-#include "physics/body_contact.hpp"
 #include "physics/clapeyron.hpp"
 #include "physics/contact.hpp"
 #include "physics/elasticity.hpp"
 #include "physics/entrainment.hpp"
-#include "physics/free_gap.hpp"
 #include "physics/freezing.hpp"
 #include "physics/heat_content.hpp"
 #include "physics/kinematics.hpp"
@@ -25,7 +22,6 @@
 
 namespace thawslide::physics {
 
-using Real = double;
 using Tensor = SymmetricTensor<Real>;
 
 // Access to consecutive numbers of a thread's particle; values of different particles are adjacent in memory.
@@ -66,7 +62,7 @@ class Row {
 };
 
 template <class Law, int Dim>
-__global__ void strain_and_stress(Law law, Elastic<Real> elastic, Real* numbers, Real* results, std::size_t particles) {
+__global__ void strain_and_stress(Law law, Elastic elastic, Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
   const StrainIncrement<Real, Dim> step = strain_increment<Real, Dim>(row.take_matrix<Dim>());
   const Tensor old = rotate<Real, Dim>(row.take_vector<6>(), step.rotation);
@@ -78,24 +74,17 @@ __global__ void strain_and_stress(Law law, Elastic<Real> elastic, Real* numbers,
   result.put(now.opening);
   result.put(step.volume_ratio);
 }
-template __global__ void strain_and_stress<LinearElastic<Real>, 2>(LinearElastic<Real>, Elastic<Real>, Real*, Real*,
-                                                                   std::size_t);
-template __global__ void strain_and_stress<LinearElastic<Real>, 3>(LinearElastic<Real>, Elastic<Real>, Real*, Real*,
-                                                                   std::size_t);
-template __global__ void strain_and_stress<MohrCoulomb<Real>, 2>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*,
-                                                                 std::size_t);
-template __global__ void strain_and_stress<MohrCoulomb<Real>, 3>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*,
-                                                                 std::size_t);
-using SofteningFriction = MohrCoulomb<Real, true>;
-template __global__ void strain_and_stress<SofteningFriction, 2>(SofteningFriction, Elastic<Real>, Real*, Real*,
-                                                                 std::size_t);
-template __global__ void strain_and_stress<SofteningFriction, 3>(SofteningFriction, Elastic<Real>, Real*, Real*,
-                                                                 std::size_t);
+template __global__ void strain_and_stress<LinearElastic, 2>(LinearElastic, Elastic, Real*, Real*, std::size_t);
+template __global__ void strain_and_stress<LinearElastic, 3>(LinearElastic, Elastic, Real*, Real*, std::size_t);
+template __global__ void strain_and_stress<MohrCoulomb<>, 2>(MohrCoulomb<>, Elastic, Real*, Real*, std::size_t);
+template __global__ void strain_and_stress<MohrCoulomb<>, 3>(MohrCoulomb<>, Elastic, Real*, Real*, std::size_t);
+using SofteningFriction = MohrCoulomb<true>;
+template __global__ void strain_and_stress<SofteningFriction, 2>(SofteningFriction, Elastic, Real*, Real*, std::size_t);
+template __global__ void strain_and_stress<SofteningFriction, 3>(SofteningFriction, Elastic, Real*, Real*, std::size_t);
 
 // Checks whether a particle yields, and the part of its strain that gaps take.
 template <int Dim>
-__global__ void yield_and_gap(MohrCoulomb<Real> law, Elastic<Real> elastic, Real* numbers, Real* results,
-                              std::size_t particles) {
+__global__ void yield_and_gap(MohrCoulomb<> law, Elastic elastic, Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
   const Tensor strain = row.take_vector<6>();
   const Real plastic_strain = row.take();
@@ -106,10 +95,10 @@ __global__ void yield_and_gap(MohrCoulomb<Real> law, Elastic<Real> elastic, Real
   result.put(density_with_gap_closed(row.take(), row.take()));
   const Principal<Real> own = principal<Dim>(trial);
   result.put<6>(from_principal(own));
-  result.put(Elastic<Real>::from_young_poisson(row.take(), row.take()).p_wave_modulus());
+  result.put(Elastic::from_young_poisson(row.take(), row.take()).p_wave_modulus());
 }
-template __global__ void yield_and_gap<2>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*, std::size_t);
-template __global__ void yield_and_gap<3>(MohrCoulomb<Real>, Elastic<Real>, Real*, Real*, std::size_t);
+template __global__ void yield_and_gap<2>(MohrCoulomb<>, Elastic, Real*, Real*, std::size_t);
+template __global__ void yield_and_gap<3>(MohrCoulomb<>, Elastic, Real*, Real*, std::size_t);
 
 template <int Dim>
 __global__ void rigid_motion(Real* numbers, Real* results, std::size_t particles) {
@@ -125,9 +114,9 @@ template __global__ void rigid_motion<3>(Real*, Real*, std::size_t);
 template <int Dim>
 __global__ void nearest_motion(Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
-  const MassPoints<Dim, Real> points{row.take(), row.take_vector<Dim>(), row.take_vector<squares<Dim>>(),
-                                     row.take_vector<Dim>(), row.take_vector<rotations<Dim>>()};
-  const RigidMotion<Dim, Real> motion = nearest_rigid_motion(points, row.take());
+  const MassPoints<Dim> points{row.take(), row.take_vector<Dim>(), row.take_vector<squares<Dim>>(),
+                               row.take_vector<Dim>(), row.take_vector<rotations<Dim>>()};
+  const RigidMotion<Dim> motion = nearest_rigid_motion(points, row.take());
   result.put<Dim>(motion.at_origin);
   result.put<rotations<Dim>>(motion.rotation);
 }
@@ -135,7 +124,7 @@ template __global__ void nearest_motion<2>(Real*, Real*, std::size_t);
 template __global__ void nearest_motion<3>(Real*, Real*, std::size_t);
 
 template <class Curve>
-__global__ void heat(HeatContent<Real, Curve> law, Real* numbers, Real* results, std::size_t particles) {
+__global__ void heat(HeatContent<Curve> law, Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
   const Real temperature = row.take(), change = row.take(), porosity = row.take();
   const Real content = law.content(temperature, porosity);
@@ -147,56 +136,52 @@ __global__ void heat(HeatContent<Real, Curve> law, Real* numbers, Real* results,
   result.put(law.curve.temperature(row.take()));
   result.put(law.coefficients(porosity).melting);
 }
-template __global__ void heat<PowerLawCurve<Real>>(HeatContent<Real, PowerLawCurve<Real>>, Real*, Real*, std::size_t);
-template __global__ void heat<LinearCurve<Real>>(HeatContent<Real, LinearCurve<Real>>, Real*, Real*, std::size_t);
+template __global__ void heat<PowerLawCurve>(HeatContent<PowerLawCurve>, Real*, Real*, std::size_t);
+template __global__ void heat<LinearCurve>(HeatContent<LinearCurve>, Real*, Real*, std::size_t);
 
 template <class Curve>
-__global__ void band_column(ColumnModel<Real, Curve> model, const Real* temperatures, const ColumnDrive<Real>* drives,
-                            BandColumn<Real>* columns, ColumnAccount<Real>* accounts, BandMeans<Real>* means,
-                            ColumnVolumes<Real>* volumes, Real* liquid) {
+__global__ void band_column(ColumnModel<Curve> model, const Real* temperatures, const ColumnDrive* drives,
+                            BandColumn* columns, ColumnAccount* accounts, BandMeans* means, ColumnVolumes* volumes,
+                            Real* liquid) {
   const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
-  ColumnDrive<Real> drive = drives[k];
+  ColumnDrive drive = drives[k];
   drive.body_heat = body_enthalpy(model, temperatures[k]);
   accounts[k] = step_column(model, drive, columns[k]);
   means[k] = band_means(model, drive.normal_pressure, columns[k]);
   volumes[k] = column_volumes(model, drive.normal_pressure, columns[k]);
   liquid[k] = liquid_volume(model, columns[k]);
 }
-template __global__ void band_column<PowerLawCurve<Real>>(ColumnModel<Real, PowerLawCurve<Real>>, const Real*,
-                                                          const ColumnDrive<Real>*, BandColumn<Real>*,
-                                                          ColumnAccount<Real>*, BandMeans<Real>*, ColumnVolumes<Real>*,
-                                                          Real*);
-template __global__ void band_column<LinearCurve<Real>>(ColumnModel<Real, LinearCurve<Real>>, const Real*,
-                                                        const ColumnDrive<Real>*, BandColumn<Real>*,
-                                                        ColumnAccount<Real>*, BandMeans<Real>*, ColumnVolumes<Real>*,
-                                                        Real*);
+template __global__ void band_column<PowerLawCurve>(ColumnModel<PowerLawCurve>, const Real*, const ColumnDrive*,
+                                                    BandColumn*, ColumnAccount*, BandMeans*, ColumnVolumes*, Real*);
+template __global__ void band_column<LinearCurve>(ColumnModel<LinearCurve>, const Real*, const ColumnDrive*,
+                                                  BandColumn*, ColumnAccount*, BandMeans*, ColumnVolumes*, Real*);
 
 template <class Curve>
-__global__ void join_columns(ColumnModel<Real, Curve> model, const Real* shares, const BandColumn<Real>* others,
-                             Real load, BandColumn<Real>* columns) {
+__global__ void join_columns(ColumnModel<Curve> model, const Real* shares, const BandColumn* others, Real load,
+                             BandColumn* columns) {
   const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
-  BandColumn<Real> other = others[k];
+  BandColumn other = others[k];
   take_cell_growth(model, columns[k].cell_growth, body_enthalpy(model, Real(0)), water_of_full_pores(model, Real(0)),
                    other);
   columns[k] = joined_columns(model, shares[k], columns[k], other, load);
 }
-template __global__ void join_columns<PowerLawCurve<Real>>(ColumnModel<Real, PowerLawCurve<Real>>, const Real*,
-                                                           const BandColumn<Real>*, Real, BandColumn<Real>*);
-template __global__ void join_columns<LinearCurve<Real>>(ColumnModel<Real, LinearCurve<Real>>, const Real*,
-                                                         const BandColumn<Real>*, Real, BandColumn<Real>*);
+template __global__ void join_columns<PowerLawCurve>(ColumnModel<PowerLawCurve>, const Real*, const BandColumn*, Real,
+                                                     BandColumn*);
+template __global__ void join_columns<LinearCurve>(ColumnModel<LinearCurve>, const Real*, const BandColumn*, Real,
+                                                   BandColumn*);
 
 template <class Curve>
-__global__ void start_columns(ColumnModel<Real, Curve> model, Real thickness, const Real* temperatures, Real load,
-                              BandColumn<Real>* columns, Real* sums) {
+__global__ void start_columns(ColumnModel<Curve> model, Real thickness, const Real* temperatures, Real load,
+                              BandColumn* columns, Real* sums) {
   const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
   const Real cell_growth = cell_growth_below(sums[k], thickness, model.growth);
   columns[k] = start_column(model, thickness, cell_growth, temperatures[k], temperatures[k], load);
   sums[k] = heat_of(columns[k]) + water_of(columns[k]);
 }
-template __global__ void start_columns<PowerLawCurve<Real>>(ColumnModel<Real, PowerLawCurve<Real>>, Real, const Real*,
-                                                            Real, BandColumn<Real>*, Real*);
+template __global__ void start_columns<PowerLawCurve>(ColumnModel<PowerLawCurve>, Real, const Real*, Real, BandColumn*,
+                                                      Real*);
 
-__global__ void mixture(Phases<Real> phases, Real* numbers, Real* results, std::size_t particles) {
+__global__ void mixture(Phases phases, Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
   const Real porosity = row.take(), saturation = row.take();
   result.put(effective_solid_fraction(phases, porosity, saturation));
@@ -208,7 +193,7 @@ __global__ void mixture(Phases<Real> phases, Real* numbers, Real* results, std::
   result.put(mixed(porosity, row.take(), row.take()));
 }
 
-__global__ void pore_water(Phases<Real> phases, Real gravity, Real dt, Real sign, bool as_published, Real* numbers,
+__global__ void pore_water(Phases phases, Real gravity, Real dt, Real sign, bool as_published, Real* numbers,
                            Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
   const Real porosity = row.take(), saturation = row.take(), temperature = row.take();
@@ -222,8 +207,8 @@ __global__ void pore_water(Phases<Real> phases, Real gravity, Real dt, Real sign
   result.put(share_of_subgrid_diffusion(diffusivity, row.take(), 3, dt));
 }
 
-__global__ void water_balance(Phases<Real> phases, WaterExpansion<Real> water, Real skeleton_compressibility,
-                              Real* numbers, Real* results, std::size_t particles) {
+__global__ void water_balance(Phases phases, WaterExpansion water, Real skeleton_compressibility, Real* numbers,
+                              Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
   const Real porosity = row.take(), from = row.take(), to = row.take(), load = row.take();
   const Real storage = pore_storage(phases, porosity, skeleton_compressibility);
@@ -239,14 +224,14 @@ __global__ void water_balance(Phases<Real> phases, WaterExpansion<Real> water, R
   result.put(storing_porosity(phases, porosity, skeleton_compressibility));
 }
 
-__device__ basal::ContactNode<Real> take_node(Row& row) {
+__device__ basal::ContactNode take_node(Row& row) {
   return {row.take(), row.take(), row.take(), row.take(), row.take(), row.take(), row.take(), row.take(), row.take()};
 }
 
 template <class Law>
 __global__ void friction_law(Law law, Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
-  const basal::ContactNode<Real> node = take_node(row);
+  const basal::ContactNode node = take_node(row);
   result.put(law.coefficient(node));
   result.put(basal::drag_of(law, node));
 }
@@ -258,9 +243,9 @@ __global__ void cohesion_law(Law law, Real* numbers, Real* results, std::size_t 
 
 // One kernel for each law of the lists.
 void use_every_law(void (*use)(const void* kernel)) {
-  basal::for_each_law<basal::FrictionLaw<Real>>(
+  basal::for_each_law<basal::FrictionLaw>(
       [&]<class Law>(basal::OfType<Law>) { use(reinterpret_cast<const void*>(friction_law<Law>)); });
-  basal::for_each_law<basal::CohesionLaw<Real>>(
+  basal::for_each_law<basal::CohesionLaw>(
       [&]<class Law>(basal::OfType<Law>) { use(reinterpret_cast<const void*>(cohesion_law<Law>)); });
 }
 
@@ -268,7 +253,7 @@ __global__ void basal_contact(FrictionClamp clamp, bool cap_pressure, Real dt, R
                               std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
   const Real strength = sliding_strength(row.take(), row.take(), row.take(), row.take(), clamp, cap_pressure);
-  const ContactImpulse<Real> impulse = contact_impulse(row.take(), row.take(), row.take(), dt, strength);
+  const ContactImpulse impulse = contact_impulse(row.take(), row.take(), row.take(), dt, strength);
   result.put(impulse.normal);
   result.put(impulse.tangential);
   result.put(impulse.slides ? Real(1) : Real(0));
@@ -276,8 +261,7 @@ __global__ void basal_contact(FrictionClamp clamp, bool cap_pressure, Real dt, R
 
 __global__ void body_contact(Real dt, Real* numbers, Real* results, std::size_t particles) {
   Row row(numbers, particles), result(results, particles);
-  const BodyImpulse<Real> impulse =
-      body_impulse(row.take(), row.take(), row.take(), row.take(), row.take(), dt, row.take());
+  const BodyImpulse impulse = body_impulse(row.take(), row.take(), row.take(), row.take(), row.take(), dt, row.take());
   result.put(impulse.normal);
   result.put(impulse.tangential);
 }

@@ -21,13 +21,11 @@
 
 namespace thawslide {
 
-using Real = double;
-
 // Particles of a tile, and the records of its nodes.
 template <int Dim>
 struct TileOnDevice {
-  mpm::ParticleView<Dim, Real> particles;
-  mpm::SizesOfBodies<Real> sizes;
+  mpm::ParticleView<Dim> particles;
+  mpm::SizesOfBodies sizes;
   const std::uint32_t* particle;
   const std::int32_t* nearest[Dim];
   const std::uint32_t* first_node;
@@ -61,7 +59,7 @@ __device__ auto fetch(mpm::RecordList<Names...> /*names*/, const Real* records, 
 }
 
 template <class Name, int Dim>
-using CarriedTo = mpm::CarriedByOne<Name, Dim, Real>;
+using CarriedTo = mpm::CarriedByOne<Name, Dim>;
 template <int Dim, class List>
 struct CarriedOf;
 template <int Dim, class... Names>
@@ -79,20 +77,20 @@ __device__ void visit(const TileOnDevice<Dim>& tile, typename CarriedOf<Dim, typ
   if (k >= tile.count) {
     return;
   }
-  mpm::ParticleView<Dim, Real> particles = tile.particles;
-  const mpm::ScalarIndex<Real> at{{tile.particle[k]}};
-  mpm::OnePlace<Dim, Real> place{{}, tile.first_node[k], {}};
+  mpm::ParticleView<Dim> particles = tile.particles;
+  const mpm::ScalarIndex at{{tile.particle[k]}};
+  mpm::OnePlace<Dim> place{{}, tile.first_node[k], {}};
   for (std::size_t a = 0; a < Dim; ++a) {
     const std::int32_t nearest = tile.nearest[a][k];
     place.offset[static_cast<int>(a)] =
         particles.position(at.particle[0], static_cast<int>(a)) * tile.inverse_cell - static_cast<Real>(nearest);
     place.at_side[a] = nearest == tile.sides[0][a] || nearest == tile.sides[1][a];
   }
-  mpm::OneWeights<Dim, Real> weights;
+  mpm::OneWeights<Dim> weights;
   weights.set_linear(place, tile.inverse_cell);
   weights.template set_momentum<Shape>(place, tile.sizes.of(particles, at), tile.inverse_cell);
   weights.template set_affine<Shape>(place, tile.cell, tile.inverse_cell);
-  const mpm::ScalarGather<mpm::OneWeights<Dim, Real>, decltype(patches)> seen{weights, patches};
+  const mpm::ScalarGather<mpm::OneWeights<Dim>, decltype(patches)> seen{weights, patches};
   typename CarriedOf<Dim, typename Kernel::Adds>::Type added{};
   typename Kernel::Account account{};
   kernel(particles, at, seen, added, account);
@@ -107,154 +105,149 @@ struct Results {
 };
 
 template <int Dim>
-using Shape = mpm::Ugimp<Real>;
+using Shape = mpm::Ugimp;
 
 template <int Dim>
-__global__ void averages(TileOnDevice<Dim> tile, Results<Dim, band::AddAverages<Dim, Real>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::AddAverages<Dim, Real>{});
+__global__ void averages(TileOnDevice<Dim> tile, Results<Dim, band::AddAverages<Dim>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::AddAverages<Dim>{});
 }
 
 template <int Dim>
-__global__ void momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddMomentum<Dim, Real>> to,
-                         mpm::AddMomentum<Dim, Real> kernel) {
+__global__ void momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddMomentum<Dim>> to, mpm::AddMomentum<Dim> kernel) {
   visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
 }
 
 template <int Dim>
-__global__ void affine_momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddAffineMomentum<Dim, Real>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddAffineMomentum<Dim, Real>{});
+__global__ void affine_momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddAffineMomentum<Dim>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddAffineMomentum<Dim>{});
 }
 
 template <int Dim>
-__global__ void near_ground(TileOnDevice<Dim> tile, Results<Dim, terrain::AddNearGround<Dim, Real>> to,
-                            terrain::AddNearGround<Dim, Real> kernel) {
+__global__ void near_ground(TileOnDevice<Dim> tile, Results<Dim, terrain::AddNearGround<Dim>> to,
+                            terrain::AddNearGround<Dim> kernel) {
   visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
 }
 
 template <int Dim>
-__global__ void clearance(TileOnDevice<Dim> tile, Results<Dim, terrain::LowerClearance<Dim, Real>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, terrain::LowerClearance<Dim, Real>{});
+__global__ void clearance(TileOnDevice<Dim> tile, Results<Dim, terrain::LowerClearance<Dim>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, terrain::LowerClearance<Dim>{});
 }
 
 template <int Dim>
-__global__ void mark_band(TileOnDevice<Dim> tile, Results<Dim, terrain::MarkBand<Dim, Real>> to, Real dt) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, terrain::MarkBand<Dim, Real>{dt});
+__global__ void mark_band(TileOnDevice<Dim> tile, Results<Dim, terrain::MarkBand<Dim>> to, Real dt) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, terrain::MarkBand<Dim>{dt});
 }
 
 template <int Dim>
-__global__ void leave_band(TileOnDevice<Dim> tile, Results<Dim, terrain::LeaveBand<Dim, Real>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, terrain::LeaveBand<Dim, Real>{});
+__global__ void leave_band(TileOnDevice<Dim> tile, Results<Dim, terrain::LeaveBand<Dim>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, terrain::LeaveBand<Dim>{});
 }
 
 template <int Dim>
-__global__ void move(TileOnDevice<Dim> tile, Results<Dim, mpm::Move<Dim, Real>> to, mpm::Move<Dim, Real> kernel) {
+__global__ void move(TileOnDevice<Dim> tile, Results<Dim, mpm::Move<Dim>> to, mpm::Move<Dim> kernel) {
   visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
 }
 
 template <int Dim>
-__global__ void move_affine(TileOnDevice<Dim> tile, Results<Dim, mpm::MoveAffine<Dim, Real>> to,
-                            mpm::MoveAffine<Dim, Real> kernel) {
+__global__ void move_affine(TileOnDevice<Dim> tile, Results<Dim, mpm::MoveAffine<Dim>> to,
+                            mpm::MoveAffine<Dim> kernel) {
   visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
 }
 
 template <int Dim>
-__global__ void filter_moments(TileOnDevice<Dim> tile, Results<Dim, mpm::AddFilterMoments<Dim, Real>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddFilterMoments<Dim, Real>{});
+__global__ void filter_moments(TileOnDevice<Dim> tile, Results<Dim, mpm::AddFilterMoments<Dim>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddFilterMoments<Dim>{});
 }
 
 template <int Dim>
-__global__ void filter_momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddFilterMomentum<Dim, Real>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddFilterMomentum<Dim, Real>{});
+__global__ void filter_momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddFilterMomentum<Dim>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddFilterMomentum<Dim>{});
 }
 
 template <int Dim>
-__global__ void sweep_filter(TileOnDevice<Dim> tile, Results<Dim, mpm::SweepFilter<Dim, Real>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::SweepFilter<Dim, Real>{});
+__global__ void sweep_filter(TileOnDevice<Dim> tile, Results<Dim, mpm::SweepFilter<Dim>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::SweepFilter<Dim>{});
 }
 
 template <int Dim>
-__global__ void take_filtered(TileOnDevice<Dim> tile, Results<Dim, mpm::ApplyFiltered<Dim, Real>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::ApplyFiltered<Dim, Real>{});
+__global__ void take_filtered(TileOnDevice<Dim> tile, Results<Dim, mpm::ApplyFiltered<Dim>> to) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::ApplyFiltered<Dim>{});
 }
 
 template <int Dim, class Law>
-__global__ void deform(TileOnDevice<Dim> tile, Results<Dim, mpm::Deform<Dim, Real, Law>> to, Law law,
-                       physics::Elastic<Real> elastic, physics::Phases<Real> phases, bool gaps, Real viscosity_time,
+__global__ void deform(TileOnDevice<Dim> tile, Results<Dim, mpm::Deform<Dim, Law>> to, Law law,
+                       physics::Elastic elastic, physics::Phases phases, bool gaps, Real viscosity_time,
                        bool effective_stress, Real dt) {
-  const mpm::Deform<Dim, Real, Law> kernel{law, elastic, phases, gaps, viscosity_time, effective_stress, dt};
+  const mpm::Deform<Dim, Law> kernel{law, elastic, phases, gaps, viscosity_time, effective_stress, dt};
   visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
 }
 
 template <class Curve>
-using Content = physics::HeatContent<Real, Curve>;
+using Content = physics::HeatContent<Curve>;
 template <class Curve>
 using Law = band::ParticleHeat<Content<Curve>, band::InitialMasses>;
 
 template <int Dim, class Curve>
-__global__ void heat_flows(TileOnDevice<Dim> tile, Results<Dim, band::HeatFlows<Dim, Real, Law<Curve>>> to,
-                           Content<Curve> content, band::BandPhysics<Real> model,
-                           band::HydraulicConductivity<Real> hydraulic, Real dt, bool subgrid) {
+__global__ void heat_flows(TileOnDevice<Dim> tile, Results<Dim, band::HeatFlows<Dim, Law<Curve>>> to,
+                           Content<Curve> content, band::BandPhysics model, band::HydraulicConductivity hydraulic,
+                           Real dt, bool subgrid) {
   const Law<Curve> law{content};
-  const band::HeatFlows<Dim, Real, Law<Curve>> kernel{model, hydraulic, law, dt, tile.inverse_cell, subgrid};
+  const band::HeatFlows<Dim, Law<Curve>> kernel{model, hydraulic, law, dt, tile.inverse_cell, subgrid};
   visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
 }
 
 template <int Dim, class Curve>
-__global__ void secant_capacity(TileOnDevice<Dim> tile, Results<Dim, band::SecantCapacity<Dim, Real, Law<Curve>>> to,
+__global__ void secant_capacity(TileOnDevice<Dim> tile, Results<Dim, band::SecantCapacity<Dim, Law<Curve>>> to,
                                 Content<Curve> content, Real dt) {
   const Law<Curve> law{content};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::SecantCapacity<Dim, Real, Law<Curve>>{law, dt});
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::SecantCapacity<Dim, Law<Curve>>{law, dt});
 }
 
 template <int Dim, class Curve>
-__global__ void take_heat(TileOnDevice<Dim> tile, Results<Dim, band::UpdateHeat<Dim, Real, Law<Curve>>> to,
-                          Content<Curve> content, band::BandPhysics<Real> model, Real dt) {
+__global__ void take_heat(TileOnDevice<Dim> tile, Results<Dim, band::UpdateHeat<Dim, Law<Curve>>> to,
+                          Content<Curve> content, band::BandPhysics model, Real dt) {
   const Law<Curve> law{content};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::UpdateHeat<Dim, Real, Law<Curve>>{model, law, dt});
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::UpdateHeat<Dim, Law<Curve>>{model, law, dt});
 }
 
 template <int Dim, class Curve>
 __global__ void update_heat_as_published(TileOnDevice<Dim> tile,
-                                         Results<Dim, band::UpdateHeatApparentCapacity<Dim, Real, Law<Curve>>> to,
-                                         Content<Curve> content, band::BandPhysics<Real> model, Real dt) {
+                                         Results<Dim, band::UpdateHeatApparentCapacity<Dim, Law<Curve>>> to,
+                                         Content<Curve> content, band::BandPhysics model, Real dt) {
   const Law<Curve> law{content};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts,
-                    band::UpdateHeatApparentCapacity<Dim, Real, Law<Curve>>{model, law, dt});
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::UpdateHeatApparentCapacity<Dim, Law<Curve>>{model, law, dt});
 }
 
 template <int Dim, class Curve>
-__global__ void new_heat_masses(TileOnDevice<Dim> tile, Results<Dim, band::UpdateHeatMass<Dim, Real, Law<Curve>>> to,
+__global__ void new_heat_masses(TileOnDevice<Dim> tile, Results<Dim, band::UpdateHeatMass<Dim, Law<Curve>>> to,
                                 Content<Curve> content) {
   const Law<Curve> law{content};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::UpdateHeatMass<Dim, Real, Law<Curve>>{law});
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::UpdateHeatMass<Dim, Law<Curve>>{law});
 }
 
 template <int Dim>
-__global__ void unreached_heat(TileOnDevice<Dim> tile, Results<Dim, band::RedistributeUnreachedHeat<Dim, Real>> to,
-                               Real dt) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::RedistributeUnreachedHeat<Dim, Real>{dt});
+__global__ void unreached_heat(TileOnDevice<Dim> tile, Results<Dim, band::RedistributeUnreachedHeat<Dim>> to, Real dt) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::RedistributeUnreachedHeat<Dim>{dt});
 }
 
 template <int Dim>
-__global__ void seepage(TileOnDevice<Dim> tile, Results<Dim, band::SeepageFlows<Dim, Real>> to,
-                        band::BandPhysics<Real> model, band::HydraulicConductivity<Real> hydraulic, Real dt) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts,
-                    band::SeepageFlows<Dim, Real>{model, hydraulic, dt, tile.inverse_cell});
+__global__ void seepage(TileOnDevice<Dim> tile, Results<Dim, band::SeepageFlows<Dim>> to, band::BandPhysics model,
+                        band::HydraulicConductivity hydraulic, Real dt) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::SeepageFlows<Dim>{model, hydraulic, dt, tile.inverse_cell});
 }
 
 template <int Dim>
-__global__ void seeping_water(TileOnDevice<Dim> tile, Results<Dim, band::AddSeepingWater<Dim, Real>> to,
-                              band::BandPhysics<Real> model, band::HydraulicConductivity<Real> hydraulic) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::AddSeepingWater<Dim, Real>{model, hydraulic});
+__global__ void seeping_water(TileOnDevice<Dim> tile, Results<Dim, band::AddSeepingWater<Dim>> to,
+                              band::BandPhysics model, band::HydraulicConductivity hydraulic) {
+  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::AddSeepingWater<Dim>{model, hydraulic});
 }
 
 template <int Dim, bool Balances>
-using Pressure = band::PorePressure<Real, const band::ColumnsOfTile<Dim, Real>&, true, Balances>;
+using Pressure = band::PorePressure<const band::ColumnsOfTile<Dim>&, true, Balances>;
 
 template <int Dim, bool Balances>
-__global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim, Balances>> to,
-                              band::BandPhysics<Real> model, band::HydraulicConductivity<Real> hydraulic,
-                              const band::ColumnsOfTile<Dim, Real>* columns) {
+__global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim, Balances>> to, band::BandPhysics model,
+                              band::HydraulicConductivity hydraulic, const band::ColumnsOfTile<Dim>* columns) {
   visit<Shape<Dim>>(tile, to.carried, to.accounts,
                     Pressure<Dim, Balances>{model, hydraulic, Real(0.5) * tile.cell, *columns});
 }
@@ -262,13 +255,13 @@ __global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim,
 // Columns of the slide: overlap of a box, a column at the body's edge, and the load of a particle below one.
 template <int Dim>
 __global__ void box_in_columns(std::uint64_t tile_key, TileOnDevice<Dim> tile, band::Overlaps<Dim, Real>* overlaps) {
-  const mpm::ScalarIndex<Real> at{{tile.particle[threadIdx.x]}};
+  const mpm::ScalarIndex at{{tile.particle[threadIdx.x]}};
   overlaps[threadIdx.x] = band::overlaps<Dim>(band::first_cell_of<Dim>(tile_key), tile.cell, tile.inverse_cell,
                                               tile.sizes, tile.particles, at);
 }
 template <int Dim>
-__global__ void column(std::uint64_t tile_key, Real cell, const bool* filled, const band::ColumnMass<Real>* piles,
-                       const band::Extent<Dim, Real>* extents, std::uint64_t* keys, Real* thickness, Real* load) {
+__global__ void column(std::uint64_t tile_key, Real cell, const bool* filled, const band::ColumnMass* piles,
+                       const band::Extent<Dim>* extents, std::uint64_t* keys, Real* thickness, Real* load) {
   const std::size_t k = threadIdx.x;
   const auto is_filled = [&](std::size_t side) { return filled[k * band::column_sides<Dim> + side]; };
   const bool at_edge = band::lacks_neighbour<Dim>(is_filled);
@@ -277,22 +270,22 @@ __global__ void column(std::uint64_t tile_key, Real cell, const bool* filled, co
   load[k] = band::load_per_depth(piles[k], load[k], Real(10));
 }
 template <int Dim>
-__global__ void load(TileOnDevice<Dim> tile, band::ColumnsOfTile<Dim, Real, band::NumbersOfColumns<Real>> columns) {
-  const mpm::ScalarIndex<Real> at{{tile.particle[threadIdx.x]}};
+__global__ void load(TileOnDevice<Dim> tile, band::ColumnsOfTile<Dim, band::NumbersOfColumns> columns) {
+  const mpm::ScalarIndex at{{tile.particle[threadIdx.x]}};
   band::update_load(tile.particles, at.particle[0], columns.flow_depth(tile.particles, at));
 }
 
 template <int Dim>
-__global__ void take_position(TileOnDevice<Dim> tile, Results<Dim, mpm::UpdatePosition<Dim, Real>> to,
-                              mpm::UpdatePosition<Dim, Real> kernel) {
+__global__ void take_position(TileOnDevice<Dim> tile, Results<Dim, mpm::UpdatePosition<Dim>> to,
+                              mpm::UpdatePosition<Dim> kernel) {
   visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
 }
 
 // Second phase of a pass: reduces the contributions of particles first .. last-1 of a cell to a number of one of its
 // nodes, by sum or minimum.
 template <class Name, int Dim>
-__global__ void sum_in_cell(const mpm::OneWeights<Dim, Real>* weights, const CarriedTo<Name, Dim>* carried,
-                            std::size_t first, std::size_t last, Real* sums) {
+__global__ void sum_in_cell(const mpm::OneWeights<Dim>* weights, const CarriedTo<Name, Dim>* carried, std::size_t first,
+                            std::size_t last, Real* sums) {
   const std::size_t node = threadIdx.x, component = threadIdx.y;
   Real sum = sums[node * blockDim.y + component];
   for (std::size_t k = first; k < last; ++k) {
@@ -305,10 +298,10 @@ __global__ void sum_in_cell(const mpm::OneWeights<Dim, Real>* weights, const Car
 
 template <int Dim>
 void instantiate() {
-  using Elastic = physics::LinearElastic<Real>;
-  using Coulomb = physics::MohrCoulomb<Real>;
-  using PowerLaw = physics::PowerLawCurve<Real>;
-  using Line = physics::LinearCurve<Real>;
+  using Elastic = physics::LinearElastic;
+  using Coulomb = physics::MohrCoulomb<>;
+  using PowerLaw = physics::PowerLawCurve;
+  using Line = physics::LinearCurve;
   TileOnDevice<Dim> tile{};
   averages<Dim><<<1, 128>>>(tile, {});
   momentum<Dim><<<1, 128>>>(tile, {}, {});
@@ -326,7 +319,7 @@ void instantiate() {
   take_filtered<Dim><<<1, 128>>>(tile, {});
   deform<Dim, Elastic><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
   deform<Dim, Coulomb><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
-  deform<Dim, physics::MohrCoulomb<Real, true>><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
+  deform<Dim, physics::MohrCoulomb<true>><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
   heat_flows<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, {}, {}, 0, true);
   heat_flows<Dim, Line><<<1, 128>>>(tile, {}, {}, {}, {}, 0, true);
   secant_capacity<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, 0);

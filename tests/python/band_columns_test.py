@@ -29,9 +29,9 @@ def column_history(rows: int = 101) -> dict[str, np.ndarray]:
         "band_normal_pressure_Pa": np.full(rows, 1.0e6),
         "band_shear_Pa": 4.0e5 - 2.0e4 * t,
         "band_thickness_m": np.full(rows, 0.55),
-        "dilation_share": 0.003 * t,
-        "band_hottest_C": 17.0 * t,
-        "band_largest_pressure_ratio": 0.1 * t,
+        "dilation_fraction": 0.003 * t,
+        "band_max_temperature_C": 17.0 * t,
+        "band_max_pressure_ratio": 0.1 * t,
         "base_area_m2": np.full(rows, 1.0e6),
         "column_heat_J": -3e12 + 0.1e12 * t,
         "column_intake_J": -3e12 - 0.1e12 * t,
@@ -61,9 +61,9 @@ def add_base(folder: Path) -> None:
                 "normal_pressure_Pa": 1.0e6 + 1e4 * x,
                 "pore_pressure_Pa": 1.0e4 * x * number / 10,
                 "temperature_C": 2.0 * x,
-                "hottest_C": 3.0 * x,
+                "max_temperature_C": 3.0 * x,
             }.items():
-                file[f"base/{name}"] = values
+                file[f"basal_segments/{name}"] = values
 
 
 @pytest.fixture
@@ -148,7 +148,7 @@ def test_basal_segments_are_sorted_along_the_section(columns_run: Path) -> None:
     assert figure.axes[0].get_title(loc="left") != "t = 0 s", "times before the first contact have no panel"
     (legend,) = figure.legends
     assert [text.get_text() for text in legend.get_texts()] == [
-        "normal pressure N", "pore pressure P", "N − P", "hottest T", "mean T", "boiling T at N",
+        "normal pressure N", "pore pressure P", "N − P", "maximum T", "mean T", "boiling T at N",
     ]  # fmt: skip
 
 
@@ -164,12 +164,12 @@ def test_temperatures_and_boiling_are_in_one_panel(columns_run: Path) -> None:
     figure = FIGURES["band"].plot(run)
     heat = titled(figure, "(b)")
     np.testing.assert_allclose(line(heat, "mean")[1], run.history["band_temperature_C"])
-    np.testing.assert_allclose(line(heat, "hottest part of all columns")[1], run.history["band_hottest_C"])
+    np.testing.assert_allclose(line(heat, "maximum of all columns")[1], run.history["band_max_temperature_C"])
     np.testing.assert_allclose(line(heat, "boiling temperature at mean N")[1], 187.243587897609)
     assert not any("boiling point" in text for axes in figure.axes for text in texts(axes))
     np.testing.assert_allclose(line(titled(figure, "(c)"), "run")[1], run.history["band_saturation"])
     np.testing.assert_allclose(line(titled(figure, "(d)"), "run")[1], 0.55)
-    np.testing.assert_allclose(line(titled(figure, "(e)"), "run")[1], run.history["band_largest_pressure_ratio"])
+    np.testing.assert_allclose(line(titled(figure, "(e)"), "run")[1], run.history["band_max_pressure_ratio"])
 
 
 def test_thermal_terms_include_band_columns(columns_run: Path) -> None:
@@ -214,7 +214,7 @@ def test_runs_without_columns_have_no_figures_of_columns(make_run: MakeRun) -> N
     assert FIGURES["band"].caption_of(run) == FIGURES["band"].caption
     thermal = titled(FIGURES["energy"].plot(run), "(b)")
     assert not any("column" in str(found.get_label()) for found in thermal.lines)
-    assert "Temperature of the hottest part of all columns" not in [row.words for row in key_numbers(run)]
+    assert "Maximum temperature of all columns" not in [row.words for row in key_numbers(run)]
 
 
 def test_report_of_columns_has_their_figures_and_numbers(columns_run: Path) -> None:
@@ -225,7 +225,7 @@ def test_report_of_columns_has_their_figures_and_numbers(columns_run: Path) -> N
     assert "Water does not boil" not in page and "heat.steam is false" not in page
     assert "Area-weighted means over the base" in page and "particles next to the terrain" not in page
     found = {row.words: (row.value, row.remark) for row in key_numbers(Run(columns_run))}
-    assert found["Temperature of the hottest part of all columns"] == ("170 °C", "at 10 s")
+    assert found["Maximum temperature of all columns"] == ("170 °C", "at 10 s")
     assert found["Maximum pore pressure ratio P/N"] == ("1", "at 10 s")
     assert found["Water lost as steam"] == ("100,000 t", "until the end")
     text = (columns_run / "case.toml").read_text()

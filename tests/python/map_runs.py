@@ -154,7 +154,7 @@ def write_map_run(folder: Path, snapshots: int) -> None:
     facts = {
         "status": "done", "covered_volume_m3": 28800.0, "covered_area_m2": 4800.0, "affected_area_m2": 16800.0,
         "at_rest": True, "rest_since_s": 8.5, "travel_distance_m": 280.0,
-        "drop_height_m": 112.0, "angle_of_reach_degrees": 21.8, "crs": "MGI / Austria Lambert",
+        "drop_height_m": 112.0, "reach_angle_degrees": 21.8, "crs": "MGI / Austria Lambert",
     }  # fmt: skip
     (folder / "run.json").write_text(json.dumps(facts))
     write_maps(folder / "maps", 10.0)

@@ -74,7 +74,7 @@ def test_dilation_and_removed_mass_are_rows(make_run: MakeRun) -> None:
     folder = make_run()
     columns = history_columns(11, 2)
     assert "Volume change by dilation" not in numbers(Run(folder)), "history of an earlier version"
-    columns["dilation_share"] = np.linspace(0.0, 0.0625, 11)
+    columns["dilation_fraction"] = np.linspace(0.0, 0.0625, 11)
     columns["dilation_volume_m3"] = np.linspace(0.0, 250.0, 11)
     columns["mass_kg"], columns["left_mass_kg"] = np.linspace(1e6, 0.75e6, 11), np.linspace(0.0, 0.25e6, 11)
     write_history(folder / "history.csv", columns)

@@ -212,7 +212,7 @@ def test_reported_values_of_cases_have_kinds() -> None:
 
 def test_results_of_the_end_are_compared(make_run: MakeRun) -> None:
     folder = make_run()
-    facts = '{"status": "done", "covered_volume_m3": 5e7, "angle_of_reach_degrees": 14.5'
+    facts = '{"status": "done", "covered_volume_m3": 5e7, "reach_angle_degrees": 14.5'
     (folder / "run.json").write_text(f"{facts}}}")
     (folder / "inputs" / "targets.csv").write_text(
         HEADER + "deposit_volume,0,52,million m3,x\nangle_of_reach,0,14,degrees,x\ndrop_height,0,1,km,x\n"

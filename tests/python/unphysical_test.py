@@ -71,8 +71,8 @@ def test_limit_of_boiling_columns_is_the_melting_point_of_rock(make_run: MakeRun
     columns = column_history()
     write_history(folder / "history.csv", columns)
     assert warnings(FIGURES["band"].plot(Run(folder))) == {}
-    columns["band_hottest_C"][-1] = 1262.0
-    columns["band_largest_pressure_ratio"][-1] = 1.25
+    columns["band_max_temperature_C"][-1] = 1262.0
+    columns["band_max_pressure_ratio"][-1] = 1.25
     write_history(folder / "history.csv", columns)
     assert warnings(FIGURES["band"].plot(Run(folder))) == {
         "(b)": "⚠ unphysical: 1,260 °C exceeds the melting point of rock (1,000 °C); rock melting is not modelled",

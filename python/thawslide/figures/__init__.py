@@ -155,7 +155,7 @@ FIGURES: dict[str, FigureKind] = {
     "base_along": FigureKind(
         "Basal stresses and temperatures",
         "Left: normal pressure N of each basal segment, averaged over band.load_time, and mean pore pressure P of its "
-        "column. Green: N − P, on which friction acts. Right: temperature T of the hottest part and mean T of each "
+        "column. Green: N − P, on which friction acts. Right: maximum and mean temperature T of each "
         "column, and boiling temperature at its N.",
         base_along,
         _base_in_section,

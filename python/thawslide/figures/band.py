@@ -113,12 +113,12 @@ def _plot_columns(run: Run) -> Figure:
     notes += [f"liquid saturation: {note}" for note in found]
     saturation.set_ylim(0.0, 1.02)
     _plot_mean(thickness, run, "band_thickness_m", "thickness (m)", ORANGE)
-    _plot_mean(ratio, run, "band_largest_pressure_ratio", "maximum P/N (–)", BLUE)
+    _plot_mean(ratio, run, "band_max_pressure_ratio", "maximum P/N (–)", BLUE)
     ratio.axhline(1.0, color=NOTE, linewidth=0.8, linestyle=":")
     _plot_mean(friction, run, "band_friction_coefficient", "friction coefficient (–)", PURPLE)
     for axes in (thickness, ratio, friction):
         axes.set_ylim(0.0, max(1.08 * axes.dataLim.y1, 1e-3) if np.isfinite(axes.dataLim.y1) else 1.0)
-    warn(ratio, too_much_pressure(run.history["band_largest_pressure_ratio"]))
+    warn(ratio, too_much_pressure(run.history["band_max_pressure_ratio"]))
     for axes in panels:
         time_axis(axes, run.shown_time, run.time_reference.label if axes in panels[4:] else "")
     title_panels(
@@ -185,14 +185,14 @@ def _plot_temperatures(axes: Axes, run: Run) -> list[str]:
     time = run.shown_time
     boiling = boiling_temperature(run.history["band_normal_pressure_Pa"])
     axes.set_ylabel("temperature (°C)")
-    time_line(axes, time, run.history["band_hottest_C"], color=PURPLE, label="hottest part of all columns")
+    time_line(axes, time, run.history["band_max_temperature_C"], color=PURPLE, label="maximum of all columns")
     time_line(axes, time, run.history["band_temperature_C"], color=RED, label="mean")
     time_line(axes, time, boiling, color=SKY, linestyle="--", label="boiling temperature at mean N")
     axes.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")
     notes = plot_targets(axes, run, ("band_temperature",), 1.0, RED)
     legend = axes.legend(loc="upper right")
     space = _LEGEND_EDGE + _LEGEND_ROW * len(legend.get_texts())
-    words = too_hot(run, run.history["band_hottest_C"], run.history["band_pore_pressure_Pa"])
+    words = too_hot(run, run.history["band_max_temperature_C"], run.history["band_pore_pressure_Pa"])
     if words:
         warn(axes, words, below=space)
     else:

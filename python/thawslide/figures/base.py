@@ -56,7 +56,7 @@ def base_along(run: Run) -> Figure:
         _draw_row(row[0], row[1], shot, divisor)
         load, pressure = shot.base["normal_pressure_Pa"], shot.base["pore_pressure_Pa"]
         warn(row[0], too_much_pressure(pressure / np.maximum(load, 1.0)))
-        warn(row[1], too_hot(run, shot.base["hottest_C"], pressure))
+        warn(row[1], too_hot(run, shot.base["max_temperature_C"], pressure))
         row[0].set_title(f"({LETTERS[number]}) {time_text(run, shot)}", loc="left")
         row[0].set_ylabel(f"stress ({unit})")
         row[1].set_ylabel("temperature (°C)")
@@ -76,7 +76,7 @@ def _draw_row(stress: Axes, heat: Axes, shot: Snapshot, divisor: float) -> None:
     stress.plot(x, pressure, color=BLUE, label="pore pressure P")
     stress.fill_between(x, pressure, load, where=load > pressure, color=GREEN, alpha=0.25, label="N − P", linewidth=0)
     stress.set_ylim(bottom=0.0)
-    heat.plot(x, value["hottest_C"], color=PURPLE, label="hottest T")
+    heat.plot(x, value["max_temperature_C"], color=PURPLE, label="maximum T")
     heat.plot(x, value["temperature_C"], color=RED, label="mean T")
     heat.plot(x, boiling_temperature(value["normal_pressure_Pa"]), color=SKY, linestyle="--", label="boiling T at N")
     heat.axhline(0.0, color=NOTE, linewidth=0.8, linestyle=":")

@@ -11,7 +11,6 @@
 
 namespace thawslide::physics::basal {
 
-template <class Real>
 struct BondsCohesion {
   static constexpr const char* word = "bonds";
   static constexpr const char* text = "cohesion exp(-slip/slip_distance) (1 - S_L): bonds of ice, lost to nothing";
@@ -24,7 +23,7 @@ struct BondsCohesion {
   static BondsCohesion from(const Numbers& numbers) {
     return {static_cast<Real>(numbers(initial_cohesion)), static_cast<Real>(numbers(slip_distance))};
   }
-  THAWSLIDE_HD Real cohesion(const ContactNode<Real>& node) const {
+  THAWSLIDE_HD Real cohesion(const ContactNode& node) const {
     return initial * std::exp(-node.slip / distance) * (Real(1) - node.saturation);
   }
 };

@@ -8,7 +8,6 @@
 
 namespace thawslide::physics::basal {
 
-template <class Real>
 struct CoefficientFriction {
   static constexpr const char* word = "coefficient";
   static constexpr const char* text = "friction_coefficient times N, whatever the pore pressure";
@@ -21,7 +20,7 @@ struct CoefficientFriction {
   static CoefficientFriction from(const Numbers& numbers) {
     return {static_cast<Real>(numbers(friction_coefficient))};
   }
-  THAWSLIDE_HD Real coefficient(const ContactNode<Real>& /*node*/) const { return given; }
+  THAWSLIDE_HD Real coefficient(const ContactNode& /*node*/) const { return given; }
 };
 
 }  // namespace thawslide::physics::basal

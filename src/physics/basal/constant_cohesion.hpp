@@ -6,7 +6,6 @@
 
 namespace thawslide::physics::basal {
 
-template <class Real>
 struct ConstantCohesion {
   static constexpr const char* word = "constant";
   static constexpr const char* text = "cohesion, for ever";
@@ -18,7 +17,7 @@ struct ConstantCohesion {
   static ConstantCohesion from(const Numbers& numbers) {
     return {static_cast<Real>(numbers(initial_cohesion))};
   }
-  THAWSLIDE_HD Real cohesion(const ContactNode<Real>& /*node*/) const { return initial; }
+  THAWSLIDE_HD Real cohesion(const ContactNode& /*node*/) const { return initial; }
 };
 
 }  // namespace thawslide::physics::basal

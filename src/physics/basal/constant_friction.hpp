@@ -8,7 +8,6 @@
 
 namespace thawslide::physics::basal {
 
-template <class Real>
 struct ConstantFriction {
   static constexpr const char* word = "constant";
   static constexpr const char* text = "tan(friction_angle)";
@@ -19,9 +18,9 @@ struct ConstantFriction {
 
   template <class Numbers>
   static ConstantFriction from(const Numbers& numbers) {
-    return {static_cast<Real>(std::tan(numbers(friction_angle) * pi<double> / 180.0))};
+    return {static_cast<Real>(std::tan(numbers(friction_angle) * pi / 180.0))};
   }
-  THAWSLIDE_HD Real coefficient(const ContactNode<Real>& /*node*/) const { return full_coefficient; }
+  THAWSLIDE_HD Real coefficient(const ContactNode& /*node*/) const { return full_coefficient; }
 };
 
 }  // namespace thawslide::physics::basal

@@ -5,7 +5,6 @@
 
 namespace thawslide::physics::basal {
 
-template <class Real>
 struct ContactNode {
   Real normal_pressure = 0;  // N [Pa]
   Real pore_pressure = 0;    // P [Pa]

@@ -7,7 +7,6 @@
 
 namespace thawslide::physics::basal {
 
-template <class Real>
 struct IceCohesion {
   static constexpr const char* word = "ice";
   static constexpr const char* text = "cohesion (1 - S_L): in proportion to the ice";
@@ -19,7 +18,7 @@ struct IceCohesion {
   static IceCohesion from(const Numbers& numbers) {
     return {static_cast<Real>(numbers(initial_cohesion))};
   }
-  THAWSLIDE_HD Real cohesion(const ContactNode<Real>& node) const { return initial * (Real(1) - node.saturation); }
+  THAWSLIDE_HD Real cohesion(const ContactNode& node) const { return initial * (Real(1) - node.saturation); }
 };
 
 }  // namespace thawslide::physics::basal

@@ -17,24 +17,22 @@
 
 namespace thawslide::physics::basal {
 
-template <class Real>
 using FrictionLaw = std::variant<  //
-    ConstantFriction<Real>,        //
-    LubricatedFriction<Real>,      //
-    CoefficientFriction<Real>,     //
-    VoellmyFriction<Real>>;
+    ConstantFriction,              //
+    LubricatedFriction,            //
+    CoefficientFriction,           //
+    VoellmyFriction>;
 
-template <class Real>
 using CohesionLaw = std::variant<  //
-    ConstantCohesion<Real>,        //
-    SlipCohesion<Real>,            //
-    IceCohesion<Real>,             //
-    TimeCohesion<Real>,            //
-    BondsCohesion<Real>>;
+    ConstantCohesion,              //
+    SlipCohesion,                  //
+    IceCohesion,                   //
+    TimeCohesion,                  //
+    BondsCohesion>;
 
 // Traction of a friction law that is independent of the load [Pa].
-template <class Law, class Real>
-THAWSLIDE_HD Real drag_of(const Law& law, const ContactNode<Real>& node) {
+template <class Law>
+THAWSLIDE_HD Real drag_of(const Law& law, const ContactNode& node) {
   if constexpr (requires { law.drag(node); }) {
     return law.drag(node);
   } else {

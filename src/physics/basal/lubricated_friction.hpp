@@ -31,7 +31,6 @@ inline constexpr Parameter max_solid_fraction{.key = "max_solid_fraction",
                                               .text = "effective solid fraction at which friction is whole, n_max",
                                               .source = "Eq. 25"};
 
-template <class Real>
 struct LubricatedFriction {
   static constexpr const char* word = "lubricated";
   static constexpr const char* text = "tan(friction_angle) times a factor that falls as ice melts (Eq. 25)";
@@ -45,11 +44,11 @@ struct LubricatedFriction {
 
   template <class Numbers>
   static LubricatedFriction from(const Numbers& numbers) {
-    return {static_cast<Real>(std::tan(numbers(friction_angle) * pi<double> / 180.0)),
+    return {static_cast<Real>(std::tan(numbers(friction_angle) * pi / 180.0)),
             static_cast<Real>(numbers(lubrication_exponent)), static_cast<Real>(numbers(min_solid_fraction)),
             static_cast<Real>(numbers(max_solid_fraction))};
   }
-  THAWSLIDE_HD Real coefficient(const ContactNode<Real>& node) const {
+  THAWSLIDE_HD Real coefficient(const ContactNode& node) const {
     const Real ratio = (node.solid_fraction - least) / (most - least);
     const Real clamped = ratio < Real(0) ? Real(0) : ratio > Real(1) ? Real(1) : ratio;
     return (Real(1) - power(Real(1) - clamped, exponent)) * full_coefficient;

@@ -9,7 +9,6 @@
 
 namespace thawslide::physics::basal {
 
-template <class Real>
 struct SlipCohesion {
   static constexpr const char* word = "slip";
   static constexpr const char* text = "c_r + (c_0 - c_r) exp(-slip/slip_distance)";
@@ -23,7 +22,7 @@ struct SlipCohesion {
     return {static_cast<Real>(numbers(initial_cohesion)), static_cast<Real>(numbers(residual_cohesion)),
             static_cast<Real>(numbers(slip_distance))};
   }
-  THAWSLIDE_HD Real cohesion(const ContactNode<Real>& node) const {
+  THAWSLIDE_HD Real cohesion(const ContactNode& node) const {
     return residual + (initial - residual) * std::exp(-node.slip / distance);
   }
 };

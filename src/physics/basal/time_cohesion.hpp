@@ -12,7 +12,6 @@ inline constexpr Parameter cohesion_loss_time{.key = "cohesion_loss_time",
                                               .low = 0.0,
                                               .text = "time at which the cohesion is lost, of {laws}"};
 
-template <class Real>
 struct TimeCohesion {
   static constexpr const char* word = "time";
   static constexpr const char* text = "cohesion before cohesion_loss_time, residual_cohesion from then on";
@@ -26,7 +25,7 @@ struct TimeCohesion {
     return {static_cast<Real>(numbers(initial_cohesion)), static_cast<Real>(numbers(residual_cohesion)),
             static_cast<Real>(numbers(cohesion_loss_time))};
   }
-  THAWSLIDE_HD Real cohesion(const ContactNode<Real>& node) const { return node.time < loss_time ? initial : residual; }
+  THAWSLIDE_HD Real cohesion(const ContactNode& node) const { return node.time < loss_time ? initial : residual; }
 };
 
 }  // namespace thawslide::physics::basal

@@ -19,7 +19,6 @@ inline constexpr Parameter turbulent_friction{
     .text = "turbulent friction xi of {laws}: the larger, the less drag rho g v^2/xi",
     .source = "Voellmy 1955"};
 
-template <class Real>
 struct VoellmyFriction {
   static constexpr const char* word = "voellmy";
   static constexpr const char* text = "friction_coefficient (N - P) + rho g v^2/turbulent_friction, v the slip speed";
@@ -33,8 +32,8 @@ struct VoellmyFriction {
   static VoellmyFriction from(const Numbers& numbers) {
     return {static_cast<Real>(numbers(friction_coefficient)), static_cast<Real>(numbers(turbulent_friction))};
   }
-  THAWSLIDE_HD Real coefficient(const ContactNode<Real>& /*node*/) const { return given; }
-  THAWSLIDE_HD Real drag(const ContactNode<Real>& node) const {
+  THAWSLIDE_HD Real coefficient(const ContactNode& /*node*/) const { return given; }
+  THAWSLIDE_HD Real drag(const ContactNode& node) const {
     return node.unit_weight * node.speed * node.speed / turbulence;
   }
 };

@@ -14,7 +14,7 @@ constexpr double spacing = 5.0;  // of particles
 // A box of `length` particles along each horizontal axis and `layers` up, its lower corner at `from` [m]; the lowest
 // layer, ahead of the others by `bulge` [m], is the band.
 template <int Dim>
-void fill_box(std::size_t length, std::size_t layers, double from, double bulge, mpm::Particles<Dim, double>& box) {
+void fill_box(std::size_t length, std::size_t layers, double from, double bulge, mpm::Particles<Dim>& box) {
   std::size_t columns = 1;
   for (int a = 0; a + 1 < Dim; ++a) {
     columns *= length;
@@ -38,13 +38,13 @@ void fill_box(std::size_t length, std::size_t layers, double from, double bulge,
 template <int Dim>
 void expect_thickness(double from, double bulge, double allowed) {
   constexpr std::size_t layers = 6;
-  mpm::Particles<Dim, double> box;
+  mpm::Particles<Dim> box;
   fill_box<Dim>(7, layers, from, bulge, box);
-  mpm::SparseGrid<Dim, double> grid(cell);
+  mpm::SparseGrid<Dim> grid(cell);
   grid.update(box, 1);
-  BandModel<Dim, double> model;
+  BandModel<Dim> model;
   model.sizes = {0.5 * spacing / cell};
-  FlowDepth<Dim, double> depth;
+  FlowDepth<Dim> depth;
   depth.update(grid, model, {}, box);
   depth.depth_to_particles(grid, box);
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
@@ -52,7 +52,7 @@ void expect_thickness(double from, double bulge, double allowed) {
     for (std::uint32_t k = grid.tiles()[t].first; k < grid.tiles()[t].last; ++k) {
       const std::uint32_t p = grid.order()[k];
       const double below_top = layers * spacing - box.position(p, Dim - 1);
-      EXPECT_NEAR(columns.below_top(box, mpm::batch_in_memory<double>(p, p + 1))[0], below_top, 1e-9)
+      EXPECT_NEAR(columns.below_top(box, mpm::batch_in_memory(p, p + 1))[0], below_top, 1e-9)
           << "box from " << from << ", particle " << p;
       EXPECT_NEAR(box.flow_depth(p), box.in_band(p) != 0 ? layers * spacing : below_top, allowed)
           << "box from " << from << ", particle " << p;
@@ -71,16 +71,16 @@ TEST(FlowDepth, IsThatOfTheBoxWhereverItStands) {
 template <int Dim>
 void expect_load(double from) {
   constexpr std::size_t layers = 6;
-  mpm::Particles<Dim, double> box;
+  mpm::Particles<Dim> box;
   fill_box<Dim>(7, layers, from, 0.0, box);
   for (std::size_t p = 0; p < box.size(); ++p) {
     box.mass(p) = 2000.0 * box.volume(p);
   }
-  mpm::SparseGrid<Dim, double> grid(cell);
+  mpm::SparseGrid<Dim> grid(cell);
   grid.update(box, 1);
-  BandModel<Dim, double> model;
+  BandModel<Dim> model;
   model.sizes = {0.5 * spacing / cell};
-  FlowDepth<Dim, double> depth;
+  FlowDepth<Dim> depth;
   const auto normal_gravity = [](const Vector<double, Dim - 1>& /*place*/) { return 0.8 * 0.6 * 9.81; };
   for (const double thinning : {1.0, 0.25}) {
     for (std::size_t p = 0; p < box.size(); ++p) {
@@ -115,12 +115,12 @@ TEST(FlowDepth, SeesTheBodyAboveABandThatIsAhead) {
 
 // Columns are numbered anew when the body comes to other tiles.
 TEST(FlowDepth, GoesWithTheBodyFromTileToTile) {
-  mpm::Particles<2, double> box;
+  mpm::Particles<2> box;
   fill_box<2>(7, 6, 2.5, 0.0, box);
-  mpm::SparseGrid<2, double> grid(cell);
-  BandModel<2, double> model;
+  mpm::SparseGrid<2> grid(cell);
+  BandModel<2> model;
   model.sizes = {0.5 * spacing / cell};
-  FlowDepth<2, double> followed;
+  FlowDepth<2> followed;
   for (int step = 0; step < 60; ++step) {
     grid.update(box, 7);
     followed.update(grid, model, {}, box);
@@ -129,7 +129,7 @@ TEST(FlowDepth, GoesWithTheBodyFromTileToTile) {
     for (std::size_t p = 0; p < box.size(); ++p) {
       depth[p] = box.flow_depth(p);
     }
-    FlowDepth<2, double> fresh;
+    FlowDepth<2> fresh;
     fresh.update(grid, model, {}, box);
     fresh.depth_to_particles(grid, box);
     for (std::size_t p = 0; p < box.size(); ++p) {

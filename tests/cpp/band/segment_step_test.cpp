@@ -12,13 +12,13 @@
 namespace thawslide::band {
 namespace {
 
-using Segment = BasalSegment<2, double>;
+using Segment = BasalSegment<2>;
 using physics::ColumnAccount;
 
 constexpr double weight = 2e4;  // of the slide [N/m3]
 
-ColumnsModel<double> make_columns_model() {
-  ColumnsModel<double> model;
+ColumnsModel make_columns_model() {
+  ColumnsModel model;
   model.column = physics::make_model();
   model.body_temperature = model.ground_temperature = -10.0;
   model.load_time = 1.0;
@@ -28,9 +28,9 @@ ColumnsModel<double> make_columns_model() {
   return model;
 }
 
-const physics::Model& column_model(const ColumnsModel<double>& model) { return std::get<0>(model.column); }
+const physics::Model& column_model(const ColumnsModel& model) { return std::get<0>(model.column); }
 
-Segment make_segment(const ColumnsModel<double>& model, double thickness, double depth, double area = 100.0) {
+Segment make_segment(const ColumnsModel& model, double thickness, double depth, double area = 100.0) {
   Segment segment;
   segment.area = segment.area_of_column = area;
   follow_load(model, weight * depth, depth, 0.0, segment);
@@ -38,7 +38,7 @@ Segment make_segment(const ColumnsModel<double>& model, double thickness, double
   return segment;
 }
 
-double height_of(const ColumnsModel<double>& model, const Segment& segment) {
+double height_of(const ColumnsModel& model, const Segment& segment) {
   return physics::grid_of(column_model(model), segment.column).face(physics::ColumnCells::slide);
 }
 
@@ -49,7 +49,7 @@ double water_of(const Segment& segment) { return segment.area_of_column * physic
 
 // The depth is the mean since the first load, and after ten times the time of the load that of the time before.
 TEST(SegmentStep, AveragesTheDepthOfTheSlide) {
-  const ColumnsModel<double> model = make_columns_model();
+  const ColumnsModel model = make_columns_model();
   Segment segment;
   const double dt = 0.01;
   for (int step = 0; step < 400; ++step) {  // contact that switches on and off
@@ -69,7 +69,7 @@ TEST(SegmentStep, AveragesTheDepthOfTheSlide) {
 
 // Below a slide deeper than a full column nothing is otherwise than with one ratio of cells for all columns.
 TEST(SegmentStep, IsBitForBitThatOfFullColumnsBelowADeepSlide) {
-  ColumnsModel<double> model = make_columns_model();
+  ColumnsModel model = make_columns_model();
   model.growth = BandGrowth::slip;
   model.growth_per_slip = 1e-3;
   std::mt19937 random(3);
@@ -112,7 +112,7 @@ TEST(SegmentStep, IsBitForBitThatOfFullColumnsBelowADeepSlide) {
 // A slide that keeps its volume and spreads out to a fifth of its depth: the column gives back what it can no longer
 // hold, so that it has no more ice and water than the slide above it. With one ratio for all it would have three times.
 TEST(SegmentStep, HoldsAtMostTheIceAndWaterOfASlideThatThins) {
-  ColumnsModel<double> model = make_columns_model();
+  ColumnsModel model = make_columns_model();
   model.growth = BandGrowth::slip;
   model.growth_per_slip = 5e-4;
   const double dt = 0.05, volume = 2000.0;
@@ -127,7 +127,7 @@ TEST(SegmentStep, HoldsAtMostTheIceAndWaterOfASlideThatThins) {
     segment.heat += step < 1200 ? dt * 2e4 * segment.area : 0.0;
     friction += step < 1200 ? dt * 2e4 * segment.area : 0.0;
     follow_load(model, weight * volume / segment.area, volume / segment.area, dt, segment);
-    const ColumnAccount<double> account = step_segment(model, 0.5, dt, segment);
+    const ColumnAccount account = step_segment(model, 0.5, dt, segment);
     heat += account.body_heat + account.ground_heat - account.vented_heat - account.steam_heat;
     water += account.body_water - account.vented_water - account.steam;
     gave_back = gave_back || account.body_water < 0.0;
@@ -148,14 +148,14 @@ TEST(SegmentStep, LosesNothingInRandomLives) {
   const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   int joined = 0, shortened = 0;
   for (int run = 0; run < 30; ++run) {
-    ColumnsModel<double> model = make_columns_model();
+    ColumnsModel model = make_columns_model();
     model.growth = run % 2 == 0 ? BandGrowth::slip : BandGrowth::inertial;
     model.growth_per_slip = 1e-3;
     model.grain_size = 0.01;
     model.inertial_number = 0.3;
     Segment segment = make_segment(model, between(0.05, 1.0), between(0.0, 30.0));
     double heat = heat_of(segment), water = water_of(segment), scale = std::abs(heat);
-    const auto book = [&](const ColumnAccount<double>& account) {
+    const auto book = [&](const ColumnAccount& account) {
       heat += account.body_heat + account.ground_heat - account.vented_heat - account.steam_heat;
       water += account.body_water - account.vented_water - account.steam;
     };

@@ -11,9 +11,9 @@ namespace {
 
 // In parts of so many, which are then added up.
 double sum_in_parts(const std::vector<double>& numbers, std::size_t of_a_part) {
-  ExactSum<double> all;
+  ExactSum all;
   for (std::size_t first = 0; first < numbers.size(); first += of_a_part) {
-    ExactSum<double> part;
+    ExactSum part;
     for (std::size_t k = first; k < std::min(numbers.size(), first + of_a_part); ++k) {
       part += numbers[k];
     }

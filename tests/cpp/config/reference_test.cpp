@@ -69,7 +69,7 @@ TEST(Reference, JsonHoldsEveryTableAndKeyInOrder) {
       EXPECT_EQ(key.at("unit"), entries[k].rule->unit);
       EXPECT_EQ(key.at("text"), entries[k].rule->text);
       EXPECT_EQ(key.at("only"), entries[k].only);
-      EXPECT_EQ(key.at("words").size(), entries[k].words.size());
+      EXPECT_EQ(key.at("keywords").size(), entries[k].words.size());
       EXPECT_EQ(key.at("default").is_null(), entries[k].default_text.empty()) << entries[k].rule->key;
     }
   }

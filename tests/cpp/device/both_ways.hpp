@@ -48,11 +48,11 @@ struct TakesOnDevice {
 
 inline device::LinearWeights on_device(const mpm::LinearWeights& /*weights*/) { return {}; }
 template <class Shape, int Dim>
-device::MomentumWeights<Shape, Dim, double> on_device(const mpm::MomentumWeights<Shape, Dim, double>& weights) {
+device::MomentumWeights<Shape, Dim> on_device(const mpm::MomentumWeights<Shape, Dim>& weights) {
   return {weights.sizes.view(), weights.sides};
 }
 template <class Shape, int Dim>
-device::AffineWeights<Shape, Dim, double> on_device(const mpm::AffineWeights<Shape, Dim, double>& weights) {
+device::AffineWeights<Shape, Dim> on_device(const mpm::AffineWeights<Shape, Dim>& weights) {
   return {{weights.sizes.view(), weights.sides}};
 }
 
@@ -63,7 +63,7 @@ template <class... Names>
 class RecordsOnDevice<mpm::RecordList<Names...>> {
  public:
   template <int Dim, class Records>
-  RecordsOnDevice([[maybe_unused]] const mpm::SparseGrid<Dim, double>& grid, [[maybe_unused]] Records& records) {
+  RecordsOnDevice([[maybe_unused]] const mpm::SparseGrid<Dim>& grid, [[maybe_unused]] Records& records) {
     (take<Names>(grid, records), ...);
   }
   template <class Name>
@@ -73,7 +73,7 @@ class RecordsOnDevice<mpm::RecordList<Names...>> {
 
  private:
   template <class Name, int Dim, class Records>
-  void take(const mpm::SparseGrid<Dim, double>& grid, Records& records) {
+  void take(const mpm::SparseGrid<Dim>& grid, Records& records) {
     for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<Dim>::nodes); ++k) {
         const auto& of_name = records.template of<Name>();
@@ -89,14 +89,14 @@ class RecordsOnDevice<mpm::RecordList<Names...>> {
 // What kernels sum, as numbers.
 inline void take_sum(double sum, std::vector<double>& numbers) { numbers.push_back(sum); }
 inline void take_sum(const mpm::NoAccount& /*sum*/, std::vector<double>& /*numbers*/) {}
-inline void take_sum(const mpm::Deformed<double>& sum, std::vector<double>& numbers) {
+inline void take_sum(const mpm::Deformed& sum, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), {sum.work.total, sum.work.plastic, sum.work.viscous, sum.work.pore,
                                  static_cast<double>(sum.invalid.id), static_cast<double>(sum.invalid.fault)});
 }
 inline void take_sum(const mpm::InvalidParticle& sum, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), {static_cast<double>(sum.id), static_cast<double>(sum.fault)});
 }
-inline void take_sum(const band::DrainedWater<double>& sum, std::vector<double>& numbers) {
+inline void take_sum(const band::DrainedWater& sum, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), {sum.mass, sum.heat});
 }
 
@@ -157,7 +157,7 @@ struct PatchesOf<mpm::RecordList<Names...>> {
 // null.
 template <class Adds, int Dim, class ColumnQuery, class Run>
 Bits bits_of(Scene<Dim>& scene, const ColumnQuery& asked, const Run& run) {
-  mpm::Particles<Dim, double> particles;
+  mpm::Particles<Dim> particles;
   particles.affine_velocity.keep(true);
   particles.viscous_stress.keep(true);
   Scene<Dim>::copy(scene.particles, particles);
@@ -184,21 +184,21 @@ struct NumbersOfPatch<mpm::RecordList<Name, Names...>> {
 // The pass of some kernels as a device runs it; returns its patches.
 template <int Dim, class Records, class TileFilter, class ColumnQuery, class Weights, class... Kernels>
 std::vector<double> run_on_device(Host host, const Pass<Records, TileFilter, ColumnQuery>& pass, Scene<Dim>& scene,
-                                  const Weights& weights, mpm::Particles<Dim, double>& particles,
-                                  std::vector<double>& sums, const Kernels&... kernels) {
+                                  const Weights& weights, mpm::Particles<Dim>& particles, std::vector<double>& sums,
+                                  const Kernels&... kernels) {
   using Reads = mpm::AllOf<typename Kernels::Reads...>;
   using Adds = mpm::AllOf<typename Kernels::Adds...>;
   const std::size_t tiles = scene.grid.tiles().size(), numbers = tiles * NumbersOfPatch<Adds>::template count<Dim>;
   Host in_order;
   const auto view = mpm::view_of(particles);
-  device::Particles<Host, Dim, double> on_host(in_order, view, particles.size());
-  device::Cells<Host, Dim, double> cells(in_order, scene.grid.cell());
+  device::Particles<Host, Dim> on_host(in_order, view, particles.size());
+  device::Cells<Host, Dim> cells(in_order, scene.grid.cell());
   cells.update(on_host.view(), on_host.by_id(), particles.size());
-  device::PassMemory<Host, double> memory(in_order);
+  device::PassMemory<Host> memory(in_order);
   in_order.wait();
   std::fill_n(memory.patches(numbers), numbers, 0.0);
   const RecordsOnDevice<Reads> records(scene.grid, pass.records);
-  const device::PassOver<decltype(on_device(weights)), TakesOnDevice<TileFilter, Dim>, Dim, double> over{
+  const device::PassOver<decltype(on_device(weights)), TakesOnDevice<TileFilter, Dim>, Dim> over{
       cells.tables(), on_host.view(), on_device(weights), {pass.accepts}, scene.grid.cell()};
   const auto* all = device::particle_pass(host, memory, over, records, kernels...);
   host.wait();
@@ -260,8 +260,8 @@ void expect_the_bits_of_lanes(const Pass<Records, TileFilter, ColumnQuery>& pass
 template <int Dim, class Weights, class... Kernels>
 void expect_the_bits_of_lanes(const std::string& name, Scene<Dim>& scene, const Weights& weights,
                               const Kernels&... kernels) {
-  const Pass<mpm::Nodes<Dim, double>, decltype(mpm::every_tile), decltype(everywhere)> pass{
-      name, scene.nodes, mpm::every_tile, everywhere};
+  const Pass<mpm::Nodes<Dim>, decltype(mpm::every_tile), decltype(everywhere)> pass{name, scene.nodes, mpm::every_tile,
+                                                                                    everywhere};
   expect_the_bits_of_lanes(pass, scene, weights, kernels...);
 }
 

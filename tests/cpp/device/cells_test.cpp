@@ -19,7 +19,7 @@ using device::Host, device::ThreadOrder;
 
 // Particles anywhere, below and above 0, many in one cell, with ids that do not follow their places in memory.
 template <int Dim>
-void scatter(std::size_t count, Particles<Dim, double>& particles) {
+void scatter(std::size_t count, Particles<Dim>& particles) {
   std::mt19937 random(3);
   particles.resize(count);
   for (std::size_t p = 0; p < count; ++p) {
@@ -36,8 +36,8 @@ void expect_the_same(const Number* found, const std::vector<Number>& expected, c
 }
 
 template <int Dim>
-void expect_the_tables_of(const SparseGrid<Dim, double>& grid, const device::TileTables<Dim>& tables,
-                          const Particles<Dim, double>& particles) {
+void expect_the_tables_of(const SparseGrid<Dim>& grid, const device::TileTables<Dim>& tables,
+                          const Particles<Dim>& particles) {
   ASSERT_EQ(tables.particles, particles.size());
   ASSERT_EQ(tables.tiles, grid.tiles().size());
   ASSERT_EQ(tables.blocks, grid.blocks().size());
@@ -70,13 +70,13 @@ void expect_the_tables_of(const SparseGrid<Dim, double>& grid, const device::Til
 // Sorted in memory only at first by the grid, never here: places in memory are the same then.
 template <int Dim>
 void expect_the_tables_of_the_grid(std::size_t count, const Host& with) {
-  Particles<Dim, double> particles;
+  Particles<Dim> particles;
   scatter(count, particles);
-  SparseGrid<Dim, double> grid(0.7);
+  SparseGrid<Dim> grid(0.7);
   grid.update(particles, 0);
   Host host = with;
-  device::Particles<Host, Dim, double> on_device(host, view_of(particles), count);
-  device::Cells<Host, Dim, double> cells(host, 0.7);
+  device::Particles<Host, Dim> on_device(host, view_of(particles), count);
+  device::Cells<Host, Dim> cells(host, 0.7);
   cells.update(on_device.view(), on_device.by_id(), count);
   host.wait();
   EXPECT_TRUE(cells.blocks_changed());

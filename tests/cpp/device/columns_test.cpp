@@ -34,7 +34,7 @@ double gravity_at(const Vector<double, Dim - 1>& place) {
 // What each tile sees of thickness, top and cosine, and the loads of particles, in canonical order.
 template <int Dim>
 std::vector<double> by_flow_depth(Scene<Dim>& scene) {
-  band::FlowDepth<Dim, double> depth;
+  band::FlowDepth<Dim> depth;
   depth.update(scene.grid, scene.model.band, cosine_at<Dim>, scene.particles);
   std::vector<double> numbers;
   for (std::size_t t = 0; t < scene.grid.tiles().size(); ++t) {
@@ -57,11 +57,11 @@ std::vector<double> on_device(Scene<Dim>& scene, Host host) {
   for (std::size_t body = 0; body < scene.model.body_names.size(); ++body) {
     half_sizes.push_back(scene.model.motion.sizes.half(body));
   }
-  device::Particles<Host, Dim, double> on_host(host, mpm::view_of(scene.particles), scene.particles.size());
-  device::Cells<Host, Dim, double> cells(host, cell);
+  device::Particles<Host, Dim> on_host(host, mpm::view_of(scene.particles), scene.particles.size());
+  device::Cells<Host, Dim> cells(host, cell);
   cells.update(on_host.view(), on_host.by_id(), scene.particles.size());
   const device::TileTables<Dim> tables = cells.tables();
-  device::Columns<Host, Dim, double> columns(host, cell, half_sizes, cosine_at<Dim>, gravity_at<Dim>);
+  device::Columns<Host, Dim> columns(host, cell, half_sizes, cosine_at<Dim>, gravity_at<Dim>);
   columns.update(tables);
   columns.sum(tables, on_host.view());
   host.wait();
@@ -78,7 +78,7 @@ std::vector<double> on_device(Scene<Dim>& scene, Host host) {
   for (std::size_t t = 0, k = 0; t < tables.tiles; ++t) {
     const auto loading = columns.loading(tables).of_tile(t);
     for (; k < tables.first_of_cell[(t + 1) * nodes]; ++k) {
-      numbers.push_back(loading.flow_depth(on_host.view(), mpm::ScalarIndex<double>{{tables.order[k]}}));
+      numbers.push_back(loading.flow_depth(on_host.view(), mpm::ScalarIndex{{tables.order[k]}}));
     }
   }
   return numbers;
@@ -90,7 +90,7 @@ bool are_same(const std::vector<double>& a, const std::vector<double>& b) {
 
 template <int Dim>
 void expect_the_columns_of_the_cpu(int barriers) {
-  Simulation<Dim, double> simulation(two_bodies<Dim>(2e4, 3.0, 3.0, 12.0));
+  Simulation<Dim> simulation(two_bodies<Dim>(2e4, 3.0, 3.0, 12.0));
   for (int k = 0; k < 60; ++k) {
     simulation.step(0.002);
   }

@@ -9,7 +9,7 @@
 #include "../support/two_bodies.hpp"
 #include "band/averages_kernel.hpp"
 #include "band/heat_kernels.hpp"
-#include "band/pore_pressure_of_tile.hpp"
+#include "band/pore_pressure.hpp"
 #include "both_ways.hpp"
 #include "mpm/filter_kernels.hpp"
 #include "mpm/motion_kernels.hpp"
@@ -39,23 +39,21 @@ static_assert(!mpm::one_record<RecordList<mpm::Velocity, mpm::HeatRates>>);
 // What is near the ground: what the nodes that are no candidates hold is not asked for.
 template <int Dim, class Weights>
 void expect_the_bits_near_the_ground(Scene<Dim>& scene, const Weights& weights, double dt) {
-  const terrain::SeesCandidates<Dim, double> sees_candidates{scene.ground};
-  terrain::NodesOnGround<Dim, double> on_ground{scene.nodes, scene.ground};
+  const terrain::SeesCandidates<Dim> sees_candidates{scene.ground};
+  terrain::NodesOnGround<Dim> on_ground{scene.nodes, scene.ground};
   const auto candidates = [](const auto& ground) { return ground.candidate; };
   const auto& motion = scene.model.motion;
   const Pass<decltype(on_ground), decltype(sees_candidates), decltype(candidates)> near_ground{
       "near ground", on_ground, sees_candidates, candidates};
-  expect_the_bits_of_lanes(near_ground, scene, weights,
-                           terrain::AddNearGround<Dim, double>{motion.phases, motion.lubrication});
-  mpm::for_particles_in_memory(scene.particles, terrain::LeaveBand<Dim, double>{});
+  expect_the_bits_of_lanes(near_ground, scene, weights, terrain::AddNearGround<Dim>{motion.phases, motion.lubrication});
+  mpm::for_particles_in_memory(scene.particles, terrain::LeaveBand<Dim>{});
   const auto in_band = fields_by_id(scene.particles).at("in_band");
   EXPECT_EQ(std::count(in_band.begin(), in_band.end(), 0.0), static_cast<std::ptrdiff_t>(in_band.size()));
-  const Pass<mpm::Nodes<Dim, double>, decltype(sees_candidates), decltype(everywhere)> band{
-      "band", scene.nodes, sees_candidates, everywhere};
-  expect_the_bits_of_lanes(band, scene, mpm::LinearWeights{}, terrain::MarkBand<Dim, double>{dt});
+  const Pass<mpm::Nodes<Dim>, decltype(sees_candidates), decltype(everywhere)> band{"band", scene.nodes,
+                                                                                    sees_candidates, everywhere};
+  expect_the_bits_of_lanes(band, scene, mpm::LinearWeights{}, terrain::MarkBand<Dim>{dt});
   // In one pass with what needs nothing of it, of which all particles take part.
-  expect_the_bits_of_lanes("move and band", scene, weights, mpm::Move<Dim, double>{0.1, dt},
-                           terrain::MarkBand<Dim, double>{dt});
+  expect_the_bits_of_lanes("move and band", scene, weights, mpm::Move<Dim>{0.1, dt}, terrain::MarkBand<Dim>{dt});
 }
 
 // New positions by tiles and in memory; some particles would leave the domain.
@@ -63,7 +61,7 @@ template <int Dim>
 void expect_the_same_positions(Scene<Dim>& scene) {
   Vector<double, Dim> lower = Vector<double, Dim>::Constant(-1e3), upper = -lower;
   upper[0] = scene.particles.position(scene.particles.size() / 2, 0);
-  const mpm::UpdatePosition<Dim, double> kernel{lower, upper};
+  const mpm::UpdatePosition<Dim> kernel{lower, upper};
   std::vector<mpm::InvalidParticle> invalid;
   const auto bits = [&](const auto& run) {
     return bits_of<mpm::RecordList<>>(scene, everywhere, [&](auto& particles, auto& /*sums*/) {
@@ -78,7 +76,7 @@ void expect_the_same_positions(Scene<Dim>& scene) {
   const Bits in_memory = bits([&](auto& particles) { return mpm::for_particles_in_memory(particles, kernel); });
   EXPECT_TRUE(are_same(by_tiles, in_memory));
   EXPECT_NE(by_tiles.at("position"), fields_by_id(scene.particles).at("position"));
-  const Pass<mpm::Nodes<Dim, double>, decltype(mpm::every_tile), decltype(everywhere)> pass{
+  const Pass<mpm::Nodes<Dim>, decltype(mpm::every_tile), decltype(everywhere)> pass{
       "positions", scene.nodes, mpm::every_tile, everywhere,
       false};  // the bad particle of smallest id may be of a later chunk
   expect_the_bits_of_lanes(pass, scene, mpm::LinearWeights{}, kernel);
@@ -90,7 +88,7 @@ void expect_the_same_positions(Scene<Dim>& scene) {
 
 template <int Dim>
 void expect_all_kernels_agree() {
-  Simulation<Dim, double> simulation(two_bodies<Dim>(2e4, 3.0, 3.0));
+  Simulation<Dim> simulation(two_bodies<Dim>(2e4, 3.0, 3.0));
   for (int k = 0; k < 60; ++k) {
     simulation.step(0.002);
   }
@@ -98,35 +96,35 @@ void expect_all_kernels_agree() {
   constexpr double dt = 0.002;
   auto& motion = scene.model.motion;
   const auto& band = scene.model.band;
-  const mpm::MomentumWeights<mpm::Ugimp<double>, Dim, double> ugimp{motion.sizes, motion.sides};
-  const mpm::MomentumWeights<mpm::Quadratic<double>, Dim, double> quadratic{motion.sizes, motion.sides};
-  const mpm::MomentumWeights<mpm::Linear<double>, Dim, double> linear{motion.sizes, motion.sides};
-  const mpm::AffineWeights<mpm::Ugimp<double>, Dim, double> affine{{motion.sizes, motion.sides}};
+  const mpm::MomentumWeights<mpm::Ugimp, Dim> ugimp{motion.sizes, motion.sides};
+  const mpm::MomentumWeights<mpm::Quadratic, Dim> quadratic{motion.sizes, motion.sides};
+  const mpm::MomentumWeights<mpm::Linear, Dim> linear{motion.sizes, motion.sides};
+  const mpm::AffineWeights<mpm::Ugimp, Dim> affine{{motion.sizes, motion.sides}};
   const mpm::LinearWeights by_linear;
-  const mpm::AddMomentum<Dim, double> momentum{motion.gravity, motion.effective_stress, motion.viscous()};
-  const mpm::UpdateStress<Dim, double> stress{motion.materials.data(), motion.phases, motion.effective_stress, dt};
-  expect_the_bits_of_lanes("averages", scene, by_linear, band::AddAverages<Dim, double>{});
+  const mpm::AddMomentum<Dim> momentum{motion.gravity, motion.effective_stress, motion.viscous()};
+  const mpm::UpdateStress<Dim> stress{motion.materials.data(), motion.phases, motion.effective_stress, dt};
+  expect_the_bits_of_lanes("averages", scene, by_linear, band::AddAverages<Dim>{});
   expect_the_bits_of_lanes("momentum", scene, ugimp, momentum);
   expect_the_bits_of_lanes("momentum, quadratic", scene, quadratic, momentum);
-  expect_the_bits_of_lanes("momentum, affine", scene, affine, mpm::AddAffineMomentum<Dim, double>{});
-  expect_the_bits_of_lanes("move", scene, ugimp, mpm::Move<Dim, double>{0.1, dt});
-  expect_the_bits_of_lanes("move, linear", scene, linear, mpm::Move<Dim, double>{0.1, dt});
-  expect_the_bits_of_lanes("move, affine", scene, affine, mpm::MoveAffine<Dim, double>{dt});
-  expect_the_bits_of_lanes("moments", scene, ugimp, mpm::AddFilterMoments<Dim, double>{});
-  expect_the_bits_of_lanes("momentum to filter", scene, ugimp, mpm::AddFilterMomentum<Dim, double>{});
-  expect_the_bits_of_lanes("sweep", scene, quadratic, mpm::SweepFilter<Dim, double>{});
-  expect_the_bits_of_lanes("filtered", scene, ugimp, mpm::ApplyFiltered<Dim, double>{});
+  expect_the_bits_of_lanes("momentum, affine", scene, affine, mpm::AddAffineMomentum<Dim>{});
+  expect_the_bits_of_lanes("move", scene, ugimp, mpm::Move<Dim>{0.1, dt});
+  expect_the_bits_of_lanes("move, linear", scene, linear, mpm::Move<Dim>{0.1, dt});
+  expect_the_bits_of_lanes("move, affine", scene, affine, mpm::MoveAffine<Dim>{dt});
+  expect_the_bits_of_lanes("moments", scene, ugimp, mpm::AddFilterMoments<Dim>{});
+  expect_the_bits_of_lanes("momentum to filter", scene, ugimp, mpm::AddFilterMomentum<Dim>{});
+  expect_the_bits_of_lanes("sweep", scene, quadratic, mpm::SweepFilter<Dim>{});
+  expect_the_bits_of_lanes("filtered", scene, ugimp, mpm::ApplyFiltered<Dim>{});
   expect_the_bits_near_the_ground(scene, ugimp, dt);
   expect_the_bits_near_the_ground(scene, quadratic, dt);
   expect_the_bits_of_lanes("stress", scene, ugimp, stress);
   expect_the_bits_of_lanes("seepage", scene, by_linear,
-                           band::SeepageFlows<Dim, double>{band, band.hydraulic(), dt, scene.grid.inverse_cell()});
-  band::FlowDepth<Dim, double> depth;
+                           band::SeepageFlows<Dim>{band, band.hydraulic(), dt, scene.grid.inverse_cell()});
+  band::FlowDepth<Dim> depth;
   depth.update(scene.grid, band, {}, scene.particles);
   expect_the_bits_of_lanes("pressure", scene, by_linear,
-                           band::UpdatePorePressure<Dim, double, true, false>{scene.grid, band, depth});
+                           band::UpdatePorePressure<Dim, true, false>{scene.grid, band, depth});
   expect_the_bits_of_lanes("pressure without seepage", scene, by_linear,
-                           band::UpdatePorePressure<Dim, double, false, false>{scene.grid, band, depth});
+                           band::UpdatePorePressure<Dim, false, false>{scene.grid, band, depth});
   auto balanced = band;
   balanced.frozen_rows = band::FrozenRows::sealed;
   balanced.ice_presses = false;
@@ -134,24 +132,23 @@ void expect_all_kernels_agree() {
   balanced.water.law = physics::WaterExpansionLaw::by_temperature;
   balanced.conservative_advection = true;
   expect_the_bits_of_lanes("seeping water", scene, by_linear,
-                           band::AddSeepingWater<Dim, double>{balanced, balanced.hydraulic()});
-  expect_the_bits_of_lanes(
-      "seepage between sealed rows", scene, by_linear,
-      band::SeepageFlows<Dim, double>{balanced, balanced.hydraulic(), dt, scene.grid.inverse_cell()});
+                           band::AddSeepingWater<Dim>{balanced, balanced.hydraulic()});
+  expect_the_bits_of_lanes("seepage between sealed rows", scene, by_linear,
+                           band::SeepageFlows<Dim>{balanced, balanced.hydraulic(), dt, scene.grid.inverse_cell()});
   expect_the_bits_of_lanes("pressure by the balance of water", scene, by_linear,
-                           band::UpdatePorePressure<Dim, double, true, true>{scene.grid, balanced, depth});
-  expect_the_bits_of_lanes("orphan heat", scene, ugimp, band::RedistributeUnreachedHeat<Dim, double>{dt});
+                           band::UpdatePorePressure<Dim, true, true>{scene.grid, balanced, depth});
+  expect_the_bits_of_lanes("orphan heat", scene, ugimp, band::RedistributeUnreachedHeat<Dim>{dt});
   band::with_particle_heat(band, [&](const auto& law) {
     using Law = std::decay_t<decltype(law)>;
-    const band::HeatFlows<Dim, double, Law> flows{band, band.hydraulic(), law, dt, scene.grid.inverse_cell(), true};
+    const band::HeatFlows<Dim, Law> flows{band, band.hydraulic(), law, dt, scene.grid.inverse_cell(), true};
     expect_the_bits_of_lanes("heat flows", scene, by_linear, flows);
-    const band::HeatFlows<Dim, double, Law> conserving{balanced, balanced.hydraulic(),      law,
-                                                       dt,       scene.grid.inverse_cell(), true};
+    const band::HeatFlows<Dim, Law> conserving{balanced, balanced.hydraulic(),      law,
+                                               dt,       scene.grid.inverse_cell(), true};
     expect_the_bits_of_lanes("heat flows with the water's heat", scene, by_linear, conserving);
-    expect_the_bits_of_lanes("secant capacity", scene, by_linear, band::SecantCapacity<Dim, double, Law>{law, dt});
-    expect_the_bits_of_lanes("heat", scene, by_linear, band::UpdateHeat<Dim, double, Law>{band, law, dt});
+    expect_the_bits_of_lanes("secant capacity", scene, by_linear, band::SecantCapacity<Dim, Law>{law, dt});
+    expect_the_bits_of_lanes("heat", scene, by_linear, band::UpdateHeat<Dim, Law>{band, law, dt});
     expect_the_bits_of_lanes("heat as printed", scene, by_linear,
-                             band::UpdateHeatApparentCapacity<Dim, double, Law>{band, law, dt});
+                             band::UpdateHeatApparentCapacity<Dim, Law>{band, law, dt});
   });
   expect_the_same_positions(scene);
 }

@@ -10,9 +10,9 @@ namespace {
 
 TEST(DeviceRun, EndsWithTheSameWords) {
   const config::Case parameters = sliding_bodies<2>();
-  Simulation<2, double> emulated(parameters), on_device(parameters);
+  Simulation<2> emulated(parameters), on_device(parameters);
   on_device.use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
-  for (Simulation<2, double>* simulation : {&emulated, &on_device}) {
+  for (Simulation<2>* simulation : {&emulated, &on_device}) {
     for (std::size_t p = 0; p < simulation->particles().size(); ++p) {
       simulation->particles().velocity(p, 0) = -500.0;
     }
@@ -25,15 +25,15 @@ TEST(DeviceRun, EndsWithTheSameWords) {
 // Steps until it breaks down, or until particles are asked for.
 class BreaksDown final : public PassesOn<2> {
  public:
-  BreaksDown(std::unique_ptr<device::Solver<2, double>> steps, int sound) : PassesOn(std::move(steps)), left_(sound) {}
+  BreaksDown(std::unique_ptr<device::Solver<2>> steps, int sound) : PassesOn(std::move(steps)), left_(sound) {}
 
-  device::StepSums<2, double> step(double time, double dt) override {
+  device::StepSums<2> step(double time, double dt) override {
     if (left_-- == 0) {
       throw device::Failure("allocating memory on the GPU: out of memory");
     }
     return PassesOn::step(time, dt);
   }
-  void copy_to(const mpm::ParticleView<2, double>& /*particles*/) override {
+  void copy_to(const mpm::ParticleView<2>& /*particles*/) override {
     throw device::Failure("copying from the GPU: unspecified launch failure");
   }
 
@@ -43,7 +43,7 @@ class BreaksDown final : public PassesOn<2> {
 
 // Steps of a device that breaks down after so many; returns what is told, and the particles that are left.
 std::string reported_failure(int sound, int steps) {
-  Simulation<2, double> simulation(sliding_bodies<2>());
+  Simulation<2> simulation(sliding_bodies<2>());
   const auto at_start = fields_by_id(simulation.particles());
   const auto make = [sound](const auto& model, const auto& particles, std::size_t count, auto ask) {
     return std::make_unique<BreaksDown>(emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)),
@@ -70,7 +70,7 @@ TEST(DeviceRun, TellsOfADeviceThatFails) {
 
 // The same while a body settles.
 TEST(DeviceRun, TellsOfADeviceThatFailsAsABodySettles) {
-  Simulation<2, double> simulation(sliding_bodies<2>(
+  Simulation<2> simulation(sliding_bodies<2>(
       {"mechanics.initial_stress=\"settle\"", "mechanics.settle_time=0.1", "mechanics.settle_damping=5.0"}));
   simulation.use_device("a GPU", [](const auto& model, const auto& particles, std::size_t count, auto ask) {
     return std::make_unique<BreaksDown>(emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)),
@@ -82,11 +82,11 @@ TEST(DeviceRun, TellsOfADeviceThatFailsAsABodySettles) {
 // From the numbers of a checkpoint, on the processor or on a device again.
 TEST(DeviceRun, GoesOnFromACheckpoint) {
   const config::Case parameters = sliding_bodies<2>({"time.stepping=\"adaptive\""});
-  Simulation<2, double> whole(parameters), first(parameters);
-  for (Simulation<2, double>* simulation : {&whole, &first}) {
+  Simulation<2> whole(parameters), first(parameters);
+  for (Simulation<2>* simulation : {&whole, &first}) {
     simulation->use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
   }
-  const auto go_on = [](Simulation<2, double>& simulation, int steps) {
+  const auto go_on = [](Simulation<2>& simulation, int steps) {
     for (int k = 0; k < steps; ++k) {
       simulation.step(simulation.next_step(10.0));
     }
@@ -94,15 +94,15 @@ TEST(DeviceRun, GoesOnFromACheckpoint) {
   go_on(whole, 30);
   go_on(first, 13);
   const std::filesystem::path folder = folder_of_this_test();
-  io::write_checkpoint<2, double>(folder, std::as_const(first).particles(), first.particles_at_start(), first.scalars(),
-                                  {}, "");
+  io::write_checkpoint<2>(folder, std::as_const(first).particles(), first.particles_at_start(), first.scalars(), {},
+                          "");
   for (const bool on_device : {false, true}) {
-    Simulation<2, double> second(parameters);
+    Simulation<2> second(parameters);
     if (on_device) {
       second.use_device("a GPU", emulated_gpu<2>(ThreadOrder::backward));
     }
     std::vector<double> numbers;
-    io::read_checkpoint<2, double>(io::newest_checkpoint(folder), second.particles(), numbers);
+    io::read_checkpoint<2>(io::newest_checkpoint(folder), second.particles(), numbers);
     second.restore(numbers);
     go_on(second, 17);
     EXPECT_EQ(second.time(), whole.time());
@@ -125,7 +125,7 @@ TEST(DeviceRun, RefusesWhatNoDeviceDoesYet) {
   cases.emplace_back(sliding_bodies<2>(), "a [frame]");
   cases.back().first.frames["driver"] = {{-3.0, 2.4}, {7.5, 20.0}, "x", 25.0};
   for (const auto& [parameters, specified] : cases) {
-    Simulation<2, double> simulation(parameters);
+    Simulation<2> simulation(parameters);
     try {
       simulation.use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
       ADD_FAILURE() << specified;

@@ -22,41 +22,41 @@ using namespace testing_support;
 using device::Host, device::ThreadOrder;
 
 template <int Dim>
-device::SolverFactory<Dim, double> emulated_gpu(ThreadOrder order) {
+device::SolverFactory<Dim> emulated_gpu(ThreadOrder order) {
   return device::emulated<Dim>(order);
 }
 
 // Leaves all to other steps, for tests that change some of it.
 template <int Dim>
-class PassesOn : public device::Solver<Dim, double> {
+class PassesOn : public device::Solver<Dim> {
  public:
-  explicit PassesOn(std::unique_ptr<device::Solver<Dim, double>> steps) : steps_(std::move(steps)) {}
+  explicit PassesOn(std::unique_ptr<device::Solver<Dim>> steps) : steps_(std::move(steps)) {}
 
-  device::StepSums<Dim, double> step(double time, double dt) override { return steps_->step(time, dt); }
-  mpm::MonitorSums<double> watch(const mpm::MonitorKernel<Dim, double>& look) override { return steps_->watch(look); }
-  void sample_map(const mpm::MapCells& cells, device::MapSample& look) override { steps_->sample_map(cells, look); }
-  band::BodySums<Dim, double> sum_over_body(const band::SumsOfParticle<Dim, double>& of_particle) override {
+  device::StepSums<Dim> step(double time, double dt) override { return steps_->step(time, dt); }
+  mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) override { return steps_->monitor(kernel); }
+  void sample_map(const mpm::MapCells& cells, device::MapSample& sample) override { steps_->sample_map(cells, sample); }
+  band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) override {
     return steps_->sum_over_body(of_particle);
   }
   mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) override { return steps_->front(way, mass); }
   std::vector<Vector<double, Dim>> escaped_positions() override { return steps_->escaped_positions(); }
   void sort_in_memory() override { steps_->sort_in_memory(); }
-  void copy_to(const mpm::ParticleView<Dim, double>& particles) override { steps_->copy_to(particles); }
+  void copy_to(const mpm::ParticleView<Dim>& particles) override { steps_->copy_to(particles); }
   void time_stages() override {}
   [[nodiscard]] std::map<std::string, double> seconds() const override { return {}; }
 
  private:
-  std::unique_ptr<device::Solver<Dim, double>> steps_;
+  std::unique_ptr<device::Solver<Dim>> steps_;
 };
 
 // Counts how often particles come back.
 template <int Dim>
 class CountsCopies final : public PassesOn<Dim> {
  public:
-  CountsCopies(std::unique_ptr<device::Solver<Dim, double>> steps, int& copies)
+  CountsCopies(std::unique_ptr<device::Solver<Dim>> steps, int& copies)
       : PassesOn<Dim>(std::move(steps)), copies_(copies) {}
 
-  void copy_to(const mpm::ParticleView<Dim, double>& particles) override {
+  void copy_to(const mpm::ParticleView<Dim>& particles) override {
     ++copies_;
     PassesOn<Dim>::copy_to(particles);
   }
@@ -65,7 +65,7 @@ class CountsCopies final : public PassesOn<Dim> {
   int& copies_;
 };
 template <int Dim>
-device::SolverFactory<Dim, double> counting_copies(ThreadOrder order, int& copies) {
+device::SolverFactory<Dim> counting_copies(ThreadOrder order, int& copies) {
   return [order, &copies](const auto& model, const auto& particles, std::size_t count, auto ask) {
     return std::make_unique<CountsCopies<Dim>>(emulated_gpu<Dim>(order)(model, particles, count, std::move(ask)),
                                                copies);
@@ -80,7 +80,7 @@ config::Case sliding_bodies(const std::vector<std::string>& more = {}, const std
 }
 
 template <int Dim>
-void expect_the_same_particles(const Simulation<Dim, double>& found, const Simulation<Dim, double>& expected) {
+void expect_the_same_particles(const Simulation<Dim>& found, const Simulation<Dim>& expected) {
   const auto numbers = fields_by_id(found.particles());
   for (const auto& [name, of_cpu] : fields_by_id(expected.particles())) {
     ASSERT_EQ(numbers.at(name).size(), of_cpu.size()) << name;
@@ -89,7 +89,7 @@ void expect_the_same_particles(const Simulation<Dim, double>& found, const Simul
 }
 
 template <int Dim>
-std::string error_of(Simulation<Dim, double>& simulation) {
+std::string error_of(Simulation<Dim>& simulation) {
   try {
     for (int k = 0; k < 200; ++k) {
       simulation.step(0.002);

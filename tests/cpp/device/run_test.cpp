@@ -17,7 +17,7 @@ namespace {
 // Returns how often particles came back from the device before anyone asked for them.
 template <int Dim>
 int expect_the_same_run(const config::Case& parameters, int steps, const config::Site& site = {}) {
-  Simulation<Dim, double> emulated(parameters, site), on_device(parameters, site);
+  Simulation<Dim> emulated(parameters, site), on_device(parameters, site);
   int copies = 0;
   on_device.use_device("a GPU", counting_copies<Dim>(ThreadOrder::shuffled, copies));
   on_device.set_sorting_interval(32);
@@ -92,7 +92,7 @@ template <int Dim>
 void expect_the_same_columns(int steps) {
   const config::Case parameters = sliding_bodies<Dim>(on_columns);
   EXPECT_EQ(expect_the_same_run<Dim>(parameters, steps), 0);
-  Simulation<Dim, double> emulated(parameters), on_device(parameters);
+  Simulation<Dim> emulated(parameters), on_device(parameters);
   on_device.use_device("a GPU", emulated_gpu<Dim>(ThreadOrder::forward));
   const std::size_t at_start = emulated.band_columns()->segments().size();
   for (int k = 0; k < steps; ++k) {
@@ -114,7 +114,7 @@ void expect_the_same_bed(const std::vector<std::string>& more, int steps) {
   sets.insert(sets.end(), more.begin(), more.end());
   const config::Case parameters = sliding_bodies<Dim>(sets);
   EXPECT_GT(expect_the_same_run<Dim>(parameters, steps), 0);
-  Simulation<Dim, double> emulated(parameters), on_device(parameters);
+  Simulation<Dim> emulated(parameters), on_device(parameters);
   on_device.use_device("a GPU", emulated_gpu<Dim>(ThreadOrder::backward));
   for (int k = 0; k < steps; ++k) {
     emulated.step(0.002);
@@ -138,7 +138,7 @@ TEST(DeviceRun, EntrainsTheBedOfTheCpu) {
 TEST(DeviceRun, SettlesABody) {
   const config::Case parameters = sliding_bodies<2>(
       {"mechanics.initial_stress=\"settle\"", "mechanics.settle_time=0.1", "mechanics.settle_damping=5.0"});
-  Simulation<2, double> emulated(parameters), on_device(parameters);
+  Simulation<2> emulated(parameters), on_device(parameters);
   int copies = 0;
   on_device.use_device("a GPU", counting_copies<2>(ThreadOrder::shuffled, copies));
   EXPECT_TRUE(emulated.settle() && on_device.settle());
@@ -155,7 +155,7 @@ TEST(DeviceRun, SettlesABody) {
 // They come back when some have left, and only then.
 TEST(DeviceRun, RemovesWhatLeaves) {
   const config::Case parameters = sliding_bodies<2>({"grid.leaving=remove", "grid.max=[11.0,18.0]"});
-  Simulation<2, double> simulation(parameters);
+  Simulation<2> simulation(parameters);
   while (simulation.removed().left == 0) {
     simulation.step(0.002);
   }
@@ -187,7 +187,7 @@ TEST(DeviceRun, StaysOnGroundThatIsKnown) {
   EXPECT_EQ(expect_the_same_run<3>(by_layer, 12, bumpy_site(40.0)), 0);
   std::vector<std::string> specified;
   for (const bool on_device : {false, true}) {
-    Simulation<3, double> simulation(parameters, bumpy_site(8.0));
+    Simulation<3> simulation(parameters, bumpy_site(8.0));
     if (on_device) {
       simulation.use_device("a GPU", emulated_gpu<3>(ThreadOrder::forward));
     }
@@ -204,7 +204,7 @@ TEST(DeviceRun, ChecksEscapedParticlesAlone) {
   for (double known_to = 30.0;; known_to -= 0.5) {
     ASSERT_GT(known_to, 0.0) << "no ground ends beside the slide";
     const config::Site site = bumpy_site(known_to, 0.5);
-    Simulation<3, double> simulation(parameters, site);
+    Simulation<3> simulation(parameters, site);
     bool adjacent = false;
     for (std::size_t t = 0; t < simulation.grid().tiles().size(); ++t) {
       const auto own = static_cast<std::size_t>(simulation.grid().blocks_about_tile(t)[mpm::Tile<3>::stencil / 2]);
@@ -246,7 +246,7 @@ TEST(DeviceRun, GathersTheMapsOfTheCpu) {
   for (const std::vector<std::string>& sets : choices) {
     SCOPED_TRACE(sets.front());
     const config::Case parameters = sliding_bodies<3>(sets);
-    Simulation<3, double> emulated(parameters), on_device(parameters);
+    Simulation<3> emulated(parameters), on_device(parameters);
     int copies = 0;
     on_device.use_device("a GPU", counting_copies<3>(ThreadOrder::backward, copies));
     RunRecords<3> expected(emulated, {}), found(on_device, {});
@@ -272,7 +272,7 @@ TEST(DeviceRun, GathersTheMapsOfTheCpu) {
 
 // However a device sorts them.
 TEST(DeviceRun, BringsParticlesBackInTheirOrder) {
-  Simulation<2, double> simulation(sliding_bodies<2>());
+  Simulation<2> simulation(sliding_bodies<2>());
   const auto ids = [&] {
     const auto& particles = std::as_const(simulation).particles();
     std::vector<std::int64_t> by_place(particles.size());
@@ -293,13 +293,13 @@ TEST(DeviceRun, BringsParticlesBackInTheirOrder) {
 // Steps go on from particles that the processor has changed.
 TEST(DeviceRun, ContinuesFromParticlesChangedOnTheCpu) {
   const config::Case parameters = sliding_bodies<2>();
-  Simulation<2, double> emulated(parameters), on_device(parameters);
+  Simulation<2> emulated(parameters), on_device(parameters);
   on_device.use_device("a GPU", emulated_gpu<2>(ThreadOrder::backward));
-  for (Simulation<2, double>* simulation : {&emulated, &on_device}) {
+  for (Simulation<2>* simulation : {&emulated, &on_device}) {
     for (int k = 0; k < 7; ++k) {
       simulation->step(0.002);
     }
-    mpm::Particles<2, double>& particles = simulation->particles();
+    mpm::Particles<2>& particles = simulation->particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       particles.velocity(p, 0) *= 0.5;
     }

@@ -14,8 +14,7 @@ namespace thawslide::testing_support {
 template <int Dim>
 class Scene {
  public:
-  explicit Scene(const sim::Simulation<Dim, double>& simulation)
-      : model(simulation.model()), grid(simulation.grid().cell()) {
+  explicit Scene(const sim::Simulation<Dim>& simulation) : model(simulation.model()), grid(simulation.grid().cell()) {
     copy(simulation.particles(), particles);
     grid.update(particles, 64);
     particles.affine_velocity.keep(true);
@@ -53,7 +52,7 @@ class Scene {
     }
   }
 
-  static void copy(const mpm::Particles<Dim, double>& from, mpm::Particles<Dim, double>& to) {
+  static void copy(const mpm::Particles<Dim>& from, mpm::Particles<Dim>& to) {
     to.resize(from.size());
     for (std::size_t f = 0; f < from.fields.all().size(); ++f) {
       to.fields.all()[f]->set_bytes(from.fields.all()[f]->bytes());
@@ -79,11 +78,11 @@ class Scene {
     }
   }
 
-  sim::Model<Dim, double> model;
-  mpm::SparseGrid<Dim, double> grid;
-  mpm::Particles<Dim, double> particles;
-  mpm::Nodes<Dim, double> nodes;
-  terrain::GroundOnGrid<Dim, double> ground;
+  sim::Model<Dim> model;
+  mpm::SparseGrid<Dim> grid;
+  mpm::Particles<Dim> particles;
+  mpm::Nodes<Dim> nodes;
+  terrain::GroundOnGrid<Dim> ground;
 };
 
 }  // namespace thawslide::testing_support

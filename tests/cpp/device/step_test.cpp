@@ -24,7 +24,7 @@ using namespace testing_support;
 using device::Host, device::ThreadOrder;
 
 template <int Dim>
-device::StepModel<Dim, double> step_model_of(const Simulation<Dim, double>& simulation) {
+device::StepModel<Dim> step_model_of(const Simulation<Dim>& simulation) {
   EXPECT_EQ(not_on_devices(simulation.parameters(), simulation.model()), "");
   return device_model_of(simulation.parameters(), simulation.model(), true);
 }
@@ -33,8 +33,8 @@ device::StepModel<Dim, double> step_model_of(const Simulation<Dim, double>& simu
 const std::set<std::string> of_band{"thermal_scaling"};
 
 template <int Dim>
-void expect_the_same_particles(const mpm::Particles<Dim, double>& expected, const mpm::Particles<Dim, double>& found,
-                               bool band, const std::string& when) {
+void expect_the_same_particles(const mpm::Particles<Dim>& expected, const mpm::Particles<Dim>& found, bool band,
+                               const std::string& when) {
   const auto numbers = fields_by_id(found);
   for (const auto& [name, of_cpu] : fields_by_id(expected)) {
     if (band || of_band.count(name) == 0) {
@@ -45,8 +45,8 @@ void expect_the_same_particles(const mpm::Particles<Dim, double>& expected, cons
 }
 
 template <int Dim>
-void expect_the_same_contact(const terrain::ContactWork<Dim, double>& expected,
-                             const terrain::ContactWork<Dim, double>& found, const std::string& when) {
+void expect_the_same_contact(const terrain::ContactWork<Dim>& expected, const terrain::ContactWork<Dim>& found,
+                             const std::string& when) {
   EXPECT_EQ(found.friction_work, expected.friction_work) << when;
   EXPECT_EQ(found.loss, expected.loss) << when;
   EXPECT_EQ(found.damping, expected.damping) << when;
@@ -63,7 +63,7 @@ struct Brought {
   double friction_heat = 0, advection = 0, band_rescale = 0, drained_water = 0, drained_heat = 0, vented_water = 0;
 
   template <int Dim>
-  void add(const device::StepSums<Dim, double>& sums) {
+  void add(const device::StepSums<Dim>& sums) {
     friction_heat += sums.heat.friction;
     advection += sums.heat.advection;
     band_rescale += sums.band_rescale;
@@ -73,8 +73,8 @@ struct Brought {
   }
 };
 template <int Dim>
-void expect_the_same_ledger(const Simulation<Dim, double>& simulation, const Brought& found, const std::string& when) {
-  const Ledger<Dim, double>& expected = simulation.ledger();
+void expect_the_same_ledger(const Simulation<Dim>& simulation, const Brought& found, const std::string& when) {
+  const Ledger<Dim>& expected = simulation.ledger();
   if (simulation.model().band.heat) {
     EXPECT_EQ(found.friction_heat, expected.friction_heat) << when;
     EXPECT_EQ(found.advection, expected.advection) << when;
@@ -100,8 +100,8 @@ std::ptrdiff_t count(const std::vector<double>& first, const AtFirst& at_first, 
 
 // That the slide does what the comparison is of.
 template <int Dim>
-void expect_water_to_work(const Simulation<Dim, double>& simulation, const Fields& first) {
-  const band::BandModel<Dim, double>& band = simulation.model().band;
+void expect_water_to_work(const Simulation<Dim>& simulation, const Fields& first) {
+  const band::BandModel<Dim>& band = simulation.model().band;
   const Fields now = fields_by_id(simulation.particles());
   const auto melted = [&](double temperature) { return temperature >= band.reference_temperature; };
   const auto frozen = std::not_fn(melted);
@@ -131,12 +131,12 @@ void expect_water_to_work(const Simulation<Dim, double>& simulation, const Field
 template <int Dim>
 void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int sorted_before, const Host& with) {
   constexpr double dt = 0.002;
-  Simulation<Dim, double> simulation(parameters);
+  Simulation<Dim> simulation(parameters);
   ASSERT_EQ(simulation.model().motion.shape, mpm::ShapeFunction::ugimp);
   Host host = with;
-  device::Step<Host, mpm::Ugimp<double>, Dim, double> mechanics(
-      host, step_model_of(simulation), mpm::view_of(simulation.particles()), simulation.particles().size(),
-      terrain_for_device(simulation.model(), simulation.grid().cell()));
+  device::Step<Host, mpm::Ugimp, Dim> mechanics(host, step_model_of(simulation), mpm::view_of(simulation.particles()),
+                                                simulation.particles().size(),
+                                                terrain_for_device(simulation.model(), simulation.grid().cell()));
   const bool heat = simulation.model().band.heat, pressure = simulation.model().band.pressure;
   const Fields first = fields_by_id(simulation.particles());
   Brought brought;
@@ -161,7 +161,7 @@ void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int 
   EXPECT_GT(simulation.ledger().plastic, 0.0);
   EXPECT_NE(simulation.grid().blocks(), blocks);
   EXPECT_EQ(mechanics.tables().tiles, simulation.grid().tiles().size());
-  mpm::Particles<Dim, double> found;
+  mpm::Particles<Dim> found;
   found.resize(simulation.particles().size());
   mechanics.copy_to(mpm::view_of(found));
   expect_the_same_particles(simulation.particles(), found, heat || pressure, "at the end");
@@ -252,11 +252,11 @@ TEST(DeviceStep, HasThemWithPorePressureInSpace) {
 // whether there is one, whether water seeps (for the averages, and for the pressures) and the sums of the step.
 TEST(DeviceStep, IsSubmittedInFourGraphs) {
   const config::Case parameters = with_pressure<3>(balanced("vented"));
-  Simulation<3, double> simulation(parameters);
+  Simulation<3> simulation(parameters);
   Host host;
-  device::Step<Host, mpm::Ugimp<double>, 3, double> steps(
-      host, step_model_of(simulation), mpm::view_of(simulation.particles()), simulation.particles().size(),
-      terrain_for_device(simulation.model(), simulation.grid().cell()));
+  device::Step<Host, mpm::Ugimp, 3> steps(host, step_model_of(simulation), mpm::view_of(simulation.particles()),
+                                          simulation.particles().size(),
+                                          terrain_for_device(simulation.model(), simulation.grid().cell()));
   // Steps so short that some of the later ones leave all particles in their cells.
   std::size_t fewest_waits = 1000, launches = 0;
   double time = 0.0;

@@ -20,7 +20,7 @@ config::Case slide_over_bed(const std::string& depth) {
 }
 
 double taken_after(const config::Case& parameters) {
-  sim::Simulation<3, double> simulation(parameters, load_site(parameters).site);
+  sim::Simulation<3> simulation(parameters, load_site(parameters).site);
   while (simulation.time() < parameters.time.end) {
     simulation.step(simulation.next_step(parameters.time.end));
   }

@@ -13,7 +13,7 @@ using namespace site_case;
 
 constexpr double thickness = 12.0;  // m
 
-using Simulation = sim::Simulation<3, double>;
+using Simulation = sim::Simulation<3>;
 
 Simulation with(const std::string& key, const std::string& value) {
   const std::string text = fmt::format(

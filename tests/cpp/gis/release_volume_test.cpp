@@ -105,7 +105,7 @@ config::Case case_of(const std::string& placement, const std::string& along, con
 struct Sums {
   double volume = 0.0, mass = 0.0;
 
-  explicit Sums(const mpm::Particles<3, double>& particles) {
+  explicit Sums(const mpm::Particles<3>& particles) {
     for (std::size_t p = 0; p < particles.size(); ++p) {
       volume += particles.volume(p);
       mass += particles.mass(p);
@@ -124,7 +124,7 @@ void take_differences(const config::Case& parameters, double volume, Differences
   };
   const config::Site site = load_site(parameters).site;
   warning(largest.raster, volume_of(site.releases.at("slide").thickness), volume);
-  sim::Simulation<3, double> simulation(parameters, site);
+  sim::Simulation<3> simulation(parameters, site);
   sim::RunRecords<3> records(simulation, site);
   records.start(simulation);
   const Sums start(simulation.particles());
@@ -180,7 +180,7 @@ TEST(ReleaseVolume, IsThatOfThePolygonsTimesTheThickness) {
 TEST(ReleaseVolume, TooThinForTheParticlesIsRefused) {
   config::Case parameters = case_of("on_top", "vertical", "0.25");
   const config::Site site = load_site(parameters).site;
-  const std::string message = error_of([&] { sim::Simulation<3, double>(parameters, site); });
+  const std::string message = error_of([&] { sim::Simulation<3>(parameters, site); });
   EXPECT_NE(
       message.find("because it is too thin there, or lies at its rim (allowed: 5 %). Set a smaller grid.cell or a "
                    "larger particles_per_axis, or check the unit of the thickness."),

@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "gis/point_window.hpp"
+#include "gis/release_thickness.hpp"
 #include "gis/sampling.hpp"
-#include "gis/slope.hpp"
 #include "gis/taper.hpp"
 #include "map_files.hpp"
 

@@ -225,10 +225,10 @@ TEST(RoughnessTest, BumpsOfSeveralPointsAreFilteredAlikeOnAllCells) {
   for (const double cell : {0.5 * spacing, 1.3 * spacing, 2.0 * spacing}) {
     const config::Roughness found = roughness_of(raster, span_of_points(raster), cell, {.is_auto = true});
     EXPECT_DOUBLE_EQ(found.width, width);
-    EXPECT_LE(found.slope_left, largest_slope);
+    EXPECT_LE(found.remaining_slope, largest_slope);
     EXPECT_GT(found.bump_slope, 0.1);
   }
-  EXPECT_GT(roughness_of(raster, span_of_points(raster), spacing, {.number = 0.5 * spacing}).slope_left, 0.1);
+  EXPECT_GT(roughness_of(raster, span_of_points(raster), spacing, {.number = 0.5 * spacing}).remaining_slope, 0.1);
 }
 
 // Friction found in runs without a filter, and with one: docs/theory/contact.md.
@@ -272,10 +272,11 @@ TEST(RoughnessTest, GroundOfACaseIsFilteredByItsNoise) {
   EXPECT_NEAR(found.width, 5.0, 1.0);
   EXPECT_EQ(found.narrow_valley, 40.0 * found.width);
   ASSERT_EQ(loaded.warnings.size(), 1U);
-  EXPECT_EQ(loaded.warnings.front(),
-            fmt::format("dem.tif was smoothed with a standard deviation of {:g} m, as it has noise of {:.2g} m rms and "
-                        "bumps with an rms slope of {:.2g} (terrain.smooth = \"auto\")",
-                        found.width, found.noise, found.bump_slope));
+  EXPECT_EQ(
+      loaded.warnings.front(),
+      fmt::format("note: dem.tif was smoothed with a standard deviation of {:g} m, as it has noise of {:.2g} m rms and "
+                  "bumps with an rms slope of {:.2g} (terrain.smooth = \"auto\")",
+                  found.width, found.noise, found.bump_slope));
   EXPECT_EQ(roughness_warning(parameters, loaded.site), "");
   const Raster &ground = *loaded.site.ground, whole = smoothed(rough, found.width);
   const auto column = static_cast<int>(std::lround((ground.x - west) / 5.0));

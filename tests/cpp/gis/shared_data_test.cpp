@@ -50,7 +50,7 @@ TEST_F(SharedDataTest, TagOfFluchthornIsNamed) {
   const SiteAndWarnings loaded = load_site(parameters);
   EXPECT_EQ(loaded.site.crs_name, "EPSG:31254");
   ASSERT_EQ(loaded.warnings.size(), 3U);
-  EXPECT_EQ(loaded.warnings[1].rfind("fluchthorn.tif was smoothed with a standard deviation of ", 0), 0U);
+  EXPECT_EQ(loaded.warnings[1].rfind("note: fluchthorn.tif was smoothed with a standard deviation of ", 0), 0U);
   EXPECT_EQ(loaded.warnings[2],
             "scarpFluchthorn_perimeter.shp specifies no coordinate reference system: that of the DEM, EPSG:31254, is "
             "assumed");

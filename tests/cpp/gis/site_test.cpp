@@ -49,9 +49,9 @@ TEST(SiteTest, CroppingChangesNoValueOfResampledAndSmoothedGround) {
     std::vector<std::string> warnings;
     if (distance > 0.0) {
       warnings.push_back(
-          fmt::format("dem.tif was resampled from points 5 m x 5 m apart to points {:g} m apart", distance));
+          fmt::format("note: dem.tif was resampled from points 5 m x 5 m apart to points {:g} m apart", distance));
     }
-    warnings.emplace_back("dem.tif was smoothed with a standard deviation of 8 m");
+    warnings.emplace_back("note: dem.tif was smoothed with a standard deviation of 8 m");
     EXPECT_EQ(loaded.warnings, warnings);
   }
 }
@@ -61,8 +61,9 @@ TEST(SiteTest, KeyOverrulesTheFile) {
   parameters.terrain.crs = "EPSG:31254";
   const SiteAndWarnings loaded = load_site(parameters);
   EXPECT_EQ(loaded.site.crs_name, "EPSG:31254");
-  EXPECT_EQ(loaded.warnings, std::vector<std::string>{
-                                 "dem.tif is read as EPSG:31254, as set by terrain.crs; the file specifies EPSG:4326"});
+  EXPECT_EQ(loaded.warnings,
+            std::vector<std::string>{
+                "note: dem.tif is read as EPSG:31254, as set by terrain.crs; the file specifies EPSG:4326"});
 }
 
 TEST(SiteTest, WrongTagIsToldAtTheKey) {

@@ -34,7 +34,7 @@ config::Case valley_case(const std::string& substrate) {
 const std::string slippery = "friction = \"coefficient\"\nfriction_coefficient = 0.05\n";
 
 sim::HistoryRow row_after(const config::Case& parameters) {
-  sim::Simulation<3, double> simulation(parameters, load_site(parameters).site);
+  sim::Simulation<3> simulation(parameters, load_site(parameters).site);
   while (simulation.time() < parameters.time.end) {
     simulation.step(simulation.next_step(parameters.time.end));
   }

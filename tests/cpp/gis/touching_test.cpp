@@ -53,7 +53,7 @@ struct Seeded {
 };
 
 Seeded seeded(const config::Case& parameters) {
-  const sim::Simulation<3, double> simulation(parameters, load_site(parameters).site);
+  const sim::Simulation<3> simulation(parameters, load_site(parameters).site);
   const auto& particles = simulation.particles();
   Seeded found;
   for (std::size_t p = 0; p < particles.size(); ++p) {

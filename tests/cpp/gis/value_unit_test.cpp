@@ -46,9 +46,10 @@ TEST(ValueUnitTest, LengthsInEverySpellingAreMetres) {
   for (const auto& [unit, metres] : units) {
     EXPECT_NEAR(computed(unit, Quantity::length, 50.0), 50.0 * metres, 1e-12) << unit;
     const std::string warning = conversion_from({"folder/map.tif", unit, "", 1.0}, Quantity::length).warning;
-    EXPECT_EQ(warning, metres == 1.0
-                           ? ""
-                           : fmt::format("map.tif states the unit '{}': its values were converted to metres", unit));
+    EXPECT_EQ(warning,
+              metres == 1.0
+                  ? ""
+                  : fmt::format("note: map.tif states the unit '{}': its values were converted to metres", unit));
   }
 }
 
@@ -67,7 +68,7 @@ TEST(ValueUnitTest, TemperaturesAndSharesAreConverted) {
   EXPECT_EQ(computed("1", Quantity::share, 0.3), 0.3);
   EXPECT_EQ(computed("whatever", Quantity::code, 7.0), 7.0);
   EXPECT_EQ(conversion_from({"map.tif", "K", "", 1.0}, Quantity::temperature).warning,
-            "map.tif states the unit 'K': its values were converted to degrees Celsius");
+            "note: map.tif states the unit 'K': its values were converted to degrees Celsius");
 }
 
 TEST(ValueUnitTest, UnknownUnitsAndThoseOfAnotherQuantityAreRefused) {
@@ -145,8 +146,8 @@ TEST(ValueUnitTest, VolumesAreThoseOfMetresInEveryUnit) {
     EXPECT_NEAR(bilinear(*loaded.site.ground, west + 400.0, south + 400.0, Missing::unknown), 1700.0, 1e-6) << unit;
     EXPECT_EQ(loaded.warnings,
               (std::vector<std::string>{
-                  fmt::format("dem.tif states the unit '{}': its values were converted to metres", unit),
-                  fmt::format("thickness.tif states the unit '{}': its values were converted to metres", unit)}));
+                  fmt::format("note: dem.tif states the unit '{}': its values were converted to metres", unit),
+                  fmt::format("note: thickness.tif states the unit '{}': its values were converted to metres", unit)}));
     std::filesystem::remove(in_folder("thickness.tif"));
   }
 }
@@ -162,8 +163,9 @@ TEST(ValueUnitTest, CompoundSystemsAreInThePlaceOfTheirHorizontalPart) {
   write_geotiff(in_folder("thickness.tif"), times(thickness, 3937.0 / 1200.0), {"", "thickness"});
   const SiteAndWarnings loaded = load_site(parameters);
   EXPECT_NEAR(volume_of(loaded.site.releases.at("rock").thickness), volume_of(thickness), 1e-6);
-  EXPECT_EQ(loaded.warnings, std::vector<std::string>{"thickness.tif states the unit 'US survey foot': its values were "
-                                                      "converted to metres"});
+  EXPECT_EQ(loaded.warnings,
+            std::vector<std::string>{"note: thickness.tif states the unit 'US survey foot': its values were "
+                                     "converted to metres"});
 }
 
 TEST(ValueUnitTest, UnitOfAnotherQuantityIsToldAtTheKey) {

@@ -88,7 +88,7 @@ TEST(VectorFileTest, OtherSystemsAreReprojectedAndSaid) {
   const std::string file =
       geojson("r.geojson", {{"", polygon_json({{x[0], y[0]}, {x[1], y[1]}, {x[2], y[2]}, {x[3], y[3]}})}}, "4326");
   const VectorLayer layer = read_polygons(file, ground());
-  EXPECT_EQ(layer.warnings, std::vector<std::string>{"r.geojson was reprojected from EPSG:4326 to EPSG:31287"});
+  EXPECT_EQ(layer.warnings, std::vector<std::string>{"note: r.geojson was reprojected from EPSG:4326 to EPSG:31287"});
   EXPECT_NEAR(layer.features.front().polygons.front().outline.front()[0], 400000.0, 0.01);
   EXPECT_NEAR(area_of(layer.features.front().polygons), 5000.0, 2.0);
 }

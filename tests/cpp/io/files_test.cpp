@@ -92,7 +92,7 @@ TEST_F(Files, HistoryGoesOnAfterATime) {
   EXPECT_EQ(read_file(file), "time_s,speed\n0,0\n0.5,1\n1,4\n1.5,7\n");
 }
 
-void fill(mpm::Particles<2, double>& particles) {
+void fill(mpm::Particles<2>& particles) {
   particles.resize(37);
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
@@ -117,14 +117,14 @@ std::vector<std::uint32_t> another_order(std::size_t count) {
 }
 
 TEST_F(Files, CheckpointComesBackWhateverTheStorageOrder) {
-  mpm::Particles<2, double> particles, loaded;
+  mpm::Particles<2> particles, loaded;
   fill(particles);
   loaded.resize(particles.size());
   const std::vector<double> scalars{1.5, -2.0, 1e300};
   const NamedNumbers blocks{{"maps", {1.0, 2.0, 3.0}}, {"none", {}}};
-  write_checkpoint<2, double>(folder_, particles, particles.size(), scalars, blocks);
+  write_checkpoint<2>(folder_, particles, particles.size(), scalars, blocks);
   std::vector<double> back;
-  const NamedNumbers blocks_back = read_checkpoint<2, double>(newest_checkpoint(folder_), loaded, back);
+  const NamedNumbers blocks_back = read_checkpoint<2>(newest_checkpoint(folder_), loaded, back);
   EXPECT_EQ(back, scalars);
   EXPECT_EQ(blocks_back, blocks);
   for (std::size_t f = 0; f < particles.fields.all().size(); ++f) {
@@ -132,14 +132,14 @@ TEST_F(Files, CheckpointComesBackWhateverTheStorageOrder) {
         << particles.fields.all()[f]->info().name;
   }
   particles.reorder(another_order(particles.size()));
-  write_checkpoint<2, double>(folder_, particles, particles.size(), scalars, blocks);
+  write_checkpoint<2>(folder_, particles, particles.size(), scalars, blocks);
   EXPECT_EQ(read_file(folder_ / checkpoint_name), read_file(folder_ / previous_checkpoint_name));
 }
 
 TEST_F(Files, DamagedCheckpointsAreRefused) {
-  mpm::Particles<2, double> particles;
+  mpm::Particles<2> particles;
   fill(particles);
-  write_checkpoint<2, double>(folder_, particles, particles.size(), {1.0}, {{"maps", std::vector<double>(2000, 1.5)}});
+  write_checkpoint<2>(folder_, particles, particles.size(), {1.0}, {{"maps", std::vector<double>(2000, 1.5)}});
   const std::filesystem::path file = folder_ / checkpoint_name;
   const std::string good = read_file(file);
   const auto expect_damage = [&](std::string_view invalid) {
@@ -160,34 +160,33 @@ TEST_F(Files, DamagedCheckpointsAreRefused) {
 
 // The one before is there whatever happens to the last, or while it is being written; the note says so.
 TEST_F(Files, ADamagedCheckpointGivesWayToTheOneBefore) {
-  mpm::Particles<2, double> particles, loaded;
+  mpm::Particles<2> particles, loaded;
   fill(particles);
   loaded.resize(particles.size());
   const std::filesystem::path last = folder_ / checkpoint_name, before = folder_ / previous_checkpoint_name;
   EXPECT_NE(failure_of([&] { (void)newest_checkpoint(folder_); }).find("holds no checkpoint.bin"), std::string::npos);
-  write_checkpoint<2, double>(folder_, particles, particles.size(), {1.0});
+  write_checkpoint<2>(folder_, particles, particles.size(), {1.0});
   EXPECT_FALSE(std::filesystem::exists(before));
-  write_checkpoint<2, double>(folder_, particles, particles.size(), {2.0});
+  write_checkpoint<2>(folder_, particles, particles.size(), {2.0});
   EXPECT_EQ(newest_checkpoint(folder_).file, last);
   EXPECT_EQ(newest_checkpoint(folder_).warning, "");
   write_file_atomically(last, "torn");
   const WholeCheckpoint found = newest_checkpoint(folder_);
   EXPECT_EQ(found.warning, last.string() + " is damaged: its checksum does not fit its 4 bytes");
   std::vector<double> scalars;
-  read_checkpoint<2, double>(found, loaded, scalars);
+  read_checkpoint<2>(found, loaded, scalars);
   EXPECT_EQ(scalars, std::vector<double>{1.0});
   std::filesystem::remove(last);
   EXPECT_EQ(newest_checkpoint(folder_).file, before);
 }
 
 TEST_F(Files, ACheckpointOfAnotherRunIsRefused) {
-  mpm::Particles<2, double> particles, loaded;
+  mpm::Particles<2> particles, loaded;
   fill(particles);
-  write_checkpoint<2, double>(folder_, particles, particles.size(), {1.0});
+  write_checkpoint<2>(folder_, particles, particles.size(), {1.0});
   loaded.resize(36);
   std::vector<double> scalars;
-  const std::string message =
-      failure_of([&] { read_checkpoint<2, double>(newest_checkpoint(folder_), loaded, scalars); });
+  const std::string message = failure_of([&] { read_checkpoint<2>(newest_checkpoint(folder_), loaded, scalars); });
   EXPECT_NE(message.find("has particles at t = 0: 37; this run needs 36"), std::string::npos) << message;
 }
 
@@ -200,12 +199,12 @@ TEST_F(Files, UnfinishedFilesAreRemoved) {
 }
 
 TEST_F(Files, SnapshotsStandByIdAndGiveTheSameBytes) {
-  mpm::Particles<2, double> particles;
+  mpm::Particles<2> particles;
   fill(particles);
   const Vector<double, 2> origin(100.0, -50.0);
-  const Snapshot first = take_snapshot<2, double>(particles, origin, 2.5, 250);
+  const Snapshot first = take_snapshot<2>(particles, origin, 2.5, 250);
   particles.reorder(another_order(particles.size()));
-  const Snapshot second = take_snapshot<2, double>(particles, origin, 2.5, 250);
+  const Snapshot second = take_snapshot<2>(particles, origin, 2.5, 250);
   EXPECT_EQ(snapshot_bytes(first), snapshot_bytes(second));
   ASSERT_EQ(first.particles(), 37U);
   EXPECT_EQ(first.points[2], 0.0) << "z in the plane";
@@ -252,10 +251,10 @@ TEST_F(Files, SnapshotHoldsTheBaseBesideTheParticles) {
     series.finish_writing();
     const hdf5::Handle file(H5Fopen((folder_ / "snapshots" / "000000.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
                             H5Fclose, "snapshot");
-    if (H5Lexists(file, "base", H5P_DEFAULT) <= 0) {
+    if (H5Lexists(file, "basal_segments", H5P_DEFAULT) <= 0) {
       return false;
     }
-    const hdf5::Handle places(H5Dopen2(file, "base/position_m", H5P_DEFAULT), H5Dclose, "position_m");
+    const hdf5::Handle places(H5Dopen2(file, "basal_segments/position_m", H5P_DEFAULT), H5Dclose, "position_m");
     std::vector<double> read(6);
     EXPECT_GE(H5Dread(places, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()), 0);
     EXPECT_EQ(read, snapshot.base.at("position_m"));

@@ -114,7 +114,7 @@ class HostileCheckpoints : public HostileFiles {
   void SetUp() override {
     HostileFiles::SetUp();
     for (const double number : {1.0, 2.0}) {
-      write_checkpoint<2, double>(folder_, mpm::Particles<2, double>(), 0, {number});
+      write_checkpoint<2>(folder_, mpm::Particles<2>(), 0, {number});
     }
   }
   fs::path last() const { return folder_ / checkpoint_name; }

@@ -61,7 +61,7 @@ struct Failure {
 };
 
 Failure fail(double cell, const std::string& softening) {
-  Simulation<2, double> simulation(
+  Simulation<2> simulation(
       case_from_text(slope, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 6e-4 * cell), softening}));
   run_until(simulation, 50.0);
   const auto row = history_row(simulation);

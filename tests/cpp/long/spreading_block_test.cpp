@@ -52,7 +52,7 @@ enabled = false
 // Standard deviation of the mass along x after 16 s [m]. The ground lies `above` of a cell above a grid line.
 double spread(double cell, double above) {
   const double ground = above * cell, top = ground + 40.0;
-  Simulation<2, double> simulation(testing_support::case_from_text(
+  Simulation<2> simulation(testing_support::case_from_text(
       block, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 4.5e-3 * cell),
               fmt::format("terrain.elevation={}", ground),
               fmt::format("body.block.vertices=[[-100.0,{0}],[100.0,{0}],[100.0,{1}],[-100.0,{1}]]", ground, top)}));

@@ -62,7 +62,7 @@ class Crowd {
     }
   }
 
-  Particles<Dim, double> particles;
+  Particles<Dim> particles;
 
  private:
   std::int64_t next_id_ = 1'000'000;
@@ -71,7 +71,7 @@ class Crowd {
 
 // Tile and place in it of a particle's nearest node, and the particle's id: what the canonical order goes by.
 template <int Dim>
-std::tuple<std::uint64_t, int, std::int64_t> canonical(const Particles<Dim, double>& particles, std::size_t p) {
+std::tuple<std::uint64_t, int, std::int64_t> canonical(const Particles<Dim>& particles, std::size_t p) {
   typename Tile<Dim>::Index node{}, tile{};
   int local = 0;
   for (int a = 0; a < Dim; ++a) {
@@ -93,7 +93,7 @@ int place_in_patch(std::uint64_t tile_key, const Number& number) {
 }
 
 template <int Dim>
-void expect_tiles_and_blocks(const Particles<Dim, double>& particles, const SparseGrid<Dim, double>& grid) {
+void expect_tiles_and_blocks(const Particles<Dim>& particles, const SparseGrid<Dim>& grid) {
   using T = Tile<Dim>;
   const auto key_of = [&](std::uint32_t p) { return std::get<0>(canonical(particles, p)); };
   const auto& order = grid.order();
@@ -121,23 +121,23 @@ void expect_tiles_and_blocks(const Particles<Dim, double>& particles, const Spar
 }
 
 // Runs of lanes that see the same nodes, in a batch whose lanes are known to be in canonical order.
-void expect_runs(const BatchNodes<double>& nodes) {
+void expect_runs(const BatchNodes& nodes) {
   std::vector<std::size_t> begins{0};
   for (std::size_t lane = 1; lane < nodes.first.size(); ++lane) {
     if (nodes.first[lane] != nodes.first[lane - 1]) {
       begins.push_back(lane);
     }
   }
-  EXPECT_EQ(nodes.runs, std::min<std::size_t>(begins.size(), BatchNodes<double>::irregular));
+  EXPECT_EQ(nodes.runs, std::min<std::size_t>(begins.size(), BatchNodes::irregular));
   EXPECT_TRUE(begins.size() != 2 || nodes.second_run_begin == begins[1]);
 }
 
 template <int Dim>
-void expect_batches(const Particles<Dim, double>& particles, const SparseGrid<Dim, double>& grid) {
+void expect_batches(const Particles<Dim>& particles, const SparseGrid<Dim>& grid) {
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
     const auto& tile = grid.tiles()[t];
     std::uint32_t place = tile.first;
-    for (const TileBatch<Dim, double>& batch : grid.batches(t)) {
+    for (const TileBatch<Dim>& batch : grid.batches(t)) {
       for (std::size_t lane = 0; lane < batch.count; ++lane, ++place) {
         const std::uint32_t p = batch.particle[lane];
         EXPECT_EQ(p, grid.order()[place]);
@@ -155,7 +155,7 @@ void expect_batches(const Particles<Dim, double>& particles, const SparseGrid<Di
         const auto [last_key, last_local, last_id] = canonical(particles, batch.particle[batch.count - 1]);
         return key == last_key && local == last_local;
       };
-      EXPECT_EQ(batch.nodes.goes_on, place < tile.last && same_node(place));
+      EXPECT_EQ(batch.nodes.continues, place < tile.last && same_node(place));
     }
     EXPECT_EQ(place, tile.last);
   }
@@ -164,7 +164,7 @@ void expect_batches(const Particles<Dim, double>& particles, const SparseGrid<Di
 template <int Dim>
 void expect_the_grid_to_follow() {
   Crowd<Dim> crowd(Dim == 2 ? 60 : 900);
-  SparseGrid<Dim, double> grid(cell);
+  SparseGrid<Dim> grid(cell);
   int changes_of_blocks = 0;
   for (int step = 0; step < 60 && !testing::Test::HasFailure(); ++step) {
     SCOPED_TRACE(step);
@@ -182,7 +182,7 @@ void expect_the_grid_to_follow() {
 template <int Dim>
 void expect_the_grid_to_follow_changes_of_the_set() {
   Crowd<Dim> crowd(Dim == 2 ? 200 : 900);
-  SparseGrid<Dim, double> grid(cell);
+  SparseGrid<Dim> grid(cell);
   for (int step = 0; step < 40 && !testing::Test::HasFailure(); ++step) {
     SCOPED_TRACE(step);
     grid.update(crowd.particles, 17);
@@ -204,7 +204,7 @@ TEST(SparseGrid, FollowsParticlesThatComeAndGoInThePlane) { expect_the_grid_to_f
 TEST(SparseGrid, FollowsParticlesThatComeAndGoInSpace) { expect_the_grid_to_follow_changes_of_the_set<3>(); }
 
 TEST(Particles, KeepTheirValuesWhenOthersGoAndNewOnesHaveNone) {
-  Particles<2, double> particles;
+  Particles<2> particles;
   particles.resize(21);
   for (std::size_t p = 0; p < 21; ++p) {
     particles.id(p) = static_cast<std::int64_t>(p);
@@ -217,7 +217,7 @@ TEST(Particles, KeepTheirValuesWhenOthersGoAndNewOnesHaveNone) {
   const auto now_at = particles.remove(marked);
   ASSERT_EQ(particles.size(), 16U);
   for (std::size_t p = 0; p < 21; ++p) {
-    EXPECT_EQ((now_at[p] == Particles<2, double>::nowhere), marked[p] == 1) << p;
+    EXPECT_EQ((now_at[p] == Particles<2>::nowhere), marked[p] == 1) << p;
     if (marked[p] == 0) {
       EXPECT_EQ(particles.id(now_at[p]), static_cast<std::int64_t>(p));
       EXPECT_EQ(particles.velocity(now_at[p], 1), 10.0 * static_cast<double>(p));
@@ -243,7 +243,7 @@ int calls_until_sorted(int interval, int most) {
   for (std::size_t p = 0; p < crowd.particles.size(); ++p) {
     crowd.particles.material(p) = 0;  // particles of two materials in turn never make a whole batch
   }
-  SparseGrid<2, double> grid(cell);
+  SparseGrid<2> grid(cell);
   grid.update(crowd.particles, interval);
   EXPECT_TRUE(std::is_sorted(grid.order().begin(), grid.order().end()));
   crowd.move(3.0);
@@ -308,18 +308,18 @@ TEST(Tile, HasItsLayerAboveItsPlace) {
 
 // A block that says it has no constraints has none, and many say so.
 TEST(BlockConstraints, AreTheOnesOfTheirNodes) {
-  Constraints<2, double> constraints;
+  Constraints<2> constraints;
   constraints.extent = {70.0, 70.0};
   constraints.faces[0] = BoundaryKind::fixed;
   constraints.faces[3] = BoundaryKind::roller;
   constraints.frames.push_back({{30.0, 22.0}, {33.0, 38.0}, 0, 4.0});
   Crowd<2> crowd(3000);
-  SparseGrid<2, double> grid(cell);
+  SparseGrid<2> grid(cell);
   grid.update(crowd.particles, 64);
   for (const double time : {0.0, 1.0, 2.75}) {
     std::size_t blocks_without = 0, nodes_with = 0;
     for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-      const BlockConstraints<2, double> on_block(grid, constraints, b, time);
+      const BlockConstraints<2> on_block(grid, constraints, b, time);
       blocks_without += on_block.any() ? 0 : 1;
       for (std::size_t k = 0; k < static_cast<std::size_t>(Tile<2>::nodes); ++k) {
         Vector<double, 2> free(3.0, 5.0), held = free;

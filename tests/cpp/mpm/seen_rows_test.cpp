@@ -17,8 +17,8 @@ constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 // Few particles: most rows of most tiles contain no nodes of particles.
 template <int Dim>
 struct Sprinkled {
-  Particles<Dim, double> particles;
-  SparseGrid<Dim, double> grid{cell};
+  Particles<Dim> particles;
+  SparseGrid<Dim> grid{cell};
 
   Sprinkled() {
     std::mt19937 random(11);
@@ -75,7 +75,7 @@ void expect_sums_of_seen_rows(bool of_all_tiles) {
   Sprinkled<Dim> scene;
   const auto& grid = scene.grid;
   const auto accepts = [&](std::size_t t) { return of_all_tiles || t % 2 == 0; };
-  Nodes<Dim, double> nodes;
+  Nodes<Dim> nodes;
   nodes.averages.resize(grid.blocks().size());
   auto patches = nodes.averages.patches(grid.tiles().size());
   for (std::size_t t = 0; t < patches.size(); ++t) {
@@ -123,7 +123,7 @@ template <int Dim>
 void expect_patches_of_seen_rows() {
   Sprinkled<Dim> scene;
   const auto& grid = scene.grid;
-  NodeRecords<Dim, double, 3> records(std::make_shared<PatchPool>());
+  NodeRecords<Dim, 3> records(std::make_shared<PatchPool>());
   auto patches = records.patches(grid.tiles().size());
   for (std::size_t t = 0; t < patches.size(); ++t) {
     std::fill(patches[t].records.begin(), patches[t].records.end(), std::array<double, 4>{nowhere});
@@ -140,7 +140,7 @@ void expect_patches_of_seen_rows() {
     }
   }
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
-    Patch<Dim, double, 3> seen;
+    Patch<Dim, 3> seen;
     std::fill(seen.records.begin(), seen.records.end(), std::array<double, 4>{nowhere});
     load_patch(grid, t, records, seen);
     for (std::size_t place = 0; place < seen.records.size(); ++place) {

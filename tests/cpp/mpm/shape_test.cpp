@@ -41,14 +41,14 @@ void expect_sound_weights(double half) {
 
 TEST(Shape, WeightsSumToOneReproduceLinearFieldsAndHaveTheirOwnSlopes) {
   for (const double half : {0.25, 0.125, 0.5}) {
-    expect_sound_weights<Ugimp<double>>(half);
+    expect_sound_weights<Ugimp>(half);
   }
-  expect_sound_weights<Linear<double>>(0.25);
-  expect_sound_weights<Quadratic<double>>(0.25);
+  expect_sound_weights<Linear>(0.25);
+  expect_sound_weights<Quadratic>(0.25);
 }
 
 TEST(Shape, QuadraticIsSmoothAcrossCellsAndIntoTheHalfCellAtASide) {
-  using Spline = Quadratic<double>;
+  using Spline = Quadratic;
   const auto here = Spline::weights(0.5, 0.25, false, 0.2), next = Spline::weights(-0.5, 0.25, false, 0.2);
   const auto at_side = Spline::weights(0.5, 0.25, true, 0.2);
   for (int k = 0; k < 2; ++k) {
@@ -73,9 +73,9 @@ void expect_affine_velocity(double half) {
 }
 
 TEST(Shape, AffineWeightsFindALinearVelocity) {
-  expect_affine_velocity<Ugimp<double>>(0.25);
-  expect_affine_velocity<Ugimp<double>>(0.125);
-  expect_affine_velocity<Quadratic<double>>(0.25);
+  expect_affine_velocity<Ugimp>(0.25);
+  expect_affine_velocity<Ugimp>(0.125);
+  expect_affine_velocity<Quadratic>(0.25);
   for (double d = -0.5; d <= 0.5; d += 0.125) {
     EXPECT_NEAR(second_moment(quadratic_weights(d, 1.0), d), 0.25, 1e-15);
     EXPECT_GE(second_moment(ugimp_weights(d, 0.25, 1.0), d), 0.125);
@@ -97,7 +97,7 @@ TEST(Ugimp, IsTheLinearShapeFunctionAveragedOverTheParticle) {
 }
 
 template <int Dim>
-void fill(Particles<Dim, double>& particles, std::size_t count) {
+void fill(Particles<Dim>& particles, std::size_t count) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> place(10.0, 90.0);
   particles.resize(count);
@@ -111,9 +111,9 @@ void fill(Particles<Dim, double>& particles, std::size_t count) {
 
 template <int Dim>
 void expect_linear_shape_reproduces_a_linear_field() {
-  Particles<Dim, double> particles;
+  Particles<Dim> particles;
   fill<Dim>(particles, 500);
-  SparseGrid<Dim, double> grid(5.0);
+  SparseGrid<Dim> grid(5.0);
   grid.update(particles, 64);
   using T = Tile<Dim>;
   std::size_t seen = 0;
@@ -149,28 +149,28 @@ void expect_linear_shape_reproduces_a_linear_field() {
 
 // Whatever number of runs of lanes a batch has, it reads the same bits. seen: counts batches by that number.
 template <int Dim>
-void expect_the_same_readings_by_runs(std::size_t count, std::array<int, BatchNodes<double>::irregular + 1>& seen) {
-  Particles<Dim, double> particles;
+void expect_the_same_readings_by_runs(std::size_t count, std::array<int, BatchNodes::irregular + 1>& seen) {
+  Particles<Dim> particles;
   fill<Dim>(particles, count);
-  SparseGrid<Dim, double> grid(5.0);
+  SparseGrid<Dim> grid(5.0);
   grid.update(particles, 64);
-  Patch<Dim, double, 3> patch;
+  Patch<Dim, 3> patch;
   std::mt19937 random(9);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   for (auto& record : patch.records) {
     std::generate(record.begin(), record.end(), [&] { return number(random); });
   }
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
-    for (TileBatch<Dim, double> batch : grid.batches(t)) {
+    for (TileBatch<Dim> batch : grid.batches(t)) {
       const auto place = place_of(grid, particles, batch);
       const auto read = [&] {
-        const auto stencil = make_stencil<Ugimp<double>>(grid, batch, place, {Simd<double>(0.25)}, HeldSides<Dim>());
+        const auto stencil = make_stencil<Ugimp>(grid, batch, place, {Simd<double>(0.25)}, HeldSides<Dim>());
         return std::tuple(read_nodes<3>(linear_stencil(grid, particles, batch), patch), read_nodes<3>(stencil, patch),
                           read_values(stencil, patch));
       };
       ++seen[batch.nodes.runs];
       const auto [linear, nodes, values] = read();
-      batch.nodes.runs = BatchNodes<double>::irregular;
+      batch.nodes.runs = BatchNodes::irregular;
       const auto [linear_by_lane, nodes_by_lane, values_by_lane] = read();
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -190,7 +190,7 @@ void expect_the_same_readings_by_runs(std::size_t count, std::array<int, BatchNo
 // Few particles a node make many runs, many make few, with four lanes and with eight.
 template <int Dim>
 void expect_the_same_readings_by_any_runs(std::size_t few, std::size_t many) {
-  std::array<int, BatchNodes<double>::irregular + 1> seen{};
+  std::array<int, BatchNodes::irregular + 1> seen{};
   expect_the_same_readings_by_runs<Dim>(few, seen);
   expect_the_same_readings_by_runs<Dim>(many, seen);
   EXPECT_GT(*std::min_element(seen.begin() + 1, seen.end()), 0) << "one, two and many runs should all occur";
@@ -203,7 +203,7 @@ TEST(LinearShape, ReproducesALinearFieldInThePlane) { expect_linear_shape_reprod
 TEST(LinearShape, ReproducesALinearFieldInSpace) { expect_linear_shape_reproduces_a_linear_field<3>(); }
 
 TEST(SparseGrid, OrderDoesNotDependOnWhereParticlesStand) {
-  Particles<2, double> straight, shuffled;
+  Particles<2> straight, shuffled;
   fill<2>(straight, 1000);
   fill<2>(shuffled, 1000);
   std::vector<std::uint32_t> places(1000);
@@ -211,7 +211,7 @@ TEST(SparseGrid, OrderDoesNotDependOnWhereParticlesStand) {
     places[k] = static_cast<std::uint32_t>((k * 387) % 1000);
   }
   shuffled.reorder(places);
-  SparseGrid<2, double> first(5.0), second(5.0);
+  SparseGrid<2> first(5.0), second(5.0);
   first.update(straight, 64);
   second.update(shuffled, 64);
   ASSERT_EQ(first.order().size(), second.order().size());
@@ -221,12 +221,12 @@ TEST(SparseGrid, OrderDoesNotDependOnWhereParticlesStand) {
 }
 
 TEST(SparseGrid, HoldsBlocksWhereParticlesAreAndNowhereElse) {
-  Particles<2, double> particles;
+  Particles<2> particles;
   particles.resize(2);
   particles.id(1) = 1;
   particles.position(0, 0) = particles.position(0, 1) = 100.0;
   particles.position(1, 0) = particles.position(1, 1) = 900000.0;
-  SparseGrid<2, double> grid(5.0);
+  SparseGrid<2> grid(5.0);
   grid.update(particles, 64);
   EXPECT_LE(grid.blocks().size(), 18U) << "two particles a million metres apart touch at most 9 blocks each";
 }

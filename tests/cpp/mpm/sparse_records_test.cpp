@@ -7,7 +7,7 @@
 namespace thawslide::mpm {
 namespace {
 
-using Records = SparseRecords<2, double, 3>;
+using Records = SparseRecords<2, 3>;
 
 TEST(SparseRecords, HoldBlocksAskedForAndReadZerosElsewhere) {
   Records records;

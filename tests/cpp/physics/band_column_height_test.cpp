@@ -9,9 +9,7 @@
 namespace thawslide::physics {
 namespace {
 
-double top_of(double thickness, double growth) {
-  return ColumnGrid<double>(thickness, growth, 0.01, 1.4).face(Cells::slide);
-}
+double top_of(double thickness, double growth) { return ColumnGrid(thickness, growth, 0.01, 1.4).face(Cells::slide); }
 
 TEST(ColumnHeight, IsTheDepthOfTheSlide) {
   EXPECT_NEAR(top_of(1.35, 1.4), 34.2, 0.1) << "below a slide 11 m thick";
@@ -57,12 +55,12 @@ class RandomChanges : public testing::Test {
  protected:
   double between(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
   // Anything that may happen in a step: much stretching either way, a band that grows or not, any ratio of cells.
-  ColumnChange<double> change_of(const Column& column) {
+  ColumnChange change_of(const Column& column) {
     return {between(-0.6, 0.6), column.thickness, column.thickness * between(0.95, 1.05), column.cell_growth,
             between(0.0, 1.0) < 0.3 ? column.cell_growth : between(1.0, 1.4)};
   }
   // Does it to a column in its parts; returns the account, per area at the end.
-  static Account take(const Model& model, const ColumnChange<double>& change, Column& column) {
+  static Account take(const Model& model, const ColumnChange& change, Column& column) {
     const int parts = parts_of(model, change);
     Drive drive = drive_of(model, 1.0, 0.0, -10.0);
     drive.stretching = std::expm1(change.stretch / parts);
@@ -110,7 +108,7 @@ TEST_F(RandomChanges, TakeFromNoCellMoreThanItHas) {
       of_cell *= between(0.0, 1.0) < 0.7 ? 0.0 : 1.0;
     }
     for (int step = 0; step < 5; ++step) {
-      const ColumnChange<double> change = change_of(column);
+      const ColumnChange change = change_of(column);
       const double water = water_of(column), heat = heat_of(column), left = std::exp(-change.stretch);
       const Account account = take(model, change, column);
       ASSERT_NEAR(water_of(column), left * water + account.body_water, 1e-11 * (1.0 + water)) << run;
@@ -132,7 +130,7 @@ TEST(ColumnHeight, DoesNotDivideTheStepsOfTallColumns) {
   const Model model = make_model();
   for (double stretch = -0.6; stretch < 0.6; stretch += 0.01) {
     for (const double grown : {0.98, 1.0, 1.02}) {
-      const ColumnChange<double> change{stretch, 0.3, 0.3 * grown, 1.4, 1.4};
+      const ColumnChange change{stretch, 0.3, 0.3 * grown, 1.4, 1.4};
       EXPECT_EQ(parts_of(model, change), std::max(1.0, std::ceil(std::abs(stretch) / 0.1))) << stretch << " " << grown;
     }
   }

@@ -9,11 +9,11 @@
 namespace thawslide::physics {
 
 template <class Curve>
-using ModelOf = ColumnModel<double, Curve>;
-using Model = ModelOf<PowerLawCurve<double>>;
-using Column = BandColumn<double>;
-using Drive = ColumnDrive<double>;
-using Account = ColumnAccount<double>;
+using ModelOf = ColumnModel<Curve>;
+using Model = ModelOf<PowerLawCurve>;
+using Column = BandColumn;
+using Drive = ColumnDrive;
+using Account = ColumnAccount;
 using Cells = ColumnCells;
 
 constexpr double load = 5e5;  // N [Pa]

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <functional>
 
+#include "../exact/freezing_front.hpp"
+#include "../exact/pore_water.hpp"
 #include "band_column_model.hpp"
-#include "physics/exact/freezing_front.hpp"
-#include "physics/exact/pore_water.hpp"
 
 namespace thawslide::physics {
 namespace {
@@ -99,7 +99,7 @@ TEST(BandColumn, DrainedBandComesToItsSteadyStrength) {
   model.hydraulic_conductivity = 1e-8;
   const double e = 0.1, friction = 0.3, speed = 2.0, dt = 0.02;
   Column column = start_column(model, e, model.growth, -10.0, -10.0, load);
-  const ColumnGrid<double> grid = grid_of(model, e, model.growth);
+  const ColumnGrid grid = grid_of(model, e, model.growth);
   for (int k = 0; k < Cells::band; ++k) {  // the band alone is melted, its pores full
     column.water[k] = model.porosity * model.phases.water_density * grid.slide_height(k);
     column.heat[Cells::ground + k] =
@@ -152,7 +152,7 @@ TEST(BandColumn, StrengthOfASlippingPlane) {
 
 // A column that freezes from a ground which stays at -10 C (Neumann).
 TEST(BandColumn, FreezingFrontIsNeumanns) {
-  ModelOf<LinearCurve<double>> model;
+  ModelOf<LinearCurve> model;
   const Model numbers = make_model();
   model.phases = numbers.phases;
   model.phases.water_density = model.phases.ice_density;
@@ -173,7 +173,7 @@ TEST(BandColumn, FreezingFrontIsNeumanns) {
   const exact::SharpFront front(
       {5.0, -10.0, 0.0, 0.0, {frozen_k, frozen_k, melted_k}, {of.frozen, of.frozen, of.frozen + of.rise}, of.melting});
   const Drive drive = drive_of(model, 20.0, e, 5.0);
-  const ColumnGrid<double> grid = grid_of(model, e, model.growth);
+  const ColumnGrid grid = grid_of(model, e, model.growth);
   double time = 0.0;
   for (; time < 40000.0; time += drive.dt) {
     step_column(model, drive, column);
@@ -245,7 +245,7 @@ TEST(BandColumn, ThawConsolidation) {
   model.residual_stress = 0.0;
   model.growth = 1.0;
   const double e = 0.8;
-  const ColumnGrid<double> grid = grid_of(model, e, model.growth);
+  const ColumnGrid grid = grid_of(model, e, model.growth);
   const double consolidation = model.hydraulic_conductivity / (model.phases.water_unit_weight * storage(model));
   const double height = grid.face(Cells::slide), ratio = 0.6, speed = ratio * 2.0 * std::sqrt(consolidation);
   Column column = start_column(model, e, model.growth, -1.0, -1.0, load);

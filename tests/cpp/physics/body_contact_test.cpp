@@ -1,9 +1,9 @@
 // Contact of two bodies at a node: what it keeps, and when it acts.
-#include "physics/body_contact.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "physics/contact.hpp"
 
 namespace thawslide::physics {
 namespace {

@@ -8,7 +8,7 @@ namespace {
 
 TEST(ElasticEnergy, IsThatOfOneModulusInSimpleStates) {
   constexpr double young = 5e8, poisson = 0.2, stress = -3e6;
-  const auto elastic = Elastic<double>::from_young_poisson(young, poisson);
+  const auto elastic = Elastic::from_young_poisson(young, poisson);
   SymmetricTensor<double> along_x = SymmetricTensor<double>::Zero(), shear = along_x, all_round = along_x;
   along_x[0] = stress;
   shear[3] = stress;
@@ -22,7 +22,7 @@ TEST(ElasticEnergy, IsThatOfOneModulusInSimpleStates) {
 
 // Half of stress times strain, whatever the strain.
 TEST(ElasticEnergy, IsTheWorkThatMadeTheStress) {
-  const auto elastic = Elastic<double>::from_young_poisson(2e9, 0.3);
+  const auto elastic = Elastic::from_young_poisson(2e9, 0.3);
   SymmetricTensor<double> strain;
   strain << 1e-3, -2e-3, 5e-4, 3e-4, -7e-4, 1e-4;
   const SymmetricTensor<double> stress = stress_increment(elastic, strain);

@@ -12,17 +12,17 @@ namespace {
 template <class Curve>
 Curve curve();
 template <>
-PowerLawCurve<double> curve() {
+PowerLawCurve curve() {
   return {0.0, 5.0};
 }
 template <>
-LinearCurve<double> curve() {
+LinearCurve curve() {
   return {0.0, 0.25};
 }
 
 template <class Curve>
 class FreezingCurve : public testing::Test {};
-using Curves = testing::Types<PowerLawCurve<double>, LinearCurve<double>>;
+using Curves = testing::Types<PowerLawCurve, LinearCurve>;
 TYPED_TEST_SUITE(FreezingCurve, Curves);
 
 TYPED_TEST(FreezingCurve, DerivativeAndIntegralBelongToTheSaturation) {
@@ -46,13 +46,13 @@ TYPED_TEST(FreezingCurve, DerivativeAndIntegralBelongToTheSaturation) {
 }
 
 TEST(PowerLawCurve, IsEquation24AndTakesAnyExponent) {
-  EXPECT_NEAR((PowerLawCurve<double>{0.0, 5.0}.saturation(-1.0)), 1.0 / 32.0, 1e-16);
-  EXPECT_NEAR((PowerLawCurve<double>{-0.5, 2.5}.saturation(-4.5)), std::pow(5.0, -2.5), 1e-16);
-  EXPECT_NEAR((PowerLawCurve<double>{0.0, 1.0}.at(-3.0).integral), -std::log(4.0), 1e-15);
+  EXPECT_NEAR((PowerLawCurve{0.0, 5.0}.saturation(-1.0)), 1.0 / 32.0, 1e-16);
+  EXPECT_NEAR((PowerLawCurve{-0.5, 2.5}.saturation(-4.5)), std::pow(5.0, -2.5), 1e-16);
+  EXPECT_NEAR((PowerLawCurve{0.0, 1.0}.at(-3.0).integral), -std::log(4.0), 1e-15);
 }
 
 TEST(LinearCurve, IsSection31) {
-  const LinearCurve<double> law{0.0, 0.5};
+  const LinearCurve law{0.0, 0.5};
   EXPECT_DOUBLE_EQ(law.saturation(-1.0), 0.5);
   EXPECT_DOUBLE_EQ(law.saturation(-2.5), 0.0);
 }
@@ -61,7 +61,7 @@ TYPED_TEST(FreezingCurve, TemperatureInvertsHeatContent) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> temperature(-40.0, 60.0), porosity(0.02, 0.9), offset(-60.0, 60.0);
   for (const bool latent : {true, false}) {
-    const HeatContent<double, TypeParam> content{table1(), curve<TypeParam>(), latent};
+    const HeatContent<TypeParam> content{table1(), curve<TypeParam>(), latent};
     double worst = 0.0;
     for (int k = 0; k < 20000; ++k) {
       const double t = temperature(random), n = porosity(random);
@@ -74,7 +74,7 @@ TYPED_TEST(FreezingCurve, TemperatureInvertsHeatContent) {
 }
 
 TYPED_TEST(FreezingCurve, HeatContentRisesWithTheApparentCapacity) {
-  const HeatContent<double, TypeParam> content{table1(), curve<TypeParam>(), true};
+  const HeatContent<TypeParam> content{table1(), curve<TypeParam>(), true};
   std::mt19937 random(3);
   std::uniform_real_distribution<double> temperature(-3.9, 20.0);
   for (int k = 0; k < 2000; ++k) {
@@ -92,13 +92,13 @@ TYPED_TEST(FreezingCurve, HeatContentRisesWithTheApparentCapacity) {
 
 TEST(HeatContent, MeltingTakesTheHeatThatSection32LeavesOut) {
   // From -10 C to wholly melted at 0 C at a porosity of 0.375: 136.7 MJ/m3 (sensible heat and latent heat).
-  const HeatContent<double, PowerLawCurve<double>> content{table1(), {0.0, 5.0}, true};
+  const HeatContent<PowerLawCurve> content{table1(), {0.0, 5.0}, true};
   EXPECT_NEAR(content.content(0.0, 0.375) - content.content(-10.0, 0.375), 136.7e6, 0.2e6);
 }
 
 TEST(HeatContent, SecantSumsToTheContent) {
   // The secant's purpose: capacity times change is the change of content, to round-off, across the melting point too.
-  const HeatContent<double, PowerLawCurve<double>> content{table1(), {0.0, 5.0}, true};
+  const HeatContent<PowerLawCurve> content{table1(), {0.0, 5.0}, true};
   for (const double change : {1e-3, 0.7, 5.0, -4.0}) {
     const double t = -1.3;
     EXPECT_NEAR(content.secant_capacity(t, change, 0.3) * change,

@@ -23,7 +23,7 @@ TEST(Kinematics, RigidRotationGivesNoStrainAndAnExactRotation) {
 
 TEST(Kinematics, StressTurnsWithTheBody) {
   // A full turn in 360 steps brings a stress home; principal values never change.
-  const double angle = 2.0 * pi<double> / 360.0;
+  const double angle = 2.0 * pi / 360.0;
   Matrix<double, 3> turn;
   turn << std::cos(angle), -std::sin(angle), 0, std::sin(angle), std::cos(angle), 0, 0, 0, 1;
   SymmetricTensor<double> start;
@@ -64,7 +64,7 @@ TEST(Kinematics, PlaneIsThreeDimensionsWithoutTheThird) {
 }
 
 TEST(Elasticity, ModuliAndUniaxialStrain) {
-  const auto elastic = Elastic<double>::from_young_poisson(1e7, 0.3);
+  const auto elastic = Elastic::from_young_poisson(1e7, 0.3);
   SymmetricTensor<double> strain = SymmetricTensor<double>::Zero();
   strain[0] = 1e-3;
   strain[3] = 2e-3;

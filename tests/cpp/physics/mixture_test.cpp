@@ -48,8 +48,8 @@ TEST(Mixture, PorosityKeepsTheGrains) {
     const double updated = updated_porosity(phases, n, e, dt);
     EXPECT_NEAR((1.0 - updated) * std::exp(e), (1.0 - n) * std::exp(phases.rock_expansion * dt), 1e-14);
   }
-  EXPECT_EQ(updated_porosity(phases, 0.5, 10.0, 0.0), largest_porosity<double>);
-  EXPECT_EQ(updated_porosity(phases, 0.5, -10.0, 0.0), smallest_porosity<double>);
+  EXPECT_EQ(updated_porosity(phases, 0.5, 10.0, 0.0), largest_porosity);
+  EXPECT_EQ(updated_porosity(phases, 0.5, -10.0, 0.0), smallest_porosity);
 }
 
 TEST(Mixture, PorosityRateIsEquation6) {
@@ -92,7 +92,7 @@ TEST(Pressurization, CoefficientsByHand) {
 // lost in a step falls with its square.
 TEST(Pressurization, KeepsIceAndWaterOfAClosedVolume) {
   const auto phases = table1();
-  const PowerLawCurve<double> curve{0.0, 5.0};
+  const PowerLawCurve curve{0.0, 5.0};
   const double n = 0.375, r = phases.ice_density / phases.water_density;
   for (const double temperature : {-1.0, -0.2, 3.0}) {
     const auto start = curve.at(temperature);

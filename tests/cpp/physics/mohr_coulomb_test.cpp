@@ -15,7 +15,7 @@ namespace thawslide::physics {
 namespace {
 
 using Tensor = SymmetricTensor<double>;
-const Elastic<double> elastic = Elastic<double>::from_young_poisson(5e8, 0.2);
+const Elastic elastic = Elastic::from_young_poisson(5e8, 0.2);
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Set {
@@ -24,14 +24,14 @@ struct Set {
 const Set sets[] = {{35, 0, 1e6, infinity}, {35, 35, 1e6, infinity}, {30, 10, 2e5, 5e4}, {35, 35, 1e6, 3e5},
                     {0, 0, 1e5, infinity},  {40, 5, 0.0, infinity},  {20, 20, 1e5, 0.0}};
 
-MohrCoulomb<double> law_of(const Set& set) {
-  return MohrCoulomb<double>::make(elastic, {set.friction, set.dilation, set.cohesion, set.cohesion, set.cutoff});
+MohrCoulomb<> law_of(const Set& set) {
+  return MohrCoulomb<>::make(elastic, {set.friction, set.dilation, set.cohesion, set.cohesion, set.cutoff});
 }
 
 // F of Eq. 11, and the cut-off's excess, whichever is larger; from the sines and cosines as the paper writes it.
 double excess(const Set& set, const Tensor& stress) {
   const auto values = principal(stress).values;
-  const double phi = set.friction * pi<double> / 180.0;
+  const double phi = set.friction * pi / 180.0;
   const double shear =
       0.5 * (values[0] - values[2]) + 0.5 * (values[0] + values[2]) * std::sin(phi) - set.cohesion * std::cos(phi);
   return std::max(shear, values[0] - set.cutoff);
@@ -101,11 +101,11 @@ void expect_lanes_return_as_single_numbers_do(double softening_strain, double an
   }
 }
 TEST(MohrCoulomb, LanesReturnAsSingleNumbersDo) {
-  expect_lanes_return_as_single_numbers_do<MohrCoulomb<double>>(1.0, 0.0);
-  expect_lanes_return_as_single_numbers_do<MohrCoulomb<double>>(0.1, 0.0);
+  expect_lanes_return_as_single_numbers_do<MohrCoulomb<>>(1.0, 0.0);
+  expect_lanes_return_as_single_numbers_do<MohrCoulomb<>>(0.1, 0.0);
 }
 TEST(MohrCoulomb, LanesReturnAsSingleNumbersDoWhereFrictionFalls) {
-  expect_lanes_return_as_single_numbers_do<MohrCoulomb<double, true>>(0.1, 15.0);
+  expect_lanes_return_as_single_numbers_do<MohrCoulomb<true>>(0.1, 15.0);
 }
 
 TEST(Principal, RebuildsTheTensor) {
@@ -177,7 +177,7 @@ TEST(MohrCoulomb, ReturnsAreAdmissibleOnTheSurfaceAndIdempotent) {
 // complementarity problem. It knows neither faces nor edges.
 std::vector<Vector<double, 3>> solutions_of_return(const Set& set, const Vector<double, 3>& trial) {
   const auto ratio = [](double degrees) {
-    const double sine = std::sin(degrees * pi<double> / 180.0);
+    const double sine = std::sin(degrees * pi / 180.0);
     return (1 + sine) / (1 - sine);
   };
   const double k = ratio(set.friction), m = ratio(set.dilation);
@@ -266,7 +266,7 @@ TEST(MohrCoulomb, ReturnSolvesTheConstrainedProgramme) {
       const auto solutions = solutions_of_return(set, values);
       if (solutions.empty()) {  // flow without dilation cannot lower the mean tension: the apex is what is left
         EXPECT_EQ(set.dilation, 0.0);
-        EXPECT_NEAR(returned[0], set.cohesion / std::tan(set.friction * pi<double> / 180.0), 1e-9 * scale);
+        EXPECT_NEAR(returned[0], set.cohesion / std::tan(set.friction * pi / 180.0), 1e-9 * scale);
         EXPECT_NEAR(returned[0], returned[2], 1e-9 * scale);
         continue;
       }
@@ -288,7 +288,7 @@ TEST(MohrCoulomb, ReturnSolvesTheConstrainedProgramme) {
 TEST(MohrCoulomb, WithoutDilationThePlasticStrainKeepsTheVolume) {
   const Set set{35, 0, 1e6, infinity};
   const auto law = law_of(set);
-  const double apex = set.cohesion / std::tan(35.0 * pi<double> / 180.0);
+  const double apex = set.cohesion / std::tan(35.0 * pi / 180.0);
   std::mt19937 random(23);
   int seen = 0;
   for (int k = 0; k < 5000; ++k) {
@@ -305,7 +305,7 @@ TEST(MohrCoulomb, WithoutDilationThePlasticStrainKeepsTheVolume) {
 
 TEST(MohrCoulomb, TriaxialCompressionYieldsAtTheTextbookStress) {
   // Confinement 2 MPa, friction 30 degrees, cohesion 1 MPa: s3 = k s1 - 2 c sqrt(k) with k = 3.
-  const auto law = MohrCoulomb<double>::make(elastic, {30.0, 0.0, 1e6, 1e6, infinity});
+  const auto law = MohrCoulomb<>::make(elastic, {30.0, 0.0, 1e6, 1e6, infinity});
   Tensor trial;
   trial << -2e6, -2e6, -30e6, 0, 0, 0;
   const auto stress = law.update(trial, 0.0).stress;
@@ -316,7 +316,7 @@ TEST(MohrCoulomb, TriaxialCompressionYieldsAtTheTextbookStress) {
 TEST(MohrCoulomb, HydrostaticTensionGoesToTheApexOrTheCutoff) {
   Tensor trial;
   trial << 9e6, 9e6, 9e6, 0, 0, 0;
-  const double apex = 1e6 / std::tan(35.0 * pi<double> / 180.0);
+  const double apex = 1e6 / std::tan(35.0 * pi / 180.0);
   EXPECT_NEAR(law_of({35, 0, 1e6, infinity}).update(trial, 0.0).stress[1], apex, 1e-3);
   EXPECT_NEAR(law_of({35, 0, 1e6, 2e5}).update(trial, 0.0).stress[1], 2e5, 1e-3);
 }
@@ -343,7 +343,7 @@ TEST(TensionGap, ClosesBeforeStressIsBorne) {
 }
 
 TEST(MohrCoulomb, CohesionSoftensWithPlasticStrain) {
-  const auto law = MohrCoulomb<double>::make(elastic, {35.0, 0.0, 1e6, 1e5, infinity});
+  const auto law = MohrCoulomb<>::make(elastic, {35.0, 0.0, 1e6, 1e5, infinity});
   EXPECT_DOUBLE_EQ(law.cohesion(0.0), 1e6);
   EXPECT_NEAR(law.cohesion(1.0), 1e5 + 9e5 * std::exp(-1.0), 1e-6);
   Tensor trial;

@@ -12,8 +12,8 @@
 namespace thawslide::physics {
 namespace {
 
-constexpr WaterExpansion<double> constant{WaterExpansionLaw::constant, 2.75e-4};
-constexpr WaterExpansion<double> by_temperature{WaterExpansionLaw::by_temperature, 0.0};
+constexpr WaterExpansion constant{WaterExpansionLaw::constant, 2.75e-4};
+constexpr WaterExpansion by_temperature{WaterExpansionLaw::by_temperature, 0.0};
 
 TEST(WaterExpansion, TakesTheFourValuesAndRunsStraightBetweenAndBeyond) {
   EXPECT_DOUBLE_EQ(by_temperature.at(0.0), -0.7e-4);

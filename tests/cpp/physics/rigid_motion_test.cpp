@@ -17,8 +17,8 @@ struct Point {
 };
 
 template <int Dim>
-MassPoints<Dim, double> sums_of(const std::vector<Point<Dim>>& points) {
-  MassPoints<Dim, double> sums{};
+MassPoints<Dim> sums_of(const std::vector<Point<Dim>>& points) {
+  MassPoints<Dim> sums{};
   sums.first.setZero();
   sums.second.setZero();
   sums.momentum.setZero();
@@ -34,7 +34,7 @@ MassPoints<Dim, double> sums_of(const std::vector<Point<Dim>>& points) {
 }
 
 template <int Dim>
-Vector<double, Dim> at(const RigidMotion<Dim, double>& motion, const Vector<double, Dim>& place) {
+Vector<double, Dim> at(const RigidMotion<Dim>& motion, const Vector<double, Dim>& place) {
   return motion.at_origin + turned<Dim>(motion.rotation, place);
 }
 
@@ -59,9 +59,9 @@ void expect_the_nearest() {
   std::uniform_real_distribution<double> number(-0.1, 0.1);
   for (int k = 0; k < 200; ++k) {
     const auto points = random_points<Dim>(7, random);
-    const MassPoints<Dim, double> sums = sums_of(points);
-    const RigidMotion<Dim, double> motion = nearest_rigid_motion(sums, least_square);
-    const auto distance = [&](const RigidMotion<Dim, double>& other) {
+    const MassPoints<Dim> sums = sums_of(points);
+    const RigidMotion<Dim> motion = nearest_rigid_motion(sums, least_square);
+    const auto distance = [&](const RigidMotion<Dim>& other) {
       double sum = 0.0;
       for (const auto& point : points) {
         sum += point.mass * (point.velocity - at(other, point.place)).squaredNorm();
@@ -74,9 +74,9 @@ void expect_the_nearest() {
     }
     EXPECT_LT((sums_of(rigid).momentum - sums.momentum).norm(), 1e-12);
     EXPECT_LT((sums_of(rigid).moment - sums.moment).norm(), 1e-11);
-    const RigidMotion<Dim, double> again = nearest_rigid_motion(sums_of(rigid), least_square);
+    const RigidMotion<Dim> again = nearest_rigid_motion(sums_of(rigid), least_square);
     EXPECT_LT((again.rotation - motion.rotation).norm(), 1e-11);
-    RigidMotion<Dim, double> other = motion;
+    RigidMotion<Dim> other = motion;
     for (int a = 0; a < rotations<Dim>; ++a) {
       other.rotation[a] += number(random);
     }

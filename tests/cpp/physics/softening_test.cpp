@@ -15,17 +15,17 @@ namespace thawslide::physics {
 namespace {
 
 using Tensor = SymmetricTensor<double>;
-const Elastic<double> elastic = Elastic<double>::from_young_poisson(5e8, 0.2);
+const Elastic elastic = Elastic::from_young_poisson(5e8, 0.2);
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double pressure = 1e6;  // of the element before it is sheared [Pa]
 
-double sine_of(double degrees) { return std::sin(degrees * pi<double> / 180.0); }
+double sine_of(double degrees) { return std::sin(degrees * pi / 180.0); }
 
 // Of strength: c [Pa] and sin(phi) after a plastic strain, from their definitions.
 struct Softened {
   double cohesion, sine;
 };
-Softened softened(const Strength<double>& strength, double plastic_strain) {
+Softened softened(const Strength& strength, double plastic_strain) {
   const double share = std::exp(-plastic_strain / strength.softening_strain);
   const double first = sine_of(strength.friction_angle), last = sine_of(strength.residual_friction_angle);
   return {strength.residual_cohesion + (strength.cohesion - strength.residual_cohesion) * share,
@@ -41,7 +41,7 @@ struct Sheared {
 // An element under even pressure in plane strain, sheared in equal steps of shear strain (half the angle). Without
 // dilation the mean of its stresses in the plane stays, so that the radius of Mohr's circle is c cos(phi) + p sin(phi).
 template <class Law>
-Sheared shear(const Strength<double>& strength, double step, int steps) {
+Sheared shear(const Strength& strength, double step, int steps) {
   const auto law = Law::make(elastic, strength);
   Tensor stress;
   stress << -pressure, -pressure, -pressure, 0, 0, 0;
@@ -74,7 +74,7 @@ TEST(Softening, AShearedElementHasTheStrengthOfItsPlasticStrain) {
                               "the friction angle which the plastic strain before the step has left.",
                               "(s1 - s3)/2 = c cos phi + p sin phi, c and sin phi by exp(-eps/eps_c)",
                               "Eq. 11 and the softening law");
-  const auto expect = [&]<class Law>(const Strength<double>& strength, Law /*law*/, double last_radius) {
+  const auto expect = [&]<class Law>(const Strength& strength, Law /*law*/, double last_radius) {
     const Sheared sheared = shear<Law>(strength, 1e-5, 20000);
     EXPECT_GT(sheared.plastic_strain, 10.0 * std::min(strength.softening_strain, 0.02));
     EXPECT_GT(sheared.first_radius, 1.1 * sheared.last_radius);
@@ -89,9 +89,9 @@ TEST(Softening, AShearedElementHasTheStrengthOfItsPlasticStrain) {
   };
   const double broken = pressure * sine_of(25.0);
   for (const double strain : {0.005, 0.02, 1.0}) {
-    expect(Strength<double>{40, 0, 1e6, 5e4, infinity, strain}, MohrCoulomb<double>(),
+    expect(Strength{40, 0, 1e6, 5e4, infinity, strain}, MohrCoulomb<>(),
            5e4 * std::sqrt(1.0 - sine_of(40) * sine_of(40)) + pressure * sine_of(40));
-    expect(Strength<double>{40, 0, 1e6, 0, infinity, strain, 25}, MohrCoulomb<double, true>(), broken);
+    expect(Strength{40, 0, 1e6, 0, infinity, strain, 25}, MohrCoulomb<true>(), broken);
   }
 }
 
@@ -113,10 +113,10 @@ TEST(Softening, TheEnergyItTakesIsThatOfTheLostStrength) {
   const std::vector<double> steps{4e-4, 2e-4, 1e-4};
   for (const double step : steps) {
     const int count = static_cast<int>(std::lround(0.04 / step));
-    of_cohesion.push_back(error(shear<MohrCoulomb<double>>({35, 0, 1e6, 2e4, infinity, strain}, step, count), strain,
+    of_cohesion.push_back(error(shear<MohrCoulomb<>>({35, 0, 1e6, 2e4, infinity, strain}, step, count), strain,
                                 1e6 * cosine + pressure * sine_of(35), 2e4 * cosine + pressure * sine_of(35)));
-    of_friction.push_back(error(shear<MohrCoulomb<double, true>>({35, 0, 0, 0, infinity, strain, 20}, step, count),
-                                strain, pressure * sine_of(35), pressure * sine_of(20)));
+    of_friction.push_back(error(shear<MohrCoulomb<true>>({35, 0, 0, 0, infinity, strain, 20}, step, count), strain,
+                                pressure * sine_of(35), pressure * sine_of(20)));
   }
   record.expect_near("relative error, of cohesion", of_cohesion.back(), 0.0, 0.005);
   record.expect_near("relative error, of friction", of_friction.back(), 0.0, 0.005);
@@ -142,7 +142,7 @@ TEST(Softening, OverASlipIsTheSameOnEveryCell) {
   for (const double cell : {20.0, 10.0, 5.0}) {
     const double strain = softening_strain_of_slip(slip, cell);
     const int count = static_cast<int>(std::lround(3.0 * slip / (2.0 * step * cell)));  // a slip of about 3 s_c
-    const Sheared sheared = shear<MohrCoulomb<double>>({35, 0, cohesion, residual, infinity, strain}, step, count);
+    const Sheared sheared = shear<MohrCoulomb<>>({35, 0, cohesion, residual, infinity, strain}, step, count);
     const double slipped = std::sqrt(3.0) * cell * sheared.plastic_strain;
     const double displacement = sheared.last_radius * height / elastic.shear_modulus + slipped;
     const double exact = sheared.last_radius * height / elastic.shear_modulus +
@@ -173,10 +173,9 @@ TEST(Softening, ReturnsWithTheRemainingStrength) {
   std::mt19937 random(31);
   std::normal_distribution<double> normal(0.0, 2e6);
   std::uniform_real_distribution<double> strains(0.0, 0.1);
-  for (const Strength<double>& strength :
-       {Strength<double>{40, 0, 1e6, 1e5, infinity, 0.02, 20}, Strength<double>{35, 15, 4e5, 0, 1e5, 0.03, 15},
-        Strength<double>{30, 0, 2e5, 5e4, 2e5, 0.05, 0}}) {
-    const auto law = MohrCoulomb<double, true>::make(elastic, strength);
+  for (const Strength& strength : {Strength{40, 0, 1e6, 1e5, infinity, 0.02, 20},
+                                   Strength{35, 15, 4e5, 0, 1e5, 0.03, 15}, Strength{30, 0, 2e5, 5e4, 2e5, 0.05, 0}}) {
+    const auto law = MohrCoulomb<true>::make(elastic, strength);
     int yielded = 0, skipped = 0;
     for (int k = 0; k < 5000; ++k) {
       Tensor trial;
@@ -188,8 +187,8 @@ TEST(Softening, ReturnsWithTheRemainingStrength) {
       trial[5] *= plane ? 0.0 : 1.0;
       const double plastic_strain = k % 10 == 0 ? 0.0 : strains(random);
       const auto [cohesion, sine] = softened(strength, plastic_strain);
-      const double angle = std::asin(sine) * 180.0 / pi<double>;
-      const auto left = MohrCoulomb<double>::make(
+      const double angle = std::asin(sine) * 180.0 / pi;
+      const auto left = MohrCoulomb<>::make(
           elastic, {angle, std::min(strength.dilation_angle, angle), cohesion, cohesion, strength.tension_cutoff});
       const auto found = plane ? law.update<2>(trial, plastic_strain) : law.update<3>(trial, plastic_strain);
       const auto expected = plane ? left.update<2>(trial, 0.0) : left.update<3>(trial, 0.0);

@@ -5,8 +5,8 @@
 
 namespace thawslide::physics {
 
-inline Phases<double> table1() {
-  Phases<double> phases{};
+inline Phases table1() {
+  Phases phases{};
   phases.rock_density = 2750;
   phases.ice_density = 917;
   phases.water_density = 1000;

@@ -38,10 +38,10 @@ config::Case leaving_bodies(std::vector<std::string> sets) {
 
 // Particles that slide along with the left body, from a place behind it or upon it on.
 template <int Dim>
-std::vector<NewParticle<Dim, double>> some_particles(const Simulation<Dim, double>& simulation, bool behind) {
-  std::vector<NewParticle<Dim, double>> some;
+std::vector<NewParticle<Dim>> some_particles(const Simulation<Dim>& simulation, bool behind) {
+  std::vector<NewParticle<Dim>> some;
   for (int k = 0; k < 12; ++k) {
-    NewParticle<Dim, double> one;
+    NewParticle<Dim> one;
     one.body = 0;
     one.material = behind ? 0 : 1;
     one.position[Dim - 1] = (behind ? 0.25 : 5.25) + 0.5 * (k % 2) - simulation.model().origin[Dim - 1];
@@ -68,7 +68,7 @@ struct Seen {
 };
 
 template <int Dim>
-void note_accounts(const Simulation<Dim, double>& simulation, Seen& seen) {
+void note_accounts(const Simulation<Dim>& simulation, Seen& seen) {
   const HistoryRow row = history_row(simulation);
   const double mass = simulation.ledger().initial_mass;
   const auto warning = [](double& largest, double share) { largest = std::max(largest, std::abs(share)); };
@@ -85,11 +85,11 @@ void note_accounts(const Simulation<Dim, double>& simulation, Seen& seen) {
 
 // Ids that no two have had, and rows in their order.
 template <int Dim>
-void expect_ids_and_rows(const Simulation<Dim, double>& simulation, std::size_t joined, std::size_t left) {
+void expect_ids_and_rows(const Simulation<Dim>& simulation, std::size_t joined, std::size_t left) {
   const auto& particles = simulation.particles();
   EXPECT_EQ(particles.size(), simulation.particles_at_start() + joined - left);
   EXPECT_GT(left, 0U);
-  const io::Snapshot snapshot = io::take_snapshot<Dim, double>(particles, simulation.model().origin, 0.0, 0);
+  const io::Snapshot snapshot = io::take_snapshot<Dim>(particles, simulation.model().origin, 0.0, 0);
   std::map<std::int64_t, std::size_t> by_id;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     EXPECT_TRUE(by_id.emplace(particles.id(p), p).second) << "id " << particles.id(p);
@@ -111,7 +111,7 @@ Seen run(const std::vector<std::string>& sets, int threads, int interval, int st
   const int threads_before = thread_count();
   set_thread_count(threads);
   const config::Case parameters = leaving_bodies<Dim>(sets);
-  auto simulation = std::make_unique<Simulation<Dim, double>>(parameters);
+  auto simulation = std::make_unique<Simulation<Dim>>(parameters);
   simulation->set_sorting_interval(interval);
   Seen seen;
   std::size_t joined = 0, left = 0;
@@ -126,12 +126,12 @@ Seen run(const std::vector<std::string>& sets, int threads, int interval, int st
     }
     if (k == stop) {
       const auto folder = folder_of_this_test();
-      io::write_checkpoint<Dim, double>(folder, simulation->particles(), simulation->particles_at_start(),
-                                        simulation->scalars());
-      simulation = std::make_unique<Simulation<Dim, double>>(parameters);
+      io::write_checkpoint<Dim>(folder, simulation->particles(), simulation->particles_at_start(),
+                                simulation->scalars());
+      simulation = std::make_unique<Simulation<Dim>>(parameters);
       simulation->set_sorting_interval(interval);
       std::vector<double> scalars;
-      io::read_checkpoint<Dim, double>(io::newest_checkpoint(folder), simulation->particles(), scalars);
+      io::read_checkpoint<Dim>(io::newest_checkpoint(folder), simulation->particles(), scalars);
       simulation->restore(scalars);
     }
     const std::size_t before = simulation->particles().size();
@@ -176,10 +176,10 @@ TEST(Append, BalancesCloseAndBitsStayWithOtherChoices) {
 // Those that join with the state of one at t = 0 are as that one was then.
 TEST(Append, NewParticlesAreAsThoseAtTheStart) {
   const config::Case parameters = leaving_bodies<2>({"mechanics.initial_stress=none"});
-  const Simulation<2, double> start(parameters);
-  Simulation<2, double> simulation(parameters);
+  const Simulation<2> start(parameters);
+  Simulation<2> simulation(parameters);
   const auto& before = start.particles();
-  NewParticle<2, double> one;
+  NewParticle<2> one;
   for (std::size_t p = 0; p < before.size(); ++p) {
     if (before.id(p) == 0) {  // the lowest one at the rear of the left body
       one.body = before.body(p);
@@ -207,11 +207,11 @@ TEST(Append, NewParticlesAreAsThoseAtTheStart) {
 
 // What joins counts by its own volume; dilation is the change since then.
 TEST(Append, IsNoDilation) {
-  Simulation<2, double> simulation(leaving_bodies<2>({}));
+  Simulation<2> simulation(leaving_bodies<2>({}));
   const std::size_t before = simulation.particles().size();
   simulation.append(some_particles<2>(simulation, false));
   ASSERT_GT(simulation.particles().size(), before);
-  EXPECT_EQ(value_of(history_row(simulation), "dilation_share"), 0.0);
+  EXPECT_EQ(value_of(history_row(simulation), "dilation_fraction"), 0.0);
   EXPECT_EQ(value_of(history_row(simulation), "dilation_volume_m3"), 0.0);
   double initial = 0.0;
   auto& particles = simulation.particles();
@@ -219,10 +219,10 @@ TEST(Append, IsNoDilation) {
     initial += particles.initial_volume(p);
     particles.volume(p) *= 1.06;
   }
-  EXPECT_NEAR(value_of(history_row(simulation), "dilation_share"), 0.06, 1e-12);
+  EXPECT_NEAR(value_of(history_row(simulation), "dilation_fraction"), 0.06, 1e-12);
   EXPECT_NEAR(value_of(history_row(simulation), "dilation_volume_m3"), 0.06 * initial, 1e-9 * initial);
   const EndState state = end_state<2>(simulation, false);
-  EXPECT_NEAR(state.dilation_share, 0.06, 1e-12);
+  EXPECT_NEAR(state.dilation_fraction, 0.06, 1e-12);
   const std::vector<std::string> warnings = warnings_of(state, false);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].rfind("Dilation has changed the volume of the slide by +6.0 %, ", 0), 0U) << warnings[0];

@@ -67,7 +67,7 @@ TEST(AdiabaticBand, FrictionFallsExponentiallyWithTheFactorOfTwoRows) {
                 "A melted slab of 50 m driven at 1 m/s, band of 0.05 m in cells of 10 m, no conduction and no seepage.",
                 "tau = mu (N - P0) exp(-1.25 mu Lambda V t/(C e)), 1.25 = 2 (w1^2 + w2^2)/(w1 + w2), w = 3/4 and 1/4",
                 "Rice 2006, with the band's two rows");
-  Simulation<2, double> simulation(paper_case(slab, base_free));
+  Simulation<2> simulation(paper_case(slab, base_free));
   const auto& model = simulation.model();
   const auto& phases = model.motion.phases;
   const double n = 0.375, gravity = 9.81, height = 50.0, thickness = 0.05, mu = 0.2, speed = 1.0;
@@ -153,7 +153,7 @@ thickness = 0.05
 TEST(BlockModel, AgreesWithTheMaterialPoints) {
   const config::Case parameters = paper_case(sliding, {"time.step=0.0005"});
   const auto rows = run_block(parameters);
-  Simulation<2, double> simulation(parameters);
+  Simulation<2> simulation(parameters);
   run_until(simulation, parameters.time.end);
   const auto row = history_row(simulation);
   const auto& block = rows.back();
@@ -184,7 +184,7 @@ TEST(BlockModel, AgreesWithTheMaterialPointsByTheBalanceOfWater) {
                            "phases.water_expansion_law=by_temperature", "body.slab.temperature=-0.05",
                            "material.rock.hydraulic_conductivity=1e-10"});
   const auto rows = run_block(parameters);
-  Simulation<2, double> simulation(parameters);
+  Simulation<2> simulation(parameters);
   run_until(simulation, parameters.time.end);
   const auto row = history_row(simulation);
   const auto& block = rows.back();
@@ -200,7 +200,7 @@ TEST(BlockModel, AgreesWithTheMaterialPointsByTheBalanceOfWater) {
 TEST(BlockModel, FollowsTheRegionOfTheScaling) {
   const config::Case parameters = paper_case(sliding, {"band.region=first_layer"});
   const auto block = run_block(parameters).back(), scaled_all = run_block(paper_case(sliding)).back();
-  Simulation<2, double> simulation(parameters);
+  Simulation<2> simulation(parameters);
   run_until(simulation, parameters.time.end);
   const auto row = history_row(simulation);
   EXPECT_NEAR(value_of(row, "friction_work_J") / 200.0 / value_of(block, "friction_work_J_m2"), 1.0, 0.01);

@@ -78,7 +78,7 @@ struct Motion {
 };
 
 template <int Dim>
-Motion motion_of(const Simulation<Dim, double>& simulation, int body) {
+Motion motion_of(const Simulation<Dim>& simulation, int body) {
   Motion motion;
   const auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -97,14 +97,14 @@ Motion motion_of(const Simulation<Dim, double>& simulation, int body) {
 
 // Between the edges of the particles [m].
 template <int Dim>
-double gap_between(const Simulation<Dim, double>& simulation) {
+double gap_between(const Simulation<Dim>& simulation) {
   return motion_of(simulation, 1).first - motion_of(simulation, 0).last - 0.5 * cell;
 }
 
 template <int Dim>
 void expect_collision_without_action_at_a_distance() {
   constexpr double speed = 5.0, gap = 1.3;
-  Simulation<Dim, double> simulation(two_blocks<Dim>(gap, speed, 0.0, frictional));
+  Simulation<Dim> simulation(two_blocks<Dim>(gap, speed, 0.0, frictional));
   const double before = motion_of(simulation, 0).mass * motion_of(simulation, 0).speed;
   double smallest_gap = gap;
   bool moved = false;
@@ -135,8 +135,8 @@ void expect_no_drag_as_they_part(double gap) {
   constexpr double speed = 2.0;
   // Edge to edge their weight presses them sideways against one another until they have parted.
   const double bound = gap > 0.0 ? 1e-7 : 1e-3 * speed;
-  Simulation<Dim, double> free(two_blocks<Dim>(gap, 0.0, speed, frictional));
-  Simulation<Dim, double> bonded(two_blocks<Dim>(gap, 0.0, speed));
+  Simulation<Dim> free(two_blocks<Dim>(gap, 0.0, speed, frictional));
+  Simulation<Dim> bonded(two_blocks<Dim>(gap, 0.0, speed));
   while (free.time() < 0.5) {
     free.step(dt);
     bonded.step(dt);
@@ -154,7 +154,7 @@ TEST(BetweenBodies, PartWithoutDragInSpace) { expect_no_drag_as_they_part<3>(0.0
 
 // Bodies that never meet have the same motion, to the last bit, whether they share nodes or not.
 TEST(BetweenBodies, AreOfNoConcernToBodiesFarApart) {
-  Simulation<2, double> shared(two_blocks<2>(20.0, -1.0, 1.0)), own(two_blocks<2>(20.0, -1.0, 1.0, frictional));
+  Simulation<2> shared(two_blocks<2>(20.0, -1.0, 1.0)), own(two_blocks<2>(20.0, -1.0, 1.0, frictional));
   for (int k = 0; k < 200; ++k) {
     shared.step(dt);
     own.step(dt);
@@ -165,7 +165,7 @@ TEST(BetweenBodies, AreOfNoConcernToBodiesFarApart) {
 // What is bonded shares nodes, whatever the default says.
 TEST(BetweenBodies, AreOneWhereTheyAreBonded) {
   const std::string seam = "[contact_pair.seam]\nbodies = [\"left\", \"right\"]\ncontact = \"bonded\"\n";
-  Simulation<2, double> bonded(two_blocks<2>(0.0, 0.0, 1.0, frictional, seam)), one(two_blocks<2>(0.0, 0.0, 1.0));
+  Simulation<2> bonded(two_blocks<2>(0.0, 0.0, 1.0, frictional, seam)), one(two_blocks<2>(0.0, 0.0, 1.0));
   for (int k = 0; k < 100; ++k) {
     bonded.step(dt);
     one.step(dt);
@@ -181,7 +181,7 @@ double slowing(double friction_angle, double speed) {
                     {"contact.between_bodies=frictional", fmt::format("contact.friction_angle={}", friction_angle),
                      "body.left.min=[-20.0, 0.0]", "body.left.max=[40.0, 4.0]", "body.right.min=[-10.0, 4.0]",
                      "body.right.max=[6.0, 8.0]", "basal.friction_angle=60.0"});
-  Simulation<2, double> simulation(parameters);
+  Simulation<2> simulation(parameters);
   run_until(simulation, 0.2);
   const double before = motion_of(simulation, 1).speed;
   run_until(simulation, 1.2);
@@ -190,7 +190,7 @@ double slowing(double friction_angle, double speed) {
 
 TEST(BetweenBodies, RubByCoulombsLaw) {
   for (const double angle : {10.0, 30.0}) {
-    const double exact = 9.81 * std::tan(angle * pi<double> / 180.0);
+    const double exact = 9.81 * std::tan(angle * pi / 180.0);
     EXPECT_NEAR(slowing(angle, 9.0), exact, 0.05 * exact) << angle << " degrees";
   }
   EXPECT_NEAR(slowing(0.0, 5.0), 0.0, 0.02) << "no friction";
@@ -201,7 +201,7 @@ TEST(BetweenBodies, KeepTheirAccounts) {
   const auto residual_after_impact = [](double step) {
     std::vector<std::string> sets = frictional;
     sets.push_back(fmt::format("time.step={}", step));
-    Simulation<2, double> simulation(two_blocks<2>(0.5, 6.0, -1.0, sets));
+    Simulation<2> simulation(two_blocks<2>(0.5, 6.0, -1.0, sets));
     run_until(simulation, 0.5);
     const auto row = history_row(simulation);
     EXPECT_GT(value_of(row, "contact_loss_J"), 0.0);
@@ -213,7 +213,7 @@ TEST(BetweenBodies, KeepTheirAccounts) {
 
 TEST(BetweenBodies, AreDoubtedWhereTheyStandApartAndShareNodes) {
   const auto warning = [](double gap, const std::vector<std::string>& sets) {
-    return warning_of_bodies_apart(Simulation<2, double>(two_blocks<2>(gap, 0.0, 0.0, sets)));
+    return warning_of_bodies_apart(Simulation<2>(two_blocks<2>(gap, 0.0, 0.0, sets)));
   };
   EXPECT_EQ(warning(0.0, {}), "") << "they touch";
   EXPECT_EQ(warning(10.0, frictional), "");

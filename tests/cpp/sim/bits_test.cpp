@@ -32,7 +32,7 @@ void expect_the_same_bits(double length, double height, int steps) {
   for (const auto& [threads, interval] :
        {std::pair(1, 0), std::pair(1, 1), std::pair(2, 7), std::pair(3, 20), std::pair(4, 3)}) {
     set_thread_count(threads);
-    Simulation<Dim, double> simulation(case_of_bodies);
+    Simulation<Dim> simulation(case_of_bodies);
     simulation.set_sorting_interval(interval);
     ASSERT_GE(simulation.grid().tiles().size(), fewest_shared_calls);
     ASSERT_GT(simulation.particles().size(), particles_of_shared_loops);
@@ -181,8 +181,7 @@ State state_after(const Choice& choice, int threads, int interval) {
   const int threads_before = thread_count();
   set_thread_count(threads);
   std::ofstream(folder_of_this_test() / "dem.tif");
-  Simulation<Dim, double> simulation(two_bodies<Dim>(5e3, length<Dim>, 5.0, 20.0, choice.terrain, choice.sets),
-                                     bumpy_site());
+  Simulation<Dim> simulation(two_bodies<Dim>(5e3, length<Dim>, 5.0, 20.0, choice.terrain, choice.sets), bumpy_site());
   simulation.set_sorting_interval(interval);
   EXPECT_GE(simulation.grid().tiles().size(), fewest_shared_calls);
   for (int k = 0; k < (Dim == 2 ? 40 : 16); ++k) {

@@ -37,7 +37,7 @@ enabled = false
 TEST(Bodies, MayNotOverlapNorMissTheirVolume) {
   const auto mistake = [](const std::string& text, const Sets& sets) -> std::string {
     try {
-      const Simulation<2, double> simulation(paper_case(text, sets));
+      const Simulation<2> simulation(paper_case(text, sets));
     } catch (const UserError& error) {
       return error.what();
     }
@@ -50,7 +50,7 @@ TEST(Bodies, MayNotOverlapNorMissTheirVolume) {
       << mistake(block + second, {});
   EXPECT_EQ(mistake(block + second, {"body.other.min=[100.0,0.0]"}), "no mistake");
   const std::string thin = mistake(block, {"body.block.min=[0.0,4.0]", "body.block.max=[100.0,8.0]"});
-  EXPECT_NE(thin.find("body 'block' has a volume of 400 m3 per m, and its 20 particles, which stand 5 m apart, 500; "
+  EXPECT_NE(thin.find("body 'block' has a volume of 400 m3 per m, and its 20 particles, 5 m apart, 500; "
                       "allowed: within 15 %."),
             std::string::npos)
       << thin;

@@ -42,7 +42,7 @@ enabled = false
 )";
 
 std::vector<BodyFigures> figures_of(const std::string& text, const std::vector<std::string>& sets = {}) {
-  return body_figures(Simulation<2, double>(case_from_text(text, sets)));
+  return body_figures(Simulation<2>(case_from_text(text, sets)));
 }
 
 TEST(BodyFigures, AreThoseOfTheBody) {
@@ -62,7 +62,7 @@ TEST(BodyFigures, AreThoseOfTheBody) {
   EXPECT_NEAR(body.warmest, -2.5, 1e-12) << "a quarter of a metre below the top";
   EXPECT_NEAR(body.coldest, -9.5, 1e-12);
   EXPECT_NEAR(body.clearance, 0.0, 1e-12);
-  EXPECT_EQ(body.standing_share, 1.0);
+  EXPECT_EQ(body.resting_fraction, 1.0);
   EXPECT_TRUE(body_warnings(case_from_text(step), bodies).empty());
 }
 
@@ -75,7 +75,7 @@ TEST(BodyFigures, TheMedianIsByAreaAndANoteLooksAtIt) {
   EXPECT_NEAR(bodies.front().mean_thickness, 65.0 / 30.0, 1e-12);
   EXPECT_NEAR(bodies.front().median_thickness, 1.0, 1e-12) << "not the 8 m of most of its volume";
   EXPECT_NEAR(bodies.front().particles_across, 2.0, 1e-12);
-  EXPECT_NEAR(bodies.front().most_particles_across, 16.0, 1e-12);
+  EXPECT_NEAR(bodies.front().max_particles_across, 16.0, 1e-12);
   const auto warnings = body_warnings(case_from_text(step, sets), bodies);
   ASSERT_EQ(warnings.size(), 2U);
   EXPECT_NE(warnings[0].find("the weight of body step, 1.6e+05 Pa where it is thickest, squeezes it by 8 % there. Give "
@@ -153,7 +153,7 @@ TEST(BodyFigures, SofteningThatLosesNoStrengthIsNotReported) {
 TEST(BodyFigures, TellHowFarABodyIsAboveTheGround) {
   const std::vector<BodyFigures> bodies = figures_of(step, {"terrain.elevation=-0.75"});
   EXPECT_NEAR(bodies.front().clearance, 1.75, 1e-12);
-  EXPECT_EQ(bodies.front().standing_share, 0.0);
+  EXPECT_EQ(bodies.front().resting_fraction, 0.0);
   const auto warnings = body_warnings(case_from_text(step), bodies);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings.front().find("body.step floats: its underside is 1.75 m above what is below it, and it falls for "
@@ -171,9 +171,8 @@ TEST(BodyFigures, TellWhatTheLatticeMakesOfAVolume) {
   const auto warnings = body_warnings(case_from_text(step, lower), bodies);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(
-      warnings.front().find("body.step has 38.4 m3 per m of width; its particles, which stand 0.5 m apart and are "
-                            "what slides, have 40, 4.2 % more. Put its corners on multiples of that distance, or "
-                            "make grid.cell smaller."),
+      warnings.front().find("body.step has 38.4 m3 per m of width; its particles, 0.5 m apart, have 40, 4.2 % more. "
+                            "Place its corners at multiples of that distance, or use a smaller grid.cell."),
       std::string::npos)
       << warnings.front();
 }
@@ -183,7 +182,7 @@ TEST(BodyFigures, TellWhatShareOfABodyStands) {
   const std::vector<BodyFigures> bodies =
       figures_of(step, {"terrain.type=plane", "terrain.slope=45", "terrain.elevation=11"});
   EXPECT_NEAR(bodies.front().clearance, 0.25, 1e-12) << "at the middle of the first column";
-  EXPECT_NEAR(bodies.front().standing_share, 1.0 / 24.0, 1e-12);
+  EXPECT_NEAR(bodies.front().resting_fraction, 1.0 / 24.0, 1e-12);
 }
 
 const std::string lid =
@@ -194,12 +193,12 @@ TEST(BodyFigures, BodiesStandOnBodies) {
   ASSERT_EQ(bodies.size(), 2U);
   EXPECT_EQ(bodies[0].name, "lid");
   EXPECT_NEAR(bodies[0].clearance, 0.0, 1e-12);
-  EXPECT_EQ(bodies[0].standing_share, 1.0);
+  EXPECT_EQ(bodies[0].resting_fraction, 1.0);
   EXPECT_NEAR(bodies[0].mean_thickness, 2.0, 1e-12);
-  EXPECT_EQ(bodies[1].standing_share, 1.0);
+  EXPECT_EQ(bodies[1].resting_fraction, 1.0);
   const std::vector<BodyFigures> moved = figures_of(step + lid, {"body.lid.min=[14.0,5.0]", "body.lid.max=[22.0,7.0]"});
   EXPECT_NEAR(moved[0].clearance, 0.0, 1e-12);
-  EXPECT_NEAR(moved[0].standing_share, 0.5, 0.04) << "the other half is over the lower step";
+  EXPECT_NEAR(moved[0].resting_fraction, 0.5, 0.04) << "the other half is over the lower step";
 }
 
 TEST(BodyFigures, NothingBelowIsToldSo) {

@@ -44,7 +44,7 @@ enabled = false
 )";
 
 TEST(Boundary, ColumnBetweenRollersCarriesItsWeight) {
-  Simulation<2, double> simulation(paper_case(column));
+  Simulation<2> simulation(paper_case(column));
   run_until(simulation, 12.0);
   const auto& particles = simulation.particles();
   const double weight = particles.mass(0) / particles.initial_volume(0) * 9.81;
@@ -64,7 +64,7 @@ TEST(Boundary, ColumnBetweenRollersCarriesItsWeight) {
 TEST(Boundary, LedgerOfTheColumnClosesInFirstOrderOfTheStep) {
   double residual[2];
   for (int k = 0; k < 2; ++k) {
-    Simulation<2, double> simulation(paper_case(column, {k == 0 ? "time.step=0.002" : "time.step=0.001"}));
+    Simulation<2> simulation(paper_case(column, {k == 0 ? "time.step=0.002" : "time.step=0.001"}));
     run_until(simulation, 1.0);
     const auto row = history_row(simulation);
     residual[k] = value_of(row, "mechanical_residual_J") / value_of(row, "damping_J");
@@ -74,7 +74,7 @@ TEST(Boundary, LedgerOfTheColumnClosesInFirstOrderOfTheStep) {
 }
 
 TEST(Boundary, OpenSideLetsTheColumnSpread) {
-  Simulation<2, double> held(paper_case(column)), open(paper_case(column, {"grid.boundary.x_max=open"}));
+  Simulation<2> held(paper_case(column)), open(paper_case(column, {"grid.boundary.x_max=open"}));
   run_until(held, 1.0);
   run_until(open, 1.0);
   EXPECT_LT(history_row(held)[3].second, history_row(open)[3].second) << "mean velocity";
@@ -107,7 +107,7 @@ max = [40.0, 20.0]
 axis = "x"
 velocity = 3.0
 )";
-  Simulation<2, double> simulation(paper_case(text));
+  Simulation<2> simulation(paper_case(text));
   run_until(simulation, 1.0);
   const auto row = history_row(simulation);
   EXPECT_NEAR(value_of(row, "mean_velocity_m_s"), 3.0, 1e-9);
@@ -149,7 +149,7 @@ temperature = { depth = [0.0, 4.0], value = [-2.0, -6.0] }
 [mechanics]
 initial_stress = "none"
 )";
-  Simulation<2, double> simulation(paper_case(text));
+  Simulation<2> simulation(paper_case(text));
   const auto& particles = simulation.particles();
   int left = 0, right = 0;
   for (std::size_t p = 0; p < particles.size(); ++p) {

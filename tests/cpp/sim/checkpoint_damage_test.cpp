@@ -25,7 +25,7 @@ config::Case small_slide() {
 
 // Two generations of the run's checkpoint, some steps apart.
 void write_two_generations(const fs::path& folder) {
-  Simulation<3, double> simulation(small_slide());
+  Simulation<3> simulation(small_slide());
   RunRecords<3> records(simulation, {});
   records.start(simulation);
   for (int generation = 0; generation < 2; ++generation) {
@@ -33,8 +33,8 @@ void write_two_generations(const fs::path& folder) {
       simulation.step(0.002);
       records.after_step(simulation);
     }
-    io::write_checkpoint<3, double>(folder, simulation.particles(), simulation.particles_at_start(),
-                                    simulation.scalars(), records.state());
+    io::write_checkpoint<3>(folder, simulation.particles(), simulation.particles_at_start(), simulation.scalars(),
+                            records.state());
   }
 }
 

@@ -20,7 +20,7 @@ constexpr double slope = 48.0;
 constexpr double length = 240.0;
 
 std::string slab_on_plane() {
-  const double angle = slope * pi<double> / 180.0;
+  const double angle = slope * pi / 180.0;
   const double run = length * std::cos(angle), fall = length * std::sin(angle);
   const double rise = 25.0 / std::cos(angle);
   return fmt::format(R"(
@@ -62,11 +62,11 @@ struct Standing {
 };
 
 Standing stand(const std::vector<std::string>& sets) {
-  Simulation<2, double> simulation(paper_case(slab_on_plane(), sets));
+  Simulation<2> simulation(paper_case(slab_on_plane(), sets));
   run_until(simulation, 1.5);
   Standing mean;
   int count = 0;
-  const double angle = slope * pi<double> / 180.0;
+  const double angle = slope * pi / 180.0;
   const Vector<double, 2> down(-std::sin(angle), -std::cos(angle)), along(std::cos(angle), -std::sin(angle));
   while (simulation.time() < 3.0 - 1e-9) {
     simulation.step(0.001);
@@ -84,14 +84,14 @@ TEST(ContactArea, OfASlabAtRestOnASlopeThroughTheGridIsItsBase) {
   const Standing seen = stand({"basal.friction_angle=60.0"});
   EXPECT_LT(seen.velocity, 0.05);
   EXPECT_NEAR(seen.area / length, 1.0, 0.05);
-  EXPECT_NEAR(seen.normal / (seen.mass * 9.81 * std::cos(slope * pi<double> / 180.0)), 1.0, 0.01);
+  EXPECT_NEAR(seen.normal / (seen.mass * 9.81 * std::cos(slope * pi / 180.0)), 1.0, 0.01);
 }
 
 TEST(ContactArea, OfASlidingSlabIsItsBase) {
   const Standing seen = stand({});
   EXPECT_GT(seen.velocity, 5.0);
   EXPECT_NEAR(seen.area / length, 1.0, 0.05);
-  EXPECT_NEAR(seen.tangential / seen.normal, std::tan(pi<double> / 6.0), 1e-3);
+  EXPECT_NEAR(seen.tangential / seen.normal, std::tan(pi / 6.0), 1e-3);
 }
 
 // Friction from cohesion alone is cohesion times the base, at any angle to the grid.
@@ -103,8 +103,7 @@ TEST(ContactArea, CohesionActsOnTheBase) {
 
 // The momentum of the slab is that at t = 0 and the impulses of gravity, ground and walls, to round-off.
 TEST(Ledger, OfMomentumCloses) {
-  Simulation<2, double> simulation(
-      paper_case(slab_on_plane(), {"grid.boundary.x_min=roller", "mechanics.mass_damping=0.1"}));
+  Simulation<2> simulation(paper_case(slab_on_plane(), {"grid.boundary.x_min=roller", "mechanics.mass_damping=0.1"}));
   run_until(simulation, 2.0);
   const auto row = history_row(simulation);
   for (const std::string axis : {"x", "y"}) {
@@ -151,7 +150,7 @@ pressurization = false
 )";
 
 TEST(Walls, HoldWhereTheyMeetTheGround) {
-  Simulation<2, double> simulation(paper_case(cornered));
+  Simulation<2> simulation(paper_case(cornered));
   run_until(simulation, 2.0);
   const auto row = history_row(simulation);
   EXPECT_LT(value_of(row, "mean_velocity_m_s"), 0.02);
@@ -164,7 +163,7 @@ TEST(Walls, HoldWhereTheyMeetTheGround) {
 // Without the distance check contact is felt up to a cell early; a body that hovers by half a cell still has all of its
 // base.
 TEST(ContactArea, OfAHoveringSlabIsItsBase) {
-  Simulation<2, double> simulation(paper_case(
+  Simulation<2> simulation(paper_case(
       cornered, {"case.gravity_tilt=0", "grid.boundary.x_min=open", "terrain.elevation=-2.5", "body.block.min=[20,0]",
                  "body.block.max=[60,20]", "body.block.velocity=[10,0]", "basal.friction_angle=0", "basal.cohesion=1e4",
                  "basal.cohesion_law=constant", "mechanics.initial_stress=settle", "mechanics.settle_time=5.0",
@@ -189,7 +188,7 @@ struct Ringing {
 };
 
 Ringing ring(const std::vector<std::string>& sets) {
-  Simulation<2, double> simulation(paper_case(cornered, sets));
+  Simulation<2> simulation(paper_case(cornered, sets));
   simulation.settle();
   const double weight = simulation.sum_over_body().mass * 9.81;
   Ringing seen;
@@ -220,7 +219,7 @@ TEST(Settling, ChangesNothingButStress) {
   const std::vector<std::string> sets{"case.gravity_tilt=0.0", "mechanics.initial_stress=settle",
                                       "mechanics.settle_time=2.0", "mechanics.settle_damping=5.0"};
   const config::Case parameters = paper_case(cornered, sets);
-  Simulation<2, double> seeded(parameters), settled(parameters);
+  Simulation<2> seeded(parameters), settled(parameters);
   ASSERT_TRUE(settled.needs_settling());
   settled.settle();
   EXPECT_EQ(settled.time(), 0.0);

@@ -183,7 +183,7 @@ struct Rows {
 
 Rows rows_of(const std::string& text) {
   const config::Case parameters = paper_case(text);
-  Simulation<2, double> simulation(parameters);
+  Simulation<2> simulation(parameters);
   Rows rows{history_row(simulation), {}};
   run_until(simulation, parameters.time.end);
   rows.last = history_row(simulation);
@@ -235,7 +235,7 @@ TEST(Direction, StaysWhereASlideIsThrownGentlyUphill) {
   for (const bool is_mirrored : {false, true}) {
     for (const bool by_tilt : {false, true}) {
       SCOPED_TRACE(fmt::format("mirrored {}, tilt {}", is_mirrored, by_tilt));
-      Simulation<2, double> simulation(paper_case(sliding(is_mirrored, by_tilt, -1.0)));
+      Simulation<2> simulation(paper_case(sliding(is_mirrored, by_tilt, -1.0)));
       const double downhill = is_mirrored ? -1.0 : 1.0;
       double runout = value_of(history_row(simulation), "runout_m");
       EXPECT_GT(runout, 35.0);
@@ -247,7 +247,7 @@ TEST(Direction, StaysWhereASlideIsThrownGentlyUphill) {
         runout = now;
       }
       EXPECT_GT(runout, 43.0);
-      const Simulation<2, double> fast(paper_case(sliding(is_mirrored, by_tilt, -22.0)));
+      const Simulation<2> fast(paper_case(sliding(is_mirrored, by_tilt, -22.0)));
       EXPECT_EQ(direction_along_x(fast), -downhill);
     }
   }

@@ -42,7 +42,7 @@ struct Seen {
 };
 
 template <int Dim>
-void note_accounts(const Simulation<Dim, double>& simulation, Seen& seen) {
+void note_accounts(const Simulation<Dim>& simulation, Seen& seen) {
   const HistoryRow row = history_row(simulation);
   const double mass = simulation.ledger().initial_mass;
   const auto value = [&](const std::string& name) { return value_of(row, name); };
@@ -67,7 +67,7 @@ Seen run(const std::vector<std::string>& sets, int threads, int interval, int st
   const int threads_before = thread_count();
   set_thread_count(threads);
   const config::Case parameters = slide_over_bed<Dim>(sets);
-  auto simulation = std::make_unique<Simulation<Dim, double>>(parameters);
+  auto simulation = std::make_unique<Simulation<Dim>>(parameters);
   simulation->set_sorting_interval(interval);
   Seen seen;
   for (int k = 0; k < steps<Dim>; ++k) {
@@ -77,12 +77,12 @@ Seen run(const std::vector<std::string>& sets, int threads, int interval, int st
       if (const auto* columns = simulation->band_columns()) {
         blocks["band_columns"] = columns->state();
       }
-      io::write_checkpoint<Dim, double>(folder, simulation->particles(), simulation->particles_at_start(),
-                                        simulation->scalars(), blocks);
-      simulation = std::make_unique<Simulation<Dim, double>>(parameters);
+      io::write_checkpoint<Dim>(folder, simulation->particles(), simulation->particles_at_start(),
+                                simulation->scalars(), blocks);
+      simulation = std::make_unique<Simulation<Dim>>(parameters);
       simulation->set_sorting_interval(interval);
       std::vector<double> scalars;
-      blocks = io::read_checkpoint<Dim, double>(io::newest_checkpoint(folder), simulation->particles(), scalars);
+      blocks = io::read_checkpoint<Dim>(io::newest_checkpoint(folder), simulation->particles(), scalars);
       simulation->restore(scalars);
       simulation->restore_bed(blocks.at("bed"));
       if (simulation->band_columns() != nullptr) {
@@ -143,8 +143,7 @@ TEST(Entrainment, MechanicalAccountClosesInFirstOrderOfTheStep) {
     std::array<double, 3> left_over{};
     for (std::size_t k = 0; k < left_over.size(); ++k) {
       const int finer = 1 << k;
-      Simulation<2, double> simulation(
-          slide_over_bed<2>({"bed.law=" + law, fmt::format("time.step={}", 0.001 / finer)}));
+      Simulation<2> simulation(slide_over_bed<2>({"bed.law=" + law, fmt::format("time.step={}", 0.001 / finer)}));
       Seen seen;
       for (int step = 0; step < steps<2> * finer; ++step) {
         simulation.step(simulation.next_step(1.0));
@@ -160,7 +159,7 @@ TEST(Entrainment, MechanicalAccountClosesInFirstOrderOfTheStep) {
 // What slides loses of its motion to what it takes up: that is warmer than the bed was.
 TEST(Entrainment, WhatIsTakenUpGetsTheHeatOfThePush) {
   const config::Case parameters = slide_over_bed<2>({"bed.law=strength", "bed.temperature=-20.0"});
-  Simulation<2, double> simulation(parameters);
+  Simulation<2> simulation(parameters);
   for (int k = 0; k < steps<2>; ++k) {
     simulation.step(0.002);
   }

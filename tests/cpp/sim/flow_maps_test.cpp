@@ -16,7 +16,7 @@ namespace {
 
 using testing_support::slide_in_space;
 
-double volume_of(const mpm::Particles<3, double>& particles) {
+double volume_of(const mpm::Particles<3>& particles) {
   double volume = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     volume += particles.volume(p);
@@ -30,7 +30,7 @@ double map_volume(const FlowMaps& maps) {
   return volume;
 }
 
-FlowMaps maps_of(const Simulation<3, double>& simulation, const MapGrid& map_grid, double arrival_thickness = 0.1) {
+FlowMaps maps_of(const Simulation<3>& simulation, const MapGrid& map_grid, double arrival_thickness = 0.1) {
   const auto& origin = simulation.model().origin;
   return {map_grid,
           {origin[0], origin[1]},
@@ -91,7 +91,7 @@ TEST(CellRange, WhatLiesBesideTheGridCountsToItsEdge) {
 }
 
 TEST(FlowMaps, MemoryFollowsTheSlideAndTheCells) {
-  const Simulation<3, double> simulation(slide_in_space());
+  const Simulation<3> simulation(slide_in_space());
   FlowMaps wide = maps_of(simulation, {-4.5, -4.5, 1.5, 1.0, 60, 20, ""});
   FlowMaps narrow = maps_of(simulation, {-4.5, -4.5, 0.15, 0.1, 600, 200, ""});
   EXPECT_EQ(wide.bytes(), 0U);
@@ -102,7 +102,7 @@ TEST(FlowMaps, MemoryFollowsTheSlideAndTheCells) {
 }
 
 TEST(FlowMaps, ABoxGivesItsThicknessFromTheStart) {
-  const Simulation<3, double> simulation(slide_in_space());
+  const Simulation<3> simulation(slide_in_space());
   // Cells of 1.5 x 1 m from -5.25 m on: the box begins and ends in the middle of one along x.
   FlowMaps maps = maps_of(simulation, {-4.5, -4.5, 1.5, 1.0, 60, 20, ""});
   maps.start(simulation.grid(), simulation.particles());
@@ -127,7 +127,7 @@ TEST(FlowMaps, ABoxGivesItsThicknessFromTheStart) {
 }
 
 TEST(FlowMaps, SumsAreThoseOfTheParticlesOnAnyGrid) {
-  Simulation<3, double> simulation(slide_in_space("velocity = [3.0, 2.0, 0.5]"));
+  Simulation<3> simulation(slide_in_space("velocity = [3.0, 2.0, 0.5]"));
   // The last one ends within the outermost boxes: what pokes out of it counts to its edge.
   const std::vector<MapGrid> grids{{-4.0, -5.0, 0.4, 0.3, 180, 80, ""},
                                    {-3.5, -4.5, 1.0, 1.0, 70, 30, ""},
@@ -152,7 +152,7 @@ TEST(FlowMaps, SumsAreThoseOfTheParticlesOnAnyGrid) {
 
 // What each cell holds against the overlap of all boxes with it.
 TEST(FlowMaps, CellsHoldTheirSharesOfAllBoxes) {
-  Simulation<3, double> simulation(slide_in_space("velocity = [6.0, 2.0, 0.5]", {"body.box.particles_per_axis=3"}));
+  Simulation<3> simulation(slide_in_space("velocity = [6.0, 2.0, 0.5]", {"body.box.particles_per_axis=3"}));
   const double half = 0.5 / 3.0;
   for (const MapGrid& grid :
        {MapGrid{-4.1, -5.2, 0.13, 0.21, 500, 100, ""}, MapGrid{-4.0, -5.0, 0.7, 0.9, 100, 30, ""}}) {
@@ -193,7 +193,7 @@ TEST(FlowMaps, CellsHoldTheirSharesOfAllBoxes) {
 
 // Each record against the particles above one cell so large that it holds them all.
 TEST(FlowMaps, RecordsAreTheLargestOfWhatTheColumnHeld) {
-  Simulation<3, double> simulation(slide_in_space("velocity = [5.0, 0.0, 0.0]"));
+  Simulation<3> simulation(slide_in_space("velocity = [5.0, 0.0, 0.0]"));
   FlowMaps maps = maps_of(simulation, {28.0, 5.0, 64.0, 20.0, 1, 1, ""});
   FlowMaps of_thin = maps_of(simulation, maps.map_grid(), 0.05);  // the cell's thickness is 72/1280 m
   maps.start(simulation.grid(), simulation.particles());
@@ -250,7 +250,7 @@ TEST(FlowMaps, RecordsAreTheLargestOfWhatTheColumnHeld) {
 }
 
 TEST(FlowMaps, ASlideThatWentOnLeavesNothingWhereItWas) {
-  Simulation<3, double> simulation(slide_in_space("velocity = [40.0, 0.0, 0.0]", {"basal.friction_angle=0.0"}));
+  Simulation<3> simulation(slide_in_space("velocity = [40.0, 0.0, 0.0]", {"basal.friction_angle=0.0"}));
   FlowMaps maps = maps_of(simulation, {-3.75, -4.75, 0.5, 0.5, 128, 40, ""});
   maps.start(simulation.grid(), simulation.particles());
   while (simulation.time() < 0.8) {
@@ -277,7 +277,7 @@ TEST(FlowMaps, ASlideThatWentOnLeavesNothingWhereItWas) {
 }
 
 TEST(FlowMaps, RastersLieWhereTheCellsAre) {
-  const Simulation<3, double> simulation(slide_in_space());
+  const Simulation<3> simulation(slide_in_space());
   FlowMaps maps = maps_of(simulation, {-3.5, -4.5, 1.0, 1.0, 64, 20, "a system"});
   EXPECT_TRUE(maps.raster(kind("max_thickness"), MapExtent::slide).empty());
   maps.start(simulation.grid(), simulation.particles());
@@ -307,7 +307,7 @@ TEST(FlowMaps, RastersLieWhereTheCellsAre) {
 std::vector<double> state_after(const MapGrid& map_grid, int threads, int sorting_interval, int stop_at) {
   const int threads_before = thread_count();
   set_thread_count(threads);
-  Simulation<3, double> simulation(slide_in_space("velocity = [10.0, 3.0, 1.0]", {"body.box.max=[12.0, 11.0, 3.0]"}));
+  Simulation<3> simulation(slide_in_space("velocity = [10.0, 3.0, 1.0]", {"body.box.max=[12.0, 11.0, 3.0]"}));
   simulation.set_sorting_interval(sorting_interval);
   FlowMaps maps = maps_of(simulation, map_grid);
   maps.start(simulation.grid(), simulation.particles());
@@ -341,7 +341,7 @@ TEST(FlowMaps, BitsDependNeitherOnThreadsNorOnPlacesInMemoryNorOnAStop) {
 
 // Two billion cells of maps would take 200 GB.
 TEST(FlowMaps, MemoryFollowsTheSlide) {
-  const Simulation<3, double> simulation(slide_in_space());
+  const Simulation<3> simulation(slide_in_space());
   FlowMaps maps = maps_of(simulation, {-299.975, -299.975, 0.05, 0.05, 40000, 50000, ""});
   maps.start(simulation.grid(), simulation.particles());
   int cells = 0;

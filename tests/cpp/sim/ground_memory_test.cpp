@@ -6,7 +6,7 @@ namespace thawslide::sim {
 namespace {
 
 TEST(GroundMemory, WhatTheSlideHasLeftIsForgotten) {
-  Simulation<3, double> simulation(testing_support::slide_in_space(
+  Simulation<3> simulation(testing_support::slide_in_space(
       "velocity = [80.0, 0.0, 0.0]",
       {"grid.max=[200.0, 15.0, 20.0]", "material.rock.law=\"elastic\"", "material.rock.viscosity_time=0.01"}));
   std::size_t most_held = 0, most_active = 0, seen = 0;

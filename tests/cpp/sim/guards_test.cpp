@@ -44,7 +44,7 @@ enabled = false
 enabled = false
 )";
 
-std::string failure_of(Simulation<2, double>& simulation, double dt, int steps) {
+std::string failure_of(Simulation<2>& simulation, double dt, int steps) {
   set_thread_count(1);
   try {
     for (int k = 0; k < steps; ++k) {
@@ -56,7 +56,7 @@ std::string failure_of(Simulation<2, double>& simulation, double dt, int steps) 
   return "it went well";
 }
 
-std::string failure_of_next(const Simulation<2, double>& simulation) {
+std::string failure_of_next(const Simulation<2>& simulation) {
   try {
     (void)simulation.next_step(1.0);
   } catch (const RunError& error) {
@@ -69,7 +69,7 @@ void expect_match(const std::string& text, const std::string& pattern) {
   EXPECT_TRUE(std::regex_match(text, std::regex(pattern))) << text;
 }
 
-std::size_t place_of(const Simulation<2, double>& simulation, std::int64_t id) {
+std::size_t place_of(const Simulation<2>& simulation, std::int64_t id) {
   std::size_t p = 0;
   while (simulation.particles().id(p) != id) {
     ++p;
@@ -78,12 +78,12 @@ std::size_t place_of(const Simulation<2, double>& simulation, std::int64_t id) {
 }
 
 TEST(EnergyGuard, StableStepsPass) {
-  Simulation<2, double> simulation(paper_case(block));
+  Simulation<2> simulation(paper_case(block));
   EXPECT_EQ(failure_of(simulation, 0.9 * simulation.step_limit().step, 200), "it went well");
 }
 
 TEST(EnergyGuard, AStepThatIsTooLongIsToldSoWhileAllIsFinite) {
-  Simulation<2, double> simulation(paper_case(block));
+  Simulation<2> simulation(paper_case(block));
   expect_match(failure_of(simulation, 2.1 * simulation.step_limit().step, 400),
                "the run failed at t = [0-9.]+ s \\(step [0-9]+\\): energy grew by [0-9.e+]+ J per m of width "
                "without a physical cause, [0-9.e+]+ % of all energy so far \\(guards.energy_growth allows 25 %\\)\\. "
@@ -98,14 +98,14 @@ TEST(EnergyGuard, AStepThatIsTooLongIsToldSoWhileAllIsFinite) {
 }
 
 TEST(EnergyGuard, CanBeLaidOff) {
-  Simulation<2, double> simulation(paper_case(block, {"guards.energy_growth=inf"}));
+  Simulation<2> simulation(paper_case(block, {"guards.energy_growth=inf"}));
   const std::string failure = failure_of(simulation, 2.1 * simulation.step_limit().step, 400);
   EXPECT_EQ(failure.find("cause, "), std::string::npos) << failure;
   EXPECT_NE(failure.find("the run failed at t = "), std::string::npos) << failure;
 }
 
 TEST(EnergyGuard, NamesTheShareOfAdaptiveSteps) {
-  Simulation<2, double> simulation(paper_case(block, {"time.stepping=adaptive"}));
+  Simulation<2> simulation(paper_case(block, {"time.stepping=adaptive"}));
   const std::string failure = failure_of(simulation, 2.1 * simulation.step_limit().step, 400);
   EXPECT_NE(failure.find("try half of time.safety"), std::string::npos) << failure;
 }
@@ -114,7 +114,7 @@ TEST(VolumeGuard, EndsTheRunOutsideTheRange) {
   for (const auto& [ratio, what] :
        {std::pair("0.2", "its volume is 0\\.2[0-9]* of that at t = 0, where guards.smallest_volume allows 0\\.25"),
         std::pair("3", "its volume is 3(\\.[0-9]+)? of that at t = 0, where guards.largest_volume allows 2")}) {
-    Simulation<2, double> simulation(paper_case(block, {"guards.largest_volume=2"}));
+    Simulation<2> simulation(paper_case(block, {"guards.largest_volume=2"}));
     simulation.particles().volume(place_of(simulation, 17)) *= std::stod(ratio);
     expect_match(failure_of(simulation, 0.005, 20),
                  "the run failed at t = 0\\.05 s \\(step 10\\): particle 17 of body 'block' at \\(.*\\) m: " +
@@ -123,7 +123,7 @@ TEST(VolumeGuard, EndsTheRunOutsideTheRange) {
 }
 
 TEST(VolumeGuard, TakesOutAndCounts) {
-  Simulation<2, double> simulation(paper_case(block, {"guards.volume=remove"}));
+  Simulation<2> simulation(paper_case(block, {"guards.volume=remove"}));
   const double mass = simulation.particles().mass(place_of(simulation, 17));
   simulation.particles().volume(place_of(simulation, 17)) *= 0.2;
   EXPECT_EQ(failure_of(simulation, 0.005, 20), "it went well");
@@ -139,7 +139,7 @@ TEST(VolumeGuard, TakesOutAndCounts) {
 }
 
 TEST(FiniteGuard, TakesOutTheOneThatIsNotFinite) {
-  Simulation<2, double> simulation(paper_case(block, {"guards.not_finite=remove"}));
+  Simulation<2> simulation(paper_case(block, {"guards.not_finite=remove"}));
   const double mass = simulation.particles().mass(place_of(simulation, 17));
   simulation.particles().temperature(place_of(simulation, 17)) = no_number;  // which moves nothing here
   EXPECT_EQ(failure_of(simulation, 0.005, 20), "it went well");
@@ -148,7 +148,7 @@ TEST(FiniteGuard, TakesOutTheOneThatIsNotFinite) {
 }
 
 TEST(FiniteGuard, KeepsTheAccountsOfWhatStays) {
-  Simulation<2, double> simulation(paper_case(block, {"guards.not_finite=remove", "guards.removed_mass=0.6"}));
+  Simulation<2> simulation(paper_case(block, {"guards.not_finite=remove", "guards.removed_mass=0.6"}));
   simulation.step(0.005);
   simulation.particles().velocity(place_of(simulation, 17), 0) = no_number;  // and so of all that it shares nodes with
   EXPECT_EQ(failure_of(simulation, 0.005, 20), "it went well");
@@ -165,7 +165,7 @@ TEST(FiniteGuard, KeepsTheAccountsOfWhatStays) {
 }
 
 TEST(FiniteGuard, EndsTheRunThatHasLostTooMuch) {
-  Simulation<2, double> simulation(paper_case(block, {"guards.not_finite=remove"}));
+  Simulation<2> simulation(paper_case(block, {"guards.not_finite=remove"}));
   simulation.step(0.005);
   simulation.particles().velocity(place_of(simulation, 17), 0) = no_number;
   expect_match(failure_of(simulation, 0.005, 20),
@@ -176,7 +176,7 @@ TEST(FiniteGuard, EndsTheRunThatHasLostTooMuch) {
 }
 
 TEST(StepGuard, NamesTheLimitAndTheParticle) {
-  Simulation<2, double> simulation(paper_case(block, {"time.stepping=adaptive"}));
+  Simulation<2> simulation(paper_case(block, {"time.stepping=adaptive"}));
   simulation.particles().volume(place_of(simulation, 17)) *= 1e7;
   expect_match(failure_of_next(simulation),
                "the run failed at t = 0 s \\(step 0\\): the next step would be [0-9.e-]+ s, 0\\.000[0-9]+ of the first "
@@ -188,7 +188,7 @@ TEST(StepGuard, NamesTheLimitAndTheParticle) {
 }
 
 TEST(StepGuard, CallsViscosityByItsName) {
-  Simulation<2, double> simulation(paper_case(block, {"time.stepping=adaptive", "material.rock.viscosity_time=0.1"}));
+  Simulation<2> simulation(paper_case(block, {"time.stepping=adaptive", "material.rock.viscosity_time=0.1"}));
   simulation.particles().volume(place_of(simulation, 17)) *= 1e4;
   const std::string failure = failure_of_next(simulation);
   EXPECT_NE(failure.find("It is set by the viscosity of material 'rock' (viscosity_time 0.1 s"), std::string::npos)
@@ -197,7 +197,7 @@ TEST(StepGuard, CallsViscosityByItsName) {
 }
 
 TEST(StepGuard, NamesAParticleThatIsTooFast) {
-  Simulation<2, double> simulation(paper_case(block, {"time.stepping=adaptive"}));
+  Simulation<2> simulation(paper_case(block, {"time.stepping=adaptive"}));
   simulation.particles().velocity(place_of(simulation, 17), 1) = 1e6;
   const std::string failure = failure_of_next(simulation);
   EXPECT_NE(failure.find("It is set by the particle speed of 1e+06 m/s, of particle 17 of body 'block' at ("),
@@ -207,7 +207,7 @@ TEST(StepGuard, NamesAParticleThatIsTooFast) {
 }
 
 TEST(StepGuard, CountsTheStepsToTheEnd) {
-  Simulation<2, double> simulation(paper_case(block, {"time.stepping=adaptive", "guards.most_steps=50"}));
+  Simulation<2> simulation(paper_case(block, {"time.stepping=adaptive", "guards.most_steps=50"}));
   const std::string failure = failure_of_next(simulation);
   EXPECT_NE(failure.find("the next step would be 0.01 s, and 1e+02 of them would be left to time.end, where "
                          "guards.most_steps allows 50. It is set by the elastic wave"),

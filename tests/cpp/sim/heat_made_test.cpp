@@ -40,7 +40,7 @@ conduction = false
 const std::string jumps = "band.thickness={time=[0.0,0.5,0.5,2.5,2.5,9.0],value=[0.05,0.05,0.5,0.5,0.05,0.05]}";
 
 // Gives a particle another temperature [C] with the heat for it; returns that heat, without scaling [J].
-double heat_to(Simulation<2, double>& simulation, std::size_t p, double temperature) {
+double heat_to(Simulation<2>& simulation, std::size_t p, double temperature) {
   auto& particles = simulation.particles();
   const double before = particles.heat_content(p);
   simulation.model().band.with_heat_content([&](const auto& content) {
@@ -58,8 +58,7 @@ struct Jump {
 };
 
 Jump jump(const std::string& change, double temperature) {
-  Simulation<2, double> simulation(
-      paper_case(column, {jumps, "band.thickness_change=" + change, "pressure.enabled=false"}));
+  Simulation<2> simulation(paper_case(column, {jumps, "band.thickness_change=" + change, "pressure.enabled=false"}));
   auto& particles = simulation.particles();
   Jump found{};
   found.cold = particles.heat_content(0);
@@ -88,7 +87,7 @@ TEST(ThicknessChange, ConservingMixesInMaterialUnchanged) {
     const double brought = 4.5 * found.cold;
     EXPECT_NEAR(heat(found.thick), 0.5 * found.hot + brought, 1e-9 * std::abs(found.hot));
     EXPECT_NEAR(value_of(found.thick, "band_rescale_J"), brought, 1e-9 * std::abs(brought));
-    Simulation<2, double> simulation(paper_case(column));
+    Simulation<2> simulation(paper_case(column));
     const double mixed = simulation.model().band.with_heat_content([&](const auto& content) {
       return content.temperature(0.1 * found.hot + 0.9 * found.cold, 0.375, temperature);
     });
@@ -116,7 +115,7 @@ struct Mixture {
   double temperature, pressure, gas_void, void_of_melt;
 };
 Mixture mixture(const std::string& melt_contraction, double thickness) {
-  Simulation<2, double> simulation(
+  Simulation<2> simulation(
       paper_case(column, {fmt::format("band.thickness={{time=[0.0,0.5,0.5,9.0],value=[0.05,0.05,{0},{0}]}}", thickness),
                           "band.thickness_change=conserving", "phases.rock_expansion=0.0", "pressure.seepage=false",
                           "pressure.melt_contraction=" + melt_contraction}));
@@ -158,11 +157,11 @@ TEST(ThicknessChange, ConservingMixesTheWaterToo) {
 const std::vector<std::string> seeping{"body.column.temperature=25.0", "heat.advection_form=conservative"};
 
 // Temperature and pressure fall towards the top; returns the heat that was stirred in [J].
-double stir(Simulation<2, double>& simulation, double swing) {
+double stir(Simulation<2>& simulation, double swing) {
   auto& particles = simulation.particles();
   double stirred = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double wave = std::cos(pi<double> * particles.position(p, 1) / 5.0);
+    const double wave = std::cos(pi * particles.position(p, 1) / 5.0);
     stirred += heat_to(simulation, p, 25.0 + swing * wave);
     particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e6 * (1.0 + wave);
   }
@@ -170,7 +169,7 @@ double stir(Simulation<2, double>& simulation, double swing) {
 }
 
 TEST(ConservativeAdvection, MakesNoHeat) {
-  Simulation<2, double> simulation(paper_case(column, seeping));
+  Simulation<2> simulation(paper_case(column, seeping));
   const double before = heat(history_row(simulation)) + stir(simulation, 20.0);
   run_until(simulation, 4000.0);
   const auto row = history_row(simulation);
@@ -186,7 +185,7 @@ TEST(ConservativeAdvection, MakesNoHeat) {
 TEST(ConservativeAdvection, CarriesTheHeatOfTheWater) {
   auto on_small_cells = seeping;
   on_small_cells.emplace_back("grid.cell=0.25");
-  Simulation<2, double> simulation(paper_case(column, on_small_cells));
+  Simulation<2> simulation(paper_case(column, on_small_cells));
   stir(simulation, 20.0);
   const auto& particles = simulation.particles();
   const auto moment = [&] {
@@ -200,7 +199,7 @@ TEST(ConservativeAdvection, CarriesTheHeatOfTheWater) {
   simulation.step(1.0);
   // q_L = k/gamma_w 1e6 pi/5 sin(pi y/5); the integral of q_L (25 + 20 cos(pi y/5)) over 1 m by 5 m is 50/pi of its
   // amplitude times 5.
-  const double exact = 1000.0 * 4180.0 * 1e-9 / 9810.0 * 1e6 * pi<double> / 5.0 * 25.0 * 10.0 / pi<double>;
+  const double exact = 1000.0 * 4180.0 * 1e-9 / 9810.0 * 1e6 * pi / 5.0 * 25.0 * 10.0 / pi;
   const double top = 4.9375;  // of the particles that drain
   const double moved = moment() - before + value_of(history_row(simulation), "drained_heat_J") * top;
   EXPECT_NEAR(moved / exact, 1.0, 0.02);
@@ -208,7 +207,7 @@ TEST(ConservativeAdvection, CarriesTheHeatOfTheWater) {
 
 // Water that leaves a body of one temperature leaves it so, at its drained top as well.
 TEST(ConservativeAdvection, LeavesOneTemperatureAlone) {
-  Simulation<2, double> simulation(paper_case(column, seeping));
+  Simulation<2> simulation(paper_case(column, seeping));
   stir(simulation, 0.0);
   run_until(simulation, 4000.0);
   const auto row = history_row(simulation);

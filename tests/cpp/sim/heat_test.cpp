@@ -48,7 +48,7 @@ x_min = { temperature = 8.0 }
 double conduction_error(double cell) {
   const config::Case parameters =
       paper_case(bar, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 1000.0 * cell * cell / 0.01)});
-  Simulation<2, double> simulation(parameters);
+  Simulation<2> simulation(parameters);
   run_until(simulation, parameters.time.end);
   const auto& particles = simulation.particles();
   const auto& phases = simulation.model().motion.phases;
@@ -74,7 +74,7 @@ TEST(Conduction, HalfSpaceConvergesAtSecondOrder) {
 TEST(Conduction, FluxBringsItsHeat) {
   std::string text = bar;
   text.replace(text.find("{ temperature = 8.0 }"), 21, "{ flux = 2.0 }");
-  Simulation<2, double> simulation(paper_case(text));
+  Simulation<2> simulation(paper_case(text));
   run_until(simulation, 4.0e5);
   const auto row = history_row(simulation);
   // 2 W/m2 over 0.4 m for 4e5 s.
@@ -86,7 +86,7 @@ TEST(Conduction, BandScalingMakesTheGridFiner) {
   // With xi = 10, cells of 0.1 m conduct as cells of 0.01 m would: the same curve over x/xi, 100 times sooner.
   const config::Case plain = paper_case(bar, {"time.step=1000.0"});
   const config::Case scaled = paper_case(bar, {"time.step=10.0", "time.end=4000.0", "band.thickness=0.01"});
-  Simulation<2, double> slow(plain), fast(scaled);
+  Simulation<2> slow(plain), fast(scaled);
   run_until(slow, plain.time.end);
   run_until(fast, scaled.time.end);
   for (std::size_t p = 0; p < slow.particles().size(); ++p) {
@@ -95,9 +95,9 @@ TEST(Conduction, BandScalingMakesTheGridFiner) {
 }
 
 TEST(Conduction, StepAboveTheLimitOfALaterThinnerBandIsRefused) {
-  EXPECT_THROW((Simulation<2, double>(
-                   paper_case(bar, {"band.thickness={time=[0.0,1e5],value=[0.1,0.001]}", "time.step=500.0"}))),
-               UserError);
+  EXPECT_THROW(
+      (Simulation<2>(paper_case(bar, {"band.thickness={time=[0.0,1e5],value=[0.1,0.001]}", "time.step=500.0"}))),
+      UserError);
 }
 
 TEST(UndrainedHeating, RaisesThePressureByLambda) {
@@ -129,7 +129,7 @@ seepage = false
 [heat.boundary]
 x_min = { flux = 40.0 }
 )";
-  Simulation<2, double> simulation(paper_case(heated));
+  Simulation<2> simulation(paper_case(heated));
   const auto& particles = simulation.particles();
   std::vector<double> start(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {

@@ -15,7 +15,7 @@ namespace {
 using namespace testing_support;
 using verification::Record;
 constexpr double gravity = 9.81;
-double radians(double degrees) { return degrees * pi<double> / 180.0; }
+double radians(double degrees) { return degrees * pi / 180.0; }
 
 // Gravity turned by 30 degrees over flat ground: the grid's axes are the slope's.
 const std::string turned_2d = R"(
@@ -90,7 +90,7 @@ struct Slide {
 
 template <int Dim>
 Slide slide(const std::string& text, const std::vector<std::string>& sets = {}) {
-  Simulation<Dim, double> simulation(paper_case(text, sets));
+  Simulation<Dim> simulation(paper_case(text, sets));
   const double end = simulation.parameters().time.end;
   run_until(simulation, 0.5 * end);
   const auto middle = history_row(simulation);
@@ -229,7 +229,7 @@ velocity = [3.0, 0.0]
 [mechanics]
 initial_stress = "none"
 )";
-  Simulation<2, double> simulation(paper_case(text));
+  Simulation<2> simulation(paper_case(text));
   run_until(simulation, 1.0);
   const auto row = history_row(simulation);
   double vx = 0.0, vy = 0.0;

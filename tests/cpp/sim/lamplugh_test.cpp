@@ -30,7 +30,7 @@ TEST(Ledger, ClosesOnAShortLamplugh) {
   for (int k = 0; k < 2; ++k) {
     auto sets = hasty;
     sets.push_back(k == 0 ? "time.step=0.01" : "time.step=0.005");
-    Simulation<2, double> simulation(lamplugh(sets));
+    Simulation<2> simulation(lamplugh(sets));
     const auto start = history_row(simulation);
     run_until(simulation, 5.0);
     const auto row = history_row(simulation);
@@ -58,7 +58,7 @@ TEST(Ledger, ClosesOnAShortLamplugh) {
 TEST(Ledger, HeatOfAThickeningBandIsReported) {
   auto sets = hasty;
   sets.push_back("band.thickness={time=[0.0,1.0,1.0,2.0],value=[0.05,0.05,0.5,0.5]}");
-  Simulation<2, double> simulation(lamplugh(sets));
+  Simulation<2> simulation(lamplugh(sets));
   run_until(simulation, 2.0);
   const auto row = history_row(simulation);
   EXPECT_NE(value_of(row, "band_rescale_J"), 0.0);
@@ -70,7 +70,7 @@ TEST(Threads, GiveTheSameBits) {
   const int before = thread_count();
   for (const int threads : {1, 2, 3}) {
     set_thread_count(threads);
-    Simulation<2, double> simulation(lamplugh(hasty));
+    Simulation<2> simulation(lamplugh(hasty));
     simulation.set_sorting_interval(7 * threads);  // nor may the storage order matter
     run_until(simulation, 2.0);
     auto fields = fields_by_id(simulation.particles());
@@ -88,7 +88,7 @@ TEST(Threads, GiveTheSameBits) {
   set_thread_count(before);
 }
 
-std::string failure_of(Simulation<2, double>& simulation, int steps) {
+std::string failure_of(Simulation<2>& simulation, int steps) {
   try {
     for (int k = 0; k < steps; ++k) {
       simulation.step(0.01);
@@ -100,7 +100,7 @@ std::string failure_of(Simulation<2, double>& simulation, int steps) {
 }
 
 TEST(Fault, NotANumberNamesParticlePlaceAndTime) {
-  Simulation<2, double> simulation(lamplugh());
+  Simulation<2> simulation(lamplugh());
   simulation.step(0.01);
   simulation.particles().velocity(17, 0) = std::numeric_limits<double>::quiet_NaN();
   const std::string message = failure_of(simulation, 2);
@@ -111,10 +111,10 @@ TEST(Fault, NotANumberNamesParticlePlaceAndTime) {
 }
 
 TEST(Fault, ClosedPoresAreNamedAsTheCause) {
-  Simulation<2, double> simulation(lamplugh());
+  Simulation<2> simulation(lamplugh());
   simulation.step(0.01);
   for (const std::size_t p : {17, 18}) {
-    simulation.particles().porosity(p) = physics::smallest_porosity<double>;
+    simulation.particles().porosity(p) = physics::smallest_porosity;
     simulation.particles().heat_content(p) = 3e10;   // some 10,000 C
     simulation.particles().temperature(p) = 1000.0;  // heats on, so that pores stay closed
   }
@@ -126,14 +126,14 @@ TEST(Fault, ClosedPoresAreNamedAsTheCause) {
 }
 
 TEST(Fault, PoresSqueezedShutAreNotLaidToHeat) {
-  Simulation<2, double> simulation(lamplugh());
-  simulation.particles().porosity(17) = physics::smallest_porosity<double>;
+  Simulation<2> simulation(lamplugh());
+  simulation.particles().porosity(17) = physics::smallest_porosity;
   simulation.particles().velocity(simulation.particles().size() - 1, 0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(failure_of(simulation, 2).find("half of time.step"), std::string::npos);
 }
 
 TEST(Fault, LeavingTheDomainNamesTheParticle) {
-  Simulation<2, double> simulation(lamplugh({"body.slide.velocity=[0.0,300.0]"}));
+  Simulation<2> simulation(lamplugh({"body.slide.velocity=[0.0,300.0]"}));
   const std::string message = failure_of(simulation, 200);
   EXPECT_NE(message.find("particle "), std::string::npos) << message;
   EXPECT_NE(message.find("domain"), std::string::npos) << message;
@@ -141,7 +141,7 @@ TEST(Fault, LeavingTheDomainNamesTheParticle) {
 }
 
 TEST(Fault, InvertedVolumeNamesTheParticle) {
-  Simulation<2, double> simulation(lamplugh({"guards.energy_growth=inf"}));
+  Simulation<2> simulation(lamplugh({"guards.energy_growth=inf"}));
   for (std::size_t p = 0; p < simulation.particles().size(); p += 2) {
     simulation.particles().velocity(p, 0) = 3000.0;
     simulation.particles().velocity(p + 1, 0) = -3000.0;
@@ -152,7 +152,7 @@ TEST(Fault, InvertedVolumeNamesTheParticle) {
 
 std::string refusal_of(const std::string& set) {
   try {
-    const Simulation<2, double> simulation(lamplugh({set}));
+    const Simulation<2> simulation(lamplugh({set}));
   } catch (const UserError& error) {
     return error.what();
   }
@@ -174,7 +174,7 @@ TEST(TimeStep, ViscosityIsNamedWhereItSetsTheLimit) {
 }
 
 TEST(TimeStep, AdaptiveStaysWithinTheLimit) {
-  Simulation<2, double> simulation(lamplugh({"time.stepping=adaptive"}));
+  Simulation<2> simulation(lamplugh({"time.stepping=adaptive"}));
   for (int k = 0; k < 20; ++k) {
     simulation.step(simulation.next_step(200.0));
     EXPECT_LE(simulation.last_step(), simulation.step_limit().step);
@@ -182,7 +182,7 @@ TEST(TimeStep, AdaptiveStaysWithinTheLimit) {
 }
 
 TEST(Lamplugh, WithoutPorePressureItDoesNotStart) {
-  Simulation<2, double> simulation(lamplugh({"pressure.enabled=false"}));
+  Simulation<2> simulation(lamplugh({"pressure.enabled=false"}));
   run_until(simulation, 5.0);
   EXPECT_LT(value_of(history_row(simulation), "mean_velocity_m_s"), 0.05);
 }

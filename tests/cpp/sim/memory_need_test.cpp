@@ -63,7 +63,7 @@ TEST(MemoryNeed, SumsItsParts) {
                      "1e3\ndepth_per_slip = 0.1\nmaterial = \"rock\"\n");
   const MemoryNeed more = memory_need<2>(rich, {}, bodies_at_start<2>(rich, {}));
   EXPECT_EQ(more.bed, 101.0 * 18.0) << "100 cells across, two masses and 16 bits a column of nodes";
-  EXPECT_EQ(more.columns, 5.0 * 60.0 / 2.0 * sizeof(band::BasalSegment<2, double>));
+  EXPECT_EQ(more.columns, 5.0 * 60.0 / 2.0 * sizeof(band::BasalSegment<2>));
 }
 
 // The release is 100 m x 100 m and 20 m thick on cells of 10 m with 2 particles an axis.

@@ -58,11 +58,11 @@ template <int Dim>
 void expect_declared_history() {
   std::vector<std::string> sets = loose_bed();
   sets.insert(sets.end(), {"bed.law=strength", "guards.not_finite=remove"});
-  const Simulation<Dim, double> plain(
+  const Simulation<Dim> plain(
       two_bodies<Dim>(5e3, Dim == 2 ? 20.0 : 8.0, 5.0, 20.0, "type = \"flat\"\nelevation = 0.0"));
-  const Simulation<Dim, double> bed(
+  const Simulation<Dim> bed(
       two_bodies<Dim>(5e3, Dim == 2 ? 20.0 : 8.0, 5.0, 20.0, "type = \"flat\"\nelevation = 0.0", sets));
-  const Simulation<Dim, double> columns(case_from_text(column_slab(Dim)));
+  const Simulation<Dim> columns(case_from_text(column_slab(Dim)));
   EXPECT_EQ(written(history_row(plain)), sorted(declared(history_columns(), Dim, true)));
   std::set<std::string> all = written(history_row(bed));
   all.merge(written(history_row(columns)));
@@ -82,7 +82,7 @@ TEST(OutputColumns, OfTheBlockAreDeclaredInOrder) {
 }
 
 TEST(OutputColumns, OfBasalSegmentsAreDeclared) {
-  Simulation<2, double> simulation(case_from_text(column_slab()));
+  Simulation<2> simulation(case_from_text(column_slab()));
   run_until(simulation, 0.1);
   std::set<std::string> names;
   for (const auto& [name, values] : base_table(simulation)) {
@@ -92,7 +92,7 @@ TEST(OutputColumns, OfBasalSegmentsAreDeclared) {
 }
 
 TEST(OutputColumns, OfProbesAreDeclaredInOrder) {
-  const Simulation<3, double> simulation(slide_in_space());
+  const Simulation<3> simulation(slide_in_space());
   config::Site site;
   site.probes = {{"gauge", {{3.5, 4.5}}}, {"section", {{3.5, 4.5}, {3.5, -4.5}}}};
   RunRecords<3> records(simulation, site);

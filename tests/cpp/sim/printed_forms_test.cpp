@@ -39,7 +39,7 @@ max = [2.0, 0.4]
 temperature = 1.0
 )";
 
-std::vector<double> by_id(Simulation<2, double>& simulation, mpm::Field<double, 1> mpm::Particles<2, double>::*field) {
+std::vector<double> by_id(Simulation<2>& simulation, mpm::Field<double, 1> mpm::Particles<2>::*field) {
   auto& particles = simulation.particles();
   std::vector<double> values(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -54,13 +54,13 @@ TEST(SeepageScaling, PublishedIsSlowerByXi) {
     auto sets = still;
     sets.insert(sets.end(), {"pressure.seepage_scaling=" + scaling, fmt::format("time.step={}", step),
                              fmt::format("time.end={}", end)});
-    Simulation<2, double> simulation(paper_case(bar, sets));
+    Simulation<2> simulation(paper_case(bar, sets));
     auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e5 * std::cos(pi<double> * particles.position(p, 0));
+      particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e5 * std::cos(pi * particles.position(p, 0));
     }
     run_until(simulation, end);
-    return by_id(simulation, &mpm::Particles<2, double>::pore_pressure);
+    return by_id(simulation, &mpm::Particles<2>::pore_pressure);
   };
   const auto printed = seep("printed", 0.8, 40.0);
   const auto consistent = seep("consistent", 0.1, 5.0);
@@ -80,9 +80,9 @@ double frequency(const std::vector<std::string>& sets, double* residual = nullpt
   auto all = sets;
   all.insert(all.end(), {"heat.enabled=false", "pressure.seepage=false", "time.step=4e-6", "time.end=1e-3",
                          "grid.boundary={x_min=\"roller\",x_max=\"roller\",y_min=\"roller\",y_max=\"roller\"}"});
-  Simulation<2, double> simulation(paper_case(bar, all));
+  Simulation<2> simulation(paper_case(bar, all));
   auto& particles = simulation.particles();
-  const auto mode = [&](std::size_t p) { return std::sin(pi<double> * particles.position(p, 0) / 2.0); };
+  const auto mode = [&](std::size_t p) { return std::sin(pi * particles.position(p, 0) / 2.0); };
   for (std::size_t p = 0; p < particles.size(); ++p) {
     particles.velocity(p, 0) = 0.01 * mode(p);
   }
@@ -100,14 +100,14 @@ double frequency(const std::vector<std::string>& sets, double* residual = nullpt
     *residual = (value_of(history_row(simulation), "mechanical_residual_J") - kinetic) / kinetic;
   }
   const double quarter = simulation.time() - 4e-6 * now / (now - before);
-  return pi<double> / 2.0 / quarter;
+  return pi / 2.0 / quarter;
 }
 
 TEST(EffectiveStress, WaterStiffensAnUndrainedBar) {
-  const physics::Elastic<double> elastic = physics::Elastic<double>::from_young_poisson(1e9, 0.3);
+  const physics::Elastic elastic = physics::Elastic::from_young_poisson(1e9, 0.3);
   const double density = 0.625 * 2750.0 + 0.375 * 1000.0;
-  const double drained = pi<double> / 2.0 * std::sqrt(elastic.p_wave_modulus() / density);
-  const double undrained = pi<double> / 2.0 * std::sqrt((elastic.p_wave_modulus() + 1e9 / 0.375) / density);
+  const double drained = pi / 2.0 * std::sqrt(elastic.p_wave_modulus() / density);
+  const double undrained = pi / 2.0 * std::sqrt((elastic.p_wave_modulus() + 1e9 / 0.375) / density);
   const double total = frequency({});
   double residual = 1.0;
   const double with_water = frequency({"mechanics.effective_stress=true", "pressure.volumetric_term=true"}, &residual);
@@ -151,8 +151,8 @@ friction_angle = 30.0
 )";
 
 TEST(EffectiveStress, CarriesTheSameLoadWithLessStrength) {
-  Simulation<2, double> total(paper_case(slab));
-  Simulation<2, double> effective(paper_case(slab, {"mechanics.effective_stress=true"}));
+  Simulation<2> total(paper_case(slab));
+  Simulation<2> effective(paper_case(slab, {"mechanics.effective_stress=true"}));
   for (std::size_t p = 0; p < total.particles().size(); ++p) {
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(effective.particles().stress(p, c),
@@ -173,22 +173,22 @@ TEST(EffectiveStress, CarriesTheSameLoadWithLessStrength) {
 
 // What softens, cohesion and friction both, is the strength of the effective stress.
 TEST(EffectiveStress, SoftensAsAnyOther) {
-  Simulation<2, double> simulation(paper_case(
+  Simulation<2> simulation(paper_case(
       slab, {"mechanics.effective_stress=true", "material.rock.cohesion=2e4", "material.rock.residual_cohesion=0.0",
              "material.rock.residual_friction_angle=20.0", "material.rock.softening_strain=1e-5"}));
   auto& particles = simulation.particles();
   std::size_t yielded = 0, softened = 0, beyond_by_total_stress = 0;
   for (int step = 0; step < 10; ++step) {
-    const std::vector<double> before = by_id(simulation, &mpm::Particles<2, double>::plastic_strain);
+    const std::vector<double> before = by_id(simulation, &mpm::Particles<2>::plastic_strain);
     simulation.step(0.001);
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const double plastic_strain = before[static_cast<std::size_t>(particles.id(p))];
       if (!(particles.plastic_strain(p) > plastic_strain)) {
         continue;
       }
-      const double share = std::exp(-plastic_strain / 1e-5), low = std::sin(pi<double> / 9.0);
+      const double share = std::exp(-plastic_strain / 1e-5), low = std::sin(pi / 9.0);
       const double sine = low + (0.5 - low) * share, cohesion = 2e4 * share;
-      const auto values = physics::principal(mpm::full_tensor<2, double>(particles.stress, p)).values;
+      const auto values = physics::principal(mpm::full_tensor<2>(particles.stress, p)).values;
       const auto excess = [&](double pressure) {  // Eq. 11 of a stress with this added
         return 0.5 * (values[0] - values[2]) + (0.5 * (values[0] + values[2]) + pressure) * sine -
                cohesion * std::sqrt(1.0 - sine * sine);
@@ -211,7 +211,7 @@ HistoryRow after_cooling(const std::string& update, double step) {
   auto sets = cooled;
   sets.insert(sets.end(), {"heat.update=" + update, fmt::format("time.step={}", step), "time.end=400000"});
   const config::Case parameters = paper_case(bar, sets);
-  Simulation<2, double> simulation(parameters);
+  Simulation<2> simulation(parameters);
   run_until(simulation, parameters.time.end);
   return history_row(simulation);
 }
@@ -233,8 +233,8 @@ TEST(HeatUpdate, ApparentCapacityMakesHeatThatItsColumnShows) {
 
 // A bar at -1 C that swelled by a tenth in volume, its grains as Eq. 6 has them, one step later.
 HistoryRow after_swelling(const std::string& masses, double& made_by_hand, double& pore_mass_by_hand) {
-  Simulation<2, double> simulation(paper_case(bar, {"mechanics.enabled=false", "pressure.enabled=false",
-                                                    "body.bar.temperature=-1.0", "heat.masses=" + masses}));
+  Simulation<2> simulation(paper_case(bar, {"mechanics.enabled=false", "pressure.enabled=false",
+                                            "body.bar.temperature=-1.0", "heat.masses=" + masses}));
   auto& particles = simulation.particles();
   const auto& band = simulation.model().band;
   made_by_hand = pore_mass_by_hand = 0.0;
@@ -271,9 +271,9 @@ TEST(HeatMasses, CurrentOnesMakeHeatAndIceThatTheLedgerShows) {
 
 // A melted slab of 300 m that slides down a plane which cuts the grid; only friction heats it.
 std::string tilted_slab(double slope, double elevation) {
-  const double fall = std::tan(slope * pi<double> / 180.0);
-  const double height = 40.0 / std::cos(slope * pi<double> / 180.0);
-  const double length = 300.0 * std::cos(slope * pi<double> / 180.0);
+  const double fall = std::tan(slope * pi / 180.0);
+  const double height = 40.0 / std::cos(slope * pi / 180.0);
+  const double length = 300.0 * std::cos(slope * pi / 180.0);
   return fmt::format(R"(
 [time]
 end = 0.2
@@ -310,13 +310,13 @@ conduction = false
 enabled = false
 )",
                      slope, elevation, elevation, length, elevation - fall * length, length,
-                     elevation - fall * length + height, elevation + height, std::cos(slope * pi<double> / 180.0),
-                     -std::sin(slope * pi<double> / 180.0), slope);
+                     elevation - fall * length + height, elevation + height, std::cos(slope * pi / 180.0),
+                     -std::sin(slope * pi / 180.0), slope);
 }
 
 // Heat put in per area over the capacity and the mean rise of the band, in units of e.
 double effective_thickness(const std::string& text, const std::string& cut_cells) {
-  Simulation<2, double> simulation(paper_case(text, {"band.cut_cells=" + cut_cells}));
+  Simulation<2> simulation(paper_case(text, {"band.cut_cells=" + cut_cells}));
   run_until(simulation, 0.2);
   const HistoryRow row = history_row(simulation);
   const double heat = value_of(row, "friction_heat_J");

@@ -50,7 +50,7 @@ enabled = false
 )";
 
 // Steps to rest, or to the end; then the time.
-double end_of(Simulation<2, double>& simulation) {
+double end_of(Simulation<2>& simulation) {
   set_thread_count(1);
   while (!simulation.ends_at_rest() && simulation.time() < 5.0 - 1e-9) {
     simulation.step(simulation.next_step(5.0));
@@ -59,7 +59,7 @@ double end_of(Simulation<2, double>& simulation) {
 }
 
 TEST(Rest, EndsARunAfterItsTime) {
-  Simulation<2, double> simulation(paper_case(block));
+  Simulation<2> simulation(paper_case(block));
   const double end = end_of(simulation);
   EXPECT_TRUE(simulation.ends_at_rest());
   EXPECT_TRUE(simulation.is_at_rest());
@@ -74,7 +74,7 @@ TEST(Rest, EndsARunAfterItsTime) {
 
 // By the usual speed and the usual 10 s; the run goes on.
 TEST(Rest, IsKnownWithoutTheKeyToo) {
-  Simulation<2, double> simulation(
+  Simulation<2> simulation(
       paper_case(block.substr(0, block.find("stop_at_rest")) + block.substr(block.find("[grid]")), {"time.end=13"}));
   while (simulation.time() < 13.0 - 1e-9) {
     simulation.step(simulation.next_step(13.0));
@@ -91,7 +91,7 @@ TEST(Rest, IsKnownWithoutTheKeyToo) {
 }
 
 TEST(Rest, IsPartOfTheEndStateWithAWarningBeforeIt) {
-  Simulation<2, double> simulation(paper_case(block));
+  Simulation<2> simulation(paper_case(block));
   while (simulation.time() < 0.5) {
     simulation.step(simulation.next_step(5.0));
   }
@@ -121,7 +121,7 @@ TEST(Rest, IsPartOfTheEndStateWithAWarningBeforeIt) {
 }
 
 TEST(Rest, NeverComesBeforeTheSlideHasMoved) {
-  Simulation<2, double> simulation(paper_case(block, {"body.block.velocity=[0.0,0.0]"}));
+  Simulation<2> simulation(paper_case(block, {"body.block.velocity=[0.0,0.0]"}));
   EXPECT_EQ(end_of(simulation), 5.0);
   EXPECT_FALSE(simulation.ends_at_rest());
   EXPECT_TRUE(simulation.is_at_rest());
@@ -131,7 +131,7 @@ TEST(Rest, NeverComesBeforeTheSlideHasMoved) {
 TEST(Rest, IsSinceTheStartWhereNothingHasMoved) {
   const std::string without = block.substr(0, block.find("stop_at_rest")) + block.substr(block.find("[grid]"));
   const auto state_at = [&](double end, const std::string& set) {
-    Simulation<2, double> simulation(paper_case(without, {set}));
+    Simulation<2> simulation(paper_case(without, {set}));
     while (simulation.time() < end - 1e-9) {
       simulation.step(simulation.next_step(end));
     }
@@ -155,7 +155,7 @@ min = [6.0, 12.0]
 max = [6.5, 12.5]
 velocity = [0.0, 6.0]
 )";
-  Simulation<2, double> simulation(paper_case(block + escaping));
+  Simulation<2> simulation(paper_case(block + escaping));
   const double end = end_of(simulation);
   EXPECT_LT(end, 1.8);
   double fastest = 0.0;
@@ -166,17 +166,17 @@ velocity = [0.0, 6.0]
 }
 
 TEST(Rest, GoesOnFromACheckpointAmidTheRestToTheSameEnd) {
-  Simulation<2, double> whole(paper_case(block)), parted(paper_case(block));
+  Simulation<2> whole(paper_case(block)), parted(paper_case(block));
   const double end = end_of(whole);
   EXPECT_LT(end, 2.0);
   while (parted.time() < end - 0.2) {
     parted.step(parted.next_step(5.0));
   }
   const auto folder = folder_of_this_test();
-  io::write_checkpoint<2, double>(folder, parted.particles(), parted.particles_at_start(), parted.scalars());
-  Simulation<2, double> resumed(paper_case(block));
+  io::write_checkpoint<2>(folder, parted.particles(), parted.particles_at_start(), parted.scalars());
+  Simulation<2> resumed(paper_case(block));
   std::vector<double> scalars;
-  io::read_checkpoint<2, double>(io::newest_checkpoint(folder), resumed.particles(), scalars);
+  io::read_checkpoint<2>(io::newest_checkpoint(folder), resumed.particles(), scalars);
   resumed.restore(scalars);
   EXPECT_EQ(resumed.scalars(), parted.scalars());
   EXPECT_EQ(end_of(resumed), end);

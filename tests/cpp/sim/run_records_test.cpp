@@ -63,7 +63,7 @@ TEST(Section, OnTheLastBorderLiesInTheCellsBeforeIt) {
 
 TEST(Probes, TellOfTheMovingBox) {
   // A box that slides as one: what passes is its thickness, width and speed.
-  const Simulation<3, double> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
+  const Simulation<3> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
   config::Site site;
   site.probes = {{"gauge", {{3.5, 4.5}}},
                  {"empty", {{30.5, 4.5}}},
@@ -90,7 +90,7 @@ TEST(Probes, TellOfTheMovingBox) {
 }
 
 TEST(Probes, BesideTheMapsAreRefused) {
-  const Simulation<3, double> simulation(slide_in_space());
+  const Simulation<3> simulation(slide_in_space());
   config::Site site;
   site.probes = {{"gauge", {{3.5, 40.0}}}};
   try {
@@ -118,7 +118,7 @@ TEST(Probes, BesideTheMapsAreRefused) {
 }
 
 TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {
-  Simulation<3, double> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
+  Simulation<3> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
   config::Site site;
   site.path = {{-2.0, 5.0}, {50.0, 5.0}};
   RunRecords<3> records(simulation, site);
@@ -157,7 +157,7 @@ TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {
 }
 
 TEST(RunRecords, WithoutAPathTheWayOfTheCentreOfMassIsTaken) {
-  Simulation<3, double> simulation(slide_in_space("velocity = [0.0, -16.0, 0.0]", {"case.gravity_tilt=0.0"}));
+  Simulation<3> simulation(slide_in_space("velocity = [0.0, -16.0, 0.0]", {"case.gravity_tilt=0.0"}));
   RunRecords<3> records(simulation, {});
   records.start(simulation);
   EXPECT_FALSE(records.path_given());
@@ -186,7 +186,7 @@ TEST(RunRecords, WithoutAPathTheWayOfTheCentreOfMassIsTaken) {
 }
 
 TEST(RunRecords, KeepWhatWasLargestWhenTheSlideHasLeft) {
-  Simulation<3, double> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
+  Simulation<3> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
   config::Site site;
   site.probes = {{"gauge", {{3.5, 4.5}}}};
   RunRecords<3> records(simulation, site);
@@ -205,26 +205,25 @@ TEST(RunRecords, AreTheSameBitsAfterAStopAndAResume) {
   const config::Case parameters = slide_in_space("velocity = [8.0, 1.0, 0.0]");
   config::Site site;
   site.probes = {{"gauge", {{7.5, 5.5}}}, {"section", {{7.5, 0.0}, {8.5, 10.0}}}};
-  const auto steps = [](Simulation<3, double>& simulation, RunRecords<3>& records, int count) {
+  const auto steps = [](Simulation<3>& simulation, RunRecords<3>& records, int count) {
     for (int k = 0; k < count; ++k) {
       simulation.step(0.002);
       records.after_step(simulation);
     }
   };
-  Simulation<3, double> whole(parameters);
+  Simulation<3> whole(parameters);
   RunRecords<3> of_whole(whole, site);
   of_whole.start(whole);
   steps(whole, of_whole, 40);
   const std::filesystem::path folder = testing_support::folder_of_this_test();
-  io::write_checkpoint<3, double>(folder, whole.particles(), whole.particles_at_start(), whole.scalars(),
-                                  of_whole.state());
+  io::write_checkpoint<3>(folder, whole.particles(), whole.particles_at_start(), whole.scalars(), of_whole.state());
   const HistoryRow probes_then = of_whole.probe_row(whole);
   steps(whole, of_whole, 60);
 
-  Simulation<3, double> resumed(parameters);
+  Simulation<3> resumed(parameters);
   std::vector<double> scalars;
   RunRecords<3> of_resumed(resumed, site);
-  of_resumed.restore(io::read_checkpoint<3, double>(io::newest_checkpoint(folder), resumed.particles(), scalars));
+  of_resumed.restore(io::read_checkpoint<3>(io::newest_checkpoint(folder), resumed.particles(), scalars));
   resumed.restore(scalars);
   EXPECT_EQ(of_resumed.probe_row(resumed), probes_then);
   steps(resumed, of_resumed, 60);
@@ -240,7 +239,7 @@ TEST(RunRecords, AreTheSameBitsAfterAStopAndAResume) {
 }
 
 TEST(RunRecords, AreEmptyInThePlane) {
-  const Simulation<2, double> simulation(testing_support::two_bodies<2>(5e3));
+  const Simulation<2> simulation(testing_support::two_bodies<2>(5e3));
   config::Site site;
   site.path = {{0.0, 0.0}, {1.0, 0.0}};
   RunRecords<2> records(simulation, site);

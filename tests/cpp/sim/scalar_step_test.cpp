@@ -54,7 +54,7 @@ void expect_same_sums(const Records& records, const ScalarStep<Dim>& scalar, con
 
 // The motion of nodes and what contact leaves there. hovers: part of the base keeps a distance from the ground.
 template <int Dim>
-void expect_same_nodes(const Simulation<Dim, double>& simulation, const ScalarStep<Dim>& scalar, bool hovers) {
+void expect_same_nodes(const Simulation<Dim>& simulation, const ScalarStep<Dim>& scalar, bool hovers) {
   using mpm::Contact;
   const auto& nodes = simulation.nodes();
   int touching = 0, moving = 0;
@@ -110,7 +110,7 @@ void expect_same_nodes(const Simulation<Dim, double>& simulation, const ScalarSt
 template <int Dim>
 void expect_the_scalar_step(const config::Case& parameters, bool yields, bool hovers) {
   constexpr double tolerance = 1e-12;
-  Simulation<Dim, double> simulation(parameters);
+  Simulation<Dim> simulation(parameters);
   for (int k = 0; k < 60; ++k) {
     simulation.step(simulation.next_step(10.0));
   }

@@ -21,7 +21,7 @@ namespace {
 using namespace testing_support;
 
 TEST(SectionWidth, IsLinearBetweenPlacesAndConstantBeyond) {
-  const mpm::SectionWidth<double> width(Table({100.0, 200.0, 250.0}, {20.0, 60.0, 30.0}), 50.0);
+  const mpm::SectionWidth width(Table({100.0, 200.0, 250.0}, {20.0, 60.0, 30.0}), 50.0);
   for (const auto& [x, relative, widening] : {std::tuple(0.0, 1.0, 0.0),
                                               {50.0, 1.0, 0.02},
                                               {75.0, 1.5, 0.02 / 1.5},
@@ -31,8 +31,8 @@ TEST(SectionWidth, IsLinearBetweenPlacesAndConstantBeyond) {
     EXPECT_DOUBLE_EQ(width.at(x), relative) << x;
     EXPECT_DOUBLE_EQ(width.widening(x), widening) << x;
   }
-  EXPECT_FALSE(mpm::SectionWidth<double>().varies());
-  EXPECT_EQ(mpm::SectionWidth<double>().at(7.0), 1.0);
+  EXPECT_FALSE(mpm::SectionWidth().varies());
+  EXPECT_EQ(mpm::SectionWidth().at(7.0), 1.0);
 }
 
 // A table that says the same everywhere takes every step of a varying one, with factors of 1.
@@ -40,7 +40,7 @@ void expect_bits_of_one_width(const std::string& text, const std::vector<std::st
   const auto run = [&](const char* width) {
     std::vector<std::string> all = sets;
     all.push_back(std::string("case.width=") + width);
-    auto simulation = std::make_unique<Simulation<2, double>>(case_from_text(text, all));
+    auto simulation = std::make_unique<Simulation<2>>(case_from_text(text, all));
     run_until(*simulation, 1.0);
     return simulation;
   };
@@ -92,7 +92,7 @@ enabled = false
 )";
 
 TEST(SectionWidth, LeavesHydrostaticStressInEquilibrium) {
-  Simulation<2, double> simulation(case_from_text(basin));
+  Simulation<2> simulation(case_from_text(basin));
   double fastest = 0.0, along = 0.0;
   for (int k = 0; k < 200; ++k) {
     simulation.step(0.001);
@@ -110,7 +110,7 @@ TEST(SectionWidth, LeavesHydrostaticStressInEquilibrium) {
 }
 
 TEST(SectionWidth, HasTheVolumeOfTheSectionSoWide) {
-  Simulation<2, double> simulation(case_from_text(basin));
+  Simulation<2> simulation(case_from_text(basin));
   const double density = simulation.particles().mass(0) / simulation.particles().volume(0);
   // 20 m high; trapezoids of the table, over the first width of 10 m.
   const double volume = 20.0 * (20.0 * 10.0 + 40.0 * 30.0 + 20.0 * 35.0 + 10.0 * 22.5 + 10.0 * 25.0) / 10.0;
@@ -128,14 +128,14 @@ TEST(SectionWidth, HasTheVolumeOfTheSectionSoWide) {
 // equal.
 TEST(SectionWidth, StrainsAcrossAsACylinderExpands) {
   constexpr double a = 2.0, dt = 0.001;
-  Simulation<2, double> simulation(
+  Simulation<2> simulation(
       case_from_text(basin, {"case.width={ x = [10.0, 1000.0], value = [10.0, 1000.0] }", "body.block.min=[20.0, 0.0]",
                              "mechanics.initial_stress=none", "grid.boundary.x_min=open", "grid.boundary.x_max=open",
                              "grid.boundary.y_min=open"}));
-  mpm::Particles<2, double>& particles = simulation.particles();
-  mpm::Nodes<2, double> nodes;
+  mpm::Particles<2>& particles = simulation.particles();
+  mpm::Nodes<2> nodes;
   const auto& model = simulation.model().motion;
-  mpm::SparseGrid<2, double> grid(2.5);
+  mpm::SparseGrid<2> grid(2.5);
   grid.update(particles, 0);
   mpm::momentum_to_grid(grid, particles, model, nodes);
   nodes.velocity.resize(grid.blocks().size());
@@ -189,7 +189,7 @@ struct Closing {
 };
 
 Closing closing(const std::vector<std::string>& sets) {
-  Simulation<2, double> simulation(case_from_text(channel, sets));
+  Simulation<2> simulation(case_from_text(channel, sets));
   run_until(simulation, 4.0);
   const HistoryRow row = history_row(simulation);
   const double turned = value_of(row, "friction_work_J") + value_of(row, "plastic_J");
@@ -220,8 +220,8 @@ TEST(SectionWidth, LeavesTheFlowDepth) {
   const std::vector<std::string> scaled = {"band.model=scaled", "case.gravity_tilt=0.0"};
   std::vector<std::string> varying = scaled;
   varying.push_back("case.width={ x = [20.0, 180.0], value = [10.0, 50.0] }");
-  const Simulation<2, double> same(case_from_text(column_slab(), scaled));
-  const Simulation<2, double> simulation(case_from_text(column_slab(), varying));
+  const Simulation<2> same(case_from_text(column_slab(), scaled));
+  const Simulation<2> simulation(case_from_text(column_slab(), varying));
   for (std::size_t p = 0; p < same.particles().size(); ++p) {
     EXPECT_NEAR(simulation.particles().flow_depth(p), same.particles().flow_depth(p), 1e-9);
   }
@@ -232,7 +232,7 @@ TEST(SectionWidth, LeavesLoadPerArea) {
   const std::vector<std::string> rests = {"case.width={ x = [20.0, 180.0], value = [10.0, 50.0] }",
                                           "case.gravity_tilt=0.0", "body.slab.velocity=[0.0, 0.0]",
                                           "material.rock.viscosity_time=0.1"};
-  Simulation<2, double> simulation(case_from_text(column_slab(), rests));
+  Simulation<2> simulation(case_from_text(column_slab(), rests));
   run_until(simulation, 3.0);
   const double area = (20.0 * 10.0 + 160.0 * 30.0 + 20.0 * 50.0) / 10.0;  // per metre of the first 10 m
   const HistoryRow row = history_row(simulation);
@@ -245,7 +245,7 @@ TEST(SectionWidth, LeavesLoadPerArea) {
 }
 
 TEST(SectionWidth, KeepsHeatAndWaterOfBandColumns) {
-  Simulation<2, double> simulation(case_from_text(
+  Simulation<2> simulation(case_from_text(
       column_slab(),
       {"case.width={ x = [100.0, 300.0, 400.0], value = [10.0, 50.0, 20.0] }", "body.slab.velocity=[30.0, 0.0]",
        "material.rock.law=mohr_coulomb", "material.rock.cohesion=1e4", "material.rock.friction_angle=30.0"}));
@@ -263,8 +263,7 @@ TEST(SectionWidth, KeepsHeatAndWaterOfBandColumns) {
 
 TEST(SectionWidth, IsRefusedOnADeviceAndByTheBlock) {
   const config::Case parameters = case_from_text(column_slab(), {"case.width={ x = [0.0, 9.0], value = [1.0, 2.0] }"});
-  EXPECT_EQ((not_on_devices<2, double>(parameters, make_model<2, double>(parameters))),
-            "a case.width that varies along x");
+  EXPECT_EQ((not_on_devices<2>(parameters, make_model<2>(parameters))), "a case.width that varies along x");
   try {
     run_block(parameters);
     ADD_FAILURE() << "no error";

@@ -40,7 +40,7 @@ enabled = false
 
 // Pressures that alternate from row to row within each cell: each node sees their mean alone.
 TEST(Seepage, LevelsWhatNodesDoNotSee) {
-  Simulation<2, double> simulation(paper_case(column));
+  Simulation<2> simulation(paper_case(column));
   auto& particles = simulation.particles();
   constexpr double mean = 5e5, swing = 4e5;
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -64,7 +64,7 @@ TEST(Seepage, LevelsWhatNodesDoNotSee) {
 
 // A bump far from the drained top spreads as the variance 2 D t, and its sum stays.
 TEST(Seepage, SpreadsABumpAndKeepsItsSum) {
-  Simulation<2, double> simulation(paper_case(column));
+  Simulation<2> simulation(paper_case(column));
   auto& particles = simulation.particles();
   const auto moments = [&] {
     double sum = 0.0, middle = 0.0, spread = 0.0;
@@ -103,7 +103,7 @@ max = [1.0, 11.0]
 temperature = 5.0
 porosity = 0.4
 )";
-  Simulation<2, double> simulation(paper_case(column + tight));
+  Simulation<2> simulation(paper_case(column + tight));
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     particles.liquid_pressure(p) = particles.pore_pressure(p) = particles.material(p) == 0 ? 1e6 : 3e5;

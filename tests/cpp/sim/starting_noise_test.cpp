@@ -76,7 +76,7 @@ Sets noise(double share, int seed) {
 }
 
 template <int Dim>
-Fields fields_of(const Simulation<Dim, double>& simulation) {
+Fields fields_of(const Simulation<Dim>& simulation) {
   Fields fields = fields_by_id(simulation.particles());
   auto& positions = fields.at("position");  // absolute
   for (std::size_t k = 0; k < positions.size(); ++k) {
@@ -87,15 +87,15 @@ Fields fields_of(const Simulation<Dim, double>& simulation) {
 
 // more: tables of further bodies.
 Fields on_flat_ground(const Sets& sets, const std::string& more = "") {
-  return fields_of(Simulation<2, double>(paper_case(wedge_and_block + more, sets)));
+  return fields_of(Simulation<2>(paper_case(wedge_and_block + more, sets)));
 }
 
-Simulation<3, double> on_slope(const Sets& sets) {
+Simulation<3> on_slope(const Sets& sets) {
   const auto height = [](double x, double y) { return -0.8 * x + 6.0 * std::sin(0.1 * x) * std::cos(0.13 * y); };
   const auto thickness = [](double x, double y) { return std::max(0.0, 20.0 - 0.3 * std::hypot(x, y)); };
-  return Simulation<3, double>(case_on_dem(release, sets),
-                               site_of(raster_between(Place(-100.0, -100.0), Place(100.0, 100.0), 4.0, height),
-                                       thickness_between(Place(-80.0, -80.0), Place(80.0, 80.0), 2.0, thickness)));
+  return Simulation<3>(case_on_dem(release, sets),
+                       site_of(raster_between(Place(-100.0, -100.0), Place(100.0, 100.0), 4.0, height),
+                               thickness_between(Place(-80.0, -80.0), Place(80.0, 80.0), 2.0, thickness)));
 }
 
 // What `displaced` has more than `regular`, component after component [m].

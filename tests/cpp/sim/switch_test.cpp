@@ -47,7 +47,7 @@ using Sets = std::vector<std::string>;
 
 TEST(Switch, ClapeyronSign) {
   for (const double sign : {1.0, -1.0}) {
-    const Simulation<2, double> simulation(
+    const Simulation<2> simulation(
         paper_case(block, {sign > 0.0 ? "pressure.clapeyron=usual" : "pressure.clapeyron=printed"}));
     const auto& particles = simulation.particles();
     const double logarithm = 1000.0 * 333.5e3 * std::log((273.15 - 0.2) / 273.15);
@@ -63,8 +63,8 @@ TEST(Switch, ThicknessAlongTheNormalOrVertical) {
                     "body.block.vertices=[[0,0],[100,-57.735],[100,-7.735],[0,50]]"};
   Sets vertical = tilted;
   vertical.emplace_back("pressure.thickness_direction=vertical");
-  const Simulation<2, double> along(paper_case(block, tilted)), upright(paper_case(block, vertical));
-  const double cosine = std::cos(pi<double> / 6.0);
+  const Simulation<2> along(paper_case(block, tilted)), upright(paper_case(block, vertical));
+  const double cosine = std::cos(pi / 6.0);
   for (std::size_t p = 0; p < along.particles().size(); ++p) {
     EXPECT_NEAR(along.particles().flow_depth(p) / upright.particles().flow_depth(p), cosine, 1e-12);
   }
@@ -76,7 +76,7 @@ TEST(Switch, ThicknessFollowsTheSlideOrIsFrozen) {
     if (frozen) {
       sets.emplace_back("pressure.thickness_update=frozen");
     }
-    Simulation<2, double> simulation(paper_case(block, sets));
+    Simulation<2> simulation(paper_case(block, sets));
     std::vector<double> start(simulation.particles().size());
     for (std::size_t p = 0; p < start.size(); ++p) {
       start[static_cast<std::size_t>(simulation.particles().id(p))] = simulation.particles().flow_depth(p);
@@ -97,7 +97,7 @@ TEST(Switch, BandScalingOfAllParticlesOrOfTheFirstLayer) {
     if (first) {
       sets.emplace_back("band.region=first_layer");
     }
-    const Simulation<2, double> simulation(paper_case(block, sets));
+    const Simulation<2> simulation(paper_case(block, sets));
     const auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const bool scaled = !first || particles.position(p, 1) - 150.0 < 10.0;
@@ -112,7 +112,7 @@ double traction_under_pressure(const Sets& more) {
             "basal.cohesion=5e4",         "basal.cohesion_law=constant",
             "heat.enabled=false",         "pressure.seepage=false"};
   sets.insert(sets.end(), more.begin(), more.end());
-  Simulation<2, double> simulation(paper_case(block, sets));
+  Simulation<2> simulation(paper_case(block, sets));
   for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
     simulation.particles().liquid_pressure(p) = simulation.particles().pore_pressure(p) = 5e6;
   }
@@ -129,13 +129,13 @@ TEST(Switch, WhereThePressureIsClamped) {
   EXPECT_NEAR(traction_under_pressure({"basal.clamp=joint"}), 0.0, 1.0);
   EXPECT_NEAR(traction_under_pressure({"basal.clamp=joint", "basal.cap_pressure=true"}) / 5e4, 1.0, 0.02);
   EXPECT_NEAR(traction_under_pressure({"mechanisms.pressurization=false"}) /
-                  (5e4 + std::tan(20.0 * pi<double> / 180.0) * 2093.75 * 9.81 * 50.0),
+                  (5e4 + std::tan(20.0 * pi / 180.0) * 2093.75 * 9.81 * 50.0),
               1.0, 0.02);
 }
 
 // A band that thickens drains slower, with heat on or off.
 TEST(Switch, TheBandFollowsItsTableWithoutHeat) {
-  Simulation<2, double> simulation(paper_case(
+  Simulation<2> simulation(paper_case(
       block, {"heat.enabled=false", "band.thickness={ time = [0.0, 0.5, 0.5, 1.0], value = [0.05, 0.05, 0.5, 0.5] }"}));
   run_until(simulation, 0.4);
   EXPECT_DOUBLE_EQ(simulation.particles().thermal_scaling(0), 200.0);

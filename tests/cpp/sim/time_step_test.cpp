@@ -37,7 +37,7 @@ enabled = false
 )";
 
 TEST(TimeStep, TheLastFixedStepEndsWithTheRun) {
-  Simulation<2, double> simulation(paper_case(block, {"time.step=0.003", "time.end=0.01"}));
+  Simulation<2> simulation(paper_case(block, {"time.step=0.003", "time.end=0.01"}));
   while (simulation.time() < 0.01) {
     simulation.step(simulation.next_step(0.01));
   }
@@ -88,7 +88,7 @@ enabled = false
 constexpr double opening = 3.0;  // volume over that of the closed gap
 
 // The limit after a particle of the material, 17 or 117, has been torn apart.
-StepLimit limit_with_gap(Simulation<2, double>& simulation, const std::string& material) {
+StepLimit limit_with_gap(Simulation<2>& simulation, const std::string& material) {
   auto& particles = simulation.particles();
   const std::int64_t id = material == "free" ? 17 : 117;
   std::size_t p = 0;
@@ -102,7 +102,7 @@ StepLimit limit_with_gap(Simulation<2, double>& simulation, const std::string& m
 }
 
 TEST(TimeStep, AnOpenGapThatBearsNothingDoesNotShortenIt) {
-  Simulation<2, double> simulation(paper_case(two_blocks));
+  Simulation<2> simulation(paper_case(two_blocks));
   const double before = simulation.step_limit().step;
   const StepLimit after = limit_with_gap(simulation, "free");
   EXPECT_NEAR(after.step, before, 1e-12 * before);
@@ -110,7 +110,7 @@ TEST(TimeStep, AnOpenGapThatBearsNothingDoesNotShortenIt) {
 }
 
 TEST(TimeStep, GoesByTheVolumeOfMaterialThatBearsAtOnce) {
-  Simulation<2, double> simulation(paper_case(two_blocks));
+  Simulation<2> simulation(paper_case(two_blocks));
   const double before = simulation.step_limit().step;
   const StepLimit after = limit_with_gap(simulation, "loose");
   EXPECT_NEAR(after.step, before / std::sqrt(opening), 1e-12 * before);
@@ -119,7 +119,7 @@ TEST(TimeStep, GoesByTheVolumeOfMaterialThatBearsAtOnce) {
 
 TEST(TimeStep, GoesByTheVolumeOfMaterialThatDilationOrACutoffLetsBear) {
   for (const char* change : {"material.free.dilation_angle=5", "material.free.tension_cutoff=1e4"}) {
-    Simulation<2, double> simulation(paper_case(two_blocks, {change}));
+    Simulation<2> simulation(paper_case(two_blocks, {change}));
     const double before = simulation.step_limit().step;
     const StepLimit after = limit_with_gap(simulation, "free");
     EXPECT_NEAR(after.step, before / std::sqrt(opening), 1e-12 * before) << change;
@@ -129,7 +129,7 @@ TEST(TimeStep, GoesByTheVolumeOfMaterialThatDilationOrACutoffLetsBear) {
 
 TEST(TimeStep, ViscosityActsAcrossAnOpenGap) {
   const double time = 0.1, modulus = 5e8 / 0.9;  // lambda + 2 G with nu = 0.2
-  Simulation<2, double> simulation(
+  Simulation<2> simulation(
       paper_case(two_blocks, {"material.free.viscosity_time=0.1", "material.loose.viscosity_time=0.1"}));
   const auto& particles = simulation.particles();
   const double square = modulus / (particles.mass(0) / particles.volume(0)) / 100.0;  // (c/h)^2
@@ -140,7 +140,7 @@ TEST(TimeStep, ViscosityActsAcrossAnOpenGap) {
 }
 
 TEST(TimeStep, PorePressureActsAcrossAnOpenGap) {
-  Simulation<2, double> simulation(paper_case(
+  Simulation<2> simulation(paper_case(
       two_blocks, {"mechanics.effective_stress=true", "pressure.enabled=true", "pressure.volumetric_term=true"}));
   const double before = simulation.step_limit().step;
   const StepLimit after = limit_with_gap(simulation, "free");
@@ -149,7 +149,7 @@ TEST(TimeStep, PorePressureActsAcrossAnOpenGap) {
   EXPECT_EQ(after.particle, 17);
 }
 
-double widest_gap(const Simulation<2, double>& simulation) {
+double widest_gap(const Simulation<2>& simulation) {
   double widest = 0.0;
   for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
     widest = std::max(widest, simulation.particles().gap(p));
@@ -161,7 +161,7 @@ double widest_gap(const Simulation<2, double>& simulation) {
 // rebound. Steps that are too long for closed material create energy there: at most 2.5, 4.2, 6.7 and 8.9 % with steps
 // of 0.25, 1, 1.4 and 1.7 times the limit.
 TEST(TimeStep, IsShortEnoughWhenATornGapCloses) {
-  Simulation<2, double> simulation(paper_case(
+  Simulation<2> simulation(paper_case(
       two_blocks,
       {"case.gravity=0", "body.second.material=free", "body.second.min=[50.0, 0.0]", "body.second.max=[100.0, 50.0]",
        "material.free.cohesion=1e3", "body.first.velocity=[-3.0, 0.0]", "body.second.velocity=[3.0, 0.0]"}));

@@ -72,7 +72,7 @@ void for_each_choice(const Work& work) {
 }
 
 // Velocities random about a spin, with stresses; the affine velocities are the spin's.
-void stir(Simulation<2, double>& simulation, double spin, double velocity, double stress) {
+void stir(Simulation<2>& simulation, double spin, double velocity, double stress) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   auto& particles = simulation.particles();
@@ -93,7 +93,7 @@ void stir(Simulation<2, double>& simulation, double spin, double velocity, doubl
 
 // About the block's centre [N m s], with particles at `positions`. The affine part counts with the second moment
 // cell^2/4 of the quadratic spline.
-double angular_momentum(const Simulation<2, double>& simulation, const std::vector<Plane>& positions, bool affine) {
+double angular_momentum(const Simulation<2>& simulation, const std::vector<Plane>& positions, bool affine) {
   const auto& particles = simulation.particles();
   double sum = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -106,7 +106,7 @@ double angular_momentum(const Simulation<2, double>& simulation, const std::vect
   return sum;
 }
 
-std::vector<Plane> positions_by_id(const Simulation<2, double>& simulation) {
+std::vector<Plane> positions_by_id(const Simulation<2>& simulation) {
   const auto& particles = simulation.particles();
   std::vector<Plane> positions(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -120,7 +120,7 @@ TEST(Transfer, FreeFallThroughCellsIsExact) {
     auto sets = transfer.sets;
     sets.insert(sets.end(),
                 {"case.gravity=9.81", "body.block.velocity=[6.0, -2.0]", "material.rock.youngs_modulus=1e4"});
-    Simulation<2, double> simulation(block_with(shape, sets));
+    Simulation<2> simulation(block_with(shape, sets));
     run_until(simulation, 1.0);
     const auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -140,7 +140,7 @@ TEST(Transfer, FreeFallThroughCellsIsExact) {
 // FLIP does not where there is stress, PIC not even that of a rigid spin.
 TEST(Transfer, OnlyApicKeepsAngularMomentum) {
   const auto change = [](std::vector<std::string> sets, bool affine, double velocity, double stress) {
-    Simulation<2, double> simulation(block_with("quadratic", std::move(sets)));
+    Simulation<2> simulation(block_with("quadratic", std::move(sets)));
     stir(simulation, 2.0, velocity, stress);
     const std::vector<Plane> positions = positions_by_id(simulation);
     const double before = angular_momentum(simulation, positions, affine);
@@ -161,7 +161,7 @@ TEST(Transfer, OnlyApicKeepsAngularMomentum) {
 // side.
 TEST(Transfer, RigidSpinGoesOnWithApic) {
   const auto run = [](const std::string& shape, std::vector<std::string> sets) {
-    Simulation<2, double> simulation(block_with(shape, std::move(sets)));
+    Simulation<2> simulation(block_with(shape, std::move(sets)));
     stir(simulation, 1.0, 0.0, 0.0);
     const double before = angular_momentum(simulation, positions_by_id(simulation), false);
     run_until(simulation, 1.0);
@@ -185,7 +185,7 @@ TEST(Transfer, MomentumIsKeptAndEnergyIsAccountedFor) {
     for (int k = 0; k < 2; ++k) {
       auto sets = transfer.sets;
       sets.push_back(k == 0 ? "time.step=0.0005" : "time.step=0.00025");
-      Simulation<2, double> simulation(block_with(shape, sets));
+      Simulation<2> simulation(block_with(shape, sets));
       stir(simulation, 0.5, 0.5, 0.0);
       const auto start = history_row(simulation);
       run_until(simulation, 0.1);
@@ -208,9 +208,9 @@ TEST(Transfer, MomentumIsKeptAndEnergyIsAccountedFor) {
 }
 
 TEST(Transfer, BlendWithoutPicIsFlipInEveryBit) {
-  Simulation<2, double> flip(block_with("ugimp", {}));
-  Simulation<2, double> blend(block_with("ugimp", {"mechanics.transfer=blend", "mechanics.pic_share=0"}));
-  for (Simulation<2, double>* simulation : {&flip, &blend}) {
+  Simulation<2> flip(block_with("ugimp", {}));
+  Simulation<2> blend(block_with("ugimp", {"mechanics.transfer=blend", "mechanics.pic_share=0"}));
+  for (Simulation<2>* simulation : {&flip, &blend}) {
     stir(*simulation, 0.5, 0.5, 1e5);
     run_until(*simulation, 0.1);
   }
@@ -220,10 +220,10 @@ TEST(Transfer, BlendWithoutPicIsFlipInEveryBit) {
 }
 
 TEST(Transfer, ApicDoesNotDependOnWhereParticlesStand) {
-  Simulation<2, double> seldom(block_with("quadratic", {"mechanics.transfer=apic"}));
-  Simulation<2, double> often(block_with("quadratic", {"mechanics.transfer=apic"}));
+  Simulation<2> seldom(block_with("quadratic", {"mechanics.transfer=apic"}));
+  Simulation<2> often(block_with("quadratic", {"mechanics.transfer=apic"}));
   often.set_sorting_interval(1);
-  for (Simulation<2, double>* simulation : {&seldom, &often}) {
+  for (Simulation<2>* simulation : {&seldom, &often}) {
     stir(*simulation, 3.0, 0.0, 0.0);
     run_until(*simulation, 0.1);
   }

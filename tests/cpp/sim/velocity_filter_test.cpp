@@ -62,7 +62,7 @@ enabled = false
 // Velocities of all particles by id, one below the other.
 using Velocities = Eigen::VectorXd;
 template <int Dim>
-Velocities velocities_of(const Simulation<Dim, double>& simulation) {
+Velocities velocities_of(const Simulation<Dim>& simulation) {
   const auto& particles = simulation.particles();
   Velocities all(static_cast<Eigen::Index>(Dim * particles.size()));
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -72,7 +72,7 @@ Velocities velocities_of(const Simulation<Dim, double>& simulation) {
   return all;
 }
 template <int Dim>
-void set_velocities(Simulation<Dim, double>& simulation, const Velocities& all) {
+void set_velocities(Simulation<Dim>& simulation, const Velocities& all) {
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     particles.velocity.set(p, Vector<double, Dim>(all.segment<Dim>(static_cast<Eigen::Index>(Dim * particles.id(p)))));
@@ -139,7 +139,7 @@ struct Dense {
 template <int Dim>
 void expect_the_filter_of_matrices(int order) {
   SCOPED_TRACE(order);
-  Simulation<Dim, double> simulation(paper_case(block<Dim>(), {fmt::format("mechanics.fmpm_order={}", order)}));
+  Simulation<Dim> simulation(paper_case(block<Dim>(), {fmt::format("mechanics.fmpm_order={}", order)}));
   const Dense<Dim> dense(points_of(simulation));
   const Velocities before = random_velocities(dense.mass.size());
   set_velocities(simulation, before);
@@ -172,7 +172,7 @@ TEST(VelocityFilter, IsThatOfMatrices) {
 // fall, and whatever is filtered out has neither momentum nor angular momentum.
 template <int Dim>
 void expect_a_contraction_that_keeps_rigid_motions() {
-  const Simulation<Dim, double> simulation(paper_case(block<Dim>()));
+  const Simulation<Dim> simulation(paper_case(block<Dim>()));
   const Dense<Dim> dense(points_of(simulation));
   const Eigen::MatrixXd weighed = dense.mass.asDiagonal() * dense.transfer;
   EXPECT_LT((weighed - weighed.transpose()).cwiseAbs().maxCoeff(), 1e-12 * weighed.cwiseAbs().maxCoeff());
@@ -192,7 +192,7 @@ TEST(VelocityFilter, IsAContractionThatKeepsRigidMotions) {
 TEST(VelocityFilter, LetsASpinPass) {
   for (const char* shape : {"ugimp", "linear", "quadratic"}) {
     SCOPED_TRACE(shape);
-    Simulation<2, double> simulation(paper_case(block<2>(), {std::string("mechanics.shape_function=") + shape}));
+    Simulation<2> simulation(paper_case(block<2>(), {std::string("mechanics.shape_function=") + shape}));
     const Dense<2> dense(points_of(simulation));
     const Velocities spin = dense.rigid * Eigen::Vector3d(3.0, -1.0, 2.0);
     set_velocities(simulation, spin);
@@ -212,8 +212,8 @@ TEST(VelocityFilter, ActsOnceAnInterval) {
   for (const std::string stepping : {"fixed", "adaptive"}) {
     SCOPED_TRACE(stepping);
     const std::vector<std::string> sets{"time.stepping=" + stepping, "mechanics.fmpm_interval=0.02"};
-    Simulation<2, double> filtered(paper_case(block<2>(), sets));
-    Simulation<2, double> flip(paper_case(without_filter(), {"time.stepping=" + stepping}));
+    Simulation<2> filtered(paper_case(block<2>(), sets));
+    Simulation<2> flip(paper_case(without_filter(), {"time.stepping=" + stepping}));
     set_velocities(filtered, random_velocities(velocities_of(filtered).size()));
     int times = 0;
     while (filtered.time() < 0.201) {
@@ -279,14 +279,14 @@ struct Swing {
   double determinant, trace;
 };
 Swing swing(const std::vector<std::string>& sets) {
-  Simulation<2, double> simulation(paper_case(bar, sets));
+  Simulation<2> simulation(paper_case(bar, sets));
   const auto points = points_of(simulation);
   const ScalarTransfer<2> to_nodes{static_cast<double>(bar_cells)};
   Velocities form = Velocities::Zero(2 * static_cast<Eigen::Index>(points.size()));
   for (std::size_t p = 0; p < points.size(); ++p) {
     to_nodes.for_nodes(
         points[p], ScalarTransfer<2>::ugimp, [&](const auto& node, double weight, const auto& /*slope*/) {
-          form[static_cast<Eigen::Index>(2 * p)] += weight * std::cos(pi<double> * (node[0] - bar_cells) / bar_cells);
+          form[static_cast<Eigen::Index>(2 * p)] += weight * std::cos(pi * (node[0] - bar_cells) / bar_cells);
         });
   }
   set_velocities(simulation, Velocities(1e-3 * form));
@@ -315,8 +315,8 @@ TEST(VelocityFilter, TakesOfAWaveWhatItsEigenvalueSays) {
       "eigenvalue of the sums over particles; Hammerquist and Nairn 2017 for the filter");
   const Swing flip = swing({});
   record.expect_near("determinant, FLIP", flip.determinant, 1.0, 2e-5);
-  const double cosine = 0.5 * flip.trace, eigenvalue = 0.625 + 0.375 * std::cos(pi<double> / bar_cells);
-  const double swung = 0.06 * std::sin(0.5 * pi<double> / bar_cells) * std::sqrt(eigenvalue) * interval_in_steps;
+  const double cosine = 0.5 * flip.trace, eigenvalue = 0.625 + 0.375 * std::cos(pi / bar_cells);
+  const double swung = 0.06 * std::sin(0.5 * pi / bar_cells) * std::sqrt(eigenvalue) * interval_in_steps;
   record.expect_near("frequency over that of the lumped masses, FLIP", std::acos(cosine) / swung, 1.0, 1e-3);
   for (const int order : {2, 3, 4}) {
     const Swing found = swing({"mechanics.transfer=fmpm", fmt::format("mechanics.fmpm_order={}", order),

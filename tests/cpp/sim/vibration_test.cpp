@@ -63,14 +63,14 @@ struct Mode {
 
 // Three periods of mode 1. Zeros of the modal velocity tell the frequency.
 Mode vibrate(int cells, const std::vector<std::string>& sets) {
-  Simulation<2, double> simulation(bar(cells, sets));
+  Simulation<2> simulation(bar(cells, sets));
   auto& particles = simulation.particles();
   std::vector<double> form(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    form[static_cast<std::size_t>(particles.id(p))] = std::sin(pi<double> * particles.position(p, 0));
-    particles.velocity(p, 0) = bar_speed * std::sin(pi<double> * particles.position(p, 0));
+    form[static_cast<std::size_t>(particles.id(p))] = std::sin(pi * particles.position(p, 0));
+    particles.velocity(p, 0) = bar_speed * std::sin(pi * particles.position(p, 0));
     if (simulation.model().motion.transfer == mpm::TransferKind::apic) {
-      particles.affine_velocity(p, 0) = bar_speed * pi<double> * std::cos(pi<double> * particles.position(p, 0));
+      particles.affine_velocity(p, 0) = bar_speed * pi * std::cos(pi * particles.position(p, 0));
     }
   }
   const auto modal = [&](const auto& field) {
@@ -82,8 +82,8 @@ Mode vibrate(int cells, const std::vector<std::string>& sets) {
     }
     return sum / norm;
   };
-  const double omega = pi<double> * bar_wave_speed;
-  const double period = 2.0 * pi<double> / omega;
+  const double omega = pi * bar_wave_speed;
+  const double period = 2.0 * pi / omega;
   std::vector<double> zeros;
   double old = modal(particles.velocity), largest_late = 0.0, highest = 0.0, lowest = 0.0;
   while (simulation.time() < 3.0 * period) {

@@ -46,7 +46,7 @@ std::vector<std::string> both(std::vector<std::string> sets, const std::vector<s
 }
 
 // Gives particles another temperature, as if it had been theirs from the start.
-void set_temperature(Simulation<2, double>& simulation, std::size_t p, double temperature) {
+void set_temperature(Simulation<2>& simulation, std::size_t p, double temperature) {
   auto& particles = simulation.particles();
   particles.temperature(p) = particles.previous_temperature(p) = temperature;
   particles.liquid_saturation(p) = simulation.model().band.with_heat_content(
@@ -54,7 +54,7 @@ void set_temperature(Simulation<2, double>& simulation, std::size_t p, double te
 }
 
 // Sum of n V/K_L P of melted matter [m3]: what seepage may only move.
-double stored(const Simulation<2, double>& simulation) {
+double stored(const Simulation<2>& simulation) {
   const auto& particles = simulation.particles();
   double sum = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -66,7 +66,7 @@ double stored(const Simulation<2, double>& simulation) {
 }
 
 // Patches of frozen and melted matter under any pressures, with a frozen top; the melted ones' largest and smallest.
-void fill_with_patches(Simulation<2, double>& simulation) {
+void fill_with_patches(Simulation<2>& simulation) {
   auto& particles = simulation.particles();
   std::mt19937 random(5);
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -83,7 +83,7 @@ void fill_with_patches(Simulation<2, double>& simulation) {
 // The limit of the step is 2.3 s.
 TEST(FrozenRows, SealedOnesKeepTheWaterInAndItsPressureWithinBounds) {
   for (const double step : {0.05, 2.2}) {
-    Simulation<2, double> simulation(paper_case(
+    Simulation<2> simulation(paper_case(
         column, both(still, {"pressure.frozen_rows=sealed", "time.end=1000", fmt::format("time.step={}", step)})));
     const auto& particles = simulation.particles();
     fill_with_patches(simulation);
@@ -106,7 +106,7 @@ TEST(FrozenRows, SealedOnesKeepTheWaterInAndItsPressureWithinBounds) {
 
 TEST(FrozenRows, SealedOnesDoNotPressOnTheWaterBesideThem) {
   // Below 5 m melted at 1 MPa, above frozen, with ice at any pressure: nothing flows.
-  Simulation<2, double> simulation(paper_case(column, both(still, {"pressure.frozen_rows=sealed"})));
+  Simulation<2> simulation(paper_case(column, both(still, {"pressure.frozen_rows=sealed"})));
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const bool frozen = particles.position(p, 1) > 5.0;
@@ -124,7 +124,7 @@ TEST(FrozenRows, SealedOnesDoNotPressOnTheWaterBesideThem) {
 // What frozen rows take is what the melted matter lacks; vented rows take more than those whose ice presses back.
 TEST(FrozenRows, WhatTheyTakeIsCounted) {
   const auto taken = [&](const std::string& rows) {
-    Simulation<2, double> simulation(paper_case(column, both(still, {"pressure.frozen_rows=" + rows})));
+    Simulation<2> simulation(paper_case(column, both(still, {"pressure.frozen_rows=" + rows})));
     fill_with_patches(simulation);
     const double before = stored(simulation);
     run_until(simulation, 1.0);
@@ -142,7 +142,7 @@ TEST(FrozenRows, WhatTheyTakeIsCounted) {
 
 // A melted column under 1 MPa drains at its top: what it loses leaves there.
 TEST(Drainage, IsCountedAtTheSurface) {
-  Simulation<2, double> simulation(paper_case(column, still));
+  Simulation<2> simulation(paper_case(column, still));
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e6;
@@ -157,7 +157,7 @@ TEST(Drainage, IsCountedAtTheSurface) {
 }
 
 // Warms or cools all matter to a temperature [C] within a step; what heat this takes is not asked for.
-void bring_to(Simulation<2, double>& simulation, double temperature) {
+void bring_to(Simulation<2>& simulation, double temperature) {
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const double before = particles.temperature(p);
@@ -171,7 +171,7 @@ const std::vector<std::string> weightless{"heat.enabled=false", "pressure.seepag
 constexpr double porosity = 0.375, storage = porosity / 1e9;
 
 TEST(MeltContraction, ExpansionFillsTheVoidBeforePressureRises) {
-  Simulation<2, double> simulation(
+  Simulation<2> simulation(
       paper_case(column, both(weightless, {"pressure.melt_contraction=true", "body.column.temperature=-10.0"})));
   const auto& particles = simulation.particles();
   const double left = porosity * 0.083 * (1.0 - std::pow(11.0, -5.0));
@@ -200,7 +200,7 @@ TEST(MeltContraction, ExpansionFillsTheVoidBeforePressureRises) {
 }
 
 TEST(MeltContraction, WithoutItMeltIsPressedFromTheFirstKelvinOn) {
-  Simulation<2, double> simulation(
+  Simulation<2> simulation(
       paper_case(column, both(weightless, {"body.column.temperature=-10.0", "pressure.skeleton_compressibility=0"})));
   bring_to(simulation, 2.0);
   EXPECT_NEAR(simulation.particles().pore_pressure(7), 2.0 * 275000.0, 1e-6);
@@ -210,7 +210,7 @@ TEST(MeltContraction, WithoutItMeltIsPressedFromTheFirstKelvinOn) {
 // The integral of water's expansion from 0 C: below 0 down to 10 C, where it is as dense as at 0 C.
 TEST(WaterExpansion, ByTemperatureContractsFirst) {
   for (const double compressibility : {0.0, 2e-9}) {
-    Simulation<2, double> simulation(paper_case(
+    Simulation<2> simulation(paper_case(
         column, both(weightless, {"phases.water_expansion_law=by_temperature", "body.column.temperature=1e-9",
                                   fmt::format("pressure.skeleton_compressibility={}", compressibility)})));
     const auto& particles = simulation.particles();
@@ -233,7 +233,7 @@ TEST(FrozenPressure, NoneLeavesThawedWaterTheLoadLessTheResidualStress) {
                                       "body.column.temperature=-1.0"};
   const double density = 0.625 * 2750.0 + porosity * (1000.0 / 32.0 + 917.0 * 31.0 / 32.0);
   const auto expect_start = [&](const std::vector<std::string>& sets, double residual, double gas_void) {
-    Simulation<2, double> simulation(paper_case(column, both(none, sets)));
+    Simulation<2> simulation(paper_case(column, both(none, sets)));
     const auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       EXPECT_EQ(particles.pore_pressure(p), 0.0);
@@ -260,7 +260,7 @@ TEST(FrozenPressure, NoneLeavesThawedWaterTheLoadLessTheResidualStress) {
 
 // Half of the matter's weight goes, and comes back.
 TEST(SkeletonCompressibility, PressureFollowsTheLoad) {
-  Simulation<2, double> simulation(
+  Simulation<2> simulation(
       paper_case(column, {"heat.enabled=false", "pressure.seepage=false", "pressure.skeleton_compressibility=2e-9"}));
   auto& particles = simulation.particles();
   simulation.step(0.05);
@@ -290,7 +290,7 @@ TEST(SkeletonCompressibility, PressureFollowsTheLoad) {
 // With m_v pores store more: heating presses less, and pressure diffuses the slower by as much.
 TEST(SkeletonCompressibility, SlowsDiffusionByTheStorage) {
   const auto bump_after = [&](double compressibility, double time) {
-    Simulation<2, double> simulation(
+    Simulation<2> simulation(
         paper_case(column, {"heat.enabled=false", "case.gravity=0.0", "pressure.melt_contraction=true",
                             fmt::format("pressure.skeleton_compressibility={}", compressibility), "time.step=0.005"}));
     auto& particles = simulation.particles();

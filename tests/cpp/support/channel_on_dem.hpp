@@ -27,7 +27,7 @@ inline Channel plane_channel(double width, double thickness) {
 
 // V-shaped channel with half its opening angle [degrees], filled to a width [m].
 inline Channel v_channel(double half_opening, double width) {
-  const double rise = 1.0 / std::tan(half_opening * pi<double> / 180.0);
+  const double rise = 1.0 / std::tan(half_opening * pi / 180.0);
   return {.ground = [rise](double across) { return rise * std::abs(across); }, .surface = 0.5 * width * rise};
 }
 
@@ -54,7 +54,7 @@ using Treatment = std::function<Raster(Raster)>;
 inline double friction_in_channel(
     const Channel& channel, const std::string& material, double from, double to,
     const Treatment& treat = [](Raster ground) { return ground; }) {
-  constexpr double degree = pi<double> / 180.0, gravity = 9.81, length = 60.0;
+  constexpr double degree = pi / 180.0, gravity = 9.81, length = 60.0;
   const double sine = std::sin(channel_slope * degree), cosine = std::cos(channel_slope * degree);
   const Place along(std::cos(channel.azimuth * degree), std::sin(channel.azimuth * degree)), aside(-along[1], along[0]);
   const auto across = [&](double x, double y) { return Place(x, y).dot(aside) - channel.aside; };
@@ -72,7 +72,7 @@ inline double friction_in_channel(
   });
   const std::string text = release_on_dem({to, 0.002, channel_cell, {-120.0, -120.0, -150.0}, {120.0, 120.0, 250.0}},
                                           material, channel_friction);
-  sim::Simulation<3, double> simulation(case_on_dem(text), site_of(treat(ground), thickness));
+  sim::Simulation<3> simulation(case_on_dem(text), site_of(treat(ground), thickness));
   const Position down(along[0] * cosine, along[1] * cosine, -sine);
   run_until(simulation, from);
   const double first = CentreOfMass(simulation).velocity.dot(down), began = simulation.time();

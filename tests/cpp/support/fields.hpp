@@ -14,8 +14,8 @@
 
 namespace thawslide::testing_support {
 
-template <int Dim, class Real>
-std::map<std::string, std::vector<double>> fields_by_id(const mpm::Particles<Dim, Real>& particles) {
+template <int Dim>
+std::map<std::string, std::vector<double>> fields_by_id(const mpm::Particles<Dim>& particles) {
   std::vector<std::size_t> by_id(particles.size());
   std::iota(by_id.begin(), by_id.end(), std::size_t{0});
   std::sort(by_id.begin(), by_id.end(),

@@ -8,7 +8,7 @@
 namespace thawslide::testing_support {
 
 // Standard deviation of the mass along x [m].
-inline double mass_spread(const sim::Simulation<2, double>& simulation) {
+inline double mass_spread(const sim::Simulation<2>& simulation) {
   const auto& particles = simulation.particles();
   double mass = 0.0, first = 0.0, second = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {

@@ -6,7 +6,7 @@
 
 #include "physics/contact.hpp"
 #include "scalar_points.hpp"
-#include "terrain/main_axis.hpp"
+#include "terrain/contact_node.hpp"
 
 namespace thawslide::testing_support {
 
@@ -29,10 +29,10 @@ class ScalarContact {
  public:
   using Index = NodeIndex<Dim>;
   using Place = Vector<double, Dim>;
-  using Ground = ByNode<Dim, terrain::GroundAtNode<Dim, double>>;
+  using Ground = ByNode<Dim, terrain::GroundAtNode<Dim>>;
 
   // ground: at all nodes around the particles.
-  ScalarContact(const terrain::ContactModel<Dim, double>& model, const ScalarTransfer<Dim>& transfer,
+  ScalarContact(const terrain::ContactModel<Dim>& model, const ScalarTransfer<Dim>& transfer,
                 const std::vector<Point<Dim>>& points, const ContactSums<Dim>& sums, Ground ground, double dt)
       : model_(model), sums_(sums), ground_(std::move(ground)), dt_(dt), cell_(1.0 / transfer.inverse_cell) {
     find_clearance(transfer, points);
@@ -89,7 +89,7 @@ class ScalarContact {
     for (const Point<Dim>& p : points) {
       transfer.for_nodes(p, transfer.ugimp, [&](const Index& node, double weight, const Place& /*slope*/) {
         const auto& known = ground_.at(node);
-        if (weight > round_off<double> && known.candidate) {
+        if (weight > round_off && known.candidate) {
           double& clearance = clearance_.emplace(node, HUGE_VAL).first->second;
           clearance = std::min(clearance, known.plane - known.normal.dot(p.position) - p.contact_offset);
         }
@@ -113,7 +113,7 @@ class ScalarContact {
   }
   // Maximum filled fraction of the node and the two nodes farther from the ground.
   [[nodiscard]] double covered_share(const Index& node, const Place& normal) const {
-    const int axis = terrain::main_axis<Dim, double>(normal);
+    const int axis = terrain::main_axis<Dim>(normal);
     double share = 0.0;
     Index at = node;
     for (int step = 0; step <= 2; ++step) {
@@ -125,7 +125,7 @@ class ScalarContact {
 
   // N [Pa]: load over covered ground, both smoothed along it.
   [[nodiscard]] double pressure(const Index& node) const {
-    const int across = terrain::main_axis<Dim, double>(ground_.at(node).normal);
+    const int across = terrain::main_axis<Dim>(ground_.at(node).normal);
     double load = 0.0, covered = 0.0;
     for (int n = 0; n < mpm::power(3, Dim); ++n) {
       Index adjacent = node;
@@ -158,10 +158,9 @@ class ScalarContact {
     const double pore = average(node, sums_.linear, mpm::Averages::pore_pressure, NearGround::pore_pressure);
     const double solid =
         average(node, sums_.near_ground_by_linear, solid_fraction_by_linear, NearGround::solid_fraction);
-    const physics::basal::ContactNode<double> state{.solid_fraction = solid};
-    const double friction =
-        std::get<physics::basal::LubricatedFriction<double>>(law.grounds[0].friction).coefficient(state);
-    const double cohesion = std::get<physics::basal::ConstantCohesion<double>>(law.grounds[0].cohesion).initial;
+    const physics::basal::ContactNode state{.solid_fraction = solid};
+    const double friction = std::get<physics::basal::LubricatedFriction>(law.grounds[0].friction).coefficient(state);
+    const double cohesion = std::get<physics::basal::ConstantCohesion>(law.grounds[0].cohesion).initial;
     return physics::sliding_strength(friction, normal_pressure, pore, cohesion, law.clamp, law.cap_pressure);
   }
 
@@ -193,7 +192,7 @@ class ScalarContact {
     return motion;
   }
 
-  const terrain::ContactModel<Dim, double>& model_;
+  const terrain::ContactModel<Dim>& model_;
   ContactSums<Dim> sums_;
   Ground ground_;
   double dt_, cell_;

@@ -29,7 +29,7 @@ struct Point {
 
 // All particles, by id.
 template <int Dim>
-std::vector<Point<Dim>> points_of(const sim::Simulation<Dim, double>& simulation) {
+std::vector<Point<Dim>> points_of(const sim::Simulation<Dim>& simulation) {
   const auto& particles = simulation.particles();
   std::vector<Point<Dim>> points(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -37,7 +37,7 @@ std::vector<Point<Dim>> points_of(const sim::Simulation<Dim, double>& simulation
     point.position = particles.position.template get<Vector<double, Dim>>(p);
     point.velocity = particles.velocity.template get<Vector<double, Dim>>(p);
     point.displacement = particles.displacement.template get<Vector<double, Dim>>(p);
-    point.stress = mpm::full_tensor<Dim, double>(particles.stress, p);
+    point.stress = mpm::full_tensor<Dim>(particles.stress, p);
     point.mass = particles.mass(p);
     point.volume = particles.volume(p);
     point.initial_volume = particles.initial_volume(p);

@@ -25,7 +25,7 @@ class ScalarStep {
   static constexpr double tref = 0.0;
 
   // simulation: after the step of dt that began with `points`.
-  ScalarStep(const sim::Simulation<Dim, double>& simulation, double dt, std::vector<Point<Dim>> points)
+  ScalarStep(const sim::Simulation<Dim>& simulation, double dt, std::vector<Point<Dim>> points)
       : points_(std::move(points)), simulation_(simulation), dt_(dt), transfer_{1.0 / simulation.grid().cell()} {
     momentum_ = add_up(Transfer::ugimp, mpm::MomentumLayout<Dim>::size, [&](const auto& p) { return momentum_of(p); });
     linear_ = add_up(Transfer::linear, mpm::components_of<mpm::Averages, Dim>, [&](const Point<Dim>& p) {
@@ -40,7 +40,7 @@ class ScalarStep {
     near_ground_by_linear_ = add_up(Transfer::linear, 2, [&](const Point<Dim>& p) {
       return Carried<Dim>{{p.volume * p.saturation, p.volume * solid_fraction(p)}, {}};
     });
-    ByNode<Dim, terrain::GroundAtNode<Dim, double>> ground;
+    ByNode<Dim, terrain::GroundAtNode<Dim>> ground;
     for (std::size_t b = 0; b < simulation.grid().blocks().size(); ++b) {
       const Index tile = mpm::Tile<Dim>::index(simulation.grid().blocks()[b]);
       for (int k = 0; k < mpm::Tile<Dim>::nodes; ++k) {
@@ -91,7 +91,7 @@ class ScalarStep {
   [[nodiscard]] double solid_fraction(const Point<Dim>& p) const {
     return physics::effective_solid_fraction(phases(), p.porosity, p.saturation);
   }
-  [[nodiscard]] const physics::Phases<double>& phases() const { return simulation_.model().motion.phases; }
+  [[nodiscard]] const physics::Phases& phases() const { return simulation_.model().motion.phases; }
 
   [[nodiscard]] Carried<Dim> momentum_of(const Point<Dim>& p) const {
     constexpr int row[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
@@ -338,7 +338,7 @@ class ScalarStep {
   }
 
   std::vector<Point<Dim>> points_;
-  const sim::Simulation<Dim, double>& simulation_;
+  const sim::Simulation<Dim>& simulation_;
   double dt_;
   Transfer transfer_;
   Sums momentum_, linear_, seeping_, near_ground_by_mass_, near_ground_by_linear_, mapped_;

@@ -12,8 +12,7 @@ class ScalarWater {
  public:
   static constexpr double tref = 0.0;
 
-  ScalarWater(const sim::Model<Dim, double>& model, const ScalarColumns<Dim>& columns)
-      : model_(model), columns_(columns) {}
+  ScalarWater(const sim::Model<Dim>& model, const ScalarColumns<Dim>& columns) : model_(model), columns_(columns) {}
 
   // seeped: pressure change due to seepage [Pa]; drained_depth: depth below the top within which the pressure is
   // atmospheric [m].
@@ -88,7 +87,7 @@ class ScalarWater {
     }
   }
 
-  const sim::Model<Dim, double>& model_;
+  const sim::Model<Dim>& model_;
   const ScalarColumns<Dim>& columns_;
 };
 

@@ -97,7 +97,7 @@ struct CentreOfMass {
   double mass = 0.0;
   Position position = Position::Zero(), velocity = Position::Zero();
 
-  explicit CentreOfMass(const sim::Simulation<3, double>& simulation) {
+  explicit CentreOfMass(const sim::Simulation<3>& simulation) {
     const auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       mass += particles.mass(p);

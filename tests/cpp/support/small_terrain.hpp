@@ -13,7 +13,7 @@ namespace thawslide::testing_support {
 
 using Place = Vector<double, 2>;
 using Position = Vector<double, 3>;
-using Node = terrain::GroundAtNode<3, double>;
+using Node = terrain::GroundAtNode<3>;
 
 constexpr int edge = 4;  // nodes per block, along each axis
 constexpr double no_data = std::numeric_limits<double>::quiet_NaN();

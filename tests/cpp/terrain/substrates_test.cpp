@@ -97,12 +97,12 @@ TEST(SubstratesOnGround, LieWhereARasterHasTheirCode) {
 // Nodes of a block side by side, each by the laws below it.
 TEST(BasalLaw, HoldsByTheSubstrateOfEachNode) {
   using namespace physics::basal;
-  BasalLaw<double> law;
-  law.grounds = {{ConstantFriction<double>{0.5}, ConstantCohesion<double>{10.0}},
-                 {CoefficientFriction<double>{0.1}, ConstantCohesion<double>{0.0}},
-                 {ConstantFriction<double>{1.0}, BondsCohesion<double>{100.0, 2.0}},
-                 {VoellmyFriction<double>{0.2, 500.0}, ConstantCohesion<double>{3.0}}};
-  BasalNodes<double> nodes;
+  BasalLaw law;
+  law.grounds = {{ConstantFriction{0.5}, ConstantCohesion{10.0}},
+                 {CoefficientFriction{0.1}, ConstantCohesion{0.0}},
+                 {ConstantFriction{1.0}, BondsCohesion{100.0, 2.0}},
+                 {VoellmyFriction{0.2, 500.0}, ConstantCohesion{3.0}}};
+  BasalNodes nodes;
   nodes.count = 6;
   nodes.substrate = {1, 0, 2, 1, 3, 3};
   nodes.normal_pressure.fill(1000.0);

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "../exact/drained_band.hpp"
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
-#include "physics/exact/drained_band.hpp"
 #include "sim/block.hpp"
 
 namespace thawslide::verification {
@@ -86,7 +86,7 @@ bool runs_away(const Start& start, double conductivity) {
       block,
       {fmt::format("material.rock.hydraulic_conductivity={:.6e}", conductivity),
        fmt::format("body.slab.velocity=[{}, 0.0]", start.speed), fmt::format("band.thickness={}", start.thickness),
-       fmt::format("basal.friction_angle={:.12f}", std::atan(friction) * 180.0 / pi<double>)}));
+       fmt::format("basal.friction_angle={:.12f}", std::atan(friction) * 180.0 / pi)}));
   for (const auto& row : rows) {
     const double speed = value_of(row, "velocity_m_s");
     if (speed > 2.0 * start.speed || speed <= 0.0) {
@@ -127,7 +127,7 @@ TEST(ArrestOrRunaway, IsDecidedByConductivity) {
                 "k = A v/(mu/tan a - 1) of the steady drained band, with A = mu beta_m gamma_w eta e/(3 C). With a "
                 "smaller k it runs away, with a larger k it arrests",
                 "closed form; after Goren and Aharonov (2009), not compared with their numbers");
-  const double angle = slope * pi<double> / 180.0;
+  const double angle = slope * pi / 180.0;
   Curve curve{"speed at the start (m/s)", "k between arrest and runaway (m/s)", {}, {}, {}};
   for (const Start& start : {Start{2.0, 0.002}, Start{4.0, 0.002}, Start{6.0, 0.002}, Start{4.0, 0.004}}) {
     const double exact = band_of(start.thickness).boundary_conductivity(start.speed, angle);

@@ -27,7 +27,7 @@ AtEnd slide(const std::vector<std::string>& more) {
                                 "body.slab.temperature=-0.1",  "body.slab.velocity=[10.0, 0.0]",
                                 "basal.friction_angle=35.0",   "mechanics.slope_shear=true"};
   sets.insert(sets.end(), more.begin(), more.end());
-  sim::Simulation<2, double> simulation(case_from_text(column_slab(), sets));
+  sim::Simulation<2> simulation(case_from_text(column_slab(), sets));
   const auto* columns = simulation.band_columns();
   AtEnd result{};
   for (double end = 0.05; end < 5.0 + 1e-9; end += 0.05) {

@@ -17,7 +17,7 @@
 namespace thawslide::verification::bar_collapse {
 
 using namespace testing_support;
-using Simulation = sim::Simulation<2, double>;
+using Simulation = sim::Simulation<2>;
 
 // Parameters published with the measurements; E = 3 K (1 - 2 nu) with K = 0.7 MPa. Material in contact with the rough
 // floor does not slide: the friction angle of the floor is far above that of the bars.

@@ -59,7 +59,7 @@ struct Work {
 };
 
 Work work_on(const std::string& text) {
-  sim::Simulation<2, double> simulation(paper_case(text));
+  sim::Simulation<2> simulation(paper_case(text));
   run_until(simulation, simulation.parameters().time.end);
   const auto rows = sim::run_block(paper_case(text));
   const std::map<std::string, double> last(rows.back().begin(), rows.back().end());
@@ -85,7 +85,7 @@ struct Distance {
 };
 
 Distance distance_on(const std::string& text, const std::vector<std::string>& sets) {
-  sim::Simulation<2, double> simulation(paper_case(text, sets));
+  sim::Simulation<2> simulation(paper_case(text, sets));
   run_until(simulation, simulation.parameters().time.end);
   const auto row = sim::history_row(simulation);
   EXPECT_LT(value_of(row, "mean_velocity_m_s"), 1e-2) << "it still slides";
@@ -114,7 +114,7 @@ TEST(Substrates, SlidingDistanceOverTwo) {
       thrown + fmt::format(
                    "friction = \"constant\"\nfriction_angle = {:.15g}\n[substrate.glacier]\nx_min = {}\n"
                    "friction = \"coefficient\"\nfriction_coefficient = {}\n",
-                   std::atan(on_rock) * 180.0 / pi<double>, border, on_ice);
+                   std::atan(on_rock) * 180.0 / pi, border, on_ice);
   const std::vector<std::string> sets{"body.block.velocity=[20.0,0.0]", "time.end=12.0"};
   const Distance found = distance_on(text, sets);
   record.expect_near("distance over exact", found.mpm / of_body, 1.0, 5e-3);

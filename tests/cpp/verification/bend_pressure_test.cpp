@@ -8,7 +8,7 @@
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
-#include "physics/bend.hpp"
+#include "physics/contact.hpp"
 #include "sim/block.hpp"
 #include "sim/simulation.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 
 using namespace testing_support;
 using sim::Simulation;
-constexpr double degree = pi<double> / 180.0;
+constexpr double degree = pi / 180.0;
 constexpr double gravity = 9.81, density = 0.625 * 2750.0 + 0.375 * 917.0;  // frozen, porosity 0.375
 constexpr double radius = 300.0, thickness = 10.0;
 
@@ -149,7 +149,7 @@ TEST(BendPressure, IsNeverBelowZero) {
 }
 
 // What the particles' weight across the ground and their turning come to, with the ground of the arc below each.
-double load_of_particles(const Simulation<2, double>& simulation) {
+double load_of_particles(const Simulation<2>& simulation) {
   const auto& particles = simulation.particles();
   double load = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -165,7 +165,7 @@ double load_of_particles(const Simulation<2, double>& simulation) {
 }
 
 // N A of all nodes in the last step [N].
-double load_of_nodes(const Simulation<2, double>& simulation) {
+double load_of_nodes(const Simulation<2>& simulation) {
   const auto& base = simulation.nodes().base;
   double load = 0.0;
   for (std::size_t b = 0; b < simulation.grid().blocks().size(); ++b) {
@@ -177,14 +177,14 @@ double load_of_nodes(const Simulation<2, double>& simulation) {
 }
 
 TEST(BendPressure, OfTheSlideIsThatOfTheArc) {
-  if (!Simulation<2, double>(paper_case(slide_into_bend())).device_name().empty()) {
+  if (!Simulation<2>(paper_case(slide_into_bend())).device_name().empty()) {
     GTEST_SKIP() << "it looks at nodes, which a device keeps";
   }
   Record record("Pressure in a bend, deforming slide",
                 "The same slab consists of broken rock (35 degrees, 1 kPa), in cells of 2.5 m. The force of the slide "
                 "across the ground is summed over nodes and averaged over half a second.",
                 "sum over particles of m (g cos + v^2/r)", "balance of momentum across the path");
-  Simulation<2, double> simulation(paper_case(slide_into_bend()));
+  Simulation<2> simulation(paper_case(slide_into_bend()));
   double largest = 0.0, most = 0.0;
   Curve curve{"time [s]", "force across the ground over weight", {}, {}, {}};
   double expected = 0.0, found = 0.0, mass = 0.0;

@@ -22,7 +22,7 @@ struct Course {
   }
 };
 
-inline double wedge_factor(double opening) { return 1.0 / std::sin(0.5 * opening * pi<double> / 180.0); }
+inline double wedge_factor(double opening) { return 1.0 / std::sin(0.5 * opening * pi / 180.0); }
 
 inline Record make_record(const std::string& title) {
   return Record(

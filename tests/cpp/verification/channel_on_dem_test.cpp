@@ -33,9 +33,9 @@ TEST(UChannelOnDem, HoldsAsAHalfPipe) {
                 "apparent friction over that of the ground = 4/pi", "pressure of a fluid on a half pipe");
   const Channel channel = u_channel(8.0 * channel_cell);
   record.expect_near("apparent friction over exact, elastic fill",
-                     friction_in_channel(channel, elastic_rock(0.01), 1.0, 3.0) * pi<double> / 4.0, 1.0, 0.04);
+                     friction_in_channel(channel, elastic_rock(0.01), 1.0, 3.0) * pi / 4.0, 1.0, 0.04);
   record.expect_near("apparent friction over exact, loose fill",
-                     friction_in_channel(channel, loose_rock, 1.0, 3.0) * pi<double> / 4.0, 1.0, 0.04);
+                     friction_in_channel(channel, loose_rock, 1.0, 3.0) * pi / 4.0, 1.0, 0.04);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Heat conduction without motion: half space, two layers, and a manufactured solution with melting.
-#include "physics/exact/conduction.hpp"
+#include "../exact/conduction.hpp"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ enabled = false
 
 // Gives particles temperatures, and the heat content and saturation that go with them.
 template <class Temperature>
-void set_temperatures(Simulation<2, double>& simulation, const Temperature& temperature) {
+void set_temperatures(Simulation<2>& simulation, const Temperature& temperature) {
   auto& particles = simulation.particles();
   simulation.model().band.with_heat_content([&](const auto& content) {
     for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -68,7 +68,7 @@ Errors errors_on(double cell, double start, std::vector<std::string> sets, const
   sets.push_back(fmt::format("grid.cell={}", cell));
   sets.push_back(fmt::format("time.step={}", 1000.0 * cell * cell / 0.01));
   sets.push_back(fmt::format("body.bar.max=[4.0,{}]", cell));
-  Simulation<2, double> simulation(paper_case(bar, sets));
+  Simulation<2> simulation(paper_case(bar, sets));
   if (start > 0.0) {
     set_temperatures(simulation, [&](double x, double /*y*/) { return exact(simulation, x, start); });
   }
@@ -96,7 +96,7 @@ const std::vector<double> cells{0.2, 0.1, 0.05};
 TEST(Conduction, HalfSpace) {
   Record record("Heat conduction into a half space", "A bar at 2 C whose end is kept at 8 C.",
                 "T = T0 + (Ts - T0) erfc(x/sqrt(4 a t))", "Carslaw and Jaeger 1959, ch. 2");
-  const auto exact = [](const Simulation<2, double>& simulation, double x, double t) {
+  const auto exact = [](const Simulation<2>& simulation, double x, double t) {
     const auto& phases = simulation.model().motion.phases;
     const double diffusivity = physics::conductivity(phases, 0.375, 1.0) / physics::heat_capacity(phases, 0.375, 1.0);
     return physics::exact::half_space_temperature(x, t, 2.0, 8.0, diffusivity);
@@ -112,7 +112,7 @@ TEST(Conduction, HalfSpace) {
 }
 
 // Two half spaces in touch at x = 2 m, where cells meet.
-double two_layers(const Simulation<2, double>& simulation, double x, double t) {
+double two_layers(const Simulation<2>& simulation, double x, double t) {
   const auto& phases = simulation.model().motion.phases;
   const auto side = [&](double porosity, double temperature) {
     return physics::exact::HalfSpace{physics::conductivity(phases, porosity, 1.0),
@@ -167,13 +167,13 @@ struct Manufactured {
   static constexpr double side = 2.0, mean = -2.0, amplitude = 1.5, decay = 4e5, end = 8e4;
 
   [[nodiscard]] static double temperature(double x, double y, double t) {
-    const double k = pi<double> / side;
+    const double k = pi / side;
     return mean + amplitude * std::cos(k * x) * std::cos(k * y) * std::exp(-t / decay);
   }
   // (C + rho_I n L_f dS/dT) dT/dt - div(k grad T) [W/m3]
   template <class Content>
   [[nodiscard]] static double source(const Content& content, double porosity, double x, double y, double t) {
-    const double k = pi<double> / side;
+    const double k = pi / side;
     const double shrink = amplitude * std::exp(-t / decay);
     const double here = temperature(x, y, t);
     const double gradient2 = std::pow(shrink * k, 2) * (std::pow(std::sin(k * x) * std::cos(k * y), 2) +
@@ -187,7 +187,7 @@ struct Manufactured {
 };
 
 double manufactured_error(double cell) {
-  Simulation<2, double> simulation(paper_case(
+  Simulation<2> simulation(paper_case(
       bar, {"grid.max=[2.0,2.0]", "body.bar.max=[2.0,2.0]", fmt::format("grid.cell={}", cell),
             fmt::format("time.step={}", 256.0 * cell * cell / 0.01), "time.end=8e4", "freezing.exponent=2.0"}));
   return simulation.model().band.with_heat_content([&](const auto& content) {

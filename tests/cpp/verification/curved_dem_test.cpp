@@ -3,17 +3,17 @@
 
 #include <cmath>
 
+#include "../exact/rigid_slide.hpp"
 #include "../support/point_on_surface.hpp"
 #include "../support/record.hpp"
 #include "../support/slide_on_dem.hpp"
 #include "base/portability.hpp"
-#include "physics/exact/rigid_slide.hpp"
 
 namespace thawslide::verification {
 namespace {
 
 using namespace testing_support;
-constexpr double degree = pi<double> / 180.0;
+constexpr double degree = pi / 180.0;
 constexpr double gravity = 9.81;
 
 const std::string block =
@@ -67,8 +67,7 @@ TEST(Bowl, BlockSwingsLikeAPointWithFriction) {
     return radius - std::sqrt(std::max(squared, 0.01 * radius * radius));
   });
   const Place along(std::cos(azimuth), std::sin(azimuth));
-  sim::Simulation<3, double> simulation(case_on_dem(block),
-                                        site_of(ground, small_block(radius * std::sin(start) * along)));
+  sim::Simulation<3> simulation(case_on_dem(block), site_of(ground, small_block(radius * std::sin(start) * along)));
   const auto from_centre = [&](const CentreOfMass& body) {
     return Position(body.position - Position(0.0, 0.0, radius));
   };
@@ -109,7 +108,7 @@ struct Helix {
     return section + wall - pitch * turns(x, y);
   }
   [[nodiscard]] static double turns(double x, double y) {
-    const double angle = std::atan2(y, x) / (2.0 * pi<double>);
+    const double angle = std::atan2(y, x) / (2.0 * pi);
     return angle < 0.0 ? angle + 1.0 : angle;
   }
   // Of a position from the line of the circles' centres.
@@ -126,9 +125,8 @@ std::vector<double> run_along(double spacing, double turns, Curve& curve) {
   const Raster ground = raster_between(Place(-230.0, -230.0), Place(230.0, 230.0), spacing,
                                        [&](double x, double y) { return helix.height(x, y); });
   const double start = 15.0 * degree;
-  sim::Simulation<3, double> simulation(
-      case_on_dem(block, {"basal.friction_angle=6.0"}),
-      site_of(ground, small_block(helix.radius * Place(std::cos(start), std::sin(start)))));
+  sim::Simulation<3> simulation(case_on_dem(block, {"basal.friction_angle=6.0"}),
+                                site_of(ground, small_block(helix.radius * Place(std::cos(start), std::sin(start)))));
   CentreOfMass now(simulation);
   const double above = helix.section - helix.off_centres(now.position);
   PointOnSurface exact([&](double x, double y) { return helix.height(x, y, above); }, now.position.head<2>(),

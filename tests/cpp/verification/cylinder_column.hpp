@@ -42,7 +42,7 @@ file = "dem.tif"
 inline double runout_of_lube(double aspect) { return aspect < 1.7 ? 1.24 * aspect : 1.6 * std::sqrt(aspect); }
 
 // r_inf - r_0 over r_0, r_inf being the radius within which 99.5 % of the mass lies.
-inline double runout(const sim::Simulation<3, double>& simulation) {
+inline double runout(const sim::Simulation<3>& simulation) {
   const auto& particles = simulation.particles();
   std::vector<sim::MassOnPath> by_radius;
   double mass = 0.0;
@@ -63,7 +63,7 @@ inline double collapse(double aspect, double cell = 0.625, const std::string& tr
                         [&](double x, double y) { return std::hypot(x, y) < radius ? aspect * radius : 0.0; });
   const Raster ground =
       raster_between(Place::Constant(-20.0), Place::Constant(60.0), 10.0, [](double, double) { return 0.0; });
-  sim::Simulation<3, double> simulation(
+  sim::Simulation<3> simulation(
       case_on_dem(column, {fmt::format("time.end={}", end), fmt::format("grid.cell={}", cell),
                            fmt::format("time.step={}", 0.0056 * cell), "mechanics.transfer=" + transfer}),
       site_of(ground, thickness));

@@ -31,7 +31,7 @@ max = [10.0, 10.0]
 // (r - r_0)/r_0 of a column of aspect ratio 1 after 5 s, r being the radius within which 99.5 % of the mass lies.
 inline double runout_of_section(int cells, const std::string& transfer) {  // across the radius
   const double cell = radius / cells;
-  sim::Simulation<2, double> simulation(
+  sim::Simulation<2> simulation(
       paper_case(section, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 0.0056 * cell),
                            "mechanics.transfer=" + transfer}));
   run_until(simulation, 5.0);

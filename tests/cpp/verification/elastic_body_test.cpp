@@ -1,5 +1,5 @@
 // Elastic bodies in free motion: impact on the ground, and turning under stress.
-#include "physics/exact/elastic_body.hpp"
+#include "../exact/elastic_body.hpp"
 
 #include <gtest/gtest.h>
 
@@ -52,8 +52,8 @@ enabled = false
 )";
 
 // The bar on cells of a size, its lower end at a height; steps are a fifth of what a wave needs to cross one.
-Simulation<2, double> falling_bar(double cell, double height, bool distance_check = true) {
-  return Simulation<2, double>(paper_case(
+Simulation<2> falling_bar(double cell, double height, bool distance_check = true) {
+  return Simulation<2>(paper_case(
       falling,
       {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 2.5e-4 * cell),
        fmt::format("body.bar.min=[0.0,{}]", height), fmt::format("body.bar.max=[{},{}]", 2.0 * cell, 20.0 + height),
@@ -70,7 +70,7 @@ TEST(ElasticImpact, GivesTheEnergyBack) {
   std::vector<double> speed_error, energy_error, pressure_error, contact_loss;
   Curve curve{"time [s]", "pressure on the ground [MPa]", {}, {}, {}};
   for (const double cell : cells) {
-    Simulation<2, double> simulation = falling_bar(cell, 0.0);
+    Simulation<2> simulation = falling_bar(cell, 0.0);
     const auto before = simulation.sum_over_body();
     const double width = 2.0 * cell, density = before.mass / (width * 20.0);
     const double pressure = physics::exact::impact_pressure(density, 5e8, 1.0);
@@ -114,7 +114,7 @@ struct Landing {
 
 // The bar comes from two cells above the ground; its energy is taken when it has left again.
 Landing land(double cell, bool distance_check) {
-  Simulation<2, double> simulation = falling_bar(cell, 2.0 * cell, distance_check);
+  Simulation<2> simulation = falling_bar(cell, 2.0 * cell, distance_check);
   const auto before = simulation.sum_over_body();
   const double duration = physics::exact::impact_time(before.mass / (2.0 * cell * 20.0), 5e8, 20.0);
   Landing landing;
@@ -182,14 +182,14 @@ enabled = false
 std::string circle(double radius) {
   std::string corners;
   for (int k = 0; k < 360; ++k) {
-    const double angle = k * pi<double> / 180.0;
+    const double angle = k * pi / 180.0;
     corners += fmt::format("{}[{:.9f},{:.9f}]", k == 0 ? "" : ",", radius * std::cos(angle), radius * std::sin(angle));
   }
   return "[" + corners + "]";
 }
 
 // Error of the stress within 0.7 of the radius after a time, rms over the largest stress.
-double stress_error(const Simulation<2, double>& simulation, const physics::exact::TurningCylinder& exact) {
+double stress_error(const Simulation<2>& simulation, const physics::exact::TurningCylinder& exact) {
   const auto& particles = simulation.particles();
   std::vector<double> errors;
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -214,7 +214,7 @@ TEST(Turning, CarriesItsStressRound) {
   const std::vector<double> cells{2.0, 1.0, 0.5};
   std::vector<double> errors, spins;
   for (const double cell : cells) {
-    Simulation<2, double> simulation(
+    Simulation<2> simulation(
         paper_case(turning, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 2.5e-3 * cell),
                              "body.disc.vertices=" + circle(10.0)}));
     auto& particles = simulation.particles();
@@ -232,7 +232,7 @@ TEST(Turning, CarriesItsStressRound) {
     }
     double worst = 0.0;
     for (int part = 1; part <= 4; ++part) {
-      run_until(simulation, part * 0.125 * pi<double>);
+      run_until(simulation, part * 0.125 * pi);
       worst = std::max(worst, stress_error(simulation, exact));
     }
     errors.push_back(worst);

@@ -65,7 +65,7 @@ struct State {
 };
 
 template <int Dim>
-State state_of(const sim::Simulation<Dim, double>& simulation) {
+State state_of(const sim::Simulation<Dim>& simulation) {
   const sim::HistoryRow row = sim::history_row(simulation);
   const auto value = [&](const std::string& name) { return value_of(row, name); };
   const auto& particles = simulation.particles();
@@ -89,7 +89,7 @@ void sweep_up(const std::string& where) {
                 "that withstands nothing.",
                 "m = m_0 + rho_b d w (x - x_0), m v = m_0 v_0, kinetic energy (m_0 v_0)^2/(2 m)",
                 "inelastic collision with material at rest: momentum is kept");
-  sim::Simulation<Dim, double> simulation(
+  sim::Simulation<Dim> simulation(
       paper_case(thrown<Dim>(20.0, 8.0) +
                  "[basal]\nfriction = \"constant\"\nfriction_angle = 0.0\n[bed]\nlaw = \"strength\"\n"
                  "strength = 0.0\ndepth_per_slip = 1.0\nmaterial = \"rock\"\nporosity = 0.9\n"
@@ -125,12 +125,12 @@ TEST(Entrainment, SweepsUpALayerInSpace) { sweep_up<3>("3D"); }
 template <int Dim>
 void entrain_by_friction(const std::string& where) {
   constexpr double angle = 17.0, bed_angle = 14.0;  // degrees
-  const double mu = std::tan(angle * pi<double> / 180.0), mu_bed = std::tan(bed_angle * pi<double> / 180.0);
+  const double mu = std::tan(angle * pi / 180.0), mu_bed = std::tan(bed_angle * pi / 180.0);
   Record record("Entrainment: a block whose friction outdoes the bed's, " + where,
                 "A block slides with friction over a bed of less friction, which is deep enough everywhere.",
                 "v = v_0 - mu g t, m = m_0 (v/v_0)^-(1 - mu_b/mu)",
                 "integral of v dm/dt = (mu - mu_b) m g, the law of momentum under the block's weight");
-  sim::Simulation<Dim, double> simulation(paper_case(
+  sim::Simulation<Dim> simulation(paper_case(
       thrown<Dim>(10.0, 3.0) +
       fmt::format("[basal]\nfriction = \"constant\"\nfriction_angle = {}\n[bed]\nlaw = \"momentum\"\nstrength = 0.0\n"
                   "friction_angle = {}\ndepth_per_slip = 1.0\nmaterial = \"rock\"\nporosity = 0.9\n"
@@ -159,17 +159,17 @@ TEST(Entrainment, ABedThatWithstandsTheShearStays) {
                  "depth_per_slip = 1.0\nmaterial = \"rock\"\nporosity = 0.9\ndepth = 2.0\n",
                  law, strength);
     };
-    sim::Simulation<2, double> strong(paper_case(text(1e7))), weak(paper_case(text(1e3)));
+    sim::Simulation<2> strong(paper_case(text(1e7))), weak(paper_case(text(1e3)));
     run_until(strong, 1.0);
     run_until(weak, 1.0);
     EXPECT_EQ(state_of(strong).taken, 0.0) << law;
     EXPECT_GT(state_of(weak).taken, 1e3) << law;
-    sim::Simulation<2, double> without(
+    sim::Simulation<2> without(
         paper_case(thrown<2>(10.0, 1.0) + "[basal]\nfriction = \"constant\"\nfriction_angle = 17.0\n"));
     for (int k = 0; k < 20; ++k) {
       without.step(1e-3);
     }
-    sim::Simulation<2, double> same(paper_case(text(1e7)));
+    sim::Simulation<2> same(paper_case(text(1e7)));
     for (int k = 0; k < 20; ++k) {
       same.step(1e-3);
     }

@@ -65,21 +65,21 @@ velocity = {}
          friction_alone(12.0);
 }
 
-sim::Simulation<2, double> in_profile() {
+sim::Simulation<2> in_profile() {
   std::ofstream csv(folder_of_this_test() / "profile.csv");
   csv << "distance_m,terrain_elevation_m\n";
   for (double x = first_point; x <= last_point; x += spacing) {
     csv << fmt::format("{:.17g},{:.17g}\n", x, elevation(x));
   }
   csv.close();
-  return sim::Simulation<2, double>(paper_case(text_of(2)));
+  return sim::Simulation<2>(paper_case(text_of(2)));
 }
 
-sim::Simulation<3, double> in_space() {
+sim::Simulation<3> in_space() {
   config::Site site;
   site.ground = std::make_shared<const Raster>(raster_between(Place(first_point, -10.0), Place(last_point, 15.0),
                                                               spacing, [](double x, double) { return elevation(x); }));
-  return sim::Simulation<3, double>(case_on_dem(text_of(3)), site);
+  return sim::Simulation<3>(case_on_dem(text_of(3)), site);
 }
 
 TEST(ExtrudedProfile, RunsAsInTwoDimensions) {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "../exact/freezing_front.hpp"
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
 #include "freezing_similarity.hpp"
-#include "physics/exact/freezing_front.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::verification {
@@ -67,7 +67,7 @@ FreezingProblem interfrost(double frozen) {
 template <class Exact>
 double error_on(double cell, double frozen, double k_ice, double k_water, const Exact& exact, Curve* curve) {
   const double share = 0.3;
-  Simulation<2, double> simulation(
+  Simulation<2> simulation(
       paper_case(bar, {fmt::format("grid.cell={}", cell), fmt::format("body.bar.max=[6.0,{}]", cell),
                        fmt::format("time.step={}", 540.0 * cell * cell / 0.01),
                        fmt::format("phases.latent_heat={}", latent_heat / (1000.0 * share)),

@@ -46,7 +46,7 @@ struct Deposit {
 Deposit collapse(double aspect, std::vector<std::string> settings = {}) {
   settings.push_back(fmt::format("body.column.max=[10.0,{}]", 10.0 * aspect));
   settings.push_back(fmt::format("time.end={}", 5.0 * std::sqrt(aspect)));
-  Simulation<2, double> simulation(paper_case(column, settings));
+  Simulation<2> simulation(paper_case(column, settings));
   run_until(simulation, simulation.parameters().time.end);
   const auto row = history_row(simulation);
   EXPECT_LT(value_of(row, "mean_velocity_m_s"), 0.1) << "the column has come to rest";
@@ -103,7 +103,7 @@ void expect_thin_flow_of_a_dam_break(Record& record, double slope) {
   const double radians = slope * std::acos(-1.0) / 180.0;
   const double gravity = 9.81 * std::cos(radians);
   const double acceleration = 9.81 * std::sin(radians);
-  Simulation<2, double> simulation(paper_case(
+  Simulation<2> simulation(paper_case(
       column, {"material.sand.friction_angle=0", "material.sand.tension_cutoff=0", "grid.cell=0.5",
                fmt::format("body.column.max=[{},{}]", length, depth), "grid.max=[180,20]", "time.step=0.0025",
                "time.end=4", fmt::format("case.gravity_tilt={}", slope), "basal.friction_angle=0"}));

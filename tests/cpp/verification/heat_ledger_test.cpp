@@ -43,7 +43,7 @@ TEST(HeatLedger, ClosesThroughMelting) {
   Record record("Heat of an insulated body that melts", "Half a body at 30 C melts the other half, at -3 C.",
                 "the heat content does not change", "energy balance");
   for (const std::string curve : {"power_law", "linear"}) {
-    Simulation<2, double> simulation(paper_case(melting, {"freezing.curve=" + curve}));
+    Simulation<2> simulation(paper_case(melting, {"freezing.curve=" + curve}));
     const auto& at_start = std::as_const(simulation).particles();
     std::vector<double> start(at_start.size());
     double ice = 0.0;
@@ -96,13 +96,13 @@ TEST(HeatLedger, ShowsWhatAdvectionMakes) {
                 "over the volume; not at all without it",
                 "energy balance");
   for (const bool on : {true, false}) {
-    Simulation<2, double> simulation(paper_case(seeping, {on ? "heat.advection=true" : "heat.advection=false"}));
+    Simulation<2> simulation(paper_case(seeping, {on ? "heat.advection=true" : "heat.advection=false"}));
     auto& particles = simulation.particles();
     const auto before = history_row(simulation);
     double stirred = 0.0;
     simulation.model().band.with_heat_content([&](const auto& content) {
       for (std::size_t p = 0; p < particles.size(); ++p) {
-        const double wave = std::cos(pi<double> * particles.position(p, 1));
+        const double wave = std::cos(pi * particles.position(p, 1));
         particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e6 * (1.0 + wave);
         particles.temperature(p) = 25.0 + 20.0 * wave;
         const double old = particles.heat_content(p);
@@ -133,7 +133,7 @@ TEST(HeatLedger, ShowsWhatAdvectionMakes) {
     if (on) {
       const auto& phases = simulation.model().motion.phases;
       const double exact = phases.water_density * phases.water_heat_capacity * 1e-9 / phases.water_unit_weight * 1e6 *
-                           20.0 * 0.5 * pi<double> * pi<double> * 0.05;
+                           20.0 * 0.5 * pi * pi * 0.05;
       record.expect_near("advection on: heat made in the first step over exact", first / exact, 1.0, 0.02);
     } else {
       record.expect_near("advection off: heat made", made, 0.0, 0.0);
@@ -176,7 +176,7 @@ pressurization = false
 TEST(HeatLedger, FrictionHeatsTheSlide) {
   Record record("Friction work becomes heat", "A block of rock and ice brakes on level ground and melts at its base.",
                 "work of friction = kinetic energy lost; 0.35 of it is heat in the block", "energy balance");
-  Simulation<2, double> simulation(paper_case(braking));
+  Simulation<2> simulation(paper_case(braking));
   const auto before = history_row(simulation);
   run_until(simulation, 2.0);
   const auto row = history_row(simulation);

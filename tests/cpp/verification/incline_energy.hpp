@@ -16,7 +16,7 @@ namespace thawslide::verification {
 inline double incline_residual(const std::string& name, double step, double end) {
   using testing_support::value_of;
   const std::string file = std::string(THAWSLIDE_SOURCE_DIR) + "/cases/incline/" + name + ".toml";
-  sim::Simulation<2, double> simulation(
+  sim::Simulation<2> simulation(
       config::read_case(file, {fmt::format("time.step={}", step), fmt::format("time.end={}", end)}));
   const double potential = value_of(sim::history_row(simulation), "potential_J");
   testing_support::run_until(simulation, end);

@@ -64,11 +64,11 @@ Raster heap() {
 }
 
 // hole: whether points have no data.
-Simulation<3, double> run_onto(double end_of_dem, const std::vector<std::string>& sets,
-                               const std::function<bool(double, double)>& hole = nullptr) {
+Simulation<3> run_onto(double end_of_dem, const std::vector<std::string>& sets,
+                       const std::function<bool(double, double)>& hole = nullptr) {
   const Raster ground = raster_between(Place(-70.0, -50.0), Place(end_of_dem, 50.0), 4.0,
                                        [&](double x, double y) { return hole && hole(x, y) ? no_data : slope(x, y); });
-  return Simulation<3, double>(case_on_dem(slide, sets), site_of(ground, heap()));
+  return Simulation<3>(case_on_dem(slide, sets), site_of(ground, heap()));
 }
 
 struct Seen {
@@ -124,7 +124,7 @@ TEST(LeavingDem, AccountsCloseForAnyNumberOfThreads) {
 }
 
 // Runs until the run ends with an error, whose text must name the place; returns that place's x and y [m].
-Place expect_error(Simulation<3, double> simulation) {
+Place expect_error(Simulation<3> simulation) {
   std::string text = "it ran to its end";
   try {
     run_until(simulation, 5.0);
@@ -177,7 +177,7 @@ double oblique_cliff(double x, double y) {
 double deepest_in_any_step(const Height& height, double end, double& centre_x) {
   const Raster ground = raster_between(Place(-70.0, -50.0), Place(130.0, 50.0), 2.5, height);
   const terrain::HeightField surface(ground);
-  Simulation<3, double> simulation(case_on_dem(slide, {"grid.min=[-60.0,-40.0,-120.0]"}), site_of(ground, heap()));
+  Simulation<3> simulation(case_on_dem(slide, {"grid.min=[-60.0,-40.0,-120.0]"}), site_of(ground, heap()));
   const Position origin = simulation.model().origin;
   double deepest = 0.0;
   while (simulation.time() < end) {

@@ -30,8 +30,8 @@ class ManufacturedVibration {
     model_.pic_share = pic_share;
     model_.gravity.setZero();
     model_.sizes = {0.25};
-    elastic_ = physics::Elastic<double>::from_young_poisson(youngs_modulus, poisson_ratio);
-    model_.materials = {{physics::LinearElastic<double>{}, elastic_, false, 0.0, 0.0}};
+    elastic_ = physics::Elastic::from_young_poisson(youngs_modulus, poisson_ratio);
+    model_.materials = {{physics::LinearElastic{}, elastic_, false, 0.0, 0.0}};
     model_.sides.lower.fill(0);
     model_.sides.upper.fill(cells);
     constraints_.extent = Plane(1.0, 1.0);
@@ -64,17 +64,16 @@ class ManufacturedVibration {
   static double speed() { return std::sqrt(youngs_modulus / density); }
 
   [[nodiscard]] Plane exact(const Plane& place) const {
-    const double now = amplitude_ * std::sin(speed() * pi<double> * time_);
-    return {now * std::sin(2.0 * pi<double> * place[0]), -now * std::sin(2.0 * pi<double> * place[1])};
+    const double now = amplitude_ * std::sin(speed() * pi * time_);
+    return {now * std::sin(2.0 * pi * place[0]), -now * std::sin(2.0 * pi * place[1])};
   }
 
   [[nodiscard]] Plane body_force(const Plane& place) const {
     const Plane displacement = exact(place);
-    const double now = 2.0 * pi<double> * amplitude_ * std::sin(speed() * pi<double> * time_);
-    const double stretch[2] = {1.0 + now * std::cos(2.0 * pi<double> * place[0]),
-                               1.0 - now * std::cos(2.0 * pi<double> * place[1])};
-    const double stiffness = 4.0 * pi<double> * pi<double> * elastic_.p_wave_modulus() / density;
-    const double inertia = speed() * speed() * pi<double> * pi<double>;
+    const double now = 2.0 * pi * amplitude_ * std::sin(speed() * pi * time_);
+    const double stretch[2] = {1.0 + now * std::cos(2.0 * pi * place[0]), 1.0 - now * std::cos(2.0 * pi * place[1])};
+    const double stiffness = 4.0 * pi * pi * elastic_.p_wave_modulus() / density;
+    const double inertia = speed() * speed() * pi * pi;
     return {displacement[0] * (stiffness * stretch[1] / stretch[0] - inertia),
             displacement[1] * (stiffness * stretch[0] / stretch[1] - inertia)};
   }
@@ -85,15 +84,14 @@ class ManufacturedVibration {
     for (std::size_t p = 0; p < particles_.size(); ++p) {
       const auto i = static_cast<int>(p) % rows, j = static_cast<int>(p) / rows;
       const Plane place((i + 0.5) * spacing, (j + 0.5) * spacing);
-      const double rate = amplitude_ * speed() * pi<double>;
+      const double rate = amplitude_ * speed() * pi;
       particles_.id(p) = static_cast<std::int64_t>(p);
       particles_.volume(p) = spacing * spacing;
       particles_.mass(p) = density * particles_.volume(p);
       particles_.position.set(p, place);
-      particles_.velocity.set(
-          p, Plane(rate * std::sin(2.0 * pi<double> * place[0]), -rate * std::sin(2.0 * pi<double> * place[1])));
-      particles_.affine_velocity(p, 0) = 2.0 * pi<double> * rate * std::cos(2.0 * pi<double> * place[0]);
-      particles_.affine_velocity(p, 3) = -2.0 * pi<double> * rate * std::cos(2.0 * pi<double> * place[1]);
+      particles_.velocity.set(p, Plane(rate * std::sin(2.0 * pi * place[0]), -rate * std::sin(2.0 * pi * place[1])));
+      particles_.affine_velocity(p, 0) = 2.0 * pi * rate * std::cos(2.0 * pi * place[0]);
+      particles_.affine_velocity(p, 3) = -2.0 * pi * rate * std::cos(2.0 * pi * place[1]);
       particles_.porosity(p) = 0.3;
     }
   }
@@ -105,7 +103,7 @@ class ManufacturedVibration {
   void add_body_force() {
     using Layout = mpm::MomentumLayout<2>;
     const auto patches = body_force_.patches(grid_.tiles().size());
-    mpm::with_shape<double>(model_.shape, [&](auto shape) {
+    mpm::with_shape(model_.shape, [&](auto shape) {
       for (std::size_t t = 0; t < grid_.tiles().size(); ++t) {
         patches[t].clear();
         auto sums = mpm::cell_sums<mpm::no_flux, 2>(patches[t]);
@@ -113,7 +111,7 @@ class ManufacturedVibration {
           const auto place = mpm::place_of(grid_, particles_, batch);
           const auto stencil =
               mpm::make_stencil<decltype(shape)>(grid_, batch, place, model_.sizes.of(particles_, batch), model_.sides);
-          mpm::Contribution<2, double, 2> force;
+          mpm::Contribution<2, 2> force;
           for (std::size_t a = 0; a < 2; ++a) {
             force.value[a] = Simd<double>::of([&](std::size_t lane) {
               const std::uint32_t p = batch.particle[lane];
@@ -138,11 +136,11 @@ class ManufacturedVibration {
     grid_.update(particles_, 64);
     mpm::momentum_to_grid(grid_, particles_, model_, nodes_);
     add_body_force();
-    const terrain::GroundOnGrid<2, double>* no_ground = nullptr;
-    terrain::resolve_contact(grid_, no_ground, constraints_, terrain::ContactModel<2, double>{}, time_, dt, nodes_);
+    const terrain::GroundOnGrid<2>* no_ground = nullptr;
+    terrain::resolve_contact(grid_, no_ground, constraints_, terrain::ContactModel<2>{}, time_, dt, nodes_);
     mpm::move_particles(grid_, particles_, model_, dt, nodes_);
-    terrain::constrain_mapped_back(grid_, no_ground, constraints_, terrain::ContactModel<2, double>{}, model_.gravity,
-                                   time_, dt, nodes_);
+    terrain::constrain_mapped_back(grid_, no_ground, constraints_, terrain::ContactModel<2>{}, model_.gravity, time_,
+                                   dt, nodes_);
     mpm::update_stress_and_porosity(grid_, particles_, model_, dt, nodes_, invalid);
     mpm::update_positions(particles_, Vector<double, 2>(Vector<double, 2>::Zero()), constraints_.extent, invalid);
     THAWSLIDE_ASSERT(invalid.id < 0, "particle {} failed at {} s", invalid.id, time_);
@@ -150,13 +148,13 @@ class ManufacturedVibration {
   }
 
   double amplitude_, time_ = 0.0;
-  physics::Elastic<double> elastic_;
-  mpm::MotionModel<2, double> model_;
-  mpm::Constraints<2, double> constraints_;
-  mpm::Particles<2, double> particles_;
-  mpm::SparseGrid<2, double> grid_;
-  mpm::Nodes<2, double> nodes_;
-  mpm::NodeRecords<2, double, 2> body_force_{std::make_shared<mpm::PatchPool>()};
+  physics::Elastic elastic_;
+  mpm::MotionModel<2> model_;
+  mpm::Constraints<2> constraints_;
+  mpm::Particles<2> particles_;
+  mpm::SparseGrid<2> grid_;
+  mpm::Nodes<2> nodes_;
+  mpm::NodeRecords<2, 2> body_force_{std::make_shared<mpm::PatchPool>()};
 };
 
 }  // namespace thawslide::sim

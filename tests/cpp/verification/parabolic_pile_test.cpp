@@ -55,7 +55,7 @@ enabled = false
 //   g'' = 2 K gravity H L/g^2,     K = tan^2(45 deg - phi/2), active: it stretches
 double exact_half_length(double time) {
   constexpr int steps = 20000;
-  const double active = std::pow(std::tan(pi<double> / 4.0 - friction_angle * pi<double> / 360.0), 2);
+  const double active = std::pow(std::tan(pi / 4.0 - friction_angle * pi / 360.0), 2);
   const double dt = time / steps;
   double length = half_length, speed = 0.0;
   for (int k = 0; k < steps; ++k) {
@@ -82,7 +82,7 @@ TEST(ParabolicPile, SpreadsAsSavageAndHutterSay) {
                 "standard deviation of the mass g/sqrt(5): g'' = 2 K g_z H L/g^2, K = tan^2(45 deg - phi/2)",
                 "Savage and Hutter 1989");
   for (const double cell : {10.0, 5.0}) {
-    Simulation<2, double> simulation(testing_support::case_from_text(
+    Simulation<2> simulation(testing_support::case_from_text(
         column_mass, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 4.5e-3 * cell), parabola()}));
     for (const double time : {10.0, 20.0}) {
       testing_support::run_until(simulation, time);

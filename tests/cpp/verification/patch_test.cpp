@@ -46,7 +46,7 @@ config::Case patch_case(const std::string& shape, const std::string& transfer) {
 }
 
 // Moves the body by a share of a cell along both axes.
-void shift_body(Simulation<2, double>& simulation, double shift) {
+void shift_body(Simulation<2>& simulation, double shift) {
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     particles.position(p, 0) += shift;
@@ -56,7 +56,7 @@ void shift_body(Simulation<2, double>& simulation, double shift) {
 
 // Far enough from the body's edges for its nodes to see matter all around.
 template <class Visit>
-void for_inner_particles(const Simulation<2, double>& simulation, const Visit& visit) {
+void for_inner_particles(const Simulation<2>& simulation, const Visit& visit) {
   for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
     const double x = simulation.particles().position(p, 0), y = simulation.particles().position(p, 1);
     if (std::max(std::abs(x - 10.0), std::abs(y - 10.0)) < 2.5) {
@@ -74,7 +74,7 @@ TEST(Patch, UniformStressMovesNothing) {
   for (const std::string shape : {"ugimp", "linear", "quadratic"}) {
     double largest = 0.0;
     for (const double shift : shifts) {
-      Simulation<2, double> simulation(patch_case(shape, "flip"));
+      Simulation<2> simulation(patch_case(shape, "flip"));
       shift_body(simulation, shift);
       auto& particles = simulation.particles();
       for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -94,7 +94,7 @@ TEST(Patch, UniformStressMovesNothing) {
 
 // Largest error of the first step's stress, over the stress, where the velocity is linear.
 double linear_field_error(const std::string& shape, const std::string& transfer, double shift) {
-  Simulation<2, double> simulation(patch_case(shape, transfer));
+  Simulation<2> simulation(patch_case(shape, transfer));
   shift_body(simulation, shift);
   auto& particles = simulation.particles();
   Matrix<double, 2> gradient;
@@ -110,7 +110,7 @@ double linear_field_error(const std::string& shape, const std::string& transfer,
   }
   const double dt = 1e-8;  // so short that strain is gradient times time to round-off
   simulation.step(dt);
-  const auto elastic = physics::Elastic<double>::from_young_poisson(5e8, 0.2);
+  const auto elastic = physics::Elastic::from_young_poisson(5e8, 0.2);
   SymmetricTensor<double> strain = SymmetricTensor<double>::Zero();
   strain[0] = dt * gradient(0, 0);
   strain[1] = dt * gradient(1, 1);
@@ -118,7 +118,7 @@ double linear_field_error(const std::string& shape, const std::string& transfer,
   const SymmetricTensor<double> stress = physics::stress_increment(elastic, strain);
   double largest = 0.0;
   for_inner_particles(simulation, [&](std::size_t p) {
-    const auto found = mpm::full_tensor<2, double>(particles.stress, p);
+    const auto found = mpm::full_tensor<2>(particles.stress, p);
     largest = std::max(largest, (found - stress).cwiseAbs().maxCoeff() / stress.cwiseAbs().maxCoeff());
   });
   return largest;

@@ -16,7 +16,7 @@ namespace plane_on_dem {
 
 using namespace testing_support;
 
-inline constexpr double degree = pi<double> / 180.0;
+inline constexpr double degree = pi / 180.0;
 inline constexpr double gravity = 9.81;
 inline constexpr double width = 40.0;   // of the block, square in the map [m]
 inline constexpr double height = 20.0;  // vertical [m]
@@ -53,7 +53,7 @@ inline Slide slide(const Plane& plane, const std::vector<std::string>& sets) {
   });
   const Place corner = Place::Constant(0.5 * width);
   const Raster thickness = thickness_between(-corner, corner, 2.5 / 16.0, [](double, double) { return height; });
-  sim::Simulation<3, double> simulation(case_on_dem(block, sets), site_of(ground, thickness));
+  sim::Simulation<3> simulation(case_on_dem(block, sets), site_of(ground, thickness));
   const double end = simulation.parameters().time.end;
   run_until(simulation, 0.5 * end);
   const CentreOfMass middle(simulation);

@@ -48,22 +48,22 @@ struct Manufactured {
   static constexpr double scale = 1e6, decay = 500.0;
   double mobility;  // K_L k_L/gamma_w [m2/s]
 
-  [[nodiscard]] static double along(double x) { return 2.0 + std::cos(pi<double> * x); }
-  [[nodiscard]] static double up(double y) { return 0.5 + 0.5 * std::cos(pi<double> * y); }
+  [[nodiscard]] static double along(double x) { return 2.0 + std::cos(pi * x); }
+  [[nodiscard]] static double up(double y) { return 0.5 + 0.5 * std::cos(pi * y); }
   [[nodiscard]] static double pressure(double x, double y, double t) {
     return scale * along(x) * up(y) * std::exp(-t / decay);
   }
   // [Pa/s] at porosity n
   [[nodiscard]] double source(double x, double y, double t, double n) const {
-    const double square = pi<double> * pi<double>;
-    const double laplacian = -scale * std::exp(-t / decay) * square *
-                             (std::cos(pi<double> * x) * up(y) + along(x) * 0.5 * std::cos(pi<double> * y));
+    const double square = pi * pi;
+    const double laplacian =
+        -scale * std::exp(-t / decay) * square * (std::cos(pi * x) * up(y) + along(x) * 0.5 * std::cos(pi * y));
     return -pressure(x, y, t) / decay - mobility / n * laplacian;
   }
 };
 
 double error_on(double cell, Curve* curve) {
-  Simulation<2, double> simulation(
+  Simulation<2> simulation(
       paper_case(square, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 4.0 * cell * cell / 0.01)}));
   const auto& phases = simulation.model().motion.phases;
   const Manufactured exact{phases.water_bulk_modulus * 1e-9 / phases.water_unit_weight};

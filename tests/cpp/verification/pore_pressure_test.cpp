@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "../exact/pore_water.hpp"
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
-#include "physics/exact/pore_water.hpp"
 #include "physics/pressurization.hpp"
 #include "sim/simulation.hpp"
 
@@ -52,7 +52,7 @@ TEST(UndrainedHeating, FollowsLambda) {
   const std::vector<double> steps{8.0, 4.0, 2.0, 1.0};
   std::vector<double> errors;
   for (const double dt : steps) {
-    Simulation<2, double> simulation(
+    Simulation<2> simulation(
         paper_case(column, {"phases.rock_expansion=3e-3", "pressure.seepage=false", "time.end=8000.0",
                             "heat.boundary.y_min={flux=400.0}", fmt::format("time.step={}", dt)}));
     run_until(simulation, 8000.0);
@@ -80,7 +80,7 @@ TEST(Consolidation, OfAMeltedColumn) {
     auto sets = on_cells(cell);
     sets.push_back("material.soil.hydraulic_conductivity=1e-9");
     sets.push_back(fmt::format("time.step={}", 4.0 * cell * cell / 0.01));
-    Simulation<2, double> simulation(paper_case(column, sets));
+    Simulation<2> simulation(paper_case(column, sets));
     auto& at_start = simulation.particles();
     for (std::size_t p = 0; p < at_start.size(); ++p) {
       at_start.liquid_pressure(p) = at_start.pore_pressure(p) = 1e6;

@@ -20,7 +20,7 @@ using sim::Simulation;
 const std::vector<std::string> filtered{"mechanics.transfer=fmpm", "mechanics.fmpm_interval=0.1"};
 
 // Root of the mean square speed of particles [m/s].
-double speed_of(const Simulation<2, double>& simulation) {
+double speed_of(const Simulation<2>& simulation) {
   const auto row = history_row(simulation);
   return std::sqrt(2.0 * value_of(row, "kinetic_J") / value_of(row, "mass_kg"));
 }
@@ -57,7 +57,7 @@ slope_shear = true
 double left_of_noise(double tilt, const std::vector<std::string>& sets) {
   std::string text = block;
   text.replace(text.find("TILT"), 4, fmt::format("{}", tilt));
-  Simulation<2, double> simulation(paper_case(text, sets));
+  Simulation<2> simulation(paper_case(text, sets));
   std::mt19937 random(5);
   std::normal_distribution<double> number;
   for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
@@ -103,7 +103,7 @@ struct Deposit {
   double speed, front;
 };
 Deposit collapse(const std::vector<std::string>& sets) {
-  Simulation<2, double> simulation(paper_case(column, sets));
+  Simulation<2> simulation(paper_case(column, sets));
   run_until(simulation, 8.0);
   return {speed_of(simulation), value_of(history_row(simulation), "front_position_m")};
 }

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
+#include "../exact/rigid_slide.hpp"
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
-#include "physics/exact/rigid_slide.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
 #include "terrain/base_pressure.hpp"
@@ -54,7 +54,7 @@ struct Pressing {
 };
 
 Pressing press(const std::vector<std::string>& sets) {
-  Simulation<2, double> simulation(paper_case(resting, sets));
+  Simulation<2> simulation(paper_case(resting, sets));
   simulation.settle();
   const double weight = simulation.sum_over_body().mass * 9.81;
   const double mean = weight / 40.0;
@@ -80,7 +80,7 @@ Pressing press(const std::vector<std::string>& sets) {
 }
 
 TEST(RestingBlock, PressesEvenly) {
-  if (!Simulation<2, double>(paper_case(resting)).device_name().empty()) {
+  if (!Simulation<2>(paper_case(resting)).device_name().empty()) {
     GTEST_SKIP() << "it looks at nodes, which a device keeps";
   }
   Record record("Force of a resting block", "A block of 20 m between smooth walls, with geostatic stress at t = 0.",
@@ -131,10 +131,10 @@ enabled = false
 TEST(AngleSweep, SticksBelowAndSlidesAboveTheFrictionAngle) {
   Record record("Slopes about the friction angle", "A block at rest on slopes about its friction angle of 20 degrees.",
                 "a = g (sin - mu cos) above it, none below", "Coulomb friction");
-  const double degree = pi<double> / 180.0;
+  const double degree = pi / 180.0;
   Curve curve{"slope [degrees]", "acceleration [m/s2]", {}, {}, {}};
   for (const double slope : {15.0, 18.0, 19.0, 19.9, 20.1, 21.0, 22.0, 25.0, 30.0}) {
-    Simulation<2, double> simulation(paper_case(sweep, {fmt::format("case.gravity_tilt={}", slope)}));
+    Simulation<2> simulation(paper_case(sweep, {fmt::format("case.gravity_tilt={}", slope)}));
     run_until(simulation, 1.0);  // by then the block's elastic start is over
     const double before = value_of(history_row(simulation), "mean_velocity_m_s");
     run_until(simulation, 2.0);

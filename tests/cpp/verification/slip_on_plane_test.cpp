@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "../exact/pore_water.hpp"
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
-#include "physics/exact/pore_water.hpp"
 #include "physics/pressurization.hpp"
 #include "sim/simulation.hpp"
 
@@ -64,7 +64,7 @@ double error_on(double cell, std::vector<std::string> sets, Curve* curve) {
   sets.insert(sets.end(),
               {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 4e-7 * cell * cell),
                fmt::format("band.thickness={}", 1e-4 * cell), fmt::format("body.slab.max=[{},1000.0]", 8.0 * cell)});
-  Simulation<2, double> simulation(paper_case(slab, sets));
+  Simulation<2> simulation(paper_case(slab, sets));
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     particles.liquid_pressure(p) = particles.pore_pressure(p) = 0.0;

@@ -65,7 +65,7 @@ double slip_of_block(double density, double above) {
   double slip = 0.0, speed = 0.0;
   for (int k = 0; k < steps; ++k) {
     const double strength = residual + (cohesion - residual) * std::exp(-slip / softening_slip);
-    speed += dt * (gravity * std::sin(tilt * pi<double> / 180.0) - strength / (density * above));
+    speed += dt * (gravity * std::sin(tilt * pi / 180.0) - strength / (density * above));
     slip += dt * speed;
   }
   return slip;
@@ -74,7 +74,7 @@ double slip_of_block(double density, double above) {
 // Slip of the middle of the slab, above the cells that break, over that of the block. These cells stick to the ground
 // at their lower face. The surface of rupture is taken at their mid-height.
 double slip_over_exact(double cell, const std::string& softening) {
-  Simulation<2, double> simulation(testing_support::case_from_text(
+  Simulation<2> simulation(testing_support::case_from_text(
       slab, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 6e-4 * cell), softening}));
   const double density = simulation.particles().mass(0) / simulation.particles().volume(0);  // at the start
   testing_support::run_until(simulation, end);

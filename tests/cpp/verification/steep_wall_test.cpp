@@ -18,7 +18,7 @@ constexpr double cell = 5.0, front = 50.0, speed = 20.0;  // m, m, m/s
 // An elastic block, 40 m long and 20 m high, on level ground from which a wall rises at `foot` [m].
 config::Case block_before_wall(double wall_angle, double foot) {
   constexpr double height = 40.0;
-  const double run = std::max(1e-3, height / std::tan(wall_angle * pi<double> / 180.0));
+  const double run = std::max(1e-3, height / std::tan(wall_angle * pi / 180.0));
   std::ofstream(folder_of_this_test() / "wall.csv")
       << fmt::format("distance_m,terrain_elevation_m\n-100,0\n{0},0\n{1},{2}\n{3},{2}\n", foot, foot + run, height,
                      foot + run + 100.0);
@@ -57,7 +57,7 @@ enabled = false
 
 // How far before the foot of the wall the block's front is, in cells, when the block has lost a share of its speed.
 double distance_of_loss(double wall_angle, double foot, double share) {
-  sim::Simulation<2, double> simulation(block_before_wall(wall_angle, foot));
+  sim::Simulation<2> simulation(block_before_wall(wall_angle, foot));
   const auto mean_velocity = [&] {
     const auto& particles = simulation.particles();
     double momentum = 0.0, mass = 0.0;

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <fstream>
 
+#include "../exact/rigid_slide.hpp"
 #include "../support/case_from_text.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
-#include "physics/exact/rigid_slide.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_support;
 using sim::Simulation;
-constexpr double degree = pi<double> / 180.0;
+constexpr double degree = pi / 180.0;
 
 // A slab 60 m long and 20 m thick on a plane of 35 degrees; the grid is turned against it, and gravity with the grid.
 std::string slab_on_plane(double ground) {
@@ -66,7 +66,7 @@ TEST(TiltedTerrain, SlidesAlikeAtAnyAngleToTheGrid) {
   const double friction = std::tan(20.0 * degree);
   const double acceleration = physics::exact::acceleration_on_plane(35.0 * degree, friction, 9.81);
   for (const double ground : {0.0, 10.0, 26.565051177, 45.0}) {
-    Simulation<2, double> simulation(paper_case(slab_on_plane(ground)));
+    Simulation<2> simulation(paper_case(slab_on_plane(ground)));
     run_until(simulation, 2.0);
     const auto row = history_row(simulation);
     const double velocity = 2.0 * acceleration;
@@ -128,7 +128,7 @@ struct Turning {
   double mass = 0.0, inertia = 0.0, speed = 0.0;
   Vector<double, 2> centre = Vector<double, 2>::Zero();  // of mass, from the arc's centre
 
-  explicit Turning(const Simulation<2, double>& simulation) {
+  explicit Turning(const Simulation<2>& simulation) {
     const auto& particles = simulation.particles();
     Vector<double, 2> momentum = Vector<double, 2>::Zero();
     for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -154,7 +154,7 @@ TEST(CurvedTerrain, SwingsLikeThePendulumWithFriction) {
   for (const double cell : {5.0, 2.5}) {
     const std::string file = testing::TempDir() + "arc.csv";
     write_arc(file);
-    Simulation<2, double> simulation(paper_case(
+    Simulation<2> simulation(paper_case(
         arc, {"terrain.file=" + file, fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 7e-4 * cell)}));
     const Turning start(simulation);
     const physics::exact::ArcSlide exact{radius, start.centre.norm(), start.inertia, std::tan(10.0 * degree), 9.81};

@@ -28,7 +28,7 @@ gaps_close_first = true
                                           18.0);
 
 // Of particles: mass-weighted place along a direction behind which 99.5 % of the mass lies [m, absolute].
-double front_along(const Simulation<3, double>& simulation, const Place& direction) {
+double front_along(const Simulation<3>& simulation, const Place& direction) {
   const auto& particles = simulation.particles();
   std::vector<sim::MassOnPath> on_way;
   double mass = 0.0;
@@ -66,7 +66,7 @@ struct Turn {
 };
 
 // Runs to the end, when the slide must be at rest; returns the place of its front along a direction [m].
-double front_at_rest(Simulation<3, double>& simulation, const Place& direction) {
+double front_at_rest(Simulation<3>& simulation, const Place& direction) {
   run_until(simulation, 0.9 * seconds);
   const double before = front_along(simulation, direction);
   run_until(simulation, seconds);
@@ -93,7 +93,7 @@ double front_in_valley(int quarters, double shift) {
   const Raster thickness = between(thickness_between, Place(-20.0, -20.0), Place(20.0, 20.0), 0.25, turned(heap));
   const Place a = turn(Place(-50.0, -50.0)), b = turn(Place(150.0, 50.0));
   const Place least = a.cwiseMin(b).array() + shift, greatest = a.cwiseMax(b).array() + shift;
-  Simulation<3, double> simulation(
+  Simulation<3> simulation(
       case_on_dem(debris, {fmt::format("grid.min=[{},{},{}]", least[0], least[1], -120.0 + shift),
                            fmt::format("grid.max=[{},{},{}]", greatest[0], greatest[1], 60.0 + shift)}),
       site_of(ground, thickness));
@@ -115,22 +115,22 @@ TEST(TurnedTerrain, SlideEndsAtTheSamePlace) {
 }
 
 // A valley and a release that are their own mirror images across y = 0.
-Simulation<3, double> mirrored(const std::vector<std::string>& sets) {
+Simulation<3> mirrored(const std::vector<std::string>& sets) {
   const Raster ground = raster_between(Place(-60.0, -60.0), Place(160.0, 60.0), 4.0, [](double x, double y) {
     return slope(x) + 0.3 * std::abs(y) + 1.2 * std::sin(0.23 * x) * std::cos(0.4 * y);
   });
   const Raster thickness = thickness_between(Place(-15.0, -15.0), Place(15.0, 15.0), 0.25, [](double x, double y) {
     return std::max(0.0, 8.0 - 0.02 * (x * x + y * y));
   });
-  return Simulation<3, double>(case_on_dem(debris, sets), site_of(ground, thickness));
+  return Simulation<3>(case_on_dem(debris, sets), site_of(ground, thickness));
 }
 
-Position place_of(const Simulation<3, double>& simulation, std::size_t p) {
+Position place_of(const Simulation<3>& simulation, std::size_t p) {
   return simulation.particles().position.get<Position>(p) + simulation.model().origin;
 }
 
 // Pairs of particles, by number, that are mirror images at the start.
-std::vector<std::pair<std::int64_t, std::int64_t>> mirror_pairs(const Simulation<3, double>& simulation) {
+std::vector<std::pair<std::int64_t, std::int64_t>> mirror_pairs(const Simulation<3>& simulation) {
   std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
   const auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -145,7 +145,7 @@ std::vector<std::pair<std::int64_t, std::int64_t>> mirror_pairs(const Simulation
 }
 
 // Largest distance of a particle from its mirror image's mirror image [m].
-double largest_asymmetry(const Simulation<3, double>& simulation,
+double largest_asymmetry(const Simulation<3>& simulation,
                          const std::vector<std::pair<std::int64_t, std::int64_t>>& pairs) {
   std::vector<Position> by_id(simulation.particles().size());
   for (std::size_t p = 0; p < by_id.size(); ++p) {

@@ -71,7 +71,7 @@ struct Motion {
 
 template <int Dim>
 Motion in_mpm(const std::vector<std::string>& sets) {
-  sim::Simulation<Dim, double> simulation(paper_case(block(Dim), sets));
+  sim::Simulation<Dim> simulation(paper_case(block(Dim), sets));
   run_until(simulation, simulation.parameters().time.end);
   const auto row = sim::history_row(simulation);
   const double base = length * (Dim == 3 ? 10.0 : 1.0);
@@ -94,7 +94,7 @@ struct FromRest {
             fmt::format("basal.turbulent_friction={}", turbulence), fmt::format("time.end={}", time)};
   }
   [[nodiscard]] double drive() const {
-    const double angle = slope * pi<double> / 180.0;
+    const double angle = slope * pi / 180.0;
     return gravity * (std::sin(angle) - mu * std::cos(angle));
   }
   [[nodiscard]] double terminal() const { return std::sqrt(turbulence * height * drive() / gravity); }
@@ -158,9 +158,8 @@ TEST(Voellmy, ThrownBlockComesToRest) {
 
 // At 60 m/s with xi = 1 m/s2 a step of the drag would take more than the momentum of a node.
 TEST(Voellmy, StrongDragStopsTheBaseAndReversesNothing) {
-  sim::Simulation<2, double> simulation(
-      paper_case(block(2), {"basal.friction_coefficient=0.1", "basal.turbulent_friction=1",
-                            "body.block.velocity=[60.0,0.0]", "time.end=1.0"}));
+  sim::Simulation<2> simulation(paper_case(block(2), {"basal.friction_coefficient=0.1", "basal.turbulent_friction=1",
+                                                      "body.block.velocity=[60.0,0.0]", "time.end=1.0"}));
   double former = 60.0 * (1.0 + 1e-12);
   while (simulation.time() < 0.2) {
     simulation.step(simulation.next_step(0.2));

@@ -49,7 +49,7 @@ TEST(WideningSection, HalvesTheDepthWhereTheWidthDoubles) {
       "Material without strength or friction, 2.5 m deep and 80 m long, runs at 40 m/s from a channel 20 m wide "
       "into one 40 m wide.",
       "depth and speed of the middle by h u b = const, u^2/2 + g h = const", "Bernoulli");
-  Simulation<2, double> simulation(
+  Simulation<2> simulation(
       paper_case(fluid, with({"case.width={ x = [120.0, 160.0], value = [20.0, 40.0] }", "body.fluid.min=[10.0, 0.0]",
                               "body.fluid.max=[90.0, 2.5]", "body.fluid.velocity=[40.0, 0.0]"})));
   const double density = simulation.particles().mass(0) / simulation.particles().volume(0);
@@ -99,7 +99,7 @@ TEST(WideningSection, SpreadsAsAParaboloidAboutItsAxis) {
     vertices += fmt::format(", [{}, {}]", x, depth * (1.0 - x * x / (radius * radius)));
   }
   for (const auto& [n, width] : {std::pair(1, "0.0"), std::pair(2, "{ x = [0.5, 1000.0], value = [0.5, 1000.0] }")}) {
-    Simulation<2, double> simulation(
+    Simulation<2> simulation(
         paper_case(fluid, with({fmt::format("case.width={}", width), "body.fluid.shape=polygon",
                                 fmt::format("body.fluid.vertices=[{}]", vertices), "grid.boundary.x_min=roller"})));
     const auto mean_x = [&] {

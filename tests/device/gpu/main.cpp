@@ -70,8 +70,8 @@ Comparison compare(const ParticleMemory<Dim>& a, const ParticleMemory<Dim>& b) {
 
 // Returns the sums of the last step.
 template <int Dim>
-device::StepSums<Dim, Real> take_steps(Steps<Dim>& steps, int from, int to) {
-  device::StepSums<Dim, Real> sums;
+device::StepSums<Dim> take_steps(Steps<Dim>& steps, int from, int to) {
+  device::StepSums<Dim> sums;
   for (int k = from; k < to; ++k) {
     sums = steps.step(k * time_step, time_step);
   }
@@ -87,7 +87,7 @@ bool report_line(const char* what, const Comparison& found, bool bits_are_asked_
 
 // True if all processes to be tested act on the slide.
 template <int Dim>
-bool print_work(const device::StepSums<Dim, Real>& sums) {
+bool print_work(const device::StepSums<Dim>& sums) {
   const bool works = sums.contact.friction_work > 0 && sums.deformed.work.plastic > 0 && sums.heat.friction > 0 &&
                      sums.drained.mass > 0 && sums.drained.heat > 0 && sums.vented != 0;
   std::printf(
@@ -109,14 +109,14 @@ sim::PathLine bent_line() {
 
 // Non-integer results that a run reduces from its particles after a step.
 template <int Dim>
-std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& sums) {
-  mpm::MonitorKernel<Dim, Real> look;
-  look.gravity = model_of_slide<Dim>().gravity;
-  look.origin.setZero();
-  look.fast_distance = 6.0 * time_step;
-  look.smallest_volume = 0.1;
-  look.largest_volume = 10.0;
-  const mpm::MonitorSums<Real> seen = steps.watch(look);
+std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim>& sums) {
+  mpm::MonitorKernel<Dim> kernel;
+  kernel.gravity = model_of_slide<Dim>().gravity;
+  kernel.origin.setZero();
+  kernel.fast_distance = 6.0 * time_step;
+  kernel.smallest_volume = 0.1;
+  kernel.largest_volume = 10.0;
+  const mpm::MonitorSums seen = steps.monitor(kernel);
   const band::StepExtremes& extremes = sums.extremes;
   std::vector<double> numbers{extremes.density.value,
                               extremes.elastic_density.value,
@@ -129,7 +129,7 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim, Real>& 
                               seen.potential,
                               seen.mass,
                               seen.fast_mass};
-  const band::BodySums<Dim, Real> body = steps.sum_over_body(sums_of_particle<Dim>());
+  const band::BodySums<Dim> body = steps.sum_over_body(sums_of_particle<Dim>());
   numbers.insert(numbers.end(), {body.mass, body.kinetic, body.sensible, body.latent, body.water, body.gas,
                                  body.momentum[0], body.displacement, body.band_temperature});
   const sim::PathLine line = bent_line();
@@ -171,7 +171,7 @@ bool print_reductions(const std::string& when, const std::vector<double>& of_cpu
 }
 
 template <int Dim>
-bool compare_slides(const device::SolverFactory<Dim, Real>& make, const device::SolverFactory<Dim, Real>& make_again,
+bool compare_slides(const device::SolverFactory<Dim>& make, const device::SolverFactory<Dim>& make_again,
                     const Size& size) {
   ParticleMemory<Dim> start(size.particles(Dim));
   seed(size, start);
@@ -204,7 +204,7 @@ bool compare_slides(const device::SolverFactory<Dim, Real>& make, const device::
 
 // Other model options: particles, reductions and data for the CPU during steps must be bitwise identical on both.
 template <int Dim>
-bool compare_variant(const device::SolverFactory<Dim, Real>& make, const Size& size, const NamedVariant& of) {
+bool compare_variant(const device::SolverFactory<Dim>& make, const Size& size, const NamedVariant& of) {
   ParticleMemory<Dim> start(size.particles(Dim)), of_cpu(start.size()), of_gpu(start.size());
   seed(size, start);
   const auto specified = std::make_shared<Reported>(), reported_by_gpu = std::make_shared<Reported>();
@@ -249,7 +249,7 @@ void measure(std::size_t particles) {
 
 // make: replaces `on a GPU`; make_again: the same by another method, which must give bitwise identical results.
 template <int Dim>
-bool compare_all(const device::SolverFactory<Dim, Real>& make, const device::SolverFactory<Dim, Real>& make_again,
+bool compare_all(const device::SolverFactory<Dim>& make, const device::SolverFactory<Dim>& make_again,
                  const Size& size) {
   bool well = compare_slides<Dim>(make, make_again, size);
   for (const NamedVariant& variant : variants) {
@@ -276,7 +276,7 @@ int run(const std::string& what, std::size_t particles) {
   }
   const device::Gpu gpu = device::find_gpu();
   if (!gpu.is_usable) {
-    std::fprintf(stderr, "nothing was run: %s\n", gpu.why_not.c_str());
+    std::fprintf(stderr, "nothing was run: %s\n", gpu.unavailable_reason.c_str());
     return no_gpu;
   }
   std::printf("%s\n", gpu.name.c_str());

@@ -50,7 +50,7 @@ inline std::vector<Real> plastic_strain_by_id(const ParticleMemory<3>& particles
 // free_memory: of the device, now [bytes]. stage: called with the name and the seconds per step of each stage, if
 // given.
 using ReportStage = std::function<void(const std::string&, double)>;
-inline Measured measured(const device::SolverFactory<3, Real>& make, std::size_t particles, Variant variant,
+inline Measured measured(const device::SolverFactory<3>& make, std::size_t particles, Variant variant,
                          double seconds_at_least, const std::function<double()>& free_memory,
                          const ReportStage& stage = {}) {
   const Size size = size_of(particles);
@@ -112,7 +112,7 @@ inline void print_row(const Measured& found) {
 
 // Table of docs/explanation/gpu-backend.md as Markdown: each size elastic and yielding, up to the first that does not
 // fit in memory.
-inline void print_table(const device::SolverFactory<3, Real>& make, const std::vector<std::size_t>& sizes,
+inline void print_table(const device::SolverFactory<3>& make, const std::vector<std::size_t>& sizes,
                         double seconds_at_least, const std::function<double()>& free_memory) {
   std::printf(
       "| particles | yielding [%%] | a step [ms] | million particle-steps a second | a row of the history [ms] | all "

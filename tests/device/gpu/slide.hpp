@@ -17,8 +17,6 @@
 
 namespace thawslide::gpu_test {
 
-using Real = double;
-
 // All fields of a given number of particles, initially 0.
 template <int Dim>
 class ParticleMemory {
@@ -30,7 +28,7 @@ class ParticleMemory {
   ParticleMemory& operator=(const ParticleMemory&) = delete;
 
   [[nodiscard]] std::size_t size() const { return count_; }
-  [[nodiscard]] const mpm::ParticleView<Dim, Real>& view() const { return view_; }
+  [[nodiscard]] const mpm::ParticleView<Dim>& view() const { return view_; }
 
  private:
   template <class T, int Components>
@@ -42,7 +40,7 @@ class ParticleMemory {
   }
 
   std::size_t count_;
-  mpm::ParticleView<Dim, Real> view_{};
+  mpm::ParticleView<Dim> view_{};
   std::vector<std::vector<std::byte>> memory_;
 };
 
@@ -63,7 +61,7 @@ struct Size {
   }
 };
 
-inline physics::Phases<Real> phases() {
+inline physics::Phases phases() {
   return {.rock_density = 2700.0,
           .ice_density = 917.0,
           .water_density = 1000.0,
@@ -81,11 +79,11 @@ inline physics::Phases<Real> phases() {
           .water_unit_weight = 9810.0,
           .ice_to_rock_density_ratio = 0.34};
 }
-inline physics::HeatContent<Real, physics::PowerLawCurve<Real>> heat_content() { return {phases(), {0.0, 5.0}, true}; }
+inline physics::HeatContent<physics::PowerLawCurve> heat_content() { return {phases(), {0.0, 5.0}, true}; }
 
 template <int Dim>
 void seed(const Size& size, ParticleMemory<Dim>& memory) {
-  const mpm::ParticleView<Dim, Real>& p = memory.view();
+  const mpm::ParticleView<Dim>& p = memory.view();
   const std::array<std::size_t, 3> count{size.length * per_axis, (Dim == 2 ? size.height : size.width) * per_axis,
                                          size.height * per_axis};
   const Real spacing = cell / static_cast<Real>(per_axis);
@@ -124,23 +122,23 @@ void seed(const Size& size, ParticleMemory<Dim>& memory) {
 }
 
 template <int Dim>
-device::StepModel<Dim, Real> model_of_slide() {
-  device::StepModel<Dim, Real> model;
+device::StepModel<Dim> model_of_slide() {
+  device::StepModel<Dim> model;
   model.cell = cell;
   model.half_sizes = {0.5 / static_cast<Real>(per_axis)};
   model.gravity.setZero();
-  model.gravity[0] = 9.81 * std::sin(slope * pi<Real> / 180.0);
-  model.gravity[Dim - 1] = -9.81 * std::cos(slope * pi<Real> / 180.0);
+  model.gravity[0] = 9.81 * std::sin(slope * pi / 180.0);
+  model.gravity[Dim - 1] = -9.81 * std::cos(slope * pi / 180.0);
   model.pic_share = 0.01;
-  mpm::MaterialModel<Real> material;
-  material.elastic = physics::Elastic<Real>::from_young_poisson(1e8, 0.3);
-  const Real friction_angle = 30.0 * pi<Real> / 180.0;
-  material.law = physics::MohrCoulomb<Real>::make(material.elastic, {.friction_angle = friction_angle,
-                                                                     .dilation_angle = 0.0,
-                                                                     .cohesion = 1e3,
-                                                                     .residual_cohesion = 1e3,
-                                                                     .tension_cutoff = 1e3,
-                                                                     .residual_friction_angle = friction_angle});
+  mpm::MaterialModel material;
+  material.elastic = physics::Elastic::from_young_poisson(1e8, 0.3);
+  const Real friction_angle = 30.0 * pi / 180.0;
+  material.law = physics::MohrCoulomb<>::make(material.elastic, {.friction_angle = friction_angle,
+                                                                 .dilation_angle = 0.0,
+                                                                 .cohesion = 1e3,
+                                                                 .residual_cohesion = 1e3,
+                                                                 .tension_cutoff = 1e3,
+                                                                 .residual_friction_angle = friction_angle});
   model.materials = {material};
   model.free_gaps = {1.0};
   model.phases = phases();
@@ -161,8 +159,8 @@ device::StepModel<Dim, Real> model_of_slide() {
   model.faces.extent.setConstant(1e5);
   model.lower.setZero();
   model.upper = model.faces.extent;
-  model.base.grounds[0].friction = physics::basal::ConstantFriction<Real>{std::tan(20.0 * pi<Real> / 180.0)};
-  model.base.grounds[0].cohesion = physics::basal::ConstantCohesion<Real>{0.0};
+  model.base.grounds[0].friction = physics::basal::ConstantFriction{std::tan(20.0 * pi / 180.0)};
+  model.base.grounds[0].cohesion = physics::basal::ConstantCohesion{0.0};
   model.distance_check = true;
   model.finds_extremes = model.counts_escaped = true;
   return model;
@@ -170,8 +168,8 @@ device::StepModel<Dim, Real> model_of_slide() {
 
 // Sums for rows of the history.
 template <int Dim>
-band::SumsOfParticle<Dim, Real> sums_of_particle() {
-  band::SumsOfParticle<Dim, Real> of_particle;
+band::SumsOfParticle<Dim> sums_of_particle() {
+  band::SumsOfParticle<Dim> of_particle;
   of_particle.gravity = model_of_slide<Dim>().gravity;
   of_particle.origin.setZero();
   of_particle.phases = phases();
@@ -182,12 +180,12 @@ band::SumsOfParticle<Dim, Real> sums_of_particle() {
 
 // Ground on a plane aligned with the grid.
 template <int Dim>
-bool query_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
+bool query_ground(std::uint64_t block, terrain::GroundAtNode<Dim>* nodes) {
   using T = mpm::Tile<Dim>;
   const Real face = Dim == 2 ? cell : cell * cell;
   for (int k = 0; k < T::nodes; ++k) {
     const int above = T::node(T::index(block), k)[Dim - 1] - ground_index;
-    terrain::GroundAtNode<Dim, Real> node;
+    terrain::GroundAtNode<Dim> node;
     node.normal.setZero();
     node.normal[Dim - 1] = -1.0;
     node.distance = static_cast<Real>(above) * cell;
@@ -201,12 +199,12 @@ bool query_ground(std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) 
 }
 
 template <int Dim>
-device::HostCallbacks<Dim, Real> terrain_of_slide() {
+device::HostCallbacks<Dim> terrain_of_slide() {
   using Place = Vector<Real, Dim - 1>;
-  device::HostCallbacks<Dim, Real> ask;
+  device::HostCallbacks<Dim> ask;
   ask.ground = query_ground<Dim>;
   ask.slope_cosine = [](const Place& /*place*/) { return 1.0; };
-  ask.normal_gravity = [](const Place& /*place*/) { return 9.81 * std::cos(slope * pi<Real> / 180.0); };
+  ask.normal_gravity = [](const Place& /*place*/) { return 9.81 * std::cos(slope * pi / 180.0); };
   return ask;
 }
 

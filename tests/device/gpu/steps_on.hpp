@@ -9,11 +9,11 @@
 namespace thawslide::gpu_test {
 
 template <int Dim>
-using Steps = device::Solver<Dim, Real>;
+using Steps = device::Solver<Dim>;
 
 // specified: record of the data that the CPU receives during steps.
 template <int Dim>
-std::unique_ptr<Steps<Dim>> steps_of(const device::SolverFactory<Dim, Real>& make, const ParticleMemory<Dim>& particles,
+std::unique_ptr<Steps<Dim>> steps_of(const device::SolverFactory<Dim>& make, const ParticleMemory<Dim>& particles,
                                      Variant variant = Variant::plain,
                                      const std::shared_ptr<Reported>& specified = std::make_shared<Reported>()) {
   return make(model_of<Dim>(variant), particles.view(), particles.size(), processor_of<Dim>(variant, specified));

@@ -44,11 +44,11 @@ inline constexpr std::array<NamedVariant, 12> variants{{{Variant::plain, "as it 
                                                         {Variant::bed, "erodible bed"}}};
 
 template <int Dim>
-device::StepModel<Dim, Real> model_of(Variant variant) {
-  device::StepModel<Dim, Real> model = model_of_slide<Dim>();
+device::StepModel<Dim> model_of(Variant variant) {
+  device::StepModel<Dim> model = model_of_slide<Dim>();
   switch (variant) {
     case Variant::elastic:
-      model.materials[0].law = physics::LinearElastic<Real>{};
+      model.materials[0].law = physics::LinearElastic{};
       break;
     case Variant::linear:
       model.shape = mpm::ShapeFunction::linear;
@@ -89,11 +89,11 @@ using Reported = std::vector<Real>;
 
 // Uniform columns. Candidate nodes are those of one layer of each lowest block.
 template <int Dim>
-device::HostColumns<Real> columns_below(const std::shared_ptr<Reported>& specified) {
+device::HostColumns columns_below(const std::shared_ptr<Reported>& specified) {
   const auto states = std::make_shared<std::vector<Real>>();
   return {
       [states](const std::vector<std::uint64_t>& blocks) {
-        std::array<terrain::GroundAtNode<Dim, Real>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> nodes;
+        std::array<terrain::GroundAtNode<Dim>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> nodes;
         std::array<Real, static_cast<std::size_t>(mpm::BaseState::size<Dim>)> state{};
         state[mpm::BaseState::area] = 1.0;
         state[mpm::BaseState::pressure_ratio] = 0.3;
@@ -118,8 +118,8 @@ device::HostColumns<Real> columns_below(const std::shared_ptr<Reported>& specifi
 
 // Inexhaustible bed, whose available mass at a node increases with the covered part of its column.
 template <int Dim>
-device::HostBed<Dim, Real> bed_below(const std::shared_ptr<Reported>& specified) {
-  using Bed = device::HostBed<Dim, Real>;
+device::HostBed<Dim> bed_below(const std::shared_ptr<Reported>& specified) {
+  using Bed = device::HostBed<Dim>;
   Bed bed;
   bed.material = {terrain::BedLaw::strength, 0.0, 0.01, 0.5, 1000.0};
   const auto available = std::make_shared<std::vector<Real>>();
@@ -145,10 +145,10 @@ device::HostBed<Dim, Real> bed_below(const std::shared_ptr<Reported>& specified)
 }
 
 template <int Dim>
-device::HostCallbacks<Dim, Real> processor_of(Variant variant, const std::shared_ptr<Reported>& specified) {
-  device::HostCallbacks<Dim, Real> ask = terrain_of_slide<Dim>();
+device::HostCallbacks<Dim> processor_of(Variant variant, const std::shared_ptr<Reported>& specified) {
+  device::HostCallbacks<Dim> ask = terrain_of_slide<Dim>();
   if (variant == Variant::unknown_ground) {
-    ask.ground = [](std::uint64_t block, terrain::GroundAtNode<Dim, Real>* nodes) {
+    ask.ground = [](std::uint64_t block, terrain::GroundAtNode<Dim>* nodes) {
       query_ground<Dim>(block, nodes);
       return mpm::Tile<Dim>::index(block)[0] < 5;
     };

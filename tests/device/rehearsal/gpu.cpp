@@ -7,11 +7,11 @@
 namespace thawslide::device {
 
 template <int Dim>
-SolverFactory<Dim, double> on_gpu(Launching /*launching*/) {
+SolverFactory<Dim> on_gpu(Launching /*launching*/) {
   return emulated<Dim>(ThreadOrder::shuffled);
 }
-template SolverFactory<2, double> on_gpu<2>(Launching);
-template SolverFactory<3, double> on_gpu<3>(Launching);
+template SolverFactory<2> on_gpu<2>(Launching);
+template SolverFactory<3> on_gpu<3>(Launching);
 
 Gpu find_gpu() { return {true, "CPU emulation", "", 8e9}; }
 

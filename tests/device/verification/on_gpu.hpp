@@ -15,11 +15,11 @@
 
 namespace thawslide::sim {
 
-template <int Dim, class Real>
-class SimulationOnGpu : public Simulation<Dim, Real> {
+template <int Dim>
+class SimulationOnGpu : public Simulation<Dim> {
  public:
   explicit SimulationOnGpu(const config::Case& parameters, const config::Site& site = {})
-      : Simulation<Dim, Real>(parameters, site) {
+      : Simulation<Dim>(parameters, site) {
     try {
       this->use_device("a GPU", device::on_gpu<Dim>());
     } catch (const UserError& refused) {

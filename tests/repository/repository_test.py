@@ -1,4 +1,4 @@
-"""Checks of the tree itself: which room may include which, sizes, words, documents that are true to the code."""
+"""Checks of the tree itself: which module may include which, sizes, words, documents that are true to the code."""
 
 from __future__ import annotations
 
@@ -58,8 +58,8 @@ def includes_of(text: str) -> list[str]:
     return re.findall(r'^\s*#\s*include\s+"([^"]+)"', text, re.MULTILINE)
 
 
-def room_of(include: str) -> str:
-    """Return the room an include names."""
+def module_of(include: str) -> str:
+    """Return the module an include names."""
     return "generated" if include == "version.hpp" else include.split("/")[0]
 
 
@@ -73,30 +73,30 @@ def place(path: Path) -> str:
     return str(path.relative_to(ROOT))
 
 
-def test_rooms_are_those_of_the_table() -> None:
-    rooms = {path.name for path in SOURCE.iterdir() if path.is_dir()}
-    assert rooms == set(ALLOWED)
+def test_modules_are_those_of_the_table() -> None:
+    modules = {path.name for path in SOURCE.iterdir() if path.is_dir()}
+    assert modules == set(ALLOWED)
 
 
-def test_no_room_includes_against_the_arrows() -> None:
+def test_no_module_includes_against_the_arrows() -> None:
     wrong = []
     seen = 0
     for path in code_files("src"):
-        room = path.relative_to(SOURCE).parts[0]
+        module = path.relative_to(SOURCE).parts[0]
         for include in includes_of(path.read_text()):
             seen += 1
-            if room_of(include) not in ALLOWED[room]:
-                wrong.append(f"{place(path)} includes {include}, but {room} may not look into {room_of(include)}")
+            if module_of(include) not in ALLOWED[module]:
+                wrong.append(f"{place(path)} includes {include}, but {module} may not include {module_of(include)}")
     assert seen > 100
     assert wrong == []
 
 
 def test_allowed_table_has_no_circle() -> None:
-    left = {room: allowed - {room, "generated"} for room, allowed in ALLOWED.items()}
+    left = {module: allowed - {module, "generated"} for module, allowed in ALLOWED.items()}
     while left:
-        free = {room for room, needs in left.items() if not needs & set(left)}
-        assert free, f"these rooms look into one another: {sorted(left)}"
-        left = {room: needs for room, needs in left.items() if room not in free}
+        free = {module for module, needs in left.items() if not needs & set(left)}
+        assert free, f"these modules include one another: {sorted(left)}"
+        left = {module: needs for module, needs in left.items() if module not in free}
 
 
 def test_includes_name_their_room_and_exist() -> None:
@@ -128,7 +128,7 @@ def test_physics_reaches_nothing_that_devices_cannot_compile() -> None:
             if f"src/{include}" not in reached:
                 reached[f"src/{include}"] = SOURCE / include
                 waiting.append(SOURCE / include)
-    outside = {"src/base/portability.hpp", "src/base/select.hpp", "src/base/linear.hpp"}
+    outside = {"src/base/linear.hpp", "src/base/portability.hpp", "src/base/real.hpp", "src/base/select.hpp"}
     assert {name for name in reached if not name.startswith("src/physics/")} == outside
 
 
