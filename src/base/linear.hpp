@@ -5,7 +5,7 @@
 #define EIGEN_STRONG_INLINE inline __attribute__((always_inline))
 #include <Eigen/Dense>
 
-#include "base/real.hpp"
+#include "base/portability.hpp"
 
 namespace thawslide {
 

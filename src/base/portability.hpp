@@ -1,10 +1,8 @@
-// Function attributes, small constants and prefetching for all modules.
+// Number type, function attributes, small constants and prefetching for all modules.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-
-#include "base/real.hpp"
 
 // Function callable from host and device code.
 #if defined(__CUDACC__) || defined(__HIPCC__)
@@ -31,23 +29,21 @@
 
 namespace thawslide {
 
+// Number type of the step.
+using Real = double;
+
 // Prefetches the memory a number of bytes ahead. The address need not be valid, hence an integer instead of a pointer.
 inline void prefetch(const void* place, std::size_t bytes_on) {
   const auto there = reinterpret_cast<std::uintptr_t>(place) + bytes_on;
   __builtin_prefetch(reinterpret_cast<const void*>(there));  // NOLINT(performance-no-int-to-ptr)
 }
 
-// Tolerance by precision.
-THAWSLIDE_HD constexpr Real by_precision(double in_double, double in_single) {
-  return static_cast<Real>(sizeof(Real) == sizeof(double) ? in_double : in_single);
-}
-
 // Relative tolerance: smaller differences count as round-off.
-inline constexpr Real round_off = by_precision(1e-9, 1e-5);
+inline constexpr Real round_off = 1e-9;
 
 // Absolute temperature of 0 degrees Celsius [K].
-inline constexpr Real celsius_to_kelvin = static_cast<Real>(273.15);
+inline constexpr Real celsius_to_kelvin = 273.15;
 
-inline constexpr Real pi = static_cast<Real>(3.14159265358979323846);
+inline constexpr Real pi = 3.14159265358979323846;
 
 }  // namespace thawslide

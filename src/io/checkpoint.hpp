@@ -45,7 +45,7 @@ struct WholeCheckpoint {
 [[nodiscard]] std::string case_of(const WholeCheckpoint& checkpoint);
 
 // particles: those at t = 0, which are replaced by those of the checkpoint. Returns the blocks. Throws UserError for a
-// checkpoint of another kind of run (dimension, number type, fields, particles at t = 0), and for invalid bytes with a
+// checkpoint of another kind of run (dimension, fields, particles at t = 0), and for invalid bytes with a
 // valid checksum. Memory use is limited to that of particles and numbers in a file of this size.
 template <int Dim>
 NamedNumbers read_checkpoint(const WholeCheckpoint& checkpoint, mpm::Particles<Dim>& particles,

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/real.hpp"
+#include "base/portability.hpp"
 
 namespace thawslide::mpm {
 

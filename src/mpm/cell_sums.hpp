@@ -274,9 +274,5 @@ template <int FluxGroup, std::size_t Carried, std::size_t First = 0, int Dim, in
 THAWSLIDE_ALWAYS_INLINE auto cell_sums(Patch<Dim, Components>& patch) {
   return CellSums<FluxGroup, First, Carried, Dim, Components>(patch);
 }
-template <bool HasFlux, std::size_t Carried, int Dim, int Components>
-THAWSLIDE_ALWAYS_INLINE auto linear_cell_sums(Patch<Dim, Components>& patch) {
-  return LinearCellSums<HasFlux, 0, Carried, Dim, Components>(patch);
-}
 
 }  // namespace thawslide::mpm

@@ -95,7 +95,7 @@ THAWSLIDE_HD Real water_of_full_pores(const ColumnModel<Curve>& model, Real temp
 // iteration therefore descends from `full` to the root without passing it.
 inline THAWSLIDE_HD Real cell_growth_below(Real depth, Real thickness, Real full) {
   constexpr int most_iterations = 50;
-  constexpr Real close = by_precision(1e-15, 1e-7);
+  constexpr Real close = 1e-15;
   const Real cells = ColumnCells::band * (depth / thickness - Real(1));  // required value of the sum
   Real growth = full;
   THAWSLIDE_ROLLED for (int iteration = 0; iteration < most_iterations; ++iteration) {

@@ -111,7 +111,7 @@ template <class Curve>
 THAWSLIDE_HD void conduct_in_column(const ColumnModel<Curve>& model, const ColumnGrid& grid, Real dt,
                                     BandColumn& column) {
   constexpr int count = ColumnCells::all, most_iterations = 12;
-  constexpr Real close = by_precision(1e-7, 1e-3);  // [K]
+  constexpr Real close = 1e-7;  // [K]
   const ColumnConductance<Curve> conductance(model, grid, column);
   Real guess[count], flow[count + 1];  // enthalpies; heat through the lower face of each cell [J/m2]
   THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { guess[k] = column.heat[k]; }

@@ -146,7 +146,7 @@ THAWSLIDE_HD void seep_in_column(const ColumnModel<Curve>& model, const ColumnGr
   const PressureBounds bounds(model, normal_pressure, column);
   const ColumnMobility mobility = mobilities(model, grid, column);
   const Real storage = pore_storage(model.phases, model.porosity, model.skeleton_compressibility);
-  const Real close = by_precision(1e-12, 1e-5) * storage * max(normal_pressure, Real(1));
+  const Real close = 1e-12 * storage * max(normal_pressure, Real(1));
   Real before[count], flow[count + 1],
       to_air[count];  // volumes per area, upward through the lower face of each cell [m]
   THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { before[k] = column.surplus[k]; }

@@ -41,7 +41,7 @@ inline THAWSLIDE_HD Real boiling_temperature(Real pore_pressure) {
   const Real wanted = std::log(Real(1) + pore_pressure / Water::atmosphere);
   Real temperature = Water::boiling_at_atmosphere;
   constexpr int most_iterations = 20;
-  constexpr Real close = by_precision(1e-9, 1e-3);
+  constexpr Real close = 1e-9;
   for (int k = 0; k < most_iterations; ++k) {  // Newton's iteration: ln P is concave in T
     const Real absolute = temperature + celsius_to_kelvin;
     const Real excess = wanted - std::log(saturation_pressure(temperature) / Water::atmosphere);

@@ -130,7 +130,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
  private:
   // Planes for ordered principal stresses: Mohr-Coulomb of (s1, s3), (s1, s2), (s2, s3); cut-off of s1, s2, s3.
   static constexpr int planes = 6;
-  static constexpr Real round_off = by_precision(1e-12, 1e-6);
+  static constexpr Real round_off = 1e-12;
 
   // k s1 - s3 = shear limit: k and 2 c sqrt(k) [Pa].
   template <class Value>

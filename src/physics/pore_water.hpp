@@ -104,14 +104,6 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value melting_void(const Phases& phases, Va
   return porosity * (Real(1) - phases.ice_density / phases.water_density) * melted;
 }
 
-// dP = m_v dN/(n/K_L + m_v) [Pa]: pressure change of a full, undrained pore by a change of the normal load [Pa]; 0 for
-// a rigid pore.
-template <class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value undrained_loading(const Phases& phases, Value porosity,
-                                                             Real skeleton_compressibility, Value load_change) {
-  return skeleton_compressibility / pore_storage(phases, porosity, skeleton_compressibility) * load_change;
-}
-
 // P limited to 0 <= P <= N [Pa]; a negative load counts as 0.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value bounded_pore_pressure(Value pressure, Value normal_load) {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/real.hpp"
+#include "base/portability.hpp"
 
 namespace thawslide::physics {
 

@@ -337,7 +337,6 @@ Model<Dim> make_model(const config::Case& parameters, const config::Site& site) 
         physics::mixture_density(model.band.phases, static_cast<Real>(parameters.bed.porosity), saturation);
   }
   model.profile = make_profile<Dim>(parameters, site, model.origin);
-  // The ground uses double precision, whatever the precision of the step.
   const auto width = parameters.general.width.varies()
                          ? mpm::SectionWidth(parameters.general.width.table, model.origin[0])
                          : mpm::SectionWidth();

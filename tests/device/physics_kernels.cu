@@ -214,7 +214,6 @@ __global__ void water_balance(Phases phases, WaterExpansion water, Real skeleton
   const Real storage = pore_storage(phases, porosity, skeleton_compressibility);
   const Real gas_void = melting_void(phases, porosity, row.take());
   result.put(expansion(phases, porosity, row.take(), water.at(to)));
-  result.put(undrained_loading(phases, porosity, skeleton_compressibility, row.take()));
   const Real surplus =
       thawing_surplus(storage, load, row.take(), gas_void) + melted_swelling(phases, water, porosity, from, to);
   const PoreFilling<Real> filling = pore_filling(surplus, storage, load);

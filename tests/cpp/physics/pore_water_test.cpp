@@ -103,14 +103,6 @@ TEST(PoreWater, StorageByHand) {
   EXPECT_NEAR(melting_void(phases, 0.375, 1.0) / expansion(phases, 0.375, 1.0), 255.4, 0.05);
 }
 
-TEST(PoreWater, AnUndrainedPoreSharesALoadByItsStorage) {
-  const auto phases = table1();
-  EXPECT_EQ(undrained_loading(phases, 0.375, 0.0, -1e5), 0.0);
-  EXPECT_NEAR(undrained_loading(phases, 0.375, 2e-9, -1e5), -1e5 * 2.0 / 2.375, 1e-10);
-  // A soft skeleton hands all of it to the water.
-  EXPECT_NEAR(undrained_loading(phases, 0.375, 1e-4, 1e5), 1e5, 1.0);
-}
-
 TEST(PoreWater, PressureStaysBetweenNothingAndTheLoad) {
   EXPECT_EQ(bounded_pore_pressure(5e5, 8e5), 5e5);
   EXPECT_EQ(bounded_pore_pressure(9e5, 8e5), 8e5);

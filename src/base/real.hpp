@@ -1,8 +1,0 @@
-// Number type of the step.
-#pragma once
-
-namespace thawslide {
-
-using Real = double;
-
-}  // namespace thawslide
