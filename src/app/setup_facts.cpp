@@ -124,7 +124,7 @@ Json json_of(const sim::MemoryNeed& need, const AvailableMemory& available) {
           {"maps_bytes", need.maps},
           {"ground_bytes", need.ground},
           {"available_bytes", available.bytes},
-          {"available_because", available.bound}};
+          {"available_reason", available.bound}};
 }
 
 Json json_of(const DiskNeed& need, double free, const std::string& folder) {

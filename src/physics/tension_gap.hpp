@@ -30,7 +30,7 @@ template <class Value>
   return borne;
 }
 
-// Free open gaps (physics/tension_gap.hpp): elastic stress is independent of strain (theory, chapter 9).
+// Free open gaps: elastic stress is independent of strain (theory, chapter 9).
 
 // Returns whether material with an open gap stays at its apex c/tan(phi). Dilation would compress it in shear, and a
 // cut-off leaves strength across the gap. Softening reduces c and sin(phi) by the same fraction of their ranges. If the
