@@ -1,0 +1,70 @@
+"""The algorithms 'New case' and 'Check case'."""
+
+from __future__ import annotations
+
+import sqlite3
+import subprocess
+from contextlib import closing
+from pathlib import Path
+
+import rasterio
+from conftest import Algorithm, Script
+from slope_files import SOUTH, WEST
+from virtual_dem import write_vrt
+
+
+def test_new_case_is_that_of_the_command(case: Path, slope: Path, binary: Path, tmp_path: Path) -> None:
+    files = ["--dem", slope / "dem.tif", "--release", slope / "release.geojson", "--thickness", "24"]
+    subprocess.run([binary, "new", tmp_path / "slope", *files], check=True, capture_output=True)
+    expected = (tmp_path / "slope" / "case.toml").read_text().replace("release.geojson", "release.gpkg")
+    assert case.read_text() == expected
+
+
+def test_choices_become_options(algorithm: Algorithm, slope: Path, tmp_path: Path) -> None:
+    inputs = {"DEM": slope / "dem.tif", "RELEASE": slope / "release.geojson", "THICKNESS": 24}
+    cut = algorithm("newcase", **inputs, PLACEMENT="cut", REACH_ANGLE=10, OUTPUT=tmp_path / "cut")
+    assert cut.returncode == 0, cut.stdout + cut.stderr
+    text = (tmp_path / "cut" / "case.toml").read_text()
+    assert 'placement = "cut"' in text
+    assert "descends at 10 degrees" in text
+    standard = algorithm("newcase", **inputs, RESOLUTION="standard", OUTPUT=tmp_path / "standard")
+    assert standard.returncode == 0, standard.stdout + standard.stderr
+    assert "resolution:  standard" in standard.stdout
+
+
+def test_cell_size_replaces_the_resolution(algorithm: Algorithm, slope: Path, tmp_path: Path) -> None:
+    inputs = {"DEM": slope / "dem.tif", "RELEASE": slope / "release.geojson", "THICKNESS": 24}
+    made = algorithm("newcase", **inputs, CELL=6, OUTPUT=tmp_path / "slide")
+    assert made.returncode == 0, made.stdout + made.stderr
+    assert "cell = 6.0" in (tmp_path / "slide" / "case.toml").read_text()
+
+
+def test_layers_in_memory_selections_and_assigned_systems_are_used(script: Script, slope: Path, tmp_path: Path) -> None:
+    dem = write_vrt(tmp_path / "dem.vrt", slope / "dem.tif")
+    made = script("new_from_layers.py", dem, tmp_path / "slide", WEST + 50.0, SOUTH + 250.0)
+    assert made == {"CASE": str(tmp_path / "slide" / "case.toml"), "OUTPUT": str(tmp_path / "slide")}
+    with rasterio.open(tmp_path / "slide" / "dem.tif") as file:
+        assert file.crs.to_epsg() == 32632
+    with closing(sqlite3.connect(tmp_path / "slide" / "release.gpkg")) as file:
+        assert file.execute("SELECT thickness FROM release").fetchall() == [(24.0,)]
+
+
+def test_refusal_shows_the_message_of_the_program(algorithm: Algorithm, slope: Path, tmp_path: Path) -> None:
+    inputs = {"DEM": slope / "dem.tif", "RELEASE": slope / "release.geojson"}
+    refused = algorithm("newcase", **inputs, THICKNESS=-1, OUTPUT=tmp_path / "slide")
+    assert refused.returncode == 1
+    assert "error: --thickness" in refused.stderr
+
+
+def test_check_shows_facts_and_warnings(algorithm: Algorithm, case: Path) -> None:
+    checked = algorithm("checkcase", CASE=case, THREADS=1, SETTINGS="time.end=3")
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+    for expected in ["the case is valid", "  particles ", "  memory ", "WARNING:\twarning: "]:
+        assert expected in checked.stdout
+
+
+def test_check_draws_a_picture(algorithm: Algorithm, case: Path, tmp_path: Path) -> None:
+    picture = tmp_path / "setup.png"
+    checked = algorithm("checkcase", CASE=case, THREADS=1, PICTURE=picture)
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+    assert picture.read_bytes().startswith(b"\x89PNG")
