@@ -1,0 +1,260 @@
+"""A sweep from its design to its results."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import shutil
+import tomllib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from thawslide import _core
+from thawslide.case import Case
+from thawslide.errors import ReportError
+from thawslide.simulation import print_message
+from thawslide.sweeps.declared import declared_columns
+from thawslide.sweeps.design import FACTORIAL, Design, Member, parse_sample
+from thawslide.sweeps.expressions import Expression
+from thawslide.sweeps.folder import DONE, FAILED, FINISHED, SweepFolder
+from thawslide.sweeps.labels import NUMBERS
+from thawslide.sweeps.member import KEEPS, MemberInterruptedError, Task, tidy
+from thawslide.sweeps.outcome import write_outcome
+from thawslide.sweeps.page import NOT_RESULTS
+from thawslide.sweeps.progress import Progress, standard_error
+from thawslide.sweeps.results import table_of, write_table
+from thawslide.sweeps.variables import Variable, distribution, levels
+
+
+@dataclass(frozen=True)
+class Options:
+    """How a sweep is executed and which results it keeps."""
+
+    output: Path | None = None
+    is_block: bool = False
+    expressions: tuple[Expression, ...] = ()
+    keep: str = "maps"
+    has_csv: bool = False
+    workers: int = 0  # 0: one per core, as many as fit into memory
+    scheduler: str | None = None
+    max_failures: int | None = None
+    retries_failed: bool = False
+    shows_progress: bool = True
+    results: tuple[str, ...] = ()  # columns whose sensitivity the page shows
+    thresholds: Mapping[str, Sequence[float]] | None = None  # of the probability maps, by quantity
+    report: Callable[[str], None] = field(default=print_message)
+
+
+def sweep(
+    cases: str | PathLike[str] | Sequence[str | PathLike[str]],
+    output: str | PathLike[str] | None = None,
+    *,
+    vary: Mapping[str, Sequence[object]] | None = None,
+    ranges: Mapping[str, tuple[float, float]] | None = None,
+    normal: Mapping[str, tuple[float, float]] | None = None,
+    lognormal: Mapping[str, tuple[float, float]] | None = None,
+    sample: str | None = None,
+    seed: int = 0,
+    block: bool = False,
+    columns: Mapping[str, str] | None = None,
+    keep: str = "maps",
+    results: Sequence[str] = (),
+    thresholds: Mapping[str, Sequence[float]] | None = None,
+    workers: int = 0,
+    scheduler: str | None = None,
+    max_failures: int | None = None,
+    retry_failed: bool = False,
+    progress: bool = True,
+) -> pd.DataFrame:
+    """Run a case many times with varied keys, as `thawslide sweep`, and return the table of members.
+
+    cases: a case, or several as values of the variable `case`. output: the folder of the sweep, by default
+    runs/NAME-sweep; the same call continues an interrupted sweep in it. vary: lists of values. ranges, normal,
+    lognormal: pairs of numbers that describe distributions. sample: METHOD:N, without it the design is full factorial.
+    seed: seed of the sample. block: simulate a rigid block instead. columns: expressions of history columns by name.
+    keep: "maps", "all" or "none". results: columns whose sensitivity the page shows. thresholds: thresholds of the
+    probability maps, by "thickness" and "speed". workers: processes, 0: one per core. scheduler: address of a Dask
+    scheduler. max_failures: the sweep ends if more members fail. retry_failed: repeats members that have failed. Raises
+    UserError before any member runs, and ReportError for an invalid design.
+    """
+    files = [cases] if isinstance(cases, str | PathLike) else list(cases)
+    variables: list[Variable] = [levels(key, list(values)) for key, values in (vary or {}).items()]
+    for kind, pairs in (("range", ranges), ("normal", normal), ("lognormal", lognormal)):
+        variables += [distribution(kind, key, float(pair[0]), float(pair[1])) for key, pair in (pairs or {}).items()]
+    method, count = parse_sample(sample) if sample else (FACTORIAL, 0)
+    design = Design(tuple(absolute_case(file) for file in files), tuple(variables), method, count, seed)
+    options = Options(
+        output=None if output is None else Path(output),
+        is_block=block,
+        expressions=tuple(Expression(name, text) for name, text in (columns or {}).items()),
+        keep=keep,
+        results=tuple(results),
+        thresholds=thresholds,
+        workers=workers,
+        scheduler=scheduler,
+        max_failures=max_failures,
+        retries_failed=retry_failed,
+        shows_progress=progress,
+        report=print_message if progress else lambda line: None,
+    )
+    return run_sweep(design, options)[1]
+
+
+def absolute_case(file: str | PathLike[str]) -> str:
+    """Return the absolute path of a case file, because workers can have other working directories."""
+    path = Path(fspath(file)).absolute()
+    return str(path / "case.toml" if path.is_dir() else path)
+
+
+def run_sweep(design: Design, options: Options) -> tuple[SweepFolder, pd.DataFrame]:
+    """Validate all members, run those that have not finished, and write the table."""
+    if options.keep not in KEEPS:
+        raise ReportError(f"--keep: invalid (found {options.keep}; allowed {', '.join(KEEPS)}). Correct it.")
+    members = design.members()
+    first = validated(members)
+    _require_new_names(options.expressions, members[0].changes)
+    _require_columns(options)
+    folder = SweepFolder((options.output or Path(f"{_core.run_folder(first._core)}-sweep")).absolute())
+    folder.start(plan_of(design, members, options))
+    tasks = [_task(member, folder, options) for member in members]
+    if options.retries_failed:
+        _forget_failed(folder, tasks)
+    _execute(folder, tasks, members, options)
+    table = table_of(folder, members)
+    for path in write_table(table, folder.path, options.has_csv):
+        options.report(f"table: {path}")
+    write_outcome(folder, design, table, options.results, options.thresholds, options.keep, options.report)
+    return folder, table
+
+
+def validated(members: Sequence[Member]) -> Case:
+    """Check the case of each member, and return that of the first; UserError for the first invalid one."""
+    if not members:
+        raise ReportError("no members. Vary at least one key.")
+    first = Case(members[0].case_file, members[0].changes)
+    for member in members[1:]:
+        Case(member.case_file, member.changes)
+    return first
+
+
+def plan_of(design: Design, members: Sequence[Member], options: Options) -> dict[str, Any]:
+    """Return the values that a repeated command must have in common with the first one."""
+    firsts = {member.case_file: member for member in reversed(members)}  # the first one of each case
+    return {
+        "version": _core.version,
+        "design": design.as_table(),
+        "block": options.is_block,
+        "columns": {each.name: each.text for each in options.expressions},
+        "members": design.size,
+        "case_contents": {member.case_file: _digest(member) for member in firsts.values()},
+    }
+
+
+def _digest(member: Member) -> str:
+    """Return the SHA-256 of a resolved case and of the files that it names."""
+    text = Case(member.case_file, member.changes).to_toml()
+    digest = hashlib.sha256(text.encode())
+    for value in _texts(tomllib.loads(text)):
+        path = Path(member.case_file).parent / value
+        # Path.is_file raises OSError for a text that is too long for a name.
+        if os.path.isfile(path):  # noqa: PTH113
+            digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def _texts(value: object) -> Iterator[str]:
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict | list):
+        for each in value.values() if isinstance(value, dict) else value:
+            yield from _texts(each)
+
+
+def _require_new_names(expressions: Sequence[Expression], changes: Mapping[str, Any]) -> None:
+    for each in expressions:
+        if each.name in (*NOT_RESULTS, *NUMBERS, *changes) or each.name.startswith("probe_"):
+            raise ReportError(f"--column {each.name}: the table has this column. Choose another name.")
+
+
+def _require_columns(options: Options) -> None:
+    """Raise ReportError for an expression of a column that no run has; without the program, each run checks it."""
+    known = declared_columns(options.is_block) if options.expressions else []
+    for each in options.expressions if known else ():
+        each.require_columns(known)
+
+
+def _task(member: Member, folder: SweepFolder, options: Options) -> Task:
+    expressions = {each.name: each.text for each in options.expressions}
+    return Task(
+        member.number, folder.path, member.case_file, member.changes, options.is_block, expressions, options.keep
+    )
+
+
+def _forget_failed(folder: SweepFolder, tasks: Sequence[Task]) -> None:
+    for task in tasks:
+        if folder.record(task.number)["status"] == FAILED:
+            shutil.rmtree(folder.run_folder(task.number), ignore_errors=True)
+            folder.record_file(task.number).unlink()
+
+
+def _execute(folder: SweepFolder, tasks: Sequence[Task], members: Sequence[Member], options: Options) -> None:
+    """Run the members that have not finished."""
+    # Dask takes seconds to import, which a finished sweep and invalid arguments do not need.
+    try:
+        from thawslide.sweeps.engine import TooManyFailuresError, connected, perform_all
+        from thawslide.sweeps.resources import bytes_of_worker, cores, workers_that_fit
+    except ModuleNotFoundError as error:
+        raise ReportError(
+            f"a sweep needs the Python package {error.name}. Install the packages of python/requirements-sweep.txt."
+        ) from error
+
+    states = {task.number: folder.record(task.number)["status"] for task in tasks}
+    for task in tasks:
+        if states[task.number] == DONE:
+            tidy(task, folder.run_folder(task.number))
+    left = [task for task in tasks if states[task.number] not in FINISHED]
+    failed = sum(status == FAILED for status in states.values())
+    if not left:
+        options.report(f"all {len(tasks)} members have already finished")
+        return
+    workers = min(options.workers or cores(), len(left))
+    if options.scheduler is None and not options.is_block:
+        need = bytes_of_worker([member for member in members if states[member.number] not in FINISHED])
+        fitting = workers_that_fit(workers, need)
+        if need is None:
+            options.report("note: the memory of a member is unknown: the program thawslide is not on PATH")
+        else:
+            options.report(f"memory: at most {need / 1e9:.2g} GB for each of {fitting} workers")
+        workers = fitting
+    options.report(f"{len(left)} of {len(tasks)} members to run")
+    progress = Progress(
+        len(tasks), len(tasks) - len(left), failed, standard_error() if options.shows_progress else None
+    )
+    try:
+        with connected(options.scheduler, workers) as client:
+            perform_all(left, client, progress, lambda task, record: _store(folder, task, record), options.max_failures)
+    except TooManyFailuresError as error:
+        write_table(table_of(folder, members), folder.path, options.has_csv)
+        raise ReportError(
+            f"{folder.path}: {progress.failed} members failed (allowed {options.max_failures}). Correct the case, and "
+            f"repeat the command with --retry-failed."
+        ) from error
+    except MemberInterruptedError as error:
+        with contextlib.suppress(ReportError):  # the disk can be full
+            write_table(table_of(folder, members), folder.path, options.has_csv)
+        raise ReportError(f"{error} All finished members are kept. To continue, repeat the command.") from error
+
+
+def _store(folder: SweepFolder, task: Task, record: dict[str, Any]) -> None:
+    """Write the record of a member that its workers could not write."""
+    if record.pop("is_unrecorded", False):
+        try:
+            folder.write_record(task.number, folder.record(task.number) | record)
+        except OSError as error:
+            raise MemberInterruptedError(f"member {task.number}: its record cannot be written ({error}).") from error

@@ -1,0 +1,86 @@
+"""Files of a sweep: the plan, and one record per member."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from thawslide.atomic_file import atomic_file
+from thawslide.errors import ReportError
+from thawslide.text_files import MEGABYTE, is_file, read_json
+
+PLAN = "sweep.json"
+DONE, FAILED, RUNNING, PENDING = "done", "failed", "running", "pending"
+FINISHED = (DONE, FAILED)
+
+
+@dataclass(frozen=True)
+class SweepFolder:
+    """Paths of a sweep, and the records in it."""
+
+    path: Path
+
+    @property
+    def plan_file(self) -> Path:
+        """The file of the plan."""
+        return self.path / PLAN
+
+    def run_folder(self, number: int) -> Path:
+        """Return the run folder of a member."""
+        return self.path / "members" / f"{number:06d}"
+
+    def record_file(self, number: int) -> Path:
+        """Return the file of a member's record."""
+        return self.path / "members" / f"{number:06d}.json"
+
+    def series_file(self, number: int) -> Path:
+        """Return the file of a member's thinned time series."""
+        return self.path / "members" / f"{number:06d}.npz"
+
+    def done_folders(self) -> list[Path]:
+        """Return the run folders of the members that are done; ReportError if there are none."""
+        count = read_json(self.plan_file, 64 * MEGABYTE).get("members")
+        if not isinstance(count, int):
+            raise ReportError(f"{self.plan_file}: members: not a whole number (found {count}). Repeat the sweep.")
+        done = [self.run_folder(number) for number in range(count) if self.record(number)["status"] == DONE]
+        if not done:
+            raise ReportError(f"{self.path}: no member is done. Wait, or read the errors in members.parquet.")
+        return done
+
+    def start(self, plan: dict[str, Any]) -> None:
+        """Write the plan, or compare it with the plan of an interrupted sweep; ReportError if they differ."""
+        plan = json.loads(json.dumps(plan))
+        if is_file(self.plan_file):
+            found = read_json(self.plan_file, 64 * MEGABYTE)
+            different = sorted(name for name in plan.keys() | found.keys() if plan.get(name) != found.get(name))
+            if different:
+                raise ReportError(
+                    f"{self.path}: contains another sweep (different: {', '.join(different)}). Repeat its command, or "
+                    f"specify another --output."
+                )
+            return
+        if self.path.is_dir() and any(self.path.iterdir()):
+            raise ReportError(f"{self.path}: not empty, and not a sweep. Specify another --output.")
+        try:
+            (self.path / "members").mkdir(parents=True, exist_ok=True)
+            with atomic_file(self.plan_file) as temporary:
+                temporary.write_text(json.dumps(plan, indent=1) + "\n", encoding="utf-8")
+        except OSError as error:
+            raise ReportError(
+                f"{error.filename or self.path}: cannot be written ({error.strerror or error}). Select another "
+                f"--output."
+            ) from error
+
+    def record(self, number: int) -> dict[str, Any]:
+        """Return the record of a member; if it has never started, a record with 0 starts."""
+        path = self.record_file(number)
+        if not is_file(path):
+            return {"status": PENDING, "starts": 0}
+        return read_json(path, MEGABYTE)
+
+    def write_record(self, number: int, record: dict[str, Any]) -> None:
+        """Replace the record of a member."""
+        with atomic_file(self.record_file(number)) as temporary:
+            temporary.write_text(json.dumps(record), encoding="utf-8")

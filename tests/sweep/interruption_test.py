@@ -1,0 +1,84 @@
+"""Members whose files cannot be written: they are interrupted, not failed, and continue later."""
+
+from __future__ import annotations
+
+import errno
+import fcntl
+import os
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import thawslide
+from thawslide.errors import ReportError
+from thawslide.sweeps.folder import DONE, RUNNING, SweepFolder
+from thawslide.sweeps.member import MemberInterruptedError, Task, perform
+
+# Python ignores SIGXFSZ: a write beyond the limit is an error, as on a full disk.
+ON_FULL_DISK = """
+import resource, sys
+from pathlib import Path
+from thawslide.sweeps.member import MemberInterruptedError, Task, perform
+resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
+try:
+    perform(Task(0, Path(sys.argv[1]), sys.argv[2], {}))
+except MemberInterruptedError as error:
+    print(error)
+"""
+
+
+def test_a_run_on_a_full_disk_continues_later(slope: Path, tmp_path: Path) -> None:
+    folder = SweepFolder(tmp_path / "sweep")
+    (folder.path / "members").mkdir(parents=True)
+    command = [sys.executable, "-c", ON_FULL_DISK, str(folder.path), str(slope)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert "File too large" in done.stdout, done.stderr
+    assert folder.record(0)["status"] == RUNNING
+    record = perform(Task(0, folder.path, str(slope), {}))
+    assert record["status"] == DONE and record["starts"] == 2
+
+
+def test_a_sweep_ends_with_an_error_if_a_member_cannot_write(slope: Path, tmp_path: Path) -> None:
+    folder = SweepFolder(tmp_path / "sweep")
+    vary = {"basal.friction_angle": [20.0, 30.0, 40.0]}
+
+    def sweep() -> list[int]:
+        table = thawslide.sweep(slope, folder.path, vary=vary, block=True, workers=1, progress=False)
+        return list(table["starts"])
+
+    assert sweep() == [1, 1, 1]
+    for number in (1, 2):
+        folder.record_file(number).unlink()
+    series = folder.series_file(1)
+    series.unlink()
+    series.mkdir()  # a file cannot replace it
+    with pytest.raises(ReportError, match=r"member 1: interrupted: .*directory.* To continue, repeat the command"):
+        sweep()
+    assert folder.record(1)["status"] == RUNNING
+    series.rmdir()
+    assert sweep()[1] == 2
+
+
+def test_without_locks_the_process_named_in_the_lock_decides(
+    slope: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def no_locks(*_: object) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", no_locks)
+    folder = SweepFolder(tmp_path / "sweep")
+    lock = folder.run_folder(0) / "run.lock"
+    lock.parent.mkdir(parents=True)
+    task = Task(0, folder.path, str(slope), {})
+    for process in (f"process {os.getppid()} on {socket.gethostname()}", "process 1 on another-machine"):
+        lock.write_text(f"{process}\n")
+        with pytest.raises(MemberInterruptedError, match=f"written by {process}, .* remove .*run.lock"):
+            perform(task)
+    assert folder.record(0)["starts"] == 0
+    with subprocess.Popen(["true"]) as ended:
+        ended.wait()
+    lock.write_text(f"process {ended.pid} on {socket.gethostname()}\n")
+    assert perform(task)["status"] == DONE

@@ -1,0 +1,129 @@
+"""Probability and quantile maps against NumPy, extents, and refused rasters."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import rasterio
+
+from thawslide.arrays import Numbers
+from thawslide.errors import ReportError
+from thawslide.sweeps.probability import rasters_in, write_probability_maps
+from thawslide.sweeps.probability_command import main
+
+CELL, NO_DATA = 10.0, -9999.0
+
+
+def write(path: Path, values: Numbers, west: float = 0.0, north: float = 1000.0, cell: float = CELL) -> Path:
+    """Write a raster with nan as no data."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    rows, columns = values.shape
+    with rasterio.open(
+        path, "w", driver="GTiff", dtype="float64", count=1, width=columns, height=rows, nodata=NO_DATA,
+        transform=rasterio.Affine(cell, 0.0, west, 0.0, -cell, north), crs="EPSG:32608",
+    ) as file:  # fmt: skip
+        file.write(np.where(np.isnan(values), NO_DATA, values), 1)
+    return path
+
+
+def read(path: Path) -> Numbers:
+    """Read a raster with nan for no data."""
+    with rasterio.open(path) as file:
+        return np.ma.filled(file.read(1, masked=True), np.nan)
+
+
+@pytest.fixture
+def ensemble(tmp_path: Path) -> tuple[list[Path], dict[str, Numbers]]:
+    """Return folders of 37 members with maps of 70 x 90 cells, and the values of all."""
+    random = np.random.default_rng(3)
+    thickness = random.gamma(0.5, 2.0, (37, 70, 90))
+    thickness[random.random(thickness.shape) < 0.5] = np.nan
+    stacks = {"max_thickness": thickness, "max_speed": 10.0 * thickness, "arrival_time": 100.0 / thickness}
+    folders = [tmp_path / f"member{number}" for number in range(37)]
+    for name, stack in stacks.items():
+        for folder, values in zip(folders, stack, strict=True):
+            write(folder / "maps" / f"{name}.tif", values)
+    return folders, stacks
+
+
+def test_maps_match_numpy_exactly(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path) -> None:
+    folders, stacks = ensemble
+    output = tmp_path / "out"
+    # Windows of 16 cells: the maps are computed in many parts.
+    write_probability_maps(rasters_in(folders), output, memory=1.0)
+    thickness, speed = (np.nan_to_num(stacks[name]) for name in ("max_thickness", "max_speed"))
+    assert np.array_equal(read(output / "reached.tif"), np.isfinite(stacks["arrival_time"]).mean(axis=0))
+    assert np.array_equal(read(output / "thickness_above_0.5.tif"), (thickness > 0.5).mean(axis=0))
+    assert np.array_equal(read(output / "speed_above_5.tif"), (speed > 5.0).mean(axis=0))
+    for percent in (10, 50, 90):
+        for name, stack in (("thickness", thickness), ("speed", speed)):
+            expected = np.quantile(stack, percent / 100.0, axis=0, method="inverted_cdf")
+            assert np.array_equal(read(output / f"{name}_p{percent}.tif"), expected)
+        times = np.where(np.isnan(stacks["arrival_time"]), 1e30, stacks["arrival_time"])
+        expected = np.quantile(times, percent / 100.0, axis=0, method="inverted_cdf")
+        expected[expected == 1e30] = np.nan
+        assert np.array_equal(read(output / f"arrival_p{percent}.tif"), expected, equal_nan=True)
+
+
+def test_each_map_has_a_style_a_unit_and_a_description(
+    ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path
+) -> None:
+    paths = write_probability_maps(rasters_in(ensemble[0]), tmp_path / "out")
+    assert all("colorrampshader" in path.with_suffix(".qml").read_text() for path in paths)
+    with rasterio.open(tmp_path / "out" / "speed_p50.tif") as file:
+        assert file.units == ("m/s",) and file.descriptions == ("50 % quantile of maximum speed",)
+
+
+def test_the_map_of_reached_cells_states_its_threshold(
+    ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path
+) -> None:
+    folders, _ = ensemble
+    words = "probability of being reached: thickness above"
+
+    def found(rasters: dict[str, list[Path]]) -> tuple[str, str]:
+        write_probability_maps(rasters, tmp_path / "out")
+        with rasterio.open(tmp_path / "out" / "reached.tif") as file:
+            return file.descriptions[0], file.tags()["THRESHOLD"]
+
+    rasters = rasters_in(folders)
+    assert found(rasters) == (f"{words} maps.arrival_thickness", "maps.arrival_thickness")
+    for folder in folders:
+        (folder / "case.toml").write_text("[maps]\narrival_thickness = 0.5\n")
+    assert found(rasters) == (f"{words} 0.5 m", "0.5 m")
+    thickness = {"thickness": rasters["thickness"]}
+    assert found(thickness) == ("probability of being reached: maximum flow thickness above 0.1 m", "0.1 m")
+
+
+def test_extents_can_differ_by_whole_cells(tmp_path: Path) -> None:
+    files = [
+        write(tmp_path / "a.tif", np.array([[1.0, 2.0]])),
+        write(tmp_path / "b.tif", np.array([[3.0, 4.0]]), west=CELL),
+    ]
+    assert main([*map(str, files), "--output", str(tmp_path / "out"), "--thickness", "1.5"]) == 0
+    assert np.array_equal(read(tmp_path / "out" / "thickness_above_1.5.tif"), [[0.0, 1.0, 0.5]])
+
+
+def test_rasters_whose_cells_do_not_coincide_are_refused(tmp_path: Path) -> None:
+    first = write(tmp_path / "a.tif", np.ones((2, 2)))
+    for other in (
+        write(tmp_path / "b.tif", np.ones((2, 2)), west=4.0),
+        write(tmp_path / "c.tif", np.ones((2, 2)), cell=20.0),
+    ):
+        with pytest.raises(ReportError, match="cells do not coincide"):
+            write_probability_maps({"thickness": [first, other]}, tmp_path / "out")
+
+
+def test_folders_without_maps_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "empty").mkdir()
+    assert main([str(tmp_path / "empty")]) == 2 and "no map" in capsys.readouterr().err
+    assert main([str(tmp_path / "absent")]) == 2 and "no such file or folder" in capsys.readouterr().err
+
+
+def test_a_quantity_without_thresholds_has_the_default_ones(
+    ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path
+) -> None:
+    names = {path.stem for path in write_probability_maps(rasters_in(ensemble[0]), tmp_path, {"speed": [7.0]})}
+    assert {"speed_above_7", "thickness_above_0.5", "thickness_above_1", "thickness_above_5"} <= names
+    assert "speed_above_5" not in names

@@ -1,0 +1,62 @@
+"""Sensitivity: published indices of the Ishigami function, Morris effects of a line, and failed members."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from thawslide.errors import NotInRunError
+from thawslide.sweeps.design import Design
+from thawslide.sweeps.sensitivity import MORRIS, RANK, SOBOL_FIRST, SOBOL_TOTAL, indices_of
+from thawslide.sweeps.variables import Levels, Uniform
+
+
+def test_sobol_indices_of_the_ishigami_function_match_the_published_values() -> None:
+    """Saltelli et al. (2008), Global Sensitivity Analysis: The Primer: a = 7, b = 0.1."""
+    design = Design(("case",), tuple(Uniform(f"x{k}", -math.pi, math.pi) for k in (1, 2, 3)), "saltelli", 4096, 1)
+    x = np.array([list(member.changes.values()) for member in design.members()])
+    values = np.sin(x[:, 0]) + 7.0 * np.sin(x[:, 1]) ** 2 + 0.1 * x[:, 2] ** 4 * np.sin(x[:, 0])
+    found = {(each.key, each.measure): each for each in indices_of(design, values)}
+    for key, first, total in (("x1", 0.3139, 0.5576), ("x2", 0.4424, 0.4424), ("x3", 0.0, 0.2437)):
+        assert found[key, SOBOL_FIRST].value == pytest.approx(first, abs=0.01)
+        assert found[key, SOBOL_TOTAL].value == pytest.approx(total, abs=0.01)
+        assert found[key, SOBOL_TOTAL].low < total < found[key, SOBOL_TOTAL].high
+
+
+def test_morris_effects_of_a_linear_function_are_its_slopes() -> None:
+    design = Design(("case",), (Uniform("a", 0.0, 2.0), Uniform("b", -1.0, 1.0)), "morris", 10, 1)
+    values = np.array([3.0 * member.changes["a"] - member.changes["b"] for member in design.members()])
+    values[4] = np.nan  # a failed member removes its trajectory
+    found = {each.key: each.value for each in indices_of(design, values) if each.measure == MORRIS}
+    assert found == pytest.approx({"a": 6.0, "b": 2.0})
+
+
+def test_rank_correlations_show_direction_and_ignore_failed_members() -> None:
+    design = Design(("case",), (Levels("a", (1, 2, 3, 4)), Levels("b", (1, 2, 3))))
+    values = np.array([-(member.changes["a"] ** 3.0) for member in design.members()])
+    values[2] = np.nan
+    found = {each.key: each for each in indices_of(design, values)}
+    assert found["a"].measure == RANK and found["a"].value == pytest.approx(-1.0)
+    assert abs(found["b"].value) < 0.2 and found["b"].low < 0.0 < found["b"].high
+
+
+def test_equal_or_missing_values_have_no_sensitivity() -> None:
+    design = Design(("case",), (Levels("a", (1, 2, 3, 4, 5)),))
+    with pytest.raises(NotInRunError, match="same value"):
+        indices_of(design, np.ones(5))
+    with pytest.raises(NotInRunError, match="too few"):
+        indices_of(design, np.array([1.0, np.nan, np.nan, 2.0, np.nan]))
+
+
+def test_rank_correlation_of_a_list_is_that_of_its_values() -> None:
+    """The order in which values are given has no effect; texts have no rank."""
+    variables = (Levels("a", (30.0, 10.0, 20.0)), Levels("b", ("x", "y")))
+    for design in (Design(("case",), variables), Design(("case",), variables, "lhs", 40, 1)):
+        values = np.array([member.changes["a"] for member in design.members()])
+        found = indices_of(design, values)
+        assert [each.key for each in found] == ["a"]
+        assert found[0].value == pytest.approx(1.0)
+    with pytest.raises(NotInRunError, match="no varied key has numbers"):
+        indices_of(Design(("case",), (Levels("b", ("x", "y", "z", "w")),)), np.arange(4.0))
