@@ -1,5 +1,5 @@
-// Single functions of the step, by Google Benchmark: speed --kernels. Formulas for one number and for lanes, as the
-// step calls them; transfers for the batches of a body at random places. Items are particles.
+// Single functions of the step, measured by Google Benchmark: speed --kernels. Formulas for one number and for lanes,
+// as the step calls them; transfers for the batches of a body at random places. Items are particles.
 #include "kernels.hpp"
 
 #include <benchmark/benchmark.h>
@@ -29,7 +29,7 @@ void count_particles(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(particles_of<Value>));
 }
 
-// A quantity of as many particles as Value holds, a number each.
+// A quantity of as many particles as Value contains, one number each.
 template <class Value, class Number>
 Value filled(const Number& number) {
   if constexpr (particles_of<Value> == 1) {
@@ -54,7 +54,7 @@ std::array<SymmetricTensor<Value>, states> stresses(double shear, bool plane) {
   return all;
 }
 
-// shear: how far stresses lie from the mean [Pa].
+// shear: distance of stresses from the mean [Pa].
 template <class Value, int Dim>
 void mohr_coulomb(benchmark::State& state, double shear) {
   const auto elastic = physics::Elastic::from_young_poisson(5e8, 0.2);
@@ -106,7 +106,7 @@ void ugimp_axis(benchmark::State& state) {
   count_particles<Value>(state);
 }
 
-// Particles at random places, as many a cell as a body of two an axis has, with their grid.
+// Particles at random positions with their grid, as many per cell as in a body with two per axis.
 template <int Dim>
 struct Body {
   mpm::Particles<Dim> particles;
@@ -131,15 +131,15 @@ struct Body {
   void for_batches(const Work& work) const {
     for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
       for (const auto& batch : grid.batches(t)) {
-        const auto place = place_of(grid, particles, batch);
+        const auto place = grid_position(grid, particles, batch);
         work(batch, mpm::make_stencil<mpm::Ugimp>(grid, batch, place, {Simd<double>(0.25), Simd<double>(4.0)},
-                                                  mpm::HeldSides<Dim>()));
+                                                  mpm::PrescribedSides<Dim>()));
       }
     }
   }
 };
 
-// Nodes, weights and what the momentum stage adds: all its values, and the stress by gradients.
+// Nodes, weights and contributions of the momentum stage: all its values, and the stress with gradients.
 template <int Dim>
 void momentum_to_nodes(benchmark::State& state) {
   const Body<Dim> body;
@@ -162,7 +162,7 @@ void momentum_to_nodes(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(body.particles.size()));
 }
 
-// Nodes, weights and what the stress stage reads: the gradient of velocity.
+// Nodes, weights and input of the stress stage: the gradient of velocity.
 template <int Dim>
 void gradient_from_nodes(benchmark::State& state) {
   const Body<Dim> body;

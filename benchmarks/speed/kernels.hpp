@@ -1,4 +1,4 @@
-// Single functions of the step, timed alone.
+// Timing of single functions of the step.
 #pragma once
 
 namespace thawslide::speed {

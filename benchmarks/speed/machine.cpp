@@ -28,7 +28,7 @@ double best_of(int times, const Work& work) {
   return best;
 }
 
-// [GB/s] of three arrays of `length` doubles, gone through `repeats` times.
+// [GB/s] of three arrays of `length` doubles, read and written `repeats` times.
 double triad(std::size_t length, int repeats, std::size_t parts) {
   AlignedVector<double> a(length, 1.0), b(length, 2.0), c(length, 3.0);
   const double seconds = best_of(5, [&] {
@@ -57,7 +57,7 @@ double multiply_add() {
   double sink = 0.0;
   const double seconds = best_of(5, [&] {
     std::array<Numbers, chains> x;
-    // Each from a number of its own: g++ would make one chain of equal ones.
+    // Start values differ, because g++ would merge equal chains.
     unrolled<chains>([&](auto k) THAWSLIDE_INLINE_LAMBDA { x[k] = Numbers(start + static_cast<double>(k())); });
     for (int r = 0; r < rounds; ++r) {
       unrolled<chains>([&](auto k) THAWSLIDE_INLINE_LAMBDA { x[k] = x[k] * Numbers(factor) + Numbers(1e-6); });
@@ -90,7 +90,7 @@ double clock_speed() {
   const double seconds = best_of(2, [&] {
     for (int k = 0; k < multiplications; ++k) {
       product *= product;
-      asm volatile("" : "+r"(product));  // stays in its register, and is not known
+      asm volatile("" : "+r"(product));  // stays in its register, unknown to the compiler
     }
   });
   return multiplications * ticks / seconds / giga;

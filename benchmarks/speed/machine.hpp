@@ -1,4 +1,4 @@
-// What the machine can do at best: the roofline that docs/performance.md holds the step against.
+// Limits of the machine: the roofline with which docs/performance.md compares the step.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,9 +15,9 @@ struct MachineLimits {
 
 MachineLimits measure_machine(int threads);
 
-// How often the core of this thread ticks now [GHz]: the faster of two chains of whole multiplications, of three ticks
-// each as on x86-64, in half a millisecond. On a shared host it moves by a third within minutes, and with it every
-// speed per second; what a core gives to another machine's thread it does not show.
+// Present clock rate [GHz] of the core of this thread: the faster of two chains of integer multiplications, of three
+// ticks each as on x86-64, in half a millisecond. On a shared host it varies by a third within minutes, and every speed
+// per second with it. It does not include the time that a core spends on threads of other virtual machines.
 [[nodiscard]] double clock_speed();
 
 nlohmann::ordered_json to_json(const MachineLimits& limits);

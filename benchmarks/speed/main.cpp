@@ -1,5 +1,5 @@
-// Measures the speed of the step: whole steps and their stages, kernels, the machine. Prints a table; --json keeps it.
-// ticks: of the core's clock that pass, a particle and step.
+// Measures the speed of the step: whole steps and their stages, kernels, the machine. Prints a table; --json writes it
+// to a file. ticks: elapsed ticks of the core's clock per particle and step.
 //   speed [--filter TEXT] [--threads 1,2] [--repeats N] [--particle-steps N] [--without-machine] [--json FILE]
 //   speed --kernels
 #include <benchmark/benchmark.h>
@@ -66,7 +66,7 @@ void print_timing(const StepTiming& timing) {
   std::fflush(stdout);
 }
 
-// Of the cases of 100,000 particles on one thread, but for the sweep of the box and the busy core.
+// Only for cases of 100,000 particles on one thread, without the variants of the box and the busy core.
 void print_stages(const StepTiming& timing) {
   const auto is_of = [&](const char* text) { return timing.name.find(text) != std::string::npos; };
   if (timing.threads != 1 || !is_of("100,000") || is_of("box") || is_of("busy")) {

@@ -27,7 +27,7 @@ namespace thawslide::speed {
 
 namespace {
 
-// Every mechanism of the paper; cells of 1 m with 2 particles an axis.
+// Case with every mechanism of the paper; cells of 1 m with 2 particles per axis.
 constexpr const char* full_model = R"(
 [case]
 dimension = {dimension}
@@ -88,7 +88,7 @@ double heap_in_use() {
   return static_cast<double>(heap.uordblks + heap.hblkhd);
 }
 
-// A process that keeps the first core this one may use busy for as long as this lives.
+// A process that occupies the first core available to this process, for the lifetime of this object.
 class BusyCore {
  public:
   explicit BusyCore(bool wanted) {
@@ -142,9 +142,9 @@ std::unordered_map<std::int64_t, Real> plastic_strains(const mpm::Particles<Dim>
   return strains;
 }
 
-// Share of particles that yield in one more step; those that leave in it do not.
+// Fraction of particles that yield in one more step; particles that leave in it do not count.
 template <int Dim, class Step>
-double yielding_share(const mpm::Particles<Dim>& particles, const Step& step) {
+double yielding_fraction(const mpm::Particles<Dim>& particles, const Step& step) {
   const auto before = plastic_strains(particles);
   step();
   const auto after = plastic_strains(particles);
@@ -164,14 +164,14 @@ StepTiming time_simulation(const StepCase& which, int threads, int repeats, doub
   const auto& particles = simulation.particles();
   const auto count = static_cast<double>(particles.size());
   const double dt = simulation.parameters().time.step;
-  double aside = 0;  // spent on what is not timed
+  double aside = 0;  // spent on parts that are not timed
   const auto clock = [&, start = Clock::now()] {
     return std::chrono::duration<double>(Clock::now() - start).count() - aside;
   };
   ThreadChoice choice(threads, clock());
   const auto step = [&] {
     simulation.step(dt);
-    if (which.beside_busy) {  // as a run does; elsewhere the threads are what is measured
+    if (which.next_to_busy) {  // as in a run; other cases measure a fixed number of threads
       set_thread_count(choice.after_step(clock()));
     }
   };
@@ -179,7 +179,7 @@ StepTiming time_simulation(const StepCase& which, int threads, int repeats, doub
   for (int k = 0; k < warm_up; ++k) {
     step();
   }
-  const BusyCore busy(which.beside_busy);
+  const BusyCore busy(which.next_to_busy);
   std::vector<double> rates, ticks, yielding;
   std::map<std::string, std::vector<double>> stages;
   const auto batch = std::max<std::int64_t>(2, static_cast<std::int64_t>(particle_steps / count));
@@ -196,7 +196,7 @@ StepTiming time_simulation(const StepCase& which, int threads, int repeats, doub
     }
     rates.push_back(steps / (end - start));
     ticks.push_back((end - start) / steps * 1e9 * (frequency_before + clock_speed()) / 2);
-    yielding.push_back(yielding_share(particles, [&] { simulation.step(dt); }));
+    yielding.push_back(yielding_fraction(particles, [&] { simulation.step(dt); }));
     aside += clock() - end;
   }
   StepTiming timing{.name = which.name,
@@ -231,8 +231,8 @@ std::vector<StepCase> step_cases() {
                               {"2D 100,000 in a box 10 times as long", 2, 2500, 1, 10, 10},
                               {"2D 100,000 in a box 100 times as long", 2, 2500, 1, 10, 100}};
   for (StepCase which : {cases[0], cases[1]}) {
-    which.name += ", beside a busy process";
-    which.beside_busy = true;
+    which.name += ", next to a busy process";
+    which.next_to_busy = true;
     cases.push_back(which);
   }
   return cases;

@@ -1,4 +1,4 @@
-// Whole steps of the full model, timed.
+// Timing of complete steps of the full model.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,15 +7,15 @@
 
 namespace thawslide::speed {
 
-// A slab that slides down 40 degrees with every mechanism on.
+// A slab that slides down 40 degrees with every mechanism enabled.
 struct StepCase {
   std::string name;
   int dimension;
   double length, width, height;  // of the slab, in cells of 1 m
-  double box = 1;                // the domain is this many times as long as the slab's needs it to be
-  double cohesion = 5e5;         // inside the slab [Pa]: the smaller, the more of it yields
-  double temperature = -1;       // at first [C]: above 0 water seeps everywhere, below as long as nothing melts nowhere
-  bool beside_busy = false;      // another process keeps one core busy
+  double box = 1;                // length of the domain over the length needed by the slab
+  double cohesion = 5e5;         // inside the slab [Pa]: a smaller value increases the yielding fraction
+  double temperature = -1;       // initial [C]: above 0 water seeps everywhere, below 0 nowhere before melting
+  bool next_to_busy = false;     // another process keeps one core busy
 };
 
 struct StepTiming {
@@ -24,15 +24,15 @@ struct StepTiming {
   int threads;
   double particle_steps_per_second;  // median over repeats
   double lowest, highest;            // over repeats
-  double ticks, fewest_ticks;  // that pass a particle and step, whatever the threads: median and least over repeats
-  double yielding;             // share of particles that yield, mean over repeats
-  double bytes_per_particle;   // heap in use after the run over particles
+  double ticks, fewest_ticks;        // per particle and step, for any threads: median and minimum over repeats
+  double yielding;                   // fraction of particles that yield, mean over repeats
+  double bytes_per_particle;         // heap in use after the run, over the number of particles
   std::vector<std::pair<std::string, double>> stages;  // [ns per particle and step], medians over repeats
 };
 
 std::vector<StepCase> step_cases();
 
-// Times `repeats` batches of steps, each of about `particle_steps` and of two steps at least, so that what is timed
+// Measures `repeats` batches of steps, each of about `particle_steps` and at least two steps, so that the timed work
 // does not depend on the machine.
 StepTiming time_steps(const StepCase& which, int threads, int repeats, double particle_steps);
 

@@ -1,13 +1,15 @@
 #include "app/case_folder.hpp"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
 #include <vector>
 
-#include "app/warnings.hpp"
+#include "app/print.hpp"
 #include "base/error.hpp"
 #include "base/shell_quote.hpp"
+#include "run/warnings.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 #include "gis/point_window.hpp"
@@ -25,6 +27,14 @@ void fail_without_gis(const std::string& file) {
       fmt::format("{}: this build of thawslide cannot read maps: it was made without GDAL. Install libgdal-dev and "
                   "build again (`./run --setup`).",
                   file));
+}
+
+void require_utf8(const std::string& what, const std::string& name) {
+  try {
+    (void)nlohmann::json(name).dump();  // throws for anything but UTF-8
+  } catch (const nlohmann::json::type_error&) {
+    throw UserError(fmt::format("{}: '{}' is not UTF-8, as required for names in a case file. Rename it.", what, name));
+  }
 }
 
 #ifdef THAWSLIDE_WITH_GIS
@@ -53,8 +63,8 @@ config::Case trial_case(const std::string& folder, const MapOptions& maps) {
   trial.grid.cell = 1.0;
   trial.grid.min = {span.min_x, span.min_y, 0.0};
   trial.grid.max = {span.max_x, span.max_y, 1.0};
-  trial.places["terrain.file"] = "--dem";
-  trial.places["terrain.crs"] = "--crs";
+  trial.locations["terrain.file"] = "--dem";
+  trial.locations["terrain.crs"] = "--crs";
   if (maps.release.empty()) {
     return trial;
   }
@@ -78,8 +88,8 @@ config::Case trial_case(const std::string& folder, const MapOptions& maps) {
     body.largest_volume = maps.largest_volume;
   }
   trial.bodies[body_name] = body;
-  trial.places["body.slide.release"] = "--release";
-  trial.places["body.slide.thickness"] = maps.thickness > 0.0 ? "--thickness" : "--release";
+  trial.locations["body.slide.release"] = "--release";
+  trial.locations["body.slide.thickness"] = maps.thickness > 0.0 ? "--thickness" : "--release";
   return trial;
 }
 
@@ -126,7 +136,7 @@ gis::SiteAndWarnings read_files(const config::Case& trial) {
 config::Site open_site(const config::Case& trial) {
   gis::SiteAndWarnings read = read_files(trial);
   for (const std::string& warning : read.warnings) {
-    print_warning(as_option_names(warning));
+    print_text("{}\n", run::warning_line(as_option_names(warning)));
   }
   return std::move(read.site);
 }

@@ -29,6 +29,10 @@ config::EdgeTaper taper_edges(config::Case& trial, const config::Site& site);
 // The same as open_site for files already inspected: prints nothing.
 config::Site reopen_site(const config::Case& trial);
 
+// Throws UserError if a name is not UTF-8, as a case file is. File systems accept any bytes. `what`: subject of the
+// message.
+void require_utf8(const std::string& what, const std::string& name);
+
 // Last component of a folder's path.
 std::string title_of(const std::filesystem::path& folder);
 

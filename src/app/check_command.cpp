@@ -3,17 +3,18 @@
 #include <stdexcept>
 
 #include "app/commands.hpp"
-#include "app/device_choice.hpp"
-#include "app/input_guard.hpp"
-#include "app/map_files.hpp"
-#include "app/run_loop.hpp"
 #include "app/setup_facts.hpp"
 #include "app/setup_json.hpp"
 #include "app/setup_picture.hpp"
-#include "app/setup_warnings.hpp"
+#include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "config/read_case.hpp"
+#include "run/device_choice.hpp"
+#include "run/input_guard.hpp"
+#include "run/map_files.hpp"
+#include "run/run_loop.hpp"
+#include "run/setup_warnings.hpp"
 #include "sim/run_records.hpp"
 
 namespace thawslide::app {
@@ -22,14 +23,14 @@ namespace {
 
 // Speed and memory of the run on a GPU, tested from the state that the trial on the CPU has reached.
 template <int Dim>
-GpuFacts gpu_facts(sim::Simulation<Dim>& simulation, sim::RunRecords<Dim>& records, double steps) {
-  GpuFacts facts = detect_gpu();
+run::GpuFacts gpu_facts(sim::Simulation<Dim>& simulation, sim::RunRecords<Dim>& records, double steps) {
+  run::GpuFacts facts = run::detect_gpu();
   if (!facts.unavailable_reason.empty()) {
     return facts;
   }
   const double end = simulation.parameters().time.end;
   try {
-    use_device<Dim>("gpu", simulation);
+    run::use_device<Dim>("gpu", simulation);
     if (simulation.time() < end) {
       simulation.step(simulation.next_step(end));  // copies particles to the GPU
       records.after_step(simulation);
@@ -40,8 +41,8 @@ GpuFacts gpu_facts(sim::Simulation<Dim>& simulation, sim::RunRecords<Dim>& recor
       facts.unavailable_reason = "the run ends before a step on it could be timed";
       return facts;
     }
-    facts.seconds = measured_step_seconds<Dim>(simulation) * steps;
-    facts.used = facts.free - detect_gpu().free;
+    facts.seconds = run::measured_step_seconds<Dim>(simulation) * steps;
+    facts.used = facts.free - run::detect_gpu().free;
   } catch (const std::runtime_error& error) {  // the CPU results remain valid
     facts.unavailable_reason = error.what();
   }
@@ -82,7 +83,7 @@ SetupFacts facts_of(const sim::Simulation<Dim>& simulation, const sim::RunRecord
   facts.step = simulation.next_step(parameters.time.end);
   facts.is_adaptive = parameters.time.stepping == config::Stepping::adaptive;
   facts.limit = simulation.step_limit();
-  facts.steps = steps_to_end(simulation);
+  facts.steps = run::steps_to_end(simulation);
   double area = 0.0;
   for (const sim::BodyFigures& body : facts.bodies) {
     area += body.area;
@@ -90,10 +91,10 @@ SetupFacts facts_of(const sim::Simulation<Dim>& simulation, const sim::RunRecord
   facts.memory = sim::memory_need<Dim>(parameters, simulation.site(), {static_cast<double>(facts.particles), area});
   facts.available = available_memory();
   facts.maps = map_facts(parameters, simulation.site(), records.maps());
-  facts.disk = disk_need(simulation, records.maps(), facts.steps);
-  const std::filesystem::path folder = usual_run_folder(parameters);
+  facts.disk = run::disk_need(simulation, records.maps(), facts.steps);
+  const std::filesystem::path folder = run::usual_run_folder(parameters);
   facts.disk_folder = folder.string();
-  facts.free_disk = free_on_disk(folder);
+  facts.free_disk = run::free_on_disk(folder);
   facts.threads = thread_count();
   return facts;
 }
@@ -101,31 +102,40 @@ SetupFacts facts_of(const sim::Simulation<Dim>& simulation, const sim::RunRecord
 }  // namespace
 
 int check_case(const CheckOptions& options) {
-  use_threads(options.threads);
+  run::use_threads(options.threads);
   const config::Case parameters = config::read_case(options.of_case.file, options.of_case.sets);
-  return with_dimension(parameters.general.dimension, [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) {
-    Warnings warnings(options.json ? Warnings::Form::kept : Warnings::Form::printed);
-    sim::Simulation<Dim> simulation(parameters, read_map_files(parameters, warnings));
+  return run::with_dimension(parameters.general.dimension, [&]<int Dim>(
+                                                               std::integral_constant<int, Dim> /*dimension*/) {
+    Terminal terminal;
+    run::Warnings warnings(options.json ? nullptr : &terminal);
+    sim::Simulation<Dim> simulation(parameters, run::read_map_files(parameters, warnings));
     sim::RunRecords<Dim> records(simulation, simulation.site());  // checks that maps, path and probes can be recorded
     records.start(simulation);
     SetupFacts facts = facts_of<Dim>(simulation, records);
-    add_setup_warnings(simulation, facts.bodies, facts.disk, facts.disk_folder, warnings);
+    run::add_setup_warnings(simulation, facts.bodies, warnings);
+    warnings.add(run::warning_of_disk(parameters, facts.disk, facts.free_disk, facts.disk_folder));
     facts.warnings = warnings.all();
+    nlohmann::ordered_json setup;  // of the initial state, which the trial steps change
     if (options.draws) {
       facts.picture = options.picture.empty() ? picture_path(parameters.file) : options.picture;
-      require_no_input_at(facts.picture, "--picture", parameters);
-      draw_setup(setup_json<Dim>(simulation), facts.picture);
+      run::require_no_input_at(facts.picture, "--picture", parameters);
+      setup = setup_json<Dim>(simulation);
     }
-    const auto report_line = [&] { fmt::print("{}", options.json ? json_of(facts) : text_of(facts)); };
+    const auto report = [&] {
+      fmt::print("{}", options.json ? json_of(facts) : text_of(facts));
+      if (options.draws) {
+        draw_setup(setup, facts.picture);
+      }
+    };
     try {
-      facts.seconds = measured_step_seconds<Dim>(simulation) * facts.steps;
+      facts.seconds = run::measured_step_seconds<Dim>(simulation) * facts.steps;
       facts.gpu = gpu_facts<Dim>(simulation, records, facts.steps);
     } catch (const RunError& error) {  // earlier facts remain valid
       facts.error = error.what();
-      report_line();
+      report();
       throw;
     }
-    report_line();
+    report();
     return static_cast<int>(ExitCode::done);
   });
 }

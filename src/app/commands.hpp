@@ -19,6 +19,7 @@ struct RunOptions {
   std::string device = "cpu";
   std::string output;
   bool overwrite = false;
+  std::string end;  // time.end [s]; empty: that of the case
 };
 int run_case(const RunOptions& options);
 
@@ -28,6 +29,7 @@ struct ResumeOptions {
   std::string device = "cpu";
   std::vector<std::string> sets;  // changes to the case
   std::string end;                // new time.end [s]; empty: unchanged
+  std::string output;             // folder of a copy that continues; empty: none
 };
 int resume_run(const ResumeOptions& options);
 
@@ -83,9 +85,12 @@ struct DescribeOptions {
 };
 int describe_parameters(const DescribeOptions& options);
 
-// Replaces the process by `thawslide-report` with the given arguments; returns only if it is not found.
-int hand_over_to_report(const std::vector<std::string>& arguments);
+// Replaces the process by `thawslide-NAME` of the Python package, with the given arguments; returns only if it is not
+// found.
+int run_python_command(const std::string& name, const std::vector<std::string>& arguments);
 
+// Version, commit and compiler.
+std::string version_text();
 int print_version();
 
 }  // namespace thawslide::app

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "app/map_output.hpp"
 #include "mpm/particles.hpp"
+#include "run/map_output.hpp"
 #include "sim/map_kinds.hpp"
 #include "sim/output_columns.hpp"
 
@@ -86,7 +86,7 @@ std::string base_text() {
 
 std::string maps_text() {
   std::string rows;
-  for (const GroundMap& map : {terrain_map, release_map}) {
+  for (const run::GroundMap& map : {run::terrain_map, run::release_map}) {
     rows += row(fmt::format("`{}`", map.name), map.unit, map.description);
   }
   for (const sim::MapKind& kind : sim::map_kinds()) {

@@ -12,8 +12,7 @@
 
 #include "app/commands.hpp"
 #include "app/print.hpp"
-#include "app/signals.hpp"
-#include "app/standard_streams.hpp"
+#include "app/process.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "config/input_limits.hpp"
@@ -27,20 +26,26 @@ using namespace thawslide::app;
 
 void add_case_options(CLI::App& command, CaseOptions& options) {
   command.add_option("case", options.file, "Case file, or the folder of a case.toml")->required();
-  command.add_option("--set", options.sets, "Replace a key: --set band.thickness=0.1 (may be given many times)")
+  command
+      .add_option("--set", options.sets,
+                  "Value of a key, in place of that of the case file: --set band.thickness=0.1 (may be repeated)")
       ->take_all()
       ->allow_extra_args(false);
 }
 
 void add_threads_option(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Threads to use at most (default: the cores this process may use)")
+  command.add_option("--threads", threads, "Maximum number of threads (default: the cores available to the process)")
       ->check(CLI::Range(1, 1024));
 }
 
 void add_device_option(CLI::App& command, std::string& device) {
-  command.add_option("--device", device, "Device for the time steps: cpu (default), gpu (an NVIDIA GPU), or auto")
+  command
+      .add_option("--device", device,
+                  "Device that computes the time steps: cpu, gpu (an NVIDIA GPU) or auto (default: cpu)")
       ->check(CLI::IsMember({"cpu", "gpu", "auto"}));
 }
+
+std::string is_no_empty_name(const std::string& folder) { return folder.empty() ? "name a folder" : ""; }
 
 // Replaces CLI11's own check, whose message prints the largest floating-point number.
 CLI::Validator above_zero() {
@@ -55,22 +60,24 @@ CLI::Validator above_zero() {
 
 // Returns the option of the release.
 CLI::Option* add_map_options(CLI::App& command, MapOptions& maps) {
-  command.add_option("--dem", maps.dem, "DEM, GeoTIFF or ESRI ASCII, in projected metres")->required();
-  CLI::Option* release = command.add_option("--release", maps.release,
-                                            "Polygons (Shapefile, GeoPackage, GeoJSON), or a raster of the thickness");
+  command.add_option("--dem", maps.dem, "DEM in projected metres: GeoTIFF or ESRI ASCII grid")->required();
+  CLI::Option* release = command.add_option(
+      "--release", maps.release, "Release: polygons (Shapefile, GeoPackage or GeoJSON), or a raster of the thickness");
   command
       .add_option("--thickness", maps.thickness,
-                  "Vertical thickness of the polygons [m] (default: their attribute 'thickness')")
+                  "Vertical thickness of the release in the polygons [m] (default: their attribute 'thickness')")
       ->check(above_zero())
       ->needs(release);
   auto* placement = command.add_option_group("placement");
-  placement->add_flag("--cut", maps.cut, "Cut the release out of the DEM: the DEM is the surface before the slide")
+  placement->add_flag("--cut", maps.cut, "Cut the release out of the DEM, which is then the surface before the event")
       ->needs(release);
   placement->add_flag("--on-top")
-      ->description("Put the release on top of the DEM (default)")
+      ->description("Place the release on top of the DEM (default)")
       ->needs(release)
       ->excludes(placement->get_option("--cut"));
-  command.add_option("--crs", maps.crs, "Coordinate reference system of a DEM whose file has none: EPSG:31287");
+  command.add_option(
+      "--crs", maps.crs,
+      "Coordinate reference system of a DEM whose file has none, such as EPSG:31287 (default: as in the file)");
   return release;
 }
 
@@ -113,6 +120,7 @@ int with_output_written(int code) {
 int run_program(int count, char** arguments) {
   CLI::App program("Thawslide: rock-ice avalanches by a three-phase material point method", "thawslide");
   program.require_subcommand(1);
+  program.set_version_flag("--version", version_text);
   int exit_code = 0;
 
   RunOptions run_options;
@@ -120,9 +128,10 @@ int run_program(int count, char** arguments) {
   add_case_options(*run, run_options.of_case);
   add_threads_option(*run, run_options.threads);
   add_device_option(*run, run_options.device);
+  run->add_option("--end", run_options.end, "End of the run [s]; short for --set time.end=END")->check(above_zero());
   run->add_option("--output", run_options.output, "Folder of the results (default: runs/NAME)")
-      ->check([](const std::string& folder) { return folder.empty() ? std::string("name a folder") : std::string(); });
-  run->add_flag("--overwrite", run_options.overwrite, "Replace the run in the folder");
+      ->check(is_no_empty_name);
+  run->add_flag("--overwrite", run_options.overwrite, "Replace the run in the folder of the results");
   run->callback([&] { exit_code = run_case(run_options); });
 
   ResumeOptions resume_options;
@@ -131,19 +140,24 @@ int run_program(int count, char** arguments) {
   add_threads_option(*resume, resume_options.threads);
   add_device_option(*resume, resume_options.device);
   resume
-      ->add_option(
-          "--set", resume_options.sets,
-          "Change a key from here on, which is recorded: --set time.output_interval=5 (may be given many times)")
+      ->add_option("--set", resume_options.sets,
+                   "Change a key for the rest of the run: --set time.output_interval=5 (may be repeated). The run "
+                   "records the change")
       ->take_all()
       ->allow_extra_args(false);
-  resume->add_option("--end", resume_options.end, "Short for --set time.end=END [s]")->check(above_zero());
+  resume
+      ->add_option("--output", resume_options.output,
+                   "Folder of a copy of the run, which continues while the run itself stays unchanged")
+      ->check(is_no_empty_name);
+  resume->add_option("--end", resume_options.end, "New end of the run [s]; short for --set time.end=END")
+      ->check(above_zero());
   resume->callback([&] { exit_code = resume_run(resume_options); });
 
   StatusOptions status_options;
   CLI::App* status =
       program.add_subcommand("status", "Report whether a run is active, its progress, and how to continue it");
   status->add_option("run", status_options.folder, "Folder of the run")->required();
-  status->add_flag("--json", status_options.json, "As JSON");
+  status->add_flag("--json", status_options.json, "Print JSON");
   status->callback([&] { exit_code = print_status(status_options); });
 
   CheckOptions check_options;
@@ -154,7 +168,7 @@ int run_program(int count, char** arguments) {
       "--picture", check_options.picture,
       "Plot terrain, grid, bodies and boundaries to a PNG file (default: setup.png next to the case file)");
   picture->expected(0, 1);
-  check->add_flag("--json", check_options.json, "As JSON, for programs");
+  check->add_flag("--json", check_options.json, "Print JSON");
   check->callback([&] {
     check_options.draws = picture->count() > 0;
     exit_code = check_case(check_options);
@@ -163,63 +177,74 @@ int run_program(int count, char** arguments) {
   BlockOptions block_options;
   CLI::App* block = program.add_subcommand("block", "Simulate a case as a rigid block, in less than a second");
   add_case_options(*block, block_options.of_case);
-  block->add_option("--output", block_options.output, "CSV file (default: a table of some rows to the terminal)");
+  block->add_option("--output", block_options.output, "CSV file of the results (default: some rows are printed)");
   block->callback([&] { exit_code = run_block_model(block_options); });
 
   NewOptions new_options;
-  CLI::App* make_new = program.add_subcommand("new", "Make a case folder from a DEM and a release area");
-  make_new->add_option("folder", new_options.folder, "Folder to make")->required();
+  CLI::App* make_new = program.add_subcommand("new", "Create a case folder from a DEM and a release area");
+  make_new->add_option("folder", new_options.folder, "Folder to create")->required();
   add_map_options(*make_new, new_options.maps)->required();
   make_new
       ->add_option("--reach-angle", new_options.reach_angle,
-                   "The domain includes all terrain below a line that descends at this angle from the top of the "
-                   "release [degrees]")
+                   "Extent of the domain: it includes all terrain below a line that descends at this angle from the "
+                   "top of the release [degrees]")
       ->check(CLI::Range(1.0, 45.0))
       ->option_text("1 to 45, default 8");
-  CLI::Option* cell = make_new->add_option("--cell", new_options.cell, "Size of the grid's cells [m]")
+  CLI::Option* cell = make_new->add_option("--cell", new_options.cell, "Side length of a grid cell [m]")
                           ->check(above_zero())
                           ->option_text("default: that of --resolution");
   make_new
-      ->add_option(
-          "--resolution", new_options.resolution,
-          "quick: for travel distance and speed; standard: for thickness and area too; fine: cells half as large as "
-          "those of standard")
+      ->add_option("--resolution", new_options.resolution,
+                   "Cell size. quick: for travel distance and speed; standard: also for thickness and area; fine: half "
+                   "the cell size of standard")
       ->check(CLI::IsMember({"quick", "standard", "fine"}))
       ->excludes(cell)
       ->option_text("default quick");
   make_new
-      ->add_option("--largest-volume", new_options.maps.largest_volume,
-                   "Confirms a release above the usual limit of body.slide.largest_volume [m3]")
+      ->add_option(
+          "--largest-volume", new_options.maps.largest_volume,
+          "Maximum volume of the release [m3], to confirm a large one (default: that of body.NAME.largest_volume)")
       ->check(above_zero());
   new_options.program = arguments[0];
   make_new->callback([&] { exit_code = make_new_case(new_options); });
 
   SectionOptions section_options;
   CLI::App* section = program.add_subcommand("section", "Cut a 2D case out of a DEM, along a line");
-  section->add_option("folder", section_options.folder, "Folder to make")->required();
-  section->add_option("--line", section_options.line, "File with the line, downhill: Shapefile, GeoPackage or GeoJSON")
+  section->add_option("folder", section_options.folder, "Folder to create")->required();
+  section
+      ->add_option("--line", section_options.line, "File of the line, drawn downhill: Shapefile, GeoPackage or GeoJSON")
       ->required();
   add_map_options(*section, section_options.maps)
       ->description(
-          "Polygons (Shapefile, GeoPackage, GeoJSON), or a raster of the thickness (default: the profile alone)");
+          "Release: polygons (Shapefile, GeoPackage or GeoJSON), or a raster of the thickness (default: only the "
+          "profile is cut)");
   section_options.program = arguments[0];
   section->callback([&] { exit_code = make_section(section_options); });
 
   DescribeOptions describe_options;
-  CLI::App* describe = program.add_subcommand("describe", "The reference of the case file, or of the output of a run");
+  CLI::App* describe =
+      program.add_subcommand("describe", "Print the reference of the case file, or of the output of a run");
   auto* forms = describe->add_option_group("form");
-  forms->add_flag("--json", describe_options.json, "As JSON");
-  forms->add_flag("--md", describe_options.markdown, "As Markdown");
-  forms->add_flag("--schema", describe_options.schema, "As a JSON schema, for editors");
-  forms->add_flag("--outputs", describe_options.outputs, "Columns, datasets and maps of a run, as Markdown");
+  forms->add_flag("--json", describe_options.json, "Print JSON");
+  forms->add_flag("--md", describe_options.markdown, "Print Markdown");
+  forms->add_flag("--schema", describe_options.schema, "Print a JSON schema, for editors");
+  forms->add_flag("--outputs", describe_options.outputs, "Print the columns, datasets and maps of a run as Markdown");
   forms->require_option(0, 1);
   describe->callback([&] { exit_code = describe_parameters(describe_options); });
 
-  CLI::App* report = program.add_subcommand("report", "Plot the figures of a run (calls thawslide-report)");
-  report->prefix_command();
-  report->callback([&] { exit_code = hand_over_to_report(report->remaining()); });
+  // Commands of the Python package; --help is theirs.
+  const auto add_python_command = [&](const std::string& name, const std::string& description) {
+    CLI::App* command = program.add_subcommand(name, fmt::format("{} (calls thawslide-{})", description, name));
+    command->prefix_command();
+    command->set_help_flag();
+    command->callback([&exit_code, command, name] { exit_code = run_python_command(name, command->remaining()); });
+  };
+  add_python_command("report", "Plot the figures of a run");
+  add_python_command("sweep", "Run a case many times with varied keys");
+  add_python_command("scarp", "Build a release from a failure surface below a DEM");
+  add_python_command("probability", "Map probabilities and quantiles of many runs");
 
-  CLI::App* show_version = program.add_subcommand("version", "Version, commit and build");
+  CLI::App* show_version = program.add_subcommand("version", "Print version, commit and build");
   show_version->callback([&] { exit_code = print_version(); });
 
   require_known_command(program, count, arguments);
@@ -245,7 +270,7 @@ std::string printable(std::string text) { return thawslide::config::printable(st
 }  // namespace
 
 int main(int count, char** arguments) {
-  hold_standard_streams();
+  open_standard_streams();
   survive_size_limits();
   thawslide::set_passive_wait(arguments);
   try {

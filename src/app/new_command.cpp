@@ -5,17 +5,14 @@
 #include <filesystem>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "app/case_folder.hpp"
 #include "app/commands.hpp"
-#include "app/names_in_case.hpp"
-#include "app/progress.hpp"
-#include "app/run_loop.hpp"
-#include "app/setup_warnings.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/rounding.hpp"
+#include "run/run_loop.hpp"
+#include "run/setup_warnings.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 
@@ -68,8 +65,8 @@ void require_ground_about(const std::string& file, const Raster& ground, const R
   for (std::size_t k = 0; k < sides.size(); ++k) {
     if (reached[k]) {
       throw UserError(
-          fmt::format("--release: {}: the release reaches the outermost points of the DEM in the {}; needed: {:g} m of "
-                      "it, one of its cells, beyond the release, and beyond where the slide may go. Take a larger DEM.",
+          fmt::format("--release: {}: the release reaches the outermost points of the DEM in the {} (needed: at "
+                      "least {:g} m, one cell, beyond the release). Use a DEM that covers the flow path too.",
                       file, sides[k], k < 2 ? ground.cell_x : ground.cell_y));
     }
   }
@@ -77,11 +74,12 @@ void require_ground_about(const std::string& file, const Raster& ground, const R
 
 std::string reason_for_cell(const config::Proposal& proposal, const NewOptions& options) {
   if (options.cell > 0.0) {
-    return fmt::format("--cell: a release {:.4g} m thick with cells of {:g} m", proposal.thickness, proposal.cell);
+    return fmt::format("--cell: a release {} m thick with cells of {:g} m", rounded_text(proposal.thickness, 3),
+                       proposal.cell);
   }
-  return fmt::format("{}: a release {:.4g} m thick asks for cells of {:g} m",
+  return fmt::format("{}: a release {} m thick requires cells of {:g} m",
                      options.resolution.empty() ? "--thickness" : "--resolution " + options.resolution,
-                     proposal.thickness, proposal.cell);
+                     rounded_text(proposal.thickness, 3), proposal.cell);
 }
 
 // Limits the number of cells along each axis to that of a valid case.
@@ -90,10 +88,10 @@ void require_resolvable(const config::Proposal& proposal, const NewOptions& opti
   for (std::size_t a = 0; a < 3; ++a) {
     const double cells = (proposal.max[a] - proposal.min[a]) / proposal.cell;
     if (!(cells >= fewest && cells <= most)) {
-      throw UserError(
-          fmt::format("{}, and the terrain about it would have {:.4g} of them along {}; allowed: {:g} to {:g}. {}",
-                      reason_for_cell(proposal, options), std::max(0.0, std::round(cells)), "xyz"[a], fewest, most,
-                      options.cell > 0.0 ? "Give another --cell." : "Is the thickness in metres?"));
+      throw UserError(fmt::format("{}, and the terrain about it would have {} of them along {}; allowed: {} to {}. {}",
+                                  reason_for_cell(proposal, options), count_text(std::max(0.0, std::round(cells))),
+                                  "xyz"[a], count_text(fewest), count_text(most),
+                                  options.cell > 0.0 ? "Give another --cell." : "Is the thickness in metres?"));
     }
   }
 }
@@ -168,8 +166,8 @@ class NewFolder {
 std::string without_places(std::string message, const std::string& file) {
   for (std::size_t at = message.find(file); at != std::string::npos; at = message.find(file, at)) {
     const std::size_t end = message.find_first_not_of(":0123456789", at + file.size());
-    const bool is_place = end != std::string::npos && end > at + file.size() && message[end] == ' ';
-    message.replace(at, is_place ? end + 1 - at : file.size(), is_place ? "" : "the case");
+    const bool is_location = end != std::string::npos && end > at + file.size() && message[end] == ' ';
+    message.replace(at, is_location ? end + 1 - at : file.size(), is_location ? "" : "the case");
   }
   return message;
 }
@@ -211,12 +209,12 @@ std::optional<RunCost> cost_of_run(const fs::path& folder) {
     sim::Simulation<3> simulation(made, gis::load_site(made).site);
     sim::RunRecords<3> records(simulation, simulation.site());
     records.start(simulation);
-    const double steps = steps_to_end(simulation);
-    return RunCost{steps, measured_step_seconds(simulation) * steps, thread_count()};
+    const double steps = run::steps_to_end(simulation);
+    return RunCost{steps, run::measured_step_seconds(simulation) * steps, thread_count()};
   } catch (const RunError&) {
     return {};  // the case is kept; `check` and `run` report the reason
   } catch (const UserError& error) {
-    throw UserError(fmt::format("no case was made, as it would not run: {}",
+    throw UserError(fmt::format("no case was created, because it would not run: {}",
                                 without_places(error.what(), (folder / "case.toml").string())));
   }
 }
@@ -224,7 +222,7 @@ std::optional<RunCost> cost_of_run(const fs::path& folder) {
 }  // namespace
 
 int make_new_case(const NewOptions& options) {
-  use_threads(0);
+  run::use_threads(0);
   const std::string release_name = fs::path(options.maps.release).filename().string();
   require_utf8("the folder to make", title_of(options.folder));
   require_utf8("--release", release_name);
@@ -263,8 +261,8 @@ int make_new_case(const NewOptions& options) {
   const std::optional<RunCost> cost = cost_of_run(folder);
   new_folder.keep();
 
-  fmt::print("{}: a release of {} m3, {:.3g} m thick, on {} m cells\n", (folder / "case.toml").string(),
-             rounded_text(proposal.volume, 4), proposal.thickness, proposal.cell);
+  fmt::print("{}: a release of {} m3, {} m thick, on {} m cells\n", (folder / "case.toml").string(),
+             rounded_text(proposal.volume, 3), rounded_text(proposal.thickness, 3), proposal.cell);
   if (cost) {
     fmt::print("{}", resolution_text(proposal, resolution, *cost));
   } else {

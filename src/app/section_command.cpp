@@ -4,7 +4,6 @@
 
 #include "app/case_folder.hpp"
 #include "app/commands.hpp"
-#include "app/names_in_case.hpp"
 
 #ifdef THAWSLIDE_WITH_GIS
 
@@ -30,7 +29,7 @@ std::string name_of(const std::string& file) { return config::shown(fs::path(fil
 
 struct Cut {
   config::ProfileTable profile;
-  Place2 begin{}, end{};  // of the line
+  Point2 begin{}, end{};  // of the line
 };
 
 Cut cut_along_line(const config::Site& site, const std::string& line_file) {
@@ -73,7 +72,7 @@ config::Site smoothed_site(config::Case trial, double cell) {
 std::string format_filter(const SectionOptions& options, const config::Roughness& ground) {
   return fmt::format(
       "{} was smoothed with a standard deviation of {:g} m, as for a 3D run on {:g} m cells whose domain is the whole "
-      "DEM; it has noise of {:.2g} m rms and bumps with an rms slope of {:.2g}. Set terrain.smooth = {:g} in a 3D case "
+      "DEM. It has noise of {:.2g} m rms and bumps with an rms slope of {:.2g}. Set terrain.smooth = {:g} in a 3D case "
       "with a smaller domain to have the same terrain",
       name_of(options.maps.dem), ground.width, ground.cell, ground.noise, ground.bump_slope, ground.width);
 }
@@ -95,10 +94,10 @@ std::vector<std::string> comments_on(const SectionOptions& options, const config
                                                       name_of(options.maps.release)));
   }
   if (taper > 0.0) {
-    comments.push_back(fmt::format(
-        "The edges of the cut are ramps {:g} m wide, half of it beyond the outline: a slide does not get out "
-        "of a pit with walls.",
-        taper));
+    comments.push_back(
+        fmt::format("The edges of the cut are ramps {:g} m wide, half of it beyond the outline: vertical edges "
+                    "would trap the slide.",
+                    taper));
   }
   if (site.roughness->width > 0.0) {
     comments.push_back(format_filter(options, *site.roughness) + ".");
@@ -114,10 +113,10 @@ void check_body(const SectionOptions& options, const config::ProfileTable& profi
   if (before < margin || after < margin) {
     const bool first = before < margin;
     throw UserError(fmt::format(
-        "{}: {}: the section {} {:.4g} m {} the release; needed: at least {:.4g} m, {} cells. Make the line longer "
-        "there.",
-        line_option, options.line, first ? "begins" : "ends", first ? body.begin : profile.distance.back() - body.end,
-        first ? "before" : "after", margin + proposal.cell, config::margin_cells + 1));
+        "{}: {}: the section {} {} m {} the release; needed: at least {} m, {} cells. Make the line longer there.",
+        line_option, options.line, first ? "begins" : "ends",
+        rounded_text(first ? body.begin : profile.distance.back() - body.end, 3), first ? "before" : "after",
+        rounded_text(rounded_up(margin + proposal.cell, 3), 3), config::margin_cells + 1));
   }
 }
 
@@ -127,7 +126,7 @@ int make_section(const SectionOptions& options) {
   require_utf8("the folder to make", title_of(options.folder));
   config::Case trial = trial_case(options.folder, options.maps);
   trial.maps.path = options.line;
-  trial.places["maps.path"] = line_option;
+  trial.locations["maps.path"] = line_option;
   config::Site site = open_site(trial);
   double taper = 0.0;
   if (options.maps.cut && !options.maps.release.empty()) {
@@ -146,8 +145,10 @@ int make_section(const SectionOptions& options) {
   if (options.maps.release.empty()) {
     make_new_folder(folder);
     io::write_profile_csv(folder / profile_name, cut.profile, comments);
-    fmt::print("{}: {} rows over {:.6g} m\nnote: without --release there is no body, and no case.toml was written\n",
-               (folder / profile_name).string(), cut.profile.distance.size(), cut.profile.distance.back());
+    fmt::print(
+        "{}: {} rows over {} m\n"
+        "note: without --release there is no body, and no case.toml was written\n",
+        (folder / profile_name).string(), cut.profile.distance.size(), rounded_text(cut.profile.distance.back(), 3));
     return static_cast<int>(ExitCode::done);
   }
   const config::SurfaceBody body = config::body_on(cut.profile);
@@ -162,9 +163,9 @@ int make_section(const SectionOptions& options) {
   make_new_folder(folder);
   io::write_profile_csv(folder / profile_name, cut.profile, comments);
   write_file_atomically(folder / "case.toml", config::section_text(title_of(folder), profile_name, proposal));
-  fmt::print("{}: a release of {} m3 per metre of width, {:.3g} m thick, on {} m cells: about {} particles\n",
-             (folder / "case.toml").string(), rounded_text(proposal.volume, 4), proposal.thickness, proposal.cell,
-             rounded_text(proposal.particles));
+  fmt::print("{}: a release of {} m3 per metre of width, {} m thick, on {} m cells: about {} particles\n",
+             (folder / "case.toml").string(), rounded_text(proposal.volume, 3), rounded_text(proposal.thickness, 3),
+             proposal.cell, rounded_text(proposal.particles));
   print_next_commands(options.program, folder);
   return static_cast<int>(ExitCode::done);
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/progress.hpp"
 #include "base/rounding.hpp"
 
 namespace thawslide::app {
@@ -14,6 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kg_per_tonne = 1e3;
 constexpr double kilobyte = 1e3, megabyte = 1e6, gigabyte = 1e9;
 
 std::string size_text(double bytes) {
@@ -25,26 +25,28 @@ std::string size_text(double bytes) {
 std::string text_of(const sim::BodyFigures& body, const SetupFacts& facts) {
   const bool is_plane = facts.dimension == 2;
   const std::string per_metre = facts.width_varies_from
-                                    ? fmt::format(" per metre of the width at x = {:g} m", *facts.width_varies_from)
+                                    ? fmt::format(" per metre of the width at x = {:.9g} m", *facts.width_varies_from)
                                     : " per metre of width";
   return fmt::format(
-      "  body        {}: {} m3 and {:.4g} kg{}, {} {} {}; {:.3g} m thick on average, {:.3g} m in the median "
-      "and {:.3g} m at most (vertical)\n"
-      "              {} particles {:.3g} m apart; {:.3g} across in the median and {:.3g} at most; {}\n",
-      body.name, rounded_text(body.volume, 4), body.mass, is_plane ? per_metre : "", is_plane ? "along" : "over",
-      rounded_text(body.area, 4), is_plane ? "m" : "m2", body.mean_thickness, body.median_thickness,
-      body.largest_thickness, body.particles, body.spacing, body.particles_across, body.max_particles_across,
-      body.coldest == body.warmest ? fmt::format("{:.4g} C", body.coldest)
-                                   : fmt::format("{:.4g} to {:.4g} C", body.coldest, body.warmest));
+      "  body        {}: {} m3 and {} t{}, {} {} {}; {} m thick on average, {} m in the median and {} m at most "
+      "(vertical)\n"
+      "              {} particles {} m apart; {:.3g} across in the median and {:.3g} at most; {}\n",
+      body.name, rounded_text(body.volume, 3), rounded_text(body.mass / kg_per_tonne, 3), is_plane ? per_metre : "",
+      is_plane ? "along" : "over", rounded_text(body.area, 3), is_plane ? "m" : "m2",
+      rounded_text(body.mean_thickness, 3), rounded_text(body.median_thickness, 3),
+      rounded_text(body.largest_thickness, 3), count_text(static_cast<double>(body.particles)),
+      rounded_text(body.spacing, 3), body.particles_across, body.max_particles_across,
+      body.coldest == body.warmest ? fmt::format("{:.3g} C", body.coldest)
+                                   : fmt::format("{:.3g} to {:.3g} C", body.coldest, body.warmest));
 }
 
 std::string text_of(const SubstrateFacts& substrate, int dimension) {
   if (substrate.name.empty()) {
-    return fmt::format("              {}, {:.3g} % of the domain; {}\n", substrate.place, 100.0 * substrate.share,
+    return fmt::format("              {}, {:.3g} % of the domain; {}\n", substrate.location, 100.0 * substrate.fraction,
                        substrate.strength);
   }
-  return fmt::format("  substrate   {}: {}, {} {} or {:.3g} % of the domain; {}\n", substrate.name, substrate.place,
-                     rounded_text(substrate.covered, 4), dimension == 3 ? "m2" : "m", 100.0 * substrate.share,
+  return fmt::format("  substrate   {}: {}, {} {} or {:.3g} % of the domain; {}\n", substrate.name, substrate.location,
+                     rounded_text(substrate.covered, 3), dimension == 3 ? "m2" : "m", 100.0 * substrate.fraction,
                      substrate.strength);
 }
 
@@ -52,13 +54,12 @@ std::string text_of(const config::Roughness& ground) {
   const std::string filter = ground.width > 0.0
                                  ? fmt::format("smoothed with a standard deviation of {:g} m", ground.width)
                                  : std::string("not smoothed");
-  const std::string valleys =
-      ground.width > 0.0
-          ? fmt::format(
-                "              In V valleys of 90 degrees filled less than {:g} m wide the filter takes more "
-                "than 3 % of the friction of their sides\n",
-                ground.narrow_valley)
-          : "";
+  const std::string valleys = ground.width > 0.0
+                                  ? fmt::format(
+                                        "              In V valleys of 90 degrees filled less than {:g} m wide the "
+                                        "filter removes more than 3 % of the friction of their sides\n",
+                                        ground.narrow_valley)
+                                  : "";
   return fmt::format(
       "  roughness   noise of {:.2g} m rms or {:.2g} cells on points {:g} m apart; bumps shorter than {} m have an "
       "rms slope of {:.2g}\n              {}; remaining friction by noise and bumps about {:.2g} %\n{}",
@@ -67,14 +68,14 @@ std::string text_of(const config::Roughness& ground) {
 }
 
 // Text such as "3 checkpoints of 1.2 MB", and their growth, if any.
-std::string checkpoints_text(const DiskNeed& need) {
+std::string checkpoints_text(const run::DiskNeed& need) {
   std::string text = fmt::format("{:.0f} checkpoints of {}", need.checkpoints, size_text(need.checkpoint_at_start));
   return need.checkpoint > need.checkpoint_at_start
              ? text + fmt::format(" at the start and about {} after spreading", size_text(need.checkpoint))
              : text;
 }
 
-std::string text_of(const DiskNeed& need, double free) {
+std::string text_of(const run::DiskNeed& need, double free) {
   std::string of_maps;
   if (need.maps > 0.0) {
     const std::string sizes = need.ground_maps == 0.0
@@ -83,9 +84,9 @@ std::string text_of(const DiskNeed& need, double free) {
                                                 need.ground_maps, size_text(need.ground_map));
     of_maps = fmt::format(", {:.0f} maps {} before they are compressed", need.maps + need.ground_maps, sizes);
   }
-  return fmt::format("  disk        about {}: {:.6g} snapshots of {}, {}, history {}, inputs {}{}; {} are free\n",
-                     size_text(need.total()), need.snapshots, size_text(need.snapshot), checkpoints_text(need),
-                     size_text(need.history), size_text(need.inputs), of_maps,
+  return fmt::format("  disk        about {}: {} snapshots of {}, {}, history {}, inputs {}{}; {} are free\n",
+                     size_text(need.total()), count_text(need.snapshots), size_text(need.snapshot),
+                     checkpoints_text(need), size_text(need.history), size_text(need.inputs), of_maps,
                      std::isfinite(free) ? size_text(free) : "unknown amounts");
 }
 
@@ -109,9 +110,9 @@ Json json_of(const sim::BodyFigures& body) {
 
 Json json_of(const SubstrateFacts& substrate) {
   return {{"name", substrate.name},
-          {"place", substrate.place},
+          {"place", substrate.location},
           {"covered", substrate.covered},
-          {"fraction", substrate.share},
+          {"fraction", substrate.fraction},
           {"strength", substrate.strength}};
 }
 
@@ -127,7 +128,7 @@ Json json_of(const sim::MemoryNeed& need, const AvailableMemory& available) {
           {"available_reason", available.bound}};
 }
 
-Json json_of(const DiskNeed& need, double free, const std::string& folder) {
+Json json_of(const run::DiskNeed& need, double free, const std::string& folder) {
   return {{"need_bytes", need.total()},
           {"snapshots", need.snapshots},
           {"snapshot_bytes", need.snapshot},
@@ -145,7 +146,7 @@ Json json_of(const DiskNeed& need, double free, const std::string& folder) {
           {"folder", folder}};
 }
 
-std::string text_of(const GpuFacts& gpu) {
+std::string text_of(const run::GpuFacts& gpu) {
   if (!gpu.unavailable_reason.empty()) {
     return fmt::format("  GPU         not used: {}\n", gpu.unavailable_reason);
   }
@@ -153,12 +154,12 @@ std::string text_of(const GpuFacts& gpu) {
                      duration_text(gpu.seconds), size_text(gpu.used), size_text(gpu.free), gpu.name);
 }
 
-Json json_of(const GpuFacts& gpu) {
-  const bool takes_steps = gpu.unavailable_reason.empty();
+Json json_of(const run::GpuFacts& gpu) {
+  const bool is_available = gpu.unavailable_reason.empty();
   return {{"name", gpu.name.empty() ? Json() : Json(gpu.name)},
-          {"unavailable_reason", takes_steps ? Json() : Json(gpu.unavailable_reason)},
-          {"wall_s", takes_steps ? Json(gpu.seconds) : Json()},
-          {"need_bytes", takes_steps ? Json(gpu.used) : Json()},
+          {"unavailable_reason", is_available ? Json() : Json(gpu.unavailable_reason)},
+          {"wall_s", is_available ? Json(gpu.seconds) : Json()},
+          {"need_bytes", is_available ? Json(gpu.used) : Json()},
           {"free_bytes", gpu.name.empty() ? Json() : Json(gpu.free)}};
 }
 
@@ -191,13 +192,15 @@ std::string text_of(const SetupFacts& facts) {
   if (facts.roughness) {
     text += text_of(*facts.roughness);
   }
-  text += fmt::format("  particles   {}\n", facts.particles);
-  text += fmt::format("  cells       {:.0f} in the domain; allocated blocks of {} nodes: {}\n", facts.cells,
-                      facts.nodes_of_block, facts.blocks);
-  text += fmt::format("  step        {:g} s{}; the limit is {:.4g} s, set by {}\n", facts.step,
-                      facts.is_adaptive ? " at the start (adaptive)" : "", facts.limit.step, facts.limit.what);
+  text += fmt::format("  particles   {}\n", count_text(static_cast<double>(facts.particles)));
+  text += fmt::format("  cells       {} in the domain; allocated blocks of {} nodes: {}\n", count_text(facts.cells),
+                      facts.nodes_of_block, count_text(static_cast<double>(facts.blocks)));
+  text += fmt::format("  step        {:.3g} s{}; {}\n", facts.step, facts.is_adaptive ? " at the start (adaptive)" : "",
+                      std::isfinite(facts.limit.step) ? fmt::format("the limit is {:.3g} s, set by {}",
+                                                                    rounded_down(facts.limit.step, 3), facts.limit.what)
+                                                      : "no limit applies");
   text += fmt::format("  steps       {}\n",
-                      facts.is_adaptive ? "about " + rounded_text(facts.steps) : fmt::format("{:.7g}", facts.steps));
+                      facts.is_adaptive ? "about " + rounded_text(facts.steps) : count_text(facts.steps));
   text += fmt::format("  memory      about {}; {} {}\n", size_text(facts.memory.total()),
                       size_text(facts.available.bytes), facts.available.bound);
   for (const MapFacts& maps : facts.maps) {

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "app/device_choice.hpp"
-#include "app/disk_need.hpp"
 #include "app/substrate_list.hpp"
 #include "base/available_memory.hpp"
 #include "config/site.hpp"
+#include "run/device_choice.hpp"
+#include "run/disk_need.hpp"
 #include "sim/body_figures.hpp"
 #include "sim/memory_need.hpp"
 #include "sim/time_step.hpp"
@@ -43,12 +43,12 @@ struct SetupFacts {
   sim::MemoryNeed memory;
   AvailableMemory available;
   std::vector<MapFacts> maps;  // one in 3D, none in 2D
-  DiskNeed disk;
+  run::DiskNeed disk;
   double free_disk = 0.0;                                     // [bytes]
   std::string disk_folder;                                    // folder of the run
   double seconds = std::numeric_limits<double>::quiet_NaN();  // wall-clock time, estimated from the first steps
   int threads = 1;
-  GpuFacts gpu;
+  run::GpuFacts gpu;
   std::string error;    // of the first steps; empty if there is none
   std::string picture;  // file of the figure; empty: none
 };

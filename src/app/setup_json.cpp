@@ -92,7 +92,7 @@ Json map_json(const sim::Simulation<3>& simulation) {
 }
 
 template <int Dim>
-std::vector<double> place_in_section(const sim::Simulation<Dim>& simulation, std::size_t p) {
+std::vector<double> point_in_section(const sim::Simulation<Dim>& simulation, std::size_t p) {
   const auto& origin = simulation.model().origin;
   return {simulation.particles().position(p, 0) + origin[0],
           simulation.particles().position(p, Dim - 1) + origin[Dim - 1]};
@@ -120,11 +120,11 @@ Json section_json(const sim::Simulation<Dim>& simulation) {
     Json x = Json::array();
     Json z = Json::array();
     for (int k = 0; k <= samples; ++k) {
-      const double place = model.constraints.extent[0] * k / samples;
-      x.push_back(place + model.origin[0]);
-      z.push_back(model.profile->height(place) + model.origin[Dim - 1]);
+      const double station = model.constraints.extent[0] * k / samples;
+      x.push_back(station + model.origin[0]);
+      z.push_back(model.profile->height(station) + model.origin[Dim - 1]);
       if (model.substrates) {
-        numbers.push_back(model.substrates->at(place, 0.0));
+        numbers.push_back(model.substrates->at(station, 0.0));
       }
     }
     json["terrain"] = {{"x", x}, {"z", z}};
@@ -135,7 +135,7 @@ Json section_json(const sim::Simulation<Dim>& simulation) {
     Json points = Json::array();
     for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
       if (simulation.particles().body(p) == static_cast<int>(b)) {
-        points.push_back(place_in_section(simulation, p));
+        points.push_back(point_in_section(simulation, p));
       }
     }
     json["bodies"].push_back({{"name", model.body_names[b]},

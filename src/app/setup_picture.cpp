@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 
+#include "app/python_program.hpp"
 #include "base/error.hpp"
 
 namespace thawslide::app {
@@ -44,22 +45,22 @@ std::string picture_path(const std::filesystem::path& case_file) {
 
 void draw_setup(const nlohmann::ordered_json& setup, const std::string& picture) {
   const NamelessFile file(setup.dump());
+  const std::string program = python_program("thawslide-report");
   std::fflush(stdout);  // so that earlier output precedes the child's
   const pid_t child = fork();
   if (child == 0) {
     // Output of the child goes to stderr, because a program may read our stdout.
     if (file.becomes_input() && dup2(STDERR_FILENO, STDOUT_FILENO) == STDOUT_FILENO) {
-      execlp("thawslide-report", "thawslide-report", "--setup", "/dev/stdin", "--picture", picture.c_str(), nullptr);
+      execlp(program.c_str(), program.c_str(), "--setup", "/dev/stdin", "--picture", picture.c_str(), nullptr);
     }
     _exit(127);
   }
   int status = 0;
   waitpid(child, &status, 0);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    throw UserError(
-        fmt::format("the picture was not drawn: thawslide-report {}. It is part of the Python package: "
-                    "`./run --setup` installs it into .venv; put .venv/bin on PATH.",
-                    WIFEXITED(status) && WEXITSTATUS(status) == 127 ? "is not on PATH" : "failed"));
+    const bool is_found = !WIFEXITED(status) || WEXITSTATUS(status) != 127;
+    throw UserError(fmt::format("the picture was not drawn: thawslide-report {}. {}",
+                                is_found ? "failed" : "is not on PATH", python_program_remedy));
   }
 }
 

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "app/commands.hpp"
-#include "app/progress.hpp"
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
 #include "config/read_case.hpp"
 #include "io/checkpoint.hpp"
@@ -81,9 +81,9 @@ std::optional<double> checkpoint_age(const fs::path& folder) {
 // Age of the run's file that was written last.
 std::optional<double> last_write_age(const fs::path& folder) {
   std::optional<double> least;
-  for (const fs::path& place : {folder, folder / "snapshots"}) {
+  for (const fs::path& path : {folder, folder / "snapshots"}) {
     std::error_code error;
-    for (fs::directory_iterator entry(place, error), end; !error && entry != end; entry.increment(error)) {
+    for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
       std::error_code unknown;
       const std::optional<double> age =
           fs::is_regular_file(entry->path(), unknown) ? age_of(entry->path()) : std::nullopt;
@@ -197,9 +197,9 @@ std::string continue_text(const fs::path& folder, const RunStatus& status) {
 std::string text_of(const fs::path& folder, const RunStatus& status) {
   std::string text = fmt::format("{}: {}\n", folder.string(), status_text(status));
   if (status.end) {
-    const double share = std::floor(100.0 * std::min(1.0, status.time / *status.end));
+    const double fraction = std::floor(100.0 * std::min(1.0, status.time / *status.end));
     text += fmt::format("  {:g} of {:g} s simulated{}{}\n", status.time, *status.end,
-                        status.state == "done" ? "" : fmt::format(" ({:.0f} %)", share),
+                        status.state == "done" ? "" : fmt::format(" ({:.0f} %)", fraction),
                         status.time_left ? fmt::format(", about {} left", duration_text(*status.time_left)) : "");
   } else {
     text += fmt::format("  {:g} s simulated; its end is not known: {}\n", status.time, status.case_error);

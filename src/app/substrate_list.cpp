@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/rounding.hpp"
 #include "physics/basal/laws.hpp"
 
 namespace thawslide::app {
@@ -24,7 +25,7 @@ double covered_by(const std::string& name, const config::Case& parameters, const
   return substrate.is_strip() ? length_of(substrate, parameters.grid) * width : site.substrates.at(name).area;
 }
 
-std::string place_of(const config::Substrate& substrate) {
+std::string location_of(const config::Substrate& substrate) {
   if (!substrate.raster.empty()) {
     return fmt::format("code {} of its raster", substrate.code);
   }
@@ -32,17 +33,20 @@ std::string place_of(const config::Substrate& substrate) {
     return "within its polygons";
   }
   if (std::isinf(substrate.x_max)) {
-    return fmt::format("from x = {:g} m on", substrate.x_min);
+    return fmt::format("from x = {:.9g} m on", substrate.x_min);
   }
-  return std::isinf(substrate.x_min) ? fmt::format("up to x = {:g} m", substrate.x_max)
-                                     : fmt::format("from x = {:g} to {:g} m", substrate.x_min, substrate.x_max);
+  return std::isinf(substrate.x_min) ? fmt::format("up to x = {:.9g} m", substrate.x_max)
+                                     : fmt::format("from x = {:.9g} to {:.9g} m", substrate.x_min, substrate.x_max);
 }
 
 std::string strength_of(const config::GroundStrength& ground) {
   const double cohesion = ground.numbers(physics::basal::initial_cohesion);
   return fmt::format(
       "friction \"{}\", {}", ground.friction,
-      cohesion > 0.0 ? fmt::format("cohesion {:g} Pa, \"{}\"", cohesion, ground.cohesion_law) : "no cohesion");
+      cohesion > 0.0
+          ? fmt::format("cohesion {} Pa, \"{}\"",
+                        cohesion < 1e3 ? fmt::format("{:g}", cohesion) : with_commas(cohesion, 6), ground.cohesion_law)
+          : "no cohesion");
 }
 
 }  // namespace
@@ -58,11 +62,11 @@ std::vector<SubstrateFacts> substrate_facts(const config::Case& parameters, cons
   }
   for (const auto& [name, substrate] : parameters.substrates) {
     const double covered = covered_by(name, parameters, site);
-    facts.push_back({name, place_of(substrate), covered, covered / whole, strength_of(substrate)});
+    facts.push_back({name, location_of(substrate), covered, covered / whole, strength_of(substrate)});
     left -= covered / whole;
   }
-  const double share = std::max(0.0, left);
-  facts.push_back({"", "elsewhere [basal]", share * whole, share, strength_of(parameters.basal)});
+  const double fraction = std::max(0.0, left);
+  facts.push_back({"", "elsewhere [basal]", fraction * whole, fraction, strength_of(parameters.basal)});
   return facts;
 }
 

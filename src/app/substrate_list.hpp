@@ -10,11 +10,11 @@
 namespace thawslide::app {
 
 struct SubstrateFacts {
-  std::string name;      // empty: ground with the laws of [basal]
-  std::string place;     // as text
-  double covered = 0.0;  // part of the domain: [m2], in 2D [m]
-  double share = 0.0;    // fraction of the domain
-  std::string strength;  // laws as text
+  std::string name;       // empty: ground with the laws of [basal]
+  std::string location;   // as text
+  double covered = 0.0;   // part of the domain: [m2], in 2D [m]
+  double fraction = 0.0;  // fraction of the domain
+  std::string strength;   // laws as text
 };
 
 // Each substrate, and last the remaining ground with [basal]; empty if the case has no substrates.

@@ -11,13 +11,13 @@ namespace thawslide::band {
 
 // Function of a horizontal position [m].
 template <int Dim>
-using OfPlace = std::function<Real(const Vector<Real, Dim - 1>&)>;
+using OfPosition = std::function<Real(const Vector<Real, Dim - 1>&)>;
 
 template <int Dim>
 class AtColumns {
  public:
   // Value at the middle of a column; `of` must be the same in every call.
-  [[nodiscard]] Real at(std::uint64_t key, Real cell, const OfPlace<Dim>& of) {
+  [[nodiscard]] Real at(std::uint64_t key, Real cell, const OfPosition<Dim>& of) {
     const auto k = static_cast<std::size_t>(index_.insert(key));
     if (k == values_.size()) {
       values_.push_back(of(middle_of_column<Dim>(key, cell)));
@@ -27,8 +27,8 @@ class AtColumns {
 
   // Clears the cache when the sliding mass has left most of its columns.
   void forget_if_many(std::size_t columns) {
-    constexpr std::size_t held_per_column = 4;
-    if (values_.size() > held_per_column * columns) {
+    constexpr std::size_t stored_per_column = 4;
+    if (values_.size() > stored_per_column * columns) {
       index_.clear();
       values_.clear();
     }

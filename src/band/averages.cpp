@@ -16,15 +16,15 @@ void average_on_grid(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& mod
   nodes.averages.resize(grid.blocks().size());
   nodes.state.resize(grid.blocks().size());
   const SetNodalState<Dim> set_state{grid, model};
-  mpm::node_pass<mpm::NoAccount>(
+  mpm::node_pass<mpm::NoTotals>(
       grid, [&](std::size_t b) { return mpm::sum_block<mpm::Averages>(grid, b, nodes); },
-      [&](const mpm::NodeAt& at, mpm::NoAccount& /*account*/) { set_state(nodes, at); });
+      [&](const mpm::NodeAt& at, mpm::NoTotals& /*totals*/) { set_state(nodes, at); });
 }
 
 template <int Dim>
 void average_seeping_water(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model,
                            mpm::Particles<Dim>& particles, mpm::Nodes<Dim>& nodes) {
-  if (!model.lets_water_seep() || model.frozen_rows == FrozenRows::draining) {
+  if (!model.has_seepage() || model.frozen_rows == FrozenRows::draining) {
     return;
   }
   const auto hydraulic = model.hydraulic();
@@ -37,10 +37,10 @@ void average_seeping_water(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim
   mpm::particle_pass(
       grid, mpm::LinearWeights{}, particles, nodes, [&](std::size_t t) { return grid.any_about_tile(t, blocks); },
       AddSeepingWater<Dim>{model, hydraulic});
-  nodes.seeping_water.hold(grid.blocks().size(), [&](std::size_t b) { return blocks[b] != 0; });
-  mpm::node_pass<mpm::NoAccount>(
+  nodes.seeping_water.allocate(grid.blocks().size(), [&](std::size_t b) { return blocks[b] != 0; });
+  mpm::node_pass<mpm::NoTotals>(
       grid, [&](std::size_t b) { return blocks[b] != 0 ? mpm::sum_block<mpm::SeepingWater>(grid, b, nodes) : 0; },
-      [&](const mpm::NodeAt& at, mpm::NoAccount& /*account*/) {
+      [&](const mpm::NodeAt& at, mpm::NoTotals& /*totals*/) {
         nodes.state(at)[mpm::NodalState::pore_pressure] = seeping_pressure(nodes.seeping_water(at));
       });
 }

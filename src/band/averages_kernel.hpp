@@ -13,11 +13,11 @@ template <int Dim>
 struct AddAverages {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<mpm::Averages>;
-  using Account = mpm::NoAccount;
+  using Totals = mpm::NoTotals;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Scatter& added, Account& /*account*/) const {
+                                                       Scatter& added, Totals& /*totals*/) const {
     const auto volume = particles.volume.load(at);
     auto& averages = added.template of<mpm::Averages>();
     averages.value[mpm::Averages::volume] = volume;
@@ -40,20 +40,20 @@ template <int Dim>
 struct AddSeepingWater {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<mpm::SeepingWater>;
-  using Account = mpm::NoAccount;
+  using Totals = mpm::NoTotals;
 
   const BandPhysics& model;
   HydraulicConductivity hydraulic;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Scatter& added, Account& /*account*/) const {
+                                                       Scatter& added, Totals& /*totals*/) const {
     using Value = typename At::Value;
     const Value volume = particles.volume.load(at), zero = Real(0);
     const auto seeping = seeps(model, hydraulic, particles, at);
-    const auto takes_part = model.frozen_rows == FrozenRows::sealed ? seeping : hydraulic(particles, at) > Real(0);
+    const auto participates = model.frozen_rows == FrozenRows::sealed ? seeping : hydraulic(particles, at) > Real(0);
     auto& water = added.template of<mpm::SeepingWater>();
-    water.value[mpm::SeepingWater::volume] = select(takes_part, volume, zero);
+    water.value[mpm::SeepingWater::volume] = select(participates, volume, zero);
     water.value[mpm::SeepingWater::pore_pressure] = select(seeping, volume * particles.pore_pressure.load(at), zero);
   }
 };

@@ -79,10 +79,10 @@ class BaseStencil {
   BaseStencil(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& position) : cell_(grid.cell()) {
     typename T::Index below, tile;
     for (std::size_t a = 0; a < Dim; ++a) {
-      const Real place = position[static_cast<int>(a)] * grid.inverse_cell();
-      below[a] = static_cast<int>(std::floor(place));
-      weight_[a] = cubic_weights(place - std::floor(place));
-      first_[a] = (std::floor(place) - Real(1) - place) * grid.cell();
+      const Real in_cells = position[static_cast<int>(a)] * grid.inverse_cell();
+      below[a] = static_cast<int>(std::floor(in_cells));
+      weight_[a] = cubic_weights(in_cells - std::floor(in_cells));
+      first_[a] = (std::floor(in_cells) - Real(1) - in_cells) * grid.cell();
     }
     T::split(below, tile, local_);
     const auto found = std::lower_bound(grid.blocks().begin(), grid.blocks().end(), T::key(tile));
@@ -103,7 +103,7 @@ class BaseStencil {
   // Calls visit(block, node, weight, from_segment) for each node, x fastest. from_segment: vector from the segment to
   // the node [m].
   template <class Visit>
-  THAWSLIDE_ALWAYS_INLINE void for_each_with_place(const Visit& visit) const {
+  THAWSLIDE_ALWAYS_INLINE void for_each_with_offset(const Visit& visit) const {
     Vector<Real, Dim> from_segment;
     for (int row = 0; about_ != nullptr && row < mpm::power(width, Dim - 1); ++row) {
       int direction = T::stencil / 2, first = local_;
@@ -127,8 +127,8 @@ class BaseStencil {
   }
   template <class Visit>
   THAWSLIDE_ALWAYS_INLINE void for_each(const Visit& visit) const {
-    for_each_with_place([&](std::size_t block, std::size_t node, Real weight,
-                            const Vector<Real, Dim>& /*from_segment*/) { visit(block, node, weight); });
+    for_each_with_offset([&](std::size_t block, std::size_t node, Real weight,
+                             const Vector<Real, Dim>& /*from_segment*/) { visit(block, node, weight); });
   }
   // The nodes lie in one or two blocks along each axis. Calls visit(block, corner) for each active one of these blocks;
   // bit a of a corner is set for the second block along axis a.

@@ -48,7 +48,7 @@ void BasalSegments<Dim>::to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<D
   stencils_.resize(segments_.size());
   parallel_for(segments_.size(), [&](std::size_t p) {
     const Segment& segment = segments_[p];
-    const physics::BandMeans means = means_now(segment);
+    const physics::BandMeans means = current_means(segment);
     shared[p] = {};
     shared[p][BaseState::area] = Real(1);
     shared[p][BaseState::temperature] = means.temperature;
@@ -59,9 +59,9 @@ void BasalSegments<Dim>::to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<D
     stencils_[p] = Stencil(grid, segment.position);
   });
   list_segments_by_block(grid.blocks().size());
-  nodes.base_state.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.near_ground.holds(b); });
+  nodes.base_state.allocate(grid.blocks().size(), [&](std::size_t b) { return nodes.near_ground.contains(b); });
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
-    if (!nodes.base_state.holds(b)) {
+    if (!nodes.base_state.contains(b)) {
       return;
     }
     Record* records = nodes.base_state.of_block(b);
@@ -72,9 +72,9 @@ void BasalSegments<Dim>::to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<D
       const Real area = segments_[p].area;
       stencils_[p].for_each_in(by_block_[n].corner, [&](std::size_t node, Real weight) {
         Record& record = records[node];
-        const Real share = weight * area;
+        const Real fraction = weight * area;
         for (std::size_t c = 0; c < record.size(); ++c) {
-          record[c] += share * of_segment[c];
+          record[c] += fraction * of_segment[c];
         }
       });
     }
@@ -82,8 +82,9 @@ void BasalSegments<Dim>::to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<D
 }
 
 template <int Dim>
-void BasalSegments<Dim>::take(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground,
-                              Real thickness, Real dt, mpm::Nodes<Dim>& nodes) {
+void BasalSegments<Dim>::update_from_nodes(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
+                                           const NodeGroundOf& node_ground, Real thickness, Real dt,
+                                           mpm::Nodes<Dim>& nodes) {
   THAWSLIDE_ASSERT(stencils_.size() == segments_.size(), "{} segments read from nodes, of which {} have added to them",
                    segments_.size(), stencils_.size());
   if (checks_gaps_ || some_node_is_bare(grid, nodes)) {
@@ -133,33 +134,34 @@ typename BasalSegments<Dim>::Nearby BasalSegments<Dim>::slide_near(const mpm::Sp
     return v - v.dot(segment.normal) * segment.normal;
   };
   Real mass = 0;
-  Vector<Real, Dim> places = Vector<Real, Dim>::Zero(), velocities = Vector<Real, Dim>::Zero();  // times mass
+  Vector<Real, Dim> positions = Vector<Real, Dim>::Zero(), velocities = Vector<Real, Dim>::Zero();  // times mass
   Matrix<Real, Dim> squares = Matrix<Real, Dim>::Zero(), together = Matrix<Real, Dim>::Zero();
-  stencil.for_each_with_place([&](std::size_t b, std::size_t node, Real weight, const Vector<Real, Dim>& from_segment) {
-    const Real of_node = weight * nodes.momentum(b, node)[mpm::MomentumLayout<Dim>::mass];
-    if (!(of_node > Real(0))) {
-      return;
-    }
-    auto velocity = mpm::vector_at<Dim>(nodes.motion(b, node), mpm::MotionLayout<Dim>::middle_velocity);
-    const Vector<Real, Dim>* normal = node_ground(b, node).normal;
-    velocity = along_ground(normal != nullptr ? turned<Dim>(velocity, *normal, segment.normal) : velocity);
-    const Vector<Real, Dim> place = along_ground(from_segment);
-    const Vector<Real, Dim> weighted = of_node * place;
-    mass += of_node;
-    places += weighted;
-    velocities += of_node * velocity;
-    squares += place * weighted.transpose();
-    together += velocity * weighted.transpose();
-  });
+  stencil.for_each_with_offset(
+      [&](std::size_t b, std::size_t node, Real weight, const Vector<Real, Dim>& from_segment) {
+        const Real of_node = weight * nodes.momentum(b, node)[mpm::MomentumLayout<Dim>::mass];
+        if (!(of_node > Real(0))) {
+          return;
+        }
+        auto velocity = mpm::vector_at<Dim>(nodes.motion(b, node), mpm::MotionLayout<Dim>::middle_velocity);
+        const Vector<Real, Dim>* normal = node_ground(b, node).normal;
+        velocity = along_ground(normal != nullptr ? turned<Dim>(velocity, *normal, segment.normal) : velocity);
+        const Vector<Real, Dim> position = along_ground(from_segment);
+        const Vector<Real, Dim> weighted = of_node * position;
+        mass += of_node;
+        positions += weighted;
+        velocities += of_node * velocity;
+        squares += position * weighted.transpose();
+        together += velocity * weighted.transpose();
+      });
   Nearby result;
   if (!(mass > Real(0))) {
     return result;
   }
-  const Vector<Real, Dim> mean_place = places / mass, mean_velocity = velocities / mass;
-  const Matrix<Real, Dim> spread = squares - places * mean_place.transpose() +
+  const Vector<Real, Dim> mean_position = positions / mass, mean_velocity = velocities / mass;
+  const Matrix<Real, Dim> spread = squares - positions * mean_position.transpose() +
                                    mass * smallest_spread * grid.cell() * grid.cell() * Matrix<Real, Dim>::Identity();
-  result.gradient = (together - velocities * mean_place.transpose()) * spread.inverse();
-  result.velocity = mean_velocity - result.gradient * mean_place;
+  result.gradient = (together - velocities * mean_position.transpose()) * spread.inverse();
+  result.velocity = mean_velocity - result.gradient * mean_position;
   result.is_present = true;
   return result;
 }
@@ -169,10 +171,10 @@ void BasalSegments<Dim>::gather_from_nodes(const Stencil& stencil, Real dt, cons
                                            Segment& segment) const {
   Real force = 0, area = 0, heat = 0, slip = 0, borne = 0;  // borne: normal force per area of the segment [Pa]
   stencil.for_each_block([&](std::size_t b, int corner) {
-    if (!nodes.contact.holds(b)) {
+    if (!nodes.contact.contains(b)) {
       return;
     }
-    THAWSLIDE_ASSERT(nodes.base_state.holds(b), "block {} has contact and no state of the base", b);
+    THAWSLIDE_ASSERT(nodes.base_state.contains(b), "block {} has contact and no state of the base", b);
     const auto* contacts = &nodes.contact(b, 0);
     const auto* states = &nodes.base_state(b, 0);
     stencil.for_each_in(corner, [&](std::size_t node, Real weight) {
@@ -206,10 +208,10 @@ void BasalSegments<Dim>::update_load(Real normal_pressure, Real borne, Real dt, 
 
 template <int Dim>
 void BasalSegments<Dim>::place_on(const Ground& ground, Segment& segment) const {
-  const Vector<Real, Dim - 1> place = segment.position.template head<Dim - 1>();
+  const Vector<Real, Dim - 1> position = segment.position.template head<Dim - 1>();
   const Vector<Real, Dim> before = segment.normal;
-  segment.position[Dim - 1] = ground.height(place);
-  segment.normal = ground.normal(place);
+  segment.position[Dim - 1] = ground.height(position);
+  segment.normal = ground.normal(position);
   for (int side = 0; side + 1 < Dim; ++side) {
     const Vector<Real, Dim> edge = turned<Dim>(segment.sides.col(side), before, segment.normal);
     segment.sides.col(side) = edge;
@@ -257,39 +259,39 @@ void BasalSegments<Dim>::split_long_segments(Real most, const Ground& ground) {
 template <int Dim>
 void BasalSegments<Dim>::merge_small_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground) {
   const Real largest = static_cast<Real>(largest_joined * std::pow(grid.cell(), Dim - 1));
-  struct Place {
+  struct Entry {
     LatticePart at;
     std::size_t segment;
   };
-  std::vector<Place> places(segments_.size());
+  std::vector<Entry> entries(segments_.size());
   parallel_for(segments_.size(), [&](std::size_t p) {
     const Lattice cell = lattice_cell(grid, segments_[p].position), parts = parts_on(segments_[p].normal);
-    places[p] = {{cell, lattice_part(grid, segments_[p].position, cell, parts), parts}, p};
+    entries[p] = {{cell, lattice_part(grid, segments_[p].position, cell, parts), parts}, p};
   });
-  const auto key = [](const Place& place) { return std::tie(place.at.cell, place.at.part); };
-  std::sort(places.begin(), places.end(),
-            [&](const Place& a, const Place& b) { return key(a) != key(b) ? key(a) < key(b) : a.segment < b.segment; });
+  const auto key = [](const Entry& entry) { return std::tie(entry.at.cell, entry.at.part); };
+  std::sort(entries.begin(), entries.end(),
+            [&](const Entry& a, const Entry& b) { return key(a) != key(b) ? key(a) < key(b) : a.segment < b.segment; });
   std::vector<std::uint8_t> joined(segments_.size(), 0);
   std::size_t smallest = 0;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const Place& place = places[k];
-    Segment &segment = segments_[place.segment], &small = segments_[smallest];
-    const bool is_first = k == 0 || key(place) != key(places[k - 1]);
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    const Entry& entry = entries[k];
+    Segment &segment = segments_[entry.segment], &small = segments_[smallest];
+    const bool is_first = k == 0 || key(entry) != key(entries[k - 1]);
     const auto is_near = [&] {
       Real furthest = 0;  // in sizes of the part
       for (std::size_t a = 0; a + 1 < Dim; ++a) {
         const auto axis = static_cast<int>(a);
         furthest = std::max(
-            furthest, std::abs(small.position[axis] - segment.position[axis]) * static_cast<Real>(place.at.parts[a]));
+            furthest, std::abs(small.position[axis] - segment.position[axis]) * static_cast<Real>(entry.at.parts[a]));
       }
       return furthest < Real(joining_reach) * grid.cell();
     };
     if (!is_first && small.area + segment.area <= ground.width(small.position.template head<Dim - 1>()) * largest &&
         is_near()) {
       join(segment, ground, small);
-      joined[place.segment] = 1;
+      joined[entry.segment] = 1;
     } else if (is_first || segment.area < small.area) {
-      smallest = place.segment;
+      smallest = entry.segment;
     }
   }
   keep_only(joined);
@@ -312,9 +314,9 @@ void BasalSegments<Dim>::keep_only(const std::vector<std::uint8_t>& left) {
 
 template <int Dim>
 void BasalSegments<Dim>::join(const Segment& other, const Ground& ground, Segment& segment) {
-  const Real share = segment.area / (segment.area + other.area);
-  const Vector<Real, Dim> middle = share * segment.position + (Real(1) - share) * other.position;
-  add_to_ledger(merge_from(model_, other, segment));
+  const Real fraction = segment.area / (segment.area + other.area);
+  const Vector<Real, Dim> middle = fraction * segment.position + (Real(1) - fraction) * other.position;
+  add_to_budget(merge_from(model_, other, segment));
   segment.position = middle;
   place_on(ground, segment);
   segment.sides = sides_on<Dim>(segment.normal, Vector<Real, Dim - 1>::Ones());
@@ -325,33 +327,33 @@ void BasalSegments<Dim>::join(const Segment& other, const Ground& ground, Segmen
 
 template <int Dim>
 void BasalSegments<Dim>::remove_segment(const Segment& segment) {
-  ledger_.left_heat += segment.area_of_column * physics::heat_of(segment.column) + segment.heat;
-  ledger_.left_water += segment.area_of_column * physics::water_of(segment.column);
-  ledger_.friction_heat += segment.heat;
+  budget_.left_heat += segment.area_of_column * physics::heat_of(segment.column) + segment.heat;
+  budget_.left_water += segment.area_of_column * physics::water_of(segment.column);
+  budget_.friction_heat += segment.heat;
 }
 
 template <int Dim>
 void BasalSegments<Dim>::step(Real thickness, Real duration) {
-  std::vector<physics::ColumnAccount> accounts(segments_.size());
+  std::vector<physics::ColumnBudget> budgets(segments_.size());
   parallel_for(segments_.size(), [&](std::size_t p) {
-    accounts[p] = step_segment(model_, thickness, duration, segments_[p]);
+    budgets[p] = step_segment(model_, thickness, duration, segments_[p]);
     keep_means(model_, segments_[p]);
   });
-  for (const auto& account : accounts) {
-    add_to_ledger(account);
+  for (const auto& budget : budgets) {
+    add_to_budget(budget);
   }
 }
 
 template <int Dim>
-void BasalSegments<Dim>::add_to_ledger(const physics::ColumnAccount& account) {
-  ledger_.friction_heat += account.friction_heat;
-  ledger_.body_heat += account.body_heat;
-  ledger_.ground_heat += account.ground_heat;
-  ledger_.vented_heat += account.vented_heat;
-  ledger_.steam_heat += account.steam_heat;
-  ledger_.body_water += account.body_water;
-  ledger_.vented_water += account.vented_water;
-  ledger_.steam += account.steam;
+void BasalSegments<Dim>::add_to_budget(const physics::ColumnBudget& budget) {
+  budget_.friction_heat += budget.friction_heat;
+  budget_.body_heat += budget.body_heat;
+  budget_.ground_heat += budget.ground_heat;
+  budget_.vented_heat += budget.vented_heat;
+  budget_.steam_heat += budget.steam_heat;
+  budget_.body_water += budget.body_water;
+  budget_.vented_water += budget.vented_water;
+  budget_.steam += budget.steam;
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim) template class BasalSegments<Dim>;

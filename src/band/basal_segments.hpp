@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "band/segment_step.hpp"
-#include "base/named_numbers.hpp"
+#include "base/state_numbers.hpp"
 #include "mpm/nodes.hpp"
 
 namespace thawslide::band {
@@ -35,9 +35,9 @@ struct ColumnLedger {
 
   template <class Visit>
   void for_each(const Visit& visit) {
-    for (Real* account : {&created_heat, &friction_heat, &body_heat, &ground_heat, &vented_heat, &steam_heat,
-                          &left_heat, &created_water, &body_water, &vented_water, &steam, &left_water}) {
-      visit(*account);
+    for (Real* term : {&created_heat, &friction_heat, &body_heat, &ground_heat, &vented_heat, &steam_heat, &left_heat,
+                       &created_water, &body_water, &vented_water, &steam, &left_water}) {
+      visit(*term);
     }
   }
 };
@@ -61,8 +61,9 @@ class BasalSegments {
     std::function<Real(const Vector<Real, Dim - 1>&)> width;                // of a 2D section, relative; 1 in 3D
 
     // Area of ground spanned by edges around a position [m2].
-    [[nodiscard]] Real area_of(const Vector<Real, Dim>& place, const typename BasalSegment<Dim>::Sides& sides) const {
-      return width(place.template head<Dim - 1>()) * band::area_of<Dim>(sides);
+    [[nodiscard]] Real area_of(const Vector<Real, Dim>& position,
+                               const typename BasalSegment<Dim>::Sides& sides) const {
+      return width(position.template head<Dim - 1>()) * band::area_of<Dim>(sides);
     }
   };
   // Ground at a node: unit normal into the ground and distance above it [m]; null if the ground is not near.
@@ -73,15 +74,15 @@ class BasalSegments {
   using NodeGroundOf = std::function<NodeGround(std::size_t block, std::size_t node)>;
 
   // gravity [m/s2].
-  BasalSegments(ColumnsModel model, const Vector<Real, Dim>& gravity) : model_(std::move(model)), gravity_(gravity) {}
+  BasalSegments(const ColumnsModel& model, const Vector<Real, Dim>& gravity) : model_(model), gravity_(gravity) {}
 
   // Fills nodes.base_state of the blocks with contact. Call before each take, which uses the same stencils.
   void to_nodes(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<Dim>& nodes);
 
   // Applies contact over dt to all segments (load, heat, slip) at the positions used by to_nodes, then moves them by
   // dt. First creates segments where the sliding mass touches ground without one. Call after contact.
-  void take(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground, Real thickness,
-            Real dt, mpm::Nodes<Dim>& nodes);
+  void update_from_nodes(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground,
+                         Real thickness, Real dt, mpm::Nodes<Dim>& nodes);
 
   // Updates segment velocities and stretches segments with the flow over the last `duration` [s]; then splits long
   // segments and merges small ones.
@@ -93,7 +94,7 @@ class BasalSegments {
 
   [[nodiscard]] const std::vector<BasalSegment<Dim>>& segments() const { return segments_; }
   // Means of the column after its last step, with the pore pressure under the present load.
-  [[nodiscard]] static physics::BandMeans means_now(const BasalSegment<Dim>& segment) {
+  [[nodiscard]] static physics::BandMeans current_means(const BasalSegment<Dim>& segment) {
     physics::BandMeans means = segment.means;
     means.pore_pressure = physics::band_pressure(segment.load, segment.column);
     return means;
@@ -101,7 +102,7 @@ class BasalSegments {
   [[nodiscard]] physics::ColumnVolumes volumes_of(const BasalSegment<Dim>& segment) const {
     return band::volumes_of(model_, segment);
   }
-  [[nodiscard]] const ColumnLedger& ledger() const { return ledger_; }
+  [[nodiscard]] const ColumnLedger& budget() const { return budget_; }
   [[nodiscard]] ColumnSums sums() const;
   [[nodiscard]] BaseMeans means() const;
 
@@ -117,20 +118,20 @@ class BasalSegments {
   // Part of a lattice cell. On steep ground, a cell is divided along each axis, because a segment reaches only the
   // nodes of its stencil.
   struct LatticePart {
-    Lattice cell, part, parts;  // parts: number along each axis
-    auto operator<=>(const LatticePart&) const = default;
+    Lattice cell, part, parts;                             // parts: number along each axis
+    auto operator<=>(const LatticePart&) const = default;  // NOLINT(modernize-use-nullptr): false positive
   };
   // Footpoint of a node in contact: its point on the ground, the lattice cell of this point, and the number of parts of
   // a cell on ground of this slope.
   struct Footpoint {
     Lattice cell, parts;
-    Vector<Real, Dim> place;
+    Vector<Real, Dim> position;
   };
   // Number of parts of a lattice cell along each axis, on ground with this normal.
   [[nodiscard]] static Lattice parts_on(const Vector<Real, Dim>& normal);
-  [[nodiscard]] Lattice lattice_part(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& place,
+  [[nodiscard]] Lattice lattice_part(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& position,
                                      const Lattice& cell, const Lattice& parts) const;
-  [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& place) const;
+  [[nodiscard]] Lattice lattice_cell(const mpm::SparseGrid<Dim>& grid, const Vector<Real, Dim>& position) const;
   [[nodiscard]] std::vector<Footpoint> contact_footpoints(const mpm::SparseGrid<Dim>& grid, const Ground& ground,
                                                           const NodeGroundOf& node_ground,
                                                           const mpm::Nodes<Dim>& nodes) const;
@@ -141,7 +142,7 @@ class BasalSegments {
   void create_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground, const NodeGroundOf& node_ground,
                        Real thickness, mpm::Nodes<Dim>& nodes);
   void list_segments_by_block(std::size_t blocks);
-  void add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim>& nodes, Real share = 1) const;
+  void add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim>& nodes, Real fraction = 1) const;
   struct InContact {
     Real area = 0, normal_force = 0;  // [m2], [N]
   };
@@ -166,7 +167,7 @@ class BasalSegments {
   void merge_small_segments(const mpm::SparseGrid<Dim>& grid, const Ground& ground);
   void join(const Segment& other, const Ground& ground, Segment& segment);
   void keep_only(const std::vector<std::uint8_t>& left);
-  void add_to_ledger(const physics::ColumnAccount& account);
+  void add_to_budget(const physics::ColumnBudget& term);
   void remove_segment(const Segment& segment);
   void place_on(const Ground& ground, Segment& segment) const;
   void update_load(Real normal_pressure, Real borne, Real dt, Segment& segment) const;
@@ -183,7 +184,7 @@ class BasalSegments {
   };
   std::vector<std::uint32_t> first_of_block_;
   std::vector<Seen> by_block_;
-  ColumnLedger ledger_;
+  ColumnLedger budget_;
   std::int64_t next_id_ = 0;
   bool checks_gaps_ = true;
 };

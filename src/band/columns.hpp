@@ -36,12 +36,12 @@ THAWSLIDE_HD std::array<int, Dim - 1> first_cell_of(std::uint64_t tile_key) {
 
 // Key of the column at a place in a tile.
 template <int Dim>
-THAWSLIDE_HD std::uint64_t column_key(std::uint64_t tile_key, std::size_t place) {
+THAWSLIDE_HD std::uint64_t column_key(std::uint64_t tile_key, std::size_t index) {
   const auto first = first_cell_of<Dim>(tile_key);
   std::uint64_t key = 0;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    const int along = first[a] + static_cast<int>(place % static_cast<std::size_t>(columns_per_axis<Dim>));
-    place /= static_cast<std::size_t>(columns_per_axis<Dim>);
+    const int along = first[a] + static_cast<int>(index % static_cast<std::size_t>(columns_per_axis<Dim>));
+    index /= static_cast<std::size_t>(columns_per_axis<Dim>);
     key |= static_cast<std::uint64_t>(column_origin + along) << (32 * a);
   }
   return key;

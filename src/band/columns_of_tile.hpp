@@ -13,10 +13,10 @@ namespace thawslide::band {
 // Overlap of boxes with two cells along one horizontal axis, `lower` and the next one.
 template <class Value>
 struct Overlap {
-  Value lower;     // number of the cell, relative to the tile's first one
-  Value from[2];   // [m]
-  Value to[2];     // [m]
-  Value share[2];  // fraction of the box
+  Value lower;        // number of the cell, relative to the tile's first one
+  Value from[2];      // [m]
+  Value to[2];        // [m]
+  Value fraction[2];  // fraction of the box
 };
 
 template <class Value>
@@ -34,8 +34,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Overlap<Value> overlap(Value middle, const 
   over.from[1] = border;
   over.to[1] = select(crosses, end, border);
   const Value inverse_width = static_cast<Real>(0.5) * size.inverse;
-  over.share[0] = (over.to[0] - over.from[0]) * inverse_width;
-  over.share[1] = (over.to[1] - over.from[1]) * inverse_width;
+  over.fraction[0] = (over.to[0] - over.from[0]) * inverse_width;
+  over.fraction[1] = (over.to[1] - over.from[1]) * inverse_width;
   return over;
 }
 
@@ -64,13 +64,13 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void for_columns(const Overlaps<Dim, Value>
   constexpr auto per_axis = static_cast<Real>(columns_per_axis<Dim>);
   unrolled<static_cast<std::size_t>(1) << (Dim - 1)>([&](auto corner) THAWSLIDE_INLINE_LAMBDA {
     std::array<std::size_t, Dim - 1> side{};
-    Value place = Real(0), share = Real(1);
+    Value index = Real(0), fraction = Real(1);
     for (std::size_t a = Dim - 1; a-- > 0;) {
       side[a] = corner >> a & 1;
-      place = place * per_axis + along[a].lower + static_cast<Real>(side[a]);
-      share = share * along[a].share[side[a]];
+      index = index * per_axis + along[a].lower + static_cast<Real>(side[a]);
+      fraction = fraction * along[a].fraction[side[a]];
     }
-    visit(side, place, share);
+    visit(side, index, fraction);
   });
 }
 
@@ -91,8 +91,8 @@ struct NumbersOfTile {
   std::array<Real, columns_per_tile<Dim>> numbers;
 
   template <class Value>
-  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value at(const Value& place) const {
-    return look_up(numbers.data(), place);
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value at(const Value& index) const {
+    return look_up(numbers.data(), index);
   }
 };
 // The same, by index into the numbers of all columns.
@@ -100,8 +100,8 @@ struct NumbersOfColumns {
   const Real* numbers;
   const std::int32_t* column;  // by place
 
-  [[nodiscard]] THAWSLIDE_HD Real at(const Real& place) const {
-    return numbers[column[static_cast<std::size_t>(place)]];
+  [[nodiscard]] THAWSLIDE_HD Real at(const Real& index) const {
+    return numbers[column[static_cast<std::size_t>(index)]];
   }
 };
 
@@ -123,15 +123,15 @@ struct ColumnsOfTile {
     const bool any_in_band = any(in_band);
     Value depth = Real(0);
     for_columns<Dim>(overlaps<Dim>(first_cell, cell, inverse_cell, sizes, particles, at),
-                     [&](const auto& /*side*/, Value place, Value share) THAWSLIDE_INLINE_LAMBDA {
-                       if (!any(share > Real(0))) {
+                     [&](const auto& /*side*/, Value index, Value fraction) THAWSLIDE_INLINE_LAMBDA {
+                       if (!any(fraction > Real(0))) {
                          return;
                        }
-                       Value here = max(top.at(place) - height, Value(Real(0)));
+                       Value here = max(top.at(index) - height, Value(Real(0)));
                        if (any_in_band) {
-                         here = select(in_band, thickness.at(place), here);
+                         here = select(in_band, thickness.at(index), here);
                        }
-                       depth += share * cosine.at(place) * here;
+                       depth += fraction * cosine.at(index) * here;
                      });
     return depth;
   }
@@ -140,12 +140,12 @@ struct ColumnsOfTile {
   [[nodiscard]] THAWSLIDE_HD typename At::Value below_top(const Particles& particles, const At& at) const {
     using Value = typename At::Value;
     using std::floor;
-    Value place = Real(0);
+    Value index = Real(0);
     for (std::size_t a = Dim - 1; a-- > 0;) {
       const Value number = floor(particles.position.load(at, static_cast<int>(a)) * inverse_cell);
-      place = place * Real(columns_per_axis<Dim>) + (number - static_cast<Real>(first_cell[a]));
+      index = index * Real(columns_per_axis<Dim>) + (number - static_cast<Real>(first_cell[a]));
     }
-    return top.at(place) - particles.position.load(at, Dim - 1);
+    return top.at(index) - particles.position.load(at, Dim - 1);
   }
 };
 

@@ -18,9 +18,9 @@ void FlowDepth<Dim>::number_columns(const mpm::SparseGrid<Dim>& grid, const mpm:
   tiles_.resize(grid.tiles().size());
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
     numbered_.push_back(grid.tiles()[t].key);
-    for (std::size_t place = 0; place < places; ++place) {
-      const std::uint64_t key = column_key<Dim>(grid.tiles()[t].key, place);
-      tiles_[t].number[place] = column_index_.insert(key);
+    for (std::size_t index = 0; index < indices; ++index) {
+      const std::uint64_t key = column_key<Dim>(grid.tiles()[t].key, index);
+      tiles_[t].number[index] = column_index_.insert(key);
       if (column_index_.size() > column_keys_.size()) {
         column_keys_.push_back(key);
       }
@@ -54,10 +54,10 @@ void FlowDepth<Dim>::add_tile(const mpm::SparseGrid<Dim>& grid, const mpm::Parti
     std::array<std::array<std::int32_t, mpm::SimdBatch::most>, corners> columns;
     std::array<Simd<Real>, corners> volumes;
     std::size_t seen = 0;
-    for_columns<Dim>(along, [&](const auto& /*side*/, Simd<Real> place, Simd<Real> share) THAWSLIDE_INLINE_LAMBDA {
-      if (any(share > Real(0))) {
-        place.store_whole(columns[seen].data());
-        volumes[seen++] = share * volume;
+    for_columns<Dim>(along, [&](const auto& /*side*/, Simd<Real> index, Simd<Real> fraction) THAWSLIDE_INLINE_LAMBDA {
+      if (any(fraction > Real(0))) {
+        index.store_whole(columns[seen].data());
+        volumes[seen++] = fraction * volume;
       }
     });
     for (std::size_t lane = 0; lane < batch.count; ++lane) {
@@ -78,10 +78,10 @@ void FlowDepth<Dim>::add_extents(const mpm::SparseGrid<Dim>& grid, const mpm::Pa
   const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
   for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
     const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
-    for_columns<Dim>(along, [&](const auto& side, Simd<Real> place, Simd<Real> share) {
+    for_columns<Dim>(along, [&](const auto& side, Simd<Real> index, Simd<Real> fraction) {
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
-        if (share[lane] > Real(0)) {
-          part.extent[static_cast<std::size_t>(place[lane])] += extent_in_column<Dim>(along, side, lane);
+        if (fraction[lane] > Real(0)) {
+          part.extent[static_cast<std::size_t>(index[lane])] += extent_in_column<Dim>(along, side, lane);
         }
       }
     });
@@ -95,8 +95,8 @@ void FlowDepth<Dim>::sum_columns() {
     column.column_mass = {};
   }
   for (const TilePart& tile : tiles_) {
-    for (std::size_t place = 0; place < places; ++place) {
-      columns_[static_cast<std::size_t>(tile.number[place])].column_mass += tile.column_mass[place];
+    for (std::size_t index = 0; index < indices; ++index) {
+      columns_[static_cast<std::size_t>(tile.number[index])].column_mass += tile.column_mass[index];
     }
   }
 }
@@ -122,8 +122,8 @@ void FlowDepth<Dim>::find_edge() {
 template <int Dim>
 void FlowDepth<Dim>::set_footprints(Real cell) {
   for (const std::size_t t : edge_tiles_) {
-    for (std::size_t place = 0; place < places; ++place) {
-      columns_[static_cast<std::size_t>(tiles_[t].number[place])].extent += tiles_[t].extent[place];
+    for (std::size_t index = 0; index < indices; ++index) {
+      columns_[static_cast<std::size_t>(tiles_[t].number[index])].extent += tiles_[t].extent[index];
     }
   }
   for (Column& column : columns_) {
@@ -156,11 +156,11 @@ ColumnsOfTile<Dim> FlowDepth<Dim>::of_tile(const mpm::SparseGrid<Dim>& grid, std
   columns.cell = grid.cell();
   columns.inverse_cell = grid.inverse_cell();
   columns.sizes = sizes_.view();
-  for (std::size_t place = 0; place < places; ++place) {
-    const Column& here = columns_[static_cast<std::size_t>(tiles_[t].number[place])];
-    columns.thickness.numbers[place] = thickness_of(here.column_mass, here.footprint);
-    columns.top.numbers[place] = here.column_mass.top;
-    columns.cosine.numbers[place] = here.cosine;
+  for (std::size_t index = 0; index < indices; ++index) {
+    const Column& here = columns_[static_cast<std::size_t>(tiles_[t].number[index])];
+    columns.thickness.numbers[index] = thickness_of(here.column_mass, here.footprint);
+    columns.top.numbers[index] = here.column_mass.top;
+    columns.cosine.numbers[index] = here.cosine;
   }
   return columns;
 }
@@ -186,17 +186,17 @@ void FlowDepth<Dim>::sum_masses(const mpm::SparseGrid<Dim>& grid, const mpm::Par
     const auto first_cell = first_cell_of<Dim>(grid.tiles()[t].key);
     for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
       const auto along = overlaps<Dim>(first_cell, grid.cell(), grid.inverse_cell(), sizes_.view(), particles, batch);
-      std::array<Simd<Real>, corners> columns, shares;
+      std::array<Simd<Real>, corners> columns, fractions;
       std::size_t corner = 0;
-      for_columns<Dim>(along, [&](const auto& /*side*/, Simd<Real> place, Simd<Real> share) {
-        columns[corner] = place;
-        shares[corner++] = share;
+      for_columns<Dim>(along, [&](const auto& /*side*/, Simd<Real> index, Simd<Real> fraction) {
+        columns[corner] = index;
+        fractions[corner++] = fraction;
       });
       for (std::size_t lane = 0; lane < batch.count; ++lane) {
         for (std::size_t k = 0; k < corners; ++k) {
-          if (shares[k][lane] > Real(0)) {
+          if (fractions[k][lane] > Real(0)) {
             masses[static_cast<std::size_t>(columns[k][lane])] +=
-                shares[k][lane] * particles.mass(batch.particle[lane]);
+                fractions[k][lane] * particles.mass(batch.particle[lane]);
           }
         }
       }
@@ -204,8 +204,8 @@ void FlowDepth<Dim>::sum_masses(const mpm::SparseGrid<Dim>& grid, const mpm::Par
   });
   masses_.assign(columns_.size(), Real(0));
   for (std::size_t t = 0; t < tiles_.size(); ++t) {
-    for (std::size_t place = 0; place < places; ++place) {
-      masses_[static_cast<std::size_t>(tiles_[t].number[place])] += tile_masses_[t][place];
+    for (std::size_t index = 0; index < indices; ++index) {
+      masses_[static_cast<std::size_t>(tiles_[t].number[index])] += tile_masses_[t][index];
     }
   }
 }
@@ -223,8 +223,8 @@ void FlowDepth<Dim>::load_to_particles(const mpm::SparseGrid<Dim>& grid, const N
   }
   parallel_for(tiles_.size(), [&](std::size_t t) {
     OfTile columns = of_tile(grid, t);
-    for (std::size_t place = 0; place < places; ++place) {
-      columns.cosine.numbers[place] = load_per_depth_[static_cast<std::size_t>(tiles_[t].number[place])];
+    for (std::size_t index = 0; index < indices; ++index) {
+      columns.cosine.numbers[index] = load_per_depth_[static_cast<std::size_t>(tiles_[t].number[index])];
     }
     for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
       const Simd<Real> load = columns.flow_depth(particles, batch);

@@ -21,10 +21,10 @@ template <int Dim>
 class FlowDepth {
  public:
   // Slope cosine of the terrain at a horizontal position [m].
-  using SlopeCosine = OfPlace<Dim>;
+  using SlopeCosine = OfPosition<Dim>;
   // Gravity component that loads the ground per mass and footprint, at a horizontal position [m/s2]: g.n times the
   // slope cosine, because the ground area exceeds the footprint by its inverse.
-  using NormalGravity = OfPlace<Dim>;
+  using NormalGravity = OfPosition<Dim>;
 
   // Updates the columns from positions and volumes. slope_cosine may be empty (level ground) and must be the same in
   // every call.
@@ -43,7 +43,7 @@ class FlowDepth {
 
  private:
   using OfTile = ColumnsOfTile<Dim>;
-  static constexpr std::size_t places = columns_per_tile<Dim>;
+  static constexpr std::size_t indices = columns_per_tile<Dim>;
 
   struct Column {
     ColumnMass column_mass;
@@ -56,9 +56,9 @@ class FlowDepth {
   };
   // Contribution of one tile's particles to the columns in reach, by place.
   struct TilePart {
-    std::array<ColumnMass, places> column_mass;
-    std::array<Extent<Dim>, places> extent;  // if one of the columns is at the edge
-    std::array<std::int32_t, places> number;
+    std::array<ColumnMass, indices> column_mass;
+    std::array<Extent<Dim>, indices> extent;  // if one of the columns is at the edge
+    std::array<std::int32_t, indices> number;
   };
 
   void number_columns(const mpm::SparseGrid<Dim>& grid, const mpm::SectionWidth& width,
@@ -83,7 +83,7 @@ class FlowDepth {
   std::vector<std::size_t> edge_tiles_;
   mpm::BodySizes sizes_;  // half sizes of particles [m]
   // If loads are required: mass of each tile's columns by place, and of columns [kg]; load per depth [Pa/m].
-  std::vector<std::array<Real, places>> tile_masses_;
+  std::vector<std::array<Real, indices>> tile_masses_;
   std::vector<Real> masses_, load_per_depth_;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "band/heat_kernels.hpp"
@@ -22,7 +21,7 @@ NodalHeat solve_with_tangent(const mpm::SparseGrid<Dim>& grid, const BandModel<D
                              mpm::Nodes<Dim>& nodes) {
   using mpm::HeatRates;
   nodes.heat_rates.resize(grid.blocks().size());
-  nodes.unreached_heat.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.contact.holds(b); });
+  nodes.unreached_heat.allocate(grid.blocks().size(), [&](std::size_t b) { return nodes.contact.contains(b); });
   const SolveTemperatureRate<Dim> solve{grid, model, dt, first_step};
   return mpm::node_pass<NodalHeat>(
       grid, [&](std::size_t b) { return mpm::sum_block<HeatRates>(grid, b, nodes); },
@@ -40,7 +39,7 @@ Real solve_with_secant(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& m
                        mpm::Nodes<Dim>& nodes) {
   using mpm::HeatRates;
   const auto& changing = nodes.marks.changing_blocks;
-  nodes.secant_rates.hold(grid.blocks().size(), [&](std::size_t b) { return changing[b] != 0; });
+  nodes.secant_rates.allocate(grid.blocks().size(), [&](std::size_t b) { return changing[b] != 0; });
   const SolveTemperatureRate<Dim> solve{grid, model, dt, first_step};
   const NodalHeat solved = mpm::node_pass<NodalHeat>(
       grid,

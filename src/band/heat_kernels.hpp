@@ -19,7 +19,7 @@ template <int Dim, class Law>
 struct HeatFlows {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<mpm::HeatRates>;
-  using Account = mpm::NoAccount;
+  using Totals = mpm::NoTotals;
 
   const BandPhysics& model;
   HydraulicConductivity hydraulic;
@@ -31,7 +31,7 @@ struct HeatFlows {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& added, Account& /*account*/) const {
+                                                       Scatter& added, Totals& /*totals*/) const {
     using Value = typename At::Value;
     const auto state = seen.template read<mpm::NodalState, 1>(mpm::NodalState::temperature);
     const auto gradient = gradient_of(state, 0);
@@ -49,7 +49,7 @@ struct HeatFlows {
       }
       if (subgrid) {
         in_cell = (state.value[0] - particles.temperature.load(at)) *
-                  physics::share_of_subgrid_diffusion(conductivity / tangent, inverse_cell * scaling, Dim, dt);
+                  physics::subgrid_diffusion_fraction(conductivity / tangent, inverse_cell * scaling, Dim, dt);
       }
     }
     particles.secant_capacity.store(at, tangent);
@@ -115,14 +115,14 @@ template <int Dim, class Law>
 struct SecantCapacity {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<mpm::HeatRates>;
-  using Account = mpm::NoAccount;
+  using Totals = mpm::NoTotals;
 
   const Law& law;
   Real dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& added, Account& /*account*/) const {
+                                                       Scatter& added, Totals& /*totals*/) const {
     using Value = typename At::Value;
     const Value change = change_of_temperature(particles, at, seen, dt);
     Value secant = particles.secant_capacity.load(at);  // still the tangent
@@ -144,13 +144,13 @@ template <int Dim>
 struct RedistributeUnreachedHeat {
   using Reads = mpm::RecordList<mpm::UnreachedHeat>;
   using Adds = mpm::RecordList<>;
-  using Account = mpm::NoAccount;
+  using Totals = mpm::NoTotals;
 
   Real dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& /*added*/, Account& /*account*/) const {
+                                                       Scatter& /*added*/, Totals& /*totals*/) const {
     const auto specific = seen.template read<mpm::UnreachedHeat, 1>().value[0];
     const auto gain = dt * specific * particles.mass.load(at) * particles.thermal_scaling.load(at) /
                       particles.initial_volume.load(at);  // [J/m3]
@@ -176,7 +176,7 @@ template <int Dim, class Law>
 struct UpdateHeat {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<>;
-  using Account = mpm::NoAccount;
+  using Totals = mpm::NoTotals;
 
   const BandPhysics& model;
   const Law& law;
@@ -184,7 +184,7 @@ struct UpdateHeat {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& /*added*/, Account& /*account*/) const {
+                                                       Scatter& /*added*/, Totals& /*totals*/) const {
     using Value = typename At::Value;
     const Value secant = particles.secant_capacity.load(at);
     const Value gain = secant * change_of_temperature(particles, at, seen, dt);
@@ -207,7 +207,7 @@ template <int Dim, class Law>
 struct UpdateHeatApparentCapacity {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<>;
-  using Account = Real;
+  using Totals = Real;
 
   const BandPhysics& model;
   const Law& law;
@@ -215,7 +215,7 @@ struct UpdateHeatApparentCapacity {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& /*added*/, Account& made) const {
+                                                       Scatter& /*added*/, Totals& made) const {
     using Value = typename At::Value;
     const Value tangent = particles.secant_capacity.load(at);
     const Value gain = tangent * change_of_temperature(particles, at, seen, dt);
@@ -226,10 +226,11 @@ struct UpdateHeatApparentCapacity {
     if (any(changed)) {
       follow_temperature(model.phases, law, particles, at, changed, before);
     }
-    const Value taken = tangent * (temperature - before), held = particles.heat_content.load(at);
-    const Value holds = law.heat(particles, at);
-    particles.heat_content.store(at, holds);
-    at.add_to(made, particles.initial_volume.load(at) / particles.thermal_scaling.load(at) * (holds - held - taken));
+    const Value conducted = tangent * (temperature - before), heat_before = particles.heat_content.load(at);
+    const Value heat_after = law.heat(particles, at);
+    particles.heat_content.store(at, heat_after);
+    at.add_to(made, particles.initial_volume.load(at) / particles.thermal_scaling.load(at) *
+                        (heat_after - heat_before - conducted));
   }
 };
 
@@ -238,13 +239,13 @@ template <int Dim, class Law>
 struct UpdateHeatMass {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Account = Real;
+  using Totals = Real;
 
   const Law& law;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Scatter& /*added*/, Account& made) const {
+                                                       Scatter& /*added*/, Totals& made) const {
     const auto before = particles.heat_content.load(at), after = law.heat(particles, at);
     particles.heat_content.store(at, after);
     at.add_to(made, particles.initial_volume.load(at) / particles.thermal_scaling.load(at) * (after - before));

@@ -33,17 +33,17 @@ struct SolveTemperatureRate {
   bool has_faces = model.at_faces.any();
 
   void operator()(mpm::Nodes<Dim>& nodes, const mpm::NodeAt& at, Real capacity, Real subgrid, NodalHeat& sum) const {
-    const bool held = nodes.unreached_heat.holds(at.block);
+    const bool has_contact = nodes.unreached_heat.contains(at.block);
     Real none = 0;
-    Real& unreached = held ? nodes.unreached_heat.of_block(at.block)[at.node][0] : none;
+    Real& unreached = has_contact ? nodes.unreached_heat.of_block(at.block)[at.node][0] : none;
     solve_temperature_rate<Dim>(
         nodes.heat_rates(at), capacity, subgrid, nodes.contact(at)[mpm::Contact::friction_heat], nodes.momentum(at), dt,
         nodes.state(at)[mpm::NodalState::temperature_rate], unreached, sum, [&](Real& rate, Real& power) {
           return has_faces && meets_face(model.at_faces.at(mpm::node_position(grid, at.block, at.node)), first_step,
                                          nodes.averages(at), capacity, grid.cell(), dt, rate, power, sum.gain.boundary);
         });
-    THAWSLIDE_ASSERT(held || !(unreached > Real(0)), "friction heat at node {} of block {}, which is in no contact",
-                     at.node, at.block);
+    THAWSLIDE_ASSERT(has_contact || !(unreached > Real(0)),
+                     "friction heat at node {} of block {}, which is in no contact", at.node, at.block);
   }
 };
 

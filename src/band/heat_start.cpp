@@ -26,14 +26,14 @@ template <int Dim>
 Real rescale_band(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real thickness,
                   const std::function<Real(const Vector<Real, Dim - 1>&)>& layer_thickness,
                   mpm::Particles<Dim>& particles, std::size_t first) {
-  const bool by_place = thickness > Real(0) && layer_thickness;
+  const bool by_position = thickness > Real(0) && layer_thickness;
   const Real of_a_cell = thickness > Real(0) ? grid.cell() / thickness : Real(1);
   const auto scaling_at = [&](std::uint32_t p) {
     if (model.region != BandRegion::all && particles.in_band(p) == 0) {
       return Real(1);
     }
-    return by_place ? layer_thickness(particles.position.template get<Vector<Real, Dim - 1>>(p)) / thickness
-                    : of_a_cell;
+    return by_position ? layer_thickness(particles.position.template get<Vector<Real, Dim - 1>>(p)) / thickness
+                       : of_a_cell;
   };
   const auto rescale_tile = [&](std::size_t t, Real& added) {
     with_particle_heat(model, [&](const auto& law) {
@@ -45,7 +45,7 @@ Real rescale_band(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model,
       }
     });
   };
-  if (!by_place) {
+  if (!by_position) {
     return parallel_sum<Real>(grid.tiles().size(), rescale_tile);
   }
   // A thickness that depends on the position caches its results: serial calls only.

@@ -36,14 +36,14 @@ struct BandModel : BandPhysics {
   std::vector<Real> hydraulic_conductivity;              // by material [m/s]
   mpm::BodySizes sizes;                                  // of particles, in cells
   mpm::ShapeFunction shape = mpm::ShapeFunction::ugimp;  // of momentum
-  mpm::HeldSides<Dim> sides;
+  mpm::PrescribedSides<Dim> sides;
   mpm::SectionWidth width;  // of a 2D section
 
   [[nodiscard]] HydraulicConductivity hydraulic() const {
     return {hydraulic_conductivity.data(), hydraulic_conductivity.size() == 1};
   }
 
-  [[nodiscard]] bool lets_water_seep() const { return pressure && water_may_seep(*this, hydraulic_conductivity); }
+  [[nodiscard]] bool has_seepage() const { return pressure && water_may_seep(*this, hydraulic_conductivity); }
 
   // Calls work(content) with the heat content law of the run.
   template <class Work>
@@ -72,7 +72,7 @@ void keep_fields(const BandModel<Dim>& model, mpm::Particles<Dim>& particles) {
   particles.pore_void.keep(model.balances_water());
   particles.normal_load.keep(model.needs_normal_load());
   particles.load_change.keep(model.needs_normal_load());
-  particles.seeped_water.keep(model.lets_water_seep());
+  particles.seeped_water.keep(model.has_seepage());
 }
 
 }  // namespace thawslide::band

@@ -18,12 +18,12 @@ THAWSLIDE_HD Real pressure_change(const Sums& sums, Real dt) {
 
 // Seepage absorbed by frozen pores at a node [Pa m3]: pressure change of the node times their pore space.
 template <class Sums>
-THAWSLIDE_HD Real taken_by_frozen(const Sums& sums, Real change) {
+THAWSLIDE_HD Real absorbed_by_frozen(const Sums& sums, Real change) {
   return (sums[mpm::Seepage::pore_space] - sums[mpm::Seepage::seeping]) * change;
 }
 // Mass of that water [kg].
-inline THAWSLIDE_HD Real mass_of_taken(const physics::Phases& phases, Real taken) {
-  return phases.water_density / phases.water_bulk_modulus * taken;
+inline THAWSLIDE_HD Real mass_of_absorbed(const physics::Phases& phases, Real absorbed) {
+  return phases.water_density / phases.water_bulk_modulus * absorbed;
 }
 
 // Pore pressure of a node with seeping water [Pa]. water: record of SeepingWater.

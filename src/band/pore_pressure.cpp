@@ -1,7 +1,5 @@
 #include "band/pore_pressure.hpp"
 
-#include <algorithm>
-
 #include "band/nodal_seepage.hpp"
 #include "band/seeping_tiles.hpp"
 #include "base/instances.hpp"
@@ -20,16 +18,16 @@ Real seep(const mpm::SparseGrid<Dim>& grid, const BandModel<Dim>& model, Real dt
   mpm::particle_pass(
       grid, mpm::LinearWeights{}, particles, nodes, [&](std::size_t t) { return grid.any_about_tile(t, blocks); },
       SeepageFlows<Dim>{model, model.hydraulic(), dt, grid.inverse_cell()});
-  nodes.seepage.hold(grid.blocks().size(), [&](std::size_t b) { return blocks[b] != 0; });
-  const Real taken = mpm::node_pass<Real>(
+  nodes.seepage.allocate(grid.blocks().size(), [&](std::size_t b) { return blocks[b] != 0; });
+  const Real absorbed = mpm::node_pass<Real>(
       grid, [&](std::size_t b) { return blocks[b] != 0 ? mpm::sum_block<mpm::Seepage>(grid, b, nodes) : 0; },
       [&](const mpm::NodeAt& at, Real& sum) {
         const auto& sums = nodes.seepage(at);
         Real& change = nodes.state(at)[mpm::NodalState::pressure_change];
         change = pressure_change(sums, dt);
-        sum += taken_by_frozen(sums, change);
+        sum += absorbed_by_frozen(sums, change);
       });
-  return mass_of_taken(model.phases, taken);
+  return mass_of_absorbed(model.phases, absorbed);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ struct UpdatePorePressure {
   using OfTile = PorePressure<ColumnsOfTile<Dim>, Seeps, Balances>;
   using Reads = typename OfTile::Reads;
   using Adds = typename OfTile::Adds;
-  using Account = typename OfTile::Account;
+  using Totals = typename OfTile::Totals;
 
   const mpm::SparseGrid<Dim>& grid;
   const BandModel<Dim>& model;

@@ -72,7 +72,7 @@ template <int Dim>
 struct SeepageFlows {
   using Reads = mpm::RecordList<mpm::NodalState>;
   using Adds = mpm::RecordList<mpm::Seepage>;
-  using Account = mpm::NoAccount;
+  using Totals = mpm::NoTotals;
 
   const BandPhysics& model;
   HydraulicConductivity hydraulic_conductivity;
@@ -80,7 +80,7 @@ struct SeepageFlows {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& added, Account& /*account*/) const {
+                                                       Scatter& added, Totals& /*totals*/) const {
     using Value = typename At::Value;
     const Value zero = Real(0);
     const Value hydraulic = hydraulic_conductivity(particles, at);
@@ -96,8 +96,8 @@ struct SeepageFlows {
       const auto state = seen.template read<mpm::NodalState, 1>(mpm::NodalState::pore_pressure);
       const Value diffusivity =
           scaling * pore_scaling * physics::hydraulic_diffusivity(model.phases, storing, Value(Real(1)), hydraulic);
-      const Value share = physics::share_of_subgrid_diffusion(diffusivity, Value(inverse_cell), Dim, dt);
-      in_cell = select(flows, (state.value[0] - particles.pore_pressure.load(at)) * share, zero);
+      const Value fraction = physics::subgrid_diffusion_fraction(diffusivity, Value(inverse_cell), Dim, dt);
+      in_cell = select(flows, (state.value[0] - particles.pore_pressure.load(at)) * fraction, zero);
       const Value mobility = hydraulic / model.phases.water_unit_weight;
       const Value flow = select(flows, -volume * scaling * mobility * model.phases.water_bulk_modulus, zero);
       for (std::size_t a = 0; a < Dim; ++a) {
@@ -105,8 +105,8 @@ struct SeepageFlows {
       }
     }
     particles.seepage_in_cell.store(at, in_cell);
-    const auto takes_part = model.frozen_rows == FrozenRows::sealed ? flows : hydraulic > Real(0);
-    const Value pore_space = select(takes_part, volume / pore_scaling * storing, zero);
+    const auto participates = model.frozen_rows == FrozenRows::sealed ? flows : hydraulic > Real(0);
+    const Value pore_space = select(participates, volume / pore_scaling * storing, zero);
     seepage.value[mpm::Seepage::pore_space] = pore_space;
     seepage.value[mpm::Seepage::seeping] = select(flows, pore_space, zero);
     seepage.value[mpm::Seepage::subgrid] = pore_space * in_cell;
@@ -131,7 +131,7 @@ template <class Columns, bool Seeps, bool Balances>
 struct PorePressure {
   using Reads = std::conditional_t<Seeps, mpm::RecordList<mpm::NodalState>, mpm::RecordList<>>;
   using Adds = mpm::RecordList<>;
-  using Account = DrainedWater;
+  using Totals = DrainedWater;
 
   const BandPhysics& model;
   HydraulicConductivity hydraulic_conductivity;
@@ -140,7 +140,7 @@ struct PorePressure {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& /*added*/, Account& drained) const {
+                                                       Scatter& /*added*/, Totals& drained) const {
     using Value = typename At::Value;
     if (model.thickness_each_step) {
       particles.flow_depth.store(at, columns.flow_depth(particles, at));
@@ -166,7 +166,7 @@ struct PorePressure {
   // Pressure from heating, load and seepage; 0 near the free surface of a drained body.
   template <class Particles, class At, class Seen, class Mask>
   THAWSLIDE_HD typename At::Value melted_pressure(Particles& particles, const At& at, [[maybe_unused]] const Seen& seen,
-                                                  const Mask& melted, Account& drained) const {
+                                                  const Mask& melted, Totals& drained) const {
     using Value = typename At::Value;
     const Value zero = Real(0);
     const bool seepage = model.seepage && model.thermal_pressurization;
@@ -177,7 +177,7 @@ struct PorePressure {
       if (any(was_melted & permeable)) {
         const auto change = seen.template read<mpm::NodalState, 1>(mpm::NodalState::pressure_change).value[0];
         seeped = select(was_melted & permeable, particles.seepage_in_cell.load(at) + change, zero);
-        take_water(particles, at, water_of(particles, at, seeped));
+        remove_water(particles, at, water_of(particles, at, seeped));
       }
     }
     const Value pressure =
@@ -219,11 +219,11 @@ struct PorePressure {
   THAWSLIDE_HD typename At::Value balanced(Particles& particles, const At& at, const Mask& melted,
                                            const Mask& was_melted, const typename At::Value& seeped) const {
     using Value = typename At::Value;
-    const Value porosity = particles.porosity.load(at), held = particles.pore_void.load(at), none = Real(0);
+    const Value porosity = particles.porosity.load(at), gas_void = particles.pore_void.load(at), none = Real(0);
     const Value storage = physics::pore_storage(model.phases, porosity, model.skeleton_compressibility);
     const Value start = thawing_pressure(model, particles, at);
     if (!model.thermal_pressurization) {
-      return max(start - held / storage, none);
+      return max(start - gas_void / storage, none);
     }
     const Value from = select(was_melted, particles.previous_temperature.load(at), Value(model.reference_temperature));
     const Value to = max(particles.temperature.load(at), Value(model.reference_temperature));
@@ -235,9 +235,9 @@ struct PorePressure {
       gained -= select(was_melted, particles.volume_strain.load(at), none);
     }
     const Value before = select(was_melted, particles.liquid_pressure.load(at), start);
-    const Value surplus = physics::pore_surplus<Value>({before + seeped, held, none}, storage) + gained;
+    const Value surplus = physics::pore_surplus<Value>({before + seeped, gas_void, none}, storage) + gained;
     const auto filling = physics::pore_filling(surplus, storage);
-    particles.pore_void.store(at, select(melted | was_melted, filling.gas_void, held));
+    particles.pore_void.store(at, select(melted | was_melted, filling.gas_void, gas_void));
     return filling.pressure;
   }
 
@@ -253,7 +253,7 @@ struct PorePressure {
   }
 
   template <class Particles, class At>
-  THAWSLIDE_HD static void take_water(Particles& particles, const At& at, const typename At::Value& mass) {
+  THAWSLIDE_HD static void remove_water(Particles& particles, const At& at, const typename At::Value& mass) {
     particles.seeped_water.store(at, particles.seeped_water.load(at) + mass);
   }
 
@@ -261,10 +261,10 @@ struct PorePressure {
   // from the heat content of melted material, which is linear.
   template <class Particles, class At>
   THAWSLIDE_HD void drain(Particles& particles, const At& at, const typename At::Value& pressure,
-                          Account& drained) const {
+                          Totals& drained) const {
     using Value = typename At::Value;
     const Value mass = water_of(particles, at, pressure);
-    take_water(particles, at, -mass);
+    remove_water(particles, at, -mass);
     at.add_to(drained.mass, mass);
     if (model.conservative_advection) {
       const Value temperature = particles.temperature.load(at),

@@ -20,8 +20,8 @@ THAWSLIDE_HD void mix_water(const BandPhysics& model, Real kept, Real before, Re
   Real mixed = start;
   if (model.balances_water()) {
     const Real storage = physics::pore_storage(model.phases, porosity, model.skeleton_compressibility);
-    const auto surplus = [&](Real held, Real gas_void, Real from) {
-      return physics::pore_surplus<Real>({held, gas_void, Real(0)}, storage) +
+    const auto surplus = [&](Real excess, Real gas_void, Real from) {
+      return physics::pore_surplus<Real>({excess, gas_void, Real(0)}, storage) +
              physics::melted_swelling(model.phases, model.water, porosity, max(from, tref), to);
     };
     const Real own = surplus(pressure, particles.pore_void(p), before);

@@ -20,10 +20,10 @@ constexpr double most_parts = 64.0;   // parts of such a cell, on nearly vertica
 
 template <int Dim>
 typename BasalSegments<Dim>::Lattice BasalSegments<Dim>::lattice_cell(const mpm::SparseGrid<Dim>& grid,
-                                                                      const Vector<Real, Dim>& place) const {
+                                                                      const Vector<Real, Dim>& position) const {
   Lattice cell;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    cell[a] = static_cast<int>(std::floor(place[static_cast<int>(a)] * grid.inverse_cell()));
+    cell[a] = static_cast<int>(std::floor(position[static_cast<int>(a)] * grid.inverse_cell()));
   }
   return cell;
 }
@@ -40,11 +40,11 @@ typename BasalSegments<Dim>::Lattice BasalSegments<Dim>::parts_on(const Vector<R
 
 template <int Dim>
 typename BasalSegments<Dim>::Lattice BasalSegments<Dim>::lattice_part(const mpm::SparseGrid<Dim>& grid,
-                                                                      const Vector<Real, Dim>& place,
+                                                                      const Vector<Real, Dim>& position,
                                                                       const Lattice& cell, const Lattice& parts) const {
   Lattice part;
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    const Real within = place[static_cast<int>(a)] * grid.inverse_cell() - static_cast<Real>(cell[a]);
+    const Real within = position[static_cast<int>(a)] * grid.inverse_cell() - static_cast<Real>(cell[a]);
     part[a] = std::clamp(static_cast<int>(within * static_cast<Real>(parts[a])), 0, parts[a] - 1);
   }
   return part;
@@ -53,7 +53,7 @@ typename BasalSegments<Dim>::Lattice BasalSegments<Dim>::lattice_part(const mpm:
 template <int Dim>
 bool BasalSegments<Dim>::some_node_is_bare(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) const {
   return parallel_any(grid.blocks().size(), [&](std::size_t b) {
-    for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
+    for (std::size_t k = 0; nodes.contact.contains(b) && k < nodes.contact.nodes; ++k) {
       if (nodes.contact(b, k)[Contact::touching] > Real(0) && !(nodes.base_state(b, k)[BaseState::area] > Real(0))) {
         return true;
       }
@@ -74,7 +74,7 @@ std::vector<typename BasalSegments<Dim>::Footpoint> BasalSegments<Dim>::contact_
   std::vector<std::vector<Footpoint>> of_task((blocks + of_a_task - 1) / of_a_task);
   parallel_for(of_task.size(), 1, [&](std::size_t task) {
     for (std::size_t b = task * of_a_task; b < std::min(blocks, (task + 1) * of_a_task); ++b) {
-      for (std::size_t k = 0; nodes.contact.holds(b) && k < nodes.contact.nodes; ++k) {
+      for (std::size_t k = 0; nodes.contact.contains(b) && k < nodes.contact.nodes; ++k) {
         const auto& contact = nodes.contact(b, k);
         if (!(contact[Contact::touching] > Real(0))) {
           continue;
@@ -107,7 +107,7 @@ std::vector<typename BasalSegments<Dim>::LatticePart> BasalSegments<Dim>::parts_
   for (std::size_t k = 0; k < footpoints.size(); ++k) {
     const Lattice& cell = footpoints[k].cell;
     parts = k > 0 && cell == footpoints[k - 1].cell ? parts : footpoints[k].parts;
-    result.push_back({cell, lattice_part(grid, footpoints[k].place, cell, parts), parts});
+    result.push_back({cell, lattice_part(grid, footpoints[k].position, cell, parts), parts});
   }
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
@@ -138,8 +138,8 @@ void BasalSegments<Dim>::leave_out_covered(const mpm::SparseGrid<Dim>& grid, std
         for (std::size_t a = 0; a + 1 < Dim; ++a) {
           const auto count = static_cast<Real>(part->parts[a]);
           const Real middle = static_cast<Real>(part->cell[a]) + (static_cast<Real>(part->part[a]) + Real(0.5)) / count;
-          const Real place = position[static_cast<int>(a)] * grid.inverse_cell();
-          furthest = std::max(furthest, std::abs(place - middle) * count);
+          const Real in_cells = position[static_cast<int>(a)] * grid.inverse_cell();
+          furthest = std::max(furthest, std::abs(in_cells - middle) * count);
         }
         if (furthest < Real(0.75)) {
           std::atomic_ref(covered[static_cast<std::size_t>(part - parts.begin())]).store(1, std::memory_order_relaxed);
@@ -190,25 +190,25 @@ void BasalSegments<Dim>::create_segments(const mpm::SparseGrid<Dim>& grid, const
 template <int Dim>
 void BasalSegments<Dim>::start_segment(const Stencil& stencil, const Ground& ground, const InContact& contact,
                                        Real thickness, mpm::Nodes<Dim>& nodes, Segment& segment) {
-  const Real share = std::clamp(contact.area / segment.area, Real(0.1), Real(1));
-  add_area(stencil, segment, nodes, share - Real(1));
-  segment.sides *= std::pow(share, Real(1) / static_cast<Real>(Dim - 1));
+  const Real fraction = std::clamp(contact.area / segment.area, Real(0.1), Real(1));
+  add_area(stencil, segment, nodes, fraction - Real(1));
+  segment.sides *= std::pow(fraction, Real(1) / static_cast<Real>(Dim - 1));
   segment.area = segment.area_of_column = ground.area_of(segment.position, segment.sides);
   update_load(contact.area > Real(0) ? contact.normal_force / contact.area : Real(0),
               contact.normal_force / segment.area, Real(0), segment);
   start_column_of(model_, thickness, segment);
   keep_means(model_, segment);
-  ledger_.created_heat += segment.area * physics::heat_of(segment.column);
-  ledger_.created_water += segment.area * physics::water_of(segment.column);
+  budget_.created_heat += segment.area * physics::heat_of(segment.column);
+  budget_.created_water += segment.area * physics::water_of(segment.column);
 }
 
 // Adds a multiple of a segment's area to the nodes in reach.
 template <int Dim>
 void BasalSegments<Dim>::add_area(const Stencil& stencil, const Segment& segment, mpm::Nodes<Dim>& nodes,
-                                  Real share) const {
+                                  Real fraction) const {
   stencil.for_each([&](std::size_t b, std::size_t node, Real weight) {
-    if (nodes.base_state.holds(b)) {
-      nodes.base_state.of_block(b)[node][BaseState::area] += share * weight * segment.area;
+    if (nodes.base_state.contains(b)) {
+      nodes.base_state.of_block(b)[node][BaseState::area] += fraction * weight * segment.area;
     }
   });
 }
@@ -223,9 +223,9 @@ typename BasalSegments<Dim>::InContact BasalSegments<Dim>::in_contact(const Sten
     const Real seen = nodes.base_state(b, node)[BaseState::area];
     if (seen > Real(0)) {
       const auto& contact = nodes.contact(b, node);
-      const Real share = weight * segment.area / seen;
-      result.area += share * contact[Contact::area];
-      result.normal_force += share * contact[Contact::normal_force];
+      const Real fraction = weight * segment.area / seen;
+      result.area += fraction * contact[Contact::area];
+      result.normal_force += fraction * contact[Contact::normal_force];
     }
   });
   return result;

@@ -9,7 +9,7 @@ namespace thawslide::band {
 
 namespace {
 
-void add(const physics::ColumnAccount& part, Real area, physics::ColumnAccount& sum) {
+void add(const physics::ColumnBudget& part, Real area, physics::ColumnBudget& sum) {
   sum.friction_heat += area * part.friction_heat;
   sum.body_heat += area * part.body_heat;
   sum.ground_heat += area * part.ground_heat;
@@ -73,17 +73,17 @@ void start_column_of(const ColumnsModel& model, Real thickness, BasalSegment<Dim
 template <int Dim>
 void follow_load(const ColumnsModel& model, Real normal_pressure, Real depth, Real dt, BasalSegment<Dim>& segment) {
   constexpr Real depth_times = 10;  // averaging time of the depth, as a multiple of that of the load
-  const Real share = segment.touched ? -physics::exponential_minus_one(-dt / model.load_time) : Real(1);
-  segment.load += share * (std::max(normal_pressure, Real(0)) - segment.load);
+  const Real fraction = segment.touched ? -physics::exponential_minus_one(-dt / model.load_time) : Real(1);
+  segment.load += fraction * (std::max(normal_pressure, Real(0)) - segment.load);
   segment.loaded_for = segment.touched ? std::min(segment.loaded_for + dt, depth_times * model.load_time) : dt;
-  const Real share_of_depth = segment.loaded_for > Real(0) ? dt / segment.loaded_for : Real(1);
-  segment.depth += share_of_depth * (std::max(depth, Real(0)) - segment.depth);
+  const Real fraction_of_depth = segment.loaded_for > Real(0) ? dt / segment.loaded_for : Real(1);
+  segment.depth += fraction_of_depth * (std::max(depth, Real(0)) - segment.depth);
   segment.touched = true;
 }
 
 template <int Dim>
-physics::ColumnAccount step_segment(const ColumnsModel& model, Real thickness, Real duration,
-                                    BasalSegment<Dim>& segment) {
+physics::ColumnBudget step_segment(const ColumnsModel& model, Real thickness, Real duration,
+                                   BasalSegment<Dim>& segment) {
   segment.depth *=
       segment.area_of_column / segment.area;  // the mass thins as it stretches; the time average would lag behind
   return std::visit(
@@ -95,7 +95,7 @@ physics::ColumnAccount step_segment(const ColumnsModel& model, Real thickness, R
         const int parts = physics::parts_of(column, change);
         const Real dt = duration / static_cast<Real>(parts), heat = segment.heat / static_cast<Real>(parts);
         const Real factor = std::exp(change.stretch / static_cast<Real>(parts));
-        physics::ColumnAccount account;
+        physics::ColumnBudget budget;
         for (int part = 1; part <= parts; ++part) {
           segment.area_of_column = part == parts ? segment.area : segment.area_of_column * factor;
           const physics::ColumnDrive drive{dt,
@@ -107,35 +107,35 @@ physics::ColumnAccount step_segment(const ColumnsModel& model, Real thickness, R
                                            -physics::exponential_minus_one(-segment.speed * dt / model.mixing_slip),
                                            physics::body_enthalpy(column, model.body_temperature),
                                            physics::water_of_full_pores(column, model.body_temperature)};
-          add(physics::step_column(column, drive, segment.column), segment.area_of_column, account);
+          add(physics::step_column(column, drive, segment.column), segment.area_of_column, budget);
         }
         segment.heat = Real(0);
-        return account;
+        return budget;
       },
       model.column);
 }
 
 template <int Dim>
-physics::ColumnAccount merge_from(const ColumnsModel& model, const BasalSegment<Dim>& other,
-                                  BasalSegment<Dim>& segment) {
-  const Real share = segment.area / (segment.area + other.area);
+physics::ColumnBudget merge_from(const ColumnsModel& model, const BasalSegment<Dim>& other,
+                                 BasalSegment<Dim>& segment) {
+  const Real fraction = segment.area / (segment.area + other.area);
   for (Real BasalSegment<Dim>::*const number :
        {&BasalSegment<Dim>::slip, &BasalSegment<Dim>::speed, &BasalSegment<Dim>::load, &BasalSegment<Dim>::depth,
         &BasalSegment<Dim>::loaded_for}) {
-    segment.*number = share * segment.*number + (Real(1) - share) * other.*number;
+    segment.*number = fraction * segment.*number + (Real(1) - fraction) * other.*number;
   }
-  segment.velocity = share * segment.velocity + (Real(1) - share) * other.velocity;
-  const Real share_of_column = segment.area_of_column / (segment.area_of_column + other.area_of_column);
-  const physics::ColumnAccount account = std::visit(
+  segment.velocity = fraction * segment.velocity + (Real(1) - fraction) * other.velocity;
+  const Real fraction_of_column = segment.area_of_column / (segment.area_of_column + other.area_of_column);
+  const physics::ColumnBudget budget = std::visit(
       [&](const auto& column) {
         physics::BandColumn first = segment.column, second = other.column;
-        const Real growth = second.cell_growth + share_of_column * (first.cell_growth - second.cell_growth);
+        const Real growth = second.cell_growth + fraction_of_column * (first.cell_growth - second.cell_growth);
         const Real heat = physics::body_enthalpy(column, model.body_temperature);
         const Real water = physics::water_of_full_pores(column, model.body_temperature);
-        physics::ColumnAccount both;
-        add(physics::take_cell_growth(column, growth, heat, water, first), segment.area_of_column, both);
-        add(physics::take_cell_growth(column, growth, heat, water, second), other.area_of_column, both);
-        segment.column = physics::joined_columns(column, share_of_column, first, second, segment.load);
+        physics::ColumnBudget both;
+        add(physics::apply_cell_growth(column, growth, heat, water, first), segment.area_of_column, both);
+        add(physics::apply_cell_growth(column, growth, heat, water, second), other.area_of_column, both);
+        segment.column = physics::joined_columns(column, fraction_of_column, first, second, segment.load);
         return both;
       },
       model.column);
@@ -143,17 +143,17 @@ physics::ColumnAccount merge_from(const ColumnsModel& model, const BasalSegment<
   segment.area_of_column += other.area_of_column;
   segment.heat += other.heat;
   segment.touched = segment.touched || other.touched;
-  return account;
+  return budget;
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                                    \
-  template physics::BandMeans means_of<Dim>(const ColumnsModel&, const BasalSegment<Dim>&);                           \
-  template void keep_means<Dim>(const ColumnsModel&, BasalSegment<Dim>&);                                             \
-  template physics::ColumnVolumes volumes_of<Dim>(const ColumnsModel&, const BasalSegment<Dim>&);                     \
-  template physics::ColumnAccount merge_from<Dim>(const ColumnsModel&, const BasalSegment<Dim>&, BasalSegment<Dim>&); \
-  template void start_column_of<Dim>(const ColumnsModel&, Real, BasalSegment<Dim>&);                                  \
-  template void follow_load<Dim>(const ColumnsModel&, Real, Real, Real, BasalSegment<Dim>&);                          \
-  template physics::ColumnAccount step_segment<Dim>(const ColumnsModel&, Real, Real, BasalSegment<Dim>&);
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                   \
+  template physics::BandMeans means_of<Dim>(const ColumnsModel&, const BasalSegment<Dim>&);                          \
+  template void keep_means<Dim>(const ColumnsModel&, BasalSegment<Dim>&);                                            \
+  template physics::ColumnVolumes volumes_of<Dim>(const ColumnsModel&, const BasalSegment<Dim>&);                    \
+  template physics::ColumnBudget merge_from<Dim>(const ColumnsModel&, const BasalSegment<Dim>&, BasalSegment<Dim>&); \
+  template void start_column_of<Dim>(const ColumnsModel&, Real, BasalSegment<Dim>&);                                 \
+  template void follow_load<Dim>(const ColumnsModel&, Real, Real, Real, BasalSegment<Dim>&);                         \
+  template physics::ColumnBudget step_segment<Dim>(const ColumnsModel&, Real, Real, BasalSegment<Dim>&);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

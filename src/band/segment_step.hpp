@@ -57,14 +57,13 @@ void follow_load(const ColumnsModel& model, Real normal_pressure, Real depth, Re
 // Steps the column over `duration` [s], with the pending friction heat and the current area of the segment. thickness:
 // prescribed band thickness at the end [m]. Returns the column's budget for the whole area ([J], [kg]).
 template <int Dim>
-physics::ColumnAccount step_segment(const ColumnsModel& model, Real thickness, Real duration,
-                                    BasalSegment<Dim>& segment);
+physics::ColumnBudget step_segment(const ColumnsModel& model, Real thickness, Real duration,
+                                   BasalSegment<Dim>& segment);
 
 // Merges another segment into a segment: sums of area, heat and water, and area-weighted means of everything else.
 // Position and shape do not change. Returns the budget of both columns ([J], [kg]) for the change to a common cell
 // growth.
 template <int Dim>
-physics::ColumnAccount merge_from(const ColumnsModel& model, const BasalSegment<Dim>& other,
-                                  BasalSegment<Dim>& segment);
+physics::ColumnBudget merge_from(const ColumnsModel& model, const BasalSegment<Dim>& other, BasalSegment<Dim>& segment);
 
 }  // namespace thawslide::band

@@ -80,7 +80,8 @@ ColumnSums BasalSegments<Dim>::sums() const {
 
 template <int Dim>
 BaseMeans BasalSegments<Dim>::means() const {
-  constexpr Real wet_share = static_cast<Real>(1e-3);  // of full pores; less water has just seeped in, and boils next
+  constexpr Real wet_fraction =
+      static_cast<Real>(1e-3);  // of full pores; less water has just seeped in, and boils next
   constexpr Real nothing = std::numeric_limits<Real>::quiet_NaN();
   const Real full = water_of_full_pores(model_);
   struct Extremes {
@@ -96,7 +97,7 @@ BaseMeans BasalSegments<Dim>::means() const {
     for (int k = 0; k < physics::ColumnCells::slide; ++k) {
       const Real temperature = segment.column.temperature[physics::ColumnCells::ground + k];
       found.max_temperature = std::max(found.max_temperature, temperature);
-      const bool is_wet = segment.column.water[k] > wet_share * full * grid.slide_height(k);
+      const bool is_wet = segment.column.water[k] > wet_fraction * full * grid.slide_height(k);
       found.max_wet_temperature = is_wet ? std::max(found.max_wet_temperature, temperature) : found.max_wet_temperature;
     }
     const Real highest =
@@ -107,7 +108,7 @@ BaseMeans BasalSegments<Dim>::means() const {
   Real area = 0, dry_area = 0, max_temperature = -celsius_to_kelvin, max_wet_temperature = max_temperature;
   for (std::size_t p = 0; p < segments_.size(); ++p) {
     const Segment& segment = segments_[p];
-    const physics::BandMeans means = means_now(segment);
+    const physics::BandMeans means = current_means(segment);
     area += segment.area;
     dry_area += extremes[p].dry ? segment.area : Real(0);
     max_temperature = std::max(max_temperature, extremes[p].max_temperature);
@@ -132,9 +133,9 @@ template <int Dim>
 std::vector<double> BasalSegments<Dim>::state() const {
   std::vector<double> numbers{static_cast<double>(next_id_), checks_gaps_ ? 1.0 : 0.0,
                               static_cast<double>(segments_.size())};
-  ColumnLedger ledger = ledger_;
+  ColumnLedger budget = budget_;
   const auto add = [&](const Real& number) { numbers.push_back(static_cast<double>(number)); };
-  ledger.for_each(add);
+  budget.for_each(add);
   for (Segment segment : segments_) {
     numbers.push_back(static_cast<double>(segment.id));
     numbers.push_back(segment.touched ? 1.0 : 0.0);
@@ -147,14 +148,14 @@ template <int Dim>
 void BasalSegments<Dim>::restore(const std::vector<double>& numbers) {
   StateNumbers state(numbers, "band columns");
   std::size_t of_ledger = 0, of_segment = 2;  // number of state entries
-  ledger_.for_each([&](Real&) { ++of_ledger; });
+  budget_.for_each([&](Real&) { ++of_ledger; });
   Segment any;
   for_each_number(any, [&](Real&) { ++of_segment; });
   next_id_ = state.whole(largest_whole);
   checks_gaps_ = state.next() != 0.0;
   segments_.assign(state.count(of_segment, of_ledger), Segment{});
   const auto set = [&](Real& number) { number = static_cast<Real>(state.next()); };
-  ledger_.for_each(set);
+  budget_.for_each(set);
   for (Segment& segment : segments_) {
     segment.id = state.whole(next_id_);
     segment.touched = state.next() != 0.0;

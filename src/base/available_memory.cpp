@@ -76,9 +76,9 @@ double left_of_address_space() {
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
     return infinity;
   }
-  const double pages_taken = number_in("/proc/self/statm");
-  const double taken = std::isnan(pages_taken) ? 0.0 : pages_taken * static_cast<double>(sysconf(_SC_PAGESIZE));
-  return std::max(0.0, static_cast<double>(limit.rlim_cur) - taken);
+  const double pages_used = number_in("/proc/self/statm");
+  const double in_use = std::isnan(pages_used) ? 0.0 : pages_used * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return std::max(0.0, static_cast<double>(limit.rlim_cur) - in_use);
 }
 
 }  // namespace

@@ -16,10 +16,10 @@ namespace thawslide {
 
 namespace {
 
-constexpr std::size_t most_shares = 64;
+constexpr std::size_t most_chunks = 64;
 
 // Pending calls next .. last-1 of one thread.
-struct alignas(cache_line) Share {
+struct alignas(cache_line) Chunk {
   std::atomic<std::size_t> next;
   std::size_t last;
 };
@@ -47,21 +47,21 @@ void parallel_chunks(std::size_t count, std::size_t at_a_time,
     run(body, 0, count);
     return;
   }
-  const std::size_t shares = std::min(threads, most_shares);
-  std::array<Share, most_shares> of_thread;
-  for (std::size_t s = 0; s < shares; ++s) {
-    of_thread[s].next.store(s * count / shares, std::memory_order_relaxed);
-    of_thread[s].last = (s + 1) * count / shares;
+  const std::size_t chunks = std::min(threads, most_chunks);
+  std::array<Chunk, most_chunks> of_thread;
+  for (std::size_t s = 0; s < chunks; ++s) {
+    of_thread[s].next.store(s * count / chunks, std::memory_order_relaxed);
+    of_thread[s].last = (s + 1) * count / chunks;
   }
   std::exception_ptr failure;
 #pragma omp parallel
   try {
-    for (std::size_t s = 0; s < shares; ++s) {
-      Share& share = of_thread[(static_cast<std::size_t>(omp_get_thread_num()) + s) % shares];
-      while (share.next.load(std::memory_order_relaxed) < share.last) {
-        const std::size_t first = share.next.fetch_add(at_a_time, std::memory_order_relaxed);
-        if (first < share.last) {
-          run(body, first, std::min(first + at_a_time, share.last));
+    for (std::size_t s = 0; s < chunks; ++s) {
+      Chunk& chunk = of_thread[(static_cast<std::size_t>(omp_get_thread_num()) + s) % chunks];
+      while (chunk.next.load(std::memory_order_relaxed) < chunk.last) {
+        const std::size_t first = chunk.next.fetch_add(at_a_time, std::memory_order_relaxed);
+        if (first < chunk.last) {
+          run(body, first, std::min(first + at_a_time, chunk.last));
         }
       }
     }

@@ -33,8 +33,8 @@ namespace thawslide {
 using Real = double;
 
 // Prefetches the memory a number of bytes ahead. The address need not be valid, hence an integer instead of a pointer.
-inline void prefetch(const void* place, std::size_t bytes_on) {
-  const auto there = reinterpret_cast<std::uintptr_t>(place) + bytes_on;
+inline void prefetch(const void* point, std::size_t bytes_on) {
+  const auto there = reinterpret_cast<std::uintptr_t>(point) + bytes_on;
   __builtin_prefetch(reinterpret_cast<const void*>(there));  // NOLINT(performance-no-int-to-ptr)
 }
 

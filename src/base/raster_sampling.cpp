@@ -9,20 +9,20 @@ double bilinear(const Raster& raster, double x, double y, Missing missing) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const double across = (x - raster.x) / raster.cell_x, up = (y - raster.y) / raster.cell_y;
   const double column = std::floor(across), row = std::floor(up);
-  const double share_x = across - column, share_y = up - row;
+  const double fraction_x = across - column, fraction_y = up - row;
   double value = 0.0, weight = 0.0;
   for (int k = 0; k < 4; ++k) {
     const int right = k % 2, above = k / 2;
-    const double share = (right == 0 ? 1.0 - share_x : share_x) * (above == 0 ? 1.0 - share_y : share_y);
-    if (share <= rounding) {
+    const double fraction = (right == 0 ? 1.0 - fraction_x : fraction_x) * (above == 0 ? 1.0 - fraction_y : fraction_y);
+    if (fraction <= rounding) {
       continue;
     }
     const double i = column + right, j = row + above;
     const bool inside = i >= 0.0 && j >= 0.0 && i < raster.columns && j < raster.rows;
     const double there = inside ? raster.at(static_cast<int>(i), static_cast<int>(j)) : unknown;
     if (!std::isnan(there)) {
-      value += share * there;
-      weight += share;
+      value += fraction * there;
+      weight += fraction;
     } else if (missing == Missing::unknown || (missing == Missing::nothing && !inside)) {
       return unknown;
     }

@@ -32,9 +32,9 @@ inline double rounded_down(double number, int digits) {
 inline std::string with_commas(double number, int digits) {
   const double digit = std::max(1.0, last_digit(number, digits));
   std::string text = fmt::format("{:.0f}", std::round(number / digit) * digit);
-  for (std::size_t place = text.size(); place > 3;) {
-    place -= 3;
-    text.insert(place, ",");
+  for (std::size_t position = text.size(); position > 3;) {
+    position -= 3;
+    text.insert(position, ",");
   }
   return text;
 }
@@ -46,6 +46,29 @@ inline std::string rounded_text(double number, int digits = 2) {
   const double size = std::abs(number);
   return size >= std::pow(10.0, digits - 1) && size < most ? (number < 0.0 ? "-" : "") + with_commas(size, digits)
                                                            : fmt::format("{:.{}g}", number, digits);
+}
+
+// Formats a whole number for people: "52,086"; with an exponent from 1e10 on.
+inline std::string count_text(double number) {
+  return number < 1.0 ? "0" : number < 1e10 ? with_commas(number, 10) : fmt::format("{:.3g}", number);
+}
+
+// Formats a coordinate [m] with seven significant digits, and without an exponent up to 1e10: "400805.5", "0.125".
+inline std::string coordinate_text(double coordinate) {
+  const double size = std::abs(coordinate);
+  return size >= 1e7 && size < 1e10 ? fmt::format("{:.0f}", coordinate) : fmt::format("{:.7g}", coordinate);
+}
+
+// Formats a time in seconds for people: "12 s", "3.3 min", "1.2 h".
+inline std::string duration_text(double seconds) {
+  constexpr double minute = 60.0, hour = 3600.0, day = 86400.0, year = 365.25 * day;
+  if (seconds < 100.0) {
+    return fmt::format("{:.0f} s", seconds);
+  }
+  return seconds < 100.0 * minute ? rounded_text(seconds / minute) + " min"
+         : seconds < 2.0 * day    ? rounded_text(seconds / hour) + " h"
+         : seconds < 2.0 * year   ? rounded_text(seconds / day) + " days"
+                                  : rounded_text(seconds / year) + " years";
 }
 
 }  // namespace thawslide

@@ -46,15 +46,11 @@ template <class T, class = std::enable_if_t<std::is_floating_point_v<T>>>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE T extract(T number, std::size_t /*lane*/) {
   return number;
 }
-template <class T, class = std::enable_if_t<std::is_floating_point_v<T>>>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void set_lane(T& number, std::size_t /*lane*/, T other) {
-  number = other;
-}
 
 // Table entry at an integer place.
 template <class T, class = std::enable_if_t<std::is_floating_point_v<T>>>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE T look_up(const T* table, const T& place) {
-  return table[static_cast<std::size_t>(place)];
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE T look_up(const T* table, const T& index) {
+  return table[static_cast<std::size_t>(index)];
 }
 
 // function(number), by lane and out of line: for rare cases.

@@ -129,26 +129,26 @@ class Simd {
   }
 
   // Lane k is numbers[places[k]].
-  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd gather(const T* numbers, Whole places) {
+  [[nodiscard]] THAWSLIDE_ALWAYS_INLINE static Simd gather(const T* numbers, Whole indices) {
 #ifdef __AVX512F__
     if constexpr (sizeof(Native) == 64) {
       return Simd(Native(
-          _mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, reinterpret_cast<__m256i>(places), numbers, sizeof(T))));
+          _mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, reinterpret_cast<__m256i>(indices), numbers, sizeof(T))));
     }
 #endif
-    return of([&](std::size_t lane) { return numbers[places[lane]]; });
+    return of([&](std::size_t lane) { return numbers[indices[lane]]; });
   }
   // Inverse of gather for the lanes 0 .. lanes-1.
-  THAWSLIDE_ALWAYS_INLINE void scatter(T* numbers, Whole places, std::size_t lanes) const {
+  THAWSLIDE_ALWAYS_INLINE void scatter(T* numbers, Whole indices, std::size_t lanes) const {
 #ifdef __AVX512F__
     if constexpr (sizeof(Native) == 64) {
       const auto mask = static_cast<__mmask8>((1u << lanes) - 1u);
-      _mm512_mask_i32scatter_pd(numbers, mask, reinterpret_cast<__m256i>(places), __m512d(native_), sizeof(T));
+      _mm512_mask_i32scatter_pd(numbers, mask, reinterpret_cast<__m256i>(indices), __m512d(native_), sizeof(T));
       return;
     }
 #endif
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      numbers[places[lane]] = native_[lane];
+      numbers[indices[lane]] = native_[lane];
     }
   }
 
@@ -219,10 +219,6 @@ template <class T>
 THAWSLIDE_ALWAYS_INLINE T extract(const Simd<T>& lanes, std::size_t lane) {
   return lanes[lane];
 }
-template <class T>
-THAWSLIDE_ALWAYS_INLINE void set_lane(Simd<T>& lanes, std::size_t lane, T number) {
-  lanes = Simd<T>::of([&](std::size_t k) { return k == lane ? number : lanes[k]; });
-}
 
 // Exchanges blocks between a and b: lanes whose bit Half is 1 in `a` with those whose bit Half is 0 in `b`.
 template <std::size_t Half, class T, std::size_t Count, std::size_t... K>
@@ -263,8 +259,8 @@ THAWSLIDE_ALWAYS_INLINE Simd<T, sizeof...(K)> joined(const Simd<T, Count>& a, co
 }
 
 template <class T>
-THAWSLIDE_ALWAYS_INLINE Simd<T> look_up(const T* table, const Simd<T>& place) {
-  return Simd<T>::gather(table, place.whole());
+THAWSLIDE_ALWAYS_INLINE Simd<T> look_up(const T* table, const Simd<T>& index) {
+  return Simd<T>::gather(table, index.whole());
 }
 
 // Minimum over all lanes.

@@ -1,21 +1,24 @@
-// Reader of checkpoint state. Values are validated, because a checksum detects changes but not invalid content.
+// Numbers of a checkpoint in addition to the particles, and their reader. Values are validated, because a checksum
+// detects changes but not invalid content.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/named_numbers.hpp"
 
 namespace thawslide {
+
+using NamedNumbers = std::map<std::string, std::vector<double>>;
 
 class StateNumbers {
  public:
   // what: name of the state in messages, such as "band columns". Keeps a reference to the numbers.
-  StateNumbers(const std::vector<double>& numbers, const char* what) : numbers_(numbers), what_(what) {}
+  StateNumbers(const std::vector<double>& numbers, const char* name) : numbers_(numbers), name_(name) {}
 
   [[nodiscard]] std::size_t left() const { return numbers_.size() - next_; }
   double next() {
@@ -55,12 +58,12 @@ class StateNumbers {
     throw UserError(
         fmt::format("the checkpoint's state of the {} is none that a run has: {}. Use another copy of the checkpoint, "
                     "or run the case from its start.",
-                    what_, found));
+                    name_, found));
   }
 
  private:
   const std::vector<double>& numbers_;
-  const char* what_;
+  const char* name_;
   std::size_t next_ = 0;
 };
 

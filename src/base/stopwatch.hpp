@@ -18,11 +18,11 @@ class Stopwatch {
   void time(std::string_view stage, const Stage& run) {
     const auto start = std::chrono::steady_clock::now();
     run();
-    auto account = seconds_.find(stage);
-    if (account == seconds_.end()) {
-      account = seconds_.emplace(stage, 0.0).first;
+    auto entry = seconds_.find(stage);
+    if (entry == seconds_.end()) {
+      entry = seconds_.emplace(stage, 0.0).first;
     }
-    account->second += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    entry->second += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   [[nodiscard]] const Seconds& seconds() const { return seconds_; }

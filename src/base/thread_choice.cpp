@@ -48,7 +48,7 @@ void ThreadChoice::end_trial(double steps, double seconds, double now) {
   } else if (challenger_ == best_) {
     watch_best(steps, seconds, now);
   } else {
-    go_on_with_challenge(steps, seconds, now);
+    continue_challenge(steps, seconds, now);
   }
 }
 
@@ -69,7 +69,7 @@ void ThreadChoice::watch_best(double steps, double seconds, double now) {
 }
 
 // Best and challenger alternate.
-void ThreadChoice::go_on_with_challenge(double steps, double seconds, double now) {
+void ThreadChoice::continue_challenge(double steps, double seconds, double now) {
   if (threads_ == best_) {
     of_best_.add(steps, seconds);
     threads_ = challenger_;

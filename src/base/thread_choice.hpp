@@ -29,7 +29,7 @@ class ThreadChoice {
 
   void end_trial(double steps, double seconds, double now);
   void watch_best(double steps, double seconds, double now);
-  void go_on_with_challenge(double steps, double seconds, double now);
+  void continue_challenge(double steps, double seconds, double now);
   [[nodiscard]] int next_challenger();
 
   int most_;

@@ -11,16 +11,16 @@ namespace thawslide::config {
 
 // Law of a keyword, with its parameters.
 template <class Laws>
-Laws law_named(const std::string& word, const LawNumbers& numbers) {
+Laws law_named(const std::string& keyword, const LawNumbers& numbers) {
   Laws found{};
   bool is_known = false;
   physics::basal::for_each_law<Laws>([&]<class Law>(physics::basal::OfType<Law>) {
-    if (word == Law::word) {
+    if (keyword == Law::keyword) {
       found = Law::from(numbers);
       is_known = true;
     }
   });
-  THAWSLIDE_ASSERT(is_known, "no law of the base is called {}", word);
+  THAWSLIDE_ASSERT(is_known, "no law of the base is called {}", keyword);
   return found;
 }
 
@@ -32,7 +32,7 @@ inline physics::basal::FrictionLaw friction_of(const GroundStrength& ground) {
 inline physics::basal::CohesionLaw cohesion_of(const GroundStrength& ground) {
   const bool has_cohesion = ground.numbers(physics::basal::initial_cohesion) > 0.0;
   return law_named<physics::basal::CohesionLaw>(
-      has_cohesion ? ground.cohesion_law : physics::basal::ConstantCohesion::word, ground.numbers);
+      has_cohesion ? ground.cohesion_law : physics::basal::ConstantCohesion::keyword, ground.numbers);
 }
 
 }  // namespace thawslide::config

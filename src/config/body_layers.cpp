@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <numeric>
 
 namespace thawslide::config {
@@ -90,9 +89,9 @@ BodyLayers body_layers(const Case& parameters, std::string* contradiction, std::
                                "same.",
                                name, pair.friction_angle, before, layers.friction_between(layer, other)));
     }
-    for (const std::size_t place : {layer * layers.count + other, other * layers.count + layer}) {
-      layers.friction_angle[place] = pair.friction_angle;
-      set_by[place] = name;
+    for (const std::size_t index : {layer * layers.count + other, other * layers.count + layer}) {
+      layers.friction_angle[index] = pair.friction_angle;
+      set_by[index] = name;
     }
   }
   return layers;

@@ -49,8 +49,8 @@ enum class AdvectionForm { as_published, conservative };
 enum class FrozenPressure { ice_pressure, none };
 enum class HeatUpdate { enthalpy, apparent_capacity };
 enum class HeatMasses { initial, current };
-enum class ClapeyronSign { usual, printed };
-enum class SeepageScaling { consistent, printed };
+enum class ClapeyronSign { usual, published };
+enum class SeepageScaling { consistent, published };
 enum class ThicknessDirection { normal, vertical };
 enum class ThicknessUpdate { each_step, frozen };
 enum class BodyContact { bonded, frictional };
@@ -192,7 +192,7 @@ struct Mechanics {
   bool enabled = true;
   ShapeFunction shape_function = ShapeFunction::ugimp;
   Transfer transfer = Transfer::flip;
-  double pic_share = 0.0;      // Transfer::blend
+  double pic_fraction = 0.0;   // Transfer::blend
   int fmpm_order = 2;          // Transfer::fmpm
   double fmpm_interval = 0.0;  // s, Transfer::fmpm
   InitialStress initial_stress = InitialStress::geostatic;
@@ -330,9 +330,10 @@ struct Case {
   std::string name;  // of the run
   std::string file;  // absolute path of the case file
   std::map<std::string, std::string>
-      places;  // locations of each given table and key by dotted name: "case.toml:12:7", "--set ..."
-  std::set<std::string> not_given;      // those of `places` that a resolved case contains as defaults
+      locations;  // locations of each given table and key by dotted name: "case.toml:12:7", "--set ..."
+  std::set<std::string> not_given;      // those of `locations` that a resolved case contains as defaults
   std::vector<std::string> case_files;  // the case file and those it is based on, absolute
+  std::vector<std::string> notes;       // former names that the file uses
   General general;
   Time time;
   Grid grid;
@@ -374,13 +375,13 @@ inline bool water_seeps(const Case& parameters) {
 
 // True if the user specified a key; the case in a run folder records this from the original case.
 inline bool was_given(const Case& parameters, const std::string& dotted) {
-  return parameters.places.count(dotted) > 0 && parameters.not_given.count(dotted) == 0;
+  return parameters.locations.count(dotted) > 0 && parameters.not_given.count(dotted) == 0;
 }
 
 // Location of a key for messages; the case file if the key is not given.
-inline const std::string& place_of(const Case& parameters, const std::string& dotted) {
-  const auto found = parameters.places.find(dotted);
-  return found == parameters.places.end() ? parameters.file : found->second;
+inline const std::string& location_of(const Case& parameters, const std::string& dotted) {
+  const auto found = parameters.locations.find(dotted);
+  return found == parameters.locations.end() ? parameters.file : found->second;
 }
 
 }  // namespace thawslide::config

@@ -18,26 +18,39 @@ namespace {
 
 // Keys that the step reads each time and that have no stored state. A name ending with a dot includes all keys of the
 // table.
-constexpr std::array<std::string_view, 14> changeable = {
+constexpr std::array<std::string_view, 19> changeable = {
     "time.",
     "checkpoint.",
     "guards.",
     "grid.leaving",
     "mechanics.mass_damping",
-    "mechanics.pic_share",
+    "mechanics.pic_fraction",
+    "mechanics.fmpm_interval",
+    "mechanics.fmpm_order",
     "band.column_step",
     "basal.friction_angle",
     "basal.friction_coefficient",
     "basal.turbulent_friction",
     "basal.cohesion",
     "basal.residual_cohesion",
+    "basal.heat_fraction",
+    "basal.clamp",
+    "basal.cap_pressure",
     "case.title",
     "report.times",
 };
 
-bool may_change(std::string_view key) {
+// Key of [basal] with the meaning of a key of [substrate.NAME]; other keys are unchanged.
+std::string as_basal_key(const std::string& key) {
+  const std::string table = "substrate.";
+  const std::size_t dot = key.rfind(table, 0) == 0 ? key.find('.', table.size()) : std::string::npos;
+  return dot == std::string::npos ? key : "basal" + key.substr(dot);
+}
+
+bool may_change(const std::string& given) {
+  const std::string key = as_basal_key(given);
   for (const std::string_view each : changeable) {
-    if (each.back() == '.' ? key.substr(0, each.size()) == each : key == each) {
+    if (each.back() == '.' ? key.rfind(each, 0) == 0 : key == each) {
       return true;
     }
   }
@@ -122,7 +135,7 @@ std::string changeable_keys() {
         each.back() == '.' ? fmt::format("[{}]", each.substr(0, each.size() - 1)) : std::string(each);
     words += (words.empty() ? "" : ", ") + word;
   }
-  return words;
+  return words + ", and friction and cohesion of [substrate.NAME] as of [basal]";
 }
 
 void require_changeable(const std::vector<std::string>& sets) {

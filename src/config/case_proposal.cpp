@@ -136,12 +136,12 @@ struct Stretch {
 
 // Domain along x or y that contains `held` within the DEM. It begins and ends at multiples of four cells. If that would
 // cut the release at the edge of the DEM, it ends at multiples of a cell, or otherwise at the edge of the DEM.
-Stretch domain_along(const Stretch& held, const Stretch& release, const Stretch& dem, double cell) {
+Stretch domain_along(const Stretch& given, const Stretch& release, const Stretch& dem, double cell) {
   Stretch domain;
   for (const double block : {block_cells * cell, cell}) {
-    const auto down = [&](double place) { return tidy(std::floor(place / block + 1e-9) * block); };
-    const auto up = [&](double place) { return tidy(std::ceil(place / block - 1e-9) * block); };
-    domain = {std::max(up(dem.low), down(held.low)), std::min(down(dem.high), up(held.high))};
+    const auto down = [&](double coordinate) { return tidy(std::floor(coordinate / block + 1e-9) * block); };
+    const auto up = [&](double coordinate) { return tidy(std::ceil(coordinate / block - 1e-9) * block); };
+    domain = {std::max(up(dem.low), down(given.low)), std::min(down(dem.high), up(given.high))};
     if (domain.low <= release.low && domain.high >= release.high) {
       return domain;
     }
@@ -173,8 +173,7 @@ std::string edge_warning(const Proposal& proposal) {
   }
   return fmt::format(
       "--dem: the release is close to the edge of the known terrain (found {} m; needed at least its own length, {} "
-      "m). "
-      "Particles that pass the edge are removed, and the results lack them. Use a larger DEM",
+      "m). Particles that pass the edge are removed, and the results do not include them. Use a larger DEM",
       rounded_text(proposal.edge_distance, 2), rounded_text(proposal.length, 2));
 }
 
@@ -252,9 +251,9 @@ std::string taper_text(const EdgeTaper& taper) {
     return "taper = 0.0  # m; the points of the DEM are so far apart that the edges of the cut are ramps already\n";
   }
   return fmt::format(
-      "# The edges of the cut are ramps of this width, half of it beyond the outline, and the volume stays: a slide "
-      "does\n"
-      "# not get out of a pit with walls. At their steepest they rise {:.1f} degrees against the DEM, which falls "
+      "# The edges of the cut are ramps of this width, half of it beyond the outline, and the volume is preserved. "
+      "Vertical\n"
+      "# edges would trap the slide. At their steepest, the ramps rise {:.1f} degrees against the DEM, which falls "
       "{:.1f}\n"
       "# degrees here{}.\ntaper = {}  # m\n",
       degrees_of(taper.steepest), degrees_of(taper.slope),
@@ -333,8 +332,9 @@ history_interval = {}
 }
 
 std::string cell_comment(const Proposal& proposal) {
-  return fmt::format("two particles a cell and axis make {:.1f} across a thickness of {:.3g} m",
-                     proposal.thickness * proposal.particles_per_axis / proposal.cell, proposal.thickness);
+  return fmt::format("two particles a cell and axis make {:.1f} across a thickness of {} m",
+                     proposal.thickness * proposal.particles_per_axis / proposal.cell,
+                     rounded_text(proposal.thickness, 3));
 }
 
 std::string body_state_text(const Proposal& proposal) {

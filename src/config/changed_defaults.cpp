@@ -20,10 +20,10 @@ bool has_bends(const Case& parameters) {
 
 bool is_given(const Case& parameters, const ChangedDefault& changed) {
   if (changed.table != "material.NAME") {
-    return parameters.places.count(changed.table + "." + changed.key) > 0;
+    return parameters.locations.count(changed.table + "." + changed.key) > 0;
   }
   return std::any_of(parameters.materials.begin(), parameters.materials.end(), [&](const auto& each) {
-    return parameters.places.count("material." + each.first + "." + changed.key) > 0;
+    return parameters.locations.count("material." + each.first + "." + changed.key) > 0;
   });
 }
 
@@ -32,8 +32,8 @@ bool is_given(const Case& parameters, const ChangedDefault& changed) {
 const std::vector<ChangedDefault>& changed_defaults() {
   static const std::vector<ChangedDefault> all{
       {"band", "model", "\"scaled\"", "\"columns\"", has_band_columns},
-      {"band", "thickness_change", "\"as_printed\"", "\"conserving\"", has_band_columns},
-      {"heat", "advection_form", "\"as_printed\"", "\"conservative\"", water_seeps},
+      {"band", "thickness_change", "\"as_published\"", "\"conserving\"", has_band_columns},
+      {"heat", "advection_form", "\"as_published\"", "\"conservative\"", water_seeps},
       {"pressure", "frozen", "\"ice_pressure\"", "\"none\"", has_pore_water},
       {"pressure", "frozen_rows", "\"draining\"", "\"sealed\"", water_seeps},
       {"pressure", "melt_contraction", "false", "true", has_pore_water},
@@ -51,7 +51,7 @@ std::string changed_defaults_warning(const Case& parameters) {
     if (is_given(parameters, each)) {
       return "";
     }
-    if (each.matters(parameters)) {
+    if (each.affects(parameters)) {
       changed += fmt::format("\n  {}.{} = {}  # was {}", each.table, each.key, each.now, each.before);
     }
   }

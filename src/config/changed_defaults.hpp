@@ -14,7 +14,7 @@ struct ChangedDefault {
   std::string key;
   std::string before;  // as TOML, as `now`
   std::string now;
-  bool (*matters)(const Case&);  // true if the change affects a case
+  bool (*affects)(const Case&);  // true if the change affects a case
 };
 
 const std::vector<ChangedDefault>& changed_defaults();

@@ -24,7 +24,7 @@ const std::array side_names{"heat.boundary.x_min", "heat.boundary.x_max", "heat.
 
 void check_grid(const Case& checked, Reading& reading) {
   const Grid& grid = checked.grid;
-  if (!reading.sound({"grid.cell", "grid.min", "grid.max"})) {
+  if (!reading.are_valid({"grid.cell", "grid.min", "grid.max"})) {
     return;
   }
   for (std::size_t a = 0; a < static_cast<std::size_t>(checked.general.dimension); ++a) {
@@ -39,9 +39,9 @@ void check_grid(const Case& checked, Reading& reading) {
     const double cells = length / grid.cell;
     if (cells > most_cells) {
       reading.report_misfit({"grid.cell", "grid.max", "grid.min"},
-                            fmt::format("grid.cell is {} m, and the domain is {} m long along {}: {:.6g} cells; "
-                                        "allowed: at most {:.6g}. Make the cell larger or the domain smaller.",
-                                        grid.cell, length, axis_names[a], cells, most_cells));
+                            fmt::format("grid.cell is {} m, and the domain is {} m long along {}: {} cells; allowed: "
+                                        "at most {}. Make the cell larger or the domain smaller.",
+                                        grid.cell, length, axis_names[a], count_text(cells), count_text(most_cells)));
       return;
     }
     if (cells < fewest_cells) {
@@ -66,19 +66,19 @@ void check_grid(const Case& checked, Reading& reading) {
 
 void check_residual_friction(const std::string& table, const Material& material, Reading& reading) {
   const double residual = material.residual_friction_angle;
-  if (reading.sound({table + ".residual_friction_angle", table + ".friction_angle"}) &&
+  if (reading.are_valid({table + ".residual_friction_angle", table + ".friction_angle"}) &&
       residual > material.friction_angle) {
     reading.report_misfit(
         {table + ".residual_friction_angle", table + ".friction_angle"},
         fmt::format("{}.residual_friction_angle is {} degrees, above {}.friction_angle, which is {} degrees; softening "
-                    "takes friction away. Give a residual at most the friction angle.",
+                    "cannot increase friction. Give a residual at most the friction angle.",
                     table, residual, table, material.friction_angle));
-  } else if (reading.sound({table + ".residual_friction_angle", table + ".dilation_angle"}) &&
+  } else if (reading.are_valid({table + ".residual_friction_angle", table + ".dilation_angle"}) &&
              residual < material.dilation_angle && material.dilation_angle <= material.friction_angle) {
     reading.report_misfit(
         {table + ".residual_friction_angle", table + ".dilation_angle"},
         fmt::format("{}.residual_friction_angle is {} degrees, below {}.dilation_angle, which is {} degrees; allowed: "
-                    "at least the dilation angle, which does not soften, else plastic flow makes energy.",
+                    "at least the dilation angle, which does not soften, otherwise plastic flow creates energy.",
                     table, residual, table, material.dilation_angle));
   }
 }
@@ -86,20 +86,19 @@ void check_residual_friction(const std::string& table, const Material& material,
 void check_materials(const Case& checked, Reading& reading) {
   for (const auto& [name, material] : checked.materials) {
     const std::string table = "material." + name;
-    if (reading.sound({table + ".cohesion", table + ".residual_cohesion"}) &&
+    if (reading.are_valid({table + ".cohesion", table + ".residual_cohesion"}) &&
         material.residual_cohesion > material.cohesion) {
-      reading.report_misfit(
-          {table + ".residual_cohesion", table + ".cohesion"},
-          fmt::format("{}.residual_cohesion is {} Pa, above {}.cohesion, which is {} Pa; softening takes "
-                      "cohesion away. Give a residual at most the cohesion.",
-                      table, material.residual_cohesion, table, material.cohesion));
+      reading.report_misfit({table + ".residual_cohesion", table + ".cohesion"},
+                            fmt::format("{}.residual_cohesion is {} Pa, above {}.cohesion, which is {} Pa; softening "
+                                        "cannot increase cohesion. Give a residual at most the cohesion.",
+                                        table, material.residual_cohesion, table, material.cohesion));
     }
-    if (reading.sound({table + ".dilation_angle", table + ".friction_angle"}) &&
+    if (reading.are_valid({table + ".dilation_angle", table + ".friction_angle"}) &&
         material.dilation_angle > material.friction_angle) {
       reading.report_misfit(
           {table + ".dilation_angle", table + ".friction_angle"},
-          fmt::format("{}.dilation_angle is {} degrees, above {}.friction_angle, which is {} degrees; allowed: at "
-                      "most the friction angle, else plastic flow makes energy.",
+          fmt::format("{}.dilation_angle is {} degrees, above {}.friction_angle, which is {} degrees; allowed: at most "
+                      "the friction angle, otherwise plastic flow creates energy.",
                       table, material.dilation_angle, table, material.friction_angle));
     }
     check_residual_friction(table, material, reading);
@@ -108,7 +107,7 @@ void check_materials(const Case& checked, Reading& reading) {
 
 void check_filter(const Case& checked, Reading& reading) {
   const Mechanics& mechanics = checked.mechanics;
-  if (!reading.sound({"mechanics.transfer", "mechanics.fmpm_order", "mechanics.fmpm_interval"})) {
+  if (!reading.are_valid({"mechanics.transfer", "mechanics.fmpm_order", "mechanics.fmpm_interval"})) {
     return;
   }
   if (mechanics.transfer != Transfer::fmpm) {
@@ -123,7 +122,7 @@ void check_filter(const Case& checked, Reading& reading) {
                                           key, key));
       }
     }
-  } else if (checked.time.stepping == Stepping::fixed && reading.sound({"time.step"}) &&
+  } else if (checked.time.stepping == Stepping::fixed && reading.are_valid({"time.step"}) &&
              mechanics.fmpm_interval < checked.time.step) {
     reading.report_misfit({"mechanics.fmpm_interval", "time.step"},
                           fmt::format("mechanics.fmpm_interval is {} s, shorter than time.step, which is {} s; "
@@ -135,29 +134,30 @@ void check_filter(const Case& checked, Reading& reading) {
 // Checks keys that make each other ineffective.
 void check_switches(const Case& checked, Reading& reading) {
   const bool has_ground = checked.terrain.kind != TerrainKind::none;
-  if (reading.sound({"mechanics.enabled", "heat.enabled", "pressure.enabled"}) && !checked.mechanics.enabled &&
+  if (reading.are_valid({"mechanics.enabled", "heat.enabled", "pressure.enabled"}) && !checked.mechanics.enabled &&
       !checked.heat.enabled && !checked.pressure.enabled) {
     reading.report_misfit(
         {"mechanics.enabled", "heat.enabled", "pressure.enabled"},
         "mechanics.enabled, heat.enabled and pressure.enabled are all false: nothing is left to compute. Set "
         "at least one of them to true.");
   }
-  if (reading.sound({"mechanics.slope_shear", "mechanics.initial_stress"}) && checked.mechanics.slope_shear &&
+  if (reading.are_valid({"mechanics.slope_shear", "mechanics.initial_stress"}) && checked.mechanics.slope_shear &&
       checked.mechanics.initial_stress != InitialStress::geostatic) {
     reading.report_misfit(
         {"mechanics.slope_shear", "mechanics.initial_stress"},
         "mechanics.slope_shear is true, and mechanics.initial_stress is not \"geostatic\"; only that stress "
         "takes the shear. Set mechanics.initial_stress = \"geostatic\", or mechanics.slope_shear = false.");
   }
-  if (reading.sound({"mechanics.pic_share", "mechanics.transfer"}) && checked.mechanics.pic_share != 0.0 &&
+  if (reading.are_valid({"mechanics.pic_fraction", "mechanics.transfer"}) && checked.mechanics.pic_fraction != 0.0 &&
       checked.mechanics.transfer != Transfer::blend) {
     reading.report_misfit(
-        {"mechanics.pic_share", "mechanics.transfer"},
-        fmt::format("mechanics.pic_share is {}, and mechanics.transfer is not \"blend\"; no other transfer has it. Set "
-                    "mechanics.transfer = \"blend\", or remove mechanics.pic_share.",
-                    checked.mechanics.pic_share));
+        {"mechanics.pic_fraction", "mechanics.transfer"},
+        fmt::format(
+            "mechanics.pic_fraction is {}, and mechanics.transfer is not \"blend\"; no other transfer has it. Set "
+            "mechanics.transfer = \"blend\", or remove mechanics.pic_fraction.",
+            checked.mechanics.pic_fraction));
   }
-  if (reading.sound({"mechanics.transfer", "mechanics.shape_function"}) &&
+  if (reading.are_valid({"mechanics.transfer", "mechanics.shape_function"}) &&
       checked.mechanics.transfer == Transfer::apic && checked.mechanics.shape_function == ShapeFunction::linear) {
     reading.report_misfit(
         {"mechanics.transfer", "mechanics.shape_function"},
@@ -165,20 +165,21 @@ void check_switches(const Case& checked, Reading& reading) {
         "\"ugimp\", since nodes almost without mass would spoil the affine velocity. Set mechanics.shape_function = "
         "\"quadratic\", or another mechanics.transfer.");
   }
-  if (reading.sound({"band.region", "terrain.type"}) && checked.band.region == BandRegion::first_layer && !has_ground) {
+  if (reading.are_valid({"band.region", "terrain.type"}) && checked.band.region == BandRegion::first_layer &&
+      !has_ground) {
     reading.report_misfit(
         {"band.region", "terrain.type"},
         "band.region is \"first_layer\", and the case has no terrain; there is no layer above it. Set "
         "band.region = \"all\", or give terrain.type.");
   }
-  if (reading.sound({"band.cut_cells", "terrain.type"}) && checked.band.cut_cells == CutCells::equal_thickness &&
+  if (reading.are_valid({"band.cut_cells", "terrain.type"}) && checked.band.cut_cells == CutCells::equal_thickness &&
       !has_ground) {
     reading.report_misfit(
         {"band.cut_cells", "terrain.type"},
         "band.cut_cells is \"equal_thickness\", and the case has no terrain; nothing cuts through cells. Set "
         "band.cut_cells = \"as_they_are\", or give terrain.type.");
   }
-  if (reading.sound({"band.cut_cells"}) && checked.band.cut_cells == CutCells::equal_thickness) {
+  if (reading.are_valid({"band.cut_cells"}) && checked.band.cut_cells == CutCells::equal_thickness) {
     const auto& [first_name, first] = *checked.bodies.begin();
     for (const auto& [name, body] : checked.bodies) {
       if (body.particles_per_axis != first.particles_per_axis) {
@@ -193,14 +194,13 @@ void check_switches(const Case& checked, Reading& reading) {
       }
     }
   }
-  if (reading.sound({"mechanics.effective_stress", "pressure.enabled"}) && checked.mechanics.effective_stress &&
+  if (reading.are_valid({"mechanics.effective_stress", "pressure.enabled"}) && checked.mechanics.effective_stress &&
       !checked.pressure.enabled) {
-    reading.report_misfit(
-        {"mechanics.effective_stress", "pressure.enabled"},
-        "mechanics.effective_stress is true, and pressure.enabled is false; there is no pore pressure to take off. Set "
-        "pressure.enabled = true, or mechanics.effective_stress = false.");
+    reading.report_misfit({"mechanics.effective_stress", "pressure.enabled"},
+                          "mechanics.effective_stress is true, and pressure.enabled is false; there is no pore "
+                          "pressure to subtract. Set pressure.enabled = true, or mechanics.effective_stress = false.");
   }
-  if (reading.sound({"terrain.slope", "terrain.type"}) && checked.terrain.slope != 0.0 &&
+  if (reading.are_valid({"terrain.slope", "terrain.type"}) && checked.terrain.slope != 0.0 &&
       checked.terrain.kind != TerrainKind::plane) {
     reading.report_misfit(
         {"terrain.slope", "terrain.type"},
@@ -213,11 +213,11 @@ void check_switches(const Case& checked, Reading& reading) {
 // With band columns, particle temperature and pore pressure stay constant, so keys that act on them have no effect.
 // Columns lack the formulations that create heat or water spuriously.
 void check_band_columns(const Case& checked, Reading& reading) {
-  if (!reading.sound({"band.model"}) || !has_band_columns(checked)) {
+  if (!reading.are_valid({"band.model"}) || !has_band_columns(checked)) {
     return;
   }
   const auto require = [&](bool met, const char* key, const char* found, const char* allowed) {
-    if (reading.sound({key}) && !met) {
+    if (reading.are_valid({key}) && !met) {
       reading.report_misfit({key, "band.model"},
                             fmt::format("band.model is \"columns\", and {} is {}; allowed with it: {}. Set {} so, or "
                                         "band.model = \"scaled\".",
@@ -230,17 +230,17 @@ void check_band_columns(const Case& checked, Reading& reading) {
   require(!checked.mechanics.effective_stress, "mechanics.effective_stress", "true", "false");
   require(checked.heat.enabled, "heat.enabled", "false", "true");
   require(checked.heat.advection, "heat.advection", "false", "true");
-  require(checked.heat.advection_form == AdvectionForm::conservative, "heat.advection_form", "\"as_printed\"",
+  require(checked.heat.advection_form == AdvectionForm::conservative, "heat.advection_form", "\"as_published\"",
           "\"conservative\"");
-  require(checked.pressure.clapeyron == ClapeyronSign::usual, "pressure.clapeyron", "\"printed\"", "\"usual\"");
+  require(checked.pressure.clapeyron == ClapeyronSign::usual, "pressure.clapeyron", "\"published\"", "\"usual\"");
   require(!checked.pressure.volumetric_term, "pressure.volumetric_term", "true", "false");
-  require(checked.pressure.seepage_scaling == SeepageScaling::consistent, "pressure.seepage_scaling", "\"printed\"",
+  require(checked.pressure.seepage_scaling == SeepageScaling::consistent, "pressure.seepage_scaling", "\"published\"",
           "\"consistent\"");
   require(checked.pressure.frozen == FrozenPressure::none, "pressure.frozen", "\"ice_pressure\"", "\"none\"");
   require(checked.pressure.frozen_rows != FrozenRows::draining, "pressure.frozen_rows", "\"draining\"",
           "\"sealed\" or \"vented\"");
   require(checked.pressure.melt_contraction, "pressure.melt_contraction", "false", "true");
-  require(checked.band.thickness_change == ThicknessChange::conserving, "band.thickness_change", "\"as_printed\"",
+  require(checked.band.thickness_change == ThicknessChange::conserving, "band.thickness_change", "\"as_published\"",
           "\"conserving\"");
   for (std::size_t side = 0; side < side_names.size(); ++side) {
     require(checked.heat.boundary[side].kind == HeatBoundaryKind::insulated, side_names[side], "not \"insulated\"",
@@ -250,32 +250,32 @@ void check_band_columns(const Case& checked, Reading& reading) {
 
 // The same for heat and water in the band.
 void check_band_switches(const Case& checked, Reading& reading) {
-  if (reading.sound({"heat.advection_form", "heat.update", "heat.masses"}) &&
+  if (reading.are_valid({"heat.advection_form", "heat.update", "heat.masses"}) &&
       checked.heat.advection_form == AdvectionForm::conservative && water_seeps(checked) &&
       (checked.heat.update != HeatUpdate::enthalpy || checked.heat.masses != HeatMasses::initial)) {
     reading.report_misfit(
         {"heat.advection_form", "heat.update", "heat.masses"},
         "heat.advection_form is \"conservative\", and heat.update or heat.masses is as published, which still creates "
         "heat; allowed with it: heat.update = \"enthalpy\" and heat.masses = \"initial\". Set both so, or "
-        "heat.advection_form = \"as_printed\".");
+        "heat.advection_form = \"as_published\".");
   }
-  if (reading.sound({"pressure.residual_stress", "pressure.frozen"}) &&
+  if (reading.are_valid({"pressure.residual_stress", "pressure.frozen"}) &&
       checked.pressure.residual_stress < std::numeric_limits<double>::infinity() &&
       checked.pressure.frozen != FrozenPressure::none) {
     reading.report_misfit(
         {"pressure.residual_stress", "pressure.frozen"},
-        fmt::format("pressure.residual_stress is {} Pa, and pressure.frozen is not \"none\"; where ice presses, water "
-                    "starts from its pressure. Set pressure.frozen = \"none\", or remove pressure.residual_stress.",
+        fmt::format("pressure.residual_stress is {} Pa, and pressure.frozen is not \"none\"; if ice has a pressure, "
+                    "water starts from it. Set pressure.frozen = \"none\", or remove pressure.residual_stress.",
                     checked.pressure.residual_stress));
   }
 }
 
 void check_times(const Case& checked, Reading& reading) {
   const Time& time = checked.time;
-  if (!reading.sound({"time.end"})) {
+  if (!reading.are_valid({"time.end"})) {
     return;
   }
-  if (time.stepping == Stepping::fixed && reading.sound({"time.step"}) && time.step > time.end) {
+  if (time.stepping == Stepping::fixed && reading.are_valid({"time.step"}) && time.step > time.end) {
     reading.report_misfit(
         {"time.step", "time.end"},
         fmt::format("time.step is {} s, longer than the run, which ends at time.end = {} s; allowed: at "
@@ -287,21 +287,20 @@ void check_times(const Case& checked, Reading& reading) {
       {"time.history_interval", time.history_interval, "; 0: a row every step"},
       {"checkpoint.interval", checked.checkpoint.interval, "; 0: none by simulated time"}};
   for (const auto& [key, interval, or_none] : intervals) {
-    if (reading.sound({key}) && interval > 0.0 && interval < time.end / most_intervals) {
-      const bool is_given = reading.given(key);
-      reading.report_misfit(
-          {is_given ? key : "time.end", is_given ? "time.end" : key},
-          fmt::format("{} is {} s, and the run of {} s has {:.4g} times as much; allowed: {:.4g} s and more, {:g} of "
-                      "them in the run{}. Make it longer, or the run shorter.",
-                      key, interval, time.end, time.end / interval, rounded_up(time.end / most_intervals, 4),
-                      most_intervals, or_none));
+    if (reading.are_valid({key}) && interval > 0.0 && interval < time.end / most_intervals) {
+      const bool is_given = reading.is_given(key);
+      reading.report_misfit({is_given ? key : "time.end", is_given ? "time.end" : key},
+                            fmt::format("{} is {} s, and the run of {} s has {} times as much; allowed: {:.4g} s and "
+                                        "more, {} of them in the run{}. Make it longer, or the run shorter.",
+                                        key, interval, time.end, rounded_text(time.end / interval, 2),
+                                        rounded_up(time.end / most_intervals, 4), count_text(most_intervals), or_none));
     }
   }
 }
 
 // Checks the profile against the domain; returns an empty table if there is none, or if it has other problems.
 ProfileTable checked_profile(const Case& checked, Reading& reading) {
-  if (checked.terrain.kind != TerrainKind::profile || !reading.sound({"terrain.file"}) ||
+  if (checked.terrain.kind != TerrainKind::profile || !reading.are_valid({"terrain.file"}) ||
       checked.terrain.file.empty()) {
     return {};
   }
@@ -312,7 +311,7 @@ ProfileTable checked_profile(const Case& checked, Reading& reading) {
     reading.report("terrain.file", fmt::format("terrain.file: {}", error.what()));
     return {};
   }
-  if (!checked.terrain.extend && reading.sound({"grid.min", "grid.max"}) &&
+  if (!checked.terrain.extend && reading.are_valid({"grid.min", "grid.max"}) &&
       (profile.distance.front() > checked.grid.min[0] || profile.distance.back() < checked.grid.max[0])) {
     reading.report_misfit(
         {"terrain.file", "grid.max", "grid.min", "terrain.extend"},
@@ -331,7 +330,7 @@ void check_material(const Case& checked, const std::string& table, const std::st
   for (const auto& [material, unused] : checked.materials) {
     known.push_back(material);
   }
-  if (reading.sound({table + ".material"}) && checked.materials.count(name) == 0) {
+  if (reading.are_valid({table + ".material"}) && checked.materials.count(name) == 0) {
     const std::string hint = did_you_mean(name, known);
     reading.report(table + ".material",
                    fmt::format("{}.material is '{}', and there is no [material.{}]{} Allowed: {}.", table, name, name,

@@ -12,7 +12,7 @@ namespace {
 void check_depth(const Case& checked, Reading& reading) {
   const InitialField& depth = checked.bed.depth;
   const std::string key = "bed.depth";
-  if (!reading.sound({key})) {
+  if (!reading.are_valid({key})) {
     return;
   }
   if (depth.over == InitialField::Over::depth || depth.over == InitialField::Over::attribute) {
@@ -20,13 +20,13 @@ void check_depth(const Case& checked, Reading& reading) {
                                     "= \"FILE\" }}, since a bed has no polygons and lies on the ground.",
                                     key, depth.over == InitialField::Over::depth ? "depth" : "an attribute"));
   } else if (depth.is_map()) {
-    if (reading.sound({"terrain.type"}) && checked.terrain.kind != TerrainKind::dem) {
+    if (reading.are_valid({"terrain.type"}) && checked.terrain.kind != TerrainKind::dem) {
       reading.report_misfit({key, "terrain.type"},
                             fmt::format("{} is a raster, and terrain.type is not \"dem\"; maps lie on a DEM. Give a "
                                         "number or a table over x, or set terrain.type = \"dem\" and terrain.file.",
                                         key));
     }
-  } else if (!depth.table.value.empty() && reading.sound({"grid.cell"})) {
+  } else if (!depth.table.value.empty() && reading.are_valid({"grid.cell"})) {
     const double deepest = *std::max_element(depth.table.value.begin(), depth.table.value.end());
     if (deepest > checked.grid.cell) {
       reading.report_misfit(
@@ -41,12 +41,12 @@ void check_depth(const Case& checked, Reading& reading) {
 }  // namespace
 
 void check_bed(const Case& checked, Reading& reading) {
-  if (!reading.sound({"bed.law"}) || checked.bed.law == BedLaw::none) {
+  if (!reading.are_valid({"bed.law"}) || checked.bed.law == BedLaw::none) {
     return;
   }
   check_depth(checked, reading);
   check_material(checked, "bed", checked.bed.material, reading);
-  if (reading.sound({"terrain.type"}) && checked.terrain.kind == TerrainKind::none) {
+  if (reading.are_valid({"terrain.type"}) && checked.terrain.kind == TerrainKind::none) {
     reading.report_misfit(
         {"bed.law", "terrain.type"},
         "bed.law is given, and the case has no terrain that a bed could lie on. Remove [bed], or give "

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.hpp"
 #include "config/checks.hpp"
 
 namespace thawslide::config {
@@ -12,7 +13,8 @@ namespace {
 
 const char* const axis_names[] = {"x", "y", "z"};
 constexpr double degree = 3.14159265358979323846 / 180.0;
-constexpr double hair = 1e-3;  // fraction of a cell: depth to which a body may extend into the ground by rounding
+constexpr double rounding_depth =
+    1e-3;                      // fraction of a cell: depth to which a body may extend into the ground by rounding
 constexpr double flat = 1e-9;  // fraction of the squared size of a polygon: an area due to rounding
 
 // Elevation of the ground; -infinity without terrain, and on a DEM, which is not read here.
@@ -37,7 +39,7 @@ std::string point_text(const Point& point, int dimension) {
 }
 
 bool check_box_order(const Point& low, const Point& high, const std::string& table, int dimension, Reading& reading) {
-  if (!reading.sound({table + ".min", table + ".max"})) {
+  if (!reading.are_valid({table + ".min", table + ".max"})) {
     return false;
   }
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
@@ -57,7 +59,7 @@ bool check_box_order(const Point& low, const Point& high, const std::string& tab
 void check_in_domain(const Case& checked, const Point& low, const Point& high, const std::string& table,
                      const std::string& low_key, const std::string& high_key, Reading& reading) {
   const Grid& grid = checked.grid;
-  if (!reading.sound({"grid.min", "grid.max"})) {
+  if (!reading.are_valid({"grid.min", "grid.max"})) {
     return;
   }
   for (std::size_t a = 0; a < static_cast<std::size_t>(checked.general.dimension); ++a) {
@@ -78,11 +80,10 @@ void check_in_domain(const Case& checked, const Point& low, const Point& high, c
 void report_below_ground(const Case& checked, double x, double height, double ground, const std::string& table,
                          const std::string& key, Reading& reading) {
   const char* const height_key = checked.terrain.kind == TerrainKind::profile ? "terrain.file" : "terrain.elevation";
-  reading.report_misfit(
-      {key, height_key, "terrain.slope", "terrain.type"},
-      fmt::format("{} is below the terrain: at x = {:.6g} m its elevation is {:.6g} m and the ground's {:.6g} "
-                  "m; allowed: on the ground or above it. Lift the body, or lower the terrain.",
-                  table, x, height, ground));
+  reading.report_misfit({key, height_key, "terrain.slope", "terrain.type"},
+                        fmt::format("{} is below the terrain: at x = {} m its elevation is {} m and the ground's {} m; "
+                                    "allowed: on the ground or above it. Lift the body, or lower the terrain.",
+                                    table, coordinate_text(x), coordinate_text(height), coordinate_text(ground)));
 }
 
 void check_box(const Case& checked, const ProfileTable& profile, const Body& body, const std::string& table,
@@ -93,15 +94,15 @@ void check_box(const Case& checked, const ProfileTable& profile, const Body& bod
   }
   check_in_domain(checked, body.min, body.max, table, table + ".min", table + ".max", reading);
   const double bottom = body.min[static_cast<std::size_t>(dimension - 1)];
-  std::vector<double> places{body.min[0], body.max[0]};
+  std::vector<double> stations{body.min[0], body.max[0]};
   for (const double x : profile.distance) {
     if (x > body.min[0] && x < body.max[0]) {
-      places.push_back(x);
+      stations.push_back(x);
     }
   }
-  for (const double x : places) {
+  for (const double x : stations) {
     const double ground = ground_at(checked, profile, x);
-    if (bottom < ground - hair * checked.grid.cell) {
+    if (bottom < ground - rounding_depth * checked.grid.cell) {
       report_below_ground(checked, x, bottom, ground, table, table + ".min", reading);
       return;
     }
@@ -170,7 +171,7 @@ Vertices low_points(const ProfileTable& profile, const Vertex& a, const Vertex& 
 void check_polygon(const Case& checked, const ProfileTable& profile, const Body& body, const std::string& table,
                    Reading& reading) {
   const std::string key = table + ".vertices";
-  if (!reading.sound({key})) {
+  if (!reading.are_valid({key})) {
     return;
   }
   const Vertices& vertices = body.vertices;
@@ -188,7 +189,7 @@ void check_polygon(const Case& checked, const ProfileTable& profile, const Body&
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     for (const Vertex& point : low_points(profile, vertices[k], vertices[(k + 1) % vertices.size()])) {
       const double ground = ground_at(checked, profile, point[0]);
-      if (point[1] < ground - hair * checked.grid.cell) {
+      if (point[1] < ground - rounding_depth * checked.grid.cell) {
         report_below_ground(checked, point[0], point[1], ground, table, key, reading);
         return;
       }
@@ -250,7 +251,7 @@ void check_body(const Case& checked, const ProfileTable& profile, const std::str
                 Reading& reading) {
   const std::string table = "body." + name;
   check_material(checked, table, body.material, reading);
-  if (!reading.sound({table + ".shape", "grid.cell"})) {
+  if (!reading.are_valid({table + ".shape", "grid.cell"})) {
     return;
   }
   if (body.shape == BodyShape::release) {
@@ -275,9 +276,9 @@ void check_body(const Case& checked, const ProfileTable& profile, const std::str
 void check_frame_meets_domain(const Case& checked, const Frame& frame, const std::string& table, Reading& reading) {
   const int dimension = checked.general.dimension;
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
-    const double way = frame.axis == axis_names[a] ? frame.velocity * checked.time.end : 0.0;
-    const double low = frame.min[a] + std::min(0.0, way);
-    const double high = frame.max[a] + std::max(0.0, way);
+    const double displacement = frame.axis == axis_names[a] ? frame.velocity * checked.time.end : 0.0;
+    const double low = frame.min[a] + std::min(0.0, displacement);
+    const double high = frame.max[a] + std::max(0.0, displacement);
     if (high <= checked.grid.min[a] || low >= checked.grid.max[a]) {
       reading.report_misfit(
           {table + ".min", table + ".velocity", "grid.min", "grid.max", "time.end"},
@@ -293,10 +294,10 @@ void check_frame_meets_domain(const Case& checked, const Frame& frame, const std
 void check_frame(const Case& checked, const std::string& name, const Frame& frame, Reading& reading) {
   const std::string table = "frame." + name;
   const bool ordered = check_box_order(frame.min, frame.max, table, checked.general.dimension, reading);
-  if (ordered && reading.sound({"grid.min", "grid.max", "time.end", table + ".axis", table + ".velocity"})) {
+  if (ordered && reading.are_valid({"grid.min", "grid.max", "time.end", table + ".axis", table + ".velocity"})) {
     check_frame_meets_domain(checked, frame, table, reading);
   }
-  if (reading.sound({table + ".axis"}) && frame.axis == "z" && checked.general.dimension == 2) {
+  if (reading.are_valid({table + ".axis"}) && frame.axis == "z" && checked.general.dimension == 2) {
     reading.report(table + ".axis",
                    fmt::format("{}.axis is \"z\" in a 2D case; allowed: \"x\" or \"y\". Up is \"y\" there.", table));
   }
@@ -305,7 +306,7 @@ void check_frame(const Case& checked, const std::string& name, const Frame& fram
 }  // namespace
 
 void check_bodies(const Case& checked, const ProfileTable& profile, Reading& reading) {
-  if (checked.bodies.empty() && reading.sound({"body"})) {
+  if (checked.bodies.empty() && reading.are_valid({"body"})) {
     reading.report("body", "the case has no body; add a table [body.NAME] with its material and shape.");
   }
   for (const auto& [name, body] : checked.bodies) {

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <set>
-#include <utility>
 
 #include "config/body_layers.hpp"
 #include "config/checks.hpp"
@@ -19,7 +18,7 @@ bool check_names(const Case& checked, Reading& reading) {
   bool are_right = true;
   for (const auto& [name, pair] : checked.contact_pairs) {
     const std::string key = "contact_pair." + name + ".bodies";
-    if (!reading.sound({key})) {
+    if (!reading.are_valid({key})) {
       are_right = false;
       continue;
     }
@@ -56,11 +55,11 @@ bool check_names(const Case& checked, Reading& reading) {
 }  // namespace
 
 void check_contact(const Case& checked, Reading& reading) {
-  if (checked.bodies.empty() || !check_names(checked, reading) || !reading.sound({"contact.between_bodies"})) {
+  if (checked.bodies.empty() || !check_names(checked, reading) || !reading.are_valid({"contact.between_bodies"})) {
     return;
   }
   for (const auto& [name, pair] : checked.contact_pairs) {
-    if (!reading.sound({"contact_pair." + name + ".contact", "contact_pair." + name + ".friction_angle"})) {
+    if (!reading.are_valid({"contact_pair." + name + ".contact", "contact_pair." + name + ".friction_angle"})) {
       return;
     }
   }
@@ -80,14 +79,14 @@ void check_contact(const Case& checked, Reading& reading) {
                     "\"bonded\".",
                     key, layers.count, most_layers));
   }
-  if (layers.count > 1 && reading.sound({"band.model"}) && has_band_columns(checked)) {
+  if (layers.count > 1 && reading.are_valid({"band.model"}) && has_band_columns(checked)) {
     reading.report_misfit({key, "band.model"},
                           fmt::format("{}: frictional contact between bodies and band.model = \"columns\" exclude each "
                                       "other. Set contact.between_bodies = \"bonded\", or band.model = "
                                       "\"scaled\".",
                                       key));
   }
-  if (layers.count > 1 && reading.sound({"bed.law"}) && checked.bed.law != BedLaw::none) {
+  if (layers.count > 1 && reading.are_valid({"bed.law"}) && checked.bed.law != BedLaw::none) {
     reading.report_misfit(
         {key, "bed.law"},
         fmt::format("{}: frictional contact between bodies and an erodible bed (bed.law) exclude each "

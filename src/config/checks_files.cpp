@@ -18,7 +18,7 @@ void check_names(const Case& checked, Reading& reading) {
     for (std::size_t earlier = 0; earlier < later; ++earlier) {
       const auto& [key, file] = files[later];
       const auto& [other_key, other] = files[earlier];
-      if (file.filename() == other.filename() && reading.sound({key, other_key})) {
+      if (file.filename() == other.filename() && reading.are_valid({key, other_key})) {
         reading.report_misfit(
             {key, other_key.empty() ? key : other_key},
             fmt::format("{} leads to {}, and {} {}; allowed: names of their own, since a run keeps copies of all its "
@@ -32,7 +32,7 @@ void check_names(const Case& checked, Reading& reading) {
 
 void check_targets(const Case& checked, Reading& reading) {
   const std::string& file = checked.report.targets;
-  if (file.empty() || !reading.sound({"report.targets"})) {
+  if (file.empty() || !reading.are_valid({"report.targets"})) {
     return;
   }
   for (const std::string& mistake : read_reported_values(file).mistakes) {
@@ -45,12 +45,12 @@ void check_force_record(const Case& checked, Reading& reading) {
   if (report.force_record.empty()) {
     return;
   }
-  if (reading.sound({"report.force_record"})) {
+  if (reading.are_valid({"report.force_record"})) {
     if (const std::string mistake = mistake_in_force_record(report.force_record); !mistake.empty()) {
       reading.report("report.force_record", "report.force_record: " + mistake);
     }
   }
-  if (reading.sound({"report.force_periods"}) && report.force_periods.size() != 2) {
+  if (reading.are_valid({"report.force_periods"}) && report.force_periods.size() != 2) {
     reading.report(
         "report.force_periods",
         fmt::format("report.force_periods is an array of {} numbers; allowed: 2 numbers, the shortest and the "

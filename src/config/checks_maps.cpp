@@ -16,7 +16,7 @@ namespace {
 constexpr double absolute_zero = -273.15;  // C
 
 void check_dem(const Case& checked, Reading& reading) {
-  if (checked.terrain.kind != TerrainKind::dem || !reading.sound({"terrain.type"})) {
+  if (checked.terrain.kind != TerrainKind::dem || !reading.are_valid({"terrain.type"})) {
     return;
   }
   if (checked.general.dimension != 3) {
@@ -24,7 +24,7 @@ void check_dem(const Case& checked, Reading& reading) {
                           "terrain.type is \"dem\", and case.dimension is 2; a DEM is the ground of a 3D case. Set "
                           "case.dimension = 3, or cut a 2D case out of the DEM with `thawslide section`.");
   }
-  if (reading.sound({"terrain.representation"}) && checked.terrain.form == TerrainForm::rigid_points) {
+  if (reading.are_valid({"terrain.representation"}) && checked.terrain.form == TerrainForm::rigid_points) {
     reading.report_misfit(
         {"terrain.representation", "terrain.type"},
         "terrain.representation is \"rigid_points\", and terrain.type is \"dem\"; rigid points stand for profiles and "
@@ -33,23 +33,23 @@ void check_dem(const Case& checked, Reading& reading) {
 }
 
 void check_release(const Case& checked, const Body& body, const std::string& table, Reading& reading) {
-  if (reading.sound({"terrain.type"}) && checked.terrain.kind != TerrainKind::dem) {
+  if (reading.are_valid({"terrain.type"}) && checked.terrain.kind != TerrainKind::dem) {
     reading.report_misfit(
         {table + ".shape", "terrain.type"},
         fmt::format("{}.shape is \"release\", and terrain.type is not \"dem\"; a release lies on a DEM, "
                     "or in it. Set terrain.type = \"dem\" and terrain.file, or use another shape.",
                     table));
   }
-  if (body.thickness.from != MapValue::From::surface || !reading.sound({table + ".thickness"})) {
+  if (body.thickness.from != MapValue::From::surface || !reading.are_valid({table + ".thickness"})) {
     return;
   }
-  if (body.thickness_along == ThicknessAlong::normal && reading.sound({table + ".thickness_along"})) {
+  if (body.thickness_along == ThicknessAlong::normal && reading.are_valid({table + ".thickness_along"})) {
     reading.report_misfit({table + ".thickness_along", table + ".thickness"},
                           fmt::format("{}.thickness_along is \"normal\", and {}.thickness is the difference of two "
                                       "surfaces, which is vertical. Set {}.thickness_along = \"vertical\".",
                                       table, table, table));
   }
-  if (body.placement == Placement::cut && reading.sound({table + ".placement"})) {
+  if (body.placement == Placement::cut && reading.are_valid({table + ".placement"})) {
     reading.report_misfit({table + ".placement", table + ".thickness"},
                           fmt::format("{}.placement is \"cut\", and {}.thickness is what a surface has above the DEM; "
                                       "that lies on the DEM. Set {}.placement = \"on_top\".",
@@ -60,7 +60,7 @@ void check_release(const Case& checked, const Body& body, const std::string& tab
 void check_field(const Body& body, const InitialField& field, const std::string& table, const std::string& key,
                  Reading& reading) {
   const std::string name = table + "." + key;
-  if (!field.is_map() || !reading.sound({name, table + ".shape", table + ".release"})) {
+  if (!field.is_map() || !reading.are_valid({name, table + ".shape", table + ".release"})) {
     return;
   }
   const bool is_raster = field.over == InitialField::Over::raster;
@@ -88,8 +88,8 @@ double saturation_at(const Freezing& freezing, double temperature) {
 // Checks that the freezing curve has a temperature for the saturation.
 void check_saturation(const Case& checked, const Body& body, const std::string& table, Reading& reading) {
   const std::string key = table + ".saturation";
-  if (!body.saturation.is_given() || body.saturation.is_map() || !reading.sound({key}) ||
-      !reading.sound({"freezing.curve", "freezing.exponent", "freezing.slope", "freezing.reference_temperature"})) {
+  if (!body.saturation.is_given() || body.saturation.is_map() || !reading.are_valid({key}) ||
+      !reading.are_valid({"freezing.curve", "freezing.exponent", "freezing.slope", "freezing.reference_temperature"})) {
     return;
   }
   const std::vector<double>& values = body.saturation.table.value;
@@ -114,7 +114,7 @@ void check_ice_content(const Case& checked, const Body& body, const std::string&
   const auto is_number = [](const InitialField& field) {
     return field.over == InitialField::Over::nothing && field.is_given();
   };
-  if (!is_number(body.ice_content) || !is_number(water) || !reading.sound({key, water_key, "freezing.curve"})) {
+  if (!is_number(body.ice_content) || !is_number(water) || !reading.are_valid({key, water_key, "freezing.curve"})) {
     return;
   }
   const double ice = body.ice_content.table.value.front();
@@ -124,7 +124,7 @@ void check_ice_content(const Case& checked, const Body& body, const std::string&
   if (ice > most) {
     reading.report_misfit(
         {key, water_key},
-        fmt::format("{} is {}, and the saturation is {:.4g}; the porosity, ice_content / (1 - saturation), must not "
+        fmt::format("{} is {}, and the saturation is {:.3g}; the porosity, ice_content / (1 - saturation), must not "
                     "exceed {}. Allowed with it: at most {:.4g}. Give less ice, or less water.",
                     key, ice, saturation, physics::largest_porosity, most > 0.0 ? rounded_down(most, 4) : most));
   }
@@ -133,7 +133,7 @@ void check_ice_content(const Case& checked, const Body& body, const std::string&
 // A file of a line requires the DEM's coordinate system.
 void check_line(const Case& checked, const std::string& key, const std::string& file, Reading& reading) {
   if (checked.general.dimension == 3 && !file.empty() && checked.terrain.kind != TerrainKind::dem &&
-      reading.sound({"terrain.type", key})) {
+      reading.are_valid({"terrain.type", key})) {
     reading.report_misfit({key, "terrain.type"},
                           fmt::format("{} is given, and terrain.type is not \"dem\"; a file of a line needs the "
                                       "coordinate system of a DEM. Remove {}, or set terrain.type = \"dem\".",
@@ -146,8 +146,8 @@ void check_probe(const Case& checked, const Probe& probe, const std::string& tab
     reading.report_misfit(
         {table, "case.dimension"},
         fmt::format("[{}] has a meaning only in three dimensions, and case.dimension is 2. Remove it.", table));
-  } else if (reading.sound({table + ".point", table + ".line"}) && !probe.line.empty() &&
-             reading.given(table + ".point")) {
+  } else if (reading.are_valid({table + ".point", table + ".line"}) && !probe.line.empty() &&
+             reading.is_given(table + ".point")) {
     reading.report_misfit({table + ".line", table + ".point"},
                           fmt::format("{}.point and {}.line are both given; allowed: one of them, since a probe is a "
                                       "place or a cross section. Remove one, or write two probes.",
@@ -161,7 +161,7 @@ void check_maps(const Case& checked, Reading& reading) {
   check_dem(checked, reading);
   for (const auto& [name, body] : checked.bodies) {
     const std::string table = "body." + name;
-    if (body.shape == BodyShape::release && reading.sound({table + ".shape"})) {
+    if (body.shape == BodyShape::release && reading.are_valid({table + ".shape"})) {
       check_release(checked, body, table, reading);
     }
     check_field(body, body.temperature, table, "temperature", reading);

@@ -18,10 +18,10 @@ bool bodies_are_apart(const Case& checked, const Reading& reading) {
 }  // namespace
 
 void check_width(const Case& checked, Reading& reading) {
-  if (!reading.sound({key})) {
+  if (!reading.are_valid({key})) {
     return;
   }
-  if (checked.general.dimension == 3 && reading.given(key)) {  // [case] is read before its dimension is known
+  if (checked.general.dimension == 3 && reading.is_given(key)) {  // [case] is read before its dimension is known
     reading.report_misfit(
         {key, "case.dimension"},
         fmt::format("{} has a meaning only in two dimensions, and case.dimension is 3. Remove it.", key));
@@ -34,7 +34,7 @@ void check_width(const Case& checked, Reading& reading) {
     bool is_given;
     const char* what;
   } others[] = {
-      {reading.sound({"bed.law"}) && checked.bed.law != BedLaw::none, "an erodible bed ([bed])"},
+      {reading.are_valid({"bed.law"}) && checked.bed.law != BedLaw::none, "an erodible bed ([bed])"},
       {!checked.frames.empty(), "a rigid frame ([frame.NAME])"},
       {bodies_are_apart(checked, reading), "frictional contact between bodies ([contact])"},
   };

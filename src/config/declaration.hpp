@@ -20,7 +20,7 @@ struct Entry {
   std::string default_text;  // TOML; empty: none
   std::string required;      // "always", or the condition; empty: never
   std::string otherwise;     // default of an absent key that has no fixed default
-  std::vector<Keyword> words;
+  std::vector<Keyword> keywords;
   nlohmann::json schema;
   std::string only;  // condition under which the key is allowed; empty: always
 };
@@ -60,7 +60,7 @@ class Parameter {
     Parameter parameter;
     parameter.rule = std::move(rule);
     parameter.type = Value<T>::type(parameter.rule);
-    parameter.words = parameter.rule.words.empty() ? Value<T>::words() : parameter.rule.words;
+    parameter.keywords = parameter.rule.keywords.empty() ? Value<T>::keywords() : parameter.rule.keywords;
     parameter.schema = Value<T>::schema(parameter.rule);
     parameter.read = [access](const toml::node& node, const ValueReader& at, Section& section) {
       return Value<T>::read(node, at, std::invoke(access, section));
@@ -117,7 +117,7 @@ class Parameter {
 
   Rule rule;
   std::string type;
-  std::vector<Keyword> words;
+  std::vector<Keyword> keywords;
   nlohmann::json schema;
   std::string required_text;
   std::string otherwise_text;

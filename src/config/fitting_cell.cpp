@@ -108,7 +108,7 @@ double fitting_cell_from(double least, double cell, const std::vector<double>& l
 double fitting_cell_near(double cell, const std::vector<double>& lengths) {
   const double largest = common_length(lengths), shortest = *std::min_element(lengths.begin(), lengths.end());
   double nearest = 0.0, nearest_of_few_digits = 0.0;
-  const auto take = [cell](double& best, double found) {
+  const auto consider = [cell](double& best, double found) {
     best = best == 0.0 || times_off(found, cell) < times_off(best, cell) ? found : best;
   };
   double parts = std::max(1.0, std::ceil(largest / (leeway * cell)));
@@ -118,9 +118,9 @@ double fitting_cell_near(double cell, const std::vector<double>& lengths) {
     if (found * fewest_cells > shortest * (1.0 + 1e-9)) {
       continue;
     }
-    take(nearest, found);
+    consider(nearest, found);
     if (has_few_digits(found) && times_off(found, cell) <= little) {
-      take(nearest_of_few_digits, of_few_digits(found));
+      consider(nearest_of_few_digits, of_few_digits(found));
     }
   }
   return nearest_of_few_digits > 0.0 ? nearest_of_few_digits : nearest;

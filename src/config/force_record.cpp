@@ -55,11 +55,11 @@ using Cells = std::map<std::string, std::string>;
 
 // Returns the numbers of a row by column; throws UserError for a cell without a number.
 std::map<std::string, double> numbers_of(const Cells& cells, const std::vector<std::string>& columns,
-                                         const std::string& place) {
+                                         const std::string& location) {
   std::map<std::string, double> numbers;
   for (const std::string& name : columns) {
     if (const std::string mistake = read_finite_number(cells.at(name), numbers[name]); !mistake.empty()) {
-      throw UserError(place + mistake);
+      throw UserError(location + mistake);
     }
   }
   return numbers;
@@ -83,11 +83,11 @@ std::string mistake_in_force_record(const std::filesystem::path& file) {
       for (std::size_t k = 0; k < row.cells.size(); ++k) {
         cells[table.columns[k]] = row.cells[k];
       }
-      const std::string place = fmt::format("{}:{}: ", name, row.line);
-      const std::map<std::string, double> numbers = numbers_of(cells, table.columns, place);
+      const std::string location = fmt::format("{}:{}: ", name, row.line);
+      const std::map<std::string, double> numbers = numbers_of(cells, table.columns, location);
       if (!(numbers.at("time_s") > last_time)) {
         return fmt::format(
-            "{}time_s does not rise (found {} after {}; allowed: more than that). Sort the rows by time.", place,
+            "{}time_s does not rise (found {} after {}; allowed: more than that). Sort the rows by time.", location,
             cells.at("time_s"), last_text);
       }
       last_time = numbers.at("time_s");
@@ -96,7 +96,7 @@ std::string mistake_in_force_record(const std::filesystem::path& file) {
         const std::string low = part + "_low_N", high = part + "_high_N", best = part + "_N";
         if (numbers.at(best) < numbers.at(low) || numbers.at(best) > numbers.at(high)) {
           return fmt::format("{}{} is outside its range (found {}; allowed: {} to {}). Correct one of the three.",
-                             place, best, cells.at(best), cells.at(low), cells.at(high));
+                             location, best, cells.at(best), cells.at(low), cells.at(high));
         }
       }
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 
 namespace thawslide::config {
 
@@ -12,8 +13,8 @@ void require_size(const fs::path& file, double max_bytes, const std::string& adv
   std::error_code unknown;
   const auto bytes = static_cast<double>(fs::file_size(file, unknown));
   if (!unknown && bytes > max_bytes) {
-    throw UserError(fmt::format("{}: the file has {:.4g} MB; allowed: {:g} MB. {}", file.string(), bytes / 1e6,
-                                max_bytes / 1e6, advice));
+    throw UserError(fmt::format("{}: the file has {} MB; allowed: {} MB. {}", file.string(),
+                                rounded_text(bytes / 1e6, 4), count_text(max_bytes / 1e6), advice));
   }
 }
 
@@ -40,7 +41,7 @@ std::string shown(const std::string& text) {
   return text.size() > most_letters_quoted ? plain + "..." : plain;
 }
 
-std::string what_stands_at(const fs::path& path) {
+std::string other_kind_of_file(const fs::path& path) {
   std::error_code unknown;
   switch (fs::status(path, unknown).type()) {
     case fs::file_type::directory:

@@ -32,7 +32,7 @@ void require_size(const std::filesystem::path& file, double max_bytes, const std
 [[nodiscard]] std::string shown(const std::string& text);
 
 // Kind of a path that is not a file: "a folder", "a pipe", "a device". Empty for a file, or nothing.
-[[nodiscard]] std::string what_stands_at(const std::filesystem::path& path);
+[[nodiscard]] std::string other_kind_of_file(const std::filesystem::path& path);
 
 // True if a path lies in a folder, with the links of both resolved.
 [[nodiscard]] bool lies_within(const std::filesystem::path& path, const std::filesystem::path& folder);

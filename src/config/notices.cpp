@@ -10,7 +10,7 @@
 namespace thawslide::config {
 
 std::vector<std::string> notices(const Case& parameters) {
-  std::vector<std::string> notices;
+  std::vector<std::string> notices = parameters.notes;
   if (const std::string warning = changed_defaults_warning(parameters); !warning.empty()) {
     notices.push_back(warning);
   }
@@ -20,7 +20,7 @@ std::vector<std::string> notices(const Case& parameters) {
   }
   for (const Unusual& found : unusual) {
     const Rule& rule = *found.rule;
-    notices.push_back(fmt::format("{}: {} is {:g}{}{}, outside the usual {}", place_of(parameters, found.key),
+    notices.push_back(fmt::format("{}: {} is {:g}{}{}, outside the usual {}", location_of(parameters, found.key),
                                   found.key, found.value, rule.unit.empty() ? "" : " ", rule.unit,
                                   rule.usual.text(rule.unit)));
   }

@@ -30,7 +30,7 @@ std::vector<std::string> split_at_dots(const std::string& key) {
   return parts;
 }
 
-Place place_of(const Override& override) {
+Location location_of(const Override& override) {
   return {fmt::format("--set {}={}", override.key, override.value), 0, 0, true};
 }
 
@@ -50,17 +50,38 @@ std::optional<toml::table> parse_value(const Override& override, Reading& readin
       return text;
     }
   }
-  reading.problems.add(place_of(override),
+  reading.problems.add(location_of(override),
                        fmt::format("'{}' is not one TOML value. Write for example --set band.thickness=0.1, "
                                    "--set grid.min='[0, 0]' or --set terrain.type=flat.",
                                    override.value));
-  reading.unsound.insert(override.key);
+  reading.invalid_keys.insert(override.key);
   return std::nullopt;
 }
 
-// A key of a named table must use a name from the file; otherwise a typing error would create a second body.
-bool names_existing_table(const Override& override, const std::vector<std::string>& parts, const toml::table& root,
-                          Reading& reading) {
+// True if `--set` specifies all keys of this table that are always required, such as body.NAME.material; for a table
+// without such keys, one key that has no default and does not depend on others, such as probe.NAME.point.
+bool defines_table(const TableDeclaration& table, const std::string& own_name, const Reading& reading) {
+  const auto is_given = [&](const Entry& entry) {
+    const std::string key = fmt::format("{}.{}.{}", table.name, own_name, entry.rule->key);
+    return std::any_of(reading.overrides.begin(), reading.overrides.end(),
+                       [&](const Override& override) { return override.key == key; });
+  };
+  const std::vector<Entry> entries = table.entries();
+  const auto is_needed = [](const Entry& entry) { return entry.required == "always"; };
+  if (std::any_of(entries.begin(), entries.end(), is_needed)) {
+    return std::all_of(entries.begin(), entries.end(),
+                       [&](const Entry& entry) { return !is_needed(entry) || is_given(entry); });
+  }
+  return std::any_of(entries.begin(), entries.end(), [&](const Entry& entry) {
+    const bool defines = !entry.otherwise.empty() || (!entry.required.empty() && entry.only.empty());
+    return defines && is_given(entry);
+  });
+}
+
+// A key of a named table must use a name from the file, or define a new table; otherwise a typing error would create a
+// second body.
+bool may_name_table(const Override& override, const std::vector<std::string>& parts, const toml::table& root,
+                    Reading& reading) {
   if (parts.size() < 3) {
     return true;
   }
@@ -74,8 +95,8 @@ bool names_existing_table(const Override& override, const std::vector<std::strin
         names.emplace_back(key.str());
       }
     }
-    if (std::find(names.begin(), names.end(), parts[1]) == names.end()) {
-      reading.problems.add(place_of(override),
+    if (std::find(names.begin(), names.end(), parts[1]) == names.end() && !defines_table(*table, parts[1], reading)) {
+      reading.problems.add(location_of(override),
                            fmt::format("there is no {} '{}'{} In the case file: {}.", parts[0], parts[1],
                                        nearest(parts[1], names).empty() ? "." : did_you_mean(parts[1], names),
                                        names.empty() ? "none" : comma_list(names)));
@@ -94,7 +115,7 @@ bool fits_named_table(const Override& override, const std::vector<std::string>& 
   if (!is_named || value.is_table()) {
     return true;
   }
-  reading.problems.add(place_of(override),
+  reading.problems.add(location_of(override),
                        fmt::format("[{}] is a table, and {} no table. Set one of its keys: --set {}.KEY=VALUE.",
                                    override.key, override.value, override.key));
   return false;
@@ -102,7 +123,7 @@ bool fits_named_table(const Override& override, const std::vector<std::string>& 
 
 void apply(const Override& override, toml::table& root, Reading& reading) {
   const std::vector<std::string> parts = split_at_dots(override.key);
-  if (!names_existing_table(override, parts, root, reading)) {
+  if (!may_name_table(override, parts, root, reading)) {
     return;
   }
   const std::optional<toml::table> value = parse_value(override, reading);
@@ -117,7 +138,7 @@ void apply(const Override& override, toml::table& root, Reading& reading) {
     }
     table = table->get_as<toml::table>(parts[k]);
   }
-  // The copy has no source location, by which Reading::place_of identifies the command line.
+  // The copy has no source location, by which Reading::location_of identifies the command line.
   value->get("value")->visit([&](const auto& node) { table->insert_or_assign(parts.back(), node); });
 }
 

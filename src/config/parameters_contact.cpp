@@ -14,10 +14,9 @@ std::vector<Parameter<Contact>> contact_parameters() {
   };
   const std::string when = "when contact.between_bodies is \"frictional\"";
   return {
-      parameter(&Contact::between_bodies,
-                {.key = "between_bodies",
-                 .text = "what acts between bodies of which no [contact_pair.NAME] says otherwise",
-                 .source = "Bardenhagen et al. 2000; Nairn 2013"}),
+      parameter(&Contact::between_bodies, {.key = "between_bodies",
+                                           .text = "contact between bodies without a [contact_pair.NAME]",
+                                           .source = "Bardenhagen et al. (2000); Nairn (2013)"}),
       parameter(&Contact::friction_angle,
                 {.key = "friction_angle", .unit = "degrees", .range = friction_range, .text = friction_text})
           .required_if(when, is_frictional)
@@ -32,7 +31,7 @@ std::vector<Parameter<ContactPair>> pair_parameters() {
   const std::string when = "when the pair's contact is \"frictional\"";
   return {
       parameter(&ContactPair::bodies, {.key = "bodies", .text = "names of the two bodies"}).required(),
-      parameter(&ContactPair::contact, {.key = "contact", .text = "what acts between the two"}).required(),
+      parameter(&ContactPair::contact, {.key = "contact", .text = "contact between the two bodies"}).required(),
       parameter(&ContactPair::friction_angle,
                 {.key = "friction_angle", .unit = "degrees", .range = friction_range, .text = friction_text})
           .required_if(when, is_frictional)
@@ -45,8 +44,9 @@ std::vector<Parameter<ContactPair>> pair_parameters() {
 void declare_contact(Tables& tables) {
   tables.push_back(std::make_unique<SingleTable<Contact>>("contact", "Contact between bodies", &Case::contact,
                                                           contact_parameters()));
-  tables.push_back(std::make_unique<NamedTable<ContactPair>>(
-      "contact_pair", "Contact between two bodies, by a name of your choice", &Case::contact_pairs, pair_parameters()));
+  tables.push_back(std::make_unique<NamedTable<ContactPair>>("contact_pair",
+                                                             "Contact between two bodies, with a name of your choice",
+                                                             &Case::contact_pairs, pair_parameters()));
 }
 
 }  // namespace thawslide::config

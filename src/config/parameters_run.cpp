@@ -7,27 +7,28 @@ namespace {
 
 std::vector<Parameter<General>> general_parameters() {
   return {
+      parameter(&General::based_on,
+                {.key = "based_on",
+                 .text = "case file of the same folder that supplies all keys not specified here; \"\": none"}),
+      parameter(&General::title, {.key = "title", .text = "title of figures and reports"}),
+      parameter(&General::dimension, {.key = "dimension",
+                                      .range = between(2, 3),
+                                      .text = "number of dimensions; 2: plane strain with y up, 3: z up"}),
+      parameter(&General::width, {.key = "width",
+                                  .unit = "m",
+                                  .range = at_least(0),
+                                  .text = "width that multiplies extensive results; 0: results per metre of width; a "
+                                          "table over x: width at x, linear between entries and constant beyond",
+                                  .dimension = 2}),
+      parameter(&General::gravity,
+                {.key = "gravity", .unit = "m/s2", .range = at_least(0), .text = "gravitational acceleration"}),
       parameter(
-          &General::based_on,
-          {.key = "based_on", .text = "case file of the same folder that holds wherever this one gives nothing else"}),
-      parameter(&General::title, {.key = "title", .text = "title for figures and reports"}),
-      parameter(&General::dimension,
-                {.key = "dimension", .range = between(2, 3), .text = "2: plane strain, y is up; 3: z is up"}),
-      parameter(
-          &General::width,
-          {.key = "width",
-           .unit = "m",
-           .range = at_least(0),
-           .text = "width that extensive results are multiplied by; 0: results per metre of width; a table over x: "
-                   "width of the section at x, linear between entries and constant beyond",
-           .dimension = 2}),
-      parameter(&General::gravity, {.key = "gravity", .unit = "m/s2", .range = at_least(0), .text = "gravity"}),
-      parameter(&General::gravity_tilt,
-                {.key = "gravity_tilt",
-                 .unit = "degrees",
-                 .range = inside(-90, 90),
-                 .text = "turn of gravity from straight down towards +x: an incline on a level grid",
-                 .source = "Sec. 3.3"}),
+          &General::gravity_tilt,
+          {.key = "gravity_tilt",
+           .unit = "degrees",
+           .range = inside(-90, 90),
+           .text = "angle by which gravity is rotated from the vertical towards +x, for an incline on a level grid",
+           .source = "Lei et al., Sec. 3.3"}),
   };
 }
 
@@ -36,16 +37,18 @@ std::vector<Parameter<Time>> time_parameters() {
       parameter(&Time::end,
                 {.key = "end", .unit = "s", .range = above(0), .text = "simulated time at which the run ends"})
           .required(),
-      parameter(&Time::stepping, {.key = "stepping", .text = "how the time step is chosen"}),
-      parameter(
-          &Time::step,
-          {.key = "step", .unit = "s", .range = above(0), .text = "the fixed time step, or the largest adaptive one"})
+      parameter(&Time::stepping, {.key = "stepping", .text = "choice of the time step"}),
+      parameter(&Time::step, {.key = "step",
+                              .unit = "s",
+                              .range = above(0),
+                              .text = "fixed time step, or upper limit of the adaptive time step"})
           .required_if("when time.stepping is \"fixed\"",
                        [](const Case&, const Time& time) { return time.stepping == Stepping::fixed; })
-          .otherwise("time.end, that is no cap", [](const Case&, Time& time) { time.step = time.end; }),
-      parameter(&Time::safety, {.key = "safety",
-                                .range = {.low = 0, .high = 1, .low_open = true},
-                                .text = "share of the smallest limit that an adaptive step takes"}),
+          .otherwise("no upper limit", [](const Case&, Time& time) { time.step = time.end; }),
+      parameter(&Time::safety,
+                {.key = "safety",
+                 .range = {.low = 0, .high = 1, .low_open = true},
+                 .text = "safety factor of the adaptive time step: fraction of the smallest stability limit"}),
       parameter(&Time::output_interval, {.key = "output_interval",
                                          .unit = "s",
                                          .range = above(0),
@@ -54,21 +57,18 @@ std::vector<Parameter<Time>> time_parameters() {
                 {.key = "history_interval",
                  .unit = "s",
                  .range = at_least(0),
-                 .text = "simulated time between rows of history.csv, at least a billionth of time.end; 0: a row "
-                         "every step. Adaptive steps are not cut to it: a row follows the first step that reaches its "
-                         "time"}),
+                 .text = "simulated time between rows of history.csv, at least a billionth of time.end; 0: one row per "
+                         "step. Adaptive steps are not shortened: a row follows the first step that reaches its time"}),
       parameter(&Time::stop_at_rest,
                 {.key = "stop_at_rest",
                  .unit = "m/s",
                  .range = at_least(0),
-                 .text = "the run ends before time.end when, for time.rest_time, no more than 0.5 % of the slide's "
-                         "mass has been faster than this; never before more of it has; 0: it does not"})
-          .otherwise("the run continues to time.end"),
-      parameter(&Time::rest_time,
-                {.key = "rest_time",
-                 .unit = "s",
-                 .range = at_least(0),
-                 .text = "how long the slide has to be slower than time.stop_at_rest for the run to end"})
+                 .text = "speed at rest: the run ends when at most 0.5 % of the mass has been faster for "
+                         "time.rest_time, and more was faster before; 0: no stop at rest"})
+          .otherwise("no stop at rest"),
+      parameter(
+          &Time::rest_time,
+          {.key = "rest_time", .unit = "s", .range = at_least(0), .text = "duration of rest after which the run ends"})
           .only_if("when time.stop_at_rest is given", "stop_at_rest",
                    [](const Case&, const Time& time) { return time.stop_at_rest >= 0.0; }),
   };
@@ -76,11 +76,11 @@ std::vector<Parameter<Time>> time_parameters() {
 
 std::vector<Parameter<Grid>> grid_parameters() {
   return {
-      parameter(&Grid::cell, {.key = "cell", .unit = "m", .range = above(0), .text = "side of a grid cell"}).required(),
-      parameter(&Grid::min, {.key = "min", .unit = "m", .text = "lowest corner of the domain"}).required(),
-      parameter(&Grid::max, {.key = "max", .unit = "m", .text = "highest corner of the domain"}).required(),
-      parameter(&Grid::leaving,
-                {.key = "leaving", .text = "what becomes of particles that leave the domain or the DEM"}),
+      parameter(&Grid::cell, {.key = "cell", .unit = "m", .range = above(0), .text = "side length of a grid cell"})
+          .required(),
+      parameter(&Grid::min, {.key = "min", .unit = "m", .text = "minimum coordinates of the domain"}).required(),
+      parameter(&Grid::max, {.key = "max", .unit = "m", .text = "maximum coordinates of the domain"}).required(),
+      parameter(&Grid::leaving, {.key = "leaving", .text = "treatment of particles that leave the domain or the DEM"}),
   };
 }
 
@@ -89,35 +89,37 @@ std::vector<Parameter<Grid>> grid_parameters() {
 std::vector<Parameter<Guards>> guard_parameters() {
   return {
       parameter(&Guards::not_finite, {.key = "not_finite",
-                                      .text = "what becomes of particles whose position, volume, stress, "
-                                              "temperature or pore pressure is not a finite number"}),
+                                      .text = "treatment of particles whose position, volume, stress, temperature or "
+                                              "pore pressure is not a finite number"}),
       parameter(&Guards::volume, {.key = "volume",
-                                  .text = "what becomes of particles that invert (det F <= 0), or whose volume over "
-                                          "that of t = 0 leaves guards.smallest_volume to guards.largest_volume"}),
+                                  .text = "treatment of particles that invert (det F <= 0), or whose volume relative "
+                                          "to t = 0 is outside guards.smallest_volume to guards.largest_volume"}),
       parameter(&Guards::smallest_volume,
                 {.key = "smallest_volume",
                  .range = {.low = 0, .high = 1, .high_open = true},
-                 .text = "smallest volume of a particle over that of t = 0, checked every 10 steps"}),
+                 .text = "minimum volume of a particle relative to t = 0, checked every 10 steps"}),
       parameter(&Guards::largest_volume,
                 {.key = "largest_volume",
                  .range = {.low = 1, .low_open = true, .infinity_allowed = true},
-                 .text = "largest volume of a particle over that of t = 0, checked every 10 steps; inf: any"}),
-      parameter(&Guards::removed_mass, {.key = "removed_mass",
-                                        .range = between(0, 1),
-                                        .text = "fraction of all mass that guards may remove before the run ends"}),
+                 .text = "maximum volume of a particle relative to t = 0, checked every 10 steps; inf: no limit"}),
+      parameter(&Guards::removed_mass,
+                {.key = "removed_mass",
+                 .range = between(0, 1),
+                 .text = "maximum fraction of the total mass that guards may remove; beyond it, the run ends"}),
       parameter(&Guards::energy_growth,
                 {.key = "energy_growth",
                  .range = {.low = 0, .low_open = true, .infinity_allowed = true},
-                 .text = "growth of energy without a physical cause within some 500 steps, as a fraction of the energy "
-                         "so far (at least of a fall by a cell), that ends the run, checked every 10 steps; inf: any"}),
+                 .text = "maximum growth of energy without a physical cause within about 500 steps, relative to the "
+                         "largest energy so far, checked every 10 steps; inf: no limit. The reference is at least the "
+                         "energy of a fall by one cell"}),
       parameter(&Guards::smallest_step,
                 {.key = "smallest_step",
                  .range = {.low = 0, .high = 1, .high_open = true},
-                 .text = "smallest adaptive step over the first one, below which the run ends; 0: any"}),
-      parameter(&Guards::most_steps,
-                {.key = "most_steps",
-                 .range = {.low = 1, .infinity_allowed = true},
-                 .text = "steps still to come, at the length of the next adaptive one, above which the run ends"}),
+                 .text = "minimum adaptive time step relative to the first one; below it, the run ends; 0: no limit"}),
+      parameter(&Guards::most_steps, {.key = "most_steps",
+                                      .range = {.low = 1, .infinity_allowed = true},
+                                      .text = "maximum number of remaining time steps at the length of the next one; "
+                                              "beyond it, the run ends; inf: no limit"}),
   };
 }
 
@@ -131,19 +133,20 @@ std::vector<Parameter<Terrain>> dem_parameters() {
   const std::string when_dem = "when terrain.type is \"dem\"";
   return {
       parameter(&Terrain::crs, {.key = "crs",
-                                .text = "coordinate reference system of a DEM whose file has none, or a wrong one, as "
-                                        "\"EPSG:31287\"; \"\": that of the file"})
+                                .text = "coordinate reference system of a DEM whose file has none or a wrong one, such "
+                                        "as \"EPSG:31287\"; \"\": as in the file"})
           .only_if(when_dem, "type", is_dem),
       parameter(&Terrain::resample, {.key = "resample",
                                      .unit = "m",
                                      .range = at_least(0),
-                                     .text = "distance of points that the DEM is brought to; 0: as the file has them"})
+                                     .text = "point spacing to which the DEM is resampled; 0: spacing of the file"})
           .only_if(when_dem, "type", is_dem),
-      parameter(&Terrain::smooth, {.key = "smooth",
-                                   .unit = "m",
-                                   .range = at_least(0),
-                                   .text = "standard deviation of a Gaussian filter over the DEM; 0: no filter; auto: "
-                                           "what the DEM's noise and short bumps need, none on smooth ground"})
+      parameter(&Terrain::smooth,
+                {.key = "smooth",
+                 .unit = "m",
+                 .range = at_least(0),
+                 .text = "standard deviation of the Gaussian filter applied to the DEM; 0: no filter; auto: determined "
+                         "by noise and short bumps of the DEM, no filter on smooth terrain"})
           .only_if(when_dem, "type", is_dem),
   };
 }
@@ -151,32 +154,32 @@ std::vector<Parameter<Terrain>> dem_parameters() {
 std::vector<Parameter<Terrain>> terrain_parameters() {
   const std::string when_no_dem = "when terrain.type is not \"dem\"";
   std::vector<Parameter<Terrain>> result{
-      parameter(&Terrain::kind, {.key = "type", .text = "the rigid ground that bodies slide on"}),
+      parameter(&Terrain::kind, {.key = "type", .text = "type of the rigid terrain"}),
       parameter(&Terrain::elevation,
-                {.key = "elevation", .unit = "m", .text = "elevation of the flat ground, or of the plane at x = 0"})
+                {.key = "elevation", .unit = "m", .text = "elevation of the flat terrain, or of the plane at x = 0"})
           .only_if(when_no_dem, "type", is_no_dem),
       parameter(&Terrain::slope, {.key = "slope",
                                   .unit = "degrees",
                                   .range = inside(-90, 90),
-                                  .text = "slope of the plane, which falls towards +x"})
+                                  .text = "slope angle of the plane, positive if it falls towards +x"})
           .only_if(when_no_dem, "type", is_no_dem),
-      parameter(
-          &Terrain::file,
-          {.key = "file",
-           .text = "profile: CSV file with the columns distance_m,terrain_elevation_m[,surface_elevation_m]; dem: "
-                   "GeoTIFF or ESRI ASCII grid",
-           .is_path = true})
+      parameter(&Terrain::file,
+                {.key = "file",
+                 .text = "file of the terrain; profile: CSV file with the columns "
+                         "distance_m,terrain_elevation_m[,surface_elevation_m]; dem: GeoTIFF or ESRI ASCII grid",
+                 .is_path = true})
           .required_if("when terrain.type is \"profile\" or \"dem\"", has_file),
       parameter(&Terrain::extend,
-                {.key = "extend", .text = "continue the last gradient of the profile where the domain is longer"})
+                {.key = "extend",
+                 .text = "true: the profile continues with its last gradients to the ends of a longer domain"})
           .only_if(when_no_dem, "type", is_no_dem),
       parameter(&Terrain::form, {.key = "representation",
                                  .text = "representation of the terrain at the grid nodes",
                                  .formerly = "description"}),
       parameter(&Terrain::layers, {.key = "layers",
                                    .range = between(1, 1000),
-                                   .text = "layers of rigid points, two to a cell",
-                                   .source = "Secs. 3.3, 4"})
+                                   .text = "number of layers of rigid points, two per cell",
+                                   .source = "Lei et al., Secs. 3.3, 4"})
           .only_if(when_no_dem, "type", is_no_dem),
   };
   for (auto& of_dem : dem_parameters()) {
@@ -186,38 +189,35 @@ std::vector<Parameter<Terrain>> terrain_parameters() {
 }
 
 std::vector<Parameter<Checkpoint>> checkpoint_parameters() {
-  return {
-      parameter(&Checkpoint::interval,
-                {.key = "interval",
-                 .unit = "s",
-                 .range = at_least(0),
-                 .text = "simulated time between checkpoints, at least a billionth of time.end; 0: none by "
-                         "simulated time"}),
-      parameter(&Checkpoint::wall_interval,
-                {.key = "wall_interval",
-                 .unit = "s",
-                 .range = at_least(0),
-                 .text = "wall-clock time between checkpoints; 0: none by wall-clock time. One is written before the "
-                         "first step and one at the end anyhow, and the one before the last is kept"})};
+  return {parameter(&Checkpoint::interval, {.key = "interval",
+                                            .unit = "s",
+                                            .range = at_least(0),
+                                            .text = "simulated time between checkpoints, at least a billionth of "
+                                                    "time.end; 0: no checkpoints by simulated time"}),
+          parameter(&Checkpoint::wall_interval,
+                    {.key = "wall_interval",
+                     .unit = "s",
+                     .range = at_least(0),
+                     .text = "wall-clock time between checkpoints, in addition to those before the first step and at "
+                             "the end; the last two are kept; 0: no checkpoints by wall-clock time"})};
 }
 
 std::vector<Parameter<Maps>> map_parameters() {
   return {
-      parameter(&Maps::cell,
-                {.key = "cell",
-                 .unit = "m",
-                 .range = at_least(0),
-                 .text = "side of a map's cell; 0: as many of the DEM's cells as it takes to be as wide as "
-                         "grid.cell and three particle distances; without a DEM grid.cell",
-                 .dimension = 3}),
+      parameter(&Maps::cell, {.key = "cell",
+                              .unit = "m",
+                              .range = at_least(0),
+                              .text = "cell size of the maps; 0: smallest multiple of the DEM cell that is at least "
+                                      "grid.cell and three particle spacings, or grid.cell without a DEM",
+                              .dimension = 3}),
       parameter(&Maps::arrival_thickness, {.key = "arrival_thickness",
                                            .unit = "m",
                                            .range = above(0),
-                                           .text = "thickness from which on the slide has arrived at a place",
+                                           .text = "flow thickness above which the sliding mass has arrived",
                                            .dimension = 3}),
       parameter(&Maps::path, {.key = "path",
-                              .text = "file of the line along which the front is measured, and `thawslide block` "
-                                      "slides; \"\": the path of the centre of mass",
+                              .text = "file of the flow path along which the front is measured and `thawslide block` "
+                                      "slides; \"\": path of the centre of mass",
                               .dimension = 3,
                               .is_path = true}),
   };
@@ -229,10 +229,10 @@ std::vector<Parameter<Probe>> probe_parameters() {
   };
   return {
       parameter(&Probe::point,
-                {.key = "point", .unit = "m", .text = "place of the probe on the map", .horizontal = true})
+                {.key = "point", .unit = "m", .text = "horizontal coordinates of the probe", .horizontal = true})
           .required_if("when line is not given", has_no_line),
-      parameter(&Probe::line, {.key = "line", .text = "file of the line of a cross section", .is_path = true})
-          .otherwise("no line, but a point"),
+      parameter(&Probe::line, {.key = "line", .text = "file of the line of the cross section", .is_path = true})
+          .otherwise("the probe is a point"),
   };
 }
 
@@ -240,29 +240,29 @@ std::vector<Parameter<Report>> report_parameters() {
   const std::string when_record = "when force_record is given";
   const auto has_record = [](const Case&, const Report& report) { return !report.force_record.empty(); };
   return {
-      parameter(&Report::times,
-                {.key = "times",
-                 .unit = "s",
-                 .range = at_least(0),
-                 .text = "times of the snapshot figures, on their clock; []: at 0, 20, ..., 100 % of the "
-                         "final mean displacement"}),
-      parameter(&Report::targets, {.key = "targets",
-                                   .text = "CSV file of reported values, columns "
-                                           "quantity,time_s,value,unit,source,kind",
-                                   .is_path = true}),
+      parameter(&Report::times, {.key = "times",
+                                 .unit = "s",
+                                 .range = at_least(0),
+                                 .text = "times of the snapshot figures, from the time reference of report.targets; "
+                                         "[]: at 0, 20, ..., 100 % of the final mean displacement"}),
+      parameter(
+          &Report::targets,
+          {.key = "targets",
+           .text = "CSV file of reported values with the columns quantity,time_s,value,unit,source,kind; \"\": none",
+           .is_path = true}),
       parameter(&Report::force_record,
                 {.key = "force_record",
-                 .text = "CSV file of a force inverted from seismic waves, of the slide on the Earth, to draw next to "
-                         "that of the run, columns time_s,up_N,north_N,east_N; \"\": none",
+                 .text = "CSV file of the force on the Earth, inverted from seismic waves, to plot next to that of the "
+                         "run; columns time_s,up_N,north_N,east_N; \"\": none",
                  .is_path = true}),
-      parameter(&Report::force_periods, {.key = "force_periods",
-                                         .unit = "s",
-                                         .range = above(0),
-                                         .text = "shortest and longest period of the waves of force_record, to which "
-                                                 "both forces are filtered"})
+      parameter(&Report::force_periods,
+                {.key = "force_periods",
+                 .unit = "s",
+                 .range = above(0),
+                 .text = "shortest and longest period of the waves in force_record, to which both forces are filtered"})
           .required_if(when_record, has_record)
           .only_if(when_record, "force_record", has_record),
-      parameter(&Report::force_source, {.key = "force_source", .text = "who inverted force_record, for the legend"})
+      parameter(&Report::force_source, {.key = "force_source", .text = "publication of the inversion, for the legend"})
           .only_if(when_record, "force_record", has_record),
   };
 }
@@ -272,26 +272,28 @@ std::vector<Parameter<Report>> report_parameters() {
 void declare_run(Tables& tables) {
   tables.push_back(
       std::make_unique<SingleTable<General>>("case", "The case as a whole", &Case::general, general_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Time>>("time", "Simulated time, time steps and output intervals",
+                                                       &Case::time, time_parameters()));
   tables.push_back(
-      std::make_unique<SingleTable<Time>>("time", "Time, its steps and outputs", &Case::time, time_parameters()));
-  tables.push_back(std::make_unique<SingleTable<Grid>>("grid", "The background grid", &Case::grid, grid_parameters()));
-  tables.push_back(std::make_unique<SingleTable<Grid>>("grid.boundary", "Velocity conditions at the sides of the grid",
-                                                       &Case::grid, six_sides(&Grid::boundary, "velocity condition")));
-  tables.push_back(std::make_unique<SingleTable<Guards>>("guards", "Limits that abort a failing run", &Case::guards,
-                                                         guard_parameters()));
+      std::make_unique<SingleTable<Grid>>("grid", "Background grid and domain", &Case::grid, grid_parameters()));
   tables.push_back(
-      std::make_unique<SingleTable<Terrain>>("terrain", "The ground", &Case::terrain, terrain_parameters()));
-  tables.push_back(std::make_unique<SingleTable<Checkpoint>>("checkpoint", "States to resume from", &Case::checkpoint,
-                                                             checkpoint_parameters()));
+      std::make_unique<SingleTable<Grid>>("grid.boundary", "Velocity boundary conditions on the sides of the grid",
+                                          &Case::grid, six_sides(&Grid::boundary, "velocity boundary condition")));
+  tables.push_back(std::make_unique<SingleTable<Guards>>("guards", "Limits beyond which a run has failed",
+                                                         &Case::guards, guard_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Terrain>>("terrain", "Terrain on which bodies slide", &Case::terrain,
+                                                          terrain_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Checkpoint>>(
+      "checkpoint", "Checkpoints, from which a run can be resumed", &Case::checkpoint, checkpoint_parameters()));
   tables.push_back(
-      std::make_unique<SingleTable<Maps>>("maps", "Maps of the slide, in 3D", &Case::maps, map_parameters()));
-  tables.push_back(std::make_unique<NamedTable<Probe>>("probe",
-                                                       "A place or a cross section, by a name of your choice, at which "
-                                                       "thickness and speed are written, in 3D; of a cross "
-                                                       "section its flow area and discharge too",
-                                                       &Case::probes, probe_parameters()));
-  tables.push_back(
-      std::make_unique<SingleTable<Report>>("report", "Figures and comparisons", &Case::report, report_parameters()));
+      std::make_unique<SingleTable<Maps>>("maps", "Maps of the sliding mass, in 3D", &Case::maps, map_parameters()));
+  tables.push_back(std::make_unique<NamedTable<Probe>>(
+      "probe",
+      "A point or cross section with a name of your choice, in 3D. Flow thickness and speed are recorded there, and at "
+      "a cross section also flow area and discharge",
+      &Case::probes, probe_parameters()));
+  tables.push_back(std::make_unique<SingleTable<Report>>("report", "Figures and comparison with reported values",
+                                                         &Case::report, report_parameters()));
 }
 
 }  // namespace thawslide::config

@@ -42,16 +42,16 @@ constexpr UsualDensity usual_densities[] = {
 class Warnings {
  public:
   explicit Warnings(const Case& parameters) : case_(parameters) {}
-  // Adds a warning about a key [dotted]; `words` follow its value.
+  // Adds a warning about a key [dotted]; `text` follows its value.
   template <class Value>
-  void add(const std::string& key, const Value& value, const std::string& unit, const std::string& words) {
-    found_.push_back(fmt::format("{}: {} is {}{}: {}", place_of(case_, key), key, value, unit, words));
+  void add(const std::string& key, const Value& value, const std::string& unit, const std::string& text) {
+    found_.push_back(fmt::format("{}: {} is {}{}: {}", location_of(case_, key), key, value, unit, text));
   }
   // Adds a warning about a key that is not given.
-  void add_absent(const std::string& key, const std::string& words) {
-    found_.push_back(fmt::format("{}: {} is not given: {}", case_.file, key, words));
+  void add_absent(const std::string& key, const std::string& text) {
+    found_.push_back(fmt::format("{}: {} is not given: {}", case_.file, key, text));
   }
-  [[nodiscard]] std::vector<std::string> take() { return std::move(found_); }
+  [[nodiscard]] std::vector<std::string> release() { return std::move(found_); }
 
  private:
   const Case& case_;
@@ -66,8 +66,8 @@ void warn_about_phases(const Case& parameters, Warnings& warnings) {
     }
     const bool is_in_grams = density >= lightest_in_grams && density <= heaviest_in_grams;
     warnings.add(key, density, " kg/m3",
-                 is_in_grams ? fmt::format("if it is in g/cm3, it is {:g} kg/m3.", density * grams)
-                             : fmt::format("{} {:g} to {:g} kg/m3.", of, low, high));
+                 is_in_grams ? fmt::format("if it is in g/cm3, it is {} kg/m3.", count_text(density * grams))
+                             : fmt::format("{} {} to {} kg/m3.", of, count_text(low), count_text(high)));
   }
   const double gravity = parameters.general.gravity;
   if (gravity != 0.0 && (gravity < least_on_earth || gravity > most_on_earth)) {
@@ -82,12 +82,12 @@ void warn_about_width(const Case& parameters, Warnings& warnings) {
     const double slope = (width.value[k] - width.value[k - 1]) / (width.abscissa[k] - width.abscissa[k - 1]);
     if (std::abs(slope) > steepest_widening) {
       warnings.add("case.width",
-                   fmt::format("{:g} m at x = {:g} m and {:g} m at x = {:g} m", width.value[k - 1],
+                   fmt::format("{:g} m at x = {:.9g} m and {:g} m at x = {:.9g} m", width.value[k - 1],
                                width.abscissa[k - 1], width.value[k], width.abscissa[k]),
                    "",
-                   fmt::format("it changes by {:.3g} m per m. The neglected lateral motion would have {:.2g} of the "
+                   fmt::format("it changes by {} m per m. The neglected lateral motion would have {:.2g} of the "
                                "kinetic energy there. Spread the change of width over a longer distance.",
-                               std::abs(slope), slope * slope / 12.0));
+                               rounded_text(std::abs(slope), 2), slope * slope / 12.0));
       return;
     }
   }
@@ -101,11 +101,13 @@ void warn_about_materials(const Case& parameters, Warnings& warnings) {
     const std::string table = "material." + name + ".";
     if (deforms && material.youngs_modulus < softest_modulus) {
       warnings.add(table + "youngs_modulus", material.youngs_modulus, " Pa",
-                   "too soft: the slide collapses under its own weight. Broken rock and ice have 1e7 Pa and more.");
+                   "too soft: the slide collapses under its own weight. Typical values for broken rock and ice are 1e7 "
+                   "Pa or more.");
     }
     if (deforms && material.youngs_modulus > stiffest) {
-      warnings.add(table + "youngs_modulus", material.youngs_modulus, " Pa",
-                   "stiffer than any rock, which shortens the time step. Usual for slides are 1e8 to 1e10 Pa.");
+      warnings.add(
+          table + "youngs_modulus", material.youngs_modulus, " Pa",
+          "stiffer than any rock, which shortens the time step. Typical values for slides are 1e8 to 1e10 Pa.");
     }
     if (deforms && material.law == LawKind::mohr_coulomb && material.friction_angle > 0.0 &&
         material.friction_angle < smallest_angle) {
@@ -122,15 +124,16 @@ void warn_about_materials(const Case& parameters, Warnings& warnings) {
 }
 
 void warn_about_band(const Case& parameters, Warnings& warnings) {
-  const bool rubs = parameters.mechanics.enabled && parameters.terrain.kind != TerrainKind::none;
-  const bool is_felt = parameters.heat.enabled && parameters.basal.heat_fraction > 0.0 &&
-                       (parameters.mechanisms.lubrication || parameters.mechanisms.pressurization);
-  if (rubs && is_felt && !parameters.band.thickness.is_given()) {
-    warnings.add_absent("band.thickness",
-                        fmt::format("friction then heats the lowest cells as a whole, {:g} m thick, which barely warm "
-                                    "or melt. Set the thickness of the shear band: usual is 0.01 to 2 m. Without "
-                                    "melting, set heat.enabled = false.",
-                                    parameters.grid.cell));
+  const bool has_basal_friction = parameters.mechanics.enabled && parameters.terrain.kind != TerrainKind::none;
+  const bool has_effect = parameters.heat.enabled && parameters.basal.heat_fraction > 0.0 &&
+                          (parameters.mechanisms.lubrication || parameters.mechanisms.pressurization);
+  if (has_basal_friction && has_effect && !parameters.band.thickness.is_given()) {
+    warnings.add_absent(
+        "band.thickness",
+        fmt::format(
+            "friction then heats the lowest cells as a whole, {:g} m thick, which barely warm or melt. Set the "
+            "thickness of the shear band: typical values are 0.01 to 2 m. Without melting, set heat.enabled = false.",
+            parameters.grid.cell));
   }
 }
 
@@ -138,7 +141,7 @@ void warn_about_band(const Case& parameters, Warnings& warnings) {
 bool uses(const std::string& law, const physics::basal::Parameter& number) {
   bool found = false;
   physics::basal::for_each_law<physics::basal::FrictionLaw>([&]<class Law>(physics::basal::OfType<Law>) {
-    found = found || (law == Law::word &&
+    found = found || (law == Law::keyword &&
                       std::find(Law::parameters.begin(), Law::parameters.end(), &number) != Law::parameters.end());
   });
   return found;
@@ -154,7 +157,8 @@ void warn_about_ground(const std::string& table, const GroundStrength& ground, W
   if (uses(ground.friction, physics::basal::turbulent_friction) &&
       (turbulence < least_turbulence || turbulence > most_turbulence)) {
     warnings.add(table + ".turbulent_friction", turbulence, " m/s2",
-                 fmt::format("calibrated values of xi are {:g} to {:g} m/s2.", least_turbulence, most_turbulence));
+                 fmt::format("calibrated values of xi are {} to {} m/s2.", count_text(least_turbulence),
+                             count_text(most_turbulence)));
   }
   const double angle = ground.numbers(physics::basal::friction_angle);
   if (uses(ground.friction, physics::basal::friction_angle) && angle > 0.0 && angle < smallest_angle) {
@@ -175,7 +179,7 @@ void warn_about_bed(const Case& parameters, Warnings& warnings) {
   }
   if (bed.temperature > parameters.freezing.reference_temperature) {
     warnings.add("bed.temperature", bed.temperature, " C",
-                 "the bed's pores hold water, no ice. Was a temperature below 0 meant?");
+                 "the bed's pores contain water and no ice. Was a temperature below 0 meant?");
   }
 }
 
@@ -186,7 +190,7 @@ void warn_about_bodies(const Case& parameters, Warnings& warnings) {
     if (parameters.terrain.kind != TerrainKind::none && !body.saturation.is_given() &&
         warmest > parameters.freezing.reference_temperature) {
       warnings.add("body." + name + ".temperature", warmest, " C",
-                   "its pores hold water from the start, no ice. Was a temperature below 0 meant?");
+                   "its pores contain water and no ice from the start. Was a temperature below 0 meant?");
     }
   }
 }
@@ -203,7 +207,7 @@ void warn_about_step(const Case& parameters, Warnings& warnings) {
 }
 
 bool is_from_command_line(const Case& parameters, const std::string& key) {
-  return place_of(parameters, key).starts_with("--");
+  return location_of(parameters, key).starts_with("--");
 }
 
 // True for a short trial of a case that stops at rest: the command line sets the end, but no key of rest.
@@ -220,12 +224,12 @@ void warn_about_output(const Case& parameters, Warnings& warnings) {
   if (time.output_interval > time.end) {
     warnings.add(
         "time.output_interval", time.output_interval, " s",
-        fmt::format("longer than the run of {} s, which leaves a snapshot of its start and one of its end.", time.end));
+        fmt::format("longer than the run of {} s, which leaves only the first and the last snapshot.", time.end));
   }
   if (snapshots > most_snapshots) {
-    warnings.add(
-        "time.output_interval", time.output_interval, " s",
-        fmt::format("that is {:.6g} snapshots, each a file, too many for a folder or an animation.", snapshots));
+    warnings.add("time.output_interval", time.output_interval, " s",
+                 fmt::format("that is {} snapshots, each a file, too many for a folder or an animation.",
+                             count_text(snapshots)));
   }
   if (const double interval = parameters.checkpoint.interval; is_fixed && interval > 0.0 && interval <= time.step) {
     warnings.add("checkpoint.interval", interval, " s",
@@ -244,12 +248,12 @@ void warn_about_output(const Case& parameters, Warnings& warnings) {
   }
   if (const double interval = parameters.checkpoint.wall_interval; interval > 0.0 && interval < least_wall_interval) {
     warnings.add("checkpoint.wall_interval", interval, " s",
-                 "so often most of the time goes into checkpoints; usual is a minute to an hour.");
+                 "checkpoints this frequent take most of the run time; typical values are a minute to an hour.");
   }
   if (time.history_interval > time.end) {
     warnings.add(
         "time.history_interval", time.history_interval, " s",
-        fmt::format("longer than the run of {} s: history.csv gets a row of its start and one of its end.", time.end));
+        fmt::format("longer than the run of {} s: history.csv then contains only its first and last rows.", time.end));
   }
 }
 
@@ -269,7 +273,7 @@ std::vector<std::string> implausible(const Case& parameters) {
   warn_about_bodies(parameters, warnings);
   warn_about_step(parameters, warnings);
   warn_about_output(parameters, warnings);
-  return warnings.take();
+  return warnings.release();
 }
 
 }  // namespace thawslide::config

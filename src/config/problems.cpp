@@ -11,14 +11,16 @@
 
 namespace thawslide::config {
 
-std::string Place::text() const {
+std::string Location::text() const {
   if (command_line || line == 0) {
     return source;
   }
   return fmt::format("{}:{}:{}", source, line, column);
 }
 
-void Problems::add(Place place, std::string message) { found_.push_back({std::move(place), std::move(message)}); }
+void Problems::add(Location location, std::string message) {
+  found_.push_back({std::move(location), std::move(message)});
+}
 
 void Problems::raise_if_any() const {
   if (found_.empty()) {
@@ -26,15 +28,15 @@ void Problems::raise_if_any() const {
   }
   std::vector<Problem> sorted = found_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const Problem& a, const Problem& b) {
-    return a.place.command_line != b.place.command_line ? b.place.command_line
-           : a.place.command_line                       ? false
-                                                        : std::tie(a.place.source, a.place.line, a.place.column) <
-                                        std::tie(b.place.source, b.place.line, b.place.column);
+    return a.location.command_line != b.location.command_line ? b.location.command_line
+           : a.location.command_line                          ? false
+                                     : std::tie(a.location.source, a.location.line, a.location.column) <
+                                           std::tie(b.location.source, b.location.line, b.location.column);
   });
   std::string text;
   const std::size_t specified = std::min(sorted.size(), most_problems_listed);
   for (std::size_t k = 0; k < specified; ++k) {
-    text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", sorted[k].place.text(), sorted[k].message);
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "\n", sorted[k].location.text(), sorted[k].message);
   }
   if (specified < sorted.size()) {
     text += fmt::format("\nand {} more problems.", sorted.size() - specified);

@@ -8,7 +8,7 @@
 namespace thawslide::config {
 
 // Location of a value: a file with line and column (both from 1; 0: the file as a whole), or a `--set` text.
-struct Place {
+struct Location {
   std::string source;
   std::uint32_t line = 0;
   std::uint32_t column = 0;
@@ -20,7 +20,7 @@ struct Place {
 
 class Problems {
  public:
-  void add(Place place, std::string message);
+  void add(Location location, std::string message);
   [[nodiscard]] bool empty() const { return found_.empty(); }
 
   // Throws a UserError with every problem, one per line, in the order of their locations; returns if there is none.
@@ -28,7 +28,7 @@ class Problems {
 
  private:
   struct Problem {
-    Place place;
+    Location location;
     std::string message;
   };
   std::vector<Problem> found_;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/shell_quote.hpp"
 #include "config/input_limits.hpp"
 #include "config/problems.hpp"
 
@@ -78,12 +79,16 @@ class ProfileReader {
   }
 
   void read_header(const Fields& fields) {
+    if (fields.size() == 1 && fields.front().find('\t') != std::string::npos) {
+      fail(fmt::format("the columns are separated by tabs; allowed: commas. Replace them: sed -i 's/\\t/,/g' {}",
+                       shell_quote(file_)));
+    }
     const bool is_binary = std::any_of(fields.begin(), fields.end(), [](const std::string& field) {
       return std::any_of(field.begin(), field.end(), [](unsigned char sign) { return std::iscntrl(sign) != 0; });
     });
     if (is_binary) {
       fail(
-          "this is no text file; allowed: columns separated by commas under the header "
+          "this is not a text file; allowed: columns separated by commas under the header "
           "distance_m,terrain_elevation_m[,surface_elevation_m]. A DEM is read with terrain.type = \"dem\"");
     }
     const bool is_known =

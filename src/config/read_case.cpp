@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <set>
-#include <utility>
 
 #include "base/error.hpp"
 #include "config/checks.hpp"
@@ -12,6 +11,7 @@
 #include "config/input_limits.hpp"
 #include "config/overrides.hpp"
 #include "config/variants.hpp"
+#include "config/whole_cells.hpp"
 
 namespace thawslide::config {
 
@@ -39,7 +39,7 @@ fs::path find_case_file(const fs::path& given) {
   if (fs::is_regular_file(given, error)) {
     return given;
   }
-  if (const std::string found = what_stands_at(given); !found.empty() && !fs::is_directory(given, error)) {
+  if (const std::string found = other_kind_of_file(given); !found.empty() && !fs::is_directory(given, error)) {
     throw UserError(fmt::format("{} is {}. Give a case file, or a folder with a case.toml.", given.string(), found));
   }
   if (!fs::is_directory(given, error)) {
@@ -51,7 +51,7 @@ fs::path find_case_file(const fs::path& given) {
         }()));
   }
   const fs::path file = given / "case.toml";
-  if (const std::string found = what_stands_at(file); !found.empty()) {
+  if (const std::string found = other_kind_of_file(file); !found.empty()) {
     throw UserError(fmt::format("{} is {}. Give a case file, or a folder with a case.toml.", file.string(), found));
   }
   if (!fs::is_regular_file(file, error)) {
@@ -86,7 +86,7 @@ void report_unknown_tables(const toml::table& root, Reading& reading) {
     }
     const std::vector<std::string> known(top.begin(), top.end());
     const std::string hint = homes.empty() ? did_you_mean(word, known) : "; it belongs in " + homes + ".";
-    reading.problems.add(reading.place_of(word, key.source()),
+    reading.problems.add(reading.location_of(word, key.source()),
                          fmt::format("{} is not known{} Allowed: {}.",
                                      node.is_table() ? "table [" + word + "]" : "key '" + word + "' outside of a table",
                                      hint.empty() ? "." : hint, comma_list(titles)));
@@ -103,7 +103,7 @@ void read_tables(const toml::table& root, Case& result, Reading& reading) {
   for (const auto& table : tables()) {
     table->read(root, result, reading);
     if (table->name == "case") {
-      reading.dimension = reading.sound({"case.dimension"}) ? result.general.dimension : 0;
+      reading.dimension = reading.are_valid({"case.dimension"}) ? result.general.dimension : 0;
     }
   }
   report_unknown_tables(root, reading);
@@ -130,13 +130,17 @@ Case read_case(const fs::path& case_file_or_folder, const std::vector<std::strin
   LayeredCase layered = read_with_bases(file);
   apply_overrides(layered.root, reading);
   read_tables(layered.root, result, reading);
-  for (const auto& [key, place] : reading.places) {
-    result.places[key] = place.text();
-    const auto marked = layered.lines_not_given.find(place.source);
-    if (marked != layered.lines_not_given.end() && marked->second.count(place.line) > 0) {
+  for (const auto& [key, location] : reading.locations) {
+    result.locations[key] = location.text();
+    const auto marked = layered.lines_not_given.find(location.source);
+    if (marked != layered.lines_not_given.end() && marked->second.count(location.line) > 0) {
       result.not_given.insert(key);
     }
   }
+  if (reading.dimension != 0) {
+    fit_domain_to_cells(result, reading);
+  }
+  result.notes = reading.notes;
   // The merged case is complete and no longer depends on its base.
   result.general.based_on.clear();
   for (const fs::path& each : layered.files) {

@@ -50,7 +50,7 @@ std::string similar_file(const std::filesystem::path& file) {
 
 }  // namespace
 
-Place Reading::place_of(const std::string& dotted, const toml::source_region& region) const {
+Location Reading::location_of(const std::string& dotted, const toml::source_region& region) const {
   if (region.begin.line > 0) {
     return {region.path ? *region.path : file, region.begin.line, region.begin.column, false};
   }
@@ -62,10 +62,10 @@ Place Reading::place_of(const std::string& dotted, const toml::source_region& re
   return {file, 0, 0, false};
 }
 
-Place Reading::place_of(const std::string& dotted) const {
+Location Reading::location_of(const std::string& dotted) const {
   for (std::string name = dotted; !name.empty();) {
-    const auto found = places.find(name);
-    if (found != places.end()) {
+    const auto found = locations.find(name);
+    if (found != locations.end()) {
       return found->second;
     }
     const std::size_t dot = name.rfind('.');
@@ -74,9 +74,9 @@ Place Reading::place_of(const std::string& dotted) const {
   return {file, 0, 0, false};
 }
 
-bool Reading::sound(std::initializer_list<std::string> dotted) const {
+bool Reading::are_valid(std::initializer_list<std::string> dotted) const {
   for (const std::string& key : dotted) {
-    if (unsound.count(key) > 0) {
+    if (invalid_keys.count(key) > 0) {
       return false;
     }
   }
@@ -84,17 +84,17 @@ bool Reading::sound(std::initializer_list<std::string> dotted) const {
 }
 
 void Reading::report(const std::string& dotted, std::string message) {
-  problems.add(place_of(dotted), std::move(message));
-  unsound.insert(dotted);
+  problems.add(location_of(dotted), std::move(message));
+  invalid_keys.insert(dotted);
 }
 
 void Reading::report_misfit(std::initializer_list<std::string> dotted, std::string message) {
   const auto set = std::find_if(dotted.begin(), dotted.end(), [this](const std::string& key) {
-    const auto found = places.find(key);
-    return found != places.end() && found->second.command_line;
+    const auto found = locations.find(key);
+    return found != locations.end() && found->second.command_line;
   });
-  problems.add(place_of(set == dotted.end() ? *dotted.begin() : *set), std::move(message));
-  unsound.insert(*dotted.begin());
+  problems.add(location_of(set == dotted.end() ? *dotted.begin() : *set), std::move(message));
+  invalid_keys.insert(*dotted.begin());
 }
 
 std::string describe_node(const toml::node& node) {
@@ -119,9 +119,16 @@ std::string describe_node(const toml::node& node) {
 bool ValueReader::fail(const toml::node& node, const std::string& message) const {
   const std::string remedy =
       default_text.empty() ? "" : fmt::format(" Correct it, or leave it out for the default {}.", default_text);
-  reading.problems.add(reading.place_of(key, node.source()), fmt::format("{} {}.{}", key, message, remedy));
-  reading.unsound.insert(key);
+  reading.problems.add(reading.location_of(key, node.source()), fmt::format("{} {}.{}", key, message, remedy));
+  reading.invalid_keys.insert(key);
   return false;
+}
+
+bool ValueReader::note_new_name(const toml::node& node, const std::string& name) const {
+  reading.notes.push_back(fmt::format("note: {}: {} is \"{}\", whose name is now \"{}\"",
+                                      reading.location_of(key, node.source()).text(), key, node.as_string()->get(),
+                                      name));
+  return true;
 }
 
 bool ValueReader::fail_type(const toml::node& node) const {
@@ -129,9 +136,9 @@ bool ValueReader::fail_type(const toml::node& node) const {
   if (const auto* text = node.as_string(); text != nullptr && !text->get().empty()) {
     char* end = nullptr;
     const double value = std::strtod(text->get().c_str(), &end);
-    if (*end == '\0' && rule.range.holds(value)) {
-      message += reading.place_of(key, node.source()).command_line ? "; write " + plain_number(value)
-                                                                   : std::string("; remove the quotes");
+    if (*end == '\0' && rule.range.contains(value)) {
+      message += reading.location_of(key, node.source()).command_line ? "; write " + plain_number(value)
+                                                                      : std::string("; remove the quotes");
     }
   }
   return fail(node, message);
@@ -154,7 +161,7 @@ bool ValueReader::number_in_range(const toml::node& node, double& value) const {
     return fail_type(node);
   }
   const double found = *node.value<double>();
-  if (!rule.range.holds(found)) {
+  if (!rule.range.contains(found)) {
     return fail(node, fmt::format("is {}; allowed: {}{}{} ({}){}", plain_number(found), rule.range.text(),
                                   rule.unit.empty() ? "" : " ", rule.unit, rule.text, likely_unit(rule, found)));
   }
@@ -181,7 +188,7 @@ bool ValueReader::numbers(const toml::node& node, std::vector<double>& values, b
 
 bool ValueReader::resolve_path(const toml::node& node, std::string& path, const std::string& form) const {
   namespace fs = std::filesystem;
-  const bool from_command_line = reading.place_of(key, node.source()).command_line;
+  const bool from_command_line = reading.location_of(key, node.source()).command_line;
   if (path.find('\0') != std::string::npos) {
     return fail(node, fmt::format("is \"{}\", a name with a zero byte; allowed: a file", shown(path)));
   }
@@ -196,7 +203,7 @@ bool ValueReader::resolve_path(const toml::node& node, std::string& path, const 
                               shown(path), key, form));
     }
   }
-  if (const std::string found = what_stands_at(whole); !found.empty()) {
+  if (const std::string found = other_kind_of_file(whole); !found.empty()) {
     return fail(node, fmt::format("is \"{}\", {}; allowed: a file", shown(path), found));
   }
   if (!fs::is_regular_file(whole, error)) {

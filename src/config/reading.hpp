@@ -27,17 +27,18 @@ struct Reading {
   std::vector<Override> overrides;
   int dimension = 2;  // of the case; 0 while unknown
   Problems problems;
-  std::map<std::string, Place> places;  // of each given table and key, by dotted name
-  std::set<std::string> unsound;        // dotted keys that are missing or invalid
+  std::vector<std::string> notes;             // former names that the file uses
+  std::map<std::string, Location> locations;  // of each given table and key, by dotted name
+  std::set<std::string> invalid_keys;         // dotted keys that are missing or invalid
 
   // Location of a node of the key, or of the `--set` that specified it.
-  [[nodiscard]] Place place_of(const std::string& dotted, const toml::source_region& region) const;
+  [[nodiscard]] Location location_of(const std::string& dotted, const toml::source_region& region) const;
   // Location of a key or, if it is not given, of its table or of the file.
-  [[nodiscard]] Place place_of(const std::string& dotted) const;
+  [[nodiscard]] Location location_of(const std::string& dotted) const;
 
-  [[nodiscard]] bool given(const std::string& dotted) const { return places.count(dotted) > 0; }
+  [[nodiscard]] bool is_given(const std::string& dotted) const { return locations.count(dotted) > 0; }
   // True if none of the keys has a problem, so that checks involving them are meaningful.
-  [[nodiscard]] bool sound(std::initializer_list<std::string> dotted) const;
+  [[nodiscard]] bool are_valid(std::initializer_list<std::string> dotted) const;
   // Adds a problem at the location of a key, and marks the key as invalid.
   void report(const std::string& dotted, std::string message);
   // Adds a problem of several keys at the first of them set by `--set`, because the case file is probably consistent
@@ -55,6 +56,8 @@ struct ValueReader {
 
   // Adds "key: message" at the node's location.
   bool fail(const toml::node& node, const std::string& message) const;
+  // Adds a note that the node's keyword has a new name; always true.
+  bool note_new_name(const toml::node& node, const std::string& name) const;
   // Reports the value found, the values allowed and the remedy.
   bool fail_type(const toml::node& node) const;
   // A finite number.

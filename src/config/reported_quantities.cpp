@@ -57,17 +57,17 @@ const std::vector<ReportedQuantity>& reported_quantities() {
       pressure{{"Pa"}, {"kPa", 1e3}, {"MPa", 1e6}, {"GPa", 1e9}},
       area{{"m2"}, {"m²"}, {"ha", 1e4}, {"km2", 1e6}, {"km²", 1e6}},
       volume{{"m3"}, {"m³"}, {"million m3", 1e6}, {"million m³", 1e6}, {"km3", 1e9}, {"km³", 1e9}},
-      angle{{"degrees"}, {"deg"}, {"°"}, {"rad", degrees_per_radian}}, share{{"-"}, {"1"}, {""}, {"%", 1e-2}};
+      angle{{"degrees"}, {"deg"}, {"°"}, {"rad", degrees_per_radian}}, fraction{{"-"}, {"1"}, {""}, {"%", 1e-2}};
   static const std::vector<ReportedQuantity> all{
       {sets_clock, &speed, 0.0, infinity, false},
       {"mean_velocity", &speed, 0.0, infinity, true},
       {"mean_displacement", &length, 0.0, infinity, true},
       {"front_distance", &length, 0.0, infinity, true},
-      {"band_SL", &share, 0.0, 1.0, true},
-      {"band_saturation", &share, 0.0, 1.0, true},
+      {"band_SL", &fraction, 0.0, 1.0, true},
+      {"band_saturation", &fraction, 0.0, 1.0, true},
       {"band_temperature", &temperature, absolute_zero, infinity, true},
       {"band_pore_pressure", &pressure, -infinity, infinity, true},
-      {"band_friction_coefficient", &share, 0.0, infinity, true},
+      {"band_friction_coefficient", &fraction, 0.0, infinity, true},
       {reported_force, &force, 0.0, infinity, false},
       {"source_volume", &volume, 0.0, infinity, false},
       {"source_mean_thickness", &length, 0.0, infinity, false},

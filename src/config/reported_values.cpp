@@ -99,10 +99,10 @@ class TargetsReader {
       return;
     }
     if (name == sets_clock) {
-      if (found_.have_clock) {
+      if (found_.has_clock) {
         add(row.line, fmt::format("{} is in line {} already; one row sets the clock", sets_clock, clock_line_));
       }
-      found_.have_clock = true;
+      found_.has_clock = true;
       clock_line_ = row.line;
     }
     found_.values.push_back({name, time, row.line, reported_quantity(name)->is_of_a_time});
@@ -176,7 +176,7 @@ class TargetsReader {
   // With a separate clock, only the run can determine when the times are.
   void refuse_times_before_the_run() {
     for (const ReportedValue& value : found_.values) {
-      if (value.is_of_a_time && value.time < 0.0 && !found_.have_clock) {
+      if (value.is_of_a_time && value.time < 0.0 && !found_.has_clock) {
         add(value.line,
             fmt::format("{} is of {:g} s, before the run; allowed: 0 s and later, or a row {} that sets their clock",
                         value.quantity, value.time, sets_clock));
@@ -201,13 +201,13 @@ std::string warning_of_late_values(const Case& parameters) {
   const ReportedValues reported = read_reported_values(file);
   std::vector<ReportedValue> late;
   std::copy_if(reported.values.begin(), reported.values.end(), std::back_inserter(late), [&](const auto& value) {
-    return value.is_of_a_time && value.time > parameters.time.end && !reported.have_clock;
+    return value.is_of_a_time && value.time > parameters.time.end && !reported.has_clock;
   });
   return late.empty() ? ""
                       : fmt::format(
-                            "{}: report.targets is {}: {} of its values {} later than the run, which ends at {} s, as "
-                            "{} of {} s in line {}; nothing of the run is compared with {}.",
-                            place_of(parameters, "report.targets"), file.filename().string(), late.size(),
+                            "{}: report.targets is {}: {} of its values {} later than the run, which ends at {} s: "
+                            "{} of {} s in line {}. The run is not compared with {}.",
+                            location_of(parameters, "report.targets"), file.filename().string(), late.size(),
                             late.size() == 1 ? "is" : "are", parameters.time.end, late.front().quantity,
                             late.front().time, late.front().line, late.size() == 1 ? "it" : "them");
 }

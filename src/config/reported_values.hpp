@@ -20,7 +20,7 @@ struct ReportedValue {
 
 struct ReportedValues {
   std::vector<ReportedValue> values;
-  bool have_clock = false;            // has a row start_velocity: times are the reporter's, not the run's
+  bool has_clock = false;             // has a row start_velocity: times are the reporter's, not the run's
   std::vector<std::string> mistakes;  // each with file and line
 };
 

@@ -20,7 +20,7 @@ std::string format_found(double found) { return fmt::format("{:.2g}", rounded_do
 
 }  // namespace
 
-bool asks_for_maps(const Case& parameters) {
+bool requests_maps(const Case& parameters) {
   return parameters.general.dimension == 3 &&
          (was_given(parameters, "maps.cell") || was_given(parameters, "maps.arrival_thickness"));
 }
@@ -49,8 +49,8 @@ std::string resolution_warning(const BodyOnCells& body, const std::string& key, 
     remedy += fmt::format("{}{:.9g} m, at about {} times the run time", lacks_particles ? ", or for maps to " : "",
                           mapped, times(mapped));
   }
-  return fmt::format("{}: across the median thickness of body {}, {:.3g} m, there are {}. Set {} to {}.{}", key,
-                     body.name, body.thickness, problem, key, remedy,
+  return fmt::format("{}: across the median thickness of body {}, {} m, there are {}. Set {} to {}.{}", key, body.name,
+                     rounded_text(body.thickness, 3), problem, key, remedy,
                      lacks_cells && !lacks_particles ? " Travel distance and speed need 2 to 4 cells." : "");
 }
 

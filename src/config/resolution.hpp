@@ -25,7 +25,7 @@ struct BodyOnCells {
 
 // Every 3D run writes maps. A case that sets maps.cell or maps.arrival_thickness needs them to be accurate. maps.path
 // does not count: it is the line along which the front is measured.
-[[nodiscard]] bool asks_for_maps(const Case& parameters);
+[[nodiscard]] bool requests_maps(const Case& parameters);
 
 // Run time on a finer cell, divided by that on the present one. The number of occupied cells is proportional to 1/cell
 // per axis, and so is the number of time steps, because an elastic wave may not cross a cell in one step.

@@ -7,7 +7,7 @@
 
 namespace thawslide::config {
 
-bool Range::holds(double value) const {
+bool Range::contains(double value) const {
   if (std::isnan(value) || (std::isinf(value) && !infinity_allowed)) {
     return false;
   }

@@ -15,7 +15,7 @@ struct Range {
   bool high_open = false;
   bool infinity_allowed = false;
 
-  [[nodiscard]] bool holds(double value) const;
+  [[nodiscard]] bool contains(double value) const;
   // "> 0", ">= 0", "between 0 and 1, ends excluded", "any number"
   [[nodiscard]] std::string text() const;
 };
@@ -34,29 +34,30 @@ struct Usual {
   const char* where = "";  // "on a glacier"
 
   [[nodiscard]] bool is_specified() const;
-  [[nodiscard]] bool holds(double value) const { return value >= low && value <= high; }
+  [[nodiscard]] bool contains(double value) const { return value >= low && value <= high; }
   // Text such as "0.01 to 2 (not checked)", "0.05 to 0.15 on a glacier (not checked)"; empty if no range is specified
   [[nodiscard]] std::string text(const std::string& unit = "") const;
 };
 
 // Keyword allowed as the value of a key.
 struct Keyword {
-  std::string word;
+  std::string name;
   std::string text;
+  std::string formerly = {};  // former name, still accepted with a note
 };
 
 struct Rule {
   std::string key = {};
   std::string unit = {};
   Range range = {};
-  std::string text = {};            // description in one line
-  std::string source = {};          // equation, section or table of the paper, or another source
-  std::vector<Keyword> words = {};  // keywords allowed, for a text that is one of a few
-  int dimension = 0;                // 2 or 3: allowed only in this dimension
-  bool is_path = false;             // a file, relative to the case file
-  bool horizontal = false;          // of a point: x and y only, in three dimensions too
+  std::string text = {};               // description in one line
+  std::string source = {};             // publication, with equation, section or table
+  std::vector<Keyword> keywords = {};  // keywords allowed, for a text that is one of a few
+  int dimension = 0;                   // 2 or 3: allowed only in this dimension
+  bool is_path = false;                // a file, relative to the case file
+  bool horizontal = false;             // of a point: x and y only, in three dimensions too
   Usual usual = {};
-  std::string formerly = {};  // former name of the key; a file that uses it gets the new name in an error
+  std::string formerly = {};  // former name of the key, still accepted with a note
 };
 
 // Shortest decimal text that reads back to the same number, in TOML form: always with a point or an exponent.

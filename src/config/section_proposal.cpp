@@ -49,8 +49,8 @@ std::string section_text(const std::string& title, const std::string& profile_fi
   return fmt::format(
       R"(# Made by `thawslide section`. Every number may be changed; `thawslide describe` lists all keys.
 #
-# A section has no side walls and does not spread: the slide moves in the plane of the section only, as if it were the
-# same at every place across it. A valley that narrows or widens it, or turns it, is not in this case.
+# A section has no side walls and does not spread laterally: the slide moves only in the plane of the section, and is
+# uniform across it. Valleys that narrow, widen or turn are not represented.
 
 [case]
 title = {title}

@@ -25,8 +25,8 @@ struct Release {
   std::map<std::string, Raster> fields;  // by key of the body: "temperature", "porosity", ... if given by a map
   // Only for a body that touches another one, otherwise empty. A point belongs to the body whose outline contains it,
   // and beyond all outlines to the body with the largest claim.
-  Raster standing;  // vertical thickness [m] in the body's own part, without an edge towards the others
-  Raster claim;     // fraction of each point's cell within the outline; beyond all outlines, within reach of its taper
+  Raster assigned_thickness;  // vertical thickness [m] in the body's own part, without an edge towards the others
+  Raster claim;  // fraction of each point's cell within the outline; beyond all outlines, within reach of its taper
 };
 
 // Extent of a substrate from maps.

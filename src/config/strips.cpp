@@ -23,9 +23,9 @@ std::vector<std::string> warnings_of_gaps(const Case& parameters) {
   for (std::size_t k = 1; k < strips.size(); ++k) {
     const double from = strips[k - 1].to, to = strips[k].from;
     if (to > from) {
-      warnings.push_back(
-          fmt::format("between the substrates {} and {}, from x = {:g} to {:g} m, none lies: [basal] holds there",
-                      strips[k - 1].name, strips[k].name, from, to));
+      warnings.push_back(fmt::format(
+          "between the substrates {} and {}, from x = {:.9g} to {:.9g} m, there is no substrate: [basal] applies there",
+          strips[k - 1].name, strips[k].name, from, to));
     }
   }
   return warnings;

@@ -49,18 +49,18 @@ std::size_t length_of_sign(std::string_view text) {
   return is_wrong ? 0 : length;
 }
 
-long line_of(std::string_view text, std::size_t place) {
-  return 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(place), '\n');
+long line_of(std::string_view text, std::size_t offset) {
+  return 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(offset), '\n');
 }
 
 std::string with_plain_line_ends(std::string_view text) {
   std::string plain;
-  for (std::size_t place = 0; place < text.size(); ++place) {
-    if (text[place] == '\r') {
+  for (std::size_t offset = 0; offset < text.size(); ++offset) {
+    if (text[offset] == '\r') {
       plain += '\n';
-      place += text.substr(place, 2) == "\r\n" ? 1U : 0U;
+      offset += text.substr(offset, 2) == "\r\n" ? 1U : 0U;
     } else {
-      plain += text[place];
+      plain += text[offset];
     }
   }
   return plain;
@@ -80,13 +80,13 @@ std::string read_text(const std::string& file, double max_bytes) {
   if (begins_with("\xEF\xBB\xBF")) {
     text.erase(0, 3);
   }
-  for (std::size_t place = 0; place < text.size();) {
-    const std::size_t length = length_of_sign(std::string_view(text).substr(place, 4));
+  for (std::size_t offset = 0; offset < text.size();) {
+    const std::size_t length = length_of_sign(std::string_view(text).substr(offset, 4));
     if (length == 0) {
       throw UserError(fmt::format("{}:{}: byte 0x{:02x} is not UTF-8; save the file as UTF-8", file,
-                                  line_of(text, place), static_cast<unsigned char>(text[place])));
+                                  line_of(text, offset), static_cast<unsigned char>(text[offset])));
     }
-    place += length;
+    offset += length;
   }
   const std::string plain = with_plain_line_ends(text);
   if (const std::size_t zero = plain.find('\0'); zero != std::string::npos) {
@@ -102,24 +102,24 @@ std::vector<std::string> cells_of(std::string_view line, const std::string& wher
     throw UserError(fmt::format("{}: not a row of comma-separated cells: {}", where, why));
   };
   std::vector<std::string> cells;
-  for (std::size_t place = 0; place <= line.size(); ++place) {
+  for (std::size_t offset = 0; offset <= line.size(); ++offset) {
     std::string cell;
-    if (place < line.size() && line[place] == '"') {
-      for (++place; place < line.size() && (line[place] != '"' || line.substr(place, 2) == "\"\""); ++place) {
-        place += line[place] == '"' ? 1U : 0U;
-        cell += line[place];
+    if (offset < line.size() && line[offset] == '"') {
+      for (++offset; offset < line.size() && (line[offset] != '"' || line.substr(offset, 2) == "\"\""); ++offset) {
+        offset += line[offset] == '"' ? 1U : 0U;
+        cell += line[offset];
       }
-      if (place == line.size()) {
+      if (offset == line.size()) {
         fail("a quote that does not end");
       }
-      ++place;
-      if (place < line.size() && line[place] != ',') {
+      ++offset;
+      if (offset < line.size() && line[offset] != ',') {
         fail("a comma is expected after a quote that ends");
       }
     } else {
-      const std::size_t end = std::min(line.find(',', place), line.size());
-      cell = line.substr(place, end - place);
-      place = end;
+      const std::size_t end = std::min(line.find(',', offset), line.size());
+      cell = line.substr(offset, end - offset);
+      offset = end;
     }
     cells.push_back(trimmed(cell));
   }

@@ -66,7 +66,7 @@ const toml::node* find_node(const toml::table& root, const std::string& dotted) 
 }
 
 bool enter_table(const toml::node& node, const std::string& dotted, Reading& reading) {
-  reading.places[dotted] = reading.place_of(dotted, node.source());
+  reading.locations[dotted] = reading.location_of(dotted, node.source());
   if (!node.is_table()) {
     reading.report(dotted,
                    fmt::format("'{}' is {}; allowed: one table. Write [{}] on a line of its own and its keys below.",
@@ -74,6 +74,12 @@ bool enter_table(const toml::node& node, const std::string& dotted, Reading& rea
     return false;
   }
   return true;
+}
+
+void note_new_key(const std::string& former, const std::string& key, const toml::source_region& source,
+                  Reading& reading) {
+  reading.notes.push_back(
+      fmt::format("note: {}: key '{}' is called '{}' now", reading.location_of(former, source).text(), former, key));
 }
 
 void report_unknown_keys(const toml::table& table, const std::string& dotted, const std::vector<std::string>& known,
@@ -92,10 +98,10 @@ void report_unknown_keys(const toml::table& table, const std::string& dotted, co
     const std::string hint = now != renamed.end() ? fmt::format("; it is called '{}' now", join(dotted, now->second))
                              : elsewhere.empty()  ? did_you_mean(word, allowed)
                                                   : fmt::format("; it belongs in {}", fmt::join(elsewhere, " or "));
-    reading.problems.add(reading.place_of(whole, key.source()),
+    reading.problems.add(reading.location_of(whole, key.source()),
                          fmt::format("key '{}' is not known in [{}]{} Allowed here: {}.", whole, dotted,
                                      hint.empty() ? "." : hint + (hint.back() == '?' ? "" : "."), comma_list(allowed)));
-    reading.unsound.insert(whole);
+    reading.invalid_keys.insert(whole);
   }
 }
 
@@ -108,7 +114,8 @@ std::vector<std::string> table_names(const toml::node& node, const std::string& 
     const std::string name(key.str());
     const std::string dotted = join(kind, name);
     const bool in_file = child.source().begin.line > 0;
-    reading.places[dotted] = reading.place_of(dotted, child.is_table() || !in_file ? child.source() : key.source());
+    reading.locations[dotted] =
+        reading.location_of(dotted, child.is_table() || !in_file ? child.source() : key.source());
     if (!child.is_table()) {
       reading.report(dotted, fmt::format("'{}' stands in [{}], which needs a name; write [{}.NAME] with a name of your "
                                          "choice above it.",
@@ -156,10 +163,10 @@ bool check_dimension(const toml::node& node, const std::string& dotted, const Ru
   if (rule.dimension == 0 || reading.dimension == 0 || rule.dimension == reading.dimension) {
     return true;
   }
-  reading.problems.add(reading.place_of(dotted, node.source()),
+  reading.problems.add(reading.location_of(dotted, node.source()),
                        fmt::format("{} has a meaning only in {} dimensions, and case.dimension is {}. Remove it.",
                                    dotted, rule.dimension == 2 ? "two" : "three", reading.dimension));
-  reading.unsound.insert(dotted);
+  reading.invalid_keys.insert(dotted);
   return false;
 }
 

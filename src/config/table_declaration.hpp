@@ -19,6 +19,9 @@ inline std::string join(const std::string& table, const std::string& key) { retu
 const toml::node* find_node(const toml::table& root, const std::string& dotted);
 // Records the location of a table; returns whether it is one.
 bool enter_table(const toml::node& node, const std::string& dotted, Reading& reading);
+// Notes that a key is given by its former name.
+void note_new_key(const std::string& former, const std::string& key, const toml::source_region& source,
+                  Reading& reading);
 // Reports unknown keys of a table; `renamed`: keys by their former names.
 void report_unknown_keys(const toml::table& table, const std::string& dotted, const std::vector<std::string>& known,
                          const std::map<std::string, std::string>& renamed, Reading& reading);
@@ -45,7 +48,7 @@ class SectionParameters {
     std::vector<Entry> entries;
     for (const auto& p : parameters_) {
       entries.push_back(
-          {&p.rule, p.type, p.default_text(), p.required_text, p.otherwise_text, p.words, p.schema, p.meaning.when});
+          {&p.rule, p.type, p.default_text(), p.required_text, p.otherwise_text, p.keywords, p.schema, p.meaning.when});
     }
     return entries;
   }
@@ -58,12 +61,17 @@ class SectionParameters {
       if (!p.rule.formerly.empty()) {
         renamed[p.rule.formerly] = p.rule.key;
       }
+      const std::string key = join(dotted, p.rule.key);
       const toml::node* node = table.get(p.rule.key);
+      if (node == nullptr && !p.rule.formerly.empty() && table.contains(p.rule.formerly)) {
+        node = table.get(p.rule.formerly);
+        known.push_back(p.rule.formerly);
+        note_new_key(join(dotted, p.rule.formerly), key, node->source(), reading);
+      }
       if (node == nullptr) {
         continue;
       }
-      const std::string key = join(dotted, p.rule.key);
-      reading.places[key] = reading.place_of(key, node->source());
+      reading.locations[key] = reading.location_of(key, node->source());
       if (check_dimension(*node, key, p.rule, reading)) {
         p.read(*node, ValueReader{reading, key, p.rule, p.default_text(), p.type}, section);
       }
@@ -74,23 +82,24 @@ class SectionParameters {
   void complete(const std::string& dotted, const Case& whole, Section& section, Reading& reading) const {
     // An unknown keyword decides nothing: requirements of its default may not apply.
     const bool is_decided = std::all_of(parameters_.begin(), parameters_.end(), [&](const auto& p) {
-      return p.words.empty() || reading.sound({join(dotted, p.rule.key)});
+      return p.keywords.empty() || reading.are_valid({join(dotted, p.rule.key)});
     });
     for (const auto& p : parameters_) {
       const std::string key = join(dotted, p.rule.key);
-      if (reading.given(key)) {
-        const bool may_judge = p.has_meaning && is_decided && reading.sound({key, join(dotted, p.meaning.decided_by)});
+      if (reading.is_given(key)) {
+        const bool may_judge =
+            p.has_meaning && is_decided && reading.are_valid({key, join(dotted, p.meaning.decided_by)});
         if (may_judge && !p.has_meaning(whole, section)) {
           report_without_meaning(dotted, p.rule, p.meaning, reading);
         }
         const bool is_empty = p.rule.is_path && p.write(section, p.rule, WriteContext{}) == quoted("");
-        if (is_empty && is_decided && reading.sound({key}) && p.is_required && p.is_required(whole, section)) {
+        if (is_empty && is_decided && reading.are_valid({key}) && p.is_required && p.is_required(whole, section)) {
           report_empty(dotted, p.rule, p.type, p.required_text, reading);
         }
         continue;
       }
       if (!is_decided && p.is_required && p.required_text != "always") {
-        reading.unsound.insert(key);
+        reading.invalid_keys.insert(key);
       } else if (p.is_required && p.is_required(whole, section)) {
         report_missing(dotted, p.rule, p.type, p.required_text, reading);
       } else if (p.fill) {
@@ -126,7 +135,7 @@ class SectionParameters {
       }
       const std::vector<double> numbers = p.numbers(section);
       const auto outside =
-          std::find_if(numbers.begin(), numbers.end(), [&](double n) { return !p.rule.usual.holds(n); });
+          std::find_if(numbers.begin(), numbers.end(), [&](double n) { return !p.rule.usual.contains(n); });
       if (outside != numbers.end()) {
         found.push_back({join(dotted, p.rule.key), *outside, &p.rule});
       }

@@ -31,14 +31,14 @@ std::vector<int> steps_to(const std::vector<char>& marked, const Window& window)
       for (int c = 0; c < window.columns; ++c) {
         const int row = forward ? r : window.rows - 1 - r, column = forward ? c : window.columns - 1 - c;
         int& here = steps[window.index(column, row)];
-        const auto take = [&](int i, int j) {
+        const auto consider = [&](int i, int j) {
           if (i >= 0 && i < window.columns && j >= 0 && j < window.rows) {
             here = std::min(here, steps[window.index(i, j)] + 1);
           }
         };
-        take(column - direction, row);
+        consider(column - direction, row);
         for (int across = -1; across <= 1; ++across) {
-          take(column + across, row - direction);
+          consider(column + across, row - direction);
         }
       }
     }
@@ -98,8 +98,8 @@ class Release {
   [[nodiscard]] const Window& window() const { return window_; }
 
  private:
-  static int first(double place, double origin, double cell) {
-    return static_cast<int>(std::lround((place - origin) / cell));
+  static int first(double coordinate, double origin, double cell) {
+    return static_cast<int>(std::lround((coordinate - origin) / cell));
   }
 
   const Raster& dem_;

@@ -1,5 +1,4 @@
 // Values that are a number or an inline table: tables over time, initial fields, map values, heat boundaries.
-#include <cmath>
 #include <utility>
 
 #include "config/values.hpp"
@@ -254,23 +253,23 @@ bool Value<MapValue>::read(const toml::node& node, const ValueReader& at, MapVal
   if (key.empty()) {
     return fail_keys(node, at);
   }
-  for (const MapKeyword& word : map_keywords) {
-    value.from = key == word.key ? word.from : value.from;  // valid regardless of problems with the source
+  for (const MapKeyword& keyword : map_keywords) {
+    value.from = key == keyword.key ? keyword.from : value.from;  // valid regardless of problems with the source
   }
   return read_source(*table, key, at, value.source);
 }
 std::string Value<MapValue>::write(const MapValue& value, const Rule&, const WriteContext& context) {
-  for (const MapKeyword& word : map_keywords) {
-    if (value.from == word.from) {
-      return write_source(word.key, value.source, context);
+  for (const MapKeyword& keyword : map_keywords) {
+    if (value.from == keyword.from) {
+      return write_source(keyword.key, value.source, context);
     }
   }
   return number_text(value.number);
 }
 json Value<MapValue>::schema(const Rule& rule) {
   json any_of = json::array({Value<double>::schema(rule)});
-  for (const MapKeyword& word : map_keywords) {
-    any_of.push_back(source_schema(word.key));
+  for (const MapKeyword& keyword : map_keywords) {
+    any_of.push_back(source_schema(keyword.key));
   }
   return {{"anyOf", any_of}};
 }

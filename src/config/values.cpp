@@ -1,7 +1,7 @@
 #include "config/values.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -14,15 +14,6 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* automatic = "auto";
-
-bool is_keyword(const std::vector<Keyword>& words, const std::string& found) {
-  for (const Keyword& word : words) {
-    if (word.word == found) {
-      return true;
-    }
-  }
-  return false;
-}
 
 std::string with_range(const std::string& type, const Rule& rule) {
   const std::string range = rule.range.text();
@@ -68,36 +59,40 @@ std::string path_text(const std::string& path, const WriteContext& context) {
   return quoted((is_copied ? context.input_folder / whole.filename() : whole).generic_string());
 }
 
-std::string keyword_list(const std::vector<Keyword>& words) {
+std::string keyword_list(const std::vector<Keyword>& keywords) {
   std::vector<std::string> names;
-  for (const Keyword& word : words) {
-    names.push_back(quoted(word.word));
+  for (const Keyword& keyword : keywords) {
+    names.push_back(quoted(keyword.name));
   }
   return comma_list(names);
 }
 
-json keyword_schema(const std::vector<Keyword>& words) {
+json keyword_schema(const std::vector<Keyword>& keywords) {
   json names = json::array();
-  for (const Keyword& word : words) {
-    names.push_back(word.word);
+  for (const Keyword& keyword : keywords) {
+    names.push_back(keyword.name);
   }
   return {{"enum", names}};
 }
 
-bool read_keyword(const toml::node& node, const ValueReader& at, const std::vector<Keyword>& words,
+bool read_keyword(const toml::node& node, const ValueReader& at, const std::vector<Keyword>& keywords,
                   std::string& found) {
   const auto* text = node.as_string();
   if (text == nullptr) {
     return at.fail_type(node);
   }
-  if (!is_keyword(words, text->get())) {
-    std::vector<std::string> names;
-    for (const Keyword& word : words) {
-      names.push_back(word.word);
+  std::vector<std::string> names;
+  for (const Keyword& keyword : keywords) {
+    names.push_back(keyword.name);
+    if (!keyword.formerly.empty() && text->get() == keyword.formerly) {
+      found = keyword.name;
+      return at.note_new_name(node, found);
     }
+  }
+  if (std::find(names.begin(), names.end(), text->get()) == names.end()) {
     const std::string hint = did_you_mean(text->get(), names);
     return at.fail(node, fmt::format("is \"{}\"{}: {}", shown(text->get()),
-                                     hint.empty() ? "; allowed" : hint + " Allowed", keyword_list(words)));
+                                     hint.empty() ? "; allowed" : hint + " Allowed", keyword_list(keywords)));
   }
   found = text->get();
   return true;
@@ -165,14 +160,14 @@ json Value<bool>::schema(const Rule&) { return {{"type", "boolean"}}; }
 
 // text: a title, a name, a keyword, or a path
 std::string Value<std::string>::type(const Rule& rule) {
-  if (!rule.words.empty()) {
-    return "one of " + keyword_list(rule.words);
+  if (!rule.keywords.empty()) {
+    return "one of " + keyword_list(rule.keywords);
   }
   return rule.is_path ? "the path of a file, in quotes" : "a text in quotes";
 }
 bool Value<std::string>::read(const toml::node& node, const ValueReader& at, std::string& value) {
-  if (!at.rule.words.empty()) {
-    return read_keyword(node, at, at.rule.words, value);
+  if (!at.rule.keywords.empty()) {
+    return read_keyword(node, at, at.rule.keywords, value);
   }
   const auto* text = node.as_string();
   if (text == nullptr) {
@@ -192,7 +187,7 @@ std::string Value<std::string>::write(const std::string& value, const Rule& rule
   return path_text(value, context);
 }
 json Value<std::string>::schema(const Rule& rule) {
-  return rule.words.empty() ? json{{"type", "string"}} : keyword_schema(rule.words);
+  return rule.keywords.empty() ? json{{"type", "string"}} : keyword_schema(rule.keywords);
 }
 
 // texts

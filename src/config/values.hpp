@@ -23,13 +23,13 @@ struct WriteContext {
 };
 
 // Each specialization has: type (text), read (reports problems and returns false if the node is invalid), write (TOML
-// text), schema (JSON schema), words (keywords allowed, if any).
+// text), schema (JSON schema), keywords (keywords allowed, if any).
 template <class T>
 struct Value;
 
 // Default of most types: no keywords.
 struct ValueWithoutKeywords {
-  static std::vector<Keyword> words() { return {}; }
+  static std::vector<Keyword> keywords() { return {}; }
 };
 
 #define THAWSLIDE_DECLARE_VALUE(Type)                                              \
@@ -64,9 +64,10 @@ THAWSLIDE_DECLARE_VALUE(HeatBoundary)  // "insulated" | { temperature = T } | { 
 #undef THAWSLIDE_DECLARE_VALUE
 
 // Reads a keyword from a list, and suggests the most similar one if it is misspelt.
-bool read_keyword(const toml::node& node, const ValueReader& at, const std::vector<Keyword>& words, std::string& found);
-std::string keyword_list(const std::vector<Keyword>& words);
-nlohmann::json keyword_schema(const std::vector<Keyword>& words);
+bool read_keyword(const toml::node& node, const ValueReader& at, const std::vector<Keyword>& keywords,
+                  std::string& found);
+std::string keyword_list(const std::vector<Keyword>& keywords);
+nlohmann::json keyword_schema(const std::vector<Keyword>& keywords);
 std::string quoted(const std::string& text);
 // Path in the form of the written case.
 std::string path_text(const std::string& path, const WriteContext& context);
@@ -74,33 +75,33 @@ std::string path_text(const std::string& path, const WriteContext& context);
 template <class Enum>
 requires std::is_enum_v<Enum>
 struct Value<Enum> {
-  static std::vector<Keyword> words() {
-    std::vector<Keyword> words;
+  static std::vector<Keyword> keywords() {
+    std::vector<Keyword> keywords;
     for (const Choice<Enum>& choice : choices(Enum{})) {
-      words.push_back({choice.word, choice.text});
+      keywords.push_back({choice.keyword, choice.text, choice.formerly});
     }
-    return words;
+    return keywords;
   }
-  static std::string type(const Rule&) { return "one of " + keyword_list(words()); }
+  static std::string type(const Rule&) { return "one of " + keyword_list(keywords()); }
   static bool read(const toml::node& node, const ValueReader& at, Enum& value) {
     std::string found;
-    if (!read_keyword(node, at, words(), found)) {
+    if (!read_keyword(node, at, keywords(), found)) {
       return false;
     }
     for (const Choice<Enum>& choice : choices(Enum{})) {
-      value = choice.word == found ? choice.value : value;
+      value = choice.keyword == found ? choice.value : value;
     }
     return true;
   }
   static std::string write(const Enum& value, const Rule&, const WriteContext&) {
     for (const Choice<Enum>& choice : choices(Enum{})) {
       if (choice.value == value) {
-        return quoted(choice.word);
+        return quoted(choice.keyword);
       }
     }
     return quoted("");
   }
-  static nlohmann::json schema(const Rule&) { return keyword_schema(words()); }
+  static nlohmann::json schema(const Rule&) { return keyword_schema(keywords()); }
 };
 
 }  // namespace thawslide::config

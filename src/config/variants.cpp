@@ -44,10 +44,9 @@ void require_shallow(const std::string& text, const std::string& file) {
     after_dot = letter == '.' && is_of_key(before);
     before = letter;
     if (parts > most_key_parts) {
-      throw UserError(
-          fmt::format("{}:{}: this is no case: a key of more than {} parts; allowed: TABLE.NAME.KEY. Is it "
-                      "the right file?",
-                      file, line, most_key_parts));
+      throw UserError(fmt::format(
+          "{}:{}: this is not a case: a key of more than {} parts; allowed: TABLE.NAME.KEY. Is it the right file?",
+          file, line, most_key_parts));
     }
     if (std::string_view(",=[]{}\n").find(letter) != std::string_view::npos) {
       parts = 1;
@@ -95,26 +94,26 @@ std::optional<fs::path> base_of(const toml::table& root, const fs::path& file, c
     return std::nullopt;  // a value of another type is reported with the other keys
   }
   const auto& begin = node->source().begin;
-  const std::string place =
+  const std::string location =
       fmt::format("{}:{}:{}: case.based_on is \"{}\"", file.string(), begin.line, begin.column, shown(text->get()));
   const fs::path name(text->get());
   const fs::path base = file.parent_path() / name;
   if (name.has_parent_path()) {
-    throw UserError(place + ", which is a path; allowed: the name of a case file of the same folder.");
+    throw UserError(location + ", which is a path; allowed: the name of a case file of the same folder.");
   }
   std::error_code error;
   if (!fs::is_regular_file(base, error)) {
-    throw UserError(place + ": no such file; allowed: the name of a case file of the same folder.");
+    throw UserError(location + ": no such file; allowed: the name of a case file of the same folder.");
   }
   if (!lies_within(base, file.parent_path())) {
-    throw UserError(place + ", a link that leads out of the folder; allowed: a case file in it. Copy it there.");
+    throw UserError(location + ", a link that leads out of the folder; allowed: a case file in it. Copy it there.");
   }
   if (chain.size() >= most_case_files) {
-    throw UserError(fmt::format("{}: a chain of {} files precedes it; allowed: {}. Combine some of them.", place,
+    throw UserError(fmt::format("{}: a chain of {} files precedes it; allowed: {}. Combine some of them.", location,
                                 chain.size(), most_case_files));
   }
   if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
-    throw UserError(place + ": the chain of files forms a cycle. Remove based_on from one of the files.");
+    throw UserError(location + ": the chain of files forms a cycle. Remove based_on from one of the files.");
   }
   return base;
 }

@@ -17,11 +17,12 @@ class BandStages {
 
  public:
   // sums: sums of the step, in device memory.
-  BandStages(Passes& passes, const HostCallbacks<Dim>& ask, StepSums<Dim>* sums)
+  BandStages(Passes& passes, const HostCallbacks<Dim>& callbacks, StepSums<Dim>* sums)
       : passes_(passes),
         sums_(sums),
-        columns_(passes.backend, passes.model.cell, passes.model.half_sizes, ask.slope_cosine, ask.normal_gravity),
-        layers_(passes.backend, ask.layer_at_middle) {
+        columns_(passes.backend, passes.model.cell, passes.model.half_sizes, callbacks.slope_cosine,
+                 callbacks.normal_gravity),
+        layers_(passes.backend, callbacks.layer_at_middle) {
     hydraulic_.set(passes.model.hydraulic_conductivity);
   }
 
@@ -38,7 +39,7 @@ class BandStages {
   }
 
   // Call after blocks have changed, if there is a ground. blocks: keys of the active blocks.
-  void take_layers(const std::vector<std::uint64_t>& blocks) {
+  void set_layers(const std::vector<std::uint64_t>& blocks) {
     if (layers_.exists()) {
       layers_.update(blocks);
     }
@@ -137,19 +138,19 @@ class BandStages {
   }
 
   // Marks the blocks that water can seep to, and the tiles around them. Returns false if there are none.
-  template <class Asks>
-  bool find_seepage(const Asks& asks) {
-    if (!passes_.model.lets_water_seep()) {
+  template <class Condition>
+  bool find_seepage(const Condition& condition) {
+    if (!passes_.model.has_seepage()) {
       return false;
     }
-    passes_.marks.mark_tiles(passes_.cells.tables(), asks);
+    passes_.marks.mark_tiles(passes_.cells.tables(), condition);
     passes_.marks.mark_blocks(passes_.cells.tables());
     return passes_.marks.mark_tiles_about(passes_.cells.tables());
   }
 
   void average_seeping_water() {
     if (passes_.model.band.frozen_rows == band::FrozenRows::draining ||
-        !find_seepage(SeepingNow<Dim>{passes_.particles.view(), passes_.model.band, hydraulic()})) {
+        !find_seepage(SeepingInState<Dim>{passes_.particles.view(), passes_.model.band, hydraulic()})) {
       return;
     }
     passes_.run(passes_.linear(passes_.marks.tiles()), AddSeepingWater<Dim>{passes_.model.band, hydraulic()});
@@ -164,10 +165,10 @@ class BandStages {
                 SeepageFlows<Dim>{passes_.model.band, hydraulic(), dt, Real(1) / passes_.model.cell});
     passes_.template sum<mpm::Seepage, void>(passes_.marks.tiles());
     const std::size_t blocks = passes_.cells.tables().blocks;
-    const Real* taken = block_pass<Dim>(
+    const Real* absorbed = block_pass<Dim>(
         passes_.backend, blocks, SolveSeepage<Dim>{passes_.views(), passes_.template of<mpm::Seepage>().data(), dt},
         passes_.memory.template sums<Real>(partial_sum_count(blocks)));
-    passes_.backend.for_each(1, KeepVented{taken, passes_.model.band.phases, &sums_->vented});
+    passes_.backend.for_each(1, KeepVented{absorbed, passes_.model.band.phases, &sums_->vented});
   }
   template <bool Seeps>
   void update_pressure() {

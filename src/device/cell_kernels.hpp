@@ -24,9 +24,9 @@ THAWSLIDE_HD inline std::size_t first_not_below(const std::uint64_t* keys, std::
   }
   return first;
 }
-THAWSLIDE_HD inline std::int32_t place_of_key(const std::uint64_t* keys, std::size_t count, std::uint64_t key) {
-  const std::size_t place = first_not_below(keys, 0, count, key);
-  return place < count && keys[place] == key ? static_cast<std::int32_t>(place) : absent;
+THAWSLIDE_HD inline std::int32_t index_of_key(const std::uint64_t* keys, std::size_t count, std::uint64_t key) {
+  const std::size_t index = first_not_below(keys, 0, count, key);
+  return index < count && keys[index] == key ? static_cast<std::int32_t>(index) : absent;
 }
 
 template <int Dim>
@@ -54,8 +54,8 @@ struct FindKey {
     const std::uint32_t particle = by_id[k];
     typename T::Index node{}, tile{};
     for (std::size_t a = 0; a < Dim; ++a) {
-      const Real place = particles.position(particle, static_cast<int>(a)) * inverse_cell;
-      node[a] = static_cast<int>(std::floor(place + Real(0.5)));
+      const Real in_cells = particles.position(particle, static_cast<int>(a)) * inverse_cell;
+      node[a] = static_cast<int>(std::floor(in_cells + Real(0.5)));
     }
     int local = 0;
     T::split(node, tile, local);
@@ -84,13 +84,13 @@ struct KeepFirst {
   int shift;
   const std::uint32_t *is_first, *number;
   std::uint64_t* found;
-  std::uint32_t* place;  // null: not required
+  std::uint32_t* index;  // null: not required
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     if (is_first[k] != 0) {
       found[number[k]] = keys[k] >> shift;
-      if (place != nullptr) {
-        place[number[k]] = static_cast<std::uint32_t>(k);
+      if (index != nullptr) {
+        index[number[k]] = static_cast<std::uint32_t>(k);
       }
     }
   }
@@ -146,11 +146,11 @@ template <int Dim>
 struct FindNeighbours {
   const std::uint64_t *from, *to;
   std::size_t count;  // of `to`
-  std::int32_t* places;
+  std::int32_t* indices;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     constexpr auto stencil = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
-    places[k] = place_of_key(to, count, key_of_neighbour<Dim>(from[k / stencil], k % stencil));
+    indices[k] = index_of_key(to, count, key_of_neighbour<Dim>(from[k / stencil], k % stencil));
   }
 };
 

@@ -95,9 +95,9 @@ class Cells {
   }
 
   void find_neighbours(const Array<std::uint64_t, Backend>& from, const Array<std::uint64_t, Backend>& to,
-                       Array<std::int32_t, Backend>& places) {
-    places.resize(from.size() * stencil);
-    backend_.for_each(places.size(), FindNeighbours<Dim>{from.data(), to.data(), to.size(), places.data()});
+                       Array<std::int32_t, Backend>& indices) {
+    indices.resize(from.size() * stencil);
+    backend_.for_each(indices.size(), FindNeighbours<Dim>{from.data(), to.data(), to.size(), indices.data()});
   }
 
   Backend& backend_;

@@ -16,8 +16,8 @@ struct ListColumns {
   std::uint32_t* seen;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    constexpr std::size_t places = band::columns_per_tile<Dim>;
-    keys[k] = band::column_key<Dim>(tile_keys[k / places], k % places);
+    constexpr std::size_t indices = band::columns_per_tile<Dim>;
+    keys[k] = band::column_key<Dim>(tile_keys[k / indices], k % indices);
     seen[k] = static_cast<std::uint32_t>(k);
   }
 };
@@ -40,7 +40,7 @@ struct FindNeighbourColumns {
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
     constexpr std::size_t sides = band::column_sides<Dim>;
-    adjacent[k] = place_of_key(keys, columns, band::neighbour_column(keys[k / sides], k % sides));
+    adjacent[k] = index_of_key(keys, columns, band::neighbour_column(keys[k / sides], k % sides));
   }
 };
 
@@ -63,7 +63,7 @@ struct ColumnPart {
 // particles, one thread per particle finds the overlaps of its box; then one thread per column adds the boxes in order.
 template <int Dim>
 struct SumInTile {
-  static constexpr std::size_t at_a_time = 128, places = band::columns_per_tile<Dim>;
+  static constexpr std::size_t at_a_time = 128, indices = band::columns_per_tile<Dim>;
 
   TileTables<Dim> tables;
   mpm::ParticleView<Dim> particles;
@@ -86,9 +86,9 @@ struct SumInTile {
       const std::size_t here = end - first < at_a_time ? end - first : at_a_time;
       group.each(here, [this, tile, first, boxes](std::size_t k) { boxes[k] = box_of(tile, tables.order[first + k]); });
       group.barrier();
-      group.each(places, [this, tile, boxes, here, is_first = first == begin](std::size_t place) {
-        ColumnPart<Dim>& part = parts[tile * places + place];
-        part = sum_boxes(boxes, here, place, is_first ? ColumnPart<Dim>{} : part);
+      group.each(indices, [this, tile, boxes, here, is_first = first == begin](std::size_t index) {
+        ColumnPart<Dim>& part = parts[tile * indices + index];
+        part = sum_boxes(boxes, here, index, is_first ? ColumnPart<Dim>{} : part);
       });
       group.barrier();
     }
@@ -103,20 +103,20 @@ struct SumInTile {
                                 particles, at)};
   }
 
-  [[nodiscard]] THAWSLIDE_HD static ColumnPart<Dim> sum_boxes(const Box* boxes, std::size_t count, std::size_t place,
+  [[nodiscard]] THAWSLIDE_HD static ColumnPart<Dim> sum_boxes(const Box* boxes, std::size_t count, std::size_t index,
                                                               ColumnPart<Dim> sum) {
     for (std::size_t k = 0; k < count; ++k) {
       const Box& box = boxes[k];
-      band::for_columns<Dim>(box.along, [&](const auto& side, Real at, Real share) {
-        if (!(share > Real(0)) || static_cast<std::size_t>(at) != place) {
+      band::for_columns<Dim>(box.along, [&](const auto& side, Real at, Real fraction) {
+        if (!(fraction > Real(0)) || static_cast<std::size_t>(at) != index) {
           return;
         }
-        const Real volume = share * box.volume;
+        const Real volume = fraction * box.volume;
         if (volume > Real(0)) {
           sum.column_mass += {volume, box.top};
         }
         sum.extent += band::extent_in_column<Dim>(box.along, side, 0);
-        sum.mass += share * box.mass;
+        sum.mass += fraction * box.mass;
       });
     }
     return sum;

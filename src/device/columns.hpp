@@ -11,7 +11,7 @@
 #include "device/array.hpp"
 #include "device/body_sizes.hpp"
 #include "device/column_kernels.hpp"
-#include "device/former_places.hpp"
+#include "device/tile_tables.hpp"
 #include "device/unique_keys.hpp"
 
 namespace thawslide::device {
@@ -23,8 +23,8 @@ class Columns {
  public:
   // half_sizes: of particles, by body, in cells. An empty slope_cosine means level ground; an empty normal_gravity
   // means that no loads are computed.
-  Columns(Backend& backend, Real cell, const std::vector<Real>& half_sizes, band::OfPlace<Dim> slope_cosine,
-          band::OfPlace<Dim> normal_gravity)
+  Columns(Backend& backend, Real cell, const std::vector<Real>& half_sizes, band::OfPosition<Dim> slope_cosine,
+          band::OfPosition<Dim> normal_gravity)
       : backend_(backend),
         cell_(cell),
         slope_cosine_{std::move(slope_cosine), {}, Array<Real, Backend>(backend)},
@@ -59,9 +59,10 @@ class Columns {
                         InTile{tables, particles, sizes_.view(), cell_, parts_.data()});
     backend_.for_each(keys_.size(), SumParts<Part>{first_seen_.data(), seen_.data(), keys_.size(), seen_.size(),
                                                    parts_.data(), sums_.data()});
-    backend_.for_each(keys_.size(), FinishColumns<Dim>{sums_.data(), adjacent_.data(),
-                                                       normal_gravity_.ask ? normal_gravity_.values.data() : nullptr,
-                                                       cell_, thickness_.data(), top_.data(), load_per_depth_.data()});
+    backend_.for_each(keys_.size(),
+                      FinishColumns<Dim>{sums_.data(), adjacent_.data(),
+                                         normal_gravity_.function ? normal_gravity_.values.data() : nullptr, cell_,
+                                         thickness_.data(), top_.data(), load_per_depth_.data()});
   }
 
   [[nodiscard]] ColumnsByTile<Dim> seen(const TileTables<Dim>& tables) const {
@@ -76,22 +77,22 @@ class Columns {
  private:
   // Terrain query at columns and its results.
   struct ColumnQuery {
-    band::OfPlace<Dim> ask;
+    band::OfPosition<Dim> function;
     std::vector<Real> known;
     Array<Real, Backend> values;
   };
 
   void query_terrain() {
     const std::vector<std::uint64_t> keys = keys_.get();
-    const std::vector<std::int32_t> before = places_in(known_keys_, keys);
-    for (ColumnQuery* asked : {&slope_cosine_, &normal_gravity_}) {
+    const std::vector<std::int32_t> before = index_map(known_keys_, keys);
+    for (ColumnQuery* query : {&slope_cosine_, &normal_gravity_}) {
       std::vector<Real> values(keys.size(), Real(1));
-      for (std::size_t k = 0; asked->ask && k < keys.size(); ++k) {
-        values[k] = before[k] != absent ? asked->known[static_cast<std::size_t>(before[k])]
-                                        : asked->ask(band::middle_of_column<Dim>(keys[k], cell_));
+      for (std::size_t k = 0; query->function && k < keys.size(); ++k) {
+        values[k] = before[k] != absent ? query->known[static_cast<std::size_t>(before[k])]
+                                        : query->function(band::middle_of_column<Dim>(keys[k], cell_));
       }
-      asked->values.set(values);
-      asked->known = std::move(values);
+      query->values.set(values);
+      query->known = std::move(values);
     }
     known_keys_ = keys;
   }

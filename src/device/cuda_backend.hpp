@@ -14,7 +14,6 @@
 
 #include "base/portability.hpp"
 #include "device/cuda_graphs.hpp"
-#include "device/failure.hpp"
 #include "device/gpu.hpp"
 
 namespace thawslide::device {

@@ -65,9 +65,9 @@ struct CoverBed {
       column[a] = part[a] / parts - corner[a];
       bit = bit * parts + part[a] % parts;
     }
-    const std::size_t place = place_of_column<Dim>(tables, stack_of_block, tile, column);
+    const std::size_t index = index_of_column<Dim>(tables, stack_of_block, tile, column);
     // benign race: all threads write the same value
-    covered[place * parts_of_column<Dim> + static_cast<std::size_t>(bit)] = 1;
+    covered[index * parts_of_column<Dim> + static_cast<std::size_t>(bit)] = 1;
   }
 };
 
@@ -118,7 +118,7 @@ struct PackPressure {
   THAWSLIDE_HD void operator()(std::size_t k) const {
     Real* record = records + k * bed_record_size<Dim>;
     const Real* contact = nodes.contact_at(candidates[k]);
-    if (record[mpm::BedLayout<Dim>::taken] > Real(0)) {
+    if (record[mpm::BedLayout<Dim>::entrained] > Real(0)) {
       record[mpm::BedLayout<Dim>::size] = contact[mpm::Contact::normal_force] / contact[mpm::Contact::area];
     }
   }

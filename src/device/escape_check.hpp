@@ -18,7 +18,7 @@ template <int Dim>
 struct CountEscaped {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Account = std::uint64_t;
+  using Totals = std::uint64_t;
 
   const std::int32_t* blocks_about_tile;
   const std::uint8_t* partly_unknown;  // by block; null: no ground, or ground known everywhere
@@ -45,7 +45,7 @@ struct CountEscaped {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
-                               Account& count) const {
+                               Totals& count) const {
     count = escapes(particles, at.particle[0]) ? 1 : 0;
   }
 };
@@ -55,7 +55,7 @@ template <int Dim>
 struct MarkEscaped {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Account = mpm::NoAccount;
+  using Totals = mpm::NoTotals;
 
   CountEscaped<Dim> count;
   std::uint32_t* marks;  // by particle: 1 or 0
@@ -64,7 +64,7 @@ struct MarkEscaped {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
-                               Account& /*account*/) const {
+                               Totals& /*totals*/) const {
     marks[at.particle[0]] = count.escapes(particles, at.particle[0]) ? 1 : 0;
   }
 };
@@ -75,12 +75,12 @@ struct ListEscaped {
   mpm::ParticleView<Dim> particles;
   const std::uint32_t* marks;
   const std::uint32_t* marked_before;
-  Vector<Real, Dim>* places;
+  Vector<Real, Dim>* indices;
 
   THAWSLIDE_HD void operator()(std::size_t p) const {
     if (marks[p] != 0) {
       for (int a = 0; a < Dim; ++a) {
-        places[marked_before[p]][a] = particles.position(p, a);
+        indices[marked_before[p]][a] = particles.position(p, a);
       }
     }
   }
@@ -93,7 +93,7 @@ class EscapeCheck {
 
   // Positions [m] of the escaped particles. escapes: their number.
   template <class Passes>
-  std::vector<Vector<Real, Dim>> places(Passes& passes, const CountEscaped<Dim>& count, std::size_t escapes) {
+  std::vector<Vector<Real, Dim>> indices(Passes& passes, const CountEscaped<Dim>& count, std::size_t escapes) {
     const std::size_t particles = passes.particles.size();
     marks_.resize(particles);
     marked_before_.resize(particles);

@@ -17,25 +17,25 @@ namespace thawslide::device {
 // Sort key of each particle, by rank in canonical order: its distance along the path.
 template <int Dim>
 struct ListAlongPath {
-  mpm::Transformation<Dim> way;
+  mpm::Transformation<Dim> path;
   mpm::ParticleView<Dim> particles;
   const std::uint32_t* order;
   std::uint64_t* keys;
 
   THAWSLIDE_HD void operator()(std::size_t rank) const {
-    keys[rank] = ordered_bits(way.of(particles, order[rank]).along);
+    keys[rank] = ordered_bits(path.of(particles, order[rank]).along);
   }
 };
 
 // The last particles of a sorted list, in reverse order.
 template <int Dim>
 struct KeepForemost {
-  mpm::Transformation<Dim> way;
+  mpm::Transformation<Dim> path;
   mpm::ParticleView<Dim> particles;
   const std::uint32_t* end;
-  mpm::PathSample* taken;
+  mpm::PathSample* foremost;
 
-  THAWSLIDE_HD void operator()(std::size_t k) const { taken[k] = way.of(particles, *(end - 1 - k)); }
+  THAWSLIDE_HD void operator()(std::size_t k) const { foremost[k] = path.of(particles, *(end - 1 - k)); }
 };
 
 template <class Backend, int Dim>
@@ -45,9 +45,9 @@ class Front {
 
   // count: number of particles, at least one. mass: their total mass [kg]. Among equal distances, the higher rank in
   // canonical order is further ahead.
-  mpm::PathSample find(const mpm::Transformation<Dim>& way, double mass, const TileTables<Dim>& tables,
+  mpm::PathSample find(const mpm::Transformation<Dim>& path, double mass, const TileTables<Dim>& tables,
                        const mpm::ParticleView<Dim>& particles, std::size_t count) {
-    const mpm::Transformation<Dim> here{copied(way.line), way.origin};
+    const mpm::Transformation<Dim> here{copied(path.line), path.origin};
     keys_.resize(count);
     sorted_keys_.resize(count);
     sorted_.resize(count);
@@ -56,15 +56,15 @@ class Front {
     mpm::FrontSearch search(mass);
     // Chunk size: slightly more particles than are ahead of the front if all masses are equal.
     const std::size_t at_a_time = count / 150 + 1024;
-    for (std::size_t left = count;; left -= taken_.size()) {
-      taken_.resize(std::min(left, at_a_time));
-      backend_.for_each(taken_.size(), KeepForemost<Dim>{here, particles, sorted_.data() + left, taken_.data()});
-      for (const mpm::PathSample& one : taken_.get()) {
+    for (std::size_t left = count;; left -= foremost_.size()) {
+      foremost_.resize(std::min(left, at_a_time));
+      backend_.for_each(foremost_.size(), KeepForemost<Dim>{here, particles, sorted_.data() + left, foremost_.data()});
+      for (const mpm::PathSample& one : foremost_.get()) {
         if (search.is_at(one.mass)) {
           return one;
         }
       }
-      THAWSLIDE_ASSERT(left > taken_.size(), "no front of {} particles and {} kg", count, mass);
+      THAWSLIDE_ASSERT(left > foremost_.size(), "no front of {} particles and {} kg", count, mass);
     }
   }
 
@@ -89,8 +89,8 @@ class Front {
   // persistent buffers, to avoid reallocation for each history row
   Array<std::uint64_t, Backend> keys_{backend_}, sorted_keys_{backend_};
   Array<std::uint32_t, Backend> sorted_{backend_};
-  Array<mpm::PathSample, Backend> taken_{backend_};
-  Array<Place2, Backend> corners_{backend_}, directions_{backend_};
+  Array<mpm::PathSample, Backend> foremost_{backend_};
+  Array<Point2, Backend> corners_{backend_}, directions_{backend_};
   Array<double, Backend> along_{backend_};
   Array<BoxOfLine, Backend> boxes_{backend_};
 };

@@ -8,8 +8,8 @@ namespace thawslide::device {
 template <int Dim>
 SolverFactory<Dim> on_gpu(Launching launching) {
   return [launching](const StepModel<Dim>& model, const mpm::ParticleView<Dim>& particles, std::size_t count,
-                     HostCallbacks<Dim> ask) {
-    return steps_on<Cuda>(model, particles, count, std::move(ask), launching);
+                     HostCallbacks<Dim> callbacks) {
+    return steps_on<Cuda>(model, particles, count, std::move(callbacks), launching);
   };
 }
 template SolverFactory<2> on_gpu<2>(Launching);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "device/array.hpp"
-#include "device/former_places.hpp"
 #include "device/step_model.hpp"
 #include "device/tile_tables.hpp"
 #include "mpm/vectors_in_records.hpp"
@@ -34,9 +33,9 @@ struct FindNear {
         seen[a] += static_cast<int>(rest % 3) - 1;
         rest /= 3;
       }
-      const PlaceInBlock<Dim> place = place_in_block<Dim>(static_cast<std::size_t>(T::in_patch(seen)));
-      const std::int32_t block = tables.blocks_about_tile[tile * stencil + place.direction];
-      any = known[static_cast<std::size_t>(block) * nodes + place.node].candidate ? 1 : any;
+      const NodeInBlock<Dim> found = node_in_block<Dim>(static_cast<std::size_t>(T::in_patch(seen)));
+      const std::int32_t block = tables.blocks_about_tile[tile * stencil + found.direction];
+      any = known[static_cast<std::size_t>(block) * nodes + found.node].candidate ? 1 : any;
     }
     near[k] = any;
   }
@@ -119,7 +118,7 @@ class Ground {
   static constexpr std::size_t size = mpm::record_size(mpm::components_of<mpm::Planes, Dim>);
 
  public:
-  Ground(Backend& backend, GroundQuery<Dim> ask) : backend_(backend), host_(std::move(ask)) {}
+  Ground(Backend& backend, GroundQuery<Dim> query) : backend_(backend), host_(std::move(query)) {}
 
   [[nodiscard]] bool exists() const { return static_cast<bool>(host_); }
 
@@ -147,7 +146,7 @@ class Ground {
  private:
   // Queries the CPU for new blocks only.
   void update_blocks(const std::vector<std::uint64_t>& blocks) {
-    std::vector<std::int32_t> before = places_in(blocks_, blocks);
+    std::vector<std::int32_t> before = index_map(blocks_, blocks);
     std::vector<AtNode> queried;
     std::vector<std::uint8_t> partly_unknown(blocks.size());
     for (std::size_t b = 0; b < blocks.size(); ++b) {

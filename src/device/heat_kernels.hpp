@@ -32,11 +32,11 @@ struct ScalingByLayer {
   }
   template <class Particles>
   [[nodiscard]] THAWSLIDE_HD Real of(const Particles& particles, std::uint32_t p) const {
-    std::array<double, Dim - 1> place{};
-    for (std::size_t a = 0; a < place.size(); ++a) {
-      place[a] = static_cast<double>(particles.position(p, static_cast<int>(a)));
+    std::array<double, Dim - 1> position{};
+    for (std::size_t a = 0; a < position.size(); ++a) {
+      position[a] = static_cast<double>(particles.position(p, static_cast<int>(a)));
     }
-    return static_cast<Real>(layers.at(place)) / thickness;
+    return static_cast<Real>(layers.at(position)) / thickness;
   }
 };
 
@@ -46,7 +46,7 @@ struct RescaleBand {
   using Law = band::ParticleHeat<Content, band::InitialMasses>;
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Account = Real;
+  using Totals = Real;
 
   Content content;
   band::BandPhysics physics;
@@ -73,7 +73,7 @@ struct HeatFlows {
   using Kernel = band::HeatFlows<Dim, Law>;
   using Reads = typename Kernel::Reads;
   using Adds = typename Kernel::Adds;
-  using Account = typename Kernel::Account;
+  using Totals = typename Kernel::Totals;
 
   Content content;
   band::BandPhysics physics;
@@ -83,10 +83,10 @@ struct HeatFlows {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
-                               Account& account) const {
+                               Totals& totals) const {
     const Law law{content};
     const Kernel kernel{physics, hydraulic, law, dt, inverse_cell, subgrid};
-    kernel(particles, at, seen, added, account);
+    kernel(particles, at, seen, added, totals);
   }
 };
 
@@ -96,17 +96,17 @@ struct SecantCapacity {
   using Kernel = band::SecantCapacity<Dim, Law>;
   using Reads = typename Kernel::Reads;
   using Adds = typename Kernel::Adds;
-  using Account = typename Kernel::Account;
+  using Totals = typename Kernel::Totals;
 
   Content content;
   Real dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
-                               Account& account) const {
+                               Totals& totals) const {
     const Law law{content};
     const Kernel kernel{law, dt};
-    kernel(particles, at, seen, added, account);
+    kernel(particles, at, seen, added, totals);
   }
 };
 
@@ -116,7 +116,7 @@ struct UpdateHeat {
   using Kernel = band::UpdateHeat<Dim, Law>;
   using Reads = typename Kernel::Reads;
   using Adds = typename Kernel::Adds;
-  using Account = typename Kernel::Account;
+  using Totals = typename Kernel::Totals;
 
   Content content;
   band::BandPhysics physics;
@@ -124,10 +124,10 @@ struct UpdateHeat {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
-                               Account& account) const {
+                               Totals& totals) const {
     const Law law{content};
     const Kernel kernel{physics, law, dt};
-    kernel(particles, at, seen, added, account);
+    kernel(particles, at, seen, added, totals);
   }
 };
 
@@ -165,7 +165,7 @@ struct SolveRates {
         nodes.contact_at(node)[mpm::Contact::friction_heat], static_cast<const Real*>(nodes.momentum_at(node)), dt,
         nodes.state_at(node)[mpm::NodalState::temperature_rate], unreached_heat[node * unreached_size], part,
         [&](Real& rate, Real& power) {
-          return has_faces && band::meets_face(faces.at(place_of_node<Dim>(block_keys, node, cell)), first_step,
+          return has_faces && band::meets_face(faces.at(position_of_node<Dim>(block_keys, node, cell)), first_step,
                                                static_cast<const Real*>(nodes.averages_at(node)),
                                                rates[HeatRates::capacity], cell, dt, rate, power, part.gain.boundary);
         });

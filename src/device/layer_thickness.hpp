@@ -21,24 +21,24 @@ struct LayersOfTile {
   double cell;
   std::size_t tile;
 
-  [[nodiscard]] THAWSLIDE_HD double at(const std::array<double, Dim - 1>& place) const {
+  [[nodiscard]] THAWSLIDE_HD double at(const std::array<double, Dim - 1>& position) const {
     using T = mpm::Tile<Dim>;
     using std::floor;
     const typename T::Index corner = T::node(T::index(tables.tile_keys[tile]), 0);
     ColumnIndex<Dim> first{};
-    std::array<double, Dim - 1> share{};
+    std::array<double, Dim - 1> fraction{};
     for (std::size_t a = 0; a < first.size(); ++a) {
-      const double in_columns = place[a] / cell + 0.5;  // 1 in the middle of column 0
+      const double in_columns = position[a] / cell + 0.5;  // 1 in the middle of column 0
       const int left = static_cast<int>(floor(in_columns)) - 1 - corner[a];
       first[a] = left < -1 ? -1 : left;  // rounding can yield the column before, whose weight is then zero
-      share[a] = in_columns - floor(in_columns);
+      fraction[a] = in_columns - floor(in_columns);
     }
-    return terrain::between_middles(share, [&](const ColumnIndex<Dim>& steps) {
+    return terrain::between_middles(fraction, [&](const ColumnIndex<Dim>& steps) {
       ColumnIndex<Dim> column = first;
       for (std::size_t a = 0; a < column.size(); ++a) {
         column[a] += steps[a];
       }
-      return at_middle[place_of_column<Dim>(tables, stack_of_block, tile, column)];
+      return at_middle[index_of_column<Dim>(tables, stack_of_block, tile, column)];
     });
   }
 };

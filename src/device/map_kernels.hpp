@@ -10,7 +10,7 @@
 namespace thawslide::device {
 
 // Map cells below each tile. All tiles have the same number of places; those outside a tile's window are empty.
-struct MapPlaces {
+struct TileMapLayout {
   static constexpr std::uint64_t no_cell = ~std::uint64_t{0};
 
   mpm::MapCells cells;
@@ -35,18 +35,18 @@ struct MapPlaces {
 
 // By tile and place: the key of the cell, or no_cell.
 struct ListMapCells {
-  MapPlaces places;
+  TileMapLayout layout;
   const std::uint64_t* tile_keys;
   std::uint64_t* keys;
   std::uint32_t* seen;
 
   THAWSLIDE_HD void operator()(std::size_t k) const {
-    const std::size_t place = k % places.of_tile();
-    const MapPlaces::Window window = places.window(tile_keys[k / places.of_tile()]);
-    const int column = window.columns.first + static_cast<int>(place % places.across);
-    const int row = window.rows.first + static_cast<int>(place / places.across);
+    const std::size_t index = k % layout.of_tile();
+    const TileMapLayout::Window window = layout.window(tile_keys[k / layout.of_tile()]);
+    const int column = window.columns.first + static_cast<int>(index % layout.across);
+    const int row = window.rows.first + static_cast<int>(index / layout.across);
     const bool is_present = column <= window.columns.last && row <= window.rows.last;
-    keys[k] = is_present ? mpm::map_cell_key(column, row) : MapPlaces::no_cell;
+    keys[k] = is_present ? mpm::map_cell_key(column, row) : TileMapLayout::no_cell;
     seen[k] = static_cast<std::uint32_t>(k);
   }
 };
@@ -56,7 +56,7 @@ struct ListMapCells {
 struct SumMapInTile {
   static constexpr std::size_t at_a_time = 128;
 
-  MapPlaces places;
+  TileMapLayout layout;
   TileTables<3> tables;
   mpm::ParticleView<3> particles;
   mpm::SizesOfBodies sizes;  // half sizes of particles [m]
@@ -65,7 +65,7 @@ struct SumMapInTile {
   struct Box {
     mpm::CellRange columns, rows;
     bool in_band;
-    mpm::MapSums brings;
+    mpm::MapSums sums;
   };
   static constexpr std::size_t bytes = at_a_time * sizeof(Box);
 
@@ -78,9 +78,9 @@ struct SumMapInTile {
       const std::size_t here = end - first < at_a_time ? end - first : at_a_time;
       group.each(here, [this, first, boxes](std::size_t k) { boxes[k] = box_of(tables.order[first + k]); });
       group.barrier();
-      group.each(places.of_tile(), [this, tile, boxes, here, is_first = first == begin](std::size_t place) {
-        mpm::MapSums& part = parts[tile * places.of_tile() + place];
-        part = sum_boxes(boxes, here, tile, place, is_first ? mpm::MapSums{} : part);
+      group.each(layout.of_tile(), [this, tile, boxes, here, is_first = first == begin](std::size_t index) {
+        mpm::MapSums& part = parts[tile * layout.of_tile() + index];
+        part = sum_boxes(boxes, here, tile, index, is_first ? mpm::MapSums{} : part);
       });
       group.barrier();
     }
@@ -90,7 +90,7 @@ struct SumMapInTile {
   [[nodiscard]] THAWSLIDE_HD Box box_of(std::uint32_t p) const {
     const auto size = sizes.of(particles, mpm::ScalarIndex{{p}});
     const double half = size.half, inverse = size.inverse;
-    const mpm::MapCells& cells = places.cells;
+    const mpm::MapCells& cells = layout.cells;
     const auto spans = [half, inverse](double position, double corner, double cell, double inverse_cell, int count) {
       return mpm::cell_spans((position - corner) * inverse_cell, half * inverse_cell, inverse * (0.5 * cell), count)
           .of_lane(0);
@@ -102,19 +102,19 @@ struct SumMapInTile {
   }
 
   [[nodiscard]] THAWSLIDE_HD mpm::MapSums sum_boxes(const Box* boxes, std::size_t count, std::size_t tile,
-                                                    std::size_t place, mpm::MapSums sum) const {
-    const MapPlaces::Window window = places.window(tables.tile_keys[tile]);
-    const int column = window.columns.first + static_cast<int>(place % places.across);
-    const int row = window.rows.first + static_cast<int>(place / places.across);
+                                                    std::size_t index, mpm::MapSums sum) const {
+    const TileMapLayout::Window window = layout.window(tables.tile_keys[tile]);
+    const int column = window.columns.first + static_cast<int>(index % layout.across);
+    const int row = window.rows.first + static_cast<int>(index / layout.across);
     for (std::size_t k = 0; k < count; ++k) {
       const Box& box = boxes[k];
       if (column < box.columns.first || column > box.columns.last || row < box.rows.first || row > box.rows.last) {
         continue;
       }
-      const double share = box.rows.share(row) * box.columns.share(column);
-      sum.column.add(share, box.brings.column);
+      const double fraction = box.rows.fraction(row) * box.columns.fraction(column);
+      sum.column.add(fraction, box.sums.column);
       if (box.in_band) {
-        sum.band.add(share, box.brings.band);
+        sum.band.add(fraction, box.sums.band);
       }
     }
     return sum;
@@ -125,11 +125,11 @@ struct SumMapInTile {
 struct SumMoments {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Account = mpm::MassMoments;
+  using Totals = mpm::MassMoments;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
-                               Account& sums) const {
+                               Totals& sums) const {
     sums = mpm::mass_moments_of(particles, at.particle[0]);
   }
 };

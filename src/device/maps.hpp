@@ -28,10 +28,10 @@ class Maps {
   // Sums over particles at their positions after a step, with the tiles from its beginning.
   void sum(const mpm::MapCells& cells, const TileTables<3>& tables, const mpm::ParticleView<3>& particles,
            MapSample& sample) {
-    if (!knows_tiles_ || !(cells == places_.cells)) {
+    if (!knows_tiles_ || !(cells == layout_.cells)) {
       number_cells(cells, tables);
       known_keys_ = keys_.get();
-      if (!known_keys_.empty() && known_keys_.back() == MapPlaces::no_cell) {
+      if (!known_keys_.empty() && known_keys_.back() == TileMapLayout::no_cell) {
         known_keys_.pop_back();
       }
       knows_tiles_ = true;
@@ -39,7 +39,7 @@ class Maps {
     sample.keys = known_keys_;
     using InTile = SumMapInTile;
     backend_.for_groups(tables.tiles, InTile::at_a_time, InTile::bytes,
-                        InTile{places_, tables, particles, sizes_.view(), parts_.data()});
+                        InTile{layout_, tables, particles, sizes_.view(), parts_.data()});
     backend_.for_each(keys_.size(), SumParts<mpm::MapSums>{first_seen_.data(), seen_.data(), keys_.size(), seen_.size(),
                                                            parts_.data(), sums_.data()});
     sample.sums.resize(sample.keys.size());
@@ -52,14 +52,14 @@ class Maps {
       const double width = static_cast<double>(cell_) * (mpm::Tile<3>::edge + 2.0) + 2.0 * cells.largest_half;
       return static_cast<std::size_t>(std::ceil(width * inverse_cell)) + 1;
     };
-    places_ = {cells, static_cast<double>(cell_), places_along(cells.inverse_cell_x),
+    layout_ = {cells, static_cast<double>(cell_), places_along(cells.inverse_cell_x),
                places_along(cells.inverse_cell_y)};
-    keys_of_seen_.resize(tables.tiles * places_.of_tile());
+    keys_of_seen_.resize(tables.tiles * layout_.of_tile());
     seen_.resize(keys_of_seen_.size());
     keys_listed_.resize(keys_of_seen_.size());
     listed_.resize(keys_of_seen_.size());
     parts_.resize(keys_of_seen_.size());
-    backend_.for_each(seen_.size(), ListMapCells{places_, tables.tile_keys, keys_listed_.data(), listed_.data()});
+    backend_.for_each(seen_.size(), ListMapCells{layout_, tables.tile_keys, keys_listed_.data(), listed_.data()});
     backend_.sort(keys_listed_.data(), listed_.data(), keys_of_seen_.data(), seen_.data(), seen_.size());
     first_.find(keys_of_seen_, 0, keys_, &first_seen_);
     sums_.resize(keys_.size());
@@ -68,7 +68,7 @@ class Maps {
   Backend& backend_;
   Real cell_;
   BodySizes<Backend> sizes_;  // half sizes of particles [m]
-  MapPlaces places_;
+  TileMapLayout layout_;
   bool knows_tiles_ = false;
   std::vector<std::uint64_t> known_keys_;  // of cells below at least one tile
   UniqueKeys<Backend> first_{backend_};

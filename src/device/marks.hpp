@@ -9,11 +9,11 @@ namespace thawslide::device {
 
 // Marks the tiles with a node or particle that meets a condition. One thread group per tile. Asks provides
 // of_node(node), numbered over all blocks, and of_particle(particle).
-template <class Asks, int Dim>
+template <class Condition, int Dim>
 struct MarkTiles {
   using T = mpm::Tile<Dim>;
   TileTables<Dim> tables;
-  Asks asks;
+  Condition condition;
   std::uint8_t* marks;
 
   template <class Group>
@@ -23,14 +23,14 @@ struct MarkTiles {
     group.each(1, [this, tile](std::size_t /*k*/) { marks[tile] = 0; });
     group.barrier();
     group.each(static_cast<std::size_t>(T::patch_nodes), [this, tile](std::size_t k) {
-      const PlaceInBlock<Dim> place = place_in_block<Dim>(k);
-      const std::int32_t block = tables.blocks_about_tile[tile * stencil + place.direction];
-      if (asks.of_node(static_cast<std::size_t>(block) * nodes + place.node)) {
+      const NodeInBlock<Dim> found = node_in_block<Dim>(k);
+      const std::int32_t block = tables.blocks_about_tile[tile * stencil + found.direction];
+      if (condition.of_node(static_cast<std::size_t>(block) * nodes + found.node)) {
         marks[tile] = 1;  // benign race: all threads write the same value
       }
     });
     group.each(last - first, [this, tile, first](std::size_t k) {
-      if (asks.of_particle(tables.order[first + k])) {
+      if (condition.of_particle(tables.order[first + k])) {
         marks[tile] = 1;
       }
     });
@@ -95,10 +95,10 @@ class Marks {
     blocks_.resize(tables.blocks);
   }
 
-  template <class Asks>
-  void mark_tiles(const TileTables<Dim>& tables, const Asks& asks) {
+  template <class Condition>
+  void mark_tiles(const TileTables<Dim>& tables, const Condition& condition) {
     constexpr std::size_t threads = 128;
-    backend_.for_groups(tables.tiles, threads, 0, MarkTiles<Asks, Dim>{tables, asks, tiles_.data()});
+    backend_.for_groups(tables.tiles, threads, 0, MarkTiles<Condition, Dim>{tables, condition, tiles_.data()});
   }
   void mark_blocks(const TileTables<Dim>& tables) {
     backend_.for_each(tables.blocks, MarkBlocks<Dim>{tables, tiles_.data(), blocks_.data()});

@@ -41,16 +41,16 @@ struct NodeViews {
 
 // Position [m, relative to the domain's lower corner] of a node, by its number over all blocks.
 template <int Dim>
-THAWSLIDE_HD Vector<Real, Dim> place_of_node(const std::uint64_t* block_keys, std::size_t node, Real cell) {
+THAWSLIDE_HD Vector<Real, Dim> position_of_node(const std::uint64_t* block_keys, std::size_t node, Real cell) {
   using T = mpm::Tile<Dim>;
   constexpr auto block_nodes = static_cast<std::size_t>(T::nodes);
   const typename T::Index index =
       T::node(T::index(block_keys[node / block_nodes]), static_cast<int>(node % block_nodes));
-  Vector<Real, Dim> place;
+  Vector<Real, Dim> position;
   for (int a = 0; a < Dim; ++a) {
-    place[a] = static_cast<Real>(index[static_cast<std::size_t>(a)]) * cell;
+    position[a] = static_cast<Real>(index[static_cast<std::size_t>(a)]) * cell;
   }
-  return place;
+  return position;
 }
 
 // Faces of the domain at one node.
@@ -84,10 +84,10 @@ struct NodeStageArgs {
   mpm::DomainFaces<Dim> faces;
   Vector<Real, Dim> gravity;
   Real cell, mass_damping, time, dt;
-  bool distance_check, pore_pressure, base_holds;
+  bool distance_check, pore_pressure, base_is_fixed;
 
   [[nodiscard]] THAWSLIDE_HD FacesAtNode<Dim> walls(std::size_t node) const {
-    return {faces, place_of_node<Dim>(tables.block_keys, node, cell)};
+    return {faces, position_of_node<Dim>(tables.block_keys, node, cell)};
   }
   [[nodiscard]] THAWSLIDE_HD terrain::NodeState<Dim> trial(std::size_t node) const {
     return terrain::trial_state<Dim>(walls(node), dt, mass_damping, static_cast<const Real*>(nodes.momentum_at(node)));
@@ -116,7 +116,7 @@ struct SetState {
   THAWSLIDE_HD void operator()(std::size_t node) const {
     Real* state = nodes.state_at(node);
     if (band::set_nodal_state<Dim>(static_cast<const Real*>(nodes.averages_at(node)), state) && has_faces) {
-      band::prescribe_temperature(faces.at(place_of_node<Dim>(block_keys, node, cell)), state);
+      band::prescribe_temperature(faces.at(position_of_node<Dim>(block_keys, node, cell)), state);
     }
   }
 };
@@ -141,7 +141,7 @@ struct PressOnGround {
     }
     const std::size_t local = node % NodeStageArgs<Dim>::block_nodes;
     base[mpm::BaseLayout::covered] =
-        known.area * terrain::covered_share<Dim>(local, known.normal, [&](int direction, int further) {
+        known.area * terrain::covered_fraction<Dim>(local, known.normal, [&](int direction, int further) {
           return filled(node, static_cast<std::size_t>(direction), static_cast<std::size_t>(further));
         });
   }
@@ -155,7 +155,7 @@ struct PressOnGround {
     const Real cell = step.cell;
     const terrain::GroundAtNode<Dim>& known = step.nodes.known[other];
     const Real space = known.candidate ? known.space : Dim == 2 ? cell * cell : cell * cell * cell;
-    return terrain::filled_share(step.nodes.momentum_at(other)[mpm::MomentumLayout<Dim>::volume], space);
+    return terrain::filled_fraction(step.nodes.momentum_at(other)[mpm::MomentumLayout<Dim>::volume], space);
   }
 };
 
@@ -197,7 +197,7 @@ struct GatherContactInput {
         static_cast<const Real*>(nodes.state_at(node)), nodes.averages_at(node)[mpm::Averages::volume],
         static_cast<const Real*>(nodes.near_ground_at(node)), pressure, step.pore_pressure, normal, step.trial(node));
     if (columns != nullptr) {
-      terrain::take_columns_state(columns + k * mpm::BaseState::size<Dim>, step.pore_pressure, base.node);
+      terrain::set_columns_state(columns + k * mpm::BaseState::size<Dim>, step.pore_pressure, base.node);
     }
     base.node.time = step.time;
     base.node.unit_weight = terrain::unit_weight_of<Dim>(static_cast<const Real*>(nodes.momentum_at(node)), gravity);
@@ -212,8 +212,8 @@ struct GatherContactInput {
       index[a] += static_cast<int>(n % 3) - 1;
       n /= 3;
     }
-    const PlaceInBlock<Dim> place = place_in_block<Dim>(static_cast<std::size_t>(T::in_patch(index)));
-    return step.find(node, place.direction, place.node, other);
+    const NodeInBlock<Dim> found = node_in_block<Dim>(static_cast<std::size_t>(T::in_patch(index)));
+    return step.find(node, found.direction, found.node, other);
   }
 };
 
@@ -322,14 +322,14 @@ struct ResolveContact {
   THAWSLIDE_HD void touch(std::size_t candidate, std::size_t node, const FacesAtNode<Dim>& walls,
                           terrain::NodeState<Dim>& state, Sum& work, Real* contact) const {
     const ContactInput& base = bases[candidate];
-    const Real held = physics::sliding_strength(base.friction, base.node.normal_pressure, base.relief, base.cohesion,
-                                                clamp, cap_pressure) +
-                      base.drag;
-    const Real strength = step.base_holds ? std::numeric_limits<Real>::infinity() : held;
+    const Real sliding = physics::sliding_strength(base.friction, base.node.normal_pressure, base.relief, base.cohesion,
+                                                   clamp, cap_pressure) +
+                         base.drag;
+    const Real strength = step.base_is_fixed ? std::numeric_limits<Real>::infinity() : sliding;
     const terrain::GroundAtNode<Dim>& known = step.nodes.known[node];
-    const terrain::ContactConditions<Dim> hold{
+    const terrain::ContactConditions<Dim> conditions{
         known.normal, step.nodes.base_at(node)[mpm::BaseLayout::load], known.bend, base.area, strength, base.friction};
-    terrain::apply_contact(walls, hold, heat_fraction, step.dt,
+    terrain::apply_contact(walls, conditions, heat_fraction, step.dt,
                            beds.below(candidate, base.area, strength, step.dt, state.mass), state, work, contact);
   }
 };

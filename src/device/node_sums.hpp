@@ -51,13 +51,13 @@ struct SumPatches {
     const bool min_reduced = is_min_reduced(component);
     Real sum = min_reduced ? std::numeric_limits<Real>::max() : Real(0);
     if (!min_reduced) {
-      take(block, node, own, component, [&](Real part) { sum = part; });
+      visit_part(block, node, own, component, [&](Real part) { sum = part; });
     }
     for_directions_that_see(node, [&](std::size_t d) {
       if (min_reduced) {
-        take(block, node, d, component, [&](Real part) { sum = min(sum, part); });
+        visit_part(block, node, d, component, [&](Real part) { sum = min(sum, part); });
       } else if (d != own) {
-        take(block, node, d, component, [&](Real part) { sum += part; });
+        visit_part(block, node, d, component, [&](Real part) { sum += part; });
       }
     });
     records[k] = sum;
@@ -93,15 +93,15 @@ struct SumPatches {
   }
   // Calls with(number) with the component in the patch of the tile in a direction, if that tile exists.
   template <class With>
-  THAWSLIDE_HD void take(std::size_t block, std::size_t node, std::size_t direction, std::size_t component,
-                         const With& with) const {
+  THAWSLIDE_HD void visit_part(std::size_t block, std::size_t node, std::size_t direction, std::size_t component,
+                               const With& with) const {
     using T = mpm::Tile<Dim>;
     const std::int32_t tile = tables.tiles_about_block[block * static_cast<std::size_t>(T::stencil) + direction];
     if (tile == absent || !accepts(static_cast<std::size_t>(tile))) {
       return;
     }
-    const std::size_t place = place_in_patch<Dim>(node, direction);
-    with(patches[(static_cast<std::size_t>(tile) * static_cast<std::size_t>(T::patch_nodes) + place) * size +
+    const std::size_t index = index_in_patch<Dim>(node, direction);
+    with(patches[(static_cast<std::size_t>(tile) * static_cast<std::size_t>(T::patch_nodes) + index) * size +
                  component]);
   }
 };

@@ -98,12 +98,12 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
   THAWSLIDE_HD void fetch(Group& group, const MemoryLayout& memory, std::size_t tile) const {
     constexpr std::size_t of_record = mpm::record_size(mpm::components_of<Name, Dim>);
     group.each(patch_nodes * of_record, [this, memory, tile](std::size_t k) {
-      const PlaceInBlock<Dim> place = place_in_block<Dim>(k / of_record);
+      const NodeInBlock<Dim> found = node_in_block<Dim>(k / of_record);
       const std::int32_t block =
-          over.tables.blocks_about_tile[tile * static_cast<std::size_t>(T::stencil) + place.direction];
+          over.tables.blocks_about_tile[tile * static_cast<std::size_t>(T::stencil) + found.direction];
       memory.template read<Name>()[k] =
           records
-              .template of<Name>()[(static_cast<std::size_t>(block) * nodes + place.node) * of_record + k % of_record];
+              .template of<Name>()[(static_cast<std::size_t>(block) * nodes + found.node) * of_record + k % of_record];
     });
   }
 
@@ -153,15 +153,15 @@ struct ParticlePass<Over, mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, D
     auto& slot = memory.slots()[k];
     slot.sums = {};
     const TileTables<Dim>& tables = over.tables;
-    const std::size_t place = chunk.first + k;
-    const std::size_t node = tables.keys[place] & (nodes - 1), lowest = lowest_about<Dim>(node);
+    const std::size_t index = chunk.first + k;
+    const std::size_t node = tables.keys[index] & (nodes - 1), lowest = lowest_about<Dim>(node);
     if (!over.accepts(chunk.tile, node)) {
       return;
     }
-    const mpm::ScalarIndex at{{tables.order[place]}};
+    const mpm::ScalarIndex at{{tables.order[index]}};
     const Real inverse_cell = Real(1) / over.cell;
     const typename T::Index nearest = T::node(T::index(tables.tile_keys[chunk.tile]), static_cast<int>(node));
-    mpm::OnePlace<Dim> from_node{{}, lowest, {}};
+    mpm::OneGridPosition<Dim> from_node{{}, lowest, {}};
     for (std::size_t a = 0; a < Dim; ++a) {
       const int axis = static_cast<int>(a);
       from_node.offset[axis] =

@@ -29,17 +29,17 @@ struct GatherField {
 };
 
 // Inverse permutation: the new place of each particle after reordering.
-struct StorePlace {
+struct StoreIndex {
   const std::uint32_t* order;
-  std::uint32_t* place;
+  std::uint32_t* index;
 
-  THAWSLIDE_HD void operator()(std::size_t k) const { place[order[k]] = static_cast<std::uint32_t>(k); }
+  THAWSLIDE_HD void operator()(std::size_t k) const { index[order[k]] = static_cast<std::uint32_t>(k); }
 };
-struct GatherPlace {
-  const std::uint32_t* place;
+struct GatherIndex {
+  const std::uint32_t* index;
   std::uint32_t* particles;
 
-  THAWSLIDE_HD void operator()(std::size_t k) const { particles[k] = place[particles[k]]; }
+  THAWSLIDE_HD void operator()(std::size_t k) const { particles[k] = index[particles[k]]; }
 };
 
 template <class Backend, int Dim>
@@ -69,7 +69,7 @@ class Particles {
   void copy_to(const View& to) {
     mpm::for_fields_of(view_, to, [&](const auto& here, const auto& there) {
       if (here.is_kept()) {
-        backend_.copy_out(there.numbers, gathered(here, as_they_came_.data()).numbers, numbers_of(here));
+        backend_.copy_out(there.numbers, gathered(here, input_order_.data()).numbers, numbers_of(here));
       }
     });
   }
@@ -81,10 +81,10 @@ class Particles {
         backend_.copy(here.numbers, gathered(here, order).numbers, numbers_of(here));
       }
     });
-    place_.resize(count_);
-    backend_.for_each(count_, StorePlace{order, place_.data()});
-    backend_.for_each(count_, GatherPlace{place_.data(), by_id_.data()});
-    backend_.for_each(count_, GatherPlace{place_.data(), as_they_came_.data()});
+    index_.resize(count_);
+    backend_.for_each(count_, StoreIndex{order, index_.data()});
+    backend_.for_each(count_, GatherIndex{index_.data(), by_id_.data()});
+    backend_.for_each(count_, GatherIndex{index_.data(), input_order_.data()});
   }
 
  private:
@@ -108,11 +108,12 @@ class Particles {
   }
 
   void list(const View& from) {
-    std::vector<std::uint32_t> places(count_);
-    std::iota(places.begin(), places.end(), 0u);
-    as_they_came_.set(places);
-    std::sort(places.begin(), places.end(), [&](std::uint32_t p, std::uint32_t q) { return from.id(p) < from.id(q); });
-    by_id_.set(places);
+    std::vector<std::uint32_t> indices(count_);
+    std::iota(indices.begin(), indices.end(), 0u);
+    input_order_.set(indices);
+    std::sort(indices.begin(), indices.end(),
+              [&](std::uint32_t p, std::uint32_t q) { return from.id(p) < from.id(q); });
+    by_id_.set(indices);
   }
 
   Backend& backend_;
@@ -120,7 +121,7 @@ class Particles {
   View view_{};
   std::vector<Array<std::byte, Backend>> fields_;  // fields that are present, in order
   Array<std::byte, Backend> gathered_{backend_};
-  Array<std::uint32_t, Backend> by_id_{backend_}, as_they_came_{backend_}, place_{backend_};
+  Array<std::uint32_t, Backend> by_id_{backend_}, input_order_{backend_}, index_{backend_};
 };
 
 }  // namespace thawslide::device

@@ -67,7 +67,7 @@ template <int Dim, class Kernel>
 struct VisitInMemory {
   static_assert(std::is_same_v<typename Kernel::Reads, mpm::RecordList<>> &&
                 std::is_same_v<typename Kernel::Adds, mpm::RecordList<>> &&
-                std::is_same_v<typename Kernel::Account, mpm::NoAccount>);
+                std::is_same_v<typename Kernel::Totals, mpm::NoTotals>);
 
   mpm::ParticleView<Dim> particles;
   Kernel kernel;
@@ -76,8 +76,8 @@ struct VisitInMemory {
     mpm::ParticleView<Dim> view = particles;
     const mpm::ByName<> seen{};
     mpm::ByName<> added{};
-    mpm::NoAccount account;
-    kernel(view, mpm::ScalarIndex{{static_cast<std::uint32_t>(k)}}, seen, added, account);
+    mpm::NoTotals totals;
+    kernel(view, mpm::ScalarIndex{{static_cast<std::uint32_t>(k)}}, seen, added, totals);
   }
 };
 

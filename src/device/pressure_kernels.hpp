@@ -13,7 +13,7 @@ namespace thawslide::device {
 // Tile conditions (device/marks.hpp): water seeps to or from particles in their current state, or did before heat
 // changed them.
 template <int Dim>
-struct SeepingNow {
+struct SeepingInState {
   mpm::ParticleView<Dim> particles;
   band::BandPhysics physics;
   band::HydraulicConductivity hydraulic;
@@ -24,7 +24,7 @@ struct SeepingNow {
   }
 };
 template <int Dim>
-struct SeepingBefore : SeepingNow<Dim> {
+struct SeepingBefore : SeepingInState<Dim> {
   [[nodiscard]] THAWSLIDE_HD bool of_particle(std::uint32_t particle) const {
     return band::any_seeped(this->physics, this->hydraulic, this->particles, mpm::ScalarIndex{{particle}});
   }
@@ -56,11 +56,11 @@ struct SolveSeepage {
   const Real* seepage;
   Real dt;
 
-  THAWSLIDE_HD void visit(std::size_t node, Real& taken) const {
+  THAWSLIDE_HD void visit(std::size_t node, Real& absorbed) const {
     const Real* sums = seepage + node * mpm::record_size(mpm::components_of<mpm::Seepage, Dim>);
     const Real change = band::pressure_change(sums, dt);
     nodes.state_at(node)[mpm::NodalState::pressure_change] = change;
-    taken = band::taken_by_frozen(sums, change);
+    absorbed = band::absorbed_by_frozen(sums, change);
   }
   THAWSLIDE_HD void add(const Real* parts, std::size_t count, Real& sum) const {
     for (std::size_t k = 0; k < count; ++k) {
@@ -69,11 +69,11 @@ struct SolveSeepage {
   }
 };
 struct KeepVented {
-  const Real* taken;
+  const Real* absorbed;
   physics::Phases phases;
   Real* vented;
 
-  THAWSLIDE_HD void operator()(std::size_t /*k*/) const { *vented = band::mass_of_taken(phases, *taken); }
+  THAWSLIDE_HD void operator()(std::size_t /*k*/) const { *vented = band::mass_of_absorbed(phases, *absorbed); }
 };
 
 // Kernels created from parameters held by value.
@@ -82,7 +82,7 @@ struct AddSeepingWater {
   using Kernel = band::AddSeepingWater<Dim>;
   using Reads = typename Kernel::Reads;
   using Adds = typename Kernel::Adds;
-  using Account = typename Kernel::Account;
+  using Totals = typename Kernel::Totals;
 
   band::BandPhysics physics;
   band::HydraulicConductivity hydraulic;
@@ -94,7 +94,7 @@ struct SeepageFlows {
   using Kernel = band::SeepageFlows<Dim>;
   using Reads = typename Kernel::Reads;
   using Adds = typename Kernel::Adds;
-  using Account = typename Kernel::Account;
+  using Totals = typename Kernel::Totals;
 
   band::BandPhysics physics;
   band::HydraulicConductivity hydraulic;
@@ -108,14 +108,14 @@ template <int Dim>
 struct AddPressureLoad {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Account = mpm::NoAccount;
+  using Totals = mpm::NoTotals;
 
   struct InTile {
     typename ColumnsByTile<Dim>::OfTile columns;
 
     template <class Particles, class At, class Seen, class Scatter>
     THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
-                                 Account& /*account*/) const {
+                                 Totals& /*totals*/) const {
       band::update_load(particles, at.particle[0], columns.flow_depth(particles, at));
     }
   };
@@ -130,7 +130,7 @@ struct UpdatePorePressure {
   using InTile = band::PorePressure<typename ColumnsByTile<Dim>::OfTile, Seeps, Balances>;
   using Reads = typename InTile::Reads;
   using Adds = typename InTile::Adds;
-  using Account = typename InTile::Account;
+  using Totals = typename InTile::Totals;
 
   band::BandPhysics physics;
   band::HydraulicConductivity hydraulic;

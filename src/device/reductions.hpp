@@ -13,13 +13,13 @@ template <int Dim>
 struct RunMonitor {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Account = mpm::MonitorSums;
+  using Totals = mpm::MonitorSums;
 
   mpm::MonitorKernel<Dim> kernel;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
-                               Account& sums) const {
+                               Totals& sums) const {
     sums = kernel(particles, at.particle[0]);
   }
 };
@@ -29,7 +29,7 @@ template <int Dim>
 struct FindExtremes {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Account = band::StepExtremes;
+  using Totals = band::StepExtremes;
 
   band::BandPhysics physics;
   band::HydraulicConductivity hydraulic;
@@ -37,7 +37,7 @@ struct FindExtremes {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
-                               Account& found) const {
+                               Totals& found) const {
     found = band::extremes_of_particle<Dim>(physics, hydraulic, free_gaps, particles, at.particle[0]);
   }
 };
@@ -47,13 +47,13 @@ template <int Dim>
 struct SumOverBody {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Account = band::BodySums<Dim>;
+  using Totals = band::BodySums<Dim>;
 
   band::SumsOfParticle<Dim> of_particle;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(const Particles& particles, const At& at, const Seen& /*seen*/, Scatter& /*added*/,
-                               Account& sums) const {
+                               Totals& sums) const {
     sums = of_particle(particles, at.particle[0]);
   }
 };

@@ -14,7 +14,7 @@ namespace thawslide::device {
 
 // Sums over particles, by kernel.
 template <class... Kernels>
-struct SumsOf : mpm::ByName<mpm::Named<Kernels, typename Kernels::Account>...> {
+struct SumsOf : mpm::ByName<mpm::Named<Kernels, typename Kernels::Totals>...> {
   THAWSLIDE_HD SumsOf& operator+=([[maybe_unused]] const SumsOf& part) {
     ((this->template of<Kernels>() += part.template of<Kernels>()), ...);
     return *this;
@@ -91,7 +91,7 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
   static constexpr std::size_t cell_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::stencil);
   static constexpr std::size_t size = mpm::record_size(OwnerOfList<Names>::template size<Dim>);
   // adds_up: kernels sum over particles. accumulates: the record already has sums from an earlier pass.
-  static constexpr bool adds_up = (!std::is_same_v<typename Kernels::Account, mpm::NoAccount> || ...);
+  static constexpr bool adds_up = (!std::is_same_v<typename Kernels::Totals, mpm::NoTotals> || ...);
   static constexpr bool accumulates = (mpm::OfAnOwner<Adds> && ...);
 
   using Carried = mpm::ByName<mpm::Named<Adds, mpm::CarriedByOne<Adds, Dim>>...>;
@@ -172,9 +172,9 @@ class SharedMemoryLayout<mpm::RecordList<Reads...>, mpm::RecordList<Adds...>, Di
   static constexpr std::size_t reads_at =
       open_at + up(2 * cell_nodes * (std::size_t{0} + ... + mpm::scatter_size<Adds, Dim>)*sizeof(Real));
 
-  template <class What>
-  [[nodiscard]] THAWSLIDE_HD What* at(std::size_t place) const {
-    return reinterpret_cast<What*>(memory_ + place);
+  template <class Type>
+  [[nodiscard]] THAWSLIDE_HD Type* at(std::size_t offset) const {
+    return reinterpret_cast<Type*>(memory_ + offset);
   }
 
   std::byte* memory_;
@@ -191,9 +191,10 @@ struct LinearWeights {
     return false;
   }
   template <int Dim, class Particles>
-  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OnePlace<Dim>& place, const Particles& /*particles*/,
-                        const mpm::ScalarIndex& /*at*/, Real /*cell*/, Real inverse_cell) const {
-    weights.set_linear(place, inverse_cell);
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OneGridPosition<Dim>& position,
+                        const Particles& /*particles*/, const mpm::ScalarIndex& /*at*/, Real /*cell*/,
+                        Real inverse_cell) const {
+    weights.set_linear(position, inverse_cell);
   }
 };
 
@@ -201,17 +202,18 @@ struct LinearWeights {
 template <class Shape, int Dim>
 struct MomentumWeights {
   mpm::SizesOfBodies sizes;
-  mpm::HeldSides<Dim> sides;
+  mpm::PrescribedSides<Dim> sides;
 
   template <int>
   [[nodiscard]] THAWSLIDE_HD bool at_side(std::size_t axis, int node) const {
     return node == sides.lower[axis] || node == sides.upper[axis];
   }
   template <class Particles>
-  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OnePlace<Dim>& place, const Particles& particles,
-                        const mpm::ScalarIndex& at, Real /*cell*/, Real inverse_cell) const {
-    weights.set_linear(place, inverse_cell);
-    weights.template set_momentum<Shape>(place, sizes.of(particles, at), inverse_cell);
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OneGridPosition<Dim>& position,
+                        const Particles& particles, const mpm::ScalarIndex& at, Real /*cell*/,
+                        Real inverse_cell) const {
+    weights.set_linear(position, inverse_cell);
+    weights.template set_momentum<Shape>(position, sizes.of(particles, at), inverse_cell);
   }
 };
 
@@ -219,10 +221,10 @@ struct MomentumWeights {
 template <class Shape, int Dim>
 struct AffineWeights : MomentumWeights<Shape, Dim> {
   template <class Particles>
-  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OnePlace<Dim>& place, const Particles& particles,
-                        const mpm::ScalarIndex& at, Real cell, Real inverse_cell) const {
-    MomentumWeights<Shape, Dim>::set(weights, place, particles, at, cell, inverse_cell);
-    weights.template set_affine<Shape>(place, cell, inverse_cell);
+  THAWSLIDE_HD void set(mpm::OneWeights<Dim>& weights, const mpm::OneGridPosition<Dim>& position,
+                        const Particles& particles, const mpm::ScalarIndex& at, Real cell, Real inverse_cell) const {
+    MomentumWeights<Shape, Dim>::set(weights, position, particles, at, cell, inverse_cell);
+    weights.template set_affine<Shape>(position, cell, inverse_cell);
   }
 };
 

@@ -5,17 +5,23 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "band/body_sums.hpp"
-#include "device/failure.hpp"
 #include "device/step_model.hpp"
 #include "mpm/front.hpp"
 #include "mpm/monitor_sums.hpp"
 #include "mpm/particle_view.hpp"
 
 namespace thawslide::device {
+
+// Error of a device. The message states which operation failed.
+class Failure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 // Device errors are thrown as a Failure; errors of the CPU callbacks propagate unchanged.
 template <int Dim>
@@ -35,7 +41,7 @@ class Solver {
   // Sums for a history row.
   virtual band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) = 0;
   // Particle at the front. mass: total mass of the particles [kg].
-  virtual mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) = 0;
+  virtual mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) = 0;
   // Positions [m, relative to the domain's lower corner] of the particles that the last step counted as escaped.
   virtual std::vector<Vector<Real, Dim>> escaped_positions() = 0;
   // Sorts particles in memory into canonical order. Does not affect results.

@@ -15,8 +15,8 @@ class SolverImpl final : public Solver<Dim> {
   // backend: constructor arguments of Backend.
   template <class... Words>
   SolverImpl(const StepModel<Dim>& model, const mpm::ParticleView<Dim>& particles, std::size_t count,
-             HostCallbacks<Dim> ask, Words&&... backend)
-      : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(ask)) {}
+             HostCallbacks<Dim> callbacks, Words&&... backend)
+      : backend_(std::forward<Words>(backend)...), step_(backend_, model, particles, count, std::move(callbacks)) {}
 
   StepSums<Dim> step(Real time, Real dt) override { return step_.step(time, dt); }
   mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) override { return step_.monitor(kernel); }
@@ -24,7 +24,7 @@ class SolverImpl final : public Solver<Dim> {
   band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) override {
     return step_.sum_over_body(of_particle);
   }
-  mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) override { return step_.front(way, mass); }
+  mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) override { return step_.front(path, mass); }
   std::vector<Vector<Real, Dim>> escaped_positions() override { return step_.escaped_positions(); }
   void sort_in_memory() override { step_.sort_in_memory(); }
   void copy_to(const mpm::ParticleView<Dim>& particles) override { step_.copy_to(particles); }
@@ -39,10 +39,10 @@ class SolverImpl final : public Solver<Dim> {
 // Creates the solver with the shape functions of the model.
 template <class Backend, int Dim, class... Words>
 std::unique_ptr<Solver<Dim>> steps_on(const StepModel<Dim>& model, const mpm::ParticleView<Dim>& particles,
-                                      std::size_t count, HostCallbacks<Dim> ask, const Words&... backend) {
+                                      std::size_t count, HostCallbacks<Dim> callbacks, const Words&... backend) {
   std::unique_ptr<Solver<Dim>> made;
   mpm::with_shape(model.shape, [&](auto shape) {
-    made = std::make_unique<SolverImpl<Backend, decltype(shape), Dim>>(model, particles, count, std::move(ask),
+    made = std::make_unique<SolverImpl<Backend, decltype(shape), Dim>>(model, particles, count, std::move(callbacks),
                                                                        backend...);
   });
   return made;

@@ -39,9 +39,9 @@ struct Stacks {
   explicit Stacks(const std::vector<std::uint64_t>& blocks) {
     std::map<ColumnIndex<Dim>, std::uint32_t> numbers;  // by the first column
     for (const std::uint64_t key : blocks) {
-      const auto [place, is_new] =
+      const auto [found, is_new] =
           numbers.try_emplace(column_of_node<Dim>(key, 0), static_cast<std::uint32_t>(numbers.size()));
-      of_block.push_back(place->second);
+      of_block.push_back(found->second);
       for (std::size_t k = 0; is_new && k < columns_of_block<Dim>; ++k) {
         columns.push_back(column_of_node<Dim>(key, k));  // nodes of the lowest layer come first
       }
@@ -51,7 +51,7 @@ struct Stacks {
 
 // Place of a column among those of all stacks. column: relative to the first column of a tile, -1 .. edge.
 template <int Dim>
-THAWSLIDE_HD std::size_t place_of_column(const TileTables<Dim>& tables, const std::uint32_t* stack_of_block,
+THAWSLIDE_HD std::size_t index_of_column(const TileTables<Dim>& tables, const std::uint32_t* stack_of_block,
                                          std::size_t tile, const ColumnIndex<Dim>& column) {
   using T = mpm::Tile<Dim>;
   int direction = T::stencil / 2, in_stack = 0;

@@ -28,7 +28,7 @@ struct DeformMaterial {
   using Kernel = mpm::Deform<Dim, Law>;
   using Reads = typename Kernel::Reads;
   using Adds = typename Kernel::Adds;
-  using Account = typename Kernel::Account;
+  using Totals = typename Kernel::Totals;
 
   // Parameters of mpm::Deform.
   Law law;
@@ -58,10 +58,10 @@ struct DeformMaterial {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
-                               Account& account) const {
+                               Totals& totals) const {
     if (is_only_one || particles.material(at.particle[0]) == material) {
       const Kernel deform{law, elastic, phases, gaps_close_first, viscosity_time, effective_stress, dt};
-      deform(particles, at, seen, added, account);
+      deform(particles, at, seen, added, totals);
     }
   }
 };
@@ -100,13 +100,13 @@ class Step {
  public:
   // Copies `count` particles from CPU memory.
   Step(Backend& backend, const StepModel<Dim>& model, const mpm::ParticleView<Dim>& particles, std::size_t count,
-       const HostCallbacks<Dim>& ask)
-      : passes_(backend, model, particles, count, ask.ground),
+       const HostCallbacks<Dim>& callbacks)
+      : passes_(backend, model, particles, count, callbacks.ground),
         sums_(backend, 1),
-        band_(passes_, ask, sums_.data()),
+        band_(passes_, callbacks, sums_.data()),
         maps_(backend, model.cell, model.half_sizes),
-        band_columns_(backend, ask.columns),
-        bed_(backend, ask.bed) {
+        band_columns_(backend, callbacks.columns),
+        bed_(backend, callbacks.bed) {
     sums_.set(std::vector<Sums>(1));
     free_gaps_.set(model.free_gaps);
   }
@@ -134,7 +134,7 @@ class Step {
       passes_.backend.end_stage("average_band_on_grid");
     }
     if (passes_.model.moves) {
-      take_mechanics(time, dt);
+      step_mechanics(time, dt);
     }
     if (passes_.model.rescales_band && !passes_.model.band.rescaling_mixes) {
       band_.rescale(time);
@@ -159,12 +159,12 @@ class Step {
   band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) {
     return passes_.sum_over_particles(SumOverBody<Dim>{of_particle}, body_);
   }
-  mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) {
-    return front_.find(way, mass, passes_.cells.tables(), passes_.particles.view(), passes_.particles.size());
+  mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) {
+    return front_.find(path, mass, passes_.cells.tables(), passes_.particles.view(), passes_.particles.size());
   }
   // Positions [m, relative to the domain's lower corner] of the particles that the last step counted as escaped.
   std::vector<Vector<Real, Dim>> escaped_positions() {
-    return escape_check_.places(passes_, escape_kernel(), sums_.get(0).escapes);
+    return escape_check_.indices(passes_, escape_kernel(), sums_.get(0).escapes);
   }
   void sample_map([[maybe_unused]] const mpm::MapCells& cells, [[maybe_unused]] MapSample& sample) {
     if constexpr (Dim == 3) {
@@ -195,14 +195,14 @@ class Step {
     if (passes_.ground.exists()) {
       const std::vector<std::uint64_t> blocks = passes_.cells.block_keys();
       passes_.ground.update(passes_.cells.tables(), blocks);
-      band_.take_layers(blocks);
+      band_.set_layers(blocks);
       band_columns_.update(blocks);
       bed_.update(blocks, passes_.ground);
       passes_.nodes.clear_base(nodes);
       bases_.resize(passes_.ground.candidate_count());
     }
   }
-  void take_mechanics(Real time, Real dt) {
+  void step_mechanics(Real time, Real dt) {
     add_momentum();
     passes_.backend.end_stage("momentum_to_grid");
     resolve_contact(time, dt);
@@ -260,9 +260,10 @@ class Step {
 
   void move(Real time, Real dt) {
     using Kernel = mpm::Move<Dim>;
-    passes_.keep(&passes_.run(passes_.momentum(), Kernel{passes_.model.affine ? Real(1) : passes_.model.pic_share, dt})
-                      ->template of<Kernel>(),
-                 &sums_.data()->particle_kinetic);
+    passes_.keep(
+        &passes_.run(passes_.momentum(), Kernel{passes_.model.affine ? Real(1) : passes_.model.pic_fraction, dt})
+             ->template of<Kernel>(),
+        &sums_.data()->particle_kinetic);
     passes_.if_affine([&](const auto& weights) {
       using Affine = mpm::MoveAffine<Dim>;
       const auto* more = passes_.run(passes_.over(weights, AllTiles{}), Affine{dt});
@@ -294,17 +295,17 @@ class Step {
 
   // Updates positions and evaluates the reductions that the CPU requested.
   void update_positions() {
-    const mpm::UpdatePosition<Dim> take{passes_.model.lower, passes_.model.upper};
+    const mpm::UpdatePosition<Dim> update{passes_.model.lower, passes_.model.upper};
     const FindExtremes<Dim> extremes{passes_.model.band, band_.hydraulic(), {free_gaps_.data()}};
     const CountEscaped<Dim> escapes = escape_kernel();
     if (passes_.model.finds_extremes && passes_.model.counts_escaped) {
-      update_positions(take, extremes, escapes);
+      update_positions(update, extremes, escapes);
     } else if (passes_.model.finds_extremes) {
-      update_positions(take, extremes);
+      update_positions(update, extremes);
     } else if (passes_.model.counts_escaped) {
-      update_positions(take, escapes);
+      update_positions(update, escapes);
     } else {
-      update_positions(take);
+      update_positions(update);
     }
   }
   [[nodiscard]] CountEscaped<Dim> escape_kernel() const {
@@ -314,12 +315,12 @@ class Step {
   template <class... Kernels>
   void update_positions(const Kernels&... kernels) {
     const auto* all = passes_.run(passes_.linear(), kernels...);
-    (passes_.keep(&all->template of<Kernels>(), place_of(&all->template of<Kernels>())), ...);
+    (passes_.keep(&all->template of<Kernels>(), reduced(&all->template of<Kernels>())), ...);
   }
   // Destination, in device memory, of each sum of the last pass.
-  mpm::InvalidParticle* place_of(const mpm::InvalidParticle* /*sum*/) { return &sums_.data()->invalid; }
-  band::StepExtremes* place_of(const band::StepExtremes* /*sum*/) { return &sums_.data()->extremes; }
-  std::uint64_t* place_of(const std::uint64_t* /*sum*/) { return &sums_.data()->escapes; }
+  mpm::InvalidParticle* reduced(const mpm::InvalidParticle* /*sum*/) { return &sums_.data()->invalid; }
+  band::StepExtremes* reduced(const band::StepExtremes* /*sum*/) { return &sums_.data()->extremes; }
+  std::uint64_t* reduced(const std::uint64_t* /*sum*/) { return &sums_.data()->escapes; }
 
   Passes passes_;
   Array<Sums, Backend> sums_;

@@ -13,8 +13,8 @@
 #include "band/physics.hpp"
 #include "band/pressure_kernels.hpp"
 #include "band/step_extremes.hpp"
-#include "mpm/accounts.hpp"
 #include "mpm/domain_faces.hpp"
+#include "mpm/kernel_totals.hpp"
 #include "mpm/map_sums.hpp"
 #include "mpm/material.hpp"
 #include "mpm/records.hpp"
@@ -36,9 +36,9 @@ struct StepModel {
   mpm::ShapeFunction shape = mpm::ShapeFunction::ugimp;  // of momentum
   bool affine = false;                                   // APIC
   bool moves = true;                                     // off: heat and pore pressure only
-  mpm::HeldSides<Dim> sides;                             // with prescribed velocity
+  mpm::PrescribedSides<Dim> sides;                       // with prescribed velocity
   Vector<Real, Dim> gravity;                             // [m/s2]
-  Real pic_share = 0;                                    // fraction of PIC in new velocities
+  Real pic_fraction = 0;                                 // fraction of PIC in new velocities
   int filter_order = 0;                                  // of the velocity filter; 0: none
   std::function<bool(Real time, Real dt)> filters_in_step;
   Real mass_damping = 0;  // [1/s]
@@ -51,7 +51,7 @@ struct StepModel {
   bool finds_extremes = false;     // StepSums::extremes is required
   bool counts_escaped = false;     // StepSums::escapes is required
   terrain::BasalLaw base;
-  bool base_holds = false;        // no slip
+  bool base_is_fixed = false;     // no slip
   bool pore_pressure = true;      // off: P = 0 at contact nodes
   bool distance_check = false;    // contact acts only after a node has closed its clearance
   bool pressure_changes = false;  // off: pore pressures are constant
@@ -68,7 +68,7 @@ struct StepModel {
   bool scales_all = true;                         // scaling also applies outside the band
 
   [[nodiscard]] bool has_band() const { return heat || pressure_changes; }
-  [[nodiscard]] bool lets_water_seep() const {
+  [[nodiscard]] bool has_seepage() const {
     return pressure_changes && band::water_may_seep(band, hydraulic_conductivity);
   }
   [[nodiscard]] bool is_viscous() const {
@@ -126,7 +126,7 @@ template <int Dim>
 struct HostCallbacks {
   GroundQuery<Dim> ground;
   // As in band/flow_depth.hpp. Without slope_cosine, thickness is vertical; normal_gravity is only needed for loads.
-  band::OfPlace<Dim> slope_cosine, normal_gravity;
+  band::OfPosition<Dim> slope_cosine, normal_gravity;
   LayerAtMiddle<Dim> layer_at_middle;
   HostColumns columns;
   HostBed<Dim> bed;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "base/portability.hpp"
 #include "mpm/tile.hpp"
@@ -29,43 +30,43 @@ struct TileTables {
 
 // Location of a patch node: direction of its block from the tile, and place within the block.
 template <int Dim>
-struct PlaceInBlock {
+struct NodeInBlock {
   std::size_t direction, node;
 };
 template <int Dim>
-THAWSLIDE_HD PlaceInBlock<Dim> place_in_block(std::size_t in_patch) {
+THAWSLIDE_HD NodeInBlock<Dim> node_in_block(std::size_t in_patch) {
   using T = mpm::Tile<Dim>;
-  PlaceInBlock<Dim> place{0, 0};
+  NodeInBlock<Dim> found{0, 0};
   std::size_t neighbours = 1, nodes = 1;
   for (int a = 0; a < Dim; ++a) {
     const int along = static_cast<int>(in_patch % T::patch_edge) - 1;  // -1 .. edge
     in_patch /= T::patch_edge;
     const int tile = along >> T::edge_bits;  // rounds down
-    place.direction += static_cast<std::size_t>(tile + 1) * neighbours;
-    place.node += static_cast<std::size_t>(along - tile * T::edge) * nodes;
+    found.direction += static_cast<std::size_t>(tile + 1) * neighbours;
+    found.node += static_cast<std::size_t>(along - tile * T::edge) * nodes;
     neighbours *= 3;
     nodes *= T::edge;
   }
-  return place;
+  return found;
 }
 
-// Place of a block's node in the patch of the tile in a direction. The patch must contain the node.
+// Index of a block's node in the patch of the tile in a direction. The patch must contain the node.
 template <int Dim>
-THAWSLIDE_HD std::size_t place_in_patch(std::size_t in_block, std::size_t direction) {
+THAWSLIDE_HD std::size_t index_in_patch(std::size_t in_block, std::size_t direction) {
   using T = mpm::Tile<Dim>;
-  std::size_t place = 0, nodes = 1;
+  std::size_t index = 0, nodes = 1;
   for (int a = 0; a < Dim; ++a) {
     const int tile = static_cast<int>(direction % 3) - 1;
     const int along = static_cast<int>(in_block % T::edge) - tile * T::edge + 1;
     direction /= 3;
     in_block /= T::edge;
-    place += static_cast<std::size_t>(along) * nodes;
+    index += static_cast<std::size_t>(along) * nodes;
     nodes *= T::patch_edge;
   }
-  return place;
+  return index;
 }
 
-// Place, in the tile's patch, of the lowest of the nodes around a node of the tile.
+// Index, in the tile's patch, of the lowest of the nodes around a node of the tile.
 template <int Dim>
 THAWSLIDE_HD std::size_t lowest_about(std::size_t node) {
   using T = mpm::Tile<Dim>;
@@ -74,6 +75,23 @@ THAWSLIDE_HD std::size_t lowest_about(std::size_t node) {
     --lowest[static_cast<std::size_t>(a)];
   }
   return static_cast<std::size_t>(T::in_patch(lowest));
+}
+
+// Index map from current to former keys, to reuse earlier results of CPU queries: index of each key in the list
+// `former`, or absent. Both lists ascend.
+inline std::vector<std::int32_t> index_map(const std::vector<std::uint64_t>& former,
+                                           const std::vector<std::uint64_t>& keys) {
+  std::vector<std::int32_t> indices(keys.size(), absent);
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    while (at < former.size() && former[at] < keys[k]) {
+      ++at;
+    }
+    if (at < former.size() && former[at] == keys[k]) {
+      indices[k] = static_cast<std::int32_t>(at);
+    }
+  }
+  return indices;
 }
 
 }  // namespace thawslide::device

@@ -13,7 +13,7 @@ class UniqueKeys {
 
   // Finds the unique keys of a list, ignoring bits below `shift`, and optionally the places at which they begin.
   void find(const Array<std::uint64_t, Backend>& keys, int shift, Array<std::uint64_t, Backend>& found,
-            Array<std::uint32_t, Backend>* places) {
+            Array<std::uint32_t, Backend>* indices) {
     const std::size_t count = keys.size();
     is_first_.resize(count);
     number_.resize(count);
@@ -21,11 +21,11 @@ class UniqueKeys {
     backend_.sum_before(is_first_.data(), number_.data(), count);
     const std::size_t different = count > 0 ? number_.get(count - 1) + is_first_.get(count - 1) : 0;
     found.resize(different);
-    if (places != nullptr) {
-      places->resize(different);
+    if (indices != nullptr) {
+      indices->resize(different);
     }
     backend_.for_each(count, KeepFirst{keys.data(), shift, is_first_.data(), number_.data(), found.data(),
-                                       places != nullptr ? places->data() : nullptr});
+                                       indices != nullptr ? indices->data() : nullptr});
   }
 
   // For the last list, by place: whether a key begins there, and how many keys begin before.

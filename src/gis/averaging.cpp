@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/rounding.hpp"
 #include "gis/axis_weights.hpp"
 #include "gis/coverage.hpp"
 #include "gis/point_window.hpp"
@@ -27,8 +28,8 @@ struct Axis {
 
 // Fractions of the interval around a position in the cells of old points; positions in units of their spacing. Parts
 // outside the outermost cells are omitted.
-AxisWeights overlaps(double place, double width, int count) {
-  const double low = place - 0.5 * width, high = place + 0.5 * width;
+AxisWeights overlaps(double coordinate, double width, int count) {
+  const double low = coordinate - 0.5 * width, high = coordinate + 0.5 * width;
   const int first = static_cast<int>(std::clamp(std::floor(low + 0.5), 0.0, count - 1.0));
   const int last = static_cast<int>(std::clamp(std::floor(high + 0.5), 0.0, count - 1.0));
   AxisWeights made{first, {}};
@@ -39,10 +40,10 @@ AxisWeights overlaps(double place, double width, int count) {
 }
 
 // Linear interpolation that omits points beyond the outermost ones.
-AxisWeights between_points(double place, int count) {
-  const double below = std::floor(place), share = place - below;
+AxisWeights between_points(double coordinate, int count) {
+  const double below = std::floor(coordinate), fraction = coordinate - below;
   AxisWeights made;
-  for (const auto& [point, weight] : {std::pair(below, 1.0 - share), std::pair(below + 1.0, share)}) {
+  for (const auto& [point, weight] : {std::pair(below, 1.0 - fraction), std::pair(below + 1.0, fraction)}) {
     if (point >= 0.0 && point < count) {
       made.first = made.weights.empty() ? static_cast<int>(point) : made.first;
       made.weights.push_back(weight);
@@ -55,8 +56,9 @@ std::vector<AxisWeights> weights_along(const Axis& old_axis, const Axis& new_axi
   std::vector<AxisWeights> all;
   const double width = new_axis.cell / old_axis.cell;
   for (int k = 0; k < new_axis.count; ++k) {
-    const double place = (new_axis.first + k * new_axis.cell - old_axis.first) / old_axis.cell;
-    all.push_back(width > finer_by ? overlaps(place, width, old_axis.count) : between_points(place, old_axis.count));
+    const double coordinate = (new_axis.first + k * new_axis.cell - old_axis.first) / old_axis.cell;
+    all.push_back(width > finer_by ? overlaps(coordinate, width, old_axis.count)
+                                   : between_points(coordinate, old_axis.count));
   }
   return all;
 }
@@ -67,10 +69,10 @@ WeightedSums sums_in_one_system(const Raster& raster, const Raster& layout) {
       weights_along({raster.y, raster.cell_y, raster.rows}, {layout.y, layout.cell_y, layout.rows}), layout);
 }
 
-using Place = std::array<double, 2>;
+using Point = std::array<double, 2>;
 
 // Corners of the cells of a layout's row, on its lower (0) or upper (1) side, in columns and rows of a raster.
-std::vector<Place> corners_of(const Reprojection& reprojection, const Raster& raster, const Raster& layout, int row,
+std::vector<Point> corners_of(const Reprojection& reprojection, const Raster& raster, const Raster& layout, int row,
                               int side) {
   const auto count = static_cast<std::size_t>(layout.columns) + 1;
   std::vector<double> x(count), y(count, layout.y_of(row) + (side - 0.5) * layout.cell_y);
@@ -78,19 +80,19 @@ std::vector<Place> corners_of(const Reprojection& reprojection, const Raster& ra
     x[k] = layout.x + (static_cast<double>(k) - 0.5) * layout.cell_x;
   }
   if (!reprojection.apply(x, y)) {
-    throw UserError(
-        fmt::format("points of the ground near {:.10g}, {:.10g} have no place in the coordinate reference system {}. "
-                    "Reproject the raster to {}.",
-                    layout.x, layout.y_of(row), name_of(raster.crs), name_of(layout.crs)));
+    throw UserError(fmt::format(
+        "points of the ground near {}, {} cannot be transformed to the coordinate reference system {}. Reproject the "
+        "raster to {}.",
+        coordinate_text(layout.x), coordinate_text(layout.y_of(row)), name_of(raster.crs), name_of(layout.crs)));
   }
-  std::vector<Place> corners(count);
+  std::vector<Point> corners(count);
   for (std::size_t k = 0; k < count; ++k) {
     corners[k] = {(x[k] - raster.x) / raster.cell_x, (y[k] - raster.y) / raster.cell_y};
   }
   return corners;
 }
 
-double distance(const Place& one, const Place& other) {
+double distance(const Point& one, const Point& other) {
   return std::max(std::abs(one[0] - other[0]), std::abs(one[1] - other[1]));
 }
 
@@ -102,19 +104,19 @@ int parts_of(double side) {
 }
 
 // Sums over the parts of the cell between four corners: lower left, lower right, upper left, upper right.
-std::array<double, 2> sum_over_parts(const Raster& raster, const std::array<Place, 4>& corners) {
+std::array<double, 2> sum_over_parts(const Raster& raster, const std::array<Point, 4>& corners) {
   const int across = parts_of(distance(corners[0], corners[1])), up = parts_of(distance(corners[0], corners[2]));
   double value = 0.0, weight = 0.0;
   for (int j = 0; j < up; ++j) {
     for (int i = 0; i < across; ++i) {
       const double s = (i + 0.5) / across, t = (j + 0.5) / up;
-      Place place;
+      Point point;
       for (std::size_t a = 0; a < 2; ++a) {
-        place[a] = std::floor(0.5 + (1.0 - t) * ((1.0 - s) * corners[0][a] + s * corners[1][a]) +
+        point[a] = std::floor(0.5 + (1.0 - t) * ((1.0 - s) * corners[0][a] + s * corners[1][a]) +
                               t * ((1.0 - s) * corners[2][a] + s * corners[3][a]));
       }
-      const bool inside = place[0] >= 0.0 && place[1] >= 0.0 && place[0] < raster.columns && place[1] < raster.rows;
-      const double there = inside ? raster.at(static_cast<int>(place[0]), static_cast<int>(place[1])) : no_data;
+      const bool inside = point[0] >= 0.0 && point[1] >= 0.0 && point[0] < raster.columns && point[1] < raster.rows;
+      const double there = inside ? raster.at(static_cast<int>(point[0]), static_cast<int>(point[1])) : no_data;
       if (!std::isnan(there)) {
         value += there;
         weight += 1.0;
@@ -130,8 +132,8 @@ WeightedSums sums_between_systems(const Reprojection& reprojection, const Raster
   sums.values.values.resize(static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows));
   sums.weights.values = sums.values.values;
   for (int row = 0; row < layout.rows; ++row) {
-    const std::vector<Place> lower = corners_of(reprojection, raster, layout, row, 0);
-    const std::vector<Place> upper = corners_of(reprojection, raster, layout, row, 1);
+    const std::vector<Point> lower = corners_of(reprojection, raster, layout, row, 0);
+    const std::vector<Point> upper = corners_of(reprojection, raster, layout, row, 1);
     parallel_for(static_cast<std::size_t>(layout.columns), [&](std::size_t column) {
       const std::size_t k = layout.index(static_cast<int>(column), row);
       const auto [value, weight] =
@@ -151,8 +153,8 @@ WeightedSums sums_over_cells(const Raster& raster, const Raster& layout) {
 }
 
 Polygons in_system(const Polygons& polygons, const Reprojection& reprojection, const std::string& name) {
-  Polygons taken = polygons;
-  const auto take = [&](Polyline2& ring) {
+  Polygons transformed = polygons;
+  const auto transform = [&](Polyline2& ring) {
     std::vector<double> x, y;
     for (const auto& corner : ring) {
       x.push_back(corner[0]);
@@ -160,7 +162,7 @@ Polygons in_system(const Polygons& polygons, const Reprojection& reprojection, c
     }
     if (!reprojection.apply(x, y)) {
       throw UserError(
-          fmt::format("the release has no place in the coordinate reference system {} of the raster. "
+          fmt::format("the release cannot be transformed to the coordinate reference system {} of the raster. "
                       "Reproject the raster to the system of the DEM.",
                       name));
     }
@@ -168,11 +170,11 @@ Polygons in_system(const Polygons& polygons, const Reprojection& reprojection, c
       ring[k] = {x[k], y[k]};
     }
   };
-  for (Polygon& polygon : taken) {
-    take(polygon.outline);
-    std::for_each(polygon.holes.begin(), polygon.holes.end(), take);
+  for (Polygon& polygon : transformed) {
+    transform(polygon.outline);
+    std::for_each(polygon.holes.begin(), polygon.holes.end(), transform);
   }
-  return taken;
+  return transformed;
 }
 
 }  // namespace
@@ -183,8 +185,8 @@ bool is_finer(const Raster& raster, const Raster& layout) {
     return layout.cell_x > finer_by * raster.cell_x || layout.cell_y > finer_by * raster.cell_y;
   }
   const Raster middle = layout_of(layout, {layout.columns / 2, layout.rows / 2, 1, 1});
-  const std::vector<Place> lower = corners_of(reprojection, raster, middle, 0, 0);
-  const std::vector<Place> upper = corners_of(reprojection, raster, middle, 0, 1);
+  const std::vector<Point> lower = corners_of(reprojection, raster, middle, 0, 0);
+  const std::vector<Point> upper = corners_of(reprojection, raster, middle, 0, 1);
   return distance(lower[0], lower[1]) > finer_by || distance(lower[0], upper[0]) > finer_by;
 }
 
@@ -204,7 +206,7 @@ CoveredRaster covered_part(const Raster& raster, const Polygons& polygons, const
   }
   CoveredRaster part;
   part.values = part_of(raster, points_in(raster, extent_of(inside)));
-  part.share = coverage_of(inside, part.values);
+  part.fraction = coverage_of(inside, part.values);
   return part;
 }
 
@@ -217,9 +219,9 @@ CoveredMeans averaged(const CoveredRaster& part, const Raster& layout) {
     means.mean.values.assign(count, no_data);
     return means;
   }
-  Raster amount = part.values, known = part.share;
+  Raster amount = part.values, known = part.fraction;
   for (std::size_t k = 0; k < amount.values.size(); ++k) {
-    amount.values[k] *= part.share.values[k];
+    amount.values[k] *= part.fraction.values[k];
     known.values[k] = std::isnan(amount.values[k]) ? 0.0 : known.values[k];
   }
   means.amount = averaged(amount, layout, Missing::zero);

@@ -24,8 +24,8 @@ namespace thawslide::gis {
 
 // Part of a raster that polygons cover.
 struct CoveredRaster {
-  Raster values;  // around the polygons; without points if the raster does not reach them
-  Raster share;   // covered fraction of each of its cells
+  Raster values;    // around the polygons; without points if the raster does not reach them
+  Raster fraction;  // covered fraction of each of its cells
 };
 // `crs`: of the polygons, as WKT.
 [[nodiscard]] CoveredRaster covered_part(const Raster& raster, const Polygons& polygons, const std::string& crs);

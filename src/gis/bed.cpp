@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/rounding.hpp"
 #include "gis/error_location.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/sampling.hpp"
@@ -24,11 +25,12 @@ Raster load_bed_depth(const config::Case& parameters, const Dem& ground, std::ve
       for (int column = 0; column < made.columns; ++column) {
         const double x = made.x_of(column), y = made.y_of(row);
         double& value = made.values[made.index(column, row)];
-        if (domain.holds(x, y) && !(value >= 0.0 && value <= parameters.grid.cell)) {
+        if (domain.contains(x, y) && !(value >= 0.0 && value <= parameters.grid.cell)) {
           throw UserError(fmt::format(
-              "{}: at {:.10g}, {:.10g}, in the domain, the depth of the bed is {}; allowed: from 0 m, where there is "
-              "no bed, to grid.cell, {:g} m. {}",
-              depth.source, x, y, std::isnan(value) ? "missing" : fmt::format("{:g} m", value), parameters.grid.cell,
+              "{}: at {}, {}, in the domain, the depth of the bed is {}; allowed: from 0 m, where there is no bed, to "
+              "grid.cell, {:g} m. {}",
+              depth.source, coordinate_text(x), coordinate_text(y),
+              std::isnan(value) ? "missing" : fmt::format("{:g} m", value), parameters.grid.cell,
               std::isnan(value) ? "Fill the raster with 0 over the whole domain, or make the domain smaller."
                                 : "Check the raster's unit."));
         }

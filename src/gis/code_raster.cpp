@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 #include "gis/error_location.hpp"
 #include "gis/map_raster.hpp"
 #include "gis/point_window.hpp"
@@ -22,10 +23,10 @@ void check_whole(const std::string& file, const Raster& codes) {
     for (int column = 0; column < codes.columns; ++column) {
       const double code = codes.at(column, row);
       if (!std::isnan(code) && code != std::round(code)) {
-        throw UserError(fmt::format(
-            "{}: the raster holds {:g} at {:.10g}, {:.10g}; allowed: whole numbers, the codes of substrates. "
-            "Check that it is the right file.",
-            file, code, codes.x_of(column), codes.y_of(row)));
+        throw UserError(
+            fmt::format("{}: the raster holds {:g} at {}, {}; allowed: whole numbers, the codes of substrates. Check "
+                        "that it is the right file.",
+                        file, code, coordinate_text(codes.x_of(column)), coordinate_text(codes.y_of(row))));
       }
     }
   }
@@ -34,7 +35,7 @@ void check_whole(const std::string& file, const Raster& codes) {
 // Value of the nearest point at each point of a layout; NaN outside their cells.
 Raster nearest_codes(const std::string& file, const Raster& codes, const Raster& layout) {
   const Reprojection reprojection(layout.crs, codes.crs);
-  Raster taken = layout.filled(std::numeric_limits<double>::quiet_NaN());
+  Raster sampled_codes = layout.filled(std::numeric_limits<double>::quiet_NaN());
   for (int row = 0; row < layout.rows; ++row) {
     std::vector<double> x, y;
     for (int column = 0; column < layout.columns; ++column) {
@@ -52,18 +53,18 @@ Raster nearest_codes(const std::string& file, const Raster& codes, const Raster&
       const double i = std::floor((x[k] - codes.x) / codes.cell_x + 0.5);
       const double j = std::floor((y[k] - codes.y) / codes.cell_y + 0.5);
       if (i >= 0.0 && j >= 0.0 && i < codes.columns && j < codes.rows) {
-        taken.values[taken.index(column, row)] = codes.at(static_cast<int>(i), static_cast<int>(j));
+        sampled_codes.values[sampled_codes.index(column, row)] = codes.at(static_cast<int>(i), static_cast<int>(j));
       }
     }
   }
-  return taken;
+  return sampled_codes;
 }
 
 void count(CodesFound::Points& points, double x, double y) {
   if (points.count++ == 0) {
     points.extent = {x, y, x, y};
   }
-  points.extent.take_in(x, y);
+  points.extent.include(x, y);
 }
 
 std::string format_fraction(const CodesFound::Points& points, const CodesFound& found) {
@@ -94,7 +95,7 @@ CodesFound codes_in(const Rectangle& area, const Raster& codes) {
   for (int row = 0; row < codes.rows; ++row) {
     for (int column = 0; column < codes.columns; ++column) {
       const double x = codes.x_of(column), y = codes.y_of(row), code = codes.at(column, row);
-      if (area.holds(x, y)) {
+      if (area.contains(x, y)) {
         ++found.count;
         count(std::isnan(code) ? found.without : found.by_code[code], x, y);
       }
@@ -120,18 +121,18 @@ std::vector<std::string> warnings_of_codes(const Rectangle& domain, const std::s
   std::vector<std::string> warnings;
   for (const auto& [code, points] : found.by_code) {
     if (named.count(code) == 0) {
-      warnings.push_back(fmt::format("the code {:g} of {} ({}) belongs to no substrate: [basal] holds there", code,
+      warnings.push_back(fmt::format("the code {:g} of {} ({}) belongs to no substrate: [basal] applies there", code,
                                      name, format_fraction(points, found)));
     }
   }
   if (found.without.count > 0) {
-    warnings.push_back(fmt::format("{} has no data at {} of its points in the domain ({}): [basal] holds there", name,
+    warnings.push_back(fmt::format("{} has no data at {} of its points in the domain ({}): [basal] applies there", name,
                                    found.without.count, format_fraction(found.without, found)));
   }
   const Rectangle covered = span_of_points(codes).widened(0.5 * codes.cell_x, 0.5 * codes.cell_y);
   if (const std::string beyond = describe_overhang(domain, covered); !beyond.empty()) {
-    warnings.push_back(
-        fmt::format("{} does not cover the domain, which reaches beyond it by {}: [basal] holds there", name, beyond));
+    warnings.push_back(fmt::format("{} does not cover the domain, which reaches beyond it by {}: [basal] applies there",
+                                   name, beyond));
   }
   return warnings;
 }

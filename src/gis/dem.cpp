@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/rounding.hpp"
 #include "config/input_limits.hpp"
 #include "gis/error_location.hpp"
 #include "gis/pits.hpp"
@@ -27,7 +28,7 @@ std::string system_of(const config::Case& parameters, const RasterFile& file, st
   const std::string system = with_error_location(parameters, given.empty() ? "terrain.file" : "terrain.crs", [&] {
     return metric_system({file.file(), file.extent(), layout.cell_x, layout.cell_y}, layout.crs, given);
   });
-  if (const std::string warning = place_warning({file.file(), file.extent(), layout.cell_x, layout.cell_y}, system);
+  if (const std::string warning = location_warning({file.file(), file.extent(), layout.cell_x, layout.cell_y}, system);
       !warning.empty()) {
     warnings.push_back(warning);
   }
@@ -48,9 +49,10 @@ void check_elevations(const config::Case& parameters, const RasterFile& file, co
       const bool is_elevation = z >= deepest && z <= highest && z != -9999.0;
       if (!std::isnan(z) && !is_elevation) {
         fail_at(parameters, "terrain.file",
-                fmt::format("{}: the elevation at {:.10g}, {:.10g} is {:g} m, which is none on Earth. If it stands for "
-                            "no data, say so in the file: gdal_translate -a_nodata {:.9g} {} with-nodata.tif",
-                            file.file(), raster.x_of(column), raster.y_of(row), z, z, file.file()));
+                fmt::format("{}: the elevation at {}, {} is {:g} m, which is impossible on Earth. If it represents "
+                            "missing data, declare it in the file: gdal_translate -a_nodata {:.9g} {} with-nodata.tif",
+                            file.file(), coordinate_text(raster.x_of(column)), coordinate_text(raster.y_of(row)), z, z,
+                            file.file()));
       }
     }
   }
@@ -127,22 +129,22 @@ Raster read_and_resample(const config::Case& parameters, const RasterFile& file,
 // Rectangles around the polygons of releases and around boxes. Unreadable files are reported when the release is
 // loaded.
 std::vector<Rectangle> places_of_bodies(const config::Case& parameters, const std::string& crs) {
-  std::vector<Rectangle> places;
+  std::vector<Rectangle> extents;
   for (const auto& [name, body] : parameters.bodies) {
     if (body.shape == config::BodyShape::box) {
-      places.push_back({body.min[0], body.min[1], body.max[0], body.max[1]});
+      extents.push_back({body.min[0], body.min[1], body.max[0], body.max[1]});
     } else if (!body.release.empty()) {
       try {
         for (const Feature& feature :
              features_named(read_polygons(body.release, crs), body.polygons, body.name_attribute)) {
-          places.push_back(extent_of(feature.polygons));
+          extents.push_back(extent_of(feature.polygons));
         }
       } catch (const UserError&) {
         return {};
       }
     }
   }
-  return places;
+  return extents;
 }
 
 // Points interpolated between those of the file have no noise themselves.
@@ -167,7 +169,7 @@ Dem load_dem(const config::Case& parameters, std::vector<std::string>& warnings)
   const Raster& layout = terrain.resample > 0.0 ? made : file.layout();
   if (layout.columns < 2 || layout.rows < 2) {
     fail_at(parameters, terrain.resample > 0.0 ? "terrain.resample" : "terrain.file",
-            fmt::format("{} has {} x {} points {:.6g} m apart; needed: at least 2 x 2. Take a larger DEM, or "
+            fmt::format("{} has {} x {} points {:.6g} m apart; needed: at least 2 x 2. Use a larger DEM, or "
                         "a smaller distance.",
                         file.file(), layout.columns, layout.rows, layout.cell_x));
   }

@@ -5,10 +5,11 @@
 namespace thawslide::gis {
 
 void fail_at(const config::Case& parameters, const std::string& key, const std::string& message) {
-  const std::string& place = config::place_of(parameters, key);
+  const std::string& location = config::location_of(parameters, key);
   // A command option such as --dem is sufficient; a location in a file and --set need the key.
-  const bool is_option = place.rfind("--", 0) == 0 && place.rfind("--set", 0) != 0;
-  throw UserError(is_option ? fmt::format("{}: {}", place, message) : fmt::format("{}: {}: {}", place, key, message));
+  const bool is_option = location.rfind("--", 0) == 0 && location.rfind("--set", 0) != 0;
+  throw UserError(is_option ? fmt::format("{}: {}", location, message)
+                            : fmt::format("{}: {}: {}", location, key, message));
 }
 
 void add_warning(const std::string& warning, std::vector<std::string>& warnings) {
@@ -37,8 +38,9 @@ std::string describe_overhang(const Rectangle& inner, const Rectangle& outer) {
 }
 
 std::string format_range(const Rectangle& rectangle) {
-  return fmt::format("x from {:.10g} to {:.10g}, y from {:.10g} to {:.10g}", rectangle.min_x, rectangle.max_x,
-                     rectangle.min_y, rectangle.max_y);
+  return fmt::format("x from {} to {}, y from {} to {}", coordinate_text(rectangle.min_x),
+                     coordinate_text(rectangle.max_x), coordinate_text(rectangle.min_y),
+                     coordinate_text(rectangle.max_y));
 }
 
 Rectangle domain_of(const config::Case& parameters) {

@@ -1,15 +1,52 @@
 #include "gis/gdal_messages.hpp"
 
+#include <cpl_conv.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <gdal.h>
+#include <link.h>
+#include <ogr_srs_api.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 namespace thawslide::gis {
 
+namespace {
+
+// Returns the folder of the file that contains this code: the program, or the extension module of the Python package.
+std::filesystem::path folder_of_code() {
+  static const char in_this_file = 0;
+  Dl_info symbol{};
+  void* entry = nullptr;
+  if (dladdr1(&in_this_file, &symbol, &entry, RTLD_DL_LINKMAP) == 0) {
+    return {};
+  }
+  const std::string name = static_cast<const link_map*>(entry)->l_name;  // empty for the program
+  std::error_code error;
+  return std::filesystem::canonical(name.empty() ? "/proc/self/exe" : name, error).parent_path();
+}
+
+// A repaired wheel contains PROJ and GDAL with their data. They precede those of the system and of the environment,
+// which belong to other versions. Environment variables would also affect the rasterio package.
+void use_packaged_data() {
+  const std::filesystem::path share = folder_of_code() / "share";
+  std::error_code error;
+  if (std::filesystem::exists(share / "proj" / "proj.db", error)) {
+    const std::string folder = (share / "proj").string();
+    const char* const folders[] = {folder.c_str(), nullptr};
+    OSRSetPROJSearchPaths(folders);
+    CPLSetConfigOption("GDAL_DATA", (share / "gdal").c_str());
+  }
+}
+
+}  // namespace
+
 GdalMessages::GdalMessages() {
-  CPLPushErrorHandlerEx(&GdalMessages::take, this);
+  CPLPushErrorHandlerEx(&GdalMessages::collect, this);
   static const bool registered = [] {
+    use_packaged_data();
     GDALAllRegister();
     return true;
   }();
@@ -18,7 +55,7 @@ GdalMessages::GdalMessages() {
 
 GdalMessages::~GdalMessages() { CPLPopErrorHandler(); }
 
-void CPL_STDCALL GdalMessages::take(CPLErr severity, CPLErrorNum, const char* text) {
+void CPL_STDCALL GdalMessages::collect(CPLErr severity, CPLErrorNum, const char* text) {
   auto* self = static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
   if (severity < CE_Warning) {
     return;
@@ -48,11 +85,6 @@ std::string GdalMessages::after(const std::string& words) const {
     }
   }
   return "";
-}
-
-bool GdalMessages::mention(const std::string& words) const {
-  return std::any_of(texts_.begin(), texts_.end(),
-                     [&](const std::string& text) { return text.find(words) != std::string::npos; });
 }
 
 }  // namespace thawslide::gis

@@ -22,11 +22,10 @@ class GdalMessages {
   [[nodiscard]] std::string reason() const;
   // Rest of the first message that contains `words`, after them; empty if there is none.
   [[nodiscard]] std::string after(const std::string& words) const;
-  [[nodiscard]] bool mention(const std::string& words) const;
   [[nodiscard]] bool any_error() const { return any_error_; }
 
  private:
-  static void CPL_STDCALL take(CPLErr severity, CPLErrorNum number, const char* text);
+  static void CPL_STDCALL collect(CPLErr severity, CPLErrorNum number, const char* text);
   std::vector<std::string> texts_;
   bool any_error_ = false;
 };

@@ -51,7 +51,7 @@ std::string holes_warning(const config::Case& parameters, const config::Site& si
   for (int row = 0; row < ground.rows; ++row) {
     for (int column = 0; column < ground.columns; ++column) {
       const double x = ground.x_of(column), y = ground.y_of(row);
-      if (!domain.holds(x, y)) {
+      if (!domain.contains(x, y)) {
         continue;
       }
       ++points;

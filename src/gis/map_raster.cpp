@@ -12,14 +12,14 @@ Raster read_map(const config::Case& parameters, const MapRequest& request, std::
     const LikelySystem system = likely_system(request.file, file.layout().crs, file.extent(), request.crs);
     add_warning(system.warning, warnings);
     add_warning(file.conversion().warning, warnings);
-    const bool same_place = Reprojection(system.wkt, request.crs).changes_nothing();
-    if (same_place && request.area && !request.area->touches(span_of_points(file.layout()))) {
+    const bool same_system = Reprojection(system.wkt, request.crs).changes_nothing();
+    if (same_system && request.area && !request.area->touches(span_of_points(file.layout()))) {
       throw UserError(fmt::format(
           "{}: the raster ({}) does not reach {} ({}). Check that both are in the same place and reference "
           "system.",
           request.file, format_range(span_of_points(file.layout())), request.reason, format_range(*request.area)));
     }
-    Raster raster = file.read(same_place ? request.area : std::nullopt);
+    Raster raster = file.read(same_system ? request.area : std::nullopt);
     raster.crs = system.wkt;
     return raster;
   });

@@ -11,9 +11,6 @@ namespace thawslide::gis {
 
 namespace {
 
-constexpr Color viridis[] = {{68, 1, 84},    {71, 44, 122}, {59, 81, 139},  {44, 113, 142}, {33, 144, 141},
-                             {39, 173, 129}, {92, 200, 99}, {170, 220, 50}, {253, 231, 37}};
-
 constexpr const char* opening = "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n";
 
 std::string escaped(const std::string& text) {
@@ -71,6 +68,17 @@ std::string symbol_layer(const VectorStyle& style) {
   return "";
 }
 
+// "below 1 m", "1 to 2 m", "above 2 m".
+std::string class_label(double low, double high, const RasterStyle& style) {
+  const std::string unit = style.unit.empty() ? "" : " " + style.unit;
+  const auto number = [&](double value) { return fmt::format("{:g}", value / style.unit_size); };
+  if (!std::isfinite(high)) {
+    return fmt::format("above {}{}", number(low), unit);
+  }
+  return std::isfinite(low) ? fmt::format("{} to {}{}", number(low), number(high), unit)
+                            : fmt::format("below {}{}", number(high), unit);
+}
+
 std::string labels(const std::string& attribute) {
   return fmt::format(
       " <labeling type=\"simple\">\n  <settings calloutType=\"simple\">\n"
@@ -81,49 +89,33 @@ std::string labels(const std::string& attribute) {
 
 }  // namespace
 
-std::vector<ColorStop> even_stops(double low, double high) {
-  std::vector<ColorStop> stops;
-  constexpr auto last = static_cast<double>(std::size(viridis) - 1);
-  for (std::size_t k = 0; k < std::size(viridis); ++k) {
-    stops.push_back({low + (high - low) * static_cast<double>(k) / last, viridis[k]});
-  }
-  return stops;
-}
-
-std::vector<ColorStop> diverging_stops(double largest) {
-  return {{-largest, {0, 114, 178}}, {0.0, {247, 247, 247}}, {largest, {213, 94, 0}}};
-}
-
-void write_raster_style(const std::string& file, const std::vector<ColorStop>& stops, const std::string& unit,
-                        double nothing_below) {
-  THAWSLIDE_ASSERT(stops.size() >= 2, "{} stops of colour", stops.size());
+void write_raster_style(const std::string& file, const RasterStyle& style) {
+  THAWSLIDE_ASSERT(style.classes.size() >= 2, "{} classes of colour", style.classes.size());
   std::string items;
-  const auto add = [&](double value, const Color& color, int alpha) {
-    items += fmt::format(
-        "     <item value=\"{0:.9g}\" label=\"{0:.4g}{1}\" color=\"#{2:02x}{3:02x}{4:02x}\" alpha=\"{5}\"/>\n", value,
-        unit.empty() ? "" : " " + escaped(unit), color[0], color[1], color[2], alpha);
-  };
-  for (const ColorStop& stop : stops) {
-    add(stop.value, stop.color, 255);
+  double low = style.lowest;
+  for (const ColorClass& each : style.classes) {
+    items += fmt::format("     <item value=\"{}\" label=\"{}\" color=\"#{:02x}{:02x}{:02x}\" alpha=\"{}\"/>\n",
+                         std::isfinite(each.upper) ? fmt::format("{:.9g}", each.upper) : "inf",
+                         escaped(class_label(low, each.upper, style)), each.color[0], each.color[1], each.color[2],
+                         each.is_drawn ? 255 : 0);
+    low = each.upper;
   }
-  const double low = stops.front().value, high = stops.back().value;
+  const double first = std::isfinite(style.lowest) ? style.lowest : style.classes.front().upper;
+  const double last = style.classes[style.classes.size() - 2].upper;
   // QGIS does not draw values listed in `rasterTransparency`.
-  const std::string left_out =
-      std::isfinite(nothing_below)
-          ? fmt::format(
-                "   <rasterTransparency>\n    <singleValuePixelList>\n     <pixelListEntry min=\"-1e+38\" "
-                "max=\"{:.9g}\" percentTransparent=\"100\"/>\n    </singleValuePixelList>\n"
-                "   </rasterTransparency>\n",
-                nothing_below)
-          : "";
+  const char* const left_out = style.hides_zero
+                                   ? "   <rasterTransparency>\n    <singleValuePixelList>\n     <pixelListEntry "
+                                     "min=\"-1e+38\" max=\"0\" percentTransparent=\"100\"/>\n"
+                                     "    </singleValuePixelList>\n   </rasterTransparency>\n"
+                                   : "";
   write_file_atomically(
       file, fmt::format("{}<qgis version=\"3.22\" styleCategories=\"Symbology\">\n <pipe>\n"
                         "  <rasterrenderer type=\"singlebandpseudocolor\" band=\"1\" opacity=\"0.85\" "
                         "classificationMin=\"{:.9g}\" classificationMax=\"{:.9g}\" nodataColor=\"\" alphaBand=\"-1\">\n"
-                        "{}   <rastershader>\n    <colorrampshader colorRampType=\"INTERPOLATED\" "
+                        "{}   <rastershader>\n    <colorrampshader colorRampType=\"DISCRETE\" "
                         "classificationMode=\"1\" clip=\"0\" minimumValue=\"{:.9g}\" maximumValue=\"{:.9g}\">\n{}"
                         "    </colorrampshader>\n   </rastershader>\n  </rasterrenderer>\n </pipe>\n</qgis>\n",
-                        opening, low, high, left_out, low, high, items));
+                        opening, first, last, left_out, first, last, items));
 }
 
 std::string vector_style(const VectorStyle& style) {
@@ -138,10 +130,6 @@ std::string vector_style(const VectorStyle& style) {
       " </renderer-v2>\n{} <layerGeometryType>{}</layerGeometryType>\n</qgis>\n",
       opening, style.label.empty() ? 0 : 1, symbols[kind], symbol_layer(style),
       style.label.empty() ? "" : labels(style.label), geometries[kind]);
-}
-
-void write_vector_style(const std::string& file, const VectorStyle& style) {
-  write_file_atomically(file, vector_style(style));
 }
 
 }  // namespace thawslide::gis

@@ -11,24 +11,22 @@ namespace thawslide::gis {
 
 using Color = std::array<std::uint8_t, 3>;  // red, green, blue
 
-struct ColorStop {
-  double value = 0.0;
+// Class of values up to `upper`, above those of the class before it.
+struct ColorClass {
+  double upper = 0.0;  // infinity: all larger values
   Color color{};
+  bool is_drawn = true;  // false: transparent
 };
 
-// Stops at equal intervals from `low` to `high`, dark violet to yellow. Lightness increases monotonically, and the
-// colours remain distinct in red-green colour blindness (the map "viridis", van der Walt and Smith 2015, in nine
-// colours).
-[[nodiscard]] std::vector<ColorStop> even_stops(double low, double high);
+struct RasterStyle {
+  std::vector<ColorClass> classes;  // by increasing upper limit
+  double lowest = 0.0;              // lower limit of the first class; -infinity: none
+  std::string unit;                 // of the labels; empty: none
+  double unit_size = 1.0;           // in units of the map
+  bool hides_zero = false;          // values of 0 and below are transparent
+};
 
-// Stops for signed quantities: blue at -largest, nearly white at 0, vermilion at largest (Okabe and Ito 2008, Color
-// universal design).
-[[nodiscard]] std::vector<ColorStop> diverging_stops(double largest);
-
-// Colours are interpolated between the stops. `stops`: at least two, by increasing value. Values at and below
-// `nothing_below` are not drawn; -infinity: all are.
-void write_raster_style(const std::string& file, const std::vector<ColorStop>& stops, const std::string& unit,
-                        double nothing_below);
+void write_raster_style(const std::string& file, const RasterStyle& style);
 
 enum class LayerKind { polygons, lines, points };
 
@@ -42,6 +40,5 @@ struct VectorStyle {
 
 // Text of a style file, which a GeoPackage layer can also contain.
 [[nodiscard]] std::string vector_style(const VectorStyle& style);
-void write_vector_style(const std::string& file, const VectorStyle& style);
 
 }  // namespace thawslide::gis

@@ -32,7 +32,7 @@ class Patches {
     for (int row = 0; row < ground_.rows; ++row) {
       for (int column = 0; column < ground_.columns; ++column) {
         if (begins_patch(column, row)) {
-          take_patch(column, row);
+          add_patch(column, row);
         }
       }
     }
@@ -40,19 +40,19 @@ class Patches {
   }
 
  private:
-  struct Place {
+  struct Cell {
     int column = 0, row = 0;
   };
 
   // Calls work(column, row, distance) for the known neighbours of a point.
   template <class Work>
-  void for_each_neighbour(const Place& place, const Work& work) const {
-    constexpr std::array<Place, 4> directions{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
-    for (const Place& way : directions) {
-      const int column = place.column + way.column, row = place.row + way.row;
+  void for_each_neighbour(const Cell& cell, const Work& work) const {
+    constexpr std::array<Cell, 4> directions{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+    for (const Cell& direction : directions) {
+      const int column = cell.column + direction.column, row = cell.row + direction.row;
       const bool inside = column >= 0 && column < ground_.columns && row >= 0 && row < ground_.rows;
       if (inside && !std::isnan(ground_.at(column, row))) {
-        work(column, row, way.row == 0 ? ground_.cell_x : ground_.cell_y);
+        work(column, row, direction.row == 0 ? ground_.cell_x : ground_.cell_y);
       }
     }
   }
@@ -74,19 +74,19 @@ class Patches {
   }
 
   // Collects all points of the same value connected to this one.
-  void take_patch(int first_column, int first_row) {
+  void add_patch(int first_column, int first_row) {
     const double height = ground_.at(first_column, first_row);
     Apart patch;
     patch.x = ground_.x_of(first_column);
     patch.y = ground_.y_of(first_row);
     bool cliffs_about = true;
-    std::vector<Place> open{{first_column, first_row}};
+    std::vector<Cell> open{{first_column, first_row}};
     seen_[ground_.index(first_column, first_row)] = 1;
     while (!open.empty()) {
-      const Place place = open.back();
+      const Cell cell = open.back();
       open.pop_back();
       ++patch.points;
-      for_each_neighbour(place, [&](int column, int row, double distance) {
+      for_each_neighbour(cell, [&](int column, int row, double distance) {
         const double other = ground_.at(column, row);
         if (other != height) {
           cliffs_about = cliffs_about && is_cliff(height, other, distance);
@@ -136,7 +136,7 @@ std::string pits_warning(const std::string& file, const Raster& ground) {
   const std::string path = std::filesystem::path(file).filename().string();
   return fmt::format(
       "{} point{} of {} {} exactly {:.9g} m among heights of {:.0f} to {:.0f} m, such as ({:.0f}, {:.0f}): a hole "
-      "without data? Then say so in the file, gdal_edit.py -a_nodata {:.9g} {}, or fill it",
+      "without data? Then declare it in the file, gdal_edit.py -a_nodata {:.9g} {}, or fill it",
       most.points, most.points == 1 ? "" : "s", path, most.points == 1 ? "is" : "are", value, most.lowest, most.highest,
       most.x, most.y, value, file);
 }

@@ -24,8 +24,8 @@ PointWindow points_in(const Raster& layout, const Rectangle& rectangle) {
 }
 
 PointWindow points_of(const Raster& part, const Raster& layout) {
-  const auto range = [](double place, int part_count, int count, int& begin, int& number) {
-    const auto first = static_cast<int>(std::lround(place));
+  const auto range = [](double coordinate, int part_count, int count, int& begin, int& number) {
+    const auto first = static_cast<int>(std::lround(coordinate));
     begin = std::max(first, 0);
     number = std::max(std::min(first + part_count, count) - begin, 0);
   };

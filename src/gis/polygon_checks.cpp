@@ -39,10 +39,9 @@ void check_polygons(const VectorLayer& layer) {
                         "Geometry Tools > Check Validity).",
                         layer.file, feature.title, crossing));
       }
-      throw UserError(
-          fmt::format("{}: {} is no valid polygon{}. Correct its outline (QGIS: Vector > Geometry Tools > "
-                      "Check Validity).",
-                      layer.file, feature.title, messages.remark()));
+      throw UserError(fmt::format(
+          "{}: {} is not a valid polygon{}. Correct its outline (QGIS: Vector > Geometry Tools > Check Validity).",
+          layer.file, feature.title, messages.remark()));
     }
   }
 }

@@ -42,7 +42,7 @@ Rectangle extent_of(const Polyline2& line) {
   THAWSLIDE_ASSERT(!line.empty(), "a line without corners");
   Rectangle extent{line[0][0], line[0][1], line[0][0], line[0][1]};
   for (const auto& corner : line) {
-    extent.take_in(corner[0], corner[1]);
+    extent.include(corner[0], corner[1]);
   }
   return extent;
 }
@@ -52,8 +52,8 @@ Rectangle extent_of(const Polygons& polygons) {
   Rectangle extent = extent_of(polygons.front().outline);
   for (const Polygon& polygon : polygons) {
     const Rectangle one = extent_of(polygon.outline);
-    extent.take_in(one.min_x, one.min_y);
-    extent.take_in(one.max_x, one.max_y);
+    extent.include(one.min_x, one.min_y);
+    extent.include(one.max_x, one.max_y);
   }
   return extent;
 }
@@ -122,6 +122,20 @@ Polygons areas_of(const OGRGeometry& geometry) {
     }
   }
   return areas;
+}
+
+Polygons polygons_of_rings(const std::vector<Polyline2>& rings) {
+  const GdalMessages messages;
+  std::vector<OGRGeometry*> parts;  // organizePolygons takes ownership
+  for (const Polyline2& ring : rings) {
+    parts.push_back(to_geometry(Polygon{ring, {}}).clone());
+  }
+  if (parts.empty()) {
+    return {};
+  }
+  const std::unique_ptr<OGRGeometry> areas(
+      OGRGeometryFactory::organizePolygons(parts.data(), static_cast<int>(parts.size()), nullptr, nullptr));
+  return areas_of(*areas);
 }
 
 Polygons union_of(const Polygons& polygons) {

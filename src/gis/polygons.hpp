@@ -28,6 +28,9 @@ using Polygons = std::vector<Polygon>;
 [[nodiscard]] Rectangle extent_of(const Polygons& polygons);
 [[nodiscard]] Rectangle extent_of(const Polyline2& line);
 
+// Areas bounded by closed rings, in which a ring inside another one is a hole.
+[[nodiscard]] Polygons polygons_of_rings(const std::vector<Polyline2>& rings);
+
 // Union: areas covered several times count once (GEOS).
 [[nodiscard]] Polygons union_of(const Polygons& polygons);
 // Area covered by both (GEOS).

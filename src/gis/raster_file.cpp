@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <limits>
 
@@ -15,6 +14,7 @@
 #include "config/input_limits.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/spatial_reference.hpp"
+#include "gis/unreadable_files.hpp"
 
 namespace thawslide::gis {
 
@@ -32,6 +32,9 @@ namespace {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
     throw UserError(fmt::format("{}: there is no such file. Correct the path.", file));
+  }
+  if (const std::string cause = cause_of_unreadable_raster(file); !cause.empty()) {
+    throw UserError(fmt::format("{}: {}", file, cause));
   }
   throw UserError(
       fmt::format("{}: the raster cannot be opened{}. Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is "
@@ -100,11 +103,11 @@ Raster layout_from(const std::string& file, GDALDataset& dataset, bool& north_up
   layout.x = transform[0] + 0.5 * layout.cell_x;
   layout.y = (north_up ? transform[3] - layout.rows * layout.cell_y : transform[3]) + 0.5 * layout.cell_y;
   layout.crs = wkt_from_reference(dataset.GetSpatialRef());
-  const double place[] = {layout.x, layout.y, layout.x_end(), layout.y_end(), layout.cell_x, layout.cell_y};
-  if (!std::all_of(std::begin(place), std::end(place), [](double number) { return std::isfinite(number); })) {
+  const double point[] = {layout.x, layout.y, layout.x_end(), layout.y_end(), layout.cell_x, layout.cell_y};
+  if (!std::all_of(std::begin(point), std::end(point), [](double number) { return std::isfinite(number); })) {
     throw UserError(
-        fmt::format("{}: the raster lies nowhere (geotransform {:g}): corners and sizes of cells must be "
-                    "finite numbers. Export it again with its place.",
+        fmt::format("{}: the raster has no valid position (geotransform {:g}): corners and sizes of cells must be "
+                    "finite numbers. Export it again with georeferencing.",
                     file, fmt::join(transform, ", ")));
   }
   return layout;
@@ -151,8 +154,8 @@ void require_plain_mask(const std::string& file) {
   }
   GDALDriverH driver = GDALIdentifyDriver(mask.c_str(), nullptr);
   if (driver == nullptr || std::string(GDALGetDescription(driver)) != "GTiff") {
-    throw UserError(fmt::format("{}: the mask of {} is no GeoTIFF. Remove it, or write the raster with its mask again.",
-                                mask, file));
+    throw UserError(fmt::format(
+        "{}: the mask of {} is not a GeoTIFF. Remove it, or write the raster with its mask again.", mask, file));
   }
 }
 
@@ -163,18 +166,17 @@ void require_readable(const std::string& file, double columns, double rows) {
   const double points = columns * rows, bytes = points * sizeof(double) * copies;
   if (points > config::most_raster_points) {
     throw UserError(
-        fmt::format("{}: {:.0f} x {:.0f} points of it are asked for; allowed: {:g} points. Crop it "
-                    "(gdal_translate -projwin), take it to points farther apart (gdalwarp -tr), or make the domain "
-                    "smaller.",
-                    file, columns, rows, config::most_raster_points));
+        fmt::format("{}: {} x {} points of it are needed; allowed: {} points. Crop it (gdal_translate -projwin), "
+                    "resample it to a larger spacing (gdalwarp -tr), or make the domain smaller.",
+                    file, count_text(columns), count_text(rows), count_text(config::most_raster_points)));
   }
   const AvailableMemory available = available_memory();
   if (bytes > available.bytes) {
     throw UserError(fmt::format(
-        "{}: {:.0f} x {:.0f} points of it are asked for; they take {} GB of memory, and {} "
-        "GB {}. Crop it (gdal_translate -projwin), take it to points farther apart (gdalwarp -tr), or make "
-        "the domain smaller.",
-        file, columns, rows, rounded_text(bytes / 1e9), rounded_text(available.bytes / 1e9), available.bound));
+        "{}: {} x {} points of it are needed; they take {} GB of memory, and {} GB {}. Crop it (gdal_translate "
+        "-projwin), resample it to a larger spacing (gdalwarp -tr), or make the domain smaller.",
+        file, count_text(columns), count_text(rows), rounded_text(bytes / 1e9), rounded_text(available.bytes / 1e9),
+        available.bound));
   }
 }
 
@@ -236,6 +238,9 @@ Raster RasterFile::read(const std::optional<Rectangle>& window) const {
       handle_->band->RasterIO(GF_Read, part.first_column, first_line, part.columns, part.rows, first, part.columns,
                               part.rows, GDT_Float64, sizeof(double), north_up_ ? -line_bytes : line_bytes, nullptr);
   if (result != CE_None || messages.any_error()) {
+    if (const std::string cause = cause_of_unreadable_raster(file_); !cause.empty()) {
+      throw UserError(fmt::format("{}: {}", file_, cause));
+    }
     throw UserError(
         fmt::format("{}: the values cannot be read{}. The file seems to be damaged or truncated: copy it again.", file_,
                     messages.remark()));

@@ -222,11 +222,11 @@ std::string reference_system_named(const std::string& text) {
     const std::string with_registry = "EPSG:" + text;
     const bool lacks_registry =
         is_sound_number(with_registry) && reference.SetFromUserInput(with_registry.c_str()) == OGRERR_NONE;
-    throw UserError(fmt::format(
-        "'{}' is no coordinate reference system that is known{} a number of the EPSG registry such as \"EPSG:31287\" "
-        "(epsg.io finds it), or a WKT.",
-        config::shown(text),
-        lacks_registry ? fmt::format("; did you mean \"{}\"? Allowed:", with_registry) : "; allowed:"));
+    throw UserError(
+        fmt::format("'{}' is not a known coordinate reference system{} a number of the EPSG registry such as "
+                    "\"EPSG:31287\" (epsg.io finds it), or a WKT.",
+                    config::shown(text),
+                    lacks_registry ? fmt::format("; did you mean \"{}\"? Allowed:", with_registry) : "; allowed:"));
   }
   return wkt_from_reference(&reference);
 }
@@ -276,8 +276,8 @@ std::string metric_system(const Located& raster, const std::string& wkt_of_file,
   }
   if (reference.IsProjected() == 0) {
     throw UserError(
-        fmt::format("{}: the coordinate reference system '{}' is no map projection; allowed: a projection "
-                    "in metres. Set terrain.crs, such as terrain.crs = \"EPSG:31287\".",
+        fmt::format("{}: the coordinate reference system '{}' is not a map projection; allowed: a projection in "
+                    "metres. Set terrain.crs, such as terrain.crs = \"EPSG:31287\".",
                     raster.file, name_of(wkt)));
   }
   const char* unit = nullptr;
@@ -296,7 +296,7 @@ std::string metric_system(const Located& raster, const std::string& wkt_of_file,
   return wkt_from_reference(&reference);
 }
 
-std::string place_warning(const Located& raster, const std::string& wkt) {
+std::string location_warning(const Located& raster, const std::string& wkt) {
   constexpr double far = 1000.0, kilometres_per_degree = 111.2;  // [km]; along a meridian
   const GdalMessages messages;
   const OGRSpatialReference given = reference_from_wkt(wkt);

@@ -35,6 +35,6 @@ void require_projection_database();
                                         const std::string& terrain_crs);
 
 // Warning if a raster lies far outside the area of use of its system; empty otherwise.
-[[nodiscard]] std::string place_warning(const Located& raster, const std::string& wkt);
+[[nodiscard]] std::string location_warning(const Located& raster, const std::string& wkt);
 
 }  // namespace thawslide::gis

@@ -46,29 +46,29 @@ void check_volume(const config::Case& parameters, const std::string& name, const
   if (!(volume > 0.0)) {
     fail_at(parameters, key_of(name, "thickness"),
             fmt::format("{}: the release has no volume: its thickness is 0 everywhere. Needed: a thickness in metres.",
-                        file_of_place(parameters, name)));
+                        area_file(parameters, name)));
   }
   const double largest = parameters.bodies.at(name).largest_volume;
   if (volume > largest) {
-    fail_at(parameters, key_of_place(parameters, name),
+    fail_at(parameters, area_key(parameters, name),
             fmt::format("{}: the release has {} m3, is up to {} m thick, and body.{}.largest_volume allows {} m3. Is "
                         "the thickness in the wrong unit? Metres are needed. If the volume is right, confirm it by a "
                         "larger body.{}.largest_volume.",
-                        file_of_place(parameters, name), rounded_text(volume, 3), rounded_text(most, 3), name,
+                        area_file(parameters, name), rounded_text(volume, 3), rounded_text(most, 3), name,
                         rounded_text(largest, 3), name));
   }
 }
 
 // A thickness in a wrong unit makes a release implausibly tall.
-void warn_of_tower(const std::string& name, const config::Release& release, std::vector<std::string>& warnings) {
-  constexpr double share_of_width = 0.5;
+void warn_of_thick_release(const std::string& name, const config::Release& release,
+                           std::vector<std::string>& warnings) {
+  constexpr double fraction_of_width = 0.5;
   const double width = std::sqrt(release.area);
   const double most = *std::max_element(release.thickness.values.begin(), release.thickness.values.end());
-  if (most > share_of_width * width) {
-    warnings.push_back(
-        fmt::format("the release of the body {} is up to {:.4g} m thick and, by its area, {:.4g} m wide: is the "
-                    "thickness in metres?",
-                    name, most, width));
+  if (most > fraction_of_width * width) {
+    warnings.push_back(fmt::format(
+        "the release of the body {} is up to {} m thick and, by its area, {} m wide: is the thickness in metres?", name,
+        rounded_text(most, 3), rounded_text(width, 3)));
   }
 }
 
@@ -87,11 +87,11 @@ LoadedRelease load_release(const config::Case& parameters, const std::string& bo
     release.outlines.push_back(polygon.outline);
     release.outlines.insert(release.outlines.end(), polygon.holes.begin(), polygon.holes.end());
   }
-  loaded.polygons = area.is_raster() ? areas_of_mask(area.share) : std::move(area.polygons);
+  loaded.polygons = area.is_raster() ? areas_of_mask(area.fraction) : std::move(area.polygons);
   release.area = area_of(loaded.polygons);
-  warn_of_tower(body, release, warnings);
-  loaded.spread = tapered(area.share, parameters.bodies.at(body).taper);
-  loaded.share = std::move(area.share);
+  warn_of_thick_release(body, release, warnings);
+  loaded.spread = tapered(area.fraction, parameters.bodies.at(body).taper);
+  loaded.fraction = std::move(area.fraction);
   return loaded;
 }
 

@@ -15,7 +15,7 @@ namespace thawslide::gis {
 struct LoadedRelease {
   config::Release release;
   Polygons polygons;  // covered area; for a raster, the cells around its points
-  Raster share;       // covered fraction of each point's cell
+  Raster fraction;    // covered fraction of each point's cell
   Raster spread;      // the same, distributed by the taper like the thickness
 };
 

@@ -37,13 +37,13 @@ Raster points_about(const Rectangle& extent, double taper, const Raster& ground)
 }
 
 // `extent`: of all positive thickness before tapering.
-void check_place(const config::Case& parameters, const std::string& body, const Rectangle& extent, const Dem& ground) {
+void check_area(const config::Case& parameters, const std::string& body, const Rectangle& extent, const Dem& ground) {
   const auto check = [&](const char* what, const Rectangle& outer, const std::string& remedy) {
     const std::string beyond = describe_overhang(extent, outer);
     if (!beyond.empty()) {
-      fail_at(parameters, key_of_place(parameters, body),
+      fail_at(parameters, area_key(parameters, body),
               fmt::format("{}: the release lies {}outside {}, by {}; found: {}; allowed: {}. {}",
-                          file_of_place(parameters, body), extent.touches(outer) ? "partly " : "", what, beyond,
+                          area_file(parameters, body), extent.touches(outer) ? "partly " : "", what, beyond,
                           format_range(extent), format_range(outer), remedy));
     }
   };
@@ -56,7 +56,9 @@ void check_place(const config::Case& parameters, const std::string& body, const 
 
 // Widest taper whose points lie within `outer`, around an extent that does.
 double widest_taper(const Rectangle& extent, const Rectangle& outer, const Raster& ground) {
-  const auto along = [](double room, double cell) { return 2.0 * (std::floor(room / cell + 1e-9) + 1.0) * cell; };
+  const auto along = [](double available, double cell) {
+    return 2.0 * (std::floor(available / cell + 1e-9) + 1.0) * cell;
+  };
   return std::min({along(extent.min_x - outer.min_x, ground.cell_x), along(outer.max_x - extent.max_x, ground.cell_x),
                    along(extent.min_y - outer.min_y, ground.cell_y), along(outer.max_y - extent.max_y, ground.cell_y)});
 }
@@ -94,14 +96,14 @@ void check_size(const config::Case& parameters, const std::string& body, double 
   }
 }
 
-void warn_of_narrow(const std::string& body, const Raster& share, std::vector<std::string>& warnings) {
-  const double most = *std::max_element(share.values.begin(), share.values.end());
+void warn_of_narrow(const std::string& body, const Raster& fraction, std::vector<std::string>& warnings) {
+  const double most = *std::max_element(fraction.values.begin(), fraction.values.end());
   if (most < 0.995) {
     warnings.push_back(
-        fmt::format("the release of the body {} covers no cell of the DEM, {:g} m x {:g} m, as a whole: it is "
-                    "spread over cells that it covers in part, and gets up to {:.0f} % of the thickness given; the "
-                    "volume stays. Draw it larger, or resample the DEM",
-                    body, share.cell_x, share.cell_y, 100.0 * most));
+        fmt::format("the release of the body {} covers no cell of the DEM, {:g} m x {:g} m, as a whole. It is spread "
+                    "over partly covered cells, and receives up to {:.0f} % of the given thickness. The volume is "
+                    "preserved. Draw it larger, or resample the DEM",
+                    body, fraction.cell_x, fraction.cell_y, 100.0 * most));
   }
 }
 
@@ -133,7 +135,7 @@ Rectangle extent_of_positive(const config::Body& body, const Raster& source, con
   }
   Rectangle extent{x[0], y[0], x[0], y[0]};
   for (std::size_t k = 0; k < x.size(); ++k) {
-    extent.take_in(x[k], y[k]);
+    extent.include(x[k], y[k]);
   }
   return extent;
 }
@@ -146,9 +148,9 @@ Raster finer_above(const Raster& surface, const Raster& ground, double tolerance
   for (double& value : known.values) {
     value = std::isnan(value) ? 0.0 : 1.0;
   }
-  const Raster share = averaged(known, ground, Missing::zero);
+  const Raster fraction = averaged(known, ground, Missing::zero);
   for (std::size_t k = 0; k < above.values.size(); ++k) {
-    above.values[k] = above.values[k] > tolerance ? above.values[k] * share.values[k] : 0.0;
+    above.values[k] = above.values[k] > tolerance ? above.values[k] * fraction.values[k] : 0.0;
   }
   return above;
 }
@@ -157,10 +159,10 @@ Raster finer_above(const Raster& surface, const Raster& ground, double tolerance
 // the surface's own points, because its elevations there belong to other positions.
 Raster coarser_above(const Raster& surface, const Raster& ground, double tolerance) {
   Raster above = above_ground(sampled(surface, ground, Missing::unknown), ground);
-  const Raster shares = sampled(above_ground(surface, ground), ground, Missing::zero);
+  const Raster fractions = sampled(above_ground(surface, ground), ground, Missing::zero);
   for (std::size_t k = 0; k < above.values.size(); ++k) {
     const bool at_rim = std::isnan(above.values[k]) && !std::isnan(ground.values[k]);
-    const double height = at_rim ? shares.values[k] : above.values[k];
+    const double height = at_rim ? fractions.values[k] : above.values[k];
     above.values[k] = height > tolerance ? height : 0.0;
   }
   return above;
@@ -171,7 +173,7 @@ Raster thickness_without_polygons(const config::Case& parameters, const std::str
                                   std::vector<std::string>& warnings) {
   const config::MapValue& thickness = parameters.bodies.at(name).thickness;
   Raster map = read_map(
-      parameters, {key_of_place(parameters, name), thickness.source, Quantity::length, ground.raster.crs, std::nullopt},
+      parameters, {area_key(parameters, name), thickness.source, Quantity::length, ground.raster.crs, std::nullopt},
       warnings);
   if (thickness.from == config::MapValue::From::raster) {
     return map;
@@ -185,19 +187,19 @@ Raster thickness_without_polygons(const config::Case& parameters, const std::str
 ReleaseArea area_of_raster(const config::Case& parameters, const std::string& name, const Dem& ground,
                            std::vector<std::string>& warnings) {
   const config::Body& body = parameters.bodies.at(name);
-  const std::string key = key_of_place(parameters, name);
+  const std::string key = area_key(parameters, name);
   ReleaseArea area;
   area.source = thickness_without_polygons(parameters, name, ground, warnings);
   const Rectangle extent =
       with_error_location(parameters, key, [&] { return extent_of_positive(body, area.source, ground.raster.crs); });
-  check_place(parameters, name, extent, ground);
+  check_area(parameters, name, extent, ground);
   check_taper(parameters, name, extent, ground);
   const Rectangle reached = extent.widened(area.source.cell_x, area.source.cell_y);
-  area.share = with_error_location(parameters, key, [&] {
+  area.fraction = with_error_location(parameters, key, [&] {
     return sampled(area.source, points_about(reached, body.taper, ground.raster), Missing::zero);
   });
-  for (double& share : area.share.values) {
-    share = share > 0.0 ? 1.0 : 0.0;
+  for (double& fraction : area.fraction.values) {
+    fraction = fraction > 0.0 ? 1.0 : 0.0;
   }
   return area;
 }
@@ -218,11 +220,11 @@ ReleaseArea area_of_polygons(const config::Case& parameters, const std::string& 
   }
   area.polygons = union_of(all);
   const Rectangle extent = extent_of(area.polygons);
-  check_place(parameters, name, extent, ground);
+  check_area(parameters, name, extent, ground);
   check_taper(parameters, name, extent, ground);
   check_size(parameters, name, area_of(area.polygons), ground.raster);
-  area.share = coverage_of(area.polygons, points_about(extent, body.taper, ground.raster));
-  warn_of_narrow(name, area.share, warnings);
+  area.fraction = coverage_of(area.polygons, points_about(extent, body.taper, ground.raster));
+  warn_of_narrow(name, area.fraction, warnings);
   return area;
 }
 
@@ -230,11 +232,11 @@ ReleaseArea area_of_polygons(const config::Case& parameters, const std::string& 
 
 std::string key_of(const std::string& body, const std::string& name) { return fmt::format("body.{}.{}", body, name); }
 
-std::string key_of_place(const config::Case& parameters, const std::string& body) {
+std::string area_key(const config::Case& parameters, const std::string& body) {
   return key_of(body, parameters.bodies.at(body).release.empty() ? "thickness" : "release");
 }
 
-const std::string& file_of_place(const config::Case& parameters, const std::string& body) {
+const std::string& area_file(const config::Case& parameters, const std::string& body) {
   const config::Body& what = parameters.bodies.at(body);
   return what.release.empty() ? what.thickness.source : what.release;
 }

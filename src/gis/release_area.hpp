@@ -15,7 +15,7 @@ struct ReleaseArea {
   VectorLayer layer;  // selected features; none for a raster
   Polygons polygons;  // their union
   Raster source;      // thickness [m] for a raster
-  Raster share;       // covered fraction of each point's cell, without a taper; at points of the ground
+  Raster fraction;    // covered fraction of each point's cell, without a taper; at points of the ground
   [[nodiscard]] bool is_raster() const { return !source.empty(); }
 };
 
@@ -23,8 +23,8 @@ struct ReleaseArea {
 [[nodiscard]] std::string key_of(const std::string& body, const std::string& name);
 
 // Key that specifies the area of a body, and the file it names: its polygons or, without these, its thickness.
-[[nodiscard]] std::string key_of_place(const config::Case& parameters, const std::string& body);
-[[nodiscard]] const std::string& file_of_place(const config::Case& parameters, const std::string& body);
+[[nodiscard]] std::string area_key(const config::Case& parameters, const std::string& body);
+[[nodiscard]] const std::string& area_file(const config::Case& parameters, const std::string& body);
 
 // Reads the release and checks that it lies within the domain and the DEM. Appends warnings.
 [[nodiscard]] ReleaseArea load_release_area(const config::Case& parameters, const std::string& body, const Dem& ground,

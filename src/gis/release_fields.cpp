@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/nearest_known.hpp"
+#include "base/rounding.hpp"
 #include "gis/averaging.hpp"
 #include "gis/coverage.hpp"
 #include "gis/error_location.hpp"
@@ -28,9 +29,9 @@ struct MappedField {
 
 constexpr MappedField mapped_fields[] = {
     {"temperature", &config::Body::temperature, -273.15, 100.0, " C", Quantity::temperature},
-    {"porosity", &config::Body::porosity, 0.0, 0.95, "", Quantity::share},
-    {"saturation", &config::Body::saturation, 0.0, 1.0, "", Quantity::share},
-    {"ice_content", &config::Body::ice_content, 0.0, 0.95, "", Quantity::share},
+    {"porosity", &config::Body::porosity, 0.0, 0.95, "", Quantity::fraction},
+    {"saturation", &config::Body::saturation, 0.0, 1.0, "", Quantity::fraction},
+    {"ice_content", &config::Body::ice_content, 0.0, 0.95, "", Quantity::fraction},
 };
 
 // Means of the polygons' values over each point's cell; NaN outside the polygons.
@@ -38,12 +39,12 @@ Raster from_attribute(const ReleaseArea& area, const std::string& attribute, con
   if (area.is_raster()) {
     throw UserError("a raster gives the release: it has no attributes. Name a raster of the quantity, or a number.");
   }
-  Raster sum = area.share.filled(0.0), weight = sum;
+  Raster sum = area.fraction.filled(0.0), weight = sum;
   for (const ValuedArea& part : areas_by_value(area.layer, attribute, key)) {
-    const Raster share = coverage_of(part.polygons, area.share);
-    for (std::size_t k = 0; k < share.values.size(); ++k) {
-      sum.values[k] += part.value * share.values[k];
-      weight.values[k] += share.values[k];
+    const Raster fraction = coverage_of(part.polygons, area.fraction);
+    for (std::size_t k = 0; k < fraction.values.size(); ++k) {
+      sum.values[k] += part.value * fraction.values[k];
+      weight.values[k] += fraction.values[k];
     }
   }
   for (std::size_t k = 0; k < sum.values.size(); ++k) {
@@ -54,17 +55,16 @@ Raster from_attribute(const ReleaseArea& area, const std::string& attribute, con
 }
 
 // `missing`: whether a no-data point is an error.
-void check_values(const Raster& field, const Raster& share, const MappedField& what, const std::string& source,
+void check_values(const Raster& field, const Raster& fraction, const MappedField& what, const std::string& source,
                   bool missing = true) {
   for (int row = 0; row < field.rows; ++row) {
     for (int column = 0; column < field.columns; ++column) {
       const double value = field.at(column, row);
       const bool is_allowed = (value > what.low && value <= what.high) || (std::isnan(value) && !missing);
-      if (share.at(column, row) > 0.0 && !is_allowed) {
+      if (fraction.at(column, row) > 0.0 && !is_allowed) {
         throw UserError(
-            fmt::format("{}: at {:.10g}, {:.10g}, within the release, the {} is {}; allowed: above {:g}{} and "
-                        "up to {:g}{}.",
-                        source, field.x_of(column), field.y_of(row), what.key,
+            fmt::format("{}: at {}, {}, within the release, the {} is {}; allowed: above {:g}{} and up to {:g}{}.",
+                        source, coordinate_text(field.x_of(column)), coordinate_text(field.y_of(row)), what.key,
                         std::isnan(value) ? "missing" : fmt::format("{:g}{}", value, what.unit), what.low, what.unit,
                         what.high, what.unit));
       }
@@ -74,13 +74,13 @@ void check_values(const Raster& field, const Raster& share, const MappedField& w
 
 // Single values of a finer raster are checked too, because a mean may hide an invalid one.
 Raster from_raster(const ReleaseArea& area, const Raster& map, const MappedField& what, const std::string& source) {
-  if (!is_finer(map, area.share)) {
-    return sampled(map, area.share, Missing::nothing);
+  if (!is_finer(map, area.fraction)) {
+    return sampled(map, area.fraction, Missing::nothing);
   }
-  const Polygons polygons = area.is_raster() ? areas_of_mask(area.share) : area.polygons;
-  const CoveredRaster part = covered_part(map, polygons, area.share.crs);
-  check_values(part.values, part.share, what, source, false);
-  return averaged(part, area.share).mean;
+  const Polygons polygons = area.is_raster() ? areas_of_mask(area.fraction) : area.polygons;
+  const CoveredRaster part = covered_part(map, polygons, area.fraction.crs);
+  check_values(part.values, part.fraction, what, source, false);
+  return averaged(part, area.fraction).mean;
 }
 
 }  // namespace
@@ -97,14 +97,15 @@ std::map<std::string, Raster> fields_of(const config::Case& parameters, const st
     const std::string key = key_of(body, what.key);
     const bool is_raster = field.over == InitialField::Over::raster;
     const Raster map =
-        is_raster ? read_map(parameters, {key, field.source, what.quantity, area.share.crs, span_of_points(area.share)},
-                             warnings)
-                  : Raster{};
+        is_raster
+            ? read_map(parameters, {key, field.source, what.quantity, area.fraction.crs, span_of_points(area.fraction)},
+                       warnings)
+            : Raster{};
     fields[what.key] = with_error_location(parameters, key, [&] {
       Raster made = is_raster ? from_raster(area, map, what, field.source) : from_attribute(area, field.source, key);
-      check_values(made, area.share, what, is_raster ? field.source : area.layer.file);
+      check_values(made, area.fraction, what, is_raster ? field.source : area.layer.file);
       for (std::size_t k = 0; k < made.values.size(); ++k) {
-        if (!(area.share.values[k] > 0.0)) {
+        if (!(area.fraction.values[k] > 0.0)) {
           made.values[k] = std::numeric_limits<double>::quiet_NaN();
         }
       }

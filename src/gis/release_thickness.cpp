@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/rounding.hpp"
 #include "base/shell_quote.hpp"
 #include "gis/averaging.hpp"
 #include "gis/coverage.hpp"
@@ -56,9 +57,9 @@ class ThicknessMaker {
 
   // Indices of a point of the area in the ground raster; false if there is no ground.
   bool has_ground(int column, int row, int& ground_column, int& ground_row) const {
-    const Raster& share = area_.share;
-    ground_column = column + static_cast<int>(std::lround((share.x - ground_.x) / ground_.cell_x));
-    ground_row = row + static_cast<int>(std::lround((share.y - ground_.y) / ground_.cell_y));
+    const Raster& fraction = area_.fraction;
+    ground_column = column + static_cast<int>(std::lround((fraction.x - ground_.x) / ground_.cell_x));
+    ground_row = row + static_cast<int>(std::lround((fraction.y - ground_.y) / ground_.cell_y));
     return ground_column >= 0 && ground_row >= 0 && ground_column < ground_.columns && ground_row < ground_.rows &&
            !std::isnan(ground_.at(ground_column, ground_row));
   }
@@ -82,20 +83,19 @@ class ThicknessMaker {
     for_each_positive(thickness, [&](int column, int row, double) {
       int i = 0, j = 0;
       if (!has_ground(column, row, i, j) && without++ == 0) {
-        first = fmt::format("{:.10g}, {:.10g}", thickness.x_of(column), thickness.y_of(row));
+        first = fmt::format("{}, {}", coordinate_text(thickness.x_of(column)), coordinate_text(thickness.y_of(row)));
       }
     });
     if (without > 0 && spread == Spread::by_taper) {
-      fail("taper",
-           fmt::format("a taper of {:g} m spreads the release of {} over nodata of the DEM at {} points, "
-                       "such as {}. Set a narrower one, or fill the holes (gdal_fillnodata.py {} filled.tif).",
-                       body_.taper, file_of_place(case_, name_), without, first, shell_quote(case_.terrain.file)));
+      fail("taper", fmt::format("a taper of {:g} m spreads the release of {} over nodata of the DEM at {} points, "
+                                "such as {}. Set a narrower one, or fill the holes (gdal_fillnodata.py {} filled.tif).",
+                                body_.taper, area_file(case_, name_), without, first, shell_quote(case_.terrain.file)));
     }
     if (without > 0) {
       fail(body_.release.empty() ? "thickness" : "release",
            fmt::format("{}: the release lies over nodata of the DEM at {} of its points, such as {}. "
                        "Fill the holes (gdal_fillnodata.py {} filled.tif), or move the release.",
-                       file_of_place(case_, name_), without, first, shell_quote(case_.terrain.file)));
+                       area_file(case_, name_), without, first, shell_quote(case_.terrain.file)));
     }
   }
 
@@ -109,14 +109,13 @@ class ThicknessMaker {
   }
 
   Raster of_release_raster() {
-    const Raster thickness = sampled(area_.source, area_.share, Missing::zero);
+    const Raster thickness = sampled(area_.source, area_.fraction, Missing::zero);
     require_not_negative(area_.source, nullptr, "thickness", body_.thickness.source);
     const double specified = volume_of(area_.source), made = volume_of(thickness);
     if (area_.source.crs == ground_.crs && std::abs(made - specified) > 1e-3 * specified) {
       warnings_.push_back(
-          fmt::format("the thickness of the body {} holds {:.6g} m3 at its own points and {:.6g} m3 at "
-                      "those of the ground",
-                      name_, specified, made));
+          fmt::format("the thickness of the body {} holds {} m3 at its own points and {} m3 at those of the ground",
+                      name_, rounded_text(specified, 4), rounded_text(made, 4)));
     }
     return thickness;
   }
@@ -143,21 +142,21 @@ class ThicknessMaker {
                                     "{{ surface = FILE }}.",
                                     body_.thickness.number));
     }
-    return times_share([&](std::size_t) { return body_.thickness.number; });
+    return times_fraction([&](std::size_t) { return body_.thickness.number; });
   }
 
   Raster of_attribute() const {
     const std::string key = key_of(name_, "thickness");
-    Raster thickness = area_.share.filled(0.0);
+    Raster thickness = area_.fraction.filled(0.0);
     for (const ValuedArea& part :
          with_error_location(case_, key, [&] { return areas_by_value(area_.layer, body_.thickness.source, key); })) {
       if (part.value < 0.0) {
         fail("thickness", fmt::format("{}: the attribute '{}' is {:g} m somewhere; allowed: 0 and more.", body_.release,
                                       body_.thickness.source, part.value));
       }
-      const Raster share = coverage_of(part.polygons, area_.share);
-      for (std::size_t k = 0; k < share.values.size(); ++k) {
-        thickness.values[k] += part.value * share.values[k];
+      const Raster fraction = coverage_of(part.polygons, area_.fraction);
+      for (std::size_t k = 0; k < fraction.values.size(); ++k) {
+        thickness.values[k] += part.value * fraction.values[k];
       }
     }
     return thickness;
@@ -166,7 +165,7 @@ class ThicknessMaker {
   Raster read_thickness_map() const {
     return read_map(case_,
                     {key_of(name_, "thickness"), body_.thickness.source, Quantity::length, ground_.crs,
-                     span_of_points(area_.share)},
+                     span_of_points(area_.fraction)},
                     warnings_);
   }
 
@@ -177,23 +176,23 @@ class ThicknessMaker {
 
   Raster of_raster() const {
     const Raster source = read_thickness_map();
-    if (at_thickness([&] { return is_finer(source, area_.share); })) {
+    if (at_thickness([&] { return is_finer(source, area_.fraction); })) {
       return of_finer_raster(source);
     }
-    const Raster map = at_thickness([&] { return sampled(source, area_.share, Missing::zero); });
-    require_not_negative(map, &area_.share, "thickness", body_.thickness.source);
-    return times_share([&](std::size_t k) { return map.values[k]; });
+    const Raster map = at_thickness([&] { return sampled(source, area_.fraction, Missing::zero); });
+    require_not_negative(map, &area_.fraction, "thickness", body_.thickness.source);
+    return times_fraction([&](std::size_t k) { return map.values[k]; });
   }
 
   // Raster cells across an outline may share an area with a ground cell beyond it; this volume is distributed to the
   // other cells.
   Raster of_finer_raster(const Raster& source) const {
     const CoveredRaster part = at_thickness([&] { return covered_part(source, area_.polygons, ground_.crs); });
-    require_not_negative(part.values, &part.share, "thickness", body_.thickness.source);
-    const Raster amount = at_thickness([&] { return averaged(part, area_.share).amount; });
+    require_not_negative(part.values, &part.fraction, "thickness", body_.thickness.source);
+    const Raster amount = at_thickness([&] { return averaged(part, area_.fraction).amount; });
     Raster within = amount;
     for (std::size_t k = 0; k < within.values.size(); ++k) {
-      within.values[k] = area_.share.values[k] > 0.0 ? within.values[k] : 0.0;
+      within.values[k] = area_.fraction.values[k] > 0.0 ? within.values[k] : 0.0;
     }
     const double scale = volume_of(within) > 0.0 ? volume_of(amount) / volume_of(within) : 1.0;
     for (double& value : within.values) {
@@ -206,30 +205,31 @@ class ThicknessMaker {
   Raster above_ground_of_area() const {
     const Raster surface = read_thickness_map();
     return at_thickness([&] {
-      if (is_finer(surface, area_.share)) {
-        return averaged(covered_part(above_ground(surface, measured_), area_.polygons, ground_.crs), area_.share).mean;
+      if (is_finer(surface, area_.fraction)) {
+        return averaged(covered_part(above_ground(surface, measured_), area_.polygons, ground_.crs), area_.fraction)
+            .mean;
       }
-      return above_ground(sampled(surface, area_.share, Missing::nothing), measured_);
+      return above_ground(sampled(surface, area_.fraction, Missing::nothing), measured_);
     });
   }
 
   Raster of_surface() const {
     if (body_.placement == config::Placement::cut) {
       fail("placement",
-           "a thickness between a surface before the slide and the DEM takes the DEM "
-           "for what the slide lay on, so that nothing is to be cut out of it. Set \"on_top\".");
+           "a thickness from a surface before the slide to the DEM requires that the DEM is the sliding surface: "
+           "nothing is cut out of it. Set \"on_top\".");
     }
     if (body_.thickness_along == config::ThicknessAlong::normal) {
       fail("thickness_along", "the difference of two surfaces is vertical. Set \"vertical\", or leave the key out.");
     }
     const Raster above = above_ground_of_area();
-    Raster thickness = area_.share;
+    Raster thickness = area_.fraction;
     for_each_positive(thickness, [&](int column, int row, double& value) {
       int i = 0, j = 0;
       const double difference = above.at(column, row);
       const auto specified = [&](const std::string& what) {
-        fail("thickness", fmt::format("{}: at {:.10g}, {:.10g}, within the release, {}", body_.thickness.source,
-                                      above.x_of(column), above.y_of(row), what));
+        fail("thickness", fmt::format("{}: at {}, {}, within the release, {}", body_.thickness.source,
+                                      coordinate_text(above.x_of(column)), coordinate_text(above.y_of(row)), what));
       };
       if (!has_ground(column, row, i, j)) {
         return;
@@ -239,10 +239,10 @@ class ThicknessMaker {
       }
       if (difference < -body_.surface_tolerance) {
         specified(
-            fmt::format("the surface before the slide lies {:.4g} m below the DEM; allowed: above it, or below "
-                        "by up to {:g} m. Are the two files swapped? Else draw the release smaller, or set "
+            fmt::format("the surface before the slide lies {} m below the DEM; allowed: above it, or below by up to "
+                        "{:g} m. Are the two files swapped? Else draw the release smaller, or set "
                         "body.{}.surface_tolerance to the noise of the two.",
-                        -difference, body_.surface_tolerance, name_));
+                        rounded_text(-difference, 3), body_.surface_tolerance, name_));
       }
       value *= difference > body_.surface_tolerance ? difference : 0.0;
     });
@@ -250,8 +250,8 @@ class ThicknessMaker {
   }
 
   template <class Value>
-  Raster times_share(const Value& value) const {
-    Raster thickness = area_.share;
+  Raster times_fraction(const Value& value) const {
+    Raster thickness = area_.fraction;
     for (std::size_t k = 0; k < thickness.values.size(); ++k) {
       thickness.values[k] *= thickness.values[k] > 0.0 ? value(k) : 0.0;
     }
@@ -259,12 +259,14 @@ class ThicknessMaker {
   }
 
   // `share`: at the same points, those that count; null: all of them.
-  void require_not_negative(const Raster& raster, const Raster* share, const char* key, const std::string& file) const {
+  void require_not_negative(const Raster& raster, const Raster* fraction, const char* key,
+                            const std::string& file) const {
     for (int row = 0; row < raster.rows; ++row) {
       for (int column = 0; column < raster.columns; ++column) {
-        if (raster.at(column, row) < 0.0 && (share == nullptr || share->at(column, row) > 0.0)) {
-          fail(key, fmt::format("{}: the thickness at {:.10g}, {:.10g} is {:g} m; allowed: 0 and more.", file,
-                                raster.x_of(column), raster.y_of(row), raster.at(column, row)));
+        if (raster.at(column, row) < 0.0 && (fraction == nullptr || fraction->at(column, row) > 0.0)) {
+          fail(key, fmt::format("{}: the thickness at {}, {} is {:g} m; allowed: 0 and more.", file,
+                                coordinate_text(raster.x_of(column)), coordinate_text(raster.y_of(row)),
+                                raster.at(column, row)));
         }
       }
     }

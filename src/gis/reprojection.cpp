@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 #include "gis/gdal_messages.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/spatial_reference.hpp"
@@ -70,9 +71,10 @@ LikelySystem likely_system(const std::string& file, const std::string& specified
                                 name_of(ground))};
   }
   if (is_geographic(specified) && !can_be_degrees(extent)) {
-    return {ground, fmt::format("{} specifies degrees ({}), which {:.10g}, {:.10g} cannot be: the system of the DEM, "
-                                "{}, is assumed",
-                                name, name_of(specified), extent.min_x, extent.min_y, name_of(ground))};
+    return {
+        ground,
+        fmt::format("{} specifies degrees ({}), which {}, {} cannot be: the system of the DEM, {}, is assumed", name,
+                    name_of(specified), coordinate_text(extent.min_x), coordinate_text(extent.min_y), name_of(ground))};
   }
   if (Reprojection(specified, ground).changes_nothing()) {
     return {ground, ""};

@@ -17,22 +17,22 @@ double linear_integral(double t) {
 }
 
 // Weights along one axis: position in units of the old spacing, relative to the first old point.
-AxisWeights interpolation(double place, int count) {
-  const int first = std::clamp(static_cast<int>(std::floor(place)), 0, std::max(count - 2, 0));
-  const double share = place - first;
+AxisWeights interpolation(double coordinate, int count) {
+  const int first = std::clamp(static_cast<int>(std::floor(coordinate)), 0, std::max(count - 2, 0));
+  const double fraction = coordinate - first;
   // A new point on an old one needs no neighbour, which may have no data.
   constexpr double rounding = 1e-9;
-  if (share < rounding || count == 1) {
+  if (fraction < rounding || count == 1) {
     return {first, {1.0}};
   }
-  if (share > 1.0 - rounding) {
+  if (fraction > 1.0 - rounding) {
     return {first + 1, {1.0}};
   }
-  return {first, {1.0 - share, share}};
+  return {first, {1.0 - fraction, fraction}};
 }
 
-AxisWeights mean(double place, double width, int count) {
-  const double low = place - 0.5 * width, high = place + 0.5 * width;
+AxisWeights mean(double coordinate, double width, int count) {
+  const double low = coordinate - 0.5 * width, high = coordinate + 0.5 * width;
   const int first = std::clamp(static_cast<int>(std::floor(low)), 0, count - 1);
   const int last = std::clamp(static_cast<int>(std::ceil(high)), 0, count - 1);
   AxisWeights result{first, {}};
@@ -52,10 +52,10 @@ bool is_mean(double old_cell, double new_cell) { return new_cell > old_cell * (1
 std::vector<AxisWeights> weights_of(const Axis& old_axis, const Axis& new_axis) {
   std::vector<AxisWeights> all;
   for (int k = 0; k < new_axis.count; ++k) {
-    const double place = (new_axis.first + k * new_axis.cell - old_axis.first) / old_axis.cell;
+    const double coordinate = (new_axis.first + k * new_axis.cell - old_axis.first) / old_axis.cell;
     const bool averaged = is_mean(old_axis.cell, new_axis.cell);
-    all.push_back(averaged ? mean(place, new_axis.cell / old_axis.cell, old_axis.count)
-                           : interpolation(place, old_axis.count));
+    all.push_back(averaged ? mean(coordinate, new_axis.cell / old_axis.cell, old_axis.count)
+                           : interpolation(coordinate, old_axis.count));
     const AxisWeights& made = all.back();
     THAWSLIDE_ASSERT(made.first + static_cast<int>(made.weights.size()) <= old_axis.count,
                      "point {} needs old points from {} of {}", k, made.first, old_axis.count);
@@ -68,9 +68,9 @@ std::vector<AxisWeights> weights_of(const Axis& old_axis, const Axis& new_axis) 
 Raster resampled_layout(const Raster& layout, double distance) {
   const auto along = [&](double first, double cell, int count, double& new_first, int& new_count) {
     const double margin = is_mean(cell, distance) ? 0.5 * distance : 0.0;
-    const double room = (count - 1) * cell - 2.0 * margin;
+    const double available = (count - 1) * cell - 2.0 * margin;
     new_first = first + margin;
-    new_count = room < 0.0 ? 0 : static_cast<int>(std::floor(room / distance + 1e-9)) + 1;
+    new_count = available < 0.0 ? 0 : static_cast<int>(std::floor(available / distance + 1e-9)) + 1;
   };
   Raster result;
   result.cell_x = result.cell_y = distance;

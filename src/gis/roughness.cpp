@@ -23,8 +23,8 @@ namespace {
 
 constexpr int tile_size = 16;              // points along each axis
 constexpr double median_of_unit = 0.6745;  // of |x| for a normal distribution of variance 1
-constexpr double rough_share = 0.86;       // quantile of the tiles: noise that a seventh of them exceeds
-constexpr double striped_share = 0.25;     // the same for noise of whole rows or columns, which is due to the survey
+constexpr double rough_fraction = 0.86;    // quantile of the tiles: noise that a seventh of them exceeds
+constexpr double striped_fraction = 0.25;  // the same for noise of whole rows or columns, which is due to the survey
 constexpr std::size_t least_of_tile = 16;  // minimum number of deviations or slopes
 
 // Deviation of the centre of nine points in a line from their best-fit parabola: weights of the centre and of the
@@ -54,10 +54,10 @@ double variance_of_cell(double spacing, double cell) {
   return spacing * spacing / (4.0 * std::sqrt(std::numbers::pi)) + 0.0225 * cell * cell;
 }
 
-double quantile(std::vector<double>& values, double share) {
-  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + place, values.end());
-  return values[static_cast<std::size_t>(place)];
+double quantile(std::vector<double>& values, double fraction) {
+  const auto index = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + index, values.end());
+  return values[static_cast<std::size_t>(index)];
 }
 
 // Only the points within the rectangle.
@@ -174,18 +174,18 @@ auto of_tiles(const Raster& raster, const OfTile& of_tile) {
 }
 
 // Quantile of the finite values; 0 if there are none.
-double quantile_of_known(std::vector<double> values, double share) {
+double quantile_of_known(std::vector<double> values, double fraction) {
   values.erase(std::remove_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }),
                values.end());
-  return values.empty() ? 0.0 : quantile(values, share);
+  return values.empty() ? 0.0 : quantile(values, fraction);
 }
 
 // Noise of the tiles in the direction in which it is smallest (0) or second smallest (1).
-double noise_of_tiles(const std::vector<std::array<double, 2>>& tiles, std::size_t direction, double share) {
+double noise_of_tiles(const std::vector<std::array<double, 2>>& tiles, std::size_t direction, double fraction) {
   std::vector<double> values;
   std::transform(tiles.begin(), tiles.end(), std::back_inserter(values),
                  [&](const std::array<double, 2>& tile) { return tile[direction]; });
-  return quantile_of_known(std::move(values), share);
+  return quantile_of_known(std::move(values), fraction);
 }
 
 // Slope due to noise and bumps. Bumps explained by noise count as noise, because the two are measured differently, and
@@ -230,7 +230,7 @@ struct Filtered {
 double noise_rms(const Raster& raster, const Rectangle& rectangle) {
   const Raster within = points_within(raster, rectangle);
   const auto tiles = of_tiles(within, noise_of_tile);
-  return std::max(noise_of_tiles(tiles, 0, rough_share), noise_of_tiles(tiles, 1, striped_share));
+  return std::max(noise_of_tiles(tiles, 0, rough_fraction), noise_of_tiles(tiles, 1, striped_fraction));
 }
 
 double noise_below_body(const Raster& raster, const Rectangle& rectangle) {
@@ -321,8 +321,8 @@ std::string roughness_warning(const config::Case& parameters, const config::Site
   const double widest = 2.0 * std::max(found.cell, found.spacing);
   if (found.width > widest * (1.0 + 1e-9)) {
     return fmt::format(
-        "terrain.smooth: a filter of {:g} m removes terrain that the slide would follow: in V valleys filled less than "
-        "{:g} m wide it takes more than 3 % of the friction of the sides. Usual: \"auto\", or at most {:g} m.",
+        "terrain.smooth: a filter of {:g} m removes terrain that the slide would follow. In V valleys filled less than "
+        "{:g} m wide it removes more than 3 % of the friction of the sides. Use \"auto\", or at most {:g} m.",
         found.width, found.narrow_valley, widest);
   }
   if (is_auto ? found.remaining_slope <= largest_slope : found.apparent_friction <= much_friction) {

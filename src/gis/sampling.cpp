@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 #include "gis/averaging.hpp"
 #include "gis/reference_system.hpp"
 #include "gis/reprojection.hpp"
@@ -39,10 +40,10 @@ Raster sampled(const Raster& raster, const Raster& layout, Missing missing) {
       y[static_cast<std::size_t>(column)] = layout.y_of(row);
     }
     if (!reprojection.apply(x, y)) {
-      throw UserError(
-          fmt::format("points of the ground near {:.10g}, {:.10g} have no place in the coordinate reference "
-                      "system {}. Reproject the raster to {}.",
-                      layout.x, layout.y_of(row), name_of(raster.crs), name_of(layout.crs)));
+      throw UserError(fmt::format(
+          "points of the ground near {}, {} cannot be transformed to the coordinate reference system {}. Reproject the "
+          "raster to {}.",
+          coordinate_text(layout.x), coordinate_text(layout.y_of(row)), name_of(raster.crs), name_of(layout.crs)));
     }
     for (int column = 0; column < layout.columns; ++column) {
       const auto k = static_cast<std::size_t>(column);

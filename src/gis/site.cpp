@@ -49,8 +49,8 @@ config::Polyline2 load_line(const config::Case& parameters, const std::string& k
 }
 
 // Lowers the ground where bodies are excavated.
-Raster less_what_is_cut(const config::Case& parameters, const std::map<std::string, config::Release>& releases,
-                        Raster ground) {
+Raster without_cut_bodies(const config::Case& parameters, const std::map<std::string, config::Release>& releases,
+                          Raster ground) {
   for (const auto& [name, release] : releases) {
     if (parameters.bodies.at(name).placement != config::Placement::cut) {
       continue;
@@ -112,7 +112,7 @@ SiteAndWarnings load_site(const config::Case& parameters) {
     site.substrates = load_substrates(parameters, dem, loaded.warnings);
     site.bed_depth = load_bed_depth(parameters, dem, loaded.warnings);
     site.terrain_model = {{{dem.span.min_x, dem.span.min_y}, {dem.span.max_x, dem.span.max_y}}};
-    site.ground = std::make_shared<const Raster>(less_what_is_cut(parameters, site.releases, std::move(dem.raster)));
+    site.ground = std::make_shared<const Raster>(without_cut_bodies(parameters, site.releases, std::move(dem.raster)));
   }
   if (!parameters.maps.path.empty()) {
     site.path = load_line(parameters, "maps.path", parameters.maps.path, site.crs, loaded.warnings);

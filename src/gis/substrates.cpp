@@ -28,7 +28,7 @@ std::string key_of(const std::string& substrate, const std::string& key) {
 }
 
 // Key that specifies the extent of a substrate.
-std::string key_of_place(const std::string& name, const config::Substrate& substrate) {
+std::string area_key(const std::string& name, const config::Substrate& substrate) {
   return key_of(name, !substrate.raster.empty()        ? "raster"
                       : !substrate.outline.empty()     ? "outline"
                       : std::isfinite(substrate.x_min) ? "x_min"
@@ -106,13 +106,14 @@ void check_overlap(const config::Case& parameters, const std::string& first, con
   if (shared <= allowed) {
     return;
   }
-  const Rectangle place = extent_of(both);
-  fail_at(parameters, key_of_place(second, parameters.substrates.at(second)),
-          fmt::format("the substrates {} and {} overlap by {} m2 about {:.10g}, {:.10g}; a place has one substrate. "
-                      "Allowed: slivers up to {} m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > "
-                      "Geoprocessing Tools > Difference).",
-                      first, second, rounded_text(shared, 3), 0.5 * (place.min_x + place.max_x),
-                      0.5 * (place.min_y + place.max_y), rounded_text(allowed, 3), 100.0 * overlap_tolerance));
+  const Rectangle extent = extent_of(both);
+  fail_at(
+      parameters, area_key(second, parameters.substrates.at(second)),
+      fmt::format(
+          "the substrates {} and {} overlap by {} m2 about {}, {}; a place has one substrate. Allowed: slivers up to "
+          "{} m2, {:g} % of the smaller one. Draw them apart (QGIS: Vector > Geoprocessing Tools > Difference).",
+          first, second, rounded_text(shared, 3), coordinate_text(0.5 * (extent.min_x + extent.max_x)),
+          coordinate_text(0.5 * (extent.min_y + extent.max_y)), rounded_text(allowed, 3), 100.0 * overlap_tolerance));
 }
 
 // Substrates of one raster cannot overlap; those along x were compared when the case was read. `polygons`: of those

@@ -97,9 +97,9 @@ Raster thickness_within(const LoadedRelease& loaded, const Raster& layout) {
   Raster within = layout;
   for (int row = 0; row < layout.rows; ++row) {
     for (int column = 0; column < layout.columns; ++column) {
-      const double share = spread.at(column, row);
+      const double fraction = spread.at(column, row);
       within.values[within.index(column, row)] =
-          share > 0.0 ? thickness.at(column, row) / share : std::numeric_limits<double>::quiet_NaN();
+          fraction > 0.0 ? thickness.at(column, row) / fraction : std::numeric_limits<double>::quiet_NaN();
     }
   }
   fill_from_nearest_known(within);
@@ -117,31 +117,31 @@ double sum_at(const std::vector<ByIndicesOf>& rasters, int column, int row) {
 void join(const config::Case& parameters, const std::string& name, const Releases& releases, config::Release& release) {
   const LoadedRelease& loaded = releases.at(name);
   const Raster layout = widened_layout(parameters, name, loaded.release.thickness);
-  std::vector<ByIndicesOf> shares, spreads;
+  std::vector<ByIndicesOf> fractions, spreads;
   for (const auto& [other, one] : releases) {
-    shares.emplace_back(layout, one.share);
+    fractions.emplace_back(layout, one.fraction);
     spreads.emplace_back(layout, one.spread);
   }
-  const ByIndicesOf share(layout, loaded.share), spread(layout, loaded.spread);
-  release.standing = thickness_within(loaded, layout);
+  const ByIndicesOf fraction(layout, loaded.fraction), spread(layout, loaded.spread);
+  release.assigned_thickness = thickness_within(loaded, layout);
   release.claim = layout;
   Raster own = layout;
   for (int row = 0; row < layout.rows; ++row) {
     for (int column = 0; column < layout.columns; ++column) {
       const std::size_t k = layout.index(column, row);
-      const double all_shares = sum_at(shares, column, row), all_spreads = sum_at(spreads, column, row);
-      release.standing.values[k] *= std::min(1.0, all_spreads);
-      release.claim.values[k] = all_shares > 0.0 ? share.at(column, row) : spread.at(column, row);
-      const double of_all = all_shares > 0.0 ? all_shares : all_spreads;
+      const double all_fractions = sum_at(fractions, column, row), all_spreads = sum_at(spreads, column, row);
+      release.assigned_thickness.values[k] *= std::min(1.0, all_spreads);
+      release.claim.values[k] = all_fractions > 0.0 ? fraction.at(column, row) : spread.at(column, row);
+      const double of_all = all_fractions > 0.0 ? all_fractions : all_spreads;
       own.values[k] =
-          release.claim.values[k] > 0.0 ? release.standing.values[k] * release.claim.values[k] / of_all : 0.0;
+          release.claim.values[k] > 0.0 ? release.assigned_thickness.values[k] * release.claim.values[k] / of_all : 0.0;
     }
   }
   // Tapers that end at another body move volume between the two; scaling restores the volume of each.
   const double scale = volume_of(loaded.release.thickness) / volume_of(own);
   for (std::size_t k = 0; k < own.values.size(); ++k) {
     own.values[k] *= scale;
-    release.standing.values[k] *= scale;
+    release.assigned_thickness.values[k] *= scale;
   }
   release.thickness = part_of(own, points_of(loaded.release.thickness, own));
 }
@@ -158,13 +158,15 @@ void check_overlaps(const config::Case& parameters, const Releases& releases) {
       if (shared <= allowed) {
         continue;
       }
-      const Rectangle place = extent_of(both);
-      fail_at(parameters, key_of_place(parameters, second->first),
-              fmt::format("the bodies '{}' and '{}' overlap by {} m2 about {:.10g}, {:.10g}; allowed: bodies that "
-                          "touch or lie apart, but for slivers up to {} m2, {:g} % of the smaller one. Draw them "
-                          "apart (QGIS: Vector > Geoprocessing Tools > Difference).",
-                          first->first, second->first, rounded_text(shared, 3), 0.5 * (place.min_x + place.max_x),
-                          0.5 * (place.min_y + place.max_y), rounded_text(allowed, 3), 100.0 * overlap_tolerance));
+      const Rectangle extent = extent_of(both);
+      fail_at(parameters, area_key(parameters, second->first),
+              fmt::format("the bodies '{}' and '{}' overlap by {} m2 about {}, {}; allowed: bodies that touch or lie "
+                          "apart, but for slivers up to {} m2, {:g} % of the smaller one. Draw them apart (QGIS: "
+                          "Vector > Geoprocessing Tools > Difference).",
+                          first->first, second->first, rounded_text(shared, 3),
+                          coordinate_text(0.5 * (extent.min_x + extent.max_x)),
+                          coordinate_text(0.5 * (extent.min_y + extent.max_y)), rounded_text(allowed, 3),
+                          100.0 * overlap_tolerance));
     }
   }
 }

@@ -97,7 +97,7 @@ constexpr Spelling temperatures[] = {
     {"degreesfahrenheit", fahrenheit_factor, fahrenheit_offset},
 };
 
-constexpr Spelling shares[] = {
+constexpr Spelling fractions[] = {
     {"1", 1.0},    {"fraction", 1.0}, {"ratio", 1.0},    {"m3/m3", 1.0},
     {"m3m3", 1.0}, {"%", 0.01},       {"percent", 0.01}, {"percentage", 0.01},
 };
@@ -115,8 +115,8 @@ UnitsOfQuantity units_of(Quantity quantity) {
   switch (quantity) {
     case Quantity::temperature:
       return {std::begin(temperatures), std::end(temperatures), "temperature", "C, K, F", "degrees Celsius", "C"};
-    case Quantity::share:
-      return {std::begin(shares), std::end(shares), "share", "1, %", "shares of 1", "1"};
+    case Quantity::fraction:
+      return {std::begin(fractions), std::end(fractions), "fraction", "1, %", "fractions of 1", "1"};
     case Quantity::length:
     case Quantity::code:
       break;

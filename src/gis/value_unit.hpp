@@ -7,7 +7,7 @@ namespace thawslide::gis {
 
 // Quantity of the values of a raster: lengths [m] (elevations, thicknesses, depths of a bed), temperatures [C],
 // fractions of a volume [1], or codes, which have no unit.
-enum class Quantity { length, temperature, share, code };
+enum class Quantity { length, temperature, fraction, code };
 
 // Units stated in a file; empty: none.
 struct StatedUnits {

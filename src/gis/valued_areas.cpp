@@ -31,12 +31,13 @@ void check_apart(const VectorLayer& layer, const std::string& attribute, const F
   if (shared <= rounding * std::min(area_of(first.polygons), area_of(second.polygons))) {
     return;
   }
-  const Rectangle place = extent_of(both);
+  const Rectangle extent = extent_of(both);
   throw UserError(fmt::format(
-      "{}: {} and {} overlap by {} m2 about {:.10g}, {:.10g}, and their '{}' differs: {:g} and {:g}. Give "
-      "them the same value, or draw them apart.",
-      layer.file, first.title, second.title, rounded_text(shared, 3), 0.5 * (place.min_x + place.max_x),
-      0.5 * (place.min_y + place.max_y), attribute, first.numbers.at(attribute), second.numbers.at(attribute)));
+      "{}: {} and {} overlap by {} m2 about {}, {}, and their '{}' differs: {:g} and {:g}. Give them the same value, "
+      "or draw them apart.",
+      layer.file, first.title, second.title, rounded_text(shared, 3),
+      coordinate_text(0.5 * (extent.min_x + extent.max_x)), coordinate_text(0.5 * (extent.min_y + extent.max_y)),
+      attribute, first.numbers.at(attribute), second.numbers.at(attribute)));
 }
 
 }  // namespace

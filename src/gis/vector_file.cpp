@@ -10,6 +10,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 #include "config/input_limits.hpp"
 #include "config/problems.hpp"
 #include "gis/gdal_messages.hpp"
@@ -18,6 +19,7 @@
 #include "gis/raster_file.hpp"
 #include "gis/reprojection.hpp"
 #include "gis/spatial_reference.hpp"
+#include "gis/unreadable_files.hpp"
 
 namespace thawslide::gis {
 
@@ -29,7 +31,7 @@ const char* name_of_kind(Kind kind) {
   return kind == Kind::polygons ? "polygons" : kind == Kind::lines ? "lines" : "points";
 }
 
-bool holds(OGRwkbGeometryType type, Kind kind) {
+bool is_of_kind(OGRwkbGeometryType type, Kind kind) {
   switch (wkbFlatten(type)) {
     case wkbPolygon:
     case wkbMultiPolygon:
@@ -57,7 +59,8 @@ std::vector<std::string> all_shown(std::vector<std::string> names) {
 }
 
 // Other GDAL formats are excluded, because they may refer to files or network locations that a case may not name.
-const char* const vector_formats[] = {"ESRI Shapefile", "GPKG", "GeoJSON", nullptr};
+// The driver "KML" does not follow links, unlike "LIBKML".
+const char* const vector_formats[] = {"ESRI Shapefile", "GPKG", "GeoJSON", "KML", nullptr};
 
 GDALDatasetUniquePtr open_vector(const std::string& file, Kind kind) {
   const GdalMessages messages;
@@ -69,23 +72,27 @@ GDALDatasetUniquePtr open_vector(const std::string& file, Kind kind) {
       throw UserError(fmt::format("{}: there is no such file. Correct the path.", file));
     }
     if (is_raster_file(file)) {
-      throw UserError(fmt::format(
-          "{}: the file is a raster; needed: {}, in a Shapefile, GeoPackage or GeoJSON.{}", file, name_of_kind(kind),
-          kind == Kind::polygons ? " A raster of a body's thickness goes to thickness = { raster "
-                                   "= \"FILE\" }, which needs no polygons."
-                                 : ""));
+      throw UserError(fmt::format("{}: the file is a raster; needed: {}, in a Shapefile, GeoPackage, GeoJSON or KML.{}",
+                                  file, name_of_kind(kind),
+                                  kind == Kind::polygons
+                                      ? " A raster of a body's thickness goes to thickness = { raster "
+                                        "= \"FILE\" }, which needs no polygons."
+                                      : ""));
+    }
+    if (const std::string cause = cause_of_unreadable_vector(file); !cause.empty()) {
+      throw UserError(fmt::format("{}: {}", file, cause));
     }
     throw UserError(
-        fmt::format("{}: the file cannot be opened{}. Allowed: Shapefile (with its .shx and .dbf), GeoPackage "
-                    "or GeoJSON; check that the file is complete and readable.",
+        fmt::format("{}: the file cannot be opened{}. Allowed: Shapefile (with its .shx and .dbf), GeoPackage, "
+                    "GeoJSON or KML; check that the file is complete and readable.",
                     file, messages.remark()));
   }
   return dataset;
 }
 
-bool layer_holds(OGRLayer& layer, Kind kind) {
+bool layer_has_kind(OGRLayer& layer, Kind kind) {
   if (wkbFlatten(layer.GetGeomType()) != wkbUnknown) {
-    return holds(layer.GetGeomType(), kind);
+    return is_of_kind(layer.GetGeomType(), kind);
   }
   // Decides by the first feature with a geometry; if none has one, the first feature is reported.
   layer.ResetReading();
@@ -93,7 +100,7 @@ bool layer_holds(OGRLayer& layer, Kind kind) {
   for (const auto& feature : layer) {
     any = true;
     if (feature->GetGeometryRef() != nullptr) {
-      const bool fits = holds(feature->GetGeometryRef()->getGeometryType(), kind);
+      const bool fits = is_of_kind(feature->GetGeometryRef()->getGeometryType(), kind);
       layer.ResetReading();
       return fits;
     }
@@ -110,7 +117,7 @@ OGRLayer& layer_with(const std::string& file, GDALDataset& dataset, Kind kind) {
     all.push_back(fmt::format("'{}' ({}, {} features)", config::shown(layer->GetName()),
                               OGRGeometryTypeToName(layer->GetGeomType()), layer->GetFeatureCount()));
     features += layer->GetFeatureCount();
-    if (layer_holds(*layer, kind)) {
+    if (layer_has_kind(*layer, kind)) {
       fitting.push_back(config::shown(layer->GetName()));
       chosen = layer;
     }
@@ -158,7 +165,7 @@ class LayerReader {
     for (const auto& feature : *layer_) {
       require_whole();
       require_few(result_.features.size() + 1, config::most_features, name_of_kind(kind_));
-      take(*feature);
+      add_feature(*feature);
     }
     require_whole();
     if (kind_ == Kind::polygons) {
@@ -189,7 +196,7 @@ class LayerReader {
     reprojection_ = Reprojection(system.wkt, crs);
   }
 
-  void take(const OGRFeature& source) {
+  void add_feature(const OGRFeature& source) {
     Feature feature;
     feature.title = title_of(source);
     if (source.GetGeometryRef() == nullptr || source.GetGeometryRef()->IsEmpty()) {
@@ -283,9 +290,9 @@ class LayerReader {
     for (std::size_t k = 0; k < line.size(); ++k) {
       if (!known || !std::isfinite(x[k]) || !std::isfinite(y[k])) {
         throw UserError(
-            fmt::format("{}: {} has a corner that has no place in the ground's coordinate reference system, "
-                        "near {:.10g}, {:.10g}. Check the system of the file.",
-                        result_.file, title, line[k][0], line[k][1]));
+            fmt::format("{}: {} has a corner that has no place in the ground's coordinate reference system, near {}, "
+                        "{}. Check the system of the file.",
+                        result_.file, title, coordinate_text(line[k][0]), coordinate_text(line[k][1])));
       }
       line[k] = {x[k], y[k]};
     }

@@ -14,7 +14,7 @@ namespace thawslide::io {
 namespace {
 
 constexpr std::uint64_t magic = 0x3144494C53574854;  // "THWSLID1" as bytes
-constexpr std::uint64_t format_version = 9;
+constexpr std::uint64_t format_version = 10;
 
 class Writer {
  public:
@@ -109,7 +109,7 @@ bool is_present(const std::filesystem::path& file) {
 
 // Reads a checkpoint. Returns the problem, empty if the file is intact; an unreadable file counts as damaged.
 std::string fault_of(const std::filesystem::path& file, std::string& bytes) {
-  if (const std::string found = config::what_stands_at(file); !found.empty()) {
+  if (const std::string found = config::other_kind_of_file(file); !found.empty()) {
     return fmt::format("{} is {}, no file", file.string(), found);
   }
   try {
@@ -146,6 +146,13 @@ void read_field(Reader& reader, const std::filesystem::path& file, std::size_t p
 
 }  // namespace
 
+WholeCheckpoint intact_checkpoint(const std::filesystem::path& file, const std::string& bytes) {
+  if (const std::string damage = damage_of(file, bytes); !damage.empty()) {
+    throw UserError(damage + ". Use the bytes that `checkpoint` returned.");
+  }
+  return {file, bytes, ""};
+}
+
 bool has_checkpoint(const std::filesystem::path& folder) {
   return is_present(folder / checkpoint_name) || is_present(folder / previous_checkpoint_name);
 }
@@ -174,8 +181,9 @@ WholeCheckpoint newest_checkpoint(const std::filesystem::path& folder) {
 }
 
 template <int Dim>
-void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<Dim>& particles, std::size_t at_start,
-                      const std::vector<double>& scalars, const NamedNumbers& blocks, const std::string& case_text) {
+std::string checkpoint_bytes(const mpm::Particles<Dim>& particles, std::size_t at_start,
+                             const std::vector<double>& scalars, const NamedNumbers& blocks,
+                             const std::string& case_text) {
   Writer writer;
   writer.put(magic);
   writer.put(format_version);
@@ -204,7 +212,15 @@ void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<
   }
   const Digest digest = sha256(writer.text().data(), writer.text().size());
   writer.put_raw(digest.data(), digest.size());
-  write_file_atomically(folder / checkpoint_name, writer.text(), folder / previous_checkpoint_name);
+  return writer.text();
+}
+
+template <int Dim>
+void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<Dim>& particles, std::size_t at_start,
+                      const std::vector<double>& scalars, const NamedNumbers& blocks, const std::string& case_text) {
+  write_file_atomically(folder / checkpoint_name,
+                        checkpoint_bytes<Dim>(particles, at_start, scalars, blocks, case_text),
+                        folder / previous_checkpoint_name);
 }
 
 template <int Dim>
@@ -243,9 +259,11 @@ std::size_t checkpoint_bytes_of_particle() {
 template std::size_t checkpoint_bytes_of_particle<2>();
 template std::size_t checkpoint_bytes_of_particle<3>();
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                                                           \
-  template void write_checkpoint<Dim>(const std::filesystem::path&, const mpm::Particles<Dim>&, std::size_t, \
-                                      const std::vector<double>&, const NamedNumbers&, const std::string&);  \
+#define THAWSLIDE_INSTANTIATE(Dim)                                                                                \
+  template std::string checkpoint_bytes<Dim>(const mpm::Particles<Dim>&, std::size_t, const std::vector<double>&, \
+                                             const NamedNumbers&, const std::string&);                            \
+  template void write_checkpoint<Dim>(const std::filesystem::path&, const mpm::Particles<Dim>&, std::size_t,      \
+                                      const std::vector<double>&, const NamedNumbers&, const std::string&);       \
   template NamedNumbers read_checkpoint<Dim>(const WholeCheckpoint&, mpm::Particles<Dim>&, std::vector<double>&);
 THAWSLIDE_INSTANTIATE(2)
 THAWSLIDE_INSTANTIATE(3)

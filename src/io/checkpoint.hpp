@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/named_numbers.hpp"
+#include "base/state_numbers.hpp"
 #include "mpm/particles.hpp"
 
 namespace thawslide::io {
@@ -15,9 +15,15 @@ namespace thawslide::io {
 inline constexpr const char* checkpoint_name = "checkpoint.bin";
 inline constexpr const char* previous_checkpoint_name = "checkpoint.previous.bin";
 
-// Writes checkpoint.bin into `folder`; an existing one becomes checkpoint.previous.bin. Rows are sorted by id, so the
-// bytes do not depend on storage order. at_start: number of particles at t = 0; blocks: further state of the run;
-// case_text: its resolved case. Throws WriteError.
+// Bytes of a checkpoint. Rows are sorted by id, so the bytes do not depend on storage order. at_start: number of
+// particles at t = 0; blocks: further state of the run; case_text: its resolved case.
+template <int Dim>
+[[nodiscard]] std::string checkpoint_bytes(const mpm::Particles<Dim>& particles, std::size_t at_start,
+                                           const std::vector<double>& scalars, const NamedNumbers& blocks = {},
+                                           const std::string& case_text = {});
+
+// Writes checkpoint.bin into `folder`; an existing one becomes checkpoint.previous.bin. Throws
+// WriteError.
 template <int Dim>
 void write_checkpoint(const std::filesystem::path& folder, const mpm::Particles<Dim>& particles, std::size_t at_start,
                       const std::vector<double>& scalars, const NamedNumbers& blocks = {},
@@ -34,6 +40,9 @@ struct WholeCheckpoint {
   std::string warning;  // about a newer checkpoint that is damaged, unreadable or absent; empty if there is none
   std::filesystem::path damaged = {};  // that newer checkpoint, if the file exists; empty otherwise
 };
+
+// Checkpoint in memory; file: its name in messages. Throws UserError if the bytes are damaged.
+[[nodiscard]] WholeCheckpoint intact_checkpoint(const std::filesystem::path& file, const std::string& bytes);
 
 // True if a run folder contains a checkpoint, intact or not.
 [[nodiscard]] bool has_checkpoint(const std::filesystem::path& folder);

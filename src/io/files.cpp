@@ -67,7 +67,7 @@ std::string read_file(const fs::path& file) {
 }
 
 void require_regular(const fs::path& file) {
-  if (const std::string found = config::what_stands_at(file); !found.empty()) {
+  if (const std::string found = config::other_kind_of_file(file); !found.empty()) {
     throw UserError(fmt::format("{} is {}; a regular file is needed. Replace it by the file itself, or remove it.",
                                 file.string(), found));
   }

@@ -77,7 +77,7 @@ class KeptRows {
     }
     return has_header_ && times_.size() == then.rows && text_.size() == then.bytes
                ? ""
-               : fmt::format("{} is not as the run wrote it; its rows are whole and stay", name);
+               : fmt::format("{} is not as the run wrote it; its rows are complete and are kept", name);
   }
 
  private:
@@ -182,7 +182,7 @@ void HistoryWriter::add(const Row& row) {
   extent_.last_time = row.front().second;
 }
 
-void HistoryWriter::synchronise() const {
+void HistoryWriter::synchronize() const {
   if (fsync(descriptor_) != 0 && errno != EINVAL) {  // EINVAL: not a file, such as a terminal
     throw WriteError(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
   }

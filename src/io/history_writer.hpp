@@ -37,7 +37,7 @@ class HistoryWriter {
   // Adds a row; the first row defines the header, and all rows must have its columns.
   void add(const Row& row);
   // Returns after all rows have reached the disk. Throws WriteError.
-  void synchronise() const;
+  void synchronize() const;
   [[nodiscard]] const HistoryExtent& extent() const { return extent_; }
 
  private:

@@ -205,7 +205,7 @@ Provenance read_provenance(const fs::path& folder) {
     provenance.simulated_time = facts.at("simulated_time_s");
     provenance.steps = facts.at("steps");
   } catch (const Json::parse_error& error) {
-    fail_as_damaged(file, text.empty() ? "it is empty" : fmt::format("it is no JSON from byte {} on", error.byte));
+    fail_as_damaged(file, text.empty() ? "it is empty" : fmt::format("it is not JSON from byte {} on", error.byte));
   } catch (const Json::exception& error) {
     const std::string specified = error.what();
     fail_as_damaged(

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/atomic_file.hpp"
+#include "base/error.hpp"
 #include "io/checkpoint.hpp"
 #include "io/files.hpp"
 #include "io/run_lock.hpp"
@@ -25,8 +26,8 @@ using IsOwn = std::function<bool(const fs::path& file)>;
 
 // Except run.json.
 constexpr std::string_view files_of_a_run[] = {
-    "history.csv",      "probes.csv",    "case.toml",   "terrain.csv",
-    "particles.vtkhdf", checkpoint_name, "report.html", previous_checkpoint_name};
+    "history.csv", "probes.csv",      "case.toml",    "terrain.csv", "particles.vtkhdf",      checkpoint_name,
+    "report.html", "comparison.html", "summary.html", "summary.pdf", previous_checkpoint_name};
 // In maps/, as GeoTIFF with a style (sim/map_kinds.cpp, app/map_output.cpp).
 constexpr std::string_view maps_of_a_run[] = {
     "terrain",      "release",      "max_thickness",    "final_thickness",       "max_speed", "max_momentum_flux",
@@ -71,8 +72,15 @@ bool is_damaged_one(const fs::path& file) {
          (name == "history.csv" || name == "probes.csv" || name == "checkpoint.bin");
 }
 
+// Polygons of a map (python/thawslide/contours.py): contours-max_thickness.gpkg.
+bool is_contours(const fs::path& file) {
+  const std::string name = file.stem().string(), prefix = "contours-";
+  return file.extension() == ".gpkg" && name.rfind(prefix, 0) == 0 &&
+         is_among(name.substr(prefix.size()), maps_of_a_run);
+}
+
 bool is_in_run(const fs::path& file) {
-  return is_among(file.filename().string(), files_of_a_run) || is_damaged_one(file);
+  return is_among(file.filename().string(), files_of_a_run) || is_damaged_one(file) || is_contours(file);
 }
 
 bool is_snapshot(const fs::path& file) {
@@ -86,7 +94,8 @@ bool is_map(const fs::path& file) {
   const std::string name = file.filename().string(), kind = name.substr(0, name.find('.'));
   const std::string ending = name.substr(kind.size());
   return name == "results.gpkg" ||
-         (is_among(kind, maps_of_a_run) && (ending == ".tif" || ending == ".qml" || ending == ".tif.aux.xml"));
+         (is_among(kind, maps_of_a_run) &&
+          (ending == ".tif" || ending == ".qml" || ending == ".hazard.qml" || ending == ".tif.aux.xml"));
 }
 
 bool is_figure(const fs::path& file) {
@@ -134,14 +143,54 @@ void remove_own_of(const fs::path& folder, const IsOwn& is_own) {
   }
 }
 
+void copy_or_throw(const fs::path& from, const fs::path& to, bool as_link) {
+  std::error_code error;
+  if (as_link) {
+    fs::create_hard_link(from, to, error);
+  }
+  if (!as_link || error) {
+    error.clear();
+    fs::copy_file(from, to, error);
+  }
+  if (error) {
+    throw WriteError(fmt::format("{} cannot be copied to {}: {}. Check the permissions and the free space.",
+                                 from.string(), to.string(), error.message()));
+  }
+}
+
 }  // namespace
 
-bool holds_a_run(const fs::path& folder) {
+void copy_files_of_run(const fs::path& from, const fs::path& to) {
+  const std::set<std::string> inputs = inputs_of(run_json(from));
+  const auto is_input = [&inputs](const fs::path& file) { return inputs.count(file.filename().string()) > 0; };
+  const std::pair<const char*, IsOwn> paths[] = {{"snapshots", is_snapshot}, {"inputs", is_input}, {"maps", is_map}};
+  for (const auto& [name, is_own] : paths) {
+    if (!is_real_folder(from / name)) {
+      continue;
+    }
+    make_folder(to / name);
+    for (const fs::path& file : entries_of(from / name)) {
+      if (fs::is_regular_file(fs::symlink_status(file)) && is_own(file)) {
+        copy_or_throw(file, to / name / file.filename(), std::string_view(name) == "snapshots");
+      }
+    }
+  }
+  for (const std::string_view name :
+       {std::string_view("history.csv"), std::string_view("probes.csv"), std::string_view("case.toml"),
+        std::string_view("terrain.csv"), std::string_view("particles.vtkhdf"),
+        std::string_view(previous_checkpoint_name), std::string_view(checkpoint_name), std::string_view("run.json")}) {
+    if (fs::is_regular_file(fs::symlink_status(from / name))) {
+      copy_or_throw(from / name, to / name, false);
+    }
+  }
+}
+
+bool is_run_folder(const fs::path& folder) {
   const Json facts = run_json(folder);
   return facts.is_object() && facts.contains("program") && facts["program"] == "thawslide";
 }
 
-bool holds_no_more_than_a_start(const fs::path& folder) {
+bool contains_only_a_start(const fs::path& folder) {
   if (!fs::exists(folder / lock_name) || fs::exists(folder / "run.json")) {
     return false;
   }
@@ -157,18 +206,20 @@ bool holds_no_more_than_a_start(const fs::path& folder) {
   });
 }
 
-void remove_files_of_run(const fs::path& folder) {
-  const std::set<std::string> inputs = inputs_of(run_json(folder));
+void remove_files_of_run(const fs::path& folder) { remove_copy_of_run(folder, folder); }
+
+void remove_copy_of_run(const fs::path& from, const fs::path& folder) {
+  const std::set<std::string> inputs = inputs_of(run_json(from));
   const auto is_input = [&inputs](const fs::path& file) { return inputs.count(file.filename().string()) > 0; };
-  const std::pair<const char*, IsOwn> places[] = {
+  const std::pair<const char*, IsOwn> paths[] = {
       {"snapshots", is_snapshot}, {"inputs", is_input}, {"figures", is_figure}, {"maps", is_map}};
-  for (const auto& [name, is_own] : places) {
-    const fs::path place = folder / name;
-    if (is_real_folder(place)) {
-      remove_own_of(place, is_own);
+  for (const auto& [name, is_own] : paths) {
+    const fs::path path = folder / name;
+    if (is_real_folder(path)) {
+      remove_own_of(path, is_own);
     }
-    if (fs::is_symlink(place) || (is_real_folder(place) && fs::is_empty(place))) {
-      remove_or_throw(place);
+    if (fs::is_symlink(path) || (is_real_folder(path) && fs::is_empty(path))) {
+      remove_or_throw(path);
     }
   }
   remove_own_of(folder, is_in_run);

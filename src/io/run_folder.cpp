@@ -13,7 +13,7 @@ namespace {
 
 // Throws UserError if the folder contains anything that must not be replaced.
 void require_replaceable(const fs::path& folder, bool overwrite) {
-  if (!holds_a_run(folder)) {
+  if (!is_run_folder(folder)) {
     throw UserError(
         fs::exists(folder / "run.json")
             ? fmt::format("cannot determine whether {} is the folder of a run: its run.json is damaged, or was written "
@@ -62,7 +62,7 @@ void require_usable(const fs::path& folder, bool overwrite) {
     throw UserError(fmt::format("the output folder {} cannot be written: no permission for {}. Give another --output.",
                                 folder.string(), part.string()));
   }
-  if (fs::exists(folder) && !fs::is_empty(folder) && !holds_no_more_than_a_start(folder)) {
+  if (fs::exists(folder) && !fs::is_empty(folder) && !contains_only_a_start(folder)) {
     require_replaceable(folder, overwrite);
   }
 }

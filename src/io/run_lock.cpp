@@ -21,24 +21,24 @@ namespace fs = std::filesystem;
 
 namespace {
 
-enum class Lock { ours, of_another, unknown };
+enum class Lock { acquired, of_another, unknown };
 
 // The file system may not support locks.
-Lock ask(int descriptor, int kind) {
+Lock try_lock(int descriptor, int kind) {
   if (flock(descriptor, kind | LOCK_NB) == 0) {
-    return Lock::ours;
+    return Lock::acquired;
   }
   return errno == EWOULDBLOCK ? Lock::of_another : Lock::unknown;
 }
 
 // A process that only tests the lock holds it briefly, so a single refusal is not conclusive.
-Lock take(int descriptor) {
+Lock acquire(int descriptor) {
   constexpr int attempts = 20;
   constexpr useconds_t pause = 5000;  // microseconds
-  Lock lock = ask(descriptor, LOCK_EX);
+  Lock lock = try_lock(descriptor, LOCK_EX);
   for (int k = 1; k < attempts && lock == Lock::of_another; ++k) {
     usleep(pause);
-    lock = ask(descriptor, LOCK_EX);
+    lock = try_lock(descriptor, LOCK_EX);
   }
   return lock;
 }
@@ -96,7 +96,7 @@ AtWork at_work_by(const std::string& line) {
 }
 
 AtWork at_work_by(int descriptor, Lock lock) {
-  const std::string line = lock == Lock::ours ? "" : line_in(descriptor);
+  const std::string line = lock == Lock::acquired ? "" : line_in(descriptor);
   if (lock == Lock::unknown) {
     return at_work_by(line);
   }
@@ -125,7 +125,7 @@ int acquire_lock(const fs::path& file) {
   if (descriptor < 0) {
     throw WriteError(fmt::format("cannot write {}: {}", file.string(), std::strerror(errno)));
   }
-  const Lock lock = take(descriptor);
+  const Lock lock = acquire(descriptor);
   const AtWork at_work = at_work_by(descriptor, lock);
   const bool is_free = at_work.process.empty();
   if (is_free && is_of_name(descriptor, file)) {
@@ -193,11 +193,11 @@ bool OwnFolder::is_own() const {
 
 void OwnFolder::require() const {
   if (!is_own()) {
-    throw WriteError(fmt::format(
-        "{} is not the folder any more that this run began in: that was moved or removed, its {} was, or another run "
-        "has taken its place. Nothing more is written there. From where the folder is now, `thawslide resume` "
-        "continues from the last checkpoint.",
-        lock_.parent_path().string(), lock_name));
+    throw WriteError(
+        fmt::format("{} is no longer the folder in which this run began: that folder was moved or removed, its {} was, "
+                    "or another run has taken its place. Nothing more is written there. From where the folder is now, "
+                    "`thawslide resume` continues from the last checkpoint.",
+                    lock_.parent_path().string(), lock_name));
   }
 }
 
@@ -211,7 +211,7 @@ AtWork process_at_work(const fs::path& folder) {
     }
     return {};
   }
-  const AtWork found = at_work_by(descriptor, ask(descriptor, LOCK_SH));
+  const AtWork found = at_work_by(descriptor, try_lock(descriptor, LOCK_SH));
   close(descriptor);
   return found;
 }

@@ -16,16 +16,16 @@ std::size_t written_components(mpm::FieldShape shape) {
 }
 
 SnapshotField copy_field(const mpm::FieldBase& field, const std::vector<std::size_t>& order) {
-  SnapshotField taken{
+  SnapshotField copy{
       field.info().name, field.info().unit, written_components(field.info().shape), field.is_integer(), {}, {}};
   std::vector<double> values;
-  field.append_values(order, taken.components, values);
-  if (taken.integer) {
-    taken.integers.assign(values.begin(), values.end());
+  field.append_values(order, copy.components, values);
+  if (copy.integer) {
+    copy.integers.assign(values.begin(), values.end());
   } else {
-    taken.numbers = std::move(values);
+    copy.numbers = std::move(values);
   }
-  return taken;
+  return copy;
 }
 
 // Group "basal_segments": one dataset per column, whose name ends with the unit.
@@ -53,7 +53,7 @@ std::vector<std::size_t> order_by_id(const mpm::Particles<Dim>& particles) {
 }
 
 template <int Dim>
-Snapshot take_snapshot(const mpm::Particles<Dim>& particles, const Vector<double, Dim>& origin, double time,
+Snapshot make_snapshot(const mpm::Particles<Dim>& particles, const Vector<double, Dim>& origin, double time,
                        std::int64_t step) {
   const std::vector<std::size_t> order = order_by_id(particles);
   Snapshot snapshot{time, step, {}, {}, {}};
@@ -126,7 +126,7 @@ template std::size_t snapshot_bytes_of_particle<3>();
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                \
   template std::vector<std::size_t> order_by_id<Dim>(const mpm::Particles<Dim>&); \
-  template Snapshot take_snapshot<Dim>(const mpm::Particles<Dim>&, const Vector<double, Dim>&, double, std::int64_t);
+  template Snapshot make_snapshot<Dim>(const mpm::Particles<Dim>&, const Vector<double, Dim>&, double, std::int64_t);
 THAWSLIDE_INSTANTIATE(2)
 THAWSLIDE_INSTANTIATE(3)
 #undef THAWSLIDE_INSTANTIATE

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/named_numbers.hpp"
+#include "base/state_numbers.hpp"
 #include "mpm/particles.hpp"
 
 namespace thawslide::io {
@@ -33,7 +33,7 @@ struct Snapshot {
 // Fields marked for snapshots, with rows by id, the local origin added, three components in 2D (z = 0), tensors as xx
 // yy zz xy yz xz.
 template <int Dim>
-Snapshot take_snapshot(const mpm::Particles<Dim>& particles, const Vector<double, Dim>& origin, double time,
+Snapshot make_snapshot(const mpm::Particles<Dim>& particles, const Vector<double, Dim>& origin, double time,
                        std::int64_t step);
 
 // Bytes of the file; the same snapshot gives the same bytes.

@@ -97,7 +97,7 @@ SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, std::size_
   series.next_ = count;
   std::string lost;
   std::size_t expected = 0;
-  const auto note_lost_before = [&](std::size_t number) {
+  const auto report_lost_before = [&](std::size_t number) {
     if (expected < number) {
       lost += fmt::format("{}{:06d}", lost.empty() ? "" : ", ", expected);
       lost += number - expected > 1 ? fmt::format(" to {:06d}", number - 1) : "";
@@ -106,24 +106,24 @@ SnapshotSeries SnapshotSeries::continue_after(const fs::path& folder, std::size_
   for (const auto& [number, file] : numbered_files(folder / "snapshots")) {
     if (number >= count) {
       remove_or_throw(file);
-    } else if (series.take(number, file)) {
-      note_lost_before(number);
+    } else if (series.restore_snapshot(number, file)) {
+      report_lost_before(number);
       expected = number + 1;
     }
   }
-  note_lost_before(count);
+  report_lost_before(count);
   if (!lost.empty()) {
     warnings.push_back(fmt::format(
-        "of the {} snapshots up to here these are missing or cannot be read: {}; particles.vtkhdf leaves them out",
-        count, lost));
+        "of the {} snapshots up to here these are missing or cannot be read: {}; particles.vtkhdf omits them", count,
+        lost));
   }
   return series;
 }
 
 // Returns whether the file could be read.
-bool SnapshotSeries::take(std::size_t number, const fs::path& file) {
+bool SnapshotSeries::restore_snapshot(std::size_t number, const fs::path& file) {
   const hdf5::Silence silence;
-  if (!config::what_stands_at(file).empty()) {
+  if (!config::other_kind_of_file(file).empty()) {
     return false;
   }
   try {

@@ -46,7 +46,7 @@ class SnapshotSeries {
     std::size_t components;
     bool integer;
   };
-  bool take(std::size_t number, const std::filesystem::path& file);
+  bool restore_snapshot(std::size_t number, const std::filesystem::path& file);
   void write_cells(std::int64_t root, const std::vector<std::int64_t>& counts) const;
   void write_steps(std::int64_t root) const;
   void write_virtual(std::int64_t parent, const std::string& name, const std::string& source, std::size_t components,

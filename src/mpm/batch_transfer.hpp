@@ -28,24 +28,25 @@ THAWSLIDE_ALWAYS_INLINE auto for_axes(const Make& make) {
 
 // Positions of the particles of a batch: nearest nodes, and offsets from them in cells.
 template <int Dim>
-struct BatchPlace {
+struct BatchGridPosition {
   Vector<Simd<Real>, Dim> node, offset;
 };
 
 template <int Dim>
-THAWSLIDE_ALWAYS_INLINE BatchPlace<Dim> place_of(const SparseGrid<Dim>& grid, const Particles<Dim>& particles,
-                                                 const TileBatch<Dim>& batch) {
-  BatchPlace<Dim> place;
+THAWSLIDE_ALWAYS_INLINE BatchGridPosition<Dim> grid_position(const SparseGrid<Dim>& grid,
+                                                             const Particles<Dim>& particles,
+                                                             const TileBatch<Dim>& batch) {
+  BatchGridPosition<Dim> at;
   for (int a = 0; a < Dim; ++a) {
-    place.node[a] = Simd<Real>::load_whole(batch.nearest[static_cast<std::size_t>(a)].data());
-    place.offset[a] = particles.position.load(batch, a) * grid.inverse_cell() - place.node[a];
+    at.node[a] = Simd<Real>::load_whole(batch.nearest[static_cast<std::size_t>(a)].data());
+    at.offset[a] = particles.position.load(batch, a) * grid.inverse_cell() - at.node[a];
   }
-  return place;
+  return at;
 }
 
 // Lanes at a side of the domain that prescribes velocity.
 template <int Dim>
-THAWSLIDE_ALWAYS_INLINE SimdMask<Real> at_side(const HeldSides<Dim>& sides, int axis, Simd<Real> node) {
+THAWSLIDE_ALWAYS_INLINE SimdMask<Real> at_side(const PrescribedSides<Dim>& sides, int axis, Simd<Real> node) {
   const auto a = static_cast<std::size_t>(axis);
   return (node == static_cast<Real>(sides.lower[a])) | (node == static_cast<Real>(sides.upper[a]));
 }
@@ -53,10 +54,11 @@ THAWSLIDE_ALWAYS_INLINE SimdMask<Real> at_side(const HeldSides<Dim>& sides, int 
 // Stencil for shape functions Shape (Ugimp, Linear, Quadratic). size: of the particles, in cells.
 template <class Shape, int Dim>
 THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim> make_stencil(const SparseGrid<Dim>& grid, const TileBatch<Dim>& batch,
-                                                       const BatchPlace<Dim>& place, const HalfSize<Simd<Real>>& size,
-                                                       const HeldSides<Dim>& sides) {
+                                                       const BatchGridPosition<Dim>& at,
+                                                       const HalfSize<Simd<Real>>& size,
+                                                       const PrescribedSides<Dim>& sides) {
   return {batch.nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
-            return Shape::weights(place.offset[a], size, at_side(sides, a, place.node[a]), grid.inverse_cell());
+            return Shape::weights(at.offset[a], size, at_side(sides, a, at.node[a]), grid.inverse_cell());
           })};
 }
 
@@ -77,14 +79,14 @@ struct LinearStencil {
 
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE CornerStencil<Dim> corners() const {
     const Simd<Real> zero = Real(0), one = Real(1), slope = inverse_cell;
-    Simd<Real> place = Simd<Real>::load_whole(nodes.first.data()), in_cell = zero;
+    Simd<Real> index = Simd<Real>::load_whole(nodes.first.data()), in_cell = zero;
     for (int a = 0; a < Dim; ++a) {
       const auto right = offset[a] >= zero;
-      place += select(right, Simd<Real>(Real(power(Tile<Dim>::patch_edge, a))), zero);
+      index += select(right, Simd<Real>(Real(power(Tile<Dim>::patch_edge, a))), zero);
       in_cell += select(right, Simd<Real>(Real(power(3, a))), zero);
     }
     BatchNodes corner_nodes;
-    place.store_whole(corner_nodes.first.data());
+    index.store_whole(corner_nodes.first.data());
     corner_nodes.runs = BatchNodes::irregular;
     CornerStencil<Dim> corners{{corner_nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
                                   const Simd<Real> along = select(offset[a] >= zero, offset[a], one + offset[a]);
@@ -104,7 +106,7 @@ struct LinearStencil {
 template <int Dim>
 THAWSLIDE_ALWAYS_INLINE LinearStencil<Dim> linear_stencil(const SparseGrid<Dim>& grid, const Particles<Dim>& particles,
                                                           const TileBatch<Dim>& batch) {
-  return {place_of(grid, particles, batch).offset, batch.nodes, grid.inverse_cell()};
+  return {grid_position(grid, particles, batch).offset, batch.nodes, grid.inverse_cell()};
 }
 
 // Same nodes and weights for APIC: S_i (x_i - x_p)/D replaces the gradient G_i, so that node velocities give the affine
@@ -117,15 +119,16 @@ struct AffineBatch {
 
 template <class Shape, int Dim>
 THAWSLIDE_ALWAYS_INLINE AffineBatch<Dim> make_affine(const SparseGrid<Dim>& grid, const BatchStencil<Dim>& stencil,
-                                                     const BatchPlace<Dim>& place, const HeldSides<Dim>& sides) {
+                                                     const BatchGridPosition<Dim>& at,
+                                                     const PrescribedSides<Dim>& sides) {
   const auto axis = [&](int a) THAWSLIDE_INLINE_LAMBDA {
-    return Shape::affine(stencil.axis[static_cast<std::size_t>(a)], place.offset[a], at_side(sides, a, place.node[a]),
+    return Shape::affine(stencil.axis[static_cast<std::size_t>(a)], at.offset[a], at_side(sides, a, at.node[a]),
                          grid.inverse_cell());
   };
   AffineBatch<Dim> affine{{stencil.nodes, for_axes<Dim>(axis)}, {}};
   for (int a = 0; a < Dim; ++a) {
     affine.moment[a] =
-        second_moment(stencil.axis[static_cast<std::size_t>(a)], place.offset[a]) * (grid.cell() * grid.cell());
+        second_moment(stencil.axis[static_cast<std::size_t>(a)], at.offset[a]) * (grid.cell() * grid.cell());
   }
   return affine;
 }
@@ -220,11 +223,11 @@ THAWSLIDE_ALWAYS_INLINE Register sum_along_axes(const SpreadWeights<Dim, Registe
   constexpr auto stride = static_cast<std::size_t>(power(Tile<Dim>::patch_edge, Axis));
   Register sum = Real(0);
   unrolled<Width>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
-    const Real* place = records + k * stride * record_size;
+    const Real* record = records + k * stride * record_size;
     if constexpr (Axis == 0) {
-      sum += spread.weight[0][k] * Register::load(place);
+      sum += spread.weight[0][k] * Register::load(record);
     } else {
-      sum += spread.weight[Axis][k] * sum_along_axes<Axis - 1>(spread, record_size, place);
+      sum += spread.weight[Axis][k] * sum_along_axes<Axis - 1>(spread, record_size, record);
     }
   });
   return sum;

@@ -22,19 +22,19 @@ struct About {
 
   // relative: node indices relative to the block's first node.
   static std::size_t at(const typename Tile<Dim>::Index& relative) {
-    int place = 0;
+    int index = 0;
     for (int a = Dim - 1; a >= 0; --a) {
-      place = place * edge + relative[static_cast<std::size_t>(a)] + Margin;
+      index = index * edge + relative[static_cast<std::size_t>(a)] + Margin;
     }
-    return static_cast<std::size_t>(place);
+    return static_cast<std::size_t>(index);
   }
-  static typename Tile<Dim>::Index relative(std::size_t place) {
-    typename Tile<Dim>::Index index{};
+  static typename Tile<Dim>::Index relative(std::size_t index) {
+    typename Tile<Dim>::Index relative{};
     for (std::size_t a = 0; a < Dim; ++a) {
-      index[a] = static_cast<int>(place % edge) - Margin;
-      place /= edge;
+      relative[a] = static_cast<int>(index % edge) - Margin;
+      index /= edge;
     }
-    return index;
+    return relative;
   }
 };
 
@@ -82,7 +82,7 @@ Vector<Real, Dim> change_about(const std::array<Real, About<Dim, 2>::count>& qua
 // Particle that may reach nodes of a block.
 template <int Dim>
 struct ParticleAbout {
-  Vector<Real, Dim> place;            // [m]
+  Vector<Real, Dim> position;         // [m]
   Real half;                          // half size of its box [m]
   typename Tile<Dim>::Index nearest;  // node, relative to the block's first one
 };
@@ -102,11 +102,11 @@ std::vector<ParticleAbout<Dim>> particles_about(const SparseGrid<Dim>& grid, con
     for (std::uint32_t k = tile.first; k < tile.last; ++k) {
       const std::uint32_t p = grid.order()[k];
       ParticleAbout<Dim> one;
-      one.place = particles.position.template load_vector<Dim>(ScalarIndex{p});
+      one.position = particles.position.template load_vector<Dim>(ScalarIndex{p});
       one.half = sizes.half(static_cast<std::size_t>(particles.body(p))) * grid.cell();
       bool reaches = true;
       for (std::size_t a = 0; a < Dim; ++a) {
-        const Real along = one.place[static_cast<int>(a)] * grid.inverse_cell() + Real(0.5);
+        const Real along = one.position[static_cast<int>(a)] * grid.inverse_cell() + Real(0.5);
         one.nearest[a] = static_cast<int>(std::floor(along)) - first_node[a];
         reaches = reaches && one.nearest[a] >= -1 && one.nearest[a] <= T::edge;
       }
@@ -147,7 +147,7 @@ Real set_edges(const Vector<Real, Dim>& normal, Real sign, std::vector<Edge<Dim>
   const Real stretch = sign * normal.cwiseAbs().maxCoeff();
   Real foremost = -std::numeric_limits<Real>::max();
   for (Edge<Dim>& edge : seen) {
-    edge.along = edge.of->place.dot(normal) + stretch * edge.of->half;
+    edge.along = edge.of->position.dot(normal) + stretch * edge.of->half;
     foremost = std::max(foremost, sign * edge.along);
   }
   return sign * foremost;
@@ -164,7 +164,7 @@ Real gap_between(const std::vector<Edge<Dim>>& first, const std::vector<Edge<Dim
       if (to.along - from.along >= gap) {
         break;
       }
-      const Vector<Real, Dim> apart = to.of->place - from.of->place;
+      const Vector<Real, Dim> apart = to.of->position - from.of->position;
       const Vector<Real, Dim> across = apart - apart.dot(normal) * normal;
       const Real reach = to.of->half + from.of->half;
       gap = across.squaredNorm() < reach * reach ? to.along - from.along : gap;
@@ -181,25 +181,25 @@ void BodyContact<Dim>::find_pairs(const SparseGrid<Dim>& grid, const BetweenBodi
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
     const std::uint64_t key = grid.blocks()[b];
     for (std::uint64_t layer = T::layer(key) + 1; layer < between.layers; ++layer) {
-      const std::int32_t other = grid.block_at(T::in_layer(T::place(key), layer));
+      const std::int32_t other = grid.block_at(T::in_layer(T::without_layer(key), layer));
       if (other != KeyIndex::absent) {
         const Real friction =
             between
                 .friction[static_cast<std::size_t>(T::layer(key)) * between.layers + static_cast<std::size_t>(layer)];
-        pairs_.push_back({T::place(key), b, static_cast<std::size_t>(other), friction, {}});
+        pairs_.push_back({T::without_layer(key), b, static_cast<std::size_t>(other), friction, {}});
       }
     }
   }
   std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
-    return std::tie(a.place, a.block, a.other) < std::tie(b.place, b.block, b.other);
+    return std::tie(a.tile, a.block, a.other) < std::tie(b.tile, b.block, b.other);
   });
-  first_of_place_.clear();
+  first_of_tile_.clear();
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    if (k == 0 || pairs_[k].place != pairs_[k - 1].place) {
-      first_of_place_.push_back(k);
+    if (k == 0 || pairs_[k].tile != pairs_[k - 1].tile) {
+      first_of_tile_.push_back(k);
     }
   }
-  first_of_place_.push_back(pairs_.size());
+  first_of_tile_.push_back(pairs_.size());
 }
 
 // Finds the nodes at which both bodies have mass; returns false if there are none.
@@ -323,9 +323,9 @@ void BodyContact<Dim>::add_forces(const SparseGrid<Dim>& grid, const Particles<D
                                   const BetweenBodies& between, const BodySizes& sizes, Real mass_damping, Real dt,
                                   Nodes<Dim>& nodes) {
   find_pairs(grid, between);
-  parallel_for(first_of_place_.size() - 1, [&](std::size_t place) {
+  parallel_for(first_of_tile_.size() - 1, [&](std::size_t tile) {
     // Serial: three bodies that meet at a node exchange its momentum in turn.
-    for (std::size_t k = first_of_place_[place]; k < first_of_place_[place + 1]; ++k) {
+    for (std::size_t k = first_of_tile_[tile]; k < first_of_tile_[tile + 1]; ++k) {
       if (find_meetings(nodes, pairs_[k])) {
         find_gaps(grid, particles, sizes, find_normals(grid, nodes, pairs_[k]), pairs_[k]);
         exchange(mass_damping, dt, nodes, pairs_[k]);
@@ -339,8 +339,8 @@ BodyContactWork BodyContact<Dim>::constrain_mapped_back(const Vector<Real, Dim>&
                                                         Nodes<Dim>& nodes) const {
   using Layout = MomentumLayout<Dim>;
   using Work = BodyContactWork;
-  return parallel_sum<Work>(first_of_place_.size() - 1, [&](std::size_t place, Work& work) {
-    for (std::size_t p = first_of_place_[place]; p < first_of_place_[place + 1]; ++p) {
+  return parallel_sum<Work>(first_of_tile_.size() - 1, [&](std::size_t tile, Work& work) {
+    for (std::size_t p = first_of_tile_[tile]; p < first_of_tile_[tile + 1]; ++p) {
       const Pair& pair = pairs_[p];
       for (std::size_t k = 0; k < block_nodes; ++k) {
         const Meeting& meeting = pair.at[k];
@@ -359,11 +359,11 @@ BodyContactWork BodyContact<Dim>::constrain_mapped_back(const Vector<Real, Dim>&
           const Vec before = vector_at<Dim>(velocity, 0);
           const Vec change = (sign * impulse.normal / of_mass) * meeting.normal;
           const Vec middle = vector_at<Dim>(nodes.motion(block, k), MotionLayout<Dim>::middle_velocity);
-          const Vec taken = sign * meeting.impulse;
+          const Vec transferred = sign * meeting.impulse;
           const Vec internal = dt * (vector_at<Dim>(record, Layout::force) - of_mass * gravity);
           set_vector<Dim>(velocity, 0, Vec(before + change));
-          work.loss -= taken.dot(middle);
-          work.numerical -= taken.dot(Vec(middle - before - change)) + internal.dot(change);
+          work.loss -= transferred.dot(middle);
+          work.numerical -= transferred.dot(Vec(middle - before - change)) + internal.dot(change);
         };
         turn(pair.block, mapped, Real(-1), mass);
         turn(pair.other, other_mapped, Real(1), other_mass);

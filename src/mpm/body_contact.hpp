@@ -52,7 +52,7 @@ class BodyContact {
   using Normals = std::array<Vec, 3>;
   // Blocks of two layers at the same place.
   struct Pair {
-    std::uint64_t place;
+    std::uint64_t tile;
     std::size_t block, other;
     Real friction;
     std::array<Meeting, block_nodes> at;
@@ -66,8 +66,8 @@ class BodyContact {
                         const std::array<Normals, block_nodes>& normals, Pair& pair);
   static void exchange(Real mass_damping, Real dt, Nodes<Dim>& nodes, Pair& pair);
 
-  std::vector<Pair> pairs_;                  // by place, then by block
-  std::vector<std::size_t> first_of_place_;  // with the end appended
+  std::vector<Pair> pairs_;                 // by place, then by block
+  std::vector<std::size_t> first_of_tile_;  // with the end appended
 };
 
 }  // namespace thawslide::mpm

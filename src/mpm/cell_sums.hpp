@@ -15,7 +15,7 @@ template <int Dim>
 struct CellNodes {
   static constexpr std::size_t count = static_cast<std::size_t>(power(3, Dim));
   // Place in the patch relative to the lowest node.
-  static constexpr std::size_t place(std::size_t node) {
+  static constexpr std::size_t index(std::size_t node) {
     constexpr auto edge = static_cast<std::size_t>(Tile<Dim>::patch_edge);
     return (node / 9 * edge + node / 3 % 3) * edge + node % 3;
   }
@@ -106,7 +106,7 @@ class CellSums {
       }
       unrolled<layer_nodes>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
         if (ends) {
-          Real* record = records + CellNodes<Dim>::place(layer * layer_nodes + k) * size;
+          Real* record = records + CellNodes<Dim>::index(layer * layer_nodes + k) * size;
           (Register::load(record) + sums[k]).store(record);
         } else {
           of_cell[layer * layer_nodes + k] = sums[k];
@@ -202,7 +202,7 @@ class LinearCellSums {
   void end_cell(std::size_t first_node) {
     Real* records = patch_.records[first_node].data() + First;
     unrolled<nodes>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
-      Real* record = records + CellNodes<Dim>::place(k) * size;
+      Real* record = records + CellNodes<Dim>::index(k) * size;
       (Register::load(record) + sums_[k]).store(record);
     });
   }
@@ -242,7 +242,7 @@ class PatchMinima {
     with_fetch(nodes, *gaps.planes, [&](const auto& fetch) {
       for_each_node<Dim>(
           stencil.axis, 0, [&](std::size_t offset, Simd<Real> weight, const Vector<Simd<Real>, Dim>& /*slope*/) {
-            const Simd<Real> gap = gap_to_plane<Dim>(gaps.place, gaps.reach,
+            const Simd<Real> gap = gap_to_plane<Dim>(gaps.position, gaps.reach,
                                                      [&](std::size_t component)
                                                          THAWSLIDE_INLINE_LAMBDA { return fetch(offset, component); });
             // Round-off decides whether a box that ends at the edge of a node's support overlaps it.

@@ -32,8 +32,9 @@ struct Constraints : DomainFaces<Dim> {
     this->apply_faces(position, momentum);
     bool in_frame = false;
     for (const RigidFrame<Dim>& frame : frames) {
-      const Vector<Real, Dim> place = position - frame.shift(time);
-      if ((place.array() >= frame.lower.array()).all() && (place.array() <= frame.upper.array()).all()) {
+      const Vector<Real, Dim> in_frame_position = position - frame.shift(time);
+      if ((in_frame_position.array() >= frame.lower.array()).all() &&
+          (in_frame_position.array() <= frame.upper.array()).all()) {
         momentum[frame.axis] = mass * frame.velocity;
         in_frame = true;
       }

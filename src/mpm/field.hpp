@@ -55,6 +55,9 @@ class FieldBase {
   virtual void copy(std::size_t from, std::size_t to) = 0;
   // Moves the particle at order[k] to place k, for all k of `order`.
   virtual void reorder(const std::vector<std::uint32_t>& order, ReorderBuffer& buffer) = 0;
+  // Memory in blocks of particles_of_block particles, component by component (index_in_field); null if not stored.
+  [[nodiscard]] virtual const void* memory() const = 0;
+  [[nodiscard]] virtual std::size_t number_bytes() const = 0;
   [[nodiscard]] virtual std::vector<std::byte> bytes() const = 0;
   virtual void set_bytes(const std::vector<std::byte>& bytes) = 0;
 
@@ -116,14 +119,14 @@ class Field final : public FieldBase {
       prefetch(numbers, prefetched_blocks * lanes * Components * sizeof(T));
       return Simd<T>::load(numbers);
     }
-    return Simd<T>::gather(&data_[position(0, component)], places(batch));
+    return Simd<T>::gather(&data_[position(0, component)], positions(batch));
   }
   THAWSLIDE_ALWAYS_INLINE void store(const SimdBatch& batch, const Simd<T>& values, int component = 0) {
     if (batch.contiguous) {
       values.store(&(*this)(batch.particle[0], component));
       return;
     }
-    values.scatter(&data_[position(0, component)], places(batch), batch.count);
+    values.scatter(&data_[position(0, component)], positions(batch), batch.count);
   }
   // Value of one particle.
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE T load(const ScalarIndex& one, int component = 0) const {
@@ -225,6 +228,8 @@ class Field final : public FieldBase {
     }
   }
 
+  [[nodiscard]] const void* memory() const override { return kept_ ? data_.data() : nullptr; }
+  [[nodiscard]] std::size_t number_bytes() const override { return sizeof(T); }
   [[nodiscard]] std::vector<std::byte> bytes() const override {
     std::vector<std::byte> all(particles_ * Components * sizeof(T));
     for (std::size_t k = 0; kept_ && k < particles_; ++k) {
@@ -250,10 +255,10 @@ class Field final : public FieldBase {
                      info().name, particles, Components);
   }
   static std::size_t position(std::size_t particle, int component) {
-    return place_in_field<Components>(particle, component);
+    return index_in_field<Components>(particle, component);
   }
   // position(particle, 0), by lane.
-  THAWSLIDE_ALWAYS_INLINE static typename Simd<T>::Whole places(const SimdBatch& batch) {
+  THAWSLIDE_ALWAYS_INLINE static typename Simd<T>::Whole positions(const SimdBatch& batch) {
     constexpr auto within = static_cast<std::int32_t>(lanes) - 1;
     const auto particle = whole_lanes<T>(batch.particle.data());
     return particle + (particle & ~within) * (Components - 1);

@@ -14,7 +14,7 @@ namespace thawslide::mpm {
 inline constexpr std::size_t particles_of_block = 8;
 
 template <int Components>
-THAWSLIDE_HD constexpr std::size_t place_in_field(std::size_t particle, int component) {
+THAWSLIDE_HD constexpr std::size_t index_in_field(std::size_t particle, int component) {
   constexpr std::size_t block = particles_of_block;
   return (particle / block * Components + static_cast<std::size_t>(component)) * block + particle % block;
 }
@@ -25,7 +25,7 @@ struct FieldView {
 
   [[nodiscard]] THAWSLIDE_HD bool is_kept() const { return numbers != nullptr; }
   [[nodiscard]] THAWSLIDE_HD T& operator()(std::size_t particle, int component = 0) const {
-    return numbers[place_in_field<Components>(particle, component)];
+    return numbers[index_in_field<Components>(particle, component)];
   }
   [[nodiscard]] THAWSLIDE_HD T load(const ScalarIndex& one, int component = 0) const {
     return (*this)(one.particle[0], component);

@@ -18,18 +18,18 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void carry(const Numbers& numbers, Carried&
 
 // Adds m v and m x x v, of a velocity v at the particle position x, to FilterMomentum.
 template <int Dim, class Value, class Scatter>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void carry_momentum(Value mass, const Vector<Value, Dim>& place,
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void carry_momentum(Value mass, const Vector<Value, Dim>& position,
                                                          const Vector<Value, Dim>& velocity, Scatter& added) {
   auto& carried = added.template of<FilterMomentum>();
   const Vector<Value, Dim> momentum = mass * velocity;
   carry<0>(momentum, carried);
-  carry<static_cast<std::size_t>(Dim)>(physics::moment_of<Dim>(place, momentum), carried);
+  carry<static_cast<std::size_t>(Dim)>(physics::moment_of<Dim>(position, momentum), carried);
 }
 
 // Velocity at the particle position of the surrounding nodes' rigid motions, given by a record.
 template <class Name, int Dim, class Value, class Seen>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, Dim> rigid_velocity(const Seen& seen,
-                                                                       const Vector<Value, Dim>& place) {
+                                                                       const Vector<Value, Dim>& position) {
   const auto motion = seen.template values<Name>();
   Vector<Value, Dim> velocity;
   Vector<Value, physics::rotations<Dim>> rotation;
@@ -37,7 +37,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, Dim> rigid_velocity(const See
                                               THAWSLIDE_INLINE_LAMBDA { velocity[static_cast<int>(a)] = motion[a]; });
   unrolled<static_cast<std::size_t>(physics::rotations<Dim>)>(
       [&](auto a) THAWSLIDE_INLINE_LAMBDA { rotation[static_cast<int>(a)] = motion[Dim + a]; });
-  return velocity + physics::turned<Dim>(rotation, place);
+  return velocity + physics::turned<Dim>(rotation, position);
 }
 
 // First and second moments of mass around the nodes.
@@ -45,18 +45,18 @@ template <int Dim>
 struct AddFilterMoments {
   using Reads = RecordList<>;
   using Adds = RecordList<FilterMoments>;
-  using Account = NoAccount;
+  using Totals = NoTotals;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Scatter& added, Account& /*account*/) const {
+                                                       Scatter& added, Totals& /*totals*/) const {
     using Value = typename At::Value;
     const Value mass = particles.mass.load(at);
-    const Vector<Value, Dim> place = particles.position.template load_vector<Dim>(at);
+    const Vector<Value, Dim> position = particles.position.template load_vector<Dim>(at);
     auto& carried = added.template of<FilterMoments>();
-    carry<0>(Vector<Value, Dim>(mass * place), carried);
-    carry<static_cast<std::size_t>(Dim)>(Vector<Value, physics::squares<Dim>>(mass * physics::squares_of<Dim>(place)),
-                                         carried);
+    carry<0>(Vector<Value, Dim>(mass * position), carried);
+    carry<static_cast<std::size_t>(Dim)>(
+        Vector<Value, physics::squares<Dim>>(mass * physics::squares_of<Dim>(position)), carried);
   }
 };
 
@@ -65,11 +65,11 @@ template <int Dim>
 struct AddFilterMomentum {
   using Reads = RecordList<>;
   using Adds = RecordList<FilterMomentum>;
-  using Account = NoAccount;
+  using Totals = NoTotals;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Scatter& added, Account& /*account*/) const {
+                                                       Scatter& added, Totals& /*totals*/) const {
     using Value = typename At::Value;
     carry_momentum<Dim>(particles.mass.load(at), Vector<Value, Dim>(particles.position.template load_vector<Dim>(at)),
                         Vector<Value, Dim>(particles.velocity.template load_vector<Dim>(at)), added);
@@ -81,14 +81,14 @@ template <int Dim>
 struct SweepFilter {
   using Reads = RecordList<FilterIncrement>;
   using Adds = RecordList<FilterMomentum>;
-  using Account = NoAccount;
+  using Totals = NoTotals;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& added, Account& /*account*/) const {
+                                                       Scatter& added, Totals& /*totals*/) const {
     using Value = typename At::Value;
-    const Vector<Value, Dim> place = particles.position.template load_vector<Dim>(at);
-    carry_momentum<Dim>(particles.mass.load(at), place, rigid_velocity<FilterIncrement, Dim>(seen, place), added);
+    const Vector<Value, Dim> position = particles.position.template load_vector<Dim>(at);
+    carry_momentum<Dim>(particles.mass.load(at), position, rigid_velocity<FilterIncrement, Dim>(seen, position), added);
   }
 };
 
@@ -98,15 +98,15 @@ template <int Dim>
 struct ApplyFiltered {
   using Reads = RecordList<FilterTotal>;
   using Adds = RecordList<Velocity>;
-  using Account = Real;
+  using Totals = Real;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& added, Account& gained) const {
+                                                       Scatter& added, Totals& gained) const {
     using Value = typename At::Value;
-    const Vector<Value, Dim> place = particles.position.template load_vector<Dim>(at);
+    const Vector<Value, Dim> position = particles.position.template load_vector<Dim>(at);
     const Vector<Value, Dim> old = particles.velocity.template load_vector<Dim>(at);
-    const Vector<Value, Dim> velocity = rigid_velocity<FilterTotal, Dim>(seen, place);
+    const Vector<Value, Dim> velocity = rigid_velocity<FilterTotal, Dim>(seen, position);
     const Value mass = particles.mass.load(at);
     at.add_to(gained, Real(0.5) * mass * (velocity - old).dot(velocity + old));
     particles.velocity.store_vector(at, velocity);

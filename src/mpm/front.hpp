@@ -10,14 +10,14 @@ namespace thawslide::mpm {
 // Particle position along the path of the front.
 struct PathSample {
   double along = 0.0, mass = 0.0;  // [m, kg]
-  Place2 place{};                  // [m]; only x in 2D
+  Point2 position{};               // [m]; only x in 2D
 };
 
 // Path along a line, or along the x axis if the line has no segments.
 template <int Dim>
 struct Transformation {
   LineView line;
-  Place2 origin{};  // of positions [m]
+  Point2 origin{};  // of positions [m]
 
   template <class Particles>
   [[nodiscard]] THAWSLIDE_HD PathSample of(const Particles& particles, std::uint32_t p) const {
@@ -25,9 +25,9 @@ struct Transformation {
     found.mass = static_cast<double>(particles.mass(p));
     for (int a = 0; a < Dim - 1; ++a) {
       const auto axis = static_cast<std::size_t>(a);
-      found.place[axis] = static_cast<double>(particles.position(p, a)) + origin[axis];
+      found.position[axis] = static_cast<double>(particles.position(p, a)) + origin[axis];
     }
-    found.along = line.segments == 0 ? found.place[0] : line.project(found.place).along;
+    found.along = line.segments == 0 ? found.position[0] : line.project(found.position).along;
     return found;
   }
 };
@@ -37,14 +37,14 @@ class FrontSearch {
  public:
   explicit FrontSearch(double mass) : mass_(mass) {}
 
-  // True if the front is at the next particle: the mass behind it is below the fraction `share`.
+  // True if the front is at the next particle: the mass behind it is below `fraction` of the whole.
   [[nodiscard]] bool is_at(double mass_of_next) {
     ahead_ += mass_of_next;
-    return mass_ - ahead_ < share * mass_;
+    return mass_ - ahead_ < fraction * mass_;
   }
 
  private:
-  static constexpr double share = 0.995;
+  static constexpr double fraction = 0.995;
 
   double mass_, ahead_ = 0.0;
 };

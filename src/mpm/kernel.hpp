@@ -2,7 +2,7 @@
 // is an object with
 //   Reads, Adds   lists of the nodal records that it reads and that it adds to or reduces by minimum (mpm/nodes.hpp)
 //   Account       its sum over all particles
-//   operator()(particles, at, seen, added, account)
+//   operator()(particles, at, seen, added, totals)
 // `at` is the index of one particle, or a batch of them (mpm/simd_batch.hpp): particles.FIELD.load(at) loads its
 // numbers, seen.read<Record, Count>() interpolates nodal records, and contributions to nodes are stored in
 // added.of<Record>(). A kernel has no loops, batches or patches; mpm/particle_pass.hpp runs it over all or some tiles.
@@ -25,8 +25,8 @@ struct AffineFunctions {};
 inline constexpr int no_flux = -1;
 
 // For kernels without sums over particles.
-struct NoAccount {
-  THAWSLIDE_HD NoAccount& operator+=(const NoAccount& /*part*/) { return *this; }
+struct NoTotals {
+  THAWSLIDE_HD NoTotals& operator+=(const NoTotals& /*part*/) { return *this; }
 };
 
 // Section width for kernels if it is uniform (mpm/section_width.hpp).
@@ -38,9 +38,9 @@ template <class... Names>
 struct RecordList {};
 
 template <class Name, class List>
-inline constexpr bool holds = false;
+inline constexpr bool contains = false;
 template <class Name, class... Names>
-inline constexpr bool holds<Name, RecordList<Names...>> = (std::is_same_v<Name, Names> || ...);
+inline constexpr bool contains<Name, RecordList<Names...>> = (std::is_same_v<Name, Names> || ...);
 
 // A name can be an alias of its owner's record.
 template <class Name>
@@ -98,7 +98,7 @@ template <class First, class Second>
 inline constexpr bool are_disjoint = false;
 template <class... Names, class... Others>
 inline constexpr bool are_disjoint<RecordList<Names...>, RecordList<Others...>> =
-    (!holds<typename OwnerOf<Names>::Type, RecordList<typename OwnerOf<Others>::Type...>> && ...);
+    (!contains<typename OwnerOf<Names>::Type, RecordList<typename OwnerOf<Others>::Type...>> && ...);
 
 // Union of the records of several lists.
 template <class List, class... Lists>
@@ -107,7 +107,7 @@ struct Joined {
 };
 template <class... Names, class Name, class... Others, class... Lists>
 struct Joined<RecordList<Names...>, RecordList<Name, Others...>, Lists...>
-    : Joined<std::conditional_t<holds<Name, RecordList<Names...>>, RecordList<Names...>, RecordList<Names..., Name>>,
+    : Joined<std::conditional_t<contains<Name, RecordList<Names...>>, RecordList<Names...>, RecordList<Names..., Name>>,
              RecordList<Others...>, Lists...> {};
 template <class... Names, class... Lists>
 struct Joined<RecordList<Names...>, RecordList<>, Lists...> : Joined<RecordList<Names...>, Lists...> {};

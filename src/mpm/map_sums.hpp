@@ -32,21 +32,21 @@ struct MapCells {
 // Cells along one axis that a box overlaps, and its fractions in them, which sum to 1.
 struct CellRange {
   int first, last;
-  double first_share, inner_share, last_share;
+  double first_fraction, inner_fraction, last_fraction;
 
-  [[nodiscard]] THAWSLIDE_HD double share(int cell) const {
-    return cell == first ? first_share : cell == last ? last_share : inner_share;
+  [[nodiscard]] THAWSLIDE_HD double fraction(int cell) const {
+    return cell == first ? first_fraction : cell == last ? last_fraction : inner_fraction;
   }
 };
 
 // The same for several boxes, one per lane, or for one.
 template <class Value>
 struct CellSpans {
-  Value first, last, first_share, inner_share, last_share;
+  Value first, last, first_fraction, inner_fraction, last_fraction;
 
   [[nodiscard]] THAWSLIDE_HD CellRange of_lane(std::size_t lane) const {
-    return {static_cast<int>(extract(first, lane)), static_cast<int>(extract(last, lane)), extract(first_share, lane),
-            extract(inner_share, lane), extract(last_share, lane)};
+    return {static_cast<int>(extract(first, lane)), static_cast<int>(extract(last, lane)),
+            extract(first_fraction, lane), extract(inner_fraction, lane), extract(last_fraction, lane)};
   }
 };
 
@@ -62,9 +62,10 @@ template <class Value>
   CellSpans<Value> spans;
   spans.first = max(Value(0.0), min(Value(floor(Value(begin + sliver))), last_cell));
   spans.last = max(Value(0.0), min(Value(floor(Value(end - sliver))), last_cell));
-  spans.first_share = select(spans.first == spans.last, Value(1.0), Value((spans.first + 1.0 - begin) * inverse_width));
-  spans.inner_share = inverse_width;
-  spans.last_share = (end - spans.last) * inverse_width;
+  spans.first_fraction =
+      select(spans.first == spans.last, Value(1.0), Value((spans.first + 1.0 - begin) * inverse_width));
+  spans.inner_fraction = inverse_width;
+  spans.last_fraction = (end - spans.last) * inverse_width;
   return spans;
 }
 
@@ -90,13 +91,13 @@ struct ColumnSums {
   double momentum_x = 0.0, momentum_y = 0.0, momentum_z = 0.0;  // [kg m/s]
   double water = 0.0;  // volume of liquid water [m3], with the actual thickness of the band
 
-  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add(double share, const ColumnSums& box) {
-    volume += share * box.volume;
-    mass += share * box.mass;
-    momentum_x += share * box.momentum_x;
-    momentum_y += share * box.momentum_y;
-    momentum_z += share * box.momentum_z;
-    water += share * box.water;
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add(double fraction, const ColumnSums& box) {
+    volume += fraction * box.volume;
+    mass += fraction * box.mass;
+    momentum_x += fraction * box.momentum_x;
+    momentum_y += fraction * box.momentum_y;
+    momentum_z += fraction * box.momentum_z;
+    water += fraction * box.water;
   }
 };
 
@@ -106,10 +107,10 @@ struct BandSums {
   double volume_temperature = 0.0;  // V T [m3 C]
   double volume_pressure = 0.0;     // V P [m3 Pa]
 
-  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add(double share, const BandSums& box) {
-    volume += share * box.volume;
-    volume_temperature += share * box.volume_temperature;
-    volume_pressure += share * box.volume_pressure;
+  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add(double fraction, const BandSums& box) {
+    volume += fraction * box.volume;
+    volume_temperature += fraction * box.volume_temperature;
+    volume_pressure += fraction * box.volume_pressure;
   }
 };
 

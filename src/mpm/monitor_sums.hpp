@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "base/linear.hpp"
-#include "mpm/accounts.hpp"
+#include "mpm/kernel_totals.hpp"
 
 namespace thawslide::mpm {
 

@@ -69,9 +69,9 @@ MoveWork move_particles(const SparseGrid<Dim>& grid, Particles<Dim>& particles, 
                         Nodes<Dim>& nodes) {
   MoveWork work;
   with_weights(model, [&](const auto& weights) {
-    const Real pic_share = is_affine<std::decay_t<decltype(weights)>> ? Real(1) : model.pic_share;
+    const Real pic_fraction = is_affine<std::decay_t<decltype(weights)>> ? Real(1) : model.pic_fraction;
     work.particle_kinetic =
-        std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, Move<Dim>{pic_share, dt}));
+        std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, Move<Dim>{pic_fraction, dt}));
     if constexpr (is_affine<std::decay_t<decltype(weights)>>) {
       work.particle_kinetic +=
           std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, MoveAffine<Dim>{dt}));

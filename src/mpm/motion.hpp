@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "mpm/accounts.hpp"
 #include "mpm/body_sizes.hpp"
 #include "mpm/constraints.hpp"
+#include "mpm/kernel_totals.hpp"
 #include "mpm/material.hpp"
 #include "mpm/nodes.hpp"
 #include "mpm/particles.hpp"
@@ -27,9 +27,9 @@ struct MotionModel {
   }
 
   ShapeFunction shape = ShapeFunction::ugimp;
-  HeldSides<Dim> sides;
+  PrescribedSides<Dim> sides;
   TransferKind transfer = TransferKind::flip_pic;
-  Real pic_share = 0;         // of TransferKind::flip_pic; 0: FLIP
+  Real pic_fraction = 0;      // of TransferKind::flip_pic; 0: FLIP
   int filter_order = 0;       // of the velocity filter (mpm/velocity_filter.hpp); 0: none
   SectionWidth width;         // of a 2D section
   Vector<Real, Dim> gravity;  // [m/s2]

@@ -16,7 +16,7 @@ template <int Dim, class Width = EvenWidth>
 struct AddMomentum {
   using Reads = RecordList<>;
   using Adds = RecordList<Momentum>;
-  using Account = std::conditional_t<Width::varies, Real, NoAccount>;
+  using Totals = std::conditional_t<Width::varies, Real, NoTotals>;
 
   Vector<Real, Dim> gravity;  // [m/s2]
   bool effective_stress;      // pore pressure also acts inside the body
@@ -25,7 +25,7 @@ struct AddMomentum {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Scatter& added, [[maybe_unused]] Account& of_walls) const {
+                                                       Scatter& added, [[maybe_unused]] Totals& of_walls) const {
     using Layout = MomentumLayout<Dim>;
     using Value = typename At::Value;
     constexpr int row[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // component indices of a symmetric tensor
@@ -89,7 +89,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void add_affine_momentum(const Particles& p
       mass * affine_velocity<Dim>(particles, at) * seen.weights.second_moment().asDiagonal();
   auto& carried = added.template of<To>();
   unrolled<static_cast<std::size_t>(Dim * Dim)>([&](auto k) THAWSLIDE_INLINE_LAMBDA {
-    carried.flux[k / Dim][place_in_register<To, Dim> + k % Dim] =
+    carried.flux[k / Dim][index_in_register<To, Dim> + k % Dim] =
         moment(static_cast<int>(k) % Dim, static_cast<int>(k) / Dim);
   });
 }
@@ -98,11 +98,11 @@ template <int Dim>
 struct AddAffineMomentum {
   using Reads = RecordList<>;
   using Adds = RecordList<AffineMomentum>;
-  using Account = NoAccount;
+  using Totals = NoTotals;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& added, Account& /*account*/) const {
+                                                       Scatter& added, Totals& /*totals*/) const {
     add_affine_momentum<AffineMomentum, Dim>(particles, at, seen, added);
   }
 };
@@ -113,13 +113,13 @@ template <int Dim>
 struct Move {
   using Reads = RecordList<Motion>;
   using Adds = RecordList<Velocity>;
-  using Account = Real;
+  using Totals = Real;
 
-  Real pic_share, dt;
+  Real pic_fraction, dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& added, Account& kinetic) const {
+                                                       Scatter& added, Totals& kinetic) const {
     using Layout = MotionLayout<Dim>;
     using Value = typename At::Value;
     using VectorOfValues = Vector<Value, Dim>;
@@ -134,7 +134,7 @@ struct Move {
     const VectorOfValues change = Value(dt) * acceleration;
     const VectorOfValues flip = old + change;
     const VectorOfValues pic = middle + Value(Real(0.5)) * change;
-    const VectorOfValues towards_pic = Value(pic_share) * (pic - flip);
+    const VectorOfValues towards_pic = Value(pic_fraction) * (pic - flip);
     const VectorOfValues velocity = flip + towards_pic;
     const Value mass = particles.mass.load(at);
     particles.velocity.store_vector(at, velocity);
@@ -152,13 +152,13 @@ template <int Dim>
 struct MoveAffine {
   using Reads = RecordList<AffineMotion>;
   using Adds = RecordList<AffineVelocity>;
-  using Account = Real;
+  using Totals = Real;
 
   Real dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& added, Account& kinetic) const {
+                                                       Scatter& added, Totals& kinetic) const {
     using Layout = MotionLayout<Dim>;
     using Value = typename At::Value;
     using Square = Matrix<Value, Dim>;

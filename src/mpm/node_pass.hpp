@@ -21,21 +21,21 @@ template <IsMinReduced Name, int Dim, class TileFilter>
 void sum_block(const SparseGrid<Dim>& grid, std::size_t block, Nodes<Dim>& nodes, const TileFilter& accepts) {
   auto& records = nodes.template of<Name>();
   unrolled<part_of<Name, Dim>.count>([&](auto c) {
-    take_smallest_in_block<part_of<Name, Dim>.from + c>(grid, block, records.patches(grid.tiles().size()),
-                                                        records.of_block(block), accepts);
+    reduce_min_in_block<part_of<Name, Dim>.from + c>(grid, block, records.patches(grid.tiles().size()),
+                                                     records.of_block(block), accepts);
   });
 }
 
 // For each block, calls begin(block), which returns the rows of nodes to visit, one bit per row, and then of_node(node,
-// account) for their nodes. Returns the sum of the accounts.
-template <class Account, int Dim, class Begin, class OfNode>
-Account node_pass(const SparseGrid<Dim>& grid, const Begin& begin, const OfNode& of_node) {
+// totals) for their nodes. Returns the sum of the totals.
+template <class Totals, int Dim, class Begin, class OfNode>
+Totals node_pass(const SparseGrid<Dim>& grid, const Begin& begin, const OfNode& of_node) {
   constexpr std::size_t edge = static_cast<std::size_t>(Tile<Dim>::edge);
-  return parallel_sum<Account>(grid.blocks().size(), [&](std::size_t b, Account& account) {
+  return parallel_sum<Totals>(grid.blocks().size(), [&](std::size_t b, Totals& totals) {
     for (std::uint32_t rows = begin(b); rows != 0; rows &= rows - 1) {
       const std::size_t first = static_cast<std::size_t>(std::countr_zero(rows)) * edge;
       for (std::size_t k = first; k < first + edge; ++k) {
-        of_node(NodeAt{b, k}, account);
+        of_node(NodeAt{b, k}, totals);
       }
     }
   });

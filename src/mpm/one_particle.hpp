@@ -41,7 +41,7 @@ using CarriedByOne = std::conditional_t<IsMinReduced<Name>, OneGaps<Dim>,
 // Position of a particle: offset from its nearest node, in cells; place in the tile's patch of the lowest node in
 // reach; and, along each axis, whether the nearest node lies on a side of the domain that prescribes velocity.
 template <int Dim>
-struct OnePlace {
+struct OneGridPosition {
   Vector<Real, Dim> offset;
   std::size_t first_node;
   std::array<bool, static_cast<std::size_t>(Dim)> at_side;
@@ -66,10 +66,10 @@ struct OneWeights {
   Vector<Real, Dim> moment;
 
   // Weights at the corners of the grid cell that contains the particle.
-  THAWSLIDE_HD void set_linear(const OnePlace<Dim>& place, Real inverse_cell) {
-    linear.first = static_cast<std::uint32_t>(place.first_node);
+  THAWSLIDE_HD void set_linear(const OneGridPosition<Dim>& at, Real inverse_cell) {
+    linear.first = static_cast<std::uint32_t>(at.first_node);
     for (std::size_t a = 0; a < Dim; ++a) {
-      const Real along = place.offset[static_cast<int>(a)];
+      const Real along = at.offset[static_cast<int>(a)];
       const bool right = along >= Real(0);
       linear.in_cell[a] = right ? 1 : 0;
       linear.first += right ? static_cast<std::uint32_t>(power(Tile<Dim>::patch_edge, static_cast<int>(a))) : 0u;
@@ -78,19 +78,19 @@ struct OneWeights {
     }
   }
   template <class Shape>
-  THAWSLIDE_HD void set_momentum(const OnePlace<Dim>& place, const HalfSize<Real>& size, Real inverse_cell) {
-    momentum.first = static_cast<std::uint32_t>(place.first_node);
+  THAWSLIDE_HD void set_momentum(const OneGridPosition<Dim>& at, const HalfSize<Real>& size, Real inverse_cell) {
+    momentum.first = static_cast<std::uint32_t>(at.first_node);
     for (std::size_t a = 0; a < Dim; ++a) {
-      momentum.axis[a] = Shape::weights(place.offset[static_cast<int>(a)], size, place.at_side[a], inverse_cell);
+      momentum.axis[a] = Shape::weights(at.offset[static_cast<int>(a)], size, at.at_side[a], inverse_cell);
     }
   }
   // Call after set_momentum.
   template <class Shape>
-  THAWSLIDE_HD void set_affine(const OnePlace<Dim>& place, Real cell, Real inverse_cell) {
+  THAWSLIDE_HD void set_affine(const OneGridPosition<Dim>& at, Real cell, Real inverse_cell) {
     affine = momentum;
     for (std::size_t a = 0; a < Dim; ++a) {
-      const Real along = place.offset[static_cast<int>(a)];
-      affine.axis[a] = Shape::affine(momentum.axis[a], along, place.at_side[a], inverse_cell);
+      const Real along = at.offset[static_cast<int>(a)];
+      affine.axis[a] = Shape::affine(momentum.axis[a], along, at.at_side[a], inverse_cell);
       moment[static_cast<int>(a)] = mpm::second_moment(momentum.axis[a], along) * (cell * cell);
     }
   }
@@ -120,8 +120,8 @@ struct ScalarGather {
     const auto& patch = patches.template of<Name>();
     return read_along_axes<Count>(
         stencil.axis,
-        [&](std::size_t place, std::size_t component) {
-          return patch.numbers[(stencil.first + place) * patch.size + component];
+        [&](std::size_t index, std::size_t component) {
+          return patch.numbers[(stencil.first + index) * patch.size + component];
         },
         first);
   }
@@ -140,20 +140,20 @@ struct ScalarGather {
 template <int Dim>
 struct OneAtNode {
   bool is_seen = true;
-  std::size_t place = 0;
+  std::size_t index = 0;
   Real weight[Dim], slope[Dim];
 };
 // node: index along each axis in the particle's cell.
 template <int Dim, std::size_t Width>
 THAWSLIDE_HD OneAtNode<Dim> at_node(const OneStencil<Dim, Width>& stencil, const std::array<std::size_t, 3>& node) {
   OneAtNode<Dim> at;
-  at.place = stencil.first;
+  at.index = stencil.first;
   for (std::size_t a = 0; a < Dim; ++a) {
     const std::size_t k = node[a] - stencil.in_cell[a];  // wraps to a large number if it would be negative
     at.is_seen = at.is_seen && k < Width;
     at.weight[a] = stencil.axis[a].weight[k < Width ? k : 0];
     at.slope[a] = stencil.axis[a].slope[k < Width ? k : 0];
-    at.place += k * static_cast<std::size_t>(power(Tile<Dim>::patch_edge, static_cast<int>(a)));
+    at.index += k * static_cast<std::size_t>(power(Tile<Dim>::patch_edge, static_cast<int>(a)));
   }
   return at;
 }
@@ -200,8 +200,8 @@ THAWSLIDE_HD Real add_particle(const OneAtNode<Dim>& at, const OneGaps<Dim>& car
   if (!(weight > round_off)) {
     return smallest;
   }
-  const Real* record = carried.planes + at.place * record_size(components_of<Planes, Dim>);
-  return min(smallest, gap_to_plane<Dim>(carried.place, carried.reach, [&](std::size_t k) { return record[k]; }));
+  const Real* record = carried.planes + at.index * record_size(components_of<Planes, Dim>);
+  return min(smallest, gap_to_plane<Dim>(carried.position, carried.reach, [&](std::size_t k) { return record[k]; }));
 }
 
 }  // namespace thawslide::mpm

@@ -17,7 +17,7 @@ namespace thawslide::mpm {
 template <class Shape, int Dim>
 struct MomentumWeights {
   const BodySizes& sizes;  // of particles, in cells
-  const HeldSides<Dim>& sides;
+  const PrescribedSides<Dim>& sides;
 };
 // Linear shape functions for all records of a pass.
 struct LinearWeights {};
@@ -45,7 +45,7 @@ struct BatchWeights<MomentumWeights<Shape, Dim>, Dim> {
 
   THAWSLIDE_ALWAYS_INLINE BatchWeights(const MomentumWeights<Shape, Dim>& weights, const SparseGrid<Dim>& grid,
                                        const Particles<Dim>& particles, const TileBatch<Dim>& batch)
-      : BatchWeights(weights, grid, particles, batch, place_of(grid, particles, batch)) {}
+      : BatchWeights(weights, grid, particles, batch, grid_position(grid, particles, batch)) {}
   template <class Functions>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE const auto& of() const {
     if constexpr (std::is_same_v<Functions, LinearFunctions>) {
@@ -58,9 +58,9 @@ struct BatchWeights<MomentumWeights<Shape, Dim>, Dim> {
  private:
   THAWSLIDE_ALWAYS_INLINE BatchWeights(const MomentumWeights<Shape, Dim>& weights, const SparseGrid<Dim>& grid,
                                        const Particles<Dim>& particles, const TileBatch<Dim>& batch,
-                                       const BatchPlace<Dim>& place)
-      : momentum(make_stencil<Shape>(grid, batch, place, weights.sizes.of(particles, batch), weights.sides)),
-        linear{place.offset, batch.nodes, grid.inverse_cell()} {}
+                                       const BatchGridPosition<Dim>& at)
+      : momentum(make_stencil<Shape>(grid, batch, at, weights.sizes.of(particles, batch), weights.sides)),
+        linear{at.offset, batch.nodes, grid.inverse_cell()} {}
 };
 
 // Weights of momentum with those of APIC.
@@ -74,7 +74,7 @@ struct BatchWeights<AffineWeights<Shape, Dim>, Dim> : BatchWeights<MomentumWeigh
   THAWSLIDE_ALWAYS_INLINE BatchWeights(const AffineWeights<Shape, Dim>& weights, const SparseGrid<Dim>& grid,
                                        const Particles<Dim>& particles, const TileBatch<Dim>& batch)
       : Base(weights, grid, particles, batch),
-        affine(make_affine<Shape>(grid, this->momentum, place_of(grid, particles, batch), weights.sides)) {}
+        affine(make_affine<Shape>(grid, this->momentum, grid_position(grid, particles, batch), weights.sides)) {}
   template <class Functions>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE const auto& of() const {
     if constexpr (std::is_same_v<Functions, AffineFunctions>) {
@@ -177,8 +177,8 @@ class TileScatter<RecordList<Reads...>, RecordList<Adds...>, Dim> {
 
 // Sums over particles, by kernel.
 template <class... Kernels>
-struct Accounts : std::tuple<typename Kernels::Account...> {
-  Accounts& operator+=(const Accounts& part) {
+struct TotalsOf : std::tuple<typename Kernels::Totals...> {
+  TotalsOf& operator+=(const TotalsOf& part) {
     [&]<std::size_t... K>(std::index_sequence<K...>) { ((std::get<K>(*this) += std::get<K>(part)), ...); }
     (std::index_sequence_for<Kernels...>());
     return *this;
@@ -208,8 +208,8 @@ THAWSLIDE_ALWAYS_INLINE bool accepts_nodes(const TileFilter& accepts, std::size_
 
 // Allocates the patches of records.
 template <class... Names, class Records>
-void take_patches(RecordList<Names...> /*names*/, [[maybe_unused]] std::size_t tiles,
-                  [[maybe_unused]] Records& records) {
+void acquire_patches(RecordList<Names...> /*names*/, [[maybe_unused]] std::size_t tiles,
+                     [[maybe_unused]] Records& records) {
   (static_cast<void>(records.template of<Names>().patches(tiles)), ...);
 }
 
@@ -225,13 +225,13 @@ constexpr void check_records() {
 // Each batch is passed to all kernels in turn. Contributions are left in the patches, for a node_pass to sum. Records:
 // of Nodes.
 template <class Weights, int Dim, class Records, class TileFilter, class... Kernels>
-Accounts<Kernels...> particle_pass(const SparseGrid<Dim>& grid, const Weights& weights, Particles<Dim>& particles,
+TotalsOf<Kernels...> particle_pass(const SparseGrid<Dim>& grid, const Weights& weights, Particles<Dim>& particles,
                                    Records& records, const TileFilter& accepts, const Kernels&... kernels) {
   using Reads = AllOf<typename Kernels::Reads...>;
   using Adds = AllOf<typename Kernels::Adds...>;
   check_records<Reads, Adds, Dim>();
-  take_patches(Adds{}, grid.tiles().size(), records);
-  return parallel_sum<Accounts<Kernels...>>(grid.tiles().size(), [&](std::size_t t, Accounts<Kernels...>& accounts) {
+  acquire_patches(Adds{}, grid.tiles().size(), records);
+  return parallel_sum<TotalsOf<Kernels...>>(grid.tiles().size(), [&](std::size_t t, TotalsOf<Kernels...>& totals) {
     if (!accepts(t)) {
       return;
     }
@@ -244,7 +244,7 @@ Accounts<Kernels...> particle_pass(const SparseGrid<Dim>& grid, const Weights& w
         }
         const BatchWeights<Weights, Dim> of_batch(weights, grid, particles, batch);
         typename TileScatter<Reads, Adds, Dim>::Scatter added;
-        (of_tile(particles, batch, work.seen(of_batch), added, std::get<K>(accounts)), ...);
+        (of_tile(particles, batch, work.seen(of_batch), added, std::get<K>(totals)), ...);
         work.add(of_batch, batch.count, added);
       }
     };
@@ -252,21 +252,21 @@ Accounts<Kernels...> particle_pass(const SparseGrid<Dim>& grid, const Weights& w
   });
 }
 
-// Runs a kernel that neither reads nor adds to nodes over all particles in memory order; returns its account. A batch
+// Runs a kernel that neither reads nor adds to nodes over all particles in memory order; returns its totals. A batch
 // can contain particles of several tiles and materials.
 template <int Dim, class Kernel>
-typename Kernel::Account for_particles_in_memory(Particles<Dim>& particles, const Kernel& kernel) {
+typename Kernel::Totals for_particles_in_memory(Particles<Dim>& particles, const Kernel& kernel) {
   static_assert(std::is_same_v<typename Kernel::Reads, RecordList<>> &&
                 std::is_same_v<typename Kernel::Adds, RecordList<>>);
-  using Account = typename Kernel::Account;
+  using Totals = typename Kernel::Totals;
   constexpr std::size_t chunk = 1024;
   const std::size_t tasks = (particles.size() + chunk - 1) / chunk;
-  return parallel_sum<Account>(tasks, [&](std::size_t task, Account& account) {
+  return parallel_sum<Totals>(tasks, [&](std::size_t task, Totals& totals) {
     const ByName<> seen{};
     ByName<> added{};
     const std::size_t last = std::min(particles.size(), (task + 1) * chunk);
     for (std::size_t p = task * chunk; p < last; p += SimdBatch::most) {
-      kernel(particles, batch_in_memory(p, last), seen, added, account);
+      kernel(particles, batch_in_memory(p, last), seen, added, totals);
     }
   });
 }

@@ -6,8 +6,8 @@
 
 #include "base/linear.hpp"
 #include "base/select.hpp"
-#include "mpm/accounts.hpp"
 #include "mpm/kernel.hpp"
+#include "mpm/kernel_totals.hpp"
 
 namespace thawslide::mpm {
 
@@ -17,13 +17,13 @@ template <int Dim>
 struct UpdatePosition {
   using Reads = RecordList<>;
   using Adds = RecordList<>;
-  using Account = InvalidParticle;
+  using Totals = InvalidParticle;
 
   Vector<Real, Dim> lower, upper;  // [m]
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Scatter& /*added*/, Account& invalid) const {
+                                                       Scatter& /*added*/, Totals& invalid) const {
     using std::abs, std::sqrt, thawslide::select;
     using Value = typename At::Value;
     using VectorOfValues = Vector<Value, Dim>;

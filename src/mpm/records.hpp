@@ -91,13 +91,13 @@ struct Planes {
   static constexpr int size = 1 + Dim;
 };
 
-// Gap between a particle and a node's plane [m]: distance along the normal minus the particle's reach. place: position
-// x of the particle. plane(component): of the record of Planes.
+// Gap between a particle and a node's plane [m]: distance along the normal minus the particle's reach. position:
+// position x of the particle. plane(component): of the record of Planes.
 template <int Dim, class Value, class Plane>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value gap_to_plane(const Value (&place)[Dim], Value reach, const Plane& plane) {
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value gap_to_plane(const Value (&position)[Dim], Value reach, const Plane& plane) {
   Value gap = plane(Planes::offset) - reach;
-  unrolled<static_cast<std::size_t>(Dim)>([&](auto a)
-                                              THAWSLIDE_INLINE_LAMBDA { gap -= plane(Planes::normal + a) * place[a]; });
+  unrolled<static_cast<std::size_t>(Dim)>(
+      [&](auto a) THAWSLIDE_INLINE_LAMBDA { gap -= plane(Planes::normal + a) * position[a]; });
   return gap;
 }
 
@@ -128,7 +128,7 @@ struct Contact {
 template <int Dim>
 struct BedLayout {
   static constexpr std::size_t available = 0;  // [kg]
-  static constexpr std::size_t taken = 1;      // [kg]
+  static constexpr std::size_t entrained = 1;  // [kg]
   static constexpr std::size_t work = 2;       // work done on it by the sliding mass [J]
   static constexpr std::size_t impulse = 3;    // impulse from the sliding mass [N s]
   static constexpr int size = 3 + Dim;
@@ -276,7 +276,7 @@ struct AffineVelocity : Velocity {
 template <class Name, int Dim>
 inline constexpr std::size_t first_in_register = part_of<Name, Dim>.from / record_step* record_step;
 template <class Name, int Dim>
-inline constexpr std::size_t place_in_register = part_of<Name, Dim>.from - first_in_register<Name, Dim>;
+inline constexpr std::size_t index_in_register = part_of<Name, Dim>.from - first_in_register<Name, Dim>;
 
 // An aliased record: it adds to its owner's record with other weights, within one register. If the owner's kernels add
 // to the same components, it needs a separate pass after theirs; otherwise it can follow the owner in one list.
@@ -289,14 +289,14 @@ concept OfAnOwner = requires {
 // components.
 template <class Name, int Dim>
 inline constexpr std::size_t scatter_size =
-    IsMinReduced<Name> ? part_of<Name, Dim>.count : place_in_register<Name, Dim> + part_of<Name, Dim>.count;
+    IsMinReduced<Name> ? part_of<Name, Dim>.count : index_in_register<Name, Dim> + part_of<Name, Dim>.count;
 
 // Contribution of a batch, or of one particle, to a min-reduced component: its gap to the plane of each node in reach.
 // PlanesRead: access to the records of Planes.
 template <class Value, int Dim, class PlanesRead>
 struct GapsToPlanes {
-  Value place[Dim];  // [m]
-  Value reach;       // [m]
+  Value position[Dim];  // [m]
+  Value reach;          // [m]
   PlanesRead planes;
 };
 }  // namespace thawslide::mpm

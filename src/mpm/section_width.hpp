@@ -23,34 +23,34 @@ class SectionWidth {
   // origin of positions [m].
   SectionWidth(const Table& table, double origin) {
     for (std::size_t k = 0; k < table.abscissa.size(); ++k) {
-      place_.push_back(static_cast<Real>(table.abscissa[k] - origin));
+      index_.push_back(static_cast<Real>(table.abscissa[k] - origin));
       relative_.push_back(static_cast<Real>(table.value[k] / table.value.front()));
     }
   }
 
-  [[nodiscard]] bool varies() const { return !place_.empty(); }
+  [[nodiscard]] bool varies() const { return !index_.empty(); }
 
   // Relative width: b over the reference width.
   [[nodiscard]] Real at(Real x) const {
     const std::size_t k = after(x);
-    return k == 0 ? Real(1) : k == place_.size() ? relative_.back() : relative_[k - 1] + slope(k) * (x - place_[k - 1]);
+    return k == 0 ? Real(1) : k == index_.size() ? relative_.back() : relative_[k - 1] + slope(k) * (x - index_[k - 1]);
   }
   // b'/b [1/m].
   [[nodiscard]] Real widening(Real x) const {
     const std::size_t k = after(x);
-    return k == 0 || k == place_.size() ? Real(0) : slope(k) / at(x);
+    return k == 0 || k == index_.size() ? Real(0) : slope(k) / at(x);
   }
 
  private:
   // Index of the first place beyond x.
   [[nodiscard]] std::size_t after(Real x) const {
-    return static_cast<std::size_t>(std::upper_bound(place_.begin(), place_.end(), x) - place_.begin());
+    return static_cast<std::size_t>(std::upper_bound(index_.begin(), index_.end(), x) - index_.begin());
   }
   [[nodiscard]] Real slope(std::size_t k) const {
-    return (relative_[k] - relative_[k - 1]) / (place_[k] - place_[k - 1]);
+    return (relative_[k] - relative_[k - 1]) / (index_[k] - index_[k - 1]);
   }
 
-  std::vector<Real> place_, relative_;
+  std::vector<Real> index_, relative_;
 };
 
 // Width for kernels; EvenWidth if uniform (mpm/kernel.hpp).

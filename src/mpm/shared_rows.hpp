@@ -60,7 +60,7 @@ THAWSLIDE_ALWAYS_INLINE void for_shared_rows(const Visit& visit) {
 
 // True if the row of a node of the patch is among `rows`, one bit per row (Tile::rows_from).
 template <int Dim>
-constexpr bool holds_row(std::uint64_t rows, std::size_t in_patch) {
+constexpr bool contains_row(std::uint64_t rows, std::size_t in_patch) {
   return (rows >> in_patch / static_cast<std::size_t>(Tile<Dim>::patch_edge) & 1) != 0;
 }
 
@@ -82,7 +82,7 @@ THAWSLIDE_ALWAYS_INLINE void for_seen_rows(std::uint64_t rows, const Visit& visi
   }
   for_shared_rows<Dim, Direction>([&](std::size_t in_block, std::size_t in_patch, std::size_t count)
                                       THAWSLIDE_INLINE_LAMBDA {
-                                        if (holds_row<Dim>(rows, in_patch)) {
+                                        if (contains_row<Dim>(rows, in_patch)) {
                                           visit(in_block, in_patch, count);
                                         }
                                       });

@@ -23,13 +23,13 @@ template <int Dim>
 BatchNodes nodes_from(std::uint64_t tile_key, const Vector<Simd<Real>, Dim>& lowest) {
   using T = Tile<Dim>;
   const typename T::Index tile = T::index(tile_key);
-  Simd<Real> place = Real(0);
+  Simd<Real> index = Real(0);
   for (int a = Dim - 1; a >= 0; --a) {
     const auto before = static_cast<Real>(tile[static_cast<std::size_t>(a)] * T::edge - 1);
-    place = place * Real(T::patch_edge) + (lowest[a] - before);
+    index = index * Real(T::patch_edge) + (lowest[a] - before);
   }
   BatchNodes nodes;
-  place.store_whole(nodes.first.data());
+  index.store_whole(nodes.first.data());
   nodes.runs = 1;
   nodes.second_run_begin = 0;
   for (std::uint8_t lane = 1; lane < simd_width<Real>; ++lane) {
@@ -229,22 +229,22 @@ void SparseGrid<Dim>::list_tiles() {
     const std::uint64_t key = std::min(former < former_tiles_.size() ? former_tiles_[former].key : no_key,
                                        mover < movers_.size() ? tile_of(movers_[mover]) : no_key);
     TileChange change{none, mover, mover, false};
-    std::uint32_t held = 0;
+    std::uint32_t count_here = 0;
     if (former < former_tiles_.size() && former_tiles_[former].key == key) {
-      held = former_tiles_[former].last - former_tiles_[former].first - leaving_[former];
+      count_here = former_tiles_[former].last - former_tiles_[former].first - leaving_[former];
       change.changed = leaving_[former] > 0;
       change.former = former++;
     }
     for (; mover < movers_.size() && tile_of(movers_[mover]) == key; ++mover) {
-      ++held;
+      ++count_here;
     }
     change.last_mover = mover;
     change.changed = change.changed || change.first_mover < change.last_mover;
-    same = same && change.former != none && held > 0;
-    if (held > 0) {
-      tiles_.push_back({key, placed, placed + held});
+    same = same && change.former != none && count_here > 0;
+    if (count_here > 0) {
+      tiles_.push_back({key, placed, placed + count_here});
       changes_.push_back(change);
-      placed += held;
+      placed += count_here;
     }
   }
   stale_.resize(tiles_.size());

@@ -6,7 +6,7 @@
 
 #include "base/linear.hpp"
 #include "base/select.hpp"
-#include "mpm/accounts.hpp"
+#include "mpm/kernel_totals.hpp"
 #include "mpm/material.hpp"
 #include "mpm/reading.hpp"
 #include "mpm/records.hpp"
@@ -40,7 +40,7 @@ template <int Dim, class Law, class Width = EvenWidth>
 struct Deform {
   using Reads = RecordList<Velocity>;
   using Adds = RecordList<>;
-  using Account = Deformed;
+  using Totals = Deformed;
 
   const Law& law;
   const physics::Elastic& elastic;
@@ -53,7 +53,7 @@ struct Deform {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& /*added*/, Account& account) const {
+                                                       Scatter& /*added*/, Totals& totals) const {
     using Value = typename At::Value;
     using Tensor = SymmetricTensor<Value>;
     const auto velocity = seen.template read<Velocity, Dim>();
@@ -70,7 +70,7 @@ struct Deform {
     Tensor stress = physics::rotate<Value, Dim>(old_stress, increment.rotation) + change;
     Value plastic_work_density, opening;
     admit(particles, at, stress, plastic_work_density, opening);
-    StressWork& work = account.work;
+    StressWork& work = totals.work;
     const Value volume = particles.volume.load(at);
     at.add_to(work.total, volume * Real(0.5) * double_contraction<Value>(old_stress + stress, increment.strain));
     particles.stress.store_vector(at, stress);
@@ -95,7 +95,7 @@ struct Deform {
     }
     particles.porosity.store(
         at, physics::updated_porosity(phases, particles.porosity.load(at), volume_strain, Value(Real(0))));
-    record_inverted(particles, at, account.invalid);
+    record_inverted(particles, at, totals.invalid);
   }
 
  private:
@@ -105,8 +105,8 @@ struct Deform {
   THAWSLIDE_ALWAYS_INLINE void stretch_across(const Particles& particles, const At& at, const Value& velocity,
                                               Increment& increment) const {
     const Value x = particles.position.load(at, 0);
-    const Value way = Value(dt) * velocity;
-    increment.strain[2] = way * width.widening(Value(x + Value(Real(0.5)) * way));
+    const Value displacement = Value(dt) * velocity;
+    increment.strain[2] = displacement * width.widening(Value(x + Value(Real(0.5)) * displacement));
     increment.volume_ratio =
         increment.volume_ratio * width.at(Value(x + particles.step_displacement.load(at, 0))) / width.at(x);
   }
@@ -148,7 +148,7 @@ template <int Dim, class Width = EvenWidth>
 struct UpdateStress {
   using Reads = RecordList<Velocity>;
   using Adds = RecordList<>;
-  using Account = Deformed;
+  using Totals = Deformed;
 
   const MaterialModel* materials;
   const physics::Phases& phases;
@@ -158,13 +158,13 @@ struct UpdateStress {
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen, Scatter& added,
-                                          Account& account) const {
+                                          Totals& totals) const {
     const MaterialModel& material = materials[static_cast<std::size_t>(particles.material(at.particle[0]))];
     const auto deform = [&]<class Law>(const Law& law) {
       const Deform<Dim, Law, Width> with_law{
           law,  material.elastic, phases, material.gaps_close_first, material.viscosity_time, effective_stress, dt,
           width};
-      with_law(particles, at, seen, added, account);
+      with_law(particles, at, seen, added, totals);
     };
     std::visit(deform, material.law);
   }

@@ -40,10 +40,12 @@ struct Tile {
   static constexpr int layer_shift = Dim * axis_bits;
   static constexpr std::size_t most_layers = 15;
   THAWSLIDE_HD static std::uint64_t layer(std::uint64_t key) { return key >> layer_shift; }
-  THAWSLIDE_HD static std::uint64_t in_layer(std::uint64_t place, std::uint64_t layer) {
-    return place | layer << layer_shift;
+  THAWSLIDE_HD static std::uint64_t in_layer(std::uint64_t tile_key, std::uint64_t layer) {
+    return tile_key | layer << layer_shift;
   }
-  THAWSLIDE_HD static std::uint64_t place(std::uint64_t key) { return key & ((std::uint64_t{1} << layer_shift) - 1); }
+  THAWSLIDE_HD static std::uint64_t without_layer(std::uint64_t key) {
+    return key & ((std::uint64_t{1} << layer_shift) - 1);
+  }
 
   THAWSLIDE_HD static std::uint64_t key(const Index& tile) {
     std::uint64_t packed = 0;
@@ -99,21 +101,21 @@ struct Tile {
   }
   // Place in the patch of a node given relative to the tile's first node, each component in [-1, edge].
   THAWSLIDE_HD static int in_patch(const Index& relative) {
-    int place = 0;
+    int index = 0;
     for (int a = Dim - 1; a >= 0; --a) {
-      place = place * patch_edge + relative[static_cast<std::size_t>(a)] + 1;
+      index = index * patch_edge + relative[static_cast<std::size_t>(a)] + 1;
     }
-    return place;
+    return index;
   }
 };
 
 // Node indices along each axis of the sides of the domain that prescribe velocity.
 template <int Dim>
-struct HeldSides {
+struct PrescribedSides {
   static constexpr int none = std::numeric_limits<int>::min();
   std::array<int, Dim> lower, upper;
 
-  HeldSides() {
+  PrescribedSides() {
     lower.fill(none);
     upper.fill(none);
   }

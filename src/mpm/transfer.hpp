@@ -62,7 +62,7 @@ struct Patch {
 class PatchPool {
  public:
   template <class AnyPatch>
-  [[nodiscard]] std::span<AnyPatch> take(std::size_t tiles) {
+  [[nodiscard]] std::span<AnyPatch> acquire(std::size_t tiles) {
     if (tiles * sizeof(AnyPatch) > bytes_.size()) {
       resize_sparingly(bytes_, tiles * sizeof(AnyPatch));
     }
@@ -102,7 +102,7 @@ class NodeRecords {
   // request theirs.
   [[nodiscard]] std::span<Patch<Dim, Components>> patches(std::size_t tiles) {
     THAWSLIDE_ASSERT(pool_ != nullptr, "{} components without memory for patches", Components);
-    return pool_->take<Patch<Dim, Components>>(tiles);
+    return pool_->acquire<Patch<Dim, Components>>(tiles);
   }
 
  private:
@@ -121,32 +121,32 @@ class SparseRecords {
   explicit SparseRecords(std::shared_ptr<PatchPool> pool) : records_(std::move(pool)) {}
 
   // Selects the blocks for which holds(block) is true; their contents are undefined. blocks: number of active blocks.
-  template <class Holds>
-  void hold(std::size_t blocks, const Holds& holds) {
-    resize_sparingly(place_, blocks);
-    std::uint32_t held = 0;
+  template <class Contains>
+  void allocate(std::size_t blocks, const Contains& contains) {
+    resize_sparingly(index_, blocks);
+    std::uint32_t allocated = 0;
     for (std::size_t b = 0; b < blocks; ++b) {
-      place_[b] = holds(b) ? ++held : 0;
+      index_[b] = contains(b) ? ++allocated : 0;
     }
-    records_.resize(held + 1);
+    records_.resize(allocated + 1);
     std::fill_n(records_.of_block(0), nodes, Record{});
   }
-  [[nodiscard]] bool holds(std::size_t block) const { return place_[block] != 0; }
+  [[nodiscard]] bool contains(std::size_t block) const { return index_[block] != 0; }
 
   [[nodiscard]] const Record& operator()(std::size_t block, std::size_t node) const {
-    return records_(place_[block], node);
+    return records_(index_[block], node);
   }
   [[nodiscard]] const Record& operator()(const NodeAt& at) const { return (*this)(at.block, at.node); }
   [[nodiscard]] Record* of_block(std::size_t block) {
-    THAWSLIDE_ASSERT(holds(block), "block {} is not held", block);
-    return records_.of_block(place_[block]);
+    THAWSLIDE_ASSERT(contains(block), "block {} is not held", block);
+    return records_.of_block(index_[block]);
   }
 
   [[nodiscard]] std::span<Patch<Dim, Components>> patches(std::size_t tiles) { return records_.patches(tiles); }
 
  private:
   NodeRecords<Dim, Components> records_;  // zeros, then the selected blocks
-  std::vector<std::uint32_t> place_;      // by block
+  std::vector<std::uint32_t> index_;      // by block
 };
 
 inline constexpr auto every_tile = [](std::size_t /*tile*/) { return true; };
@@ -252,8 +252,8 @@ void sum_patches(const SparseGrid<Dim>& grid, NodeRecords<Dim, Components>& node
 // Minimum of one component at the nodes of one block, over the patches of the tiles for which accepts(t) is true; the
 // largest number if there are none.
 template <std::size_t Component, int Dim, int Components, class TileFilter>
-void take_smallest_in_block(const SparseGrid<Dim>& grid, std::size_t block, std::span<Patch<Dim, Components>> patches,
-                            typename Patch<Dim, Components>::Record* records, const TileFilter& accepts) {
+void reduce_min_in_block(const SparseGrid<Dim>& grid, std::size_t block, std::span<Patch<Dim, Components>> patches,
+                         typename Patch<Dim, Components>::Record* records, const TileFilter& accepts) {
   for (std::size_t k = 0; k < NodeRecords<Dim, Components>::nodes; ++k) {
     records[k][Component] = std::numeric_limits<Real>::max();
   }

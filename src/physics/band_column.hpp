@@ -14,7 +14,7 @@
 // the load escapes. Frozen material has P = 0 and is impermeable; on thawing, P is P_thaw = max(0, N - s0) minus the
 // part relieved by the void (Morgenstern and Nixon 1971). As the segment stretches or the band grows, the cells take in
 // the material above them, and the body supplies the rest; shear mixes the band. Replaces Eqs. 19 and 23; docs/theory,
-// chapter 16.
+// section 10.
 #pragma once
 
 #include "physics/boiling.hpp"
@@ -76,7 +76,7 @@ struct ColumnDrive {
 };
 
 // Budget of a column, per area at the end of the step.
-struct ColumnAccount {
+struct ColumnBudget {
   Real friction_heat = 0, body_heat = 0, ground_heat = 0, vented_heat = 0, steam_heat = 0;  // [J/m2]
   Real body_water = 0, vented_water = 0, steam = 0;                                         // [kg/m2]
 };

@@ -148,21 +148,21 @@ THAWSLIDE_HD void conduct_in_column(const ColumnModel<Curve>& model, const Colum
 
 // Removes water from a cell as steam, with its heat. steam [kg/m2].
 template <class Curve>
-THAWSLIDE_HD void give_off_steam(const ColumnModel<Curve>& model, Real steam, int cell, BandColumn& column,
-                                 ColumnAccount& account) {
+THAWSLIDE_HD void release_steam(const ColumnModel<Curve>& model, Real steam, int cell, BandColumn& column,
+                                ColumnBudget& budget) {
   const Real temperature = column.temperature[ColumnCells::ground + cell];
   const Real heat = steam * (water_enthalpy(model, temperature) + heat_of_vaporization(temperature));
   column.water[cell] -= steam;
   column.heat[ColumnCells::ground + cell] -= heat;
-  account.steam += steam;
-  account.steam_heat += heat;
+  budget.steam += steam;
+  budget.steam_heat += heat;
 }
 
 // Boils water at the temperature at which its steam pressure reaches the load. Heat above that temperature converts
 // water to steam, which escapes from below the sliding mass, until no water is left. Dry material is heated further.
 template <class Curve>
 THAWSLIDE_HD void boil(const ColumnModel<Curve>& model, const ColumnGrid& grid, Real normal_pressure,
-                       BandColumn& column, ColumnAccount& account) {
+                       BandColumn& column, ColumnBudget& budget) {
   Real boiling = 0;  // [C], 0: not computed yet
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     Real& temperature = column.temperature[ColumnCells::ground + k];
@@ -177,7 +177,7 @@ THAWSLIDE_HD void boil(const ColumnModel<Curve>& model, const ColumnGrid& grid, 
       const Real surplus =
           column.heat[cell] - enthalpy(model.curve, cell_coefficients(model, grid, column, cell), boiling);
       temperature = boiling;
-      give_off_steam(model, min(column.water[k], surplus / heat_of_vaporization(boiling)), k, column, account);
+      release_steam(model, min(column.water[k], surplus / heat_of_vaporization(boiling)), k, column, budget);
     }
   }
 }

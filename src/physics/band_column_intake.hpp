@@ -1,5 +1,5 @@
 // Advection between the cells of a column (band_column.hpp), and exchange with the body, as cell faces move
-// (docs/theory, chapter 16).
+// (docs/theory/band-columns.md).
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace thawslide::physics {
 
 // Largest fraction of a cell's content that moves to its neighbours or the body when faces move from one grid to
 // another while material spreads. left: old area over new area. Up to 1, no cell loses more than its content.
-inline THAWSLIDE_HD Real largest_share_given(const ColumnGrid& before, const ColumnGrid& after, Real left) {
+inline THAWSLIDE_HD Real largest_fraction_given(const ColumnGrid& before, const ColumnGrid& after, Real left) {
   Real largest = 0, below = 0;  // below: height swept by the cell's lower face [m]
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     const Real above = after.face(k + 1) - left * before.face(k + 1);
@@ -37,7 +37,7 @@ struct ColumnChange {
 };
 
 // Number of substeps of a change: in each, a segment stretches by at most a tenth, and no cell loses more than its
-// content. The second condition matters if cells are thin compared with their height above the base.
+// content. The second condition applies if cells are thin compared with their height above the base.
 template <class Curve>
 THAWSLIDE_HD int parts_of(const ColumnModel<Curve>& model, const ColumnChange& change) {
   constexpr Real most_stretch = static_cast<Real>(0.1);
@@ -49,7 +49,7 @@ THAWSLIDE_HD int parts_of(const ColumnModel<Curve>& model, const ColumnChange& c
       const auto grid_after = [&](int count) {
         return grid_of(model, change.thickness_after(count, parts), change.cell_growth_after(count, parts));
       };
-      largest = max(largest, largest_share_given(grid_after(part), grid_after(part + 1), left));
+      largest = max(largest, largest_fraction_given(grid_after(part), grid_after(part + 1), left));
     }
     if (!(largest > Real(1))) {
       return parts;
@@ -61,8 +61,9 @@ THAWSLIDE_HD int parts_of(const ColumnModel<Curve>& model, const ColumnChange& c
 // Moves the faces of a column's cells, by changes of band thickness and cell growth and by the spreading of a
 // stretching segment. The swept volume moves between cells; at the top, it is exchanged with the body.
 template <class Curve>
-THAWSLIDE_HD void take_in(const ColumnModel<Curve>& model, const ColumnGrid& before, const ColumnGrid& after,
-                          const ColumnDrive& drive, BandColumn& column, ColumnAccount& account) {
+THAWSLIDE_HD void mix_in_surroundings(const ColumnModel<Curve>& model, const ColumnGrid& before,
+                                      const ColumnGrid& after, const ColumnDrive& drive, BandColumn& column,
+                                      ColumnBudget& budget) {
   constexpr int count = ColumnCells::slide;
   const Real left = Real(1) / (Real(1) + drive.stretching * drive.dt);        // old area over new area
   Real heat[count + 1] = {}, water[count + 1] = {}, thawing[count + 1] = {};  // downward through each lower face
@@ -74,9 +75,9 @@ THAWSLIDE_HD void take_in(const ColumnModel<Curve>& model, const ColumnGrid& bef
       thawing[f] = swept * column.thawing[count - 1];
     } else {
       const int from = swept > Real(0) ? f : f - 1;
-      const Real share = swept / before.slide_height(from);
-      heat[f] = share * column.heat[ColumnCells::ground + from];
-      water[f] = share * column.water[from];
+      const Real fraction = swept / before.slide_height(from);
+      heat[f] = fraction * column.heat[ColumnCells::ground + from];
+      water[f] = fraction * column.water[from];
       thawing[f] = swept * column.thawing[from];
     }
   }
@@ -89,22 +90,22 @@ THAWSLIDE_HD void take_in(const ColumnModel<Curve>& model, const ColumnGrid& bef
   }
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::ground;
                         ++k) {  // newly covered ground has the temperature of the segment's ground
-    account.ground_heat += (Real(1) - left) * column.heat[k];
+    budget.ground_heat += (Real(1) - left) * column.heat[k];
   }
   column.thickness = drive.thickness;
   column.cell_growth = drive.cell_growth;
-  account.body_heat += heat[count];
-  account.body_water += water[count];
+  budget.body_heat += heat[count];
+  budget.body_water += water[count];
   temperatures_from_heat(model, after, column);
 }
 
 // Changes the cell growth of a column, with exchange with the body at the top [J/m3, kg/m3]. Pressures are not updated.
 template <class Curve>
-THAWSLIDE_HD ColumnAccount take_cell_growth(const ColumnModel<Curve>& model, Real cell_growth, Real body_heat,
+THAWSLIDE_HD ColumnBudget apply_cell_growth(const ColumnModel<Curve>& model, Real cell_growth, Real body_heat,
                                             Real body_water, BandColumn& column) {
-  ColumnAccount account;
+  ColumnBudget budget;
   if (cell_growth == column.cell_growth) {
-    return account;
+    return budget;
   }
   const ColumnChange change{Real(0), column.thickness, column.thickness, column.cell_growth, cell_growth};
   const int parts = parts_of(model, change);
@@ -114,9 +115,10 @@ THAWSLIDE_HD ColumnAccount take_cell_growth(const ColumnModel<Curve>& model, Rea
   drive.body_water = body_water;
   THAWSLIDE_ROLLED for (int part = 1; part <= parts; ++part) {
     drive.cell_growth = change.cell_growth_after(part, parts);
-    take_in(model, grid_of(model, column), grid_of(model, drive.thickness, drive.cell_growth), drive, column, account);
+    mix_in_surroundings(model, grid_of(model, column), grid_of(model, drive.thickness, drive.cell_growth), drive,
+                        column, budget);
   }
-  return account;
+  return budget;
 }
 
 }  // namespace thawslide::physics

@@ -1,4 +1,4 @@
-// Time step of a column (band_column.hpp), and its initial state (docs/theory, chapter 16).
+// Time step of a column (band_column.hpp), and its initial state (docs/theory/band-columns.md).
 #pragma once
 
 #include "physics/band_column_intake.hpp"
@@ -19,11 +19,11 @@ struct ColumnVolumes {
 
 // Mixes the band by shear: its cells, all of one height, approach their mean by the fraction `share`.
 template <class Curve>
-THAWSLIDE_HD void mix_band(const ColumnModel<Curve>& model, const ColumnGrid& grid, Real share, BandColumn& column) {
+THAWSLIDE_HD void mix_band(const ColumnModel<Curve>& model, const ColumnGrid& grid, Real fraction, BandColumn& column) {
   for (Real* of_band : {column.heat + ColumnCells::ground, &column.water[0], &column.thawing[0]}) {
     Real mean = 0;
     THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) { mean += of_band[k] / ColumnCells::band; }
-    THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) { of_band[k] += share * (mean - of_band[k]); }
+    THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) { of_band[k] += fraction * (mean - of_band[k]); }
   }
   temperatures_from_heat(model, grid, column);
 }
@@ -31,38 +31,38 @@ THAWSLIDE_HD void mix_band(const ColumnModel<Curve>& model, const ColumnGrid& gr
 // Advances a column by drive.dt. Friction heat is distributed over the band; then heat is conducted, and water boils
 // and seeps.
 template <class Curve>
-THAWSLIDE_HD ColumnAccount step_column(const ColumnModel<Curve>& model, const ColumnDrive& drive, BandColumn& column) {
-  ColumnAccount account;
+THAWSLIDE_HD ColumnBudget step_column(const ColumnModel<Curve>& model, const ColumnDrive& drive, BandColumn& column) {
+  ColumnBudget budget;
   bool was_melted[ColumnCells::slide];
   const ColumnGrid grid = grid_of(model, drive.thickness, drive.cell_growth);
   if (drive.stretching != Real(0) || drive.thickness != column.thickness || drive.cell_growth != column.cell_growth) {
-    take_in(model, grid_of(model, column), grid, drive, column, account);
+    mix_in_surroundings(model, grid_of(model, column), grid, drive, column, budget);
   }
   if (drive.mixed > Real(0)) {
     mix_band(model, grid, drive.mixed, column);
   }
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) { was_melted[k] = is_melted(model, column, k); }
-  account.friction_heat = drive.heat_flux * drive.dt;
+  budget.friction_heat = drive.heat_flux * drive.dt;
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) {
-    column.heat[ColumnCells::ground + k] += account.friction_heat / ColumnCells::band;
+    column.heat[ColumnCells::ground + k] += budget.friction_heat / ColumnCells::band;
   }
   if (model.conduction) {
     conduct_in_column(model, grid, drive.dt, column);
   }
   temperatures_from_heat(model, grid, column);
   if (model.steam) {
-    boil(model, grid, drive.normal_pressure, column, account);
-    if (account.steam > Real(0)) {
+    boil(model, grid, drive.normal_pressure, column, budget);
+    if (budget.steam > Real(0)) {
       temperatures_from_heat(model, grid, column);
     }
   }
   fill_pores(model, grid, drive.normal_pressure, was_melted, column);
   if (model.seepage && model.pressurization && model.hydraulic_conductivity > Real(0)) {
-    seep_in_column(model, grid, drive.dt, drive.normal_pressure, column, account);
+    seep_in_column(model, grid, drive.dt, drive.normal_pressure, column, budget);
     temperatures_from_heat(model, grid, column);
   }
   set_pressures(model, PressureBounds(model, drive.normal_pressure, column), column);
-  return account;
+  return budget;
 }
 
 // Heat [J/m2], and ice and water [kg/m2], of a column.
@@ -124,13 +124,13 @@ inline THAWSLIDE_HD Real band_pressure(Real normal_pressure, const BandColumn& c
 template <class Curve>
 THAWSLIDE_HD BandMeans band_means(const ColumnModel<Curve>& model, Real normal_pressure, const BandColumn& column) {
   BandMeans means{};
-  constexpr Real share = Real(1) / ColumnCells::band;
+  constexpr Real fraction = Real(1) / ColumnCells::band;
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::band; ++k) {
     const Real temperature = column.temperature[ColumnCells::ground + k];
     const Real saturation = model.curve.saturation(temperature);
-    means.temperature += share * temperature;
-    means.saturation += share * saturation;
-    means.solid_fraction += share * effective_solid_fraction(model.phases, model.porosity, saturation);
+    means.temperature += fraction * temperature;
+    means.saturation += fraction * saturation;
+    means.solid_fraction += fraction * effective_solid_fraction(model.phases, model.porosity, saturation);
   }
   means.pore_pressure = band_pressure(normal_pressure, column);
   return means;
@@ -166,10 +166,12 @@ THAWSLIDE_HD Real liquid_volume(const ColumnModel<Curve>& model, const BandColum
 // Merges two columns of the same cell growth, with area fractions `share` and 1 - share. Heat, water and rock are
 // conserved, because cell heights are proportional to the band thickness.
 template <class Curve>
-THAWSLIDE_HD BandColumn joined_columns(const ColumnModel<Curve>& model, Real share, const BandColumn& first,
+THAWSLIDE_HD BandColumn joined_columns(const ColumnModel<Curve>& model, Real fraction, const BandColumn& first,
                                        const BandColumn& second, Real normal_pressure) {
   BandColumn column = first;
-  const auto mean = [&](Real of_first, Real of_second) { return share * of_first + (Real(1) - share) * of_second; };
+  const auto mean = [&](Real of_first, Real of_second) {
+    return fraction * of_first + (Real(1) - fraction) * of_second;
+  };
   column.thickness = mean(first.thickness, second.thickness);
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::all; ++k) { column.heat[k] = mean(first.heat[k], second.heat[k]); }
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {

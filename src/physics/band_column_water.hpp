@@ -1,4 +1,4 @@
-// Water of a column (band_column.hpp): pore filling and seepage (docs/theory, chapter 16).
+// Water of a column (band_column.hpp): pore filling and seepage (docs/theory/band-columns.md).
 #pragma once
 
 #include <cmath>
@@ -95,44 +95,44 @@ THAWSLIDE_HD void set_pressures(const ColumnModel<Curve>& model, const PressureB
 // area [m]. All outflows of a cell are reduced by the same factor if they exceed its water.
 template <class Curve>
 THAWSLIDE_HD void carry_water(const ColumnModel<Curve>& model, const Real* flow, const Real* to_air, BandColumn& column,
-                              ColumnAccount& account) {
+                              ColumnBudget& budget) {
   constexpr int count = ColumnCells::slide;
   const Real density = model.phases.water_density;
-  Real share[count], water[count + 1] = {}, heat[count + 1] = {};
+  Real fraction[count], water[count + 1] = {}, heat[count + 1] = {};
   THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
     const Real out = density * (max(flow[k + 1], Real(0)) + max(-flow[k], Real(0)) + to_air[k]);
-    const Real held = max(column.water[k], Real(0));  // round-off may leave a negative value
-    share[k] = out > held ? held / out : Real(1);
+    const Real available = max(column.water[k], Real(0));  // round-off may leave a negative value
+    fraction[k] = out > available ? available / out : Real(1);
   }
   const auto enthalpy_in = [&](int k) { return water_enthalpy(model, column.temperature[ColumnCells::ground + k]); };
   THAWSLIDE_ROLLED for (int k = 1; k < count; ++k) {
     if (flow[k] != Real(0)) {
       const int from = flow[k] > Real(0) ? k - 1 : k;
-      water[k] = density * flow[k] * share[from];
+      water[k] = density * flow[k] * fraction[from];
       heat[k] = water[k] * enthalpy_in(from);
     }
   }
   THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) {
-    const Real vented = density * to_air[k] * share[k];
+    const Real vented = density * to_air[k] * fraction[k];
     const Real vented_heat = vented > Real(0) ? vented * enthalpy_in(k) : Real(0);
     column.water[k] += water[k] - water[k + 1] - vented;
     column.heat[ColumnCells::ground + k] += heat[k] - heat[k + 1] - vented_heat;
-    account.vented_water += vented;
-    account.vented_heat += vented_heat;
+    budget.vented_water += vented;
+    budget.vented_heat += vented_heat;
   }
 }
 
 // Seepage of steam into the air, by Darcy's law with the density and viscosity of steam.
 template <class Curve>
 THAWSLIDE_HD void vent_steam(const ColumnModel<Curve>& model, const ColumnMobility& mobility, Real dt,
-                             BandColumn& column, ColumnAccount& account) {
+                             BandColumn& column, ColumnBudget& budget) {
   THAWSLIDE_ROLLED for (int k = 0; k < ColumnCells::slide; ++k) {
     const Real pressure = mobility.steam_to_air[k] > Real(0) ? steam_pressure(model, column, k) : Real(0);
     if (pressure > Real(0)) {
       const Real absolute = column.temperature[ColumnCells::ground + k] + celsius_to_kelvin;
       const Real density = (pressure + Steam::atmosphere) / (Steam::gas_constant * absolute);
       const Real volume = dt * mobility.steam_to_air[k] * model.water_to_steam_viscosity * pressure;
-      give_off_steam(model, min(column.water[k], density * volume), k, column, account);
+      release_steam(model, min(column.water[k], density * volume), k, column, budget);
     }
   }
 }
@@ -141,7 +141,7 @@ THAWSLIDE_HD void vent_steam(const ColumnModel<Curve>& model, const ColumnMobili
 // of the surplus; Newton's iteration finds the cells at a bound.
 template <class Curve>
 THAWSLIDE_HD void seep_in_column(const ColumnModel<Curve>& model, const ColumnGrid& grid, Real dt, Real normal_pressure,
-                                 BandColumn& column, ColumnAccount& account) {
+                                 BandColumn& column, ColumnBudget& budget) {
   constexpr int count = ColumnCells::slide, most_iterations = 40;
   const PressureBounds bounds(model, normal_pressure, column);
   const ColumnMobility mobility = mobilities(model, grid, column);
@@ -181,8 +181,8 @@ THAWSLIDE_HD void seep_in_column(const ColumnModel<Curve>& model, const ColumnGr
     solve_tridiagonal<count>(below, diagonal, above, change);
     THAWSLIDE_ROLLED for (int k = 0; k < count; ++k) { column.surplus[k] += change[k]; }
   }
-  carry_water(model, flow, to_air, column, account);
-  vent_steam(model, mobility, dt, column, account);
+  carry_water(model, flow, to_air, column, budget);
+  vent_steam(model, mobility, dt, column, budget);
 }
 
 }  // namespace thawslide::physics

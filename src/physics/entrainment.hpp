@@ -34,6 +34,8 @@ inline THAWSLIDE_HD Real erosion_by_momentum(Real shear, Real strength, Real den
 }
 
 // v' [m/s] of a mass m at speed v after entraining the mass dm from rest [kg].
-inline THAWSLIDE_HD Real speed_with_taken(Real mass, Real speed, Real taken) { return mass * speed / (mass + taken); }
+inline THAWSLIDE_HD Real speed_after_entrainment(Real mass, Real speed, Real entrained) {
+  return mass * speed / (mass + entrained);
+}
 
 }  // namespace thawslide::physics

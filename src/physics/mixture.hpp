@@ -78,8 +78,8 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value expansion(const Phases& phases, Value
 
 // Quantity per volume of a mixture by volume. share: fraction of the first material.
 template <class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value mixed(Value first, Value second, Value share) {
-  return share * first + (Value(1) - share) * second;
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value mixed(Value first, Value second, Value fraction) {
+  return fraction * first + (Value(1) - fraction) * second;
 }
 
 // exp(x) - 1. Small arguments, as in a step, use the series, which is exact to round-off and much faster.

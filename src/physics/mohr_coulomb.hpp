@@ -70,7 +70,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
     if (residual_cohesion_ == cohesion_ || !any(has_yielded)) {
       return cohesion_;
     }
-    return select(has_yielded, residual_cohesion_ + (cohesion_ - residual_cohesion_) * share_left(plastic_strain),
+    return select(has_yielded, residual_cohesion_ + (cohesion_ - residual_cohesion_) * fraction_left(plastic_strain),
                   Value(cohesion_));
   }
 
@@ -81,14 +81,15 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE auto may_yield(const SymmetricTensor<Value>& trial,
                                                                     Value plastic_strain) const {
     // exp(-x) is nowhere below 1 - x.
-    const Value lowest_share = max(Real(1) - softening_rate_ * plastic_strain, Value(0));
+    const Value lowest_fraction = max(Real(1) - softening_rate_ * plastic_strain, Value(0));
     const Value lowest_cohesion =
-        min(cohesion_, residual_cohesion_) + max(cohesion_ - residual_cohesion_, Real(0)) * lowest_share;
+        min(cohesion_, residual_cohesion_) + max(cohesion_ - residual_cohesion_, Real(0)) * lowest_fraction;
     const Surface<Value> of_intact_angle{ratio_, Real(2) * root_of_ratio_ * lowest_cohesion};
     if constexpr (friction_falls) {
       // As a function of phi, F decreases and then increases: a stress inside the surface at both ends is inside in
       // between.
-      return is_beyond<Dim>(trial, of_intact_angle) | is_beyond<Dim>(trial, surface_of(lowest_share, lowest_cohesion));
+      return is_beyond<Dim>(trial, of_intact_angle) |
+             is_beyond<Dim>(trial, surface_of(lowest_fraction, lowest_cohesion));
     } else {
       return is_beyond<Dim>(trial, of_intact_angle);
     }
@@ -155,23 +156,23 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
 
   // w: remaining fraction of the softening strength.
   template <class Value>
-  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value share_left(Value plastic_strain) const {
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value fraction_left(Value plastic_strain) const {
     return map_lanes(softening_rate_ * plastic_strain, [](Real strains) { return std::exp(-strains); });
   }
 
   // Surface for a fraction of the softening sine and a cohesion [Pa].
   template <class Value>
-  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Surface<Value> surface_of(Value share, Value cohesion) const {
+  [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Surface<Value> surface_of(Value fraction, Value cohesion) const {
     using std::sqrt;
-    const Value ratio = pressure_ratio<Value>(residual_sine_ + (sine_ - residual_sine_) * share);
+    const Value ratio = pressure_ratio<Value>(residual_sine_ + (sine_ - residual_sine_) * fraction);
     return {ratio, Real(2) * sqrt(ratio) * cohesion};
   }
 
   template <class Value>
   [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Surface<Value> surface_after(Value plastic_strain) const {
     if constexpr (friction_falls) {
-      const Value share = share_left(plastic_strain);
-      return surface_of<Value>(share, residual_cohesion_ + (cohesion_ - residual_cohesion_) * share);
+      const Value fraction = fraction_left(plastic_strain);
+      return surface_of<Value>(fraction, residual_cohesion_ + (cohesion_ - residual_cohesion_) * fraction);
     } else {
       return {ratio_, Real(2) * root_of_ratio_ * cohesion(plastic_strain)};
     }
@@ -311,7 +312,7 @@ class MohrCoulomb {  // NOLINT(bugprone-reserved-identifier,readability-identifi
       excess[a] = beyond(set.plane[a], values, surface);
     }
     const auto& inverse = inverse_coupling(number, surface.ratio);
-    auto flows = excess[0] == excess[0];
+    auto flows = Value(0) < Value(1);  // true in all lanes
     for (int a = 0; a < 3 && a < set.count; ++a) {
       const Value multiplier = inverse(a, 0) * excess[0] + inverse(a, 1) * excess[1] + inverse(a, 2) * excess[2];
       flows = flows & (multiplier >= Value(0));

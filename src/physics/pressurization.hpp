@@ -43,7 +43,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value hydraulic_diffusivity(const Phases& p
 // Eq. 23). Nodes do not resolve differences within a cell; diffusion between nodes alone would preserve them.
 // inverse_mesh_size: 1/h [1/m].
 template <class Value>
-THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value share_of_subgrid_diffusion(Value diffusivity, Value inverse_mesh_size,
+THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value subgrid_diffusion_fraction(Value diffusivity, Value inverse_mesh_size,
                                                                       int dimension, Real dt) {
   return -exponential_minus_one((-dt * Real(2 * dimension)) * (inverse_mesh_size * inverse_mesh_size) * diffusivity);
 }

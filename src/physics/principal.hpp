@@ -91,10 +91,10 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, 3> isolated_axis(const Matrix
   Value most = axis.squaredNorm();
   for (int k = 1; k < 3; ++k) {
     const Vector<Value, 3> other = rows.col(k).cross(rows.col((k + 1) % 3));
-    const auto says_more = other.squaredNorm() > most;
-    most = select(says_more, other.squaredNorm(), most);
+    const auto is_longer = other.squaredNorm() > most;
+    most = select(is_longer, other.squaredNorm(), most);
     for (int row = 0; row < 3; ++row) {
-      axis[row] = select(says_more, other[row], axis[row]);
+      axis[row] = select(is_longer, other[row], axis[row]);
     }
   }
   // If the deviator consists of round-off, its trace is not 0 and all products may vanish.

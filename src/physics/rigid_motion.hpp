@@ -21,14 +21,14 @@ inline constexpr int squares = Dim == 2 ? 1 : 6;
 // x x v.
 template <int Dim, class Value>
 [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, rotations<Dim>> moment_of(
-    const Vector<Value, Dim>& place, const Vector<Value, Dim>& velocity) {
+    const Vector<Value, Dim>& position, const Vector<Value, Dim>& velocity) {
   Vector<Value, rotations<Dim>> moment;
   if constexpr (Dim == 2) {
-    moment[0] = place[0] * velocity[1] - place[1] * velocity[0];
+    moment[0] = position[0] * velocity[1] - position[1] * velocity[0];
   } else {
-    moment[0] = place[1] * velocity[2] - place[2] * velocity[1];
-    moment[1] = place[2] * velocity[0] - place[0] * velocity[2];
-    moment[2] = place[0] * velocity[1] - place[1] * velocity[0];
+    moment[0] = position[1] * velocity[2] - position[2] * velocity[1];
+    moment[1] = position[2] * velocity[0] - position[0] * velocity[2];
+    moment[2] = position[0] * velocity[1] - position[1] * velocity[0];
   }
   return moment;
 }
@@ -36,13 +36,13 @@ template <int Dim, class Value>
 // w x x: velocity [m/s] at a position by a rotation w [1/s].
 template <int Dim, class Value>
 [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, Dim> turned(
-    const Vector<Value, rotations<Dim>>& rotation, const Vector<Value, Dim>& place) {
+    const Vector<Value, rotations<Dim>>& rotation, const Vector<Value, Dim>& position) {
   Vector<Value, Dim> velocity;
   if constexpr (Dim == 2) {
-    velocity[0] = -rotation[0] * place[1];
-    velocity[1] = rotation[0] * place[0];
+    velocity[0] = -rotation[0] * position[1];
+    velocity[1] = rotation[0] * position[0];
   } else {
-    velocity = moment_of<Dim>(rotation, place);
+    velocity = moment_of<Dim>(rotation, position);
   }
   return velocity;
 }
@@ -50,17 +50,17 @@ template <int Dim, class Value>
 // Products of a position with itself [m2].
 template <int Dim, class Value>
 [[nodiscard]] THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Vector<Value, squares<Dim>> squares_of(
-    const Vector<Value, Dim>& place) {
+    const Vector<Value, Dim>& position) {
   Vector<Value, squares<Dim>> products;
   if constexpr (Dim == 2) {
-    products[0] = place[0] * place[0] + place[1] * place[1];
+    products[0] = position[0] * position[0] + position[1] * position[1];
   } else {
-    products[0] = place[0] * place[0];
-    products[1] = place[1] * place[1];
-    products[2] = place[2] * place[2];
-    products[3] = place[0] * place[1];
-    products[4] = place[1] * place[2];
-    products[5] = place[0] * place[2];
+    products[0] = position[0] * position[0];
+    products[1] = position[1] * position[1];
+    products[2] = position[2] * position[2];
+    products[3] = position[0] * position[1];
+    products[4] = position[1] * position[2];
+    products[5] = position[0] * position[2];
   }
   return products;
 }

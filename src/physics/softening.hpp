@@ -1,4 +1,4 @@
-// Softening with a length scale: slip across a rupture surface instead of plastic strain (docs/theory, chapter 4).
+// Softening with a length scale: slip across a rupture surface instead of plastic strain (docs/theory/stress.md).
 #pragma once
 
 #include <cmath>

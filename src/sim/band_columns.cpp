@@ -1,8 +1,8 @@
 // Band columns of a simulation: initialization and update in a time step.
-#include <cmath>
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
+#include "base/rounding.hpp"
 #include "sim/columns_model.hpp"
 #include "sim/restored_state.hpp"
 #include "sim/simulation.hpp"
@@ -26,7 +26,7 @@ ColumnMaterial material_of_base(const config::Case& parameters, const Model<Dim>
       throw UserError(
           fmt::format("{}: bodies of different materials stand on the ground, and band columns are of one. Give all "
                       "bodies the same material, or set band.model = \"scaled\".",
-                      config::place_of(parameters, "band.model")));
+                      config::location_of(parameters, "band.model")));
     }
     index = particles.material(p);
     const auto of_particle = static_cast<double>(particles.initial_volume(p));
@@ -39,7 +39,7 @@ ColumnMaterial material_of_base(const config::Case& parameters, const Model<Dim>
     throw UserError(
         fmt::format("{}: no particle touches the terrain, where band columns begin. Place the body on the "
                     "terrain, or set band.model = \"scaled\".",
-                    config::place_of(parameters, "band.model")));
+                    config::location_of(parameters, "band.model")));
   }
   material.depth /= volume;
   material.temperature /= volume;
@@ -72,8 +72,8 @@ void Simulation<Dim>::start_band_columns() {
   const double thickest = parameters_.band.thickness.largest();
   if (thickest >= material.depth) {
     throw UserError(
-        fmt::format("{}: the band is up to {} m thick, and the slide above it {:.4g} m on average. Use a thinner band.",
-                    config::place_of(parameters_, "band.thickness"), thickest, material.depth));
+        fmt::format("{}: the band is up to {} m thick, and the slide above it {} m on average. Use a thinner band.",
+                    config::location_of(parameters_, "band.thickness"), thickest, rounded_text(material.depth, 3)));
   }
   band_columns_.emplace(make_columns_model(parameters_, model_, material), model_.motion.gravity);
   column_time_ = 0.0;
@@ -88,11 +88,11 @@ void Simulation<Dim>::band_columns_follow(const mpm::SparseGrid<Dim>& grid,
   const double cell = parameters_.grid.cell;
   const terrain::Surface<Dim>& surface = *model_.ground;
   const typename band::BasalSegments<Dim>::Ground ground{
-      [&](const auto& place) { return static_cast<Real>(surface.height(place.template cast<double>())); },
-      [&](const auto& place) -> Vector<Real, Dim> {
-        return surface.normal_below(place.template cast<double>(), cell).template cast<Real>();
+      [&](const auto& point) { return static_cast<Real>(surface.height(point.template cast<double>())); },
+      [&](const auto& point) -> Vector<Real, Dim> {
+        return surface.normal_below(point.template cast<double>(), cell).template cast<Real>();
       },
-      [&](const auto& place) { return model_.motion.width.at(place[0]); }};
+      [&](const auto& point) { return model_.motion.width.at(point[0]); }};
   const auto node_ground = [&](std::size_t b, std::size_t k) {
     using NodeGround = typename band::BasalSegments<Dim>::NodeGround;
     if (!ground_on_grid.any_candidate(b) || !ground_on_grid.block(b)[k].candidate) {
@@ -102,7 +102,7 @@ void Simulation<Dim>::band_columns_follow(const mpm::SparseGrid<Dim>& grid,
     return NodeGround{&known.normal, known.distance};
   };
   const auto thickness = static_cast<Real>(band_thickness());
-  band_columns_->take(grid, ground, node_ground, thickness, dt_, nodes);
+  band_columns_->update_from_nodes(grid, ground, node_ground, thickness, dt_, nodes);
   column_time_ += static_cast<double>(dt_);
   if (column_time_ + 0.5 * static_cast<double>(dt_) > parameters_.band.column_step) {
     const auto duration = static_cast<Real>(column_time_);

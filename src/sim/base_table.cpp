@@ -15,7 +15,7 @@ NamedNumbers base_table(const Simulation<Dim>& simulation) {
   }
   const auto add = [&](const char* name, Real number) { table[name].push_back(static_cast<double>(number)); };
   for (const band::BasalSegment<Dim>& segment : columns->segments()) {
-    const physics::BandMeans means = columns->means_now(segment);
+    const physics::BandMeans means = columns->current_means(segment);
     const Real* slide = segment.column.temperature + physics::ColumnCells::ground;
     for (int a = 0; a < 3; ++a) {
       table["position_m"].push_back(

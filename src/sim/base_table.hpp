@@ -1,7 +1,7 @@
 // Table of the basal segments for snapshots: one row per segment at one time.
 #pragma once
 
-#include "base/named_numbers.hpp"
+#include "base/state_numbers.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {

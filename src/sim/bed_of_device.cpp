@@ -46,7 +46,7 @@ device::HostBed<Dim> Simulation<Dim>::host_bed() {
             bed_->age(dt_);
             const Real* record = nodes.data();
             for (const auto& node : bed_of_device_->nodes) {
-              if (record[mpm::BedLayout<Dim>::taken] > Real(0)) {
+              if (record[mpm::BedLayout<Dim>::entrained] > Real(0)) {
                 bed_->collect(node.column, record, record[mpm::BedLayout<Dim>::size]);
               }
               record += device::bed_record_size<Dim>;

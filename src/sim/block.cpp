@@ -101,15 +101,15 @@ Forces forces_on_slices(const Model<2>& model, const Path& path, const Slices& s
                         double speed) {
   Forces forces;
   for (const Slice& slice : slices.all) {
-    const double place = slice.path + displacement;
-    const Vector<double, 2> normal = normal_below(model, path.x_at(place));
+    const double along = slice.path + displacement;
+    const Vector<double, 2> normal = normal_below(model, path.x_at(along));
     const Vector<double, 2> tangent(-normal[1], normal[0]);  // towards +x
     forces.along += slice.mass * model.motion.gravity.dot(tangent);
     // Averages curvature over at least the thickness, because the slide bridges shorter bends. Spans shorter than a
     // slice would miss part of a kink.
     const double span = std::max(slice.base, slices.thickness);
     forces.normal +=
-        physics::load_in_bend(slice.mass, model.motion.gravity.dot(normal), speed, path.curvature(place, span));
+        physics::load_in_bend(slice.mass, model.motion.gravity.dot(normal), speed, path.curvature(along, span));
   }
   return forces;
 }
@@ -229,13 +229,13 @@ class Block {
     basal_.speed[0] = std::abs(velocity_);
     basal_.unit_weight[0] = model_.contact.law.gravity * slices_.mass / (slices_.thickness * slices_.base);
     strength_ = friction_ = 0.0;
-    const std::vector<double> shares = mass_on_substrates();
-    for (std::size_t number = 0; number < shares.size(); ++number) {
-      if (shares[number] > 0.0) {
+    const std::vector<double> fractions = mass_on_substrates();
+    for (std::size_t number = 0; number < fractions.size(); ++number) {
+      if (fractions[number] > 0.0) {
         basal_.substrate[0] = static_cast<int>(number);
         evaluate_basal_law(model_.contact.law, time_, basal_);
-        strength_ += shares[number] * basal_.strength[0];
-        friction_ += shares[number] * basal_.friction[0];
+        strength_ += fractions[number] * basal_.strength[0];
+        friction_ += fractions[number] * basal_.friction[0];
       }
     }
     return forces;
@@ -246,15 +246,15 @@ class Block {
     if (!model_.substrates) {
       return {1.0};
     }
-    std::vector<double> shares(model_.contact.law.grounds.size(), 0.0);
+    std::vector<double> fractions(model_.contact.law.grounds.size(), 0.0);
     for (const Slice& slice : slices_.all) {
       const int number = model_.substrates->at(path_.x_at(slice.path + displacement_), 0.0);
-      shares[static_cast<std::size_t>(number)] += slice.mass;
+      fractions[static_cast<std::size_t>(number)] += slice.mass;
     }
-    for (double& share : shares) {
-      share /= slices_.mass;
+    for (double& fraction : fractions) {
+      fraction /= slices_.mass;
     }
-    return shares;
+    return fractions;
   }
 
   const config::Case& parameters_;
@@ -289,12 +289,12 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
   }
   if (parameters.bed.law != config::BedLaw::none) {
     throw UserError(fmt::format("{}: the block model does not entrain a bed. Remove [bed], or use `thawslide run`.",
-                                config::place_of(parameters, "bed.law")));
+                                config::location_of(parameters, "bed.law")));
   }
   if (parameters.general.width.varies()) {
     throw UserError(
         fmt::format("{}: the block model has one width. Give case.width as a number, or use `thawslide run`.",
-                    config::place_of(parameters, "case.width")));
+                    config::location_of(parameters, "case.width")));
   }
   require_one_body(parameters);
   const Model<2> model = make_model<2>(parameters, site);
@@ -308,8 +308,8 @@ std::vector<HistoryRow> run_block(const config::Case& parameters, const config::
     dt = std::min(dt, parameters.time.safety * limit.step);
   } else if (dt > limit.step) {
     throw UserError(
-        fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}. Use a smaller time.step.",
-                    config::place_of(parameters, "time.step"), dt, rounded_down(limit.step, 4), limit.what));
+        fmt::format("{}: time.step is {} s, above the limit of {:.3g} s set by {}. Use a smaller time.step.",
+                    config::location_of(parameters, "time.step"), dt, rounded_down(limit.step, 3), limit.what));
   }
   const double interval = std::max(parameters.time.history_interval, dt);
   const auto steps = static_cast<long>(std::ceil(parameters.time.end / dt * (1.0 - 1e-12)));

@@ -21,7 +21,7 @@ void require_one_body(const config::Case& parameters);
 // sliding_strength_Pa, driving_traction_Pa, band_temperature_C, band_saturation, band_pore_pressure_Pa,
 // band_friction_coefficient, friction_work_J_m2, friction_heat_J_m2 and heat_gain_J_m2, the last three per base area;
 // valley_factor: the area of the base over that of the section's profile (valley_factor.hpp). Velocity, displacement
-// and driving traction are positive in the direction in which the block leaves; the front is an x coordinate. site:
+// and driving traction are positive in the direction of travel; the front is an x coordinate. site:
 // contains the profile of a section. valley_factor: over x. Throws UserError for a case without terrain, with more than
 // one body, or with a step above a limit.
 std::vector<HistoryRow> run_block(const config::Case& parameters, const config::Site& site = {},

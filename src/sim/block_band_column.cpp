@@ -1,7 +1,5 @@
 #include "sim/block_band_column.hpp"
 
-#include <algorithm>
-
 namespace thawslide::sim {
 
 BlockBandColumn::BlockBandColumn(const band::ColumnsModel& model, double thickness, double load, double column_step)

@@ -1,7 +1,6 @@
 #include "sim/block_column.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -56,14 +55,14 @@ void BlockColumn::find_base_nodes() {
   std::vector<std::uint8_t> is_base(grid_.blocks().size(), 0);
   for (std::size_t b = 0; b < grid_.blocks().size(); ++b) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<2>::nodes); ++k) {
-      const Vector<double, 2> place = mpm::node_position(grid_, b, k);
-      if (place[1] == 0.0 && (place[0] == 0.0 || place[0] == grid_.cell())) {
+      const Vector<double, 2> point = mpm::node_position(grid_, b, k);
+      if (point[1] == 0.0 && (point[0] == 0.0 || point[0] == grid_.cell())) {
         base_nodes_.push_back({b, k});
         is_base[b] = 1;
       }
     }
   }
-  nodes_.contact.hold(grid_.blocks().size(), [&](std::size_t b) { return is_base[b] != 0; });
+  nodes_.contact.allocate(grid_.blocks().size(), [&](std::size_t b) { return is_base[b] != 0; });
   for (const mpm::NodeAt& node : base_nodes_) {
     std::fill_n(nodes_.contact.of_block(node.block), mpm::Tile<2>::nodes, mpm::RecordsOf<mpm::Contact, 2>::Record{});
   }

@@ -37,16 +37,17 @@ void seed_body(const config::Case& parameters, const config::Body& body, const B
     for (long j = first[1]; j <= last[1]; ++j) {
       for (long i = first[0]; i <= last[0]; ++i) {
         const std::array<long, 3> index{i, j, k};
-        Vector<double, Dim> place;
+        Vector<double, Dim> position;
         for (std::size_t a = 0; a < Dim; ++a) {
-          place[static_cast<int>(a)] = parameters.grid.min[a] + (static_cast<double>(index[a]) + 0.5) * spacing;
+          position[static_cast<int>(a)] = parameters.grid.min[a] + (static_cast<double>(index[a]) + 0.5) * spacing;
         }
-        if (shape.contains(place)) {
+        if (shape.contains(position)) {
           std::array<std::uint32_t, 3> lattice{};
           for (std::size_t a = 0; a < Dim; ++a) {
             lattice[a] = static_cast<std::uint32_t>(index[a] - first[a]);
           }
-          seeds.push_back({number, place, shape.top(place[0], place[Dim - 1]) - place[Dim - 1], volume, lattice});
+          seeds.push_back(
+              {number, position, shape.top(position[0], position[Dim - 1]) - position[Dim - 1], volume, lattice});
         }
       }
     }
@@ -69,25 +70,26 @@ void require_volume(const config::Case& parameters, const std::string& name, con
   for (std::size_t p = first; p < seeds.size(); ++p) {
     seeded += seeds[p].volume;
   }
-  const double share = shape.volume() / seeded;
+  const double fraction = shape.volume() / seeded;
   if (shape.release() && !(seeded >= (1.0 - release_tolerance) * shape.volume())) {
     throw UserError(fmt::format(
         "{}: body '{}': particles {} m apart cannot represent {:.2g} % of its {} m3, because it is too thin there, or "
         "lies at its rim (allowed: {:g} %). Set a smaller grid.cell or a larger particles_per_axis, or check the unit "
         "of the thickness.",
-        config::place_of(parameters, "body." + name), name, spacing, 100.0 * (1.0 - seeded / shape.volume()),
+        config::location_of(parameters, "body." + name), name, spacing, 100.0 * (1.0 - seeded / shape.volume()),
         rounded_text(shape.volume(), 3), 100.0 * release_tolerance));
   }
-  if (!(std::abs(1.0 / share - 1.0) <= volume_tolerance)) {
+  if (!(std::abs(1.0 / fraction - 1.0) <= volume_tolerance)) {
     throw UserError(fmt::format(
-        "{}: body '{}' has a volume of {:.6g} {}, and its {} particles, {} m apart, {:.6g}; allowed: within {:g} %. "
-        "Place its corners at multiples of the spacing, or use a smaller grid.cell or more particles_per_axis.",
-        config::place_of(parameters, "body." + name), name, shape.volume(), Dim == 2 ? "m3 per m" : "m3",
-        seeds.size() - first, spacing, seeded, 100.0 * volume_tolerance));
+        "{}: body '{}' has a volume of {} {}, and its {} particles, {} m apart, {}; allowed: within {:g} %. Place its "
+        "corners at multiples of the spacing, or use a smaller grid.cell or more particles_per_axis.",
+        config::location_of(parameters, "body." + name), name, rounded_text(shape.volume(), 3),
+        Dim == 2 ? "m3 per m" : "m3", seeds.size() - first, spacing, rounded_text(seeded, 3),
+        100.0 * volume_tolerance));
   }
   // Scales the release to its exact volume, because its edges are not aligned with the lattice.
   for (std::size_t p = first; shape.release() && p < seeds.size(); ++p) {
-    seeds[p].volume *= share;
+    seeds[p].volume *= fraction;
   }
 }
 
@@ -97,13 +99,14 @@ void require_apart(const config::Case& parameters, const std::vector<std::string
                    const std::vector<BodyShape<Dim>>& shapes, const std::vector<Seed<Dim>>& seeds) {
   for (const Seed<Dim>& seed : seeds) {
     for (std::size_t other = static_cast<std::size_t>(seed.body) + 1; other < shapes.size(); ++other) {
-      if (shapes[other].contains(seed.place)) {
+      if (shapes[other].contains(seed.position)) {
         throw UserError(
-            fmt::format("{}: body '{}' and body '{}' both fill the place x = {:.10g} m, {}elevation {:.6g} m; "
-                        "allowed: bodies that touch but do not overlap. Move one of them.",
-                        config::place_of(parameters, "body." + names[other]),
-                        names[static_cast<std::size_t>(seed.body)], names[other], seed.place[0],
-                        Dim == 3 ? fmt::format("y = {:.10g} m, ", seed.place[1]) : "", seed.place[Dim - 1]));
+            fmt::format("{}: body '{}' and body '{}' both fill the place x = {} m, {}elevation {} m; allowed: bodies "
+                        "that touch but do not overlap. Move one of them.",
+                        config::location_of(parameters, "body." + names[other]),
+                        names[static_cast<std::size_t>(seed.body)], names[other], coordinate_text(seed.position[0]),
+                        Dim == 3 ? fmt::format("y = {} m, ", coordinate_text(seed.position[1])) : "",
+                        coordinate_text(seed.position[Dim - 1])));
       }
     }
   }
@@ -122,7 +125,7 @@ SymmetricTensor<Real> initial_stress(const config::Case& parameters, const Model
   Vector<double, Dim> up = -gravity;
   double cosine = 1.0;
   if (model.ground) {
-    const Vector<double, Dim - 1> below = (seed.place - model.origin).template head<Dim - 1>();
+    const Vector<double, Dim - 1> below = (seed.position - model.origin).template head<Dim - 1>();
     up = -model.ground->normal_below(below, parameters.grid.cell);
     cosine = model.ground->slope_cosine(below, parameters.grid.cell);
   }
@@ -171,15 +174,15 @@ void require_above_ground(const config::Case& parameters, const Model<Dim>& mode
     return;
   }
   for (std::size_t p = first; p < seeds.size(); ++p) {
-    const Vector<double, Dim> place = seeds[p].place - model.origin;
-    const double ground = model.ground->height(place.template head<Dim - 1>());
-    if (place[Dim - 1] < ground) {
+    const Vector<double, Dim> position = seeds[p].position - model.origin;
+    const double ground = model.ground->height(position.template head<Dim - 1>());
+    if (position[Dim - 1] < ground) {
       throw UserError(fmt::format(
-          "{}: body '{}' is below the terrain: at x = {:.10g} m, y = {:.10g} m it has a particle at an elevation of "
-          "{:.6g} m and the ground is at {:.6g} m; allowed: above the ground. Lift the body, or use the shape "
-          "\"release\".",
-          config::place_of(parameters, "body." + name), name, seeds[p].place[0], seeds[p].place[1],
-          seeds[p].place[Dim - 1], ground + model.origin[Dim - 1]));
+          "{}: body '{}' is below the terrain: at x = {} m, y = {} m it has a particle at an elevation of {} m "
+          "and the ground is at {} m; allowed: above the ground. Lift the body, or use the shape \"release\".",
+          config::location_of(parameters, "body." + name), name, coordinate_text(seeds[p].position[0]),
+          coordinate_text(seeds[p].position[1]), coordinate_text(seeds[p].position[Dim - 1]),
+          coordinate_text(ground + model.origin[Dim - 1])));
     }
   }
 }
@@ -192,13 +195,14 @@ void require_within_domain(const config::Case& parameters, const std::string& na
   const config::Grid& grid = parameters.grid;
   for (std::size_t p = first; p < seeds.size(); ++p) {
     for (std::size_t a = 0; a < Dim; ++a) {
-      const double place = seeds[p].place[static_cast<int>(a)];
-      if (place < grid.min[a] || place > grid.max[a]) {
-        throw UserError(fmt::format(
-            "{}: body '{}' has a particle at x = {:.10g} m, y = {:.10g} m, elevation {:.6g} m, outside the domain, "
-            "whose {} is from {:.10g} to {:.10g} m. Widen grid.min and grid.max.",
-            config::place_of(parameters, "body." + name), name, seeds[p].place[0], seeds[p].place[1],
-            seeds[p].place[Dim - 1], axes[a], grid.min[a], grid.max[a]));
+      const double position = seeds[p].position[static_cast<int>(a)];
+      if (position < grid.min[a] || position > grid.max[a]) {
+        throw UserError(
+            fmt::format("{}: body '{}' has a particle at x = {} m, y = {} m, elevation {} m, outside the domain, whose "
+                        "{} is from {} to {} m. Widen grid.min and grid.max.",
+                        config::location_of(parameters, "body." + name), name, coordinate_text(seeds[p].position[0]),
+                        coordinate_text(seeds[p].position[1]), coordinate_text(seeds[p].position[Dim - 1]), axes[a],
+                        coordinate_text(grid.min[a]), coordinate_text(grid.max[a])));
       }
     }
   }
@@ -207,17 +211,17 @@ void require_within_domain(const config::Case& parameters, const std::string& na
 // Position of a seed displaced by initial.noise, or its regular position if the displacement would move it out of its
 // body or below the ground. All other properties of the particle follow from the regular position.
 template <int Dim>
-Vector<double, Dim> starting_place(const config::Case& parameters, const Model<Dim>& model, const config::Body& body,
-                                   const BodyShape<Dim>& shape, const Seed<Dim>& seed) {
+Vector<double, Dim> starting_position(const config::Case& parameters, const Model<Dim>& model, const config::Body& body,
+                                      const BodyShape<Dim>& shape, const Seed<Dim>& seed) {
   if (parameters.initial.noise == 0.0) {
-    return seed.place;
+    return seed.position;
   }
   const double spacing = parameters.grid.cell / body.particles_per_axis;
-  const Vector<double, Dim> place = seed.place + starting_displacement(parameters.initial, spacing, seed);
-  const Vector<double, Dim> relative = place - model.origin;
+  const Vector<double, Dim> position = seed.position + starting_displacement(parameters.initial, spacing, seed);
+  const Vector<double, Dim> relative = position - model.origin;
   const bool is_above_ground =
       !model.ground || relative[Dim - 1] > model.ground->height(relative.template head<Dim - 1>());
-  return is_above_ground && shape.contains(place) ? place : seed.place;
+  return is_above_ground && shape.contains(position) ? position : seed.position;
 }
 
 }  // namespace
@@ -258,9 +262,9 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
     particles.id(p) = static_cast<std::int64_t>(p);
     particles.body(p) = seed.body;
     particles.material(p) = static_cast<std::int32_t>(material_of[static_cast<std::size_t>(seed.body)]);
-    const Vector<double, Dim> place =
-        starting_place(parameters, model, body, shapes[static_cast<std::size_t>(seed.body)], seed);
-    const Real width = model.motion.width.at(static_cast<Real>(place[0] - model.origin[0]));
+    const Vector<double, Dim> position =
+        starting_position(parameters, model, body, shapes[static_cast<std::size_t>(seed.body)], seed);
+    const Real width = model.motion.width.at(static_cast<Real>(position[0] - model.origin[0]));
     particles.initial_volume(p) = particles.volume(p) = width * static_cast<Real>(seed.volume);
     particles.temperature(p) = static_cast<Real>(initial_temperature(model, body, release, seed));
     const Real saturation = model.band.with_heat_content(
@@ -271,7 +275,7 @@ void fill_bodies(const config::Case& parameters, const config::Site& site, const
     const Real density = physics::mixture_density(model.motion.phases, particles.porosity(p), saturation);
     particles.mass(p) = density * particles.volume(p);
     for (int a = 0; a < Dim; ++a) {
-      particles.position(p, a) = static_cast<Real>(place[a] - model.origin[a]);
+      particles.position(p, a) = static_cast<Real>(position[a] - model.origin[a]);
       particles.velocity(p, a) = static_cast<Real>(body.velocity[static_cast<std::size_t>(a)]);
     }
     const auto stress = initial_stress(parameters, model, seed, static_cast<double>(density),

@@ -14,7 +14,7 @@ namespace thawslide::sim {
 namespace {
 
 template <int Dim>
-using Place = std::array<int, static_cast<std::size_t>(Dim)>;  // of a cube; touching particles: in it or next to it
+using CubeIndex = std::array<int, static_cast<std::size_t>(Dim)>;  // of a cube; touching particles: in it or next to it
 
 constexpr double cube = 2.0;  // cells
 
@@ -31,19 +31,19 @@ bool do_touch(const mpm::Particles<Dim>& particles, std::size_t p, std::size_t o
 
 // Particles by body in each occupied cube.
 template <int Dim>
-using Cubes = std::map<Place<Dim>, std::map<std::size_t, std::vector<std::size_t>>>;
+using Cubes = std::map<CubeIndex<Dim>, std::map<std::size_t, std::vector<std::size_t>>>;
 
 template <int Dim>
 Cubes<Dim> cubes_of(const Simulation<Dim>& simulation) {
   const auto& particles = simulation.particles();
   Cubes<Dim> cubes;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    Place<Dim> place;
+    CubeIndex<Dim> point;
     for (std::size_t a = 0; a < Dim; ++a) {
       const double at = particles.position(p, static_cast<int>(a)) / (cube * simulation.parameters().grid.cell);
-      place[a] = static_cast<int>(std::floor(at));
+      point[a] = static_cast<int>(std::floor(at));
     }
-    cubes[place][static_cast<std::size_t>(particles.body(p))].push_back(p);
+    cubes[point][static_cast<std::size_t>(particles.body(p))].push_back(p);
   }
   return cubes;
 }
@@ -71,11 +71,11 @@ std::vector<std::size_t> groups_of_touching(const Simulation<Dim>& simulation) {
   const Cubes<Dim> cubes = cubes_of(simulation);
   for (const auto& [middle, bodies] : cubes) {
     for (int k = 0; k < mpm::Tile<Dim>::stencil; ++k) {
-      Place<Dim> place = middle;
+      CubeIndex<Dim> point = middle;
       for (std::size_t a = 0, rest = static_cast<std::size_t>(k); a < Dim; ++a, rest /= 3) {
-        place[a] += static_cast<int>(rest % 3) - 1;
+        point[a] += static_cast<int>(rest % 3) - 1;
       }
-      const auto found = cubes.find(place);
+      const auto found = cubes.find(point);
       for (auto of_body = bodies.begin(); found != cubes.end() && of_body != bodies.end(); ++of_body) {
         for (const auto& of_other : found->second) {
           join_if_touching(*of_body, of_other);
@@ -102,11 +102,11 @@ std::string warning_of_bodies_apart(const Simulation<Dim>& simulation) {
       if (group[body] != group[other] && (layers.empty() || layers[body] == layers[other])) {
         const auto& names = simulation.model().body_names;
         return fmt::format(
-            "{}: body.{} stands apart from body.{}, and contact.between_bodies is \"bonded\": from a gap of 1 "
-            "to 2 cells ({:g} to {:g} m) on they act on one another, stick, and drag one another as they part. Set "
+            "{}: body.{} stands apart from body.{}, and contact.between_bodies is \"bonded\": below a gap of 1 to 2 "
+            "cells ({:g} to {:g} m) they interact, stick together, and drag one another as they separate. Set "
             "contact.between_bodies = \"frictional\" and contact.friction_angle, or write contact.between_bodies = "
-            "\"bonded\" if they are to be one.",
-            config::place_of(parameters, "body." + names[body]), names[body], names[other], parameters.grid.cell,
+            "\"bonded\" if they are meant to be one body.",
+            config::location_of(parameters, "body." + names[body]), names[body], names[other], parameters.grid.cell,
             2.0 * parameters.grid.cell);
       }
     }

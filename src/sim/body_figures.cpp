@@ -16,7 +16,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <int Dim>
-using Place = std::array<int, static_cast<std::size_t>(Dim)>;  // of a cubic cell, relative to the domain's lower corner
+using CellIndex =
+    std::array<int, static_cast<std::size_t>(Dim)>;  // of a cubic cell, relative to the domain's lower corner
 
 // Column of particles of one body.
 struct Column {
@@ -70,24 +71,24 @@ class Bodies {
   }
 
  private:
-  using OfBody = std::pair<std::int32_t, Place<Dim - 1>>;
+  using OfBody = std::pair<std::int32_t, CellIndex<Dim - 1>>;
 
   [[nodiscard]] const config::Case& parameters() const { return simulation_.parameters(); }
   [[nodiscard]] double height(std::size_t p) const { return simulation_.particles().position(p, Dim - 1); }
-  [[nodiscard]] Place<Dim - 1> column_of(std::size_t p, double width) const {
-    Place<Dim - 1> place;
+  [[nodiscard]] CellIndex<Dim - 1> column_of(std::size_t p, double width) const {
+    CellIndex<Dim - 1> index;
     for (std::size_t a = 0; a + 1 < Dim; ++a) {
-      place[a] = static_cast<int>(std::floor(simulation_.particles().position(p, static_cast<int>(a)) / width));
+      index[a] = static_cast<int>(std::floor(simulation_.particles().position(p, static_cast<int>(a)) / width));
     }
-    return place;
+    return index;
   }
-  [[nodiscard]] Place<Dim> cell_of(std::size_t p) const {
-    Place<Dim> place;
+  [[nodiscard]] CellIndex<Dim> cell_of(std::size_t p) const {
+    CellIndex<Dim> index;
     for (std::size_t a = 0; a < Dim; ++a) {
-      place[a] = static_cast<int>(
+      index[a] = static_cast<int>(
           std::floor(simulation_.particles().position(p, static_cast<int>(a)) / parameters().grid.cell));
     }
-    return place;
+    return index;
   }
 
   // In a section as wide everywhere as results are per metre of.
@@ -130,19 +131,19 @@ class Bodies {
   void measure_columns(std::size_t number, BodyFigures& figures) const {
     const double width = std::pow(figures.spacing, Dim - 1);
     Raster thickness;  // by column
-    double standing = 0.0;
+    double resting = 0.0;
     figures.clearance = infinity;
-    const auto first = columns_.lower_bound({static_cast<std::int32_t>(number), lowest_place()});
-    const auto last = columns_.lower_bound({static_cast<std::int32_t>(number) + 1, lowest_place()});
+    const auto first = columns_.lower_bound({static_cast<std::int32_t>(number), lowest_index()});
+    const auto last = columns_.lower_bound({static_cast<std::int32_t>(number) + 1, lowest_index()});
     for (auto column = first; column != last; ++column) {
       thickness.values.push_back(column->second.volume / width);
       const double clearance = clearance_of(column->second);
       figures.clearance = std::min(figures.clearance, clearance);
-      standing += clearance < figures.spacing ? 1.0 : 0.0;
+      resting += clearance < figures.spacing ? 1.0 : 0.0;
     }
     const auto columns = static_cast<double>(thickness.values.size());
     figures.area = columns * width;
-    figures.resting_fraction = standing / columns;
+    figures.resting_fraction = resting / columns;
     figures.median_thickness = config::median_thickness(thickness);
     figures.largest_thickness = *std::max_element(thickness.values.begin(), thickness.values.end());
   }
@@ -161,21 +162,21 @@ class Bodies {
     figures.largest_thickness = largest;
   }
 
-  static Place<Dim - 1> lowest_place() {
-    Place<Dim - 1> place;
-    place.fill(std::numeric_limits<int>::min());
-    return place;
+  static CellIndex<Dim - 1> lowest_index() {
+    CellIndex<Dim - 1> index;
+    index.fill(std::numeric_limits<int>::min());
+    return index;
   }
 
   // Clearance between a column's underside and the ground, a holding side of the domain, or another body [m].
   [[nodiscard]] double clearance_of(const Column& column) const {
     double below = -infinity;
     if (const auto& ground = simulation_.model().ground) {
-      typename terrain::Surface<Dim>::Place place;
+      typename terrain::Surface<Dim>::Point point;
       for (int a = 0; a + 1 < Dim; ++a) {
-        place[a] = simulation_.particles().position(column.lowest, a);
+        point[a] = simulation_.particles().position(column.lowest, a);
       }
-      below = ground->height(place);
+      below = ground->height(point);
     }
     if (parameters().grid.boundary[2 * (Dim - 1)] != config::BoundaryKind::open) {
       below = std::max(below, 0.0);
@@ -191,15 +192,15 @@ class Bodies {
       return clearance;
     }
     const auto& particles = simulation_.particles();
-    const Place<Dim> middle = cell_of(column.lowest);
+    const CellIndex<Dim> middle = cell_of(column.lowest);
     constexpr int around = Dim == 3 ? 27 : 9;
     for (int k = 0; k < around; ++k) {
-      Place<Dim> place = middle;
+      CellIndex<Dim> point = middle;
       int rest = k;
       for (std::size_t a = 0; a < Dim; ++a, rest /= 3) {
-        place[a] += rest % 3 - 1;
+        point[a] += rest % 3 - 1;
       }
-      const auto found = by_cell_.find(place);
+      const auto found = by_cell_.find(point);
       if (found == by_cell_.end()) {
         continue;
       }
@@ -222,9 +223,9 @@ class Bodies {
   }
 
   const Simulation<Dim>& simulation_;
-  std::vector<double> spacing_;                             // by body [m]
-  std::map<OfBody, Column> columns_;                        // on a lattice with the body's spacing
-  std::map<Place<Dim>, std::vector<std::size_t>> by_cell_;  // particle indices; empty for one body
+  std::vector<double> spacing_;                                 // by body [m]
+  std::map<OfBody, Column> columns_;                            // on a lattice with the body's spacing
+  std::map<CellIndex<Dim>, std::vector<std::size_t>> by_cell_;  // particle indices; empty for one body
 };
 
 }  // namespace

@@ -47,29 +47,29 @@ class BodyShape {
 
   [[nodiscard]] const std::optional<ReleaseBody>& release() const { return release_; }
 
-  [[nodiscard]] bool contains(const Vector<double, Dim>& place) const {
+  [[nodiscard]] bool contains(const Vector<double, Dim>& point) const {
     if constexpr (Dim == 3) {
       if (release_) {
-        return release_->contains(place);
+        return release_->contains(point);
       }
     }
     for (std::size_t a = 0; a < Dim; ++a) {
-      if (place[static_cast<int>(a)] < lower_[a] || place[static_cast<int>(a)] > upper_[a]) {
+      if (point[static_cast<int>(a)] < lower_[a] || point[static_cast<int>(a)] > upper_[a]) {
         return false;
       }
     }
     // A centre on an inclined side, to within round-off, is inside if the body lies above that side.
-    const double height = place[Dim - 1] + tie_;
+    const double height = point[Dim - 1] + tie_;
     switch (body_->shape) {
       case config::BodyShape::box:
         return true;
       case config::BodyShape::polygon:
-        return crossings_above(place[0], height) % 2 == 1;
+        return crossings_above(point[0], height) % 2 == 1;
       case config::BodyShape::surface:
       case config::BodyShape::release:
         break;
     }
-    return height > profile_at(profile_.terrain, place[0]) && height < top(place[0], place[Dim - 1]);
+    return height > profile_at(profile_.terrain, point[0]) && height < top(point[0], point[Dim - 1]);
   }
 
   // Area of the section [m2]; in 3D, times the width [m3].

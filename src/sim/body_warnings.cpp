@@ -19,7 +19,7 @@ namespace {
 
 constexpr double most_strain = 0.05;      // under its own weight, at the base of the thickest column
 constexpr double most_volume_off = 0.02;  // relative deviation of particle volume from the shape's volume
-constexpr double least_standing = 0.5;    // fraction of a body's area
+constexpr double least_resting = 0.5;     // fraction of a body's area
 constexpr double touching = 0.5;  // spacings: tolerance, because particles lie on a lattice and the ground may not
 constexpr int digits_of_places = 6;
 constexpr double strain_of_unbroken = 1.0;  // softening strain from which on a material slides unbroken
@@ -32,15 +32,15 @@ std::string volume_warning(const config::Case& parameters, const BodyFigures& bo
   }
   const std::string key = "body." + body.name;
   return fmt::format(
-      "{}: {} has {:.6g} {}; its particles, {:g} m apart, have {:.6g}, {:.2g} % {}. Place its corners at multiples of "
-      "that distance, or use a smaller grid.cell.",
-      config::place_of(parameters, key), key, body.shape_volume,
-      parameters.general.dimension == 2 ? "m3 per m of width" : "m3", body.spacing, body.volume, 100.0 * std::abs(more),
-      more > 0.0 ? "more" : "less");
+      "{}: {} has {} {}; its particles, {:g} m apart, have {}, {:.2g} % {}. Place its corners at multiples of that "
+      "distance, or use a smaller grid.cell.",
+      config::location_of(parameters, key), key, rounded_text(body.shape_volume, 3),
+      parameters.general.dimension == 2 ? "m3 per m of width" : "m3", body.spacing, rounded_text(body.volume, 3),
+      100.0 * std::abs(more), more > 0.0 ? "more" : "less");
 }
 
 // Warns of a body over nothing, or far above its support.
-std::string standing_warning(const config::Case& parameters, const BodyFigures& body) {
+std::string resting_warning(const config::Case& parameters, const BodyFigures& body) {
   const std::string key = "body." + body.name;
   if (!parameters.mechanics.enabled || parameters.general.gravity == 0.0 || !parameters.frames.empty()) {
     return "";
@@ -48,21 +48,21 @@ std::string standing_warning(const config::Case& parameters, const BodyFigures& 
   if (std::isinf(body.clearance)) {
     return fmt::format(
         "{}: {} has nothing below it: terrain.type is \"none\" and the lower side of the domain is open, so it falls "
-        "out of the domain. Give terrain.type, or a boundary that holds.",
-        config::place_of(parameters, key), key);
+        "out of the domain. Set terrain.type, or close the lower side.",
+        config::location_of(parameters, key), key);
   }
   if (body.clearance > touching * body.spacing) {
     const double time = std::sqrt(2.0 * body.clearance / parameters.general.gravity);
     return fmt::format(
-        "{}: {} floats: its underside is {:.3g} m above what is below it, and it falls for {:.2g} s before it touches. "
-        "Begin it on that, or set shape = \"surface\" or \"release\", which follow the ground.",
-        config::place_of(parameters, key), key, body.clearance, time);
+        "{}: {} floats: its underside is {} m above what is below it, and it falls for {:.2g} s before it touches. "
+        "Place it on that, or set shape = \"surface\" or \"release\", which follow the ground.",
+        config::location_of(parameters, key), key, rounded_text(body.clearance, 3), time);
   }
-  if (body.resting_fraction < least_standing) {
+  if (body.resting_fraction < least_resting) {
     return fmt::format(
-        "{}: {} rests on {:.2g} % of its area; the gap below the rest is at least {:.3g} m, one distance of its "
-        "particles. Use a shape that follows the terrain: shape = \"surface\", \"release\", or a polygon.",
-        config::place_of(parameters, key), key, 100.0 * body.resting_fraction, body.spacing);
+        "{}: {} rests on {:.2g} % of its area; the gap below the rest is at least {:.3g} m, one particle spacing. Use "
+        "a shape that follows the terrain: shape = \"surface\", \"release\", or a polygon.",
+        config::location_of(parameters, key), key, 100.0 * body.resting_fraction, body.spacing);
   }
   return "";
 }
@@ -77,9 +77,9 @@ std::string stiffness_warning(const config::Case& parameters, const BodyFigures&
   }
   const std::string key = "material." + material + ".youngs_modulus";
   return fmt::format(
-      "{}: {} is {} Pa: the weight of body {}, {:.2g} Pa where it is thickest, squeezes it by {:.0f} % there. Give it "
+      "{}: {} is {} Pa: the weight of body {}, {} Pa where it is thickest, compresses it by {:.0f} % there. Give it "
       "{:.1g} Pa or more.",
-      config::place_of(parameters, key), key, modulus, body.name, load, 100.0 * load / modulus,
+      config::location_of(parameters, key), key, modulus, body.name, rounded_text(load, 2), 100.0 * load / modulus,
       rounded_up(load / most_strain, 1));
 }
 
@@ -89,9 +89,9 @@ std::string band_warning(const config::Case& parameters, const BodyFigures& body
     return "";
   }
   return fmt::format(
-      "{}: band.thickness is {} m: more than the body {}, {:.3g} m thick in the median. The band is the part of a "
-      "slide that shears at its base: usual is 0.01 to 2 m.",
-      config::place_of(parameters, "band.thickness"), thickest, body.name, body.median_thickness);
+      "{}: band.thickness is {} m: more than the body {}, {} m thick in the median. The band is the part of a slide "
+      "that shears at its base: typical values are 0.01 to 2 m.",
+      config::location_of(parameters, "band.thickness"), thickest, body.name, rounded_text(body.median_thickness, 3));
 }
 
 bool is_plastic(const config::Case& parameters, const config::Material& material) {
@@ -133,11 +133,10 @@ std::string strength_warning(const config::Case& parameters, const BodyFigures& 
   const bool softens = material.residual_friction_angle < material.friction_angle;
   const std::string key = "material." + name + (softens ? ".residual_friction_angle" : ".friction_angle");
   return fmt::format(
-      "{}: the base is stronger than the broken material of body {} (shear strength {:.3f} and {:.3f} of the load): "
-      "the "
-      "slide shears above its base, the base stays cold, and the results depend on grid.cell. Set a larger {}, or a "
-      "basal friction of at most {:.3f} (an angle of {:.1f} degrees).",
-      config::place_of(parameters, key), body.name, base, borne, key, borne,
+      "{}: the base is stronger than the broken material of body {} (shear strength {:.3f} and {:.3f} of the load). "
+      "The slide shears above its base, the base stays cold, and the results depend on grid.cell. Set a larger {}, or "
+      "a basal friction of at most {:.3f} (an angle of {:.1f} degrees).",
+      config::location_of(parameters, key), body.name, base, borne, key, borne,
       std::floor(10.0 * std::atan(borne) * 180.0 / pi) / 10.0);
 }
 
@@ -162,7 +161,7 @@ std::string softening_warning(const config::Case& parameters, const BodyFigures&
   return fmt::format(
       "{}: {} is {} m: in a cell of {:g} m the strength falls faster than the elastic strain can follow, and breaking "
       "depends on grid.cell. Set grid.cell to at most {} m, or {} to at least {} m.",
-      config::place_of(parameters, key), key, material.softening_slip, parameters.grid.cell, rounded_text(widest, 2),
+      config::location_of(parameters, key), key, material.softening_slip, parameters.grid.cell, rounded_text(widest, 2),
       key, rounded_text(material.softening_slip * parameters.grid.cell / widest, 2));
 }
 
@@ -175,9 +174,9 @@ std::string temperature_warning(const config::Case& parameters, const BodyFigure
   }
   const std::string key = "body." + body.name + ".temperature";
   return fmt::format(
-      "{}: {} is up to {:.{}g} C in '{}': there pores hold water from the start, no ice. Were "
-      "temperatures below 0 meant?",
-      config::place_of(parameters, key), key, body.warmest, digits_of_places, temperature.source);
+      "{}: {} is up to {:.{}g} C in '{}': the pores there contain water and no ice from the start. Were temperatures "
+      "below 0 meant?",
+      config::location_of(parameters, key), key, body.warmest, digits_of_places, temperature.source);
 }
 
 // Warns of too few particles across the median thickness, or too few cells for maps.
@@ -190,9 +189,9 @@ std::string resolution_warning(const config::Case& parameters, const BodyFigures
                                      .cell = parameters.grid.cell,
                                      .particles_per_axis = parameters.bodies.at(body.name).particles_per_axis,
                                      .dimension = parameters.general.dimension,
-                                     .has_maps = config::asks_for_maps(parameters)};
+                                     .has_maps = config::requests_maps(parameters)};
   const std::string warning = config::resolution_warning(on_cells, "grid.cell", config::lengths_of_domain(parameters));
-  return warning.empty() ? "" : config::place_of(parameters, "grid.cell") + ": " + warning;
+  return warning.empty() ? "" : config::location_of(parameters, "grid.cell") + ": " + warning;
 }
 
 }  // namespace
@@ -206,7 +205,7 @@ std::vector<std::string> body_warnings(const config::Case& parameters, const std
   };
   for (const BodyFigures& body : bodies) {
     add(volume_warning(parameters, body));
-    add(standing_warning(parameters, body));
+    add(resting_warning(parameters, body));
     add(stiffness_warning(parameters, body));
     add(band_warning(parameters, body));
     add(strength_warning(parameters, body));

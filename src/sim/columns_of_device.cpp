@@ -18,18 +18,18 @@ void update_blocks(const Model<Dim>& model, const std::vector<std::uint64_t>& ke
   const auto near = [&](std::size_t b) { return base.ground.any_candidate(b); };
   base.grid.set_blocks(keys);
   base.ground.update(*model.ground, base.grid, model.substrates.get());
-  base.nodes.near_ground.hold(keys.size(), near);
-  base.nodes.contact.hold(keys.size(), near);
+  base.nodes.near_ground.allocate(keys.size(), near);
+  base.nodes.contact.allocate(keys.size(), near);
   base.nodes.momentum.resize(keys.size());
   base.nodes.motion.resize(keys.size());
-  base.asked.clear();
+  base.requested_blocks.clear();
   for (std::size_t b = 0; b < keys.size(); ++b) {
     std::fill_n(base.nodes.momentum.of_block(b), block_nodes, typename mpm::RecordsOf<mpm::Momentum, Dim>::Record{});
     const std::int32_t* about = base.grid.blocks_about_block(b);
     if (std::any_of(about, about + mpm::Tile<Dim>::stencil, [&](std::int32_t other) {
           return other != KeyIndex::absent && near(static_cast<std::size_t>(other));
         })) {
-      base.asked.push_back(static_cast<std::uint32_t>(b));
+      base.requested_blocks.push_back(static_cast<std::uint32_t>(b));
     }
   }
 }
@@ -53,13 +53,13 @@ void list_states(band::BasalSegments<Dim>& columns, GridOfDevice<Dim>& base) {
 }
 
 template <int Dim>
-void take_nodes(const std::vector<Real>& numbers, GridOfDevice<Dim>& base) {
+void set_nodes(const std::vector<Real>& numbers, GridOfDevice<Dim>& base) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   constexpr auto of_contact = static_cast<std::size_t>(Contact::size<Dim>);
   const Real* record = numbers.data();
-  for (const std::size_t b : base.asked) {
+  for (const std::size_t b : base.requested_blocks) {
     for (std::size_t k = 0; k < block_nodes; ++k, record += device::column_record_size<Dim>) {
-      if (base.nodes.contact.holds(b)) {
+      if (base.nodes.contact.contains(b)) {
         std::copy_n(record, of_contact, base.nodes.contact.of_block(b)[k].begin());
       }
       base.nodes.momentum.of_block(b)[k][mpm::MomentumLayout<Dim>::mass] = record[of_contact];
@@ -79,14 +79,14 @@ device::HostColumns Simulation<Dim>::host_columns() {
   grid_of_device_ = std::make_unique<GridOfDevice<Dim>>(grid_.cell());
   return {[this](const std::vector<std::uint64_t>& blocks) {
             update_blocks(model_, blocks, *grid_of_device_);
-            return grid_of_device_->asked;
+            return grid_of_device_->requested_blocks;
           },
           [this]() -> const std::vector<Real>& {
             list_states(*band_columns_, *grid_of_device_);
             return grid_of_device_->states;
           },
           [this](const std::vector<Real>& nodes) {
-            take_nodes(nodes, *grid_of_device_);
+            set_nodes(nodes, *grid_of_device_);
             band_columns_follow(grid_of_device_->grid, grid_of_device_->ground, grid_of_device_->nodes);
           }};
 }

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 #include "base/raster_sampling.hpp"
 
@@ -54,24 +53,24 @@ CellParts inner_parts(const Raster& thickness, int column, int row, long count) 
   return static_cast<CellParts>(parts);
 }
 
-CellParts parts_for_share(const Raster& thickness, int column, int row, double share) {
-  return inner_parts(thickness, column, row, std::lround(share * parts_of_cell));
+CellParts parts_for_fraction(const Raster& thickness, int column, int row, double fraction) {
+  return inner_parts(thickness, column, row, std::lround(fraction * parts_of_cell));
 }
 
 // Intersections of the rings with the horizontal line at y, from west to east.
 std::vector<double> crossings(const std::vector<config::Polyline2>& rings, double y) {
-  std::vector<double> places;
+  std::vector<double> crossings;
   for (const config::Polyline2& ring : rings) {
     for (std::size_t k = 0; k + 1 < ring.size(); ++k) {
       const auto& [x0, y0] = ring[k];
       const auto& [x1, y1] = ring[k + 1];
       if ((y0 <= y) != (y1 <= y)) {
-        places.push_back(x0 + (y - y0) / (y1 - y0) * (x1 - x0));
+        crossings.push_back(x0 + (y - y0) / (y1 - y0) * (x1 - x0));
       }
     }
   }
-  std::sort(places.begin(), places.end());
-  return places;
+  std::sort(crossings.begin(), crossings.end());
+  return crossings;
 }
 
 using Ends = std::array<double, 4>;  // west, south, east and north extremes [m]
@@ -108,8 +107,8 @@ DrawnArea::DrawnArea(const config::Case& parameters, const std::map<std::string,
     ends = {std::min(ends[0], of_body[0]), std::min(ends[1], of_body[1]), std::max(ends[2], of_body[2]),
             std::max(ends[3], of_body[3])};
   }
-  const auto cell = [](double place, int cells) {
-    return std::clamp(static_cast<int>(std::floor(place)), 0, cells - 1);
+  const auto cell = [](double point, int cells) {
+    return std::clamp(static_cast<int>(std::floor(point)), 0, cells - 1);
   };
   first_column_ = cell(grid.column_of(ends[0]), grid.columns);
   first_row_ = cell(grid.row_of(ends[1]), grid.rows);
@@ -171,7 +170,7 @@ CellParts DrawnArea::parts(int column, int row) const {
              : parts_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)];
 }
 
-double covered_share(const Raster& thickness, int column, int row, double least) {
+double covered_fraction(const Raster& thickness, int column, int row, double least) {
   const double h = thickness_at(thickness, column, row);
   bool is_edge = h <= least;
   double inside = 0.0;
@@ -195,14 +194,14 @@ CoveredCells covered_cells(const Raster& thickness, const Raster& start, const D
   for (int row = 0; row < thickness.rows; ++row) {
     for (int column = 0; column < thickness.columns; ++column) {
       const double h = thickness_at(thickness, column, row), before = thickness_at(start, column, row);
-      const CellParts at_start = drawn.is_known()
-                                     ? drawn.parts(first_column + column, first_row + row)
-                                     : parts_for_share(start, column, row, covered_share(start, column, row, least));
-      const double share_at_start = std::popcount(at_start) / static_cast<double>(parts_of_cell);
-      unsigned parts = h > share_at_start * least ? at_start : 0U;
-      const double share = covered_share(thickness, column, row, least);
-      if (h - before > std::max(share * least, noticed_rise * before)) {
-        parts |= parts_for_share(thickness, column, row, share);
+      const CellParts at_start =
+          drawn.is_known() ? drawn.parts(first_column + column, first_row + row)
+                           : parts_for_fraction(start, column, row, covered_fraction(start, column, row, least));
+      const double fraction_at_start = std::popcount(at_start) / static_cast<double>(parts_of_cell);
+      unsigned parts = h > fraction_at_start * least ? at_start : 0U;
+      const double fraction = covered_fraction(thickness, column, row, least);
+      if (h - before > std::max(fraction * least, noticed_rise * before)) {
+        parts |= parts_for_fraction(thickness, column, row, fraction);
       }
       covered.parts.push_back(static_cast<CellParts>(parts));
     }

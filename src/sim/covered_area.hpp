@@ -68,6 +68,6 @@ struct CoveredCells {
                                          int first_column, int first_row, double least);
 
 // Covered fraction of a cell, from its thickness.
-[[nodiscard]] double covered_share(const Raster& thickness, int column, int row, double least);
+[[nodiscard]] double covered_fraction(const Raster& thickness, int column, int row, double least);
 
 }  // namespace thawslide::sim

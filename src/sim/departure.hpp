@@ -6,7 +6,7 @@
 
 namespace thawslide::sim {
 
-inline constexpr double least_share = 1e-6;  // of the maximum momentum or force: smaller values are round-off
+inline constexpr double least_fraction = 1e-6;  // of the maximum momentum or force: smaller values are round-off
 
 // Momentum and force along a direction, with their magnitudes if fully aligned with it.
 class Departure {
@@ -29,7 +29,9 @@ class Departure {
   }
 
  private:
-  static int sign_of(double sum, double most) { return std::abs(sum) <= least_share * most ? 0 : sum > 0.0 ? 1 : -1; }
+  static int sign_of(double sum, double most) {
+    return std::abs(sum) <= least_fraction * most ? 0 : sum > 0.0 ? 1 : -1;
+  }
 
   double mass_ = 0.0, momentum_ = 0.0, most_momentum_ = 0.0, force_ = 0.0, most_force_ = 0.0;
 };
@@ -37,9 +39,9 @@ class Departure {
 // Extent of the bodies along an axis [m].
 class Extent {
  public:
-  void add(double place, double half) {
-    least_ = std::min(least_, place - half);
-    greatest_ = std::max(greatest_, place + half);
+  void add(double point, double half) {
+    least_ = std::min(least_, point - half);
+    greatest_ = std::max(greatest_, point + half);
   }
   [[nodiscard]] double length() const { return std::max(0.0, greatest_ - least_); }
 

@@ -13,7 +13,7 @@ namespace thawslide::sim {
 template <int Dim>
 std::string not_on_devices(const config::Case& parameters, const Model<Dim>& model) {
   const struct {
-    bool is_asked;
+    bool is_requested;
     const char* what;
   } options[] = {
       {model.motion.width.varies(), "a case.width that varies along x"},
@@ -24,7 +24,7 @@ std::string not_on_devices(const config::Case& parameters, const Model<Dim>& mod
       {model.band.current_masses, "heat.masses = \"current\""},
   };
   for (const auto& option : options) {
-    if (option.is_asked) {
+    if (option.is_requested) {
       return option.what;
     }
   }
@@ -43,7 +43,7 @@ device::StepModel<Dim> device_model_of(const config::Case& parameters, const Mod
   device.moves = parameters.mechanics.enabled;
   device.sides = model.motion.sides;
   device.gravity = model.motion.gravity;
-  device.pic_share = model.motion.pic_share;
+  device.pic_fraction = model.motion.pic_fraction;
   device.filter_order = model.motion.filter_order;
   device.filters_in_step = [parameters](Real time, Real dt) {
     return filters_in_step(parameters, static_cast<double>(time), static_cast<double>(dt));
@@ -64,7 +64,7 @@ device::StepModel<Dim> device_model_of(const config::Case& parameters, const Mod
   device.counts_escaped =
       parameters.grid.leaving == config::Policy::remove || parameters.terrain.kind == config::TerrainKind::dem;
   device.base = model.contact.law;
-  device.base_holds = model.contact.base_holds;
+  device.base_is_fixed = model.contact.base_is_fixed;
   device.pore_pressure = model.contact.pore_pressure;
   device.distance_check = model.contact.distance_check;
   const bool has_columns = model.contact.band_columns;  // columns carry all heat and pore pressure of the base
@@ -85,9 +85,9 @@ device::StepModel<Dim> device_model_of(const config::Case& parameters, const Mod
 
 template <int Dim>
 device::HostCallbacks<Dim> terrain_for_device(const Model<Dim>& model, double cell) {
-  device::HostCallbacks<Dim> ask;
+  device::HostCallbacks<Dim> callbacks;
   if (model.ground) {
-    ask.ground = [&model, cell](std::uint64_t block, terrain::GroundAtNode<Dim>* nodes) {
+    callbacks.ground = [&model, cell](std::uint64_t block, terrain::GroundAtNode<Dim>* nodes) {
       std::array<terrain::GroundAtNode<Dim>, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> found;
       terrain::query_ground<Dim>(*model.ground, model.substrates.get(), block, cell, found.data());
       std::transform(found.begin(), found.end(), nodes, [](const auto& node) {
@@ -104,11 +104,11 @@ device::HostCallbacks<Dim> terrain_for_device(const Model<Dim>& model, double ce
     };
   }
   if (model.band.normal_thickness) {
-    ask.slope_cosine = slope_cosine_of(model, cell);
+    callbacks.slope_cosine = slope_cosine_of(model, cell);
   }
-  ask.normal_gravity = normal_gravity_of(model, cell);
-  ask.layer_at_middle = model.layer_at_middle;
-  return ask;
+  callbacks.normal_gravity = normal_gravity_of(model, cell);
+  callbacks.layer_at_middle = model.layer_at_middle;
+  return callbacks;
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                    \

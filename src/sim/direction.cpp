@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/instances.hpp"
+#include "base/rounding.hpp"
 #include "config/input_limits.hpp"
 #include "sim/departure.hpp"
 #include "sim/path_line.hpp"
@@ -17,8 +18,8 @@ namespace {
 
 // Part of a body at t = 0 in the horizontal plane [m].
 struct Part {
-  Place2 place;
-  Place2 half;    // half side lengths
+  Point2 point;
+  Point2 half;    // half side lengths
   double volume;  // [m3], or a fraction of it that is equal for all parts of a body
   const config::Body* body;
 };
@@ -54,18 +55,18 @@ std::vector<Part> parts_of_bodies(const config::Case& parameters, const config::
 }
 
 // Direction of the line, from half a length before a distance to half a length after it [m].
-Place2 direction_at(const PathLine& line, double along, double length) {
-  const Place2 from = line.point_at(along - 0.5 * length), to = line.point_at(along + 0.5 * length);
+Point2 direction_at(const PathLine& line, double along, double length) {
+  const Point2 from = line.point_at(along - 0.5 * length), to = line.point_at(along + 0.5 * length);
   const double x = to[0] - from[0], y = to[1] - from[1], distance = std::hypot(x, y);
-  return distance > 0.0 ? Place2{x / distance, y / distance} : Place2{0.0, 0.0};  // the line turns back there
+  return distance > 0.0 ? Point2{x / distance, y / distance} : Point2{0.0, 0.0};  // the line turns back there
 }
 
 // Length of all bodies together along a mean of directions.
-double length_along(const Place2& e, const std::vector<Part>& parts) {
+double length_along(const Point2& e, const std::vector<Part>& parts) {
   const double norm = std::hypot(e[0], e[1]);
   Extent extent;
   for (const Part& part : parts) {
-    extent.add((part.place[0] * e[0] + part.place[1] * e[1]) / norm,
+    extent.add((part.point[0] * e[0] + part.point[1] * e[1]) / norm,
                (part.half[0] * std::abs(e[0]) + part.half[1] * std::abs(e[1])) / norm);
   }
   return norm > 0.0 ? extent.length() : 0.0;
@@ -76,13 +77,13 @@ bool bodies_leave_against(const PathLine& line, const std::vector<Part>& parts, 
   const double gravity = parameters.general.gravity, tilt = parameters.general.gravity_tilt * std::numbers::pi / 180.0;
   Departure departure;
   double middle = 0.0, volume = 0.0;
-  Place2 mean{0.0, 0.0};
+  Point2 mean{0.0, 0.0};
   for (const Part& part : parts) {
-    const double along = line.project(part.place).along;
-    const Place2 e = direction_at(line, along, width);
+    const double along = line.project(part.point).along;
+    const Point2 e = direction_at(line, along, width);
     const auto& v = part.body->velocity;
     departure.add_momentum(part.volume, v[0] * e[0] + v[1] * e[1], std::hypot(v[0], v[1]));
-    const auto gradient = ground.gradient(Vector<double, 2>(part.place[0], part.place[1]), width);
+    const auto gradient = ground.gradient(Vector<double, 2>(part.point[0], part.point[1]), width);
     departure.add_force(part.volume, gradient[0] * e[0] + gradient[1] * e[1], gravity * std::sin(tilt) * e[0],
                         gravity * std::cos(tilt));
     mean = {mean[0] + part.volume * e[0], mean[1] + part.volume * e[1]};
@@ -103,12 +104,12 @@ bool path_is_to_be_reversed(const config::Case& parameters, const config::Site& 
     const double points_apart = std::max(site.ground->cell_x, site.ground->cell_y);
     return bodies_leave_against(line, parts, parameters, ground, std::max(parameters.grid.cell, 2.0 * points_apart));
   }
-  const auto height = [&](const Place2& place) { return ground.height(Vector<double, 2>(place[0], place[1])); };
+  const auto height = [&](const Point2& point) { return ground.height(Vector<double, 2>(point[0], point[1])); };
   return height(line.corners().front()) < height(line.corners().back());
 }
 
 // Cross product a x b of two vectors, each given by its end points.
-double cross(const Place2& a_from, const Place2& a_to, const Place2& b_from, const Place2& b_to) {
+double cross(const Point2& a_from, const Point2& a_to, const Point2& b_from, const Point2& b_to) {
   return (a_to[0] - a_from[0]) * (b_to[1] - b_from[1]) - (a_to[1] - a_from[1]) * (b_to[0] - b_from[0]);
 }
 
@@ -138,10 +139,10 @@ bool bodies_lie_to_the_right(const config::Polyline2& corners, const std::vector
   if (line.empty() || parts.empty()) {
     return false;
   }
-  Place2 centre{0.0, 0.0};
+  Point2 centre{0.0, 0.0};
   double volume = 0.0;
   for (const Part& part : parts) {
-    centre = {centre[0] + part.volume * part.place[0], centre[1] + part.volume * part.place[1]};
+    centre = {centre[0] + part.volume * part.point[0], centre[1] + part.volume * part.point[1]};
     volume += part.volume;
   }
   return line.project({centre[0] / volume, centre[1] / volume}).offset < 0.0;
@@ -178,17 +179,17 @@ std::string warning_of_path(const config::Case& parameters, const config::Site& 
   }
   double least = HUGE_VAL;  // from the path to a part of a body, minus half of its side
   for (const Part& part : parts_of_bodies(parameters, site)) {
-    const Place2 nearest = line.point_at(line.project(part.place).along);
-    least = std::min(least, std::hypot(part.place[0] - nearest[0], part.place[1] - nearest[1]) -
+    const Point2 nearest = line.point_at(line.project(part.point).along);
+    least = std::min(least, std::hypot(part.point[0] - nearest[0], part.point[1] - nearest[1]) -
                                 std::max(part.half[0], part.half[1]));
   }
   if (std::isinf(least) || least <= std::max(site.ground->cell_x, site.ground->cell_y)) {
     return "";
   }
   return fmt::format(
-      "maps.path: {} passes the release by, {:.3g} m away. Front, travel distance and reach angle are measured along "
-      "it all the same. Draw it through the release.",
-      config::shown(std::filesystem::path(parameters.maps.path).filename().string()), least);
+      "maps.path: {} misses the release by {} m. Front, travel distance and reach angle are nevertheless measured "
+      "along it. Draw it through the release.",
+      config::shown(std::filesystem::path(parameters.maps.path).filename().string()), rounded_text(least, 3));
 }
 
 template <int Dim>
@@ -200,13 +201,13 @@ double direction_at_start(const Model<Dim>& model, const mpm::Particles<Dim>& pa
   Extent extent;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const auto mass = static_cast<double>(particles.mass(p)), speed = static_cast<double>(particles.velocity(p, 0));
-    typename terrain::Surface<Dim>::Place place;
+    typename terrain::Surface<Dim>::Point point;
     for (int a = 0; a + 1 < Dim; ++a) {
-      place[a] = static_cast<double>(particles.position(p, a));
+      point[a] = static_cast<double>(particles.position(p, a));
     }
     extent.add(static_cast<double>(particles.position(p, 0)), 0.0);
     departure.add_momentum(mass, speed, std::abs(speed));
-    departure.add_force(mass, model.ground ? model.ground->gradient(place, cell)[0] : 0.0,
+    departure.add_force(mass, model.ground ? model.ground->gradient(point, cell)[0] : 0.0,
                         static_cast<double>(model.motion.gravity[0]),
                         -static_cast<double>(model.motion.gravity[Dim - 1]));
   }
@@ -216,7 +217,7 @@ double direction_at_start(const Model<Dim>& model, const mpm::Particles<Dim>& pa
 template <int Dim>
 double front_along_x(const Simulation<Dim>& simulation, double direction) {
   const PathLine towards_lower_x(config::Polyline2{{0.0, 0.0}, {-1.0, 0.0}});
-  return simulation.front(direction < 0.0 ? towards_lower_x.view() : LineView{}).place[0];
+  return simulation.front(direction < 0.0 ? towards_lower_x.view() : LineView{}).position[0];
 }
 
 template <int Dim>

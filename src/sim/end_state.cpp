@@ -16,10 +16,10 @@ EndState end_state(const Simulation<Dim>& simulation, bool slide_left) {
   state.time = simulation.time();
   state.rest_rule = simulation.rest_rule();
   state.left_particles = simulation.removed().left;
-  const Ledger<Dim>& ledger = simulation.ledger();
-  state.left_mass = width * ledger.left_mass;
-  state.guarded_mass = width * ledger.removed_mass;
-  state.whole_mass = width * (ledger.initial_mass + ledger.joined_mass);
+  const Budget<Dim>& budget = simulation.budget();
+  state.left_mass = width * budget.left_mass;
+  state.guarded_mass = width * budget.removed_mass;
+  state.whole_mass = width * (budget.initial_mass + budget.joined_mass);
   if (slide_left || simulation.device_has_failed() || simulation.particle_count() == 0) {
     state.rest_since = state.mean_velocity = state.dilation_volume = state.dilation_fraction = unknown;
     return state;
@@ -43,21 +43,23 @@ std::vector<std::pair<std::string, double>> named(const EndState& state) {
 }
 
 std::string when_text(const EndState& state) {
-  return fmt::format("at {:.4g} s{}", state.time, !state.is_known ? "" : state.at_rest ? ", at rest" : ", not at rest");
+  return fmt::format("at {} s{}", rounded_text(state.time, 4),
+                     !state.is_known ? ""
+                     : state.at_rest ? ", at rest"
+                                     : ", not at rest");
 }
 
 std::vector<std::string> warnings_of(const EndState& state, bool is_over) {
   std::vector<std::string> warnings;
   if (is_over && state.is_known && !state.at_rest) {
-    warnings.push_back(
-        fmt::format("The slide is not at rest at {:.4g} s (mean velocity {:.3g} m/s; at rest: {}). Volumes, areas, "
-                    "distances and maps are those of this time and not of a deposit. Continue with `thawslide resume` "
-                    "and a later --end.",
-                    state.time, state.mean_velocity, state.rest_rule));
+    warnings.push_back(fmt::format(
+        "the slide is not at rest at {} s (mean velocity {:.3g} m/s; at rest: {}). Volumes, areas, distances and maps "
+        "are those of this time and not of a deposit. Continue with `thawslide resume` and a later --end.",
+        rounded_text(state.time, 3), state.mean_velocity, state.rest_rule));
   }
   if (std::abs(state.dilation_fraction) > noticed_dilation) {
     warnings.push_back(
-        fmt::format("Dilation has changed the volume of the slide by {:+.1f} %, {} m3 (expected: at most {:g} %). "
+        fmt::format("dilation has changed the volume of the slide by {:+.1f} %, {} m3 (expected: at most {:g} %). "
                     "Thicknesses, areas and volumes are too {} by about as much. Check dilation_angle and "
                     "gaps_close_first of the materials.",
                     100.0 * state.dilation_fraction, rounded_text(state.dilation_volume, 2), 100.0 * noticed_dilation,
@@ -65,10 +67,10 @@ std::vector<std::string> warnings_of(const EndState& state, bool is_over) {
   }
   if (state.left_particles > 0) {
     const double mass = state.left_mass - state.guarded_mass;
-    warnings.push_back(fmt::format(
-        "{} particles have left the domain or the known terrain and were removed: {:.3g} kg, {:.3g} % of the "
-        "mass. The results lack them. Use a larger domain or DEM.",
-        state.left_particles, mass, 100.0 * mass / state.whole_mass));
+    warnings.push_back(
+        fmt::format("{} particles have left the domain or the known terrain and were removed: {} kg, {:.3g} % of the "
+                    "mass. The results do not include them. Use a larger domain or DEM.",
+                    state.left_particles, rounded_text(mass, 3), 100.0 * mass / state.whole_mass));
   }
   return warnings;
 }

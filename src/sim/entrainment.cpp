@@ -15,7 +15,7 @@ namespace thawslide::sim {
 namespace {
 
 // Minimum fraction of a full particle; smaller volumes wait, because particles with almost no mass are useless.
-constexpr double least_share = 0.01;
+constexpr double least_fraction = 0.01;
 // Steps between two additions; each addition rebuilds the grid around the new particles.
 constexpr std::int64_t joining_interval = 8;
 
@@ -32,8 +32,8 @@ double volume_below(const config::Case& parameters, const config::Site& site,
     const double part = (static_cast<double>(number) + 0.5) / samples - 0.5;
     return grid.min[axis] + (static_cast<double>(column[axis]) + part) * grid.cell;
   };
-  const auto is_inside = [&](double place, std::size_t axis) {
-    return place > grid.min[axis] && place < grid.max[axis];
+  const auto is_inside = [&](double position, std::size_t axis) {
+    return position > grid.min[axis] && position < grid.max[axis];
   };
   for (int i = 0; i < samples; ++i) {
     const double x = coordinate(i, 0);
@@ -84,7 +84,7 @@ template <int Dim>
 std::vector<Vector<double, Dim - 1>> Simulation<Dim>::places_below_slide(
     const std::vector<typename terrain::Bed<Dim>::Column>& columns) const {
   struct Lowest {
-    Vector<double, Dim - 1> place;
+    Vector<double, Dim - 1> position;
     double height = HUGE_VAL;
     std::int64_t id = -1;
   };
@@ -92,7 +92,7 @@ std::vector<Vector<double, Dim - 1>> Simulation<Dim>::places_below_slide(
   std::map<typename terrain::Bed<Dim>::Column, Lowest> lowest;
   for (const auto& column : columns) {
     for (int a = 0; a + 1 < Dim; ++a) {
-      lowest[column].place[a] = column[static_cast<std::size_t>(a)] * cell;
+      lowest[column].position[a] = column[static_cast<std::size_t>(a)] * cell;
     }
   }
   for (const std::uint32_t p : grid_.order()) {
@@ -108,18 +108,18 @@ std::vector<Vector<double, Dim - 1>> Simulation<Dim>::places_below_slide(
       found->second = {particles_.position.template get<Vector<Real, Dim - 1>>(p).template cast<double>(), height, id};
     }
   }
-  std::vector<Vector<double, Dim - 1>> places;
+  std::vector<Vector<double, Dim - 1>> positions;
   for (const auto& column : columns) {
-    places.push_back(lowest.at(column).place);
+    positions.push_back(lowest.at(column).position);
   }
-  return places;
+  return positions;
 }
 
 // Creates a bed particle on the ground, within one particle length behind a position below the slide. Consecutive
 // numbers fill this length evenly (multiples of the golden ratio). The particle carries no stress at first, so nodal
 // forces do not change.
 template <int Dim>
-NewParticle<Dim> Simulation<Dim>::particle_of_bed(Vector<double, Dim - 1> place,
+NewParticle<Dim> Simulation<Dim>::particle_of_bed(Vector<double, Dim - 1> position,
                                                   const terrain::LooseMaterial<Dim>& material,
                                                   std::int64_t number) const {
   const double cell = parameters_.grid.cell;
@@ -128,20 +128,21 @@ NewParticle<Dim> Simulation<Dim>::particle_of_bed(Vector<double, Dim - 1> place,
   const double turn = 0.6180339887498949 * static_cast<double>(number);
   const Vector<double, Dim - 1> along = material.momentum.template head<Dim - 1>().template cast<double>();
   if (along.norm() > 0.0) {
-    place -= 2.0 * half * (turn - std::floor(turn)) * along.normalized();
+    position -= 2.0 * half * (turn - std::floor(turn)) * along.normalized();
   }
   for (int a = 0; a + 1 < Dim; ++a) {
-    place[a] = std::clamp(place[a], half, static_cast<double>(model_.constraints.extent[a]) - half);
+    position[a] = std::clamp(position[a], half, static_cast<double>(model_.constraints.extent[a]) - half);
   }
-  const Vector<double, Dim> normal = model_.ground->normal_below(place, cell);
+  const Vector<double, Dim> normal = model_.ground->normal_below(position, cell);
   NewParticle<Dim> one;
   one.body = body;
   one.material = static_cast<std::int32_t>(
       std::find(model_.material_names.begin(), model_.material_names.end(), parameters_.bed.material) -
       model_.material_names.begin());
-  const double height = model_.ground->height(place) + half * normal.cwiseAbs().maxCoeff() / std::abs(normal[Dim - 1]);
+  const double height =
+      model_.ground->height(position) + half * normal.cwiseAbs().maxCoeff() / std::abs(normal[Dim - 1]);
   for (int a = 0; a + 1 < Dim; ++a) {
-    one.position[a] = static_cast<Real>(place[a]);
+    one.position[a] = static_cast<Real>(position[a]);
   }
   one.position[Dim - 1] = static_cast<Real>(height);
   one.velocity = material.momentum / material.mass;
@@ -185,7 +186,7 @@ void Simulation<Dim>::entrain_bed() {
   bed_->release([&](const auto& column, const terrain::LooseMaterial<Dim>& material) {
     const bool has_passed = material.idle * material.momentum.norm() > grid_.cell() * material.mass;
     const bool is_last = bed_->is_exhausted(column) || has_passed;
-    if (!(material.mass >= whole || (is_last && material.mass >= static_cast<Real>(least_share) * whole))) {
+    if (!(material.mass >= whole || (is_last && material.mass >= static_cast<Real>(least_fraction) * whole))) {
       return false;
     }
     const auto count = static_cast<std::size_t>(std::max(Real(1), std::floor(material.mass / whole)));
@@ -201,13 +202,13 @@ void Simulation<Dim>::entrain_bed() {
     return;
   }
   sync_to_host();
-  const auto places = places_below_slide(columns);
+  const auto positions = places_below_slide(columns);
   std::vector<NewParticle<Dim>> joining;
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    joining.push_back(particle_of_bed(places[k], parts[k], next_id_ + static_cast<std::int64_t>(k)));
-    ledger_.bed_joined_mass += parts[k].mass;
-    ledger_.bed_heat += joining[k].heat;
-    ledger_.bed_joined_kinetic += parts[k].work - joining[k].heat;
+    joining.push_back(particle_of_bed(positions[k], parts[k], next_id_ + static_cast<std::int64_t>(k)));
+    budget_.bed_joined_mass += parts[k].mass;
+    budget_.bed_heat += joining[k].heat;
+    budget_.bed_joined_kinetic += parts[k].work - joining[k].heat;
   }
   append(joining);
 }

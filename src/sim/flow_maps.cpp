@@ -48,7 +48,7 @@ std::uint64_t FlowMaps::tile_key(int tile_x, int tile_y) {
   return static_cast<std::uint64_t>(tile_y) << 32 | static_cast<std::uint64_t>(tile_x);
 }
 
-std::size_t FlowMaps::place_in_tile(int column, int row) {
+std::size_t FlowMaps::index_in_tile(int column, int row) {
   return static_cast<std::size_t>((row & (edge - 1)) << edge_bits | (column & (edge - 1)));
 }
 
@@ -64,28 +64,28 @@ FlowMaps::MapTile& FlowMaps::touch(int tile_x, int tile_y) {
 
 // Sorts the background grid's tiles into stacks, and the stacks by colour. Stacks of a colour are so far apart that no
 // two share a map cell, so their sums can be computed in parallel.
-void FlowMaps::place_tiles(const Grid& grid) {
+void FlowMaps::create_tiles(const Grid& grid) {
   const double reach = cells_.largest_half + grid.cell();  // as in mpm::map_window
   const double tile_width = grid.cell() * mpm::Tile<3>::edge;
   const double widest_cell = std::max(map_grid_.cell_x, map_grid_.cell_y);
   const int colours = 1 + static_cast<int>(std::ceil((widest_cell + 2.0 * reach) / tile_width));  // along each axis
   seen_.clear();
-  places_.clear();
+  tile_indices_.clear();
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
     seen_.push_back(grid.tiles()[t].key);
     auto index = mpm::Tile<3>::index(grid.tiles()[t].key);
     const auto colour = modulo(index[0], colours) + static_cast<std::uint64_t>(colours) * modulo(index[1], colours);
     index[2] = 0;
-    places_.push_back({colour, mpm::Tile<3>::key(index), static_cast<std::uint32_t>(t)});
+    tile_indices_.push_back({colour, mpm::Tile<3>::key(index), static_cast<std::uint32_t>(t)});
   }
-  std::sort(places_.begin(), places_.end(), [](const TilePlace& a, const TilePlace& b) {
+  std::sort(tile_indices_.begin(), tile_indices_.end(), [](const TileIndex& a, const TileIndex& b) {
     return std::tie(a.colour, a.stack, a.tile) < std::tie(b.colour, b.stack, b.tile);
   });
 }
 
 void FlowMaps::set_window(const Grid& grid, Stack& stack) {
   using T = mpm::Tile<3>;
-  const auto index = T::index(places_[stack.first].stack);
+  const auto index = T::index(tile_indices_[stack.first].stack);
   // First and last map tile along an axis.
   const auto tiles_along = [&](std::size_t a, double corner, double inverse_cell, int cells) {
     const mpm::MapWindow window =
@@ -107,7 +107,7 @@ void FlowMaps::set_window(const Grid& grid, Stack& stack) {
 }
 
 // Updates the active tiles, those in the windows. Tiles that no particle reaches any more become empty.
-void FlowMaps::note_active() {
+void FlowMaps::mark_active() {
   std::swap(active_, formerly_active_);
   for (MapTile* tile : formerly_active_) {
     tile->active = false;
@@ -122,20 +122,20 @@ void FlowMaps::note_active() {
   for (MapTile* tile : formerly_active_) {
     if (!tile->active) {
       for (MapCell& cell : tile->cells) {
-        cell.take({}, {}, map_grid_.cell_area(), arrival_thickness_, 0.0);
+        cell.update({}, {}, map_grid_.cell_area(), arrival_thickness_, 0.0);
       }
     }
   }
 }
 
 void FlowMaps::find_stacks(const Grid& grid) {
-  place_tiles(grid);
+  create_tiles(grid);
   stacks_.clear();
   colours_.clear();
   window_tiles_.clear();
-  for (std::uint32_t k = 0; k < places_.size(); ++k) {
-    if (k == 0 || places_[k].stack != places_[k - 1].stack) {
-      if (k == 0 || places_[k].colour != places_[k - 1].colour) {
+  for (std::uint32_t k = 0; k < tile_indices_.size(); ++k) {
+    if (k == 0 || tile_indices_[k].stack != tile_indices_[k - 1].stack) {
+      if (k == 0 || tile_indices_[k].colour != tile_indices_[k - 1].colour) {
         colours_.push_back(stacks_.size());
       }
       stacks_.push_back({k, k, 0, 0, 0, 0, 0});
@@ -144,7 +144,7 @@ void FlowMaps::find_stacks(const Grid& grid) {
     stacks_.back().last = k + 1;
   }
   colours_.push_back(stacks_.size());
-  note_active();
+  mark_active();
 }
 
 THAWSLIDE_ALWAYS_INLINE void FlowMaps::add_box(const Particles& particles, std::size_t p, const mpm::CellRange& x,
@@ -153,16 +153,16 @@ THAWSLIDE_ALWAYS_INLINE void FlowMaps::add_box(const Particles& particles, std::
   const bool in_band = band_is_of_particles_ && particles.in_band(p) != 0;
   const mpm::BandSums band = mpm::band_sums_of(particles, p);
   for (int row = y.first; row <= y.last; ++row) {
-    const double row_share = y.share(row);
+    const double row_fraction = y.fraction(row);
     const auto window_row = static_cast<std::size_t>(((row >> edge_bits) - stack.tile_y) * stack.across);
     MapTile* const* const tiles_of_row = &window_tiles_[stack.window + window_row];
     for (int column = x.first; column <= x.last; ++column) {
       MapTile& below = *tiles_of_row[(column >> edge_bits) - stack.tile_x];
-      const std::size_t place = place_in_tile(column, row);
-      const double share = row_share * x.share(column);
-      below.sums[place].add(share, sums);
+      const std::size_t index = index_in_tile(column, row);
+      const double fraction = row_fraction * x.fraction(column);
+      below.sums[index].add(fraction, sums);
       if (in_band) {
-        below.band[place].add(share, band);
+        below.band[index].add(fraction, band);
       }
     }
   }
@@ -173,7 +173,7 @@ void FlowMaps::add_stack(const Grid& grid, const Particles& particles, const Sta
              first_row = static_cast<double>(stack.tile_y << edge_bits),
              end_column = first_column + (stack.across << edge_bits), end_row = first_row + (stack.deep << edge_bits);
   for (std::uint32_t k = stack.first; k < stack.last; ++k) {
-    for (const auto& batch : grid.batches(places_[k].tile)) {
+    for (const auto& batch : grid.batches(tile_indices_[k].tile)) {
       const auto size = sizes_.of(particles, batch);
       const auto x = mpm::cell_spans((particles.position.load(batch, 0) - cells_.corner_x) * cells_.inverse_cell_x,
                                      size.half * cells_.inverse_cell_x, size.inverse * (0.5 * map_grid_.cell_x),
@@ -212,10 +212,10 @@ void FlowMaps::add_segment(const SegmentBelow& segment) {
         continue;
       }
       MapTile& below = *tiles_[static_cast<std::size_t>(number)];
-      const std::size_t place = place_in_tile(column, row);
-      const double share = y.share(row) * x.share(column);
-      below.band[place].add(share, band);
-      below.sums[place].water += share * segment.area * segment.liquid;
+      const std::size_t index = index_in_tile(column, row);
+      const double fraction = y.fraction(row) * x.fraction(column);
+      below.band[index].add(fraction, band);
+      below.sums[index].water += fraction * segment.area * segment.liquid;
     }
   }
 }
@@ -235,7 +235,7 @@ void FlowMaps::gather(const Grid& grid, const Particles& particles, double time,
   if (segments != nullptr) {
     std::for_each(segments->begin(), segments->end(), [&](const SegmentBelow& segment) { add_segment(segment); });
   }
-  take_sums(time);
+  update_cells(time);
 }
 
 void FlowMaps::gather(const std::vector<std::uint64_t>& keys, const std::vector<mpm::MapSums>& sums, double time,
@@ -245,24 +245,24 @@ void FlowMaps::gather(const std::vector<std::uint64_t>& keys, const std::vector<
   for (std::size_t k = 0; k < keys.size(); ++k) {
     const int column = mpm::column_of_key(keys[k]), row = mpm::row_of_key(keys[k]);
     MapTile& tile = touch(column >> edge_bits, row >> edge_bits);
-    const std::size_t place = place_in_tile(column, row);
-    tile.sums[place] = sums[k].column;
-    tile.band[place] = segments == nullptr ? sums[k].band : mpm::BandSums{};
+    const std::size_t index = index_in_tile(column, row);
+    tile.sums[index] = sums[k].column;
+    tile.band[index] = segments == nullptr ? sums[k].band : mpm::BandSums{};
     window_tiles_.push_back(&tile);
   }
-  note_active();
+  mark_active();
   if (segments != nullptr) {
     std::for_each(segments->begin(), segments->end(), [&](const SegmentBelow& segment) { add_segment(segment); });
   }
-  take_sums(time);
+  update_cells(time);
 }
 
 // Records the sums of the active tiles and resets them.
-void FlowMaps::take_sums(double time) {
+void FlowMaps::update_cells(double time) {
   parallel_for(active_.size(), [&](std::size_t k) {
     MapTile& tile = *active_[k];
-    for (std::size_t place = 0; place < tile_cells; ++place) {
-      tile.cells[place].take(tile.sums[place], tile.band[place], map_grid_.cell_area(), arrival_thickness_, time);
+    for (std::size_t index = 0; index < tile_cells; ++index) {
+      tile.cells[index].update(tile.sums[index], tile.band[index], map_grid_.cell_area(), arrival_thickness_, time);
     }
     tile.sums.fill({});
     tile.band.fill({});
@@ -272,7 +272,7 @@ void FlowMaps::take_sums(double time) {
 void FlowMaps::slide_left() {
   for (const std::unique_ptr<MapTile>& tile : tiles_) {
     for (MapCell& cell : tile->cells) {
-      cell.take({}, {}, map_grid_.cell_area(), arrival_thickness_, 0.0);
+      cell.update({}, {}, map_grid_.cell_area(), arrival_thickness_, 0.0);
     }
   }
 }
@@ -290,7 +290,7 @@ const MapCell& FlowMaps::cell(int column, int row) const {
   static const MapCell like_new;
   const std::int32_t number = tile_index_.find(tile_key(column >> edge_bits, row >> edge_bits));
   return number == KeyIndex::absent ? like_new
-                                    : tiles_[static_cast<std::size_t>(number)]->cells[place_in_tile(column, row)];
+                                    : tiles_[static_cast<std::size_t>(number)]->cells[index_in_tile(column, row)];
 }
 
 std::vector<const FlowMaps::MapTile*> FlowMaps::tiles_in_order() const {
@@ -380,7 +380,7 @@ void FlowMaps::restore(const std::vector<double>& numbers) {
     for (double& value : values) {
       value = state.next();
     }
-    touch(column >> edge_bits, row >> edge_bits).cells[place_in_tile(column, row)] = map_cell_of(values);
+    touch(column >> edge_bits, row >> edge_bits).cells[index_in_tile(column, row)] = map_cell_of(values);
   }
   // Any tile may be occupied.
   for (const std::unique_ptr<MapTile>& tile : tiles_) {

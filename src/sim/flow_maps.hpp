@@ -102,19 +102,19 @@ class FlowMaps {
     std::size_t window;          // first tile of the window in window_tiles_
   };
   // Position of a tile of the background grid in the stacks.
-  struct TilePlace {
+  struct TileIndex {
     std::uint64_t colour, stack;
     std::uint32_t tile;
   };
 
   static std::uint64_t tile_key(int tile_x, int tile_y);
-  static std::size_t place_in_tile(int column, int row);
+  static std::size_t index_in_tile(int column, int row);
   MapTile& touch(int tile_x, int tile_y);
   void find_stacks(const Grid& grid);
-  void place_tiles(const Grid& grid);
+  void create_tiles(const Grid& grid);
   void set_window(const Grid& grid, Stack& stack);
-  void note_active();
-  void take_sums(double time);
+  void mark_active();
+  void update_cells(double time);
   void add_stack(const Grid& grid, const Particles& particles, const Stack& stack);
   void add_segment(const SegmentBelow& segment);
   void add_box(const Particles& particles, std::size_t particle, const mpm::CellRange& x, const mpm::CellRange& y,
@@ -131,8 +131,8 @@ class FlowMaps {
   KeyIndex tile_index_;
   std::vector<std::unique_ptr<MapTile>> tiles_;     // in the order in which the slide reached them
   std::vector<MapTile*> active_, formerly_active_;  // within reach of particles
-  std::vector<std::uint64_t> seen_;  // keys of the background grid's tiles for which the members below are valid
-  std::vector<TilePlace> places_;    // by colour, then by stack, then upwards
+  std::vector<std::uint64_t> seen_;      // keys of the background grid's tiles for which the members below are valid
+  std::vector<TileIndex> tile_indices_;  // by colour, then by stack, then upwards
   std::vector<Stack> stacks_;
   std::vector<std::size_t> colours_;  // first stack of each colour, and the end; stacks of a colour share no map cell
   std::vector<MapTile*> window_tiles_;
@@ -143,8 +143,8 @@ void FlowMaps::for_cells(const Visit& visit) const {
   for (const MapTile* tile : tiles_in_order()) {
     for (std::size_t k = 0; k < tile_cells; ++k) {
       if (tile->cells[k].max_thickness > 0.0) {
-        const int place = static_cast<int>(k);
-        visit(tile->column + place % edge, tile->row + place / edge, tile->cells[k]);
+        const int index = static_cast<int>(k);
+        visit(tile->column + index % edge, tile->row + index / edge, tile->cells[k]);
       }
     }
   }

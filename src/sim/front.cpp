@@ -1,7 +1,5 @@
 #include "sim/front.hpp"
 
-#include <algorithm>
-
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
@@ -12,23 +10,23 @@ namespace thawslide::sim {
 template <int Dim>
 mpm::PathSample Simulation<Dim>::front(const LineView& line) const {
   THAWSLIDE_ASSERT(particle_count() > 0, "the front of {} particles", particle_count());
-  mpm::Transformation<Dim> way{line};
+  mpm::Transformation<Dim> path{line};
   for (std::size_t a = 0; a + 1 < Dim; ++a) {
-    way.origin[a] = model_.origin[static_cast<int>(a)];
+    path.origin[a] = model_.origin[static_cast<int>(a)];
   }
   const auto mass = static_cast<double>(sum_over_body().mass);
   if (device_solver_) {
     mpm::PathSample found;
-    on_device([&] { found = device_solver_->front(way, mass); });
+    on_device([&] { found = device_solver_->front(path, mass); });
     return found;
   }
   const std::vector<std::uint32_t>& order = grid_.order();
   std::vector<MassOnPath> masses(order.size());
   parallel_for(order.size(), [&](std::size_t rank) {
-    const mpm::PathSample one = way.of(particles_, order[rank]);
+    const mpm::PathSample one = path.of(particles_, order[rank]);
     masses[rank] = {one.along, one.mass, rank};
   });
-  return way.of(particles_, order[front_of(masses, mass).rank]);
+  return path.of(particles_, order[front_of(masses, mass).rank]);
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim) template mpm::PathSample Simulation<Dim>::front(const LineView&) const;

@@ -17,8 +17,8 @@ struct GridOfDevice {
   mpm::SparseGrid<Dim> grid;
   terrain::GroundOnGrid<Dim> ground;
   mpm::Nodes<Dim> nodes;
-  std::vector<std::uint32_t> asked;  // blocks whose nodes the device transfers
-  std::vector<Real> states;          // records of BaseState of candidate nodes
+  std::vector<std::uint32_t> requested_blocks;  // blocks whose nodes the device transfers
+  std::vector<Real> states;                     // records of BaseState of candidate nodes
 };
 
 }  // namespace thawslide::sim

@@ -40,22 +40,22 @@ Real add_columns(const Simulation<Dim>& simulation, const Add& add) {
     return Real(0);
   }
   const band::ColumnSums sums = columns->sums();
-  const band::ColumnLedger& ledger = columns->ledger();
-  const Real heat_in = ledger.created_heat + ledger.body_heat + ledger.ground_heat;
-  const Real heat_out = ledger.vented_heat + ledger.steam_heat + ledger.left_heat;
-  const Real water_in = ledger.created_water + ledger.body_water;
-  const Real water_out = ledger.vented_water + ledger.steam + ledger.left_water;
+  const band::ColumnLedger& budget = columns->budget();
+  const Real heat_in = budget.created_heat + budget.body_heat + budget.ground_heat;
+  const Real heat_out = budget.vented_heat + budget.steam_heat + budget.left_heat;
+  const Real water_in = budget.created_water + budget.body_water;
+  const Real water_out = budget.vented_water + budget.steam + budget.left_water;
   add("base_area_m2", sums.area);
   add("column_heat_J", sums.heat);
   add("column_intake_J", heat_in);
-  add("column_vented_J", ledger.vented_heat);
-  add("column_steam_J", ledger.steam_heat);
-  add("column_left_J", ledger.left_heat);
+  add("column_drained_J", budget.vented_heat);
+  add("column_steam_J", budget.steam_heat);
+  add("column_left_J", budget.left_heat);
   add("column_water_kg", sums.water);
   add("column_intake_kg", water_in);
-  add("column_vented_kg", ledger.vented_water);
-  add("column_steam_kg", ledger.steam);
-  add("column_left_kg", ledger.left_water);
+  add("column_drained_kg", budget.vented_water);
+  add("column_steam_kg", budget.steam);
+  add("column_left_kg", budget.left_water);
   add("column_water_residual_kg", sums.water + water_out - water_in);
   add("column_opening_m3", sums.opening);
   add("column_void_m3", sums.gas_void);
@@ -71,74 +71,74 @@ void add_bed(const Simulation<Dim>& simulation, const Add& add) {
     return;
   }
   const auto sums = bed->sums();
-  const Ledger<Dim>& ledger = simulation.ledger();
-  const Real taken = sums.loose + ledger.bed_joined_mass;
-  add("entrained_mass_kg", taken);
-  add("entrained_volume_m3", taken / bed->material().density);
-  add("entrained_work_J", ledger.bed_work);
-  add("entrained_heat_J", ledger.bed_heat);
+  const Budget<Dim>& budget = simulation.budget();
+  const Real entrained = sums.loose + budget.bed_joined_mass;
+  add("entrained_mass_kg", entrained);
+  add("entrained_volume_m3", entrained / bed->material().density);
+  add("entrained_work_J", budget.bed_work);
+  add("entrained_heat_J", budget.bed_heat);
   add("loose_mass_kg", sums.loose);
   add("bed_mass_kg", sums.left);
-  add("bed_residual_kg", sums.left + taken - sums.initial);
-  add("bed_residual_J", ledger.bed_work - ledger.bed_joined_kinetic - ledger.bed_heat - sums.loose_work);
+  add("bed_residual_kg", sums.left + entrained - sums.initial);
+  add("bed_residual_J", budget.bed_work - budget.bed_joined_kinetic - budget.bed_heat - sums.loose_work);
 }
 
 template <int Dim>
 void add_ledger(const Simulation<Dim>& simulation, const BodySums<Dim>& sums, double width, HistoryRow& row) {
-  const Ledger<Dim>& ledger = simulation.ledger();
+  const Budget<Dim>& budget = simulation.budget();
   const auto add = [&](const char* name, Real value) { row.emplace_back(name, width * static_cast<double>(value)); };
-  const Real strain = ledger.stress_work - ledger.plastic;
+  const Real strain = budget.stress_work - budget.plastic;
   const Real stored = sums.kinetic + sums.potential + strain;
-  const Real dissipated = ledger.plastic + ledger.viscous + ledger.damping + ledger.friction_work + ledger.contact_loss;
+  const Real dissipated = budget.plastic + budget.viscous + budget.damping + budget.friction_work + budget.contact_loss;
   add("kinetic_J", sums.kinetic);
   add("potential_J", sums.potential);
   add("strain_J", strain);
-  add("plastic_J", ledger.plastic);
-  add("viscous_J", ledger.viscous);
-  add("damping_J", ledger.damping);
-  add("pore_work_J", ledger.pore_work);
-  add("friction_work_J", ledger.friction_work);
-  add("contact_loss_J", ledger.contact_loss);
-  add("frame_work_J", ledger.frame_work);
-  add("friction_heat_J", ledger.friction_heat);
-  add("converted_J", ledger.converted);
+  add("plastic_J", budget.plastic);
+  add("viscous_J", budget.viscous);
+  add("damping_J", budget.damping);
+  add("pore_work_J", budget.pore_work);
+  add("friction_work_J", budget.friction_work);
+  add("contact_loss_J", budget.contact_loss);
+  add("frame_work_J", budget.frame_work);
+  add("friction_heat_J", budget.friction_heat);
+  add("converted_J", budget.converted);
   add("sensible_J", sums.sensible);
   add("latent_J", sums.latent);
-  add("boundary_heat_J", ledger.boundary_heat);
-  add("band_rescale_J", ledger.band_rescale);
-  add("advection_J", ledger.advection);
-  add("capacity_heat_J", ledger.capacity_heat);
-  add("porosity_heat_J", ledger.porosity_heat);
-  add("drained_heat_J", ledger.drained_heat);
-  add("numerical_J", ledger.numerical);
-  add("mechanical_residual_J", stored + dissipated + ledger.pore_work - ledger.frame_work - ledger.numerical +
-                                   ledger.left_mechanical + ledger.bed_work - ledger.joined_mechanical -
-                                   ledger.initial_mechanical);
+  add("boundary_heat_J", budget.boundary_heat);
+  add("band_rescale_J", budget.band_rescale);
+  add("advection_J", budget.advection);
+  add("capacity_heat_J", budget.capacity_heat);
+  add("porosity_heat_J", budget.porosity_heat);
+  add("drained_heat_J", budget.drained_heat);
+  add("numerical_J", budget.numerical);
+  add("mechanical_residual_J", stored + dissipated + budget.pore_work - budget.frame_work - budget.numerical +
+                                   budget.left_mechanical + budget.bed_work - budget.joined_mechanical -
+                                   budget.initial_mechanical);
   const Real in_columns = add_columns(simulation, add);
-  add("thermal_residual_J", in_columns + sums.sensible + sums.latent - ledger.initial_thermal - ledger.friction_heat -
-                                ledger.boundary_heat - ledger.band_rescale - ledger.advection - ledger.capacity_heat -
-                                ledger.porosity_heat + ledger.drained_heat + ledger.left_thermal -
-                                ledger.joined_thermal);
+  add("thermal_residual_J", in_columns + sums.sensible + sums.latent - budget.initial_thermal - budget.friction_heat -
+                                budget.boundary_heat - budget.band_rescale - budget.advection - budget.capacity_heat -
+                                budget.porosity_heat + budget.drained_heat + budget.left_thermal -
+                                budget.joined_thermal);
   add("mass_kg", sums.mass);
   add("rock_kg", sums.rock);
   add("ice_kg", sums.ice);
   add("water_kg", sums.water);
   add("pore_water_kg", sums.water + sums.seeped);
-  add("drained_water_kg", ledger.drained_water);
-  add("vented_water_kg", ledger.vented_water);
-  add("seepage_residual_kg", sums.seeped + ledger.left_seeped + ledger.drained_water + ledger.vented_water);
+  add("drained_water_kg", budget.drained_water);
+  add("vented_water_kg", budget.vented_water);
+  add("seepage_residual_kg", sums.seeped + budget.left_seeped + budget.drained_water + budget.vented_water);
   add("pore_void_m3", sums.gas);
-  add("mass_residual_kg", sums.mass + ledger.left_mass - ledger.joined_mass - ledger.initial_mass);
-  add("left_mass_kg", ledger.left_mass);
-  add("left_mechanical_J", ledger.left_mechanical);
-  add("left_heat_J", ledger.left_thermal);
+  add("mass_residual_kg", sums.mass + budget.left_mass - budget.joined_mass - budget.initial_mass);
+  add("left_mass_kg", budget.left_mass);
+  add("left_mechanical_J", budget.left_mechanical);
+  add("left_heat_J", budget.left_thermal);
   if (config::guards_remove(simulation.parameters())) {
-    add("removed_mass_kg", ledger.removed_mass);
+    add("removed_mass_kg", budget.removed_mass);
   }
   add_bed(simulation, add);
-  const Vector<Real, Dim> residual = sums.momentum + ledger.left_momentum + ledger.bed_impulse -
-                                     ledger.joined_momentum - ledger.initial_momentum - ledger.gravity_impulse -
-                                     ledger.ground_impulse - ledger.constraint_impulse;
+  const Vector<Real, Dim> residual = sums.momentum + budget.left_momentum + budget.bed_impulse -
+                                     budget.joined_momentum - budget.initial_momentum - budget.gravity_impulse -
+                                     budget.ground_impulse - budget.constraint_impulse;
   const auto add_vector = [&](const char* name, const char* unit, const Vector<Real, Dim>& value) {
     for (int a = 0; a < Dim; ++a) {
       row.emplace_back(fmt::format("{}_{}_{}", name, Dim == 2 ? "xy"[a] : "xyz"[a], unit),
@@ -146,12 +146,12 @@ void add_ledger(const Simulation<Dim>& simulation, const BodySums<Dim>& sums, do
     }
   };
   add_vector("momentum", "N_s", sums.momentum);
-  add_vector("left_momentum", "N_s", ledger.left_momentum);
-  add_vector("gravity_impulse", "N_s", ledger.gravity_impulse);
-  add_vector("ground_impulse", "N_s", ledger.ground_impulse);
-  add_vector("constraint_impulse", "N_s", ledger.constraint_impulse);
+  add_vector("left_momentum", "N_s", budget.left_momentum);
+  add_vector("gravity_impulse", "N_s", budget.gravity_impulse);
+  add_vector("ground_impulse", "N_s", budget.ground_impulse);
+  add_vector("constraint_impulse", "N_s", budget.constraint_impulse);
   if (simulation.bed() != nullptr) {
-    add_vector("entrained_momentum", "N_s", ledger.bed_impulse);
+    add_vector("entrained_momentum", "N_s", budget.bed_impulse);
   }
   add_vector("momentum_residual", "N_s", residual);
 }
@@ -192,15 +192,15 @@ HistoryRow history_row(const Simulation<Dim>& simulation, const FrontInRow& fron
   row.emplace_back("dilation_volume_m3", width * static_cast<double>(sums.volume_change));
   row.emplace_back("dilation_fraction", static_cast<double>(sums.volume_change / sums.initial_volume));
   const char* axes = Dim == 2 ? "xy" : "xyz";
-  // No force is known before the first step.
-  const double known = simulation.step_number() > 0 ? width : std::nan("");
+  const Vector<Real, Dim> weight = sums.mass * simulation.model().motion.gravity;
+  // Before the first step, the ground carries the weight of the mass at rest.
+  const bool is_carried = simulation.ground() != nullptr && parameters.mechanics.enabled;
+  const Vector<Real, Dim> force = simulation.step_number() == 0 && is_carried ? weight : contact.force;
   for (int a = 0; a < Dim; ++a) {
-    row.emplace_back(fmt::format("basal_force_{}_N", axes[a]), known * static_cast<double>(contact.force[a]));
+    row.emplace_back(fmt::format("basal_force_{}_N", axes[a]), width * static_cast<double>(force[a]));
   }
   for (int a = 0; a < Dim; ++a) {
-    const Real weight = sums.mass * simulation.model().motion.gravity[a];
-    row.emplace_back(fmt::format("seismic_force_{}_N", axes[a]),
-                     known * static_cast<double>(contact.force[a] - weight));
+    row.emplace_back(fmt::format("seismic_force_{}_N", axes[a]), width * static_cast<double>(force[a] - weight[a]));
   }
   add_ledger(simulation, sums, width, row);
   return row;

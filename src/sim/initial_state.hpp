@@ -19,16 +19,16 @@ template <int Dim>
 double initial_value(const InitialField& field, const config::Release* release, const std::string& key,
                      const Seed<Dim>& seed) {
   if (!field.is_map()) {
-    return field.at(seed.depth, seed.place[0]);
+    return field.at(seed.depth, seed.position[0]);
   }
   THAWSLIDE_ASSERT(release != nullptr, "the field {} of the map '{}' without a release", key, field.source);
   const Raster& map = release->fields.at(key);
-  const double value = bilinear(map, seed.place[0], seed.place[1], Missing::unknown);
+  const double value = bilinear(map, seed.position[0], seed.position[1], Missing::unknown);
   if (std::isfinite(value)) {
     return value;
   }
   // At the edge, some surrounding points have no value; use the nearest one that has.
-  return nearest_value(map, seed.place[0], seed.place[1]);
+  return nearest_value(map, seed.position[0], seed.position[1]);
 }
 
 // [C]; given, or computed from the saturation by the freezing curve.

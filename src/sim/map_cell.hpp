@@ -44,8 +44,8 @@ struct MapCell {
 
   // Records the state at a time [s]. area: of the cell [m2]; arrival_thickness [m]: thinner flow is not recorded,
   // because its speed and pressure are those of single particles.
-  void take(const mpm::ColumnSums& sums, const mpm::BandSums& band, double area, double arrival_thickness,
-            double time) {
+  void update(const mpm::ColumnSums& sums, const mpm::BandSums& band, double area, double arrival_thickness,
+              double time) {
     if (!(sums.volume > 0.0)) {
       thickness = velocity_x = velocity_y = velocity_z = 0.0;
       return;

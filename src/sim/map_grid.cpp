@@ -65,8 +65,8 @@ std::string size_text(const std::array<double, 2>& cell) {
 }  // namespace
 
 MapGrid map_grid_of(const config::Case& parameters, const config::Site& site) {
-  const double asked = parameters.maps.cell;
-  const std::array<double, 2> cell = asked > 0.0 ? std::array{asked, asked} : usual_cell(parameters, site);
+  const double requested = parameters.maps.cell;
+  const std::array<double, 2> cell = requested > 0.0 ? std::array{requested, requested} : usual_cell(parameters, site);
   const auto axis_along = [&](std::size_t a, double first, double last, double distance) {
     const double domain_from = parameters.grid.min[a], domain_to = parameters.grid.max[a];
     if (!site.ground) {
@@ -83,7 +83,7 @@ MapGrid map_grid_of(const config::Case& parameters, const config::Site& site) {
     throw UserError(
         fmt::format("{}: maps of {:.0f} x {:.0f} cells of {:g} x {:g} m are too many: each would take {} GB of memory "
                     "while it is written. Allowed: {} cells, {} GB. Give maps.cell, {:g} m or more.",
-                    config::place_of(parameters, "maps.cell"), x.cells, y.cells, x.cell, y.cell,
+                    config::location_of(parameters, "maps.cell"), x.cells, y.cells, x.cell, y.cell,
                     rounded_text(x.cells * y.cells * sizeof(double) / 1e9), rounded_text(most_map_cells),
                     rounded_text(most_map_cells * sizeof(double) / 1e9), cell_for(x, y, most_map_cells)));
   }
@@ -107,14 +107,14 @@ std::string reason_for_map_cell(const config::Case& parameters, const config::Si
 }
 
 std::string warning_of_map_cell(const config::Case& parameters, const config::Site& site) {
-  const double asked = parameters.maps.cell;
-  if (asked <= 0.0 || asked >= parameters.grid.cell) {
+  const double requested = parameters.maps.cell;
+  if (requested <= 0.0 || requested >= parameters.grid.cell) {
     return "";
   }
   return fmt::format(
-      "maps.cell is {:g} m, and grid.cell {:g} m: a cell of the maps holds few particles or one, and the largest "
-      "speeds and pressures are those of single particles. Without maps.cell they take cells of {}.",
-      asked, parameters.grid.cell, size_text(usual_cell(parameters, site)));
+      "maps.cell is {:g} m, and grid.cell {:g} m: a map cell contains few particles or only one, and the maximum "
+      "speeds and pressures are those of single particles. Without maps.cell, maps have cells of {}.",
+      requested, parameters.grid.cell, size_text(usual_cell(parameters, site)));
 }
 
 }  // namespace thawslide::sim

@@ -20,8 +20,8 @@ struct MapGrid {
 
   [[nodiscard]] double cell_area() const { return cell_x * cell_y; }  // [m2]
   // Cell borders are counted from the grid's lower left corner, in cells: cell k extends from k to k + 1.
-  [[nodiscard]] double column_of(double place) const { return (place - x) / cell_x + 0.5; }
-  [[nodiscard]] double row_of(double place) const { return (place - y) / cell_y + 0.5; }
+  [[nodiscard]] double column_of(double point) const { return (point - x) / cell_x + 0.5; }
+  [[nodiscard]] double row_of(double point) const { return (point - y) / cell_y + 0.5; }
   [[nodiscard]] bool contains(double east, double north) const {
     const double column = column_of(east), row = row_of(north);
     return column >= 0.0 && column <= columns && row >= 0.0 && row <= rows;

@@ -68,7 +68,7 @@ std::string parts_of(const MemoryNeed& need) {
     throw UserError(fmt::format(
         "{}: grid.cell is {} m, which makes {} particles: {}. Make grid.cell larger; the rest, {} GB, needs "
         "more memory, or a higher limit of it, whatever the cell.",
-        config::place_of(parameters, "grid.cell"), parameters.grid.cell, rounded_text(bodies.particles), amounts,
+        config::location_of(parameters, "grid.cell"), parameters.grid.cell, rounded_text(bodies.particles), amounts,
         rounded_text(fixed / gigabyte)));
   }
   if (bytes_of_program >= std::max(need.maps, need.ground)) {
@@ -77,12 +77,12 @@ std::string parts_of(const MemoryNeed& need) {
   }
   if (need.maps >= need.ground) {
     throw UserError(fmt::format("{}: maps.cell: {}. Make maps.cell larger, or the domain smaller.",
-                                config::place_of(parameters, "maps.cell"), amounts));
+                                config::location_of(parameters, "maps.cell"), amounts));
   }
   throw UserError(
       fmt::format("{}: terrain.file: {}. Make the domain smaller (grid.min, grid.max), or take the DEM to "
                   "points farther apart with terrain.resample.",
-                  config::place_of(parameters, "terrain.file"), amounts));
+                  config::location_of(parameters, "terrain.file"), amounts));
 }
 
 }  // namespace
@@ -169,8 +169,8 @@ const config::Case& require_memory(const config::Case& parameters, const config:
     throw UserError(fmt::format(
         "{}: grid.cell is {} m, which makes {} particles; allowed: {}. Make grid.cell {:.9g} m or more, or "
         "particles_per_axis smaller.",
-        config::place_of(parameters, "grid.cell"), cell, rounded_text(bodies.particles), rounded_text(most_particles),
-        config::fitting_cell_from(std::max(smallest, countable), cell, lengths)));
+        config::location_of(parameters, "grid.cell"), cell, rounded_text(bodies.particles),
+        rounded_text(most_particles), config::fitting_cell_from(std::max(smallest, countable), cell, lengths)));
   }
   if (need.total() <= available.bytes) {
     return parameters;
@@ -184,7 +184,7 @@ const config::Case& require_memory(const config::Case& parameters, const config:
   throw UserError(fmt::format(
       "{}: grid.cell is {} m, which makes {} particles: {}. Make grid.cell {:.9g} m or more, or particles_per_axis "
       "smaller.",
-      config::place_of(parameters, "grid.cell"), cell, rounded_text(bodies.particles), amounts,
+      config::location_of(parameters, "grid.cell"), cell, rounded_text(bodies.particles), amounts,
       config::fitting_cell_from(smallest, cell, lengths)));
 }
 

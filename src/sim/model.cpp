@@ -5,9 +5,9 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "config/basal_laws.hpp"
+#include "config/body_layers.hpp"
 #include "physics/softening.hpp"
 #include "physics/tension_gap.hpp"
-#include "sim/between_bodies.hpp"
 #include "sim/substrates.hpp"
 #include "terrain/height_field.hpp"
 #include "terrain/layer_thickness.hpp"
@@ -18,6 +18,22 @@ namespace thawslide::sim {
 namespace {
 
 double radians(double degrees) { return degrees * pi / 180.0; }
+
+mpm::BetweenBodies between_bodies(const config::Case& parameters) {
+  mpm::BetweenBodies between;
+  const config::BodyLayers layers = config::body_layers(parameters);
+  if (layers.count == 1) {
+    return between;
+  }
+  between.layers = layers.count;
+  for (const std::size_t layer : layers.of_body) {
+    between.layer_of_body.push_back(static_cast<std::uint8_t>(layer));
+  }
+  for (const double angle : layers.friction_angle) {
+    between.friction.push_back(static_cast<Real>(std::tan(radians(angle))));
+  }
+  return between;
+}
 
 physics::Phases make_phases(const config::Phases& p) {
   physics::Phases phases;
@@ -81,7 +97,7 @@ void set_transfer(const config::Case& parameters, mpm::MotionModel<Dim>& motion)
   motion.shape = mechanics.shape_function;
   motion.transfer =
       mechanics.transfer == config::Transfer::apic ? mpm::TransferKind::apic : mpm::TransferKind::flip_pic;
-  motion.pic_share = static_cast<Real>(mechanics.pic_share);
+  motion.pic_fraction = static_cast<Real>(mechanics.pic_fraction);
   motion.filter_order = mechanics.transfer == config::Transfer::fmpm ? mechanics.fmpm_order : 0;
   for (std::size_t a = 0; a < Dim; ++a) {
     const double length = parameters.grid.max[a] - parameters.grid.min[a];
@@ -181,7 +197,7 @@ band::BandModel<Dim> make_band(const config::Case& parameters, const mpm::Motion
   band.thermal_pressurization = parameters.pressure.thermal_pressurization;
   band.volumetric_term = parameters.pressure.volumetric_term;
   band.seepage = parameters.pressure.seepage;
-  band.published_seepage = parameters.pressure.seepage_scaling == config::SeepageScaling::printed;
+  band.published_seepage = parameters.pressure.seepage_scaling == config::SeepageScaling::published;
   band.clapeyron_sign = parameters.pressure.clapeyron == config::ClapeyronSign::usual ? Real(1) : Real(-1);
   band.normal_thickness = parameters.pressure.thickness_direction == config::ThicknessDirection::normal;
   band.thickness_each_step = parameters.pressure.thickness_update == config::ThicknessUpdate::each_step;
@@ -259,7 +275,7 @@ std::shared_ptr<const terrain::Surface<Dim>> make_ground(const config::Case& par
 template <int Dim>
 void set_layer_thickness(const config::Case& parameters, const config::Site& site, Model<Dim>& model) {
   using Layer = terrain::LayerThickness<Dim>;
-  using Place = typename Layer::Place;
+  using Point = typename Layer::Point;
   model.largest_layer = static_cast<Real>(parameters.grid.cell);
   if (!model.ground || parameters.band.cut_cells != config::CutCells::equal_thickness) {
     return;
@@ -268,18 +284,18 @@ void set_layer_thickness(const config::Case& parameters, const config::Site& sit
   const double spacing = parameters.grid.cell / body.particles_per_axis;
   const auto filling = body.shape == config::BodyShape::release ? Layer::Filling::on_ground : Layer::Filling::lattice;
   const auto layer = std::make_shared<Layer>(model.ground, parameters.grid.cell, spacing, filling);
-  Place from = Place::Zero(), to = Place::Zero();
+  Point from = Point::Zero(), to = Point::Zero();
   to[0] = static_cast<double>(model.constraints.extent[0]);
   if constexpr (Dim == 3) {
     if (!site.releases.empty()) {
       const Raster& release = site.releases.begin()->second.thickness;
-      from = Place(release.x, release.y) - model.origin.template head<2>();
-      to = Place(release.x_end(), release.y_end()) - model.origin.template head<2>();
+      from = Point(release.x, release.y) - model.origin.template head<2>();
+      to = Point(release.x_end(), release.y_end()) - model.origin.template head<2>();
     }
   }
   model.largest_layer = static_cast<Real>(layer->largest(from, to));
-  model.layer_thickness = [layer](const Vector<Real, Dim - 1>& place) {
-    return static_cast<Real>(layer->at(place.template cast<double>()));
+  model.layer_thickness = [layer](const Vector<Real, Dim - 1>& point) {
+    return static_cast<Real>(layer->at(point.template cast<double>()));
   };
   model.layer_at_middle = [layer](const std::array<int, Dim - 1>& column) {
     typename Layer::Number number;

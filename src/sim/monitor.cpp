@@ -24,7 +24,7 @@ constexpr double noticed_fall = 1.0;
 
 // Fraction by which the reference level relaxes to the current energy at each check. An instability grows within a few
 // hundred steps. The slow gains of a body at rest for a long time, which contact dissipates again, do not count.
-constexpr double forgotten_share = 0.02;
+constexpr double forgotten_fraction = 0.02;
 
 // Speed below which the slide is at rest [m/s]: time.stop_at_rest, if specified.
 double rest_speed(const config::Time& times) {
@@ -42,18 +42,19 @@ constexpr double not_sampled = -1.0;
 // steps. It is the sum of mechanical_residual_J and numerical_J of the history, which compensate each other in a stable
 // run.
 template <int Dim>
-double energy_made(const Ledger<Dim>& ledger, const mpm::MonitorSums& seen) {
-  const Real there = seen.kinetic + seen.potential + ledger.stress_work + ledger.pore_work + ledger.left_mechanical;
-  const Real gone = ledger.viscous + ledger.damping + ledger.friction_work + ledger.contact_loss + ledger.bed_work;
-  const Real came = ledger.frame_work + ledger.joined_mechanical + ledger.initial_mechanical;
-  return static_cast<double>(there + gone - came);
+double energy_made(const Budget<Dim>& budget, const mpm::MonitorSums& seen) {
+  const Real there = seen.kinetic + seen.potential + budget.stress_work + budget.pore_work + budget.left_mechanical;
+  const Real dissipated =
+      budget.viscous + budget.damping + budget.friction_work + budget.contact_loss + budget.bed_work;
+  const Real came = budget.frame_work + budget.joined_mechanical + budget.initial_mechanical;
+  return static_cast<double>(there + dissipated - came);
 }
 
 // Total energy so far: held by the material, kinetic or dissipated [J].
 template <int Dim>
-double energy_so_far(const Ledger<Dim>& ledger, const mpm::MonitorSums& seen, double held_at_start) {
-  return held_at_start + static_cast<double>(seen.kinetic + std::abs(ledger.stress_work) + ledger.viscous +
-                                             ledger.damping + ledger.friction_work + ledger.contact_loss);
+double energy_so_far(const Budget<Dim>& budget, const mpm::MonitorSums& seen, double energy_at_start) {
+  return energy_at_start + static_cast<double>(seen.kinetic + std::abs(budget.stress_work) + budget.viscous +
+                                               budget.damping + budget.friction_work + budget.contact_loss);
 }
 
 // True if more than moving_fraction_at_rest of the mass moves faster than `speed` [m/s].
@@ -75,11 +76,11 @@ double rest_time_from_start(const config::Time& times, double gravity) {
 
 // True if more than moving_fraction_at_rest of the mass has moved farther than a distance [m].
 template <int Dim>
-bool has_gone_further(const mpm::Particles<Dim>& particles, Real way) {
+bool has_moved_further(const mpm::Particles<Dim>& particles, Real distance) {
   Real mass = 0, far_mass = 0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     mass += particles.mass(p);
-    far_mass += particles.path_length(p) > way ? particles.mass(p) : Real(0);
+    far_mass += particles.path_length(p) > distance ? particles.mass(p) : Real(0);
   }
   return far_mass > static_cast<Real>(moving_fraction_at_rest) * mass;
 }
@@ -113,10 +114,10 @@ void Simulation<Dim>::start_monitor() {
   for (const std::uint32_t p : grid_.order()) {
     const auto& material = model_.motion.materials[static_cast<std::size_t>(particles_.material(p))];
     const SymmetricTensor<Real> stress = mpm::full_tensor<Dim>(particles_.stress, p);
-    monitor_.held_at_start +=
+    monitor_.energy_at_start +=
         static_cast<double>(particles_.volume(p) * physics::elastic_energy_density(material.elastic, stress));
   }
-  monitor_.lowest_made = energy_made(ledger_, monitor_sums());
+  monitor_.lowest_made = energy_made(budget_, monitor_sums());
   monitor_.rest_since = starts_faster(particles_, rest_speed(parameters_.time)) ? -1.0 : 0.0;
 }
 
@@ -133,14 +134,14 @@ void Simulation<Dim>::monitor() {
 
 template <int Dim>
 void Simulation<Dim>::stop_if_energy_grows(const mpm::MonitorSums& seen) {
-  const double made = energy_made(ledger_, seen);
-  monitor_.lowest_made = std::min(made, monitor_.lowest_made + forgotten_share * (made - monitor_.lowest_made));
-  monitor_.largest_energy = std::max(monitor_.largest_energy, energy_so_far(ledger_, seen, monitor_.held_at_start));
+  const double made = energy_made(budget_, seen);
+  monitor_.lowest_made = std::min(made, monitor_.lowest_made + forgotten_fraction * (made - monitor_.lowest_made));
+  monitor_.largest_energy = std::max(monitor_.largest_energy, energy_so_far(budget_, seen, monitor_.energy_at_start));
   const double growth = made - monitor_.lowest_made;
   const double weight = static_cast<double>(seen.mass * model_.motion.gravity.norm());
   const double energy = std::max(monitor_.largest_energy, weight * noticed_fall * parameters_.grid.cell);
   const double round_off_of_sums = round_off * static_cast<double>(std::abs(seen.potential));
-  monitor_.made_share = made > round_off_of_sums ? made / energy : 0.0;
+  monitor_.made_fraction = made > round_off_of_sums ? made / energy : 0.0;
   if (growth > parameters_.guards.energy_growth * energy + round_off_of_sums) {
     stop_for_energy(growth, growth / energy);
   }
@@ -155,7 +156,7 @@ void Simulation<Dim>::update_rest(const mpm::MonitorSums& seen) {
     // The criterion of rest used another speed so far.
     monitor_.rest_since = -1.0;
     monitor_.has_moved =
-        has_gone_further(std::as_const(*this).particles(), static_cast<Real>(parameters_.grid.cell)) ? 1.0 : 0.0;
+        has_moved_further(std::as_const(*this).particles(), static_cast<Real>(parameters_.grid.cell)) ? 1.0 : 0.0;
   }
   if (moves) {
     monitor_.has_moved = parameters_.time.stop_at_rest > 0.0 ? 1.0 : not_sampled;
@@ -197,14 +198,14 @@ void Simulation<Dim>::restart_rest_time() {
 
 template <int Dim>
 std::string Simulation<Dim>::energy_warning() const {
-  if (monitor_.made_share <= parameters_.guards.energy_growth) {
+  if (monitor_.made_fraction <= parameters_.guards.energy_growth) {
     return "";
   }
   return fmt::format(
       "warning: by t = {:.6g} s the time steps have created {:.3g} % of all energy, gradually and without a physical "
       "cause. The results from here on are not reliable. Set a viscosity_time (0.001 to 0.02 s) in materials without "
       "viscosity, or a smaller time.step",
-      time_, 100.0 * monitor_.made_share);
+      time_, 100.0 * monitor_.made_fraction);
 }
 
 template <int Dim>

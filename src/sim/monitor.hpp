@@ -25,20 +25,20 @@ inline constexpr double usual_rest_speed = 0.05;
 inline constexpr const char* at_rest = "the slide is at rest";
 
 struct RunMonitor {
-  double held_at_start = 0.0;   // elastic energy at t = 0 [J]
-  double largest_energy = 0.0;  // maximum of the total energy held, moved or dissipated [J]
-  double lowest_made = 0.0;     // recent minimum of the unexplained energy [J]
-  double first_step = 0.0;      // adaptive step at t = 0, or when stepping became adaptive [s]; 0 with fixed steps
-  double rest_since = -1.0;     // [s]; negative while moving
+  double energy_at_start = 0.0;  // elastic energy at t = 0 [J]
+  double largest_energy = 0.0;   // maximum of the total energy held, moved or dissipated [J]
+  double lowest_made = 0.0;      // recent minimum of the unexplained energy [J]
+  double first_step = 0.0;       // adaptive step at t = 0, or when stepping became adaptive [s]; 0 with fixed steps
+  double rest_since = -1.0;      // [s]; negative while moving
   double has_moved =
       0.0;  // 1: more than moving_fraction_at_rest has been faster than time.stop_at_rest; -1: not checked
   // Unexplained energy since t = 0 at the last check, as a fraction of the total. Not in checkpoints.
-  double made_share = 0.0;
+  double made_fraction = 0.0;
 
   // Calls visit(number) for each number in a checkpoint, in order.
   template <class Visit>
   void for_each(const Visit& visit) {
-    for (double* number : {&held_at_start, &largest_energy, &lowest_made, &first_step, &rest_since, &has_moved}) {
+    for (double* number : {&energy_at_start, &largest_energy, &lowest_made, &first_step, &rest_since, &has_moved}) {
       visit(*number);
     }
   }

@@ -70,10 +70,10 @@ void Simulation<Dim>::append(const std::vector<NewParticle<Dim>>& joining) {
   std::vector<std::uint8_t> is_new(particles_.size(), 0);
   std::fill(is_new.begin() + static_cast<std::ptrdiff_t>(first), is_new.end(), std::uint8_t{1});
   const BodySums<Dim> sums = sum_over_marked(is_new);
-  ledger_.joined_mass += sums.mass;
-  ledger_.joined_mechanical += sums.kinetic + sums.potential;
-  ledger_.joined_thermal += sums.sensible + sums.latent;
-  ledger_.joined_momentum += sums.momentum;
+  budget_.joined_mass += sums.mass;
+  budget_.joined_mechanical += sums.kinetic + sums.potential;
+  budget_.joined_thermal += sums.sensible + sums.latent;
+  budget_.joined_momentum += sums.momentum;
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim) template void Simulation<Dim>::append(const std::vector<NewParticle<Dim>>&);

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
+#include "base/rounding.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -19,8 +20,8 @@ std::string advice_on(LimitKind kind) {
       return "Waves are faster in lighter material: the particle has expanded. Remove such particles "
              "with guards.volume = \"remove\" and a guards.largest_volume.";
     case LimitKind::viscosity:
-      return "Try a smaller viscosity_time in the material: its limit falls with the square of the wave speed, which "
-             "grows in separated material; or remove such particles with guards.volume = \"remove\" and a "
+      return "Try a smaller viscosity_time in the material. Its limit falls with the square of the wave speed, which "
+             "grows in separated material. Alternatively, remove such particles with guards.volume = \"remove\" and a "
              "guards.largest_volume.";
     case LimitKind::particle_speed:
       return "The particle detached from the flow, or the run became unstable: try half of time.safety, or "
@@ -40,8 +41,8 @@ std::string advice_on(LimitKind kind) {
 
 template <int Dim>
 band::StepExtremes Simulation<Dim>::extremes() const {
-  const bool are_told = device_solver_ && parameters_.time.stepping == config::Stepping::adaptive;
-  return are_told ? device_sums_.extremes : extremes_of(model_, particles());
+  const bool are_on_device = device_solver_ && parameters_.time.stepping == config::Stepping::adaptive;
+  return are_on_device ? device_sums_.extremes : extremes_of(model_, particles());
 }
 
 template <int Dim>
@@ -74,11 +75,11 @@ void Simulation<Dim>::stop_if_step_collapses(double dt) const {
   const double steps = (parameters_.time.end - time_) / dt;
   std::string why;
   if (dt < guards.smallest_step * monitor_.first_step) {
-    why = fmt::format("{:.2g} of the first one, {:.4g} s, where guards.smallest_step allows {:g}",
+    why = fmt::format("{:.2g} of the first one, {:.3g} s, where guards.smallest_step allows {:g}",
                       dt / monitor_.first_step, monitor_.first_step, guards.smallest_step);
   } else if (steps > guards.most_steps) {
-    why = fmt::format("and {:.2g} of them would be left to time.end, where guards.most_steps allows {:g}", steps,
-                      guards.most_steps);
+    why = fmt::format("and {} of them would be left to time.end, where guards.most_steps allows {}",
+                      rounded_text(steps, 2), count_text(guards.most_steps));
   } else {
     return;
   }
@@ -86,7 +87,7 @@ void Simulation<Dim>::stop_if_step_collapses(double dt) const {
   std::string where;
   if (limit.particle >= 0) {
     sync_to_host();
-    const std::size_t p = place_in_memory(limit.particle);
+    const std::size_t p = index_in_memory(limit.particle);
     where = fmt::format(", of {}, whose volume is {:.3g} of that at t = 0", particle_text(p),
                         static_cast<double>(particles_.volume(p) / particles_.initial_volume(p)));
   }

@@ -10,22 +10,22 @@ namespace thawslide::sim {
 
 namespace {
 
-void add_to(BoxOfLine& box, const Place2& place) {
+void add_to(BoxOfLine& box, const Point2& point) {
   for (std::size_t a = 0; a < 2; ++a) {
-    box.lower[a] = std::min(box.lower[a], place[a]);
-    box.upper[a] = std::max(box.upper[a], place[a]);
+    box.lower[a] = std::min(box.lower[a], point[a]);
+    box.upper[a] = std::max(box.upper[a], point[a]);
   }
 }
 
 }  // namespace
 
 PathLine::PathLine(const config::Polyline2& corners) {
-  for (const Place2& corner : corners) {
+  for (const Point2& corner : corners) {
     add(corner);
   }
 }
 
-void PathLine::add(const Place2& corner) {
+void PathLine::add(const Point2& corner) {
   if (corners_.empty()) {
     corners_.push_back(corner);
     along_.push_back(0.0);
@@ -59,21 +59,21 @@ void PathLine::reserve(std::size_t corners) {
   boxes_.reserve(corners / LineView::segments_of_box + 1);
 }
 
-PlaceOnLine PathLine::project(const Place2& place) const {
+LinePosition PathLine::project(const Point2& point) const {
   THAWSLIDE_ASSERT(!empty(), "a line of {} corners", corners_.size());
-  return view().project(place);
+  return view().project(point);
 }
 
-Place2 PathLine::point_at(double along) const {
+Point2 PathLine::point_at(double along) const {
   THAWSLIDE_ASSERT(!empty(), "a line of {} corners", corners_.size());
   const auto above = std::upper_bound(along_.begin() + 1, along_.end() - 1, along) - along_.begin();
   const auto k = static_cast<std::size_t>(above) - 1;
-  const double share = (along - along_[k]) / (along_[k + 1] - along_[k]);
-  return {corners_[k][0] + share * (corners_[k + 1][0] - corners_[k][0]),
-          corners_[k][1] + share * (corners_[k + 1][1] - corners_[k][1])};
+  const double fraction = (along - along_[k]) / (along_[k + 1] - along_[k]);
+  return {corners_[k][0] + fraction * (corners_[k + 1][0] - corners_[k][0]),
+          corners_[k][1] + fraction * (corners_[k + 1][1] - corners_[k][1])};
 }
 
-void CentrePath::add_position(const Place2& centre) {
+void CentrePath::add_position(const Point2& centre) {
   constexpr double first_sight = 0.01;  // fraction of the spacing that suffices to determine the direction
   if (end_moves()) {
     line_.remove_last();
@@ -83,15 +83,15 @@ void CentrePath::add_position(const Place2& centre) {
     line_.add(centre);
     return;
   }
-  const double gone = std::hypot(centre[0] - corners.back()[0], centre[1] - corners.back()[1]);
-  if (gone >= (line_.empty() ? first_sight * spacing_ : spacing_)) {
+  const double moved = std::hypot(centre[0] - corners.back()[0], centre[1] - corners.back()[1]);
+  if (moved >= (line_.empty() ? first_sight * spacing_ : spacing_)) {
     line_.add(centre);
   }
 }
 
 std::vector<double> CentrePath::state() const {
   std::vector<double> numbers;
-  for (const Place2& corner : line_.corners()) {
+  for (const Point2& corner : line_.corners()) {
     numbers.insert(numbers.end(), corner.begin(), corner.end());
   }
   return numbers;

@@ -25,11 +25,11 @@ class PathLine {
     return {corners_.data(), along_.data(), directions_.data(), boxes_.data(), directions_.size()};
   }
   // LineView::project; the line must not be empty.
-  [[nodiscard]] PlaceOnLine project(const Place2& place) const;
-  [[nodiscard]] Place2 point_at(double along) const;
+  [[nodiscard]] LinePosition project(const Point2& point) const;
+  [[nodiscard]] Point2 point_at(double along) const;
 
   // Appends a corner, unless it repeats the last one.
-  void add(const Place2& corner);
+  void add(const Point2& corner);
   void remove_last();
   // Reserves memory for the given number of corners.
   void reserve(std::size_t corners);
@@ -37,7 +37,7 @@ class PathLine {
  private:
   config::Polyline2 corners_;
   std::vector<double> along_;       // arc length at each corner [m]
-  std::vector<Place2> directions_;  // unit vectors from each corner but the last to the next
+  std::vector<Point2> directions_;  // unit vectors from each corner but the last to the next
   std::vector<BoxOfLine> boxes_;    // may be larger than necessary after a corner was removed
 };
 
@@ -48,7 +48,7 @@ class CentrePath {
  public:
   explicit CentrePath(double spacing) : spacing_(spacing) { line_.reserve(usual_corners); }
 
-  void add_position(const Place2& centre);
+  void add_position(const Point2& centre);
   [[nodiscard]] const PathLine& line() const { return line_; }
 
   // Corners as numbers; restore() is the inverse.

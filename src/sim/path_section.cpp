@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 #include "base/table.hpp"
 #include "sim/block.hpp"
 #include "sim/path_line.hpp"
@@ -54,12 +55,12 @@ ReleaseOnPath release_on_path(const PathLine& line, const config::Release& relea
   ReleaseOnPath found;
   double sum = 0.0;
   for_points(release.thickness, [&](double x, double y, double thickness) {
-    const PlaceOnLine place = line.project({x, y});
-    points.push_back({place.along, thickness});
-    found.from = std::min(found.from, place.along);
-    found.to = std::max(found.to, place.along);
-    found.nearest = std::min(found.nearest, std::abs(place.offset));
-    found.middle += thickness * place.along;
+    const LinePosition position = line.project({x, y});
+    points.push_back({position.along, thickness});
+    found.from = std::min(found.from, position.along);
+    found.to = std::max(found.to, position.along);
+    found.nearest = std::min(found.nearest, std::abs(position.offset));
+    found.middle += thickness * position.along;
     sum += thickness;
   });
   THAWSLIDE_ASSERT(!points.empty(), "a release of {} x {} points without a thickness", release.thickness.columns,
@@ -79,12 +80,12 @@ ReleaseOnPath release_on_path(const PathLine& line, const config::Release& relea
     number[k] += 1.0;
   }
   // Points on the outline represent less than a cell each. This factor makes the areas sum to the release's area.
-  const double share =
+  const double fraction =
       release.area / (static_cast<double>(points.size()) * release.thickness.cell_x * release.thickness.cell_y);
   std::vector<double> middles;
   for (std::size_t k = 0; k < count; ++k) {
     middles.push_back(found.from + (static_cast<double>(k) + 0.5) * width);
-    thickness[k] = number[k] > 0.0 ? thickness[k] / (number[k] * share) : 0.0;
+    thickness[k] = number[k] > 0.0 ? thickness[k] / (number[k] * fraction) : 0.0;
   }
   found.thickness = Table(std::move(middles), std::move(thickness));
   return found;
@@ -112,18 +113,18 @@ void require_section(const config::Case& parameters) {
     throw UserError(
         fmt::format("{}: on a DEM the block model slides a body of the shape \"release\". Give body.{} "
                     "polygons or a raster, or use `thawslide run`.",
-                    config::place_of(parameters, fmt::format("body.{}.shape", name)), name));
+                    config::location_of(parameters, fmt::format("body.{}.shape", name)), name));
   }
   if (parameters.general.gravity_tilt != 0.0) {
     throw UserError(
         fmt::format("{}: case.gravity_tilt is {} degrees towards +x, which a section along a path does not "
                     "know. Set it to 0, or use `thawslide run`.",
-                    config::place_of(parameters, "case.gravity_tilt"), parameters.general.gravity_tilt));
+                    config::location_of(parameters, "case.gravity_tilt"), parameters.general.gravity_tilt));
   }
 }
 
-Place2 centre_of(const config::Release& release) {
-  Place2 centre{0.0, 0.0};
+Point2 centre_of(const config::Release& release) {
+  Point2 centre{0.0, 0.0};
   double sum = 0.0;
   for_points(release.thickness, [&](double x, double y, double thickness) {
     centre = {centre[0] + thickness * x, centre[1] + thickness * y};
@@ -134,15 +135,15 @@ Place2 centre_of(const config::Release& release) {
 
 // Line of steepest descent from the release's centre.
 Descent descent_from(const config::Case& parameters, const config::Release& release, const Raster& ground) {
-  const Place2 centre = centre_of(release);
+  const Point2 centre = centre_of(release);
   const double width = std::max(parameters.grid.cell, 2.0 * std::max(ground.cell_x, ground.cell_y));
   Descent descent = steepest_descent(ground, centre, width);
   if (descent.line.empty()) {
-    throw UserError(fmt::format(
-        "{}: no downhill path starts at the centre of the release, x = {:.10g}, y = {:.10g}: over {:g} m the terrain "
-        "is {} there. Set maps.path to a file with a line from the release along the expected flow path.",
-        config::place_of(parameters, "maps"), centre[0], centre[1], width,
-        descent.pit ? "level or a pit" : "partly without data"));
+    throw UserError(
+        fmt::format("{}: no downhill path starts at the centre of the release, x = {}, y = {}: over {:g} m the terrain "
+                    "is {} there. Set maps.path to a file with a line from the release along the expected flow path.",
+                    config::location_of(parameters, "maps"), coordinate_text(centre[0]), coordinate_text(centre[1]),
+                    width, descent.pit ? "level or a pit" : "partly without data"));
   }
   return descent;
 }
@@ -173,8 +174,8 @@ std::vector<config::SubstrateStretch> stretches_along(const config::Case& parame
     names.push_back(name);
   }
   for (std::size_t k = 0; substrates && k < stations.size(); ++k) {
-    const Place2 place = line.point_at(stations[k]);
-    const int number = substrates->at(place[0] - parameters.grid.min[0], place[1] - parameters.grid.min[1]);
+    const Point2 point = line.point_at(stations[k]);
+    const int number = substrates->at(point[0] - parameters.grid.min[0], point[1] - parameters.grid.min[1]);
     const double from = k == 0 ? -HUGE_VAL : 0.5 * (stations[k - 1] + stations[k]);
     const double to = k + 1 == stations.size() ? HUGE_VAL : 0.5 * (stations[k] + stations[k + 1]);
     if (number == 0) {
@@ -201,16 +202,17 @@ void set_domain(config::Grid& grid, const config::ProfileTable& profile) {
 
 // Angle between the path and the steepest descent at a distance along it [degrees]; 0 on level or unknown ground.
 double off_steepest(const PathLine& line, double along, const Raster& ground, double width) {
-  const Place2 place = line.point_at(along), before = line.point_at(along - 0.5 * width),
+  const Point2 point = line.point_at(along), before = line.point_at(along - 0.5 * width),
                after = line.point_at(along + 0.5 * width);
-  const Vector<double, 2> middle(place[0], place[1]), half = Vector<double, 2>::Constant(0.5 * width),
-                                                      way(after[0] - before[0], after[1] - before[1]);
+  const Vector<double, 2> middle(point[0], point[1]), half = Vector<double, 2>::Constant(0.5 * width),
+                                                      direction(after[0] - before[0], after[1] - before[1]);
   const terrain::HeightField field(ground);
   if (!field.is_known(middle - half, middle + half)) {
     return 0.0;
   }
   const Vector<double, 2> descent = -field.gradient(middle, width);
-  return std::abs(std::atan2(way[0] * descent[1] - way[1] * descent[0], way.dot(descent))) * (180.0 / std::numbers::pi);
+  return std::abs(std::atan2(direction[0] * descent[1] - direction[1] * descent[0], direction.dot(descent))) *
+         (180.0 / std::numbers::pi);
 }
 
 }  // namespace
@@ -222,15 +224,16 @@ PathSection section_along_path(const config::Case& parameters, const config::Sit
   const Raster& ground = *site.ground;
   PathSection section;
   section.path_given = !site.path.empty();
-  const Descent way = section.path_given ? Descent{PathLine(site.path), {}} : descent_from(parameters, release, ground);
-  const PathLine& line = way.line;
+  const Descent descent =
+      section.path_given ? Descent{PathLine(site.path), {}} : descent_from(parameters, release, ground);
+  const PathLine& line = descent.line;
   if (line.empty()) {
     throw UserError(fmt::format("{}: the path has no length; allowed: a line of at least two different points.",
-                                config::place_of(parameters, "maps.path")));
+                                config::location_of(parameters, "maps.path")));
   }
   const std::string source =
-      section.path_given ? config::place_of(parameters, "maps.path")
-                         : fmt::format("{}: the line of steepest descent", config::place_of(parameters, "maps"));
+      section.path_given ? config::location_of(parameters, "maps.path")
+                         : fmt::format("{}: the line of steepest descent", config::location_of(parameters, "maps"));
   const double points_apart = std::min(ground.cell_x, ground.cell_y), cell = parameters.grid.cell;
   const ReleaseOnPath on_path = release_on_path(line, release, std::max(cell, 2.0 * points_apart));
   if (on_path.nearest > std::max(ground.cell_x, ground.cell_y)) {
@@ -238,14 +241,14 @@ PathSection section_along_path(const config::Case& parameters, const config::Sit
         fmt::format("{}: the path misses the release of body '{}' by {:.0f} m. Draw it through the release.", source,
                     name, on_path.nearest));
   }
-  if (way.pit && line.length() < on_path.to) {
+  if (descent.pit && line.length() < on_path.to) {
     throw UserError(
-        fmt::format("{} from the centre of the release ends in a pit at x = {:.10g}, y = {:.10g}, below the release. "
-                    "Set maps.path to a file with a line from the release along the expected flow path.",
-                    source, (*way.pit)[0], (*way.pit)[1]));
+        fmt::format("{} from the centre of the release ends in a pit at x = {}, y = {}, below the release. Set "
+                    "maps.path to a file with a line from the release along the expected flow path.",
+                    source, coordinate_text((*descent.pit)[0]), coordinate_text((*descent.pit)[1])));
   }
-  if (way.pit) {
-    section.pit = PathSection::Pit{line.length(), *way.pit};
+  if (descent.pit) {
+    section.pit = PathSection::Pit{line.length(), *descent.pit};
   }
 
   section.off_steepest = off_steepest(line, on_path.middle, ground, std::max(cell, 2.0 * points_apart));
@@ -282,7 +285,7 @@ PathSection section_along_path(const config::Case& parameters, const config::Sit
   make_plain(body.saturation, "saturation", release);
   make_plain(body.porosity, "porosity", release);
   make_plain(body.ice_content, "ice_content", release);
-  const Place2 here = line.point_at(on_path.middle), ahead = line.point_at(on_path.middle + points_apart);
+  const Point2 here = line.point_at(on_path.middle), ahead = line.point_at(on_path.middle + points_apart);
   const double east = (ahead[0] - here[0]) / points_apart, north = (ahead[1] - here[1]) / points_apart;
   body.velocity = {given.velocity[0] * east + given.velocity[1] * north, given.velocity[2], 0.0};
   return section;

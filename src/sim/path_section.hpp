@@ -30,7 +30,7 @@ struct PathSection {
   // leads down.
   struct Pit {
     double along;
-    Place2 place;
+    Point2 point;
   };
   std::optional<Pit> pit;
 };

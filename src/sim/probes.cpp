@@ -5,17 +5,18 @@
 #include <cstdint>
 
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 
 namespace thawslide::sim {
 
 namespace {
 
 // Adds the fractions of the interval between two numbers at which it crosses an integer.
-void add_crossings(double from, double to, std::vector<double>& shares) {
+void add_crossings(double from, double to, std::vector<double>& fractions) {
   const double lower = std::min(from, to), upper = std::max(from, to);
   const auto last = static_cast<std::int64_t>(std::ceil(upper));
   for (auto border = static_cast<std::int64_t>(std::floor(lower)) + 1; border < last; ++border) {
-    shares.push_back((static_cast<double>(border) - from) / (to - from));
+    fractions.push_back((static_cast<double>(border) - from) / (to - from));
   }
 }
 
@@ -27,12 +28,12 @@ void add_segment(const std::array<double, 2>& from, const std::array<double, 2>&
   }
   const double column = map_grid.column_of(from[0]), row = map_grid.row_of(from[1]);
   const double columns = map_grid.column_of(to[0]) - column, rows = map_grid.row_of(to[1]) - row;
-  std::vector<double> shares{0.0, 1.0};
-  add_crossings(column, column + columns, shares);
-  add_crossings(row, row + rows, shares);
-  std::sort(shares.begin(), shares.end());
-  for (std::size_t k = 0; k + 1 < shares.size(); ++k) {
-    const double part = shares[k + 1] - shares[k], middle = 0.5 * (shares[k] + shares[k + 1]);
+  std::vector<double> fractions{0.0, 1.0};
+  add_crossings(column, column + columns, fractions);
+  add_crossings(row, row + rows, fractions);
+  std::sort(fractions.begin(), fractions.end());
+  for (std::size_t k = 0; k + 1 < fractions.size(); ++k) {
+    const double part = fractions[k + 1] - fractions[k], middle = 0.5 * (fractions[k] + fractions[k + 1]);
     if (part > 0.0) {
       parts.push_back({map_grid.cell_column(column + middle * columns), map_grid.cell_row(row + middle * rows),
                        part * length, (to[1] - from[1]) / length, (from[0] - to[0]) / length});
@@ -67,12 +68,14 @@ Probes::Probes(const config::Case& parameters, const std::map<std::string, confi
   for (const auto& [name, corners] : probes) {
     for (const auto& corner : corners) {
       if (!map_grid.contains(corner[0], corner[1])) {
-        throw UserError(fmt::format(
-            "{}: probe '{}' has a point at x = {:.10g} m, y = {:.10g} m, outside the maps; allowed: x from {:.10g} to "
-            "{:.10g} m, y from {:.10g} to {:.10g} m. Move it, or make the domain larger.",
-            config::place_of(parameters, "probe." + name), name, corner[0], corner[1],
-            map_grid.x - 0.5 * map_grid.cell_x, map_grid.x + (map_grid.columns - 0.5) * map_grid.cell_x,
-            map_grid.y - 0.5 * map_grid.cell_y, map_grid.y + (map_grid.rows - 0.5) * map_grid.cell_y));
+        throw UserError(
+            fmt::format("{}: probe '{}' has a point at x = {} m, y = {} m, outside the maps; allowed: x from {} to {} "
+                        "m, y from {} to {} m. Move it, or make the domain larger.",
+                        config::location_of(parameters, "probe." + name), name, coordinate_text(corner[0]),
+                        coordinate_text(corner[1]), coordinate_text(map_grid.x - 0.5 * map_grid.cell_x),
+                        coordinate_text(map_grid.x + (map_grid.columns - 0.5) * map_grid.cell_x),
+                        coordinate_text(map_grid.y - 0.5 * map_grid.cell_y),
+                        coordinate_text(map_grid.y + (map_grid.rows - 0.5) * map_grid.cell_y)));
       }
     }
     if (corners.size() == 1) {
@@ -85,7 +88,7 @@ Probes::Probes(const config::Case& parameters, const std::map<std::string, confi
       throw UserError(
           fmt::format("{}: the line of probe '{}' has no length; allowed: one point, or a line of at least "
                       "two different ones.",
-                      config::place_of(parameters, "probe." + name), name));
+                      config::location_of(parameters, "probe." + name), name));
     }
   }
 }

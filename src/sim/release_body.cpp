@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 
 namespace thawslide::sim {
 
@@ -49,10 +50,10 @@ double nearest_value(const Raster& raster, double x, double y) {
     }
   }
   if (std::isnan(value)) {
-    throw UserError(fmt::format(
-        "a map of an initial field has no value at x = {:.10g} m, y = {:.10g} m, where the release is; give "
-        "one that covers the whole release.",
-        x, y));
+    throw UserError(
+        fmt::format("a map of an initial field has no value at x = {} m, y = {} m, where the release is; give one that "
+                    "covers the whole release.",
+                    coordinate_text(x), coordinate_text(y)));
   }
   return value;
 }
@@ -61,10 +62,10 @@ double ReleaseBody::bottom(double x, double y) const {
   return ground_->height(Vector<double, 2>(x - origin_[0], y - origin_[1])) + origin_[2];
 }
 
-bool ReleaseBody::contains(const Vector<double, 3>& place) const {
-  const double here = bilinear(thickness(), place[0], place[1], Missing::zero);
-  const double above = place[2] - bottom(place[0], place[1]);
-  return above > 0.0 && above < here && owns(place[0], place[1]);
+bool ReleaseBody::contains(const Vector<double, 3>& point) const {
+  const double here = bilinear(thickness(), point[0], point[1], Missing::zero);
+  const double above = point[2] - bottom(point[0], point[1]);
+  return above > 0.0 && above < here && owns(point[0], point[1]);
 }
 
 bool ReleaseBody::owns(double x, double y) const {
@@ -101,8 +102,8 @@ double ReleaseBody::mean_thickness(double x, double y, double width) const {
 }
 
 void ReleaseBody::seed(const Vector<double, 3>& corner, double spacing, int body, std::vector<Seed<3>>& seeds) const {
-  const auto number = [&](double place, int axis) {
-    return static_cast<long>(std::floor((place - corner[axis]) / spacing));
+  const auto number = [&](double point, int axis) {
+    return static_cast<long>(std::floor((point - corner[axis]) / spacing));
   };
   const Raster& t = thickness();
   const long first_column = number(t.x - t.cell_x, 0), last_column = number(t.x_end() + t.cell_x, 0);

@@ -27,7 +27,7 @@ class ReleaseBody {
   [[nodiscard]] double volume() const { return volume_of(release_->thickness); }
   // Ground elevation below a point [m], and membership of a point in the body.
   [[nodiscard]] double bottom(double x, double y) const;
-  [[nodiscard]] bool contains(const Vector<double, 3>& place) const;
+  [[nodiscard]] bool contains(const Vector<double, 3>& point) const;
 
   // Seeds columns of particles, `spacing` [m] apart on the lattice of `corner`. Each column has the number of particles
   // that best fits its thickness, of equal height from the ground to the top and of equal volume. The lowest particles
@@ -38,7 +38,7 @@ class ReleaseBody {
  private:
   // Vertical thickness [m], in the body's own part.
   [[nodiscard]] const Raster& thickness() const {
-    return release_->standing.empty() ? release_->thickness : release_->standing;
+    return release_->assigned_thickness.empty() ? release_->thickness : release_->assigned_thickness;
   }
   [[nodiscard]] double mean_thickness(double x, double y, double width) const;
   // True if the place belongs to no other body, as defined in config::Release.

@@ -6,8 +6,8 @@
 #include "base/error.hpp"
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
+#include "base/rounding.hpp"
 #include "sim/simulation.hpp"
-#include "sim/slide_left.hpp"
 
 namespace thawslide::sim {
 
@@ -115,8 +115,8 @@ void Simulation<Dim>::mark_left_particles() {
     }
     for (std::uint32_t k = grid_.tiles()[t].first; k < grid_.tiles()[t].last; ++k) {
       const std::uint32_t p = grid_.order()[k];
-      const auto place = particles_.position.template get<Vector<Real, Dim - 1>>(p).template cast<double>();
-      if (model_.ground->is_known(place) || (!marks_.empty() && marks_[p] != stays)) {
+      const auto position = particles_.position.template get<Vector<Real, Dim - 1>>(p).template cast<double>();
+      if (model_.ground->is_known(position) || (!marks_.empty() && marks_[p] != stays)) {
         continue;
       }
       if (removes) {
@@ -136,44 +136,44 @@ void Simulation<Dim>::add_removed_particles() {
   for (const std::uint32_t p : grid_.order()) {
     if (marks_[p] == is_not_finite) {
       known[p] = stays;
-      ledger_.left_mass += particles_.mass(p);
-      ledger_.left_mechanical -= particles_.mass(p) * model_.motion.gravity.dot(place_of(p).template cast<Real>());
+      budget_.left_mass += particles_.mass(p);
+      budget_.left_mechanical -= particles_.mass(p) * model_.motion.gravity.dot(position_of(p).template cast<Real>());
     }
-    ledger_.removed_mass += marks_[p] == is_not_finite || marks_[p] == has_inverted ? particles_.mass(p) : Real(0);
+    budget_.removed_mass += marks_[p] == is_not_finite || marks_[p] == has_inverted ? particles_.mass(p) : Real(0);
   }
   const BodySums<Dim> sums = sum_over_marked(known);
-  ledger_.left_mass += sums.mass;
-  ledger_.left_mechanical += sums.kinetic + sums.potential;
-  ledger_.left_thermal += sums.sensible + sums.latent;
-  ledger_.left_momentum += sums.momentum;
-  ledger_.left_seeped += sums.seeped;
+  budget_.left_mass += sums.mass;
+  budget_.left_mechanical += sums.kinetic + sums.potential;
+  budget_.left_thermal += sums.sensible + sums.latent;
+  budget_.left_momentum += sums.momentum;
+  budget_.left_seeped += sums.seeped;
 }
 
 // The effect of a step with a non-finite particle is unknown as well, so its budget terms stay unchanged.
 template <int Dim>
 void Simulation<Dim>::correct_energy_for_removal() {
   std::vector<Real> before;
-  ledger_before_.for_each([&](const Real& account) { before.push_back(account); });
+  budget_before_.for_each([&](const Real& term) { before.push_back(term); });
   std::size_t k = 0;
-  ledger_.for_each([&](Real& account) {
-    account = std::isfinite(account) ? account : before[k];
+  budget_.for_each([&](Real& term) {
+    term = std::isfinite(term) ? term : before[k];
     ++k;
   });
 }
 
 // Reports the particle with the smallest id among those marked last as invalid.
 template <int Dim>
-void Simulation<Dim>::stop_for_removed_mass(double share) {
+void Simulation<Dim>::stop_for_removed_mass(double fraction) {
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     if (marks_[p] == is_not_finite || marks_[p] == has_inverted) {
       invalid_.record(particles_.id(p), fault_of(particles_, p, parameters_.guards));
     }
   }
-  const std::size_t last = place_in_memory(invalid_.id);
+  const std::size_t last = index_in_memory(invalid_.id);
   throw RunError(
       fmt::format("the run failed at t = {:.6g} s (step {}): [guards] has removed {}, {:.3g} % of all mass, where "
                   "guards.removed_mass allows {:g} %; among the last: {}: {}. {}",
-                  time_, step_number_, text_of(removed_), 100.0 * share, 100.0 * parameters_.guards.removed_mass,
+                  time_, step_number_, text_of(removed_), 100.0 * fraction, 100.0 * parameters_.guards.removed_mass,
                   particle_text(last), fault_text(last), likely_cause(last)));
 }
 
@@ -186,10 +186,11 @@ void Simulation<Dim>::remove_marked_particles() {
   const bool none_stays = static_cast<std::size_t>(now.left + now.by_guards()) == particles_.size();
   if (none_stays && now.by_guards() == 0) {
     throw SlideLeft(fmt::format(
-        "the whole slide has left the domain or the known ground at t = {:.6g} s (step {}); the last {:.4g} kg{} "
-        "of it, which left in this step, are still included in mass_kg. Use a larger domain ([grid] min and max) "
-        "or a larger DEM to continue the simulation.",
-        time_, step_number_, static_cast<double>(sum_over_body().mass), Dim == 2 ? " per m of width" : ""));
+        "the whole slide has left the domain or the known terrain at t = {:.6g} s (step {}). mass_kg still includes "
+        "the last {} kg{}, which left in this step. Specify a larger domain ([grid] min and max) or a larger DEM, "
+        "and repeat the run.",
+        time_, step_number_, rounded_text(static_cast<double>(sum_over_body().mass), 3),
+        Dim == 2 ? " per m of width" : ""));
   }
   if (now.not_finite > 0) {
     correct_energy_for_removal();
@@ -198,10 +199,10 @@ void Simulation<Dim>::remove_marked_particles() {
   removed_.left += now.left;
   removed_.not_finite += now.not_finite;
   removed_.volume += now.volume;
-  const auto all_mass = static_cast<double>(ledger_.initial_mass + ledger_.joined_mass);
-  const double share = static_cast<double>(ledger_.removed_mass) / all_mass;
-  if (none_stays || share > parameters_.guards.removed_mass) {
-    stop_for_removed_mass(share);
+  const auto all_mass = static_cast<double>(budget_.initial_mass + budget_.joined_mass);
+  const double fraction = static_cast<double>(budget_.removed_mass) / all_mass;
+  if (none_stays || fraction > parameters_.guards.removed_mass) {
+    stop_for_removed_mass(fraction);
   }
   release_device();
   grid_.remove(particles_, particles_.remove(marks_));

@@ -12,9 +12,9 @@ namespace thawslide::sim {
 
 // True if a position [m] lies in the domain or within `margin` [m] of it. extent: the domain's upper corner.
 template <int Dim>
-bool is_about_domain(const Vector<Real, Dim>& place, const Vector<Real, Dim>& extent, Real margin) {
+bool is_about_domain(const Vector<Real, Dim>& position, const Vector<Real, Dim>& extent, Real margin) {
   for (int a = 0; a < Dim; ++a) {
-    if (!(place[a] >= -margin && place[a] <= extent[a] + margin)) {
+    if (!(position[a] >= -margin && position[a] <= extent[a] + margin)) {
       return false;
     }
   }
@@ -38,8 +38,8 @@ void require_sound(const mpm::Particles<Dim>& particles, const Model<Dim>& model
           fmt::format("the particle in row {} has the id {}; allowed: from {} to {}", p, id, before + 1, next_id - 1));
     }
     before = id;
-    const auto place = particles.position.template get<Vector<Real, Dim>>(p);
-    if (!is_about_domain<Dim>(place, model.constraints.extent, Real(0))) {
+    const auto position = particles.position.template get<Vector<Real, Dim>>(p);
+    if (!is_about_domain<Dim>(position, model.constraints.extent, Real(0))) {
       state.fail(fmt::format("particle {} lies outside the domain", id));
     }
     if (!is_number_of(particles.body(p), model.body_names) ||

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/instances.hpp"
+#include "base/rounding.hpp"
 #include "config/case_proposal.hpp"
 #include "config/plausibility.hpp"
 #include "physics/mixture.hpp"
@@ -29,20 +30,21 @@ constexpr const char* advice_to_recrop =
 std::string heading(double x, double y) {
   const double speed = std::hypot(x, y);
   // A component counts if the direction is more than 22.5 degrees from the other axis.
-  constexpr double share = 0.3826834323650898;
-  const std::string along = y > share * speed ? "north" : y < -share * speed ? "south" : "";
-  const std::string across = x > share * speed ? "east" : x < -share * speed ? "west" : "";
+  constexpr double fraction = 0.3826834323650898;
+  const std::string along = y > fraction * speed ? "north" : y < -fraction * speed ? "south" : "";
+  const std::string across = x > fraction * speed ? "east" : x < -fraction * speed ? "west" : "";
   return along + (along.empty() || across.empty() ? "" : "-") + across;
 }
 
 // Axis along which a particle within the domain reaches a side first.
 template <int Dim>
-int axis_of_exit(const Vector<Real, Dim>& place, const Vector<Real, Dim>& velocity, const Vector<Real, Dim>& extent) {
+int axis_of_exit(const Vector<Real, Dim>& position, const Vector<Real, Dim>& velocity,
+                 const Vector<Real, Dim>& extent) {
   int first = 0;
   double soonest = HUGE_VAL;
   for (int a = 0; a < Dim; ++a) {
     const double speed = static_cast<double>(velocity[a]);
-    const double ahead = static_cast<double>(speed > 0.0 ? extent[a] - place[a] : place[a]);
+    const double ahead = static_cast<double>(speed > 0.0 ? extent[a] - position[a] : position[a]);
     const double time = speed == 0.0 ? HUGE_VAL : ahead / std::abs(speed);
     if (time < soonest) {
       soonest = time;
@@ -53,16 +55,16 @@ int axis_of_exit(const Vector<Real, Dim>& place, const Vector<Real, Dim>& veloci
 }
 
 // Distance from a position to the edge of the DEM, in the horizontal direction of motion [m].
-double distance_to_domain_edge(const config::Site& site, const Place2& place, const Place2& velocity) {
+double distance_to_domain_edge(const config::Site& site, const Point2& position, const Point2& velocity) {
   const double speed = std::hypot(velocity[0], velocity[1]);
   const Raster& ground = *site.ground;
   const auto [low, high] = site.terrain_model.value_or(
-      std::array<Place2, 2>{Place2{ground.x, ground.y}, Place2{ground.x_end(), ground.y_end()}});
+      std::array<Point2, 2>{Point2{ground.x, ground.y}, Point2{ground.x_end(), ground.y_end()}});
   double to_edge = HUGE_VAL;
   for (std::size_t a = 0; a < 2; ++a) {
     const double forward = velocity[a] / speed;
     if (forward != 0.0) {
-      to_edge = std::min(to_edge, ((forward > 0.0 ? high[a] : low[a]) - place[a]) / forward);
+      to_edge = std::min(to_edge, ((forward > 0.0 ? high[a] : low[a]) - position[a]) / forward);
     }
   }
   return std::max(to_edge, 0.0);
@@ -99,17 +101,17 @@ std::string closed_pores(const mpm::Particles<Dim>& particles) {
   }
   return fmt::format(
       "Likely cause: the pores of {} particles have closed, and the pressure of their water has no bound (hottest "
-      "particle: {:.4g} C). Rock that expands with heat (Eq. 6) fills its pores at some thousand degrees; rock "
-      "melts nowhere in the model, and water boils in band columns alone. A thicker band, less basal.heat_fraction or "
-      "less cohesion keep it cooler.",
-      closed, hottest);
+      "particle: {} C). Rock that expands with heat (Eq. 6) fills its pores at some thousand degrees; rock melts "
+      "nowhere in the model, and water boils in band columns alone. A thicker band, less basal.heat_fraction or less "
+      "cohesion keep it cooler.",
+      closed, rounded_text(hottest, 3));
 }
 
 }  // namespace
 
 // Throws if no particle has that id.
 template <int Dim>
-std::size_t Simulation<Dim>::place_in_memory(std::int64_t id) const {
+std::size_t Simulation<Dim>::index_in_memory(std::int64_t id) const {
   std::size_t p = 0;
   while (p < particles_.size() && particles_.id(p) != id) {
     ++p;
@@ -120,20 +122,20 @@ std::size_t Simulation<Dim>::place_in_memory(std::int64_t id) const {
 
 // Position in the coordinates of the case [m].
 template <int Dim>
-Vector<double, Dim> Simulation<Dim>::place_of(std::size_t p) const {
-  Vector<double, Dim> place;
+Vector<double, Dim> Simulation<Dim>::position_of(std::size_t p) const {
+  Vector<double, Dim> position;
   for (int a = 0; a < Dim; ++a) {
-    place[a] = static_cast<double>(particles_.position(p, a)) + model_.origin[a];
+    position[a] = static_cast<double>(particles_.position(p, a)) + model_.origin[a];
   }
-  return place;
+  return position;
 }
 
 template <int Dim>
 std::string Simulation<Dim>::particle_text(std::size_t p) const {
-  const Vector<double, Dim> place = place_of(p);
+  const Vector<double, Dim> position = position_of(p);
   std::string numbers;
   for (int a = 0; a < Dim; ++a) {
-    numbers += fmt::format("{}{:.10g}", a == 0 ? "" : ", ", place[a]);
+    numbers += fmt::format("{}{}", a == 0 ? "" : ", ", coordinate_text(position[a]));
   }
   return fmt::format("particle {} of body '{}' at ({}) m", particles_.id(p),
                      model_.body_names[static_cast<std::size_t>(particles_.body(p))], numbers);
@@ -150,10 +152,10 @@ std::string Simulation<Dim>::fault_text(std::size_t p) const {
     case mpm::Fault::volume_not_positive:
       return "its volume ratio is not positive";
     case mpm::Fault::volume_too_small:
-      return fmt::format("its volume is {:.4g} of that at t = 0, where guards.smallest_volume allows {:g}", ratio,
+      return fmt::format("its volume is {:.3g} of that at t = 0, where guards.smallest_volume allows {:g}", ratio,
                          guards.smallest_volume);
     case mpm::Fault::volume_too_large:
-      return fmt::format("its volume is {:.4g} of that at t = 0, where guards.largest_volume allows {:g}", ratio,
+      return fmt::format("its volume is {:.3g} of that at t = 0, where guards.largest_volume allows {:g}", ratio,
                          guards.largest_volume);
     case mpm::Fault::state_not_finite:
       return "its position, stress, temperature or pore pressure is not a finite number";
@@ -182,9 +184,9 @@ std::string Simulation<Dim>::terrain_ahead(std::size_t p) const {
   if (Dim == 2 || site_.ground == nullptr || invalid_.fault == mpm::Fault::left_map) {
     return level;
   }
-  const Place2 place{static_cast<double>(particles_.position(p, 0)) + model_.origin[0],
-                     static_cast<double>(particles_.position(p, 1)) + model_.origin[1]};
-  const double to_edge = distance_to_domain_edge(site_, place, {velocity[0], velocity[1]});
+  const Point2 position{static_cast<double>(particles_.position(p, 0)) + model_.origin[0],
+                        static_cast<double>(particles_.position(p, 1)) + model_.origin[1]};
+  const double to_edge = distance_to_domain_edge(site_, position, {velocity[0], velocity[1]});
   return level + (to_edge <= further
                       ? fmt::format("The DEM ends {:.0f} m ahead of it: it has to be larger, and [grid] with "
                                     "it. {}",
@@ -208,14 +210,14 @@ std::string Simulation<Dim>::cause_in_material(std::size_t p) const {
   if (is_too_soft(p)) {
     const std::string& material = model_.material_names[static_cast<std::size_t>(particles_.material(p))];
     return fmt::format(
-        "Likely cause: material '{}' is too soft (youngs_modulus {:g} Pa) and collapses under its own weight. Broken "
-        "rock and ice have 1e7 Pa and more.",
+        "Likely cause: material '{}' is too soft (youngs_modulus {:g} Pa) and collapses under its own weight. Typical "
+        "values for broken rock and ice are 1e7 Pa or more.",
         material, parameters_.materials.at(material).youngs_modulus);
   }
   return fmt::format(
-      "Likely cause: the step is too long for what the material does, or the material is softer than its load, or it "
-      "is torn apart; try half of {}, a viscosity_time in the material, or mechanics.transfer = \"blend\" with "
-      "mechanics.pic_share = 0.02.",
+      "Likely cause: the step is too long for the material, the material is too soft for its load, or it has "
+      "separated. Try half of {}, a viscosity_time in the material, or mechanics.transfer = \"blend\" with "
+      "mechanics.pic_fraction = 0.02.",
       step_to_halve());
 }
 
@@ -235,9 +237,9 @@ std::string Simulation<Dim>::likely_cause(std::size_t p) const {
   const std::string towards =
       Dim == 2 ? "" : " towards the " + heading(static_cast<double>(velocity[0]), static_cast<double>(velocity[1]));
   if (invalid_.fault == mpm::Fault::left_map) {
-    return fmt::format("It moves at {:.4g} m/s{}. {}", own, towards, terrain_ahead(p)) +
-           "Give a DEM that reaches further there, and [grid] with it, or set grid.leaving = \"remove\" to let such "
-           "particles go. " +
+    return fmt::format("It moves at {} m/s{}. {}", rounded_text(own, 3), towards, terrain_ahead(p)) +
+           "Give a DEM that reaches further there, and [grid] with it, or set grid.leaving = \"remove\" to remove such "
+           "particles. " +
            advice_to_recrop;
   }
   if (invalid_.fault != mpm::Fault::left_domain) {
@@ -245,8 +247,8 @@ std::string Simulation<Dim>::likely_cause(std::size_t p) const {
   }
   const BodySums<Dim> sums = sum_over_body();
   const double mean = std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass));
-  const std::string speeds =
-      fmt::format("It moves at {:.4g} m/s{}, the slide at {:.4g} m/s on average. ", own, towards, mean);
+  const std::string speeds = fmt::format("It moves at {} m/s{}, the slide at {} m/s on average. ", rounded_text(own, 3),
+                                         towards, rounded_text(mean, 3));
   if (own > runaway * mean) {
     return fmt::format("{}Likely cause: it detached from the flow; try half of {}, or viscosity_time in the material.",
                        speeds, step_to_halve());
@@ -268,13 +270,13 @@ void Simulation<Dim>::stop_if_invalid() {
   if (invalid_.id < 0) {
     return;
   }
-  const std::size_t p = place_in_memory(invalid_.id);
+  const std::size_t p = index_in_memory(invalid_.id);
   throw RunError(fmt::format("the run failed at t = {:.6g} s (step {}): {}: {}. {}", time_, step_number_,
                              particle_text(p), fault_text(p), likely_cause(p)));
 }
 
 template <int Dim>
-void Simulation<Dim>::stop_for_energy(double growth, double share) const {
+void Simulation<Dim>::stop_for_energy(double growth, double fraction) const {
   sync_to_host();
   const std::size_t fastest = fastest_particle(particles_);
   const BodySums<Dim> sums = sum_over_body();
@@ -285,25 +287,25 @@ void Simulation<Dim>::stop_for_energy(double growth, double share) const {
             "rebounds with more energy than it had. Set it to true.";
   throw RunError(fmt::format(
       "the run failed at t = {:.6g} s (step {}): energy grew by {:.3g} J{} without a physical cause, {:.3g} % of all "
-      "energy so far (guards.energy_growth allows {:g} %). The fastest particle, {}, moves at {:.4g} m/s, the slide at "
-      "{:.4g} m/s on average. {}",
-      time_, step_number_, growth, Dim == 2 ? " per m of width" : "", 100.0 * share,
+      "energy so far (guards.energy_growth allows {:g} %). The fastest particle, {}, moves at {} m/s, the slide at {} "
+      "m/s on average. {}",
+      time_, step_number_, growth, Dim == 2 ? " per m of width" : "", 100.0 * fraction,
       100.0 * parameters_.guards.energy_growth, particle_text(fastest).substr(std::string("particle ").size()),
-      static_cast<double>(particles_.velocity.template get<Vector<Real, Dim>>(fastest).norm()),
-      std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass)), cause));
+      rounded_text(static_cast<double>(particles_.velocity.template get<Vector<Real, Dim>>(fastest).norm()), 3),
+      rounded_text(std::sqrt(2.0 * static_cast<double>(sums.kinetic / sums.mass)), 3), cause));
 }
 
-#define THAWSLIDE_INSTANTIATE(Dim)                                            \
-  template std::size_t Simulation<Dim>::place_in_memory(std::int64_t) const;  \
-  template Vector<double, Dim> Simulation<Dim>::place_of(std::size_t) const;  \
-  template std::string Simulation<Dim>::particle_text(std::size_t) const;     \
-  template std::string Simulation<Dim>::fault_text(std::size_t) const;        \
-  template std::string Simulation<Dim>::terrain_ahead(std::size_t) const;     \
-  template bool Simulation<Dim>::is_too_soft(std::size_t) const;              \
-  template std::string Simulation<Dim>::step_to_halve() const;                \
-  template std::string Simulation<Dim>::cause_in_material(std::size_t) const; \
-  template std::string Simulation<Dim>::likely_cause(std::size_t) const;      \
-  template void Simulation<Dim>::stop_for_energy(double, double) const;       \
+#define THAWSLIDE_INSTANTIATE(Dim)                                              \
+  template std::size_t Simulation<Dim>::index_in_memory(std::int64_t) const;    \
+  template Vector<double, Dim> Simulation<Dim>::position_of(std::size_t) const; \
+  template std::string Simulation<Dim>::particle_text(std::size_t) const;       \
+  template std::string Simulation<Dim>::fault_text(std::size_t) const;          \
+  template std::string Simulation<Dim>::terrain_ahead(std::size_t) const;       \
+  template bool Simulation<Dim>::is_too_soft(std::size_t) const;                \
+  template std::string Simulation<Dim>::step_to_halve() const;                  \
+  template std::string Simulation<Dim>::cause_in_material(std::size_t) const;   \
+  template std::string Simulation<Dim>::likely_cause(std::size_t) const;        \
+  template void Simulation<Dim>::stop_for_energy(double, double) const;         \
   template void Simulation<Dim>::stop_if_invalid();
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE

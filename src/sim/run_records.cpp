@@ -52,7 +52,7 @@ std::vector<SegmentBelow> segments_below(const Simulation<3>& simulation) {
   segments.resize(columns->segments().size());
   parallel_for(segments.size(), [&](std::size_t p) {
     const auto& segment = columns->segments()[p];
-    const auto means = columns->means_now(segment);
+    const auto means = columns->current_means(segment);
     const Vector<double, 3> half = 0.5 * segment.sides.cwiseAbs().rowwise().sum();
     segments[p] = {segment.position[0], segment.position[1], half[0],       half[1], segment.area,
                    means.temperature,   means.pore_pressure, segment.liquid};
@@ -115,7 +115,7 @@ RunRecords<Dim>::RunRecords(const Simulation& simulation, const config::Site& si
     corners_at_start_ = corners_at_start(parameters, site.releases);
     if (path_given_ && given_.empty()) {
       throw UserError(fmt::format("{}: the path has no length; allowed: a line of at least two different points.",
-                                  config::place_of(parameters, "maps.path")));
+                                  config::location_of(parameters, "maps.path")));
     }
   }
 }
@@ -171,14 +171,14 @@ NamedNumbers RunRecords<Dim>::state() const {
   if (!maps_) {
     return {};
   }
-  return {{"maps", maps_->state()}, {"centre_way", centre_path_.state()}, {"release_top", {release_top_}}};
+  return {{"maps", maps_->state()}, {"centre_path", centre_path_.state()}, {"release_top", {release_top_}}};
 }
 
 template <int Dim>
 void RunRecords<Dim>::restore(const NamedNumbers& blocks) {
   if (maps_) {
     maps_->restore(block_of(blocks, "maps"));
-    centre_path_.restore(block_of(blocks, "centre_way"));
+    centre_path_.restore(block_of(blocks, "centre_path"));
     release_top_ = StateNumbers(block_of(blocks, "release_top"), "release's top").next();
   }
 }
@@ -189,13 +189,13 @@ std::optional<Front> RunRecords<Dim>::front(const Simulation& simulation) const 
     return {};
   }
   const mpm::PathSample foremost = simulation.front(path().view());
-  return Front{foremost.along, foremost.place};
+  return Front{foremost.along, foremost.position};
 }
 
 template <int Dim>
 double RunRecords<Dim>::rear_of_release() const {
   double rear = HUGE_VAL;
-  for (const Place2& corner : corners_at_start_) {
+  for (const Point2& corner : corners_at_start_) {
     rear = std::min(rear, path().project(corner).along);
   }
   return rear;
@@ -232,7 +232,7 @@ std::optional<RunFigures> RunRecords<Dim>::figures(
   if (const std::optional<Front> foremost = front(simulation)) {
     figures.front_distance = foremost->along;
     figures.travel_distance = foremost->along - rear_of_release();
-    figures.drop_height = release_top_ - ground_height(foremost->place[0], foremost->place[1]);
+    figures.drop_height = release_top_ - ground_height(foremost->position[0], foremost->position[1]);
     figures.reach_angle = angle_of_reach(figures.drop_height, figures.travel_distance);
   }
   return figures;

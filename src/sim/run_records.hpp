@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "base/named_numbers.hpp"
+#include "base/state_numbers.hpp"
 #include "config/site.hpp"
 #include "sim/flow_maps.hpp"
 #include "sim/history.hpp"
@@ -17,8 +17,8 @@ namespace thawslide::sim {
 
 // Front of a 3D slide.
 struct Front {
-  double along;  // arc length of the path that has 99.5 % of the mass behind it [m]
-  Place2 place;  // of the particle at the front [m]
+  double along;     // arc length of the path that has 99.5 % of the mass behind it [m]
+  Point2 position;  // of the particle at the front [m]
 };
 
 template <int Dim>

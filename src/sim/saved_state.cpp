@@ -17,8 +17,8 @@ std::vector<double> Simulation<Dim>::scalars() const {
                               fixed_step_clock_.step,
                               fixed_step_clock_.from_time,
                               static_cast<double>(fixed_step_clock_.from_number)};
-  Ledger<Dim> ledger = ledger_;
-  ledger.for_each([&](const Real& account) { numbers.push_back(static_cast<double>(account)); });
+  Budget<Dim> budget = budget_;
+  budget.for_each([&](const Real& term) { numbers.push_back(static_cast<double>(term)); });
   RunMonitor monitor = monitor_;
   monitor.for_each([&](double number) { numbers.push_back(number); });
   for (const std::int64_t count : {removed_.left, removed_.not_finite, removed_.volume}) {
@@ -39,7 +39,7 @@ void Simulation<Dim>::restore(const std::vector<double>& scalars) {
   fixed_step_clock_.step = state.next_finite();
   fixed_step_clock_.from_time = state.next_finite();
   fixed_step_clock_.from_number = state.whole(step_number_);
-  ledger_.for_each([&](Real& account) { account = static_cast<Real>(state.next()); });
+  budget_.for_each([&](Real& term) { term = static_cast<Real>(state.next()); });
   monitor_.for_each([&](double& number) { number = state.next(); });
   for (std::int64_t* count : {&removed_.left, &removed_.not_finite, &removed_.volume}) {
     *count = state.whole(largest_whole);

@@ -1,27 +1,28 @@
 #include "sim/section.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/rounding.hpp"
 #include "terrain/height_field.hpp"
 
 namespace thawslide::sim {
 
 namespace {
 
-bool reaches(const Raster& raster, const Place2& place) {
-  return place[0] >= raster.x && place[0] <= raster.x_end() && place[1] >= raster.y && place[1] <= raster.y_end();
+bool reaches(const Raster& raster, const Point2& point) {
+  return point[0] >= raster.x && point[0] <= raster.x_end() && point[1] >= raster.y && point[1] <= raster.y_end();
 }
 
-[[noreturn]] void fail_off_ground(const std::string& source, const Raster& ground, double along, const Place2& place) {
-  const std::string where =
-      fmt::format("{:.6g} m from its beginning, at x = {:.10g}, y = {:.10g}", along, place[0], place[1]);
-  if (!reaches(ground, place)) {
+[[noreturn]] void fail_off_ground(const std::string& source, const Raster& ground, double along, const Point2& point) {
+  const std::string where = fmt::format("{} m from its beginning, at x = {}, y = {}", rounded_text(along, 3),
+                                        coordinate_text(point[0]), coordinate_text(point[1]));
+  if (!reaches(ground, point)) {
     throw UserError(
-        fmt::format("{}: the line is outside the DEM {}; its points reach from x = {:.10g} to {:.10g} and "
-                    "from y = {:.10g} to {:.10g}. Draw the line within them, or take a larger DEM.",
-                    source, where, ground.x, ground.x_end(), ground.y, ground.y_end()));
+        fmt::format("{}: the line is outside the DEM {}; its points reach from x = {} to {} and from y = {} to {}. "
+                    "Draw the line within them, or take a larger DEM.",
+                    source, where, coordinate_text(ground.x), coordinate_text(ground.x_end()),
+                    coordinate_text(ground.y), coordinate_text(ground.y_end())));
   }
   throw UserError(
       fmt::format("{}: the line crosses a place without data {}; needed: an elevation all along it. Fill the DEM there "
@@ -33,10 +34,10 @@ bool reaches(const Raster& raster, const Place2& place) {
 
 std::vector<double> stations_along(const PathLine& line, double from, double to, double spacing) {
   THAWSLIDE_ASSERT(from < to && spacing > 0.0, "from {} to {} m, {} m apart", from, to, spacing);
-  constexpr double least_share = 1e-4;  // fraction of the spacing: closer corners count as one
+  constexpr double least_fraction = 1e-4;  // fraction of the spacing: closer corners count as one
   std::vector<double> fixed{from};
   for (const double corner : line.distances()) {
-    if (corner > fixed.back() + least_share * spacing && corner < to - least_share * spacing) {
+    if (corner > fixed.back() + least_fraction * spacing && corner < to - least_fraction * spacing) {
       fixed.push_back(corner);
     }
   }
@@ -57,8 +58,8 @@ std::vector<double> ground_along(const PathLine& line, const std::vector<double>
   const terrain::HeightField field(ground);
   std::vector<double> elevations;
   for (const double along : stations) {
-    const Place2 place = line.point_at(along);
-    const Vector<double, 2> below(place[0], place[1]);
+    const Point2 point = line.point_at(along);
+    const Vector<double, 2> below(point[0], point[1]);
     elevations.push_back(field.is_known(below) ? field.height(below) : std::nan(""));
   }
   return elevations;
@@ -78,8 +79,8 @@ std::vector<double> thickness_along(const PathLine& line, const std::vector<doub
   const terrain::HeightField field(thickness);
   std::vector<double> values;
   for (const double along : stations) {
-    const Place2 place = line.point_at(along);
-    values.push_back(reaches(thickness, place) ? field.height(Vector<double, 2>(place[0], place[1])) : 0.0);
+    const Point2 point = line.point_at(along);
+    values.push_back(reaches(thickness, point) ? field.height(Vector<double, 2>(point[0], point[1])) : 0.0);
   }
   return values;
 }

@@ -14,7 +14,7 @@ namespace thawslide::sim {
 template <int Dim>
 struct Seed {
   int body;
-  Vector<double, Dim> place;               // absolute [m]
+  Vector<double, Dim> position;            // absolute [m]
   double depth;                            // vertical, below the body's top [m]
   double volume;                           // [m3], per metre of width in 2D
   std::array<std::uint32_t, 3> lattice{};  // numbers of its column, row and layer, from the body's lowest corner

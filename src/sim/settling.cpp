@@ -24,7 +24,7 @@ bool Simulation<Dim>::settle(const std::function<bool()>& may_continue) {
   const Model<Dim> model = model_;
   model_.band.heat = model_.band.pressure = false;
   model_.constraints.frames.clear();
-  model_.contact.base_holds = true;
+  model_.contact.base_is_fixed = true;
   model_.contact.band_columns = false;
   band_columns_.reset();
   model_.contact.mass_damping = static_cast<Real>(parameters_.mechanics.settle_damping);

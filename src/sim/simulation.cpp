@@ -32,17 +32,18 @@ namespace thawslide::sim {
 //   heat content from conduction, advection and the friction heat of the contact nodes         Eqs. 9, 18-20
 //   pore pressure: Clapeyron, then thermal pressurization and seepage                          Eqs. 4, 8, 22, 23
 template <int Dim>
-void Simulation<Dim>::step(double dt) {
+void Simulation<Dim>::step(double dt, const terrain::StrengthLaw* strength) {
   THAWSLIDE_ASSERT(!device_has_failed_, "a step after {} has failed", device_name_);
+  THAWSLIDE_ASSERT(strength == nullptr || !make_solver_, "a law of the caller on {}", device_name_);
   dt_ = static_cast<Real>(dt);
-  ledger_before_ = ledger_;
+  budget_before_ = budget_;
   if (step_number_ == 0) {
     start_monitor();  // again, because the caller may have changed the state
   }
   if (make_solver_) {
     stopwatch_.time("step_on_device", [&] { advance_on_device(); });
   } else {
-    step_on_cpu();
+    step_on_cpu(strength);
   }
   ++step_number_;
   time_ = time_after(dt);
@@ -65,12 +66,12 @@ double Simulation<Dim>::time_after(double dt) {
 }
 
 template <int Dim>
-void Simulation<Dim>::step_on_cpu() {
+void Simulation<Dim>::step_on_cpu(const terrain::StrengthLaw* strength) {
   stopwatch_.time("find_cells", [&] { find_particles_cells(); });
   stopwatch_.time("average_band_on_grid", [&] { average_band_on_grid(); });
   if (parameters_.mechanics.enabled) {
     stopwatch_.time("momentum_to_grid", [&] { momentum_to_grid(); });
-    stopwatch_.time("resolve_contact", [&] { resolve_contact(); });
+    stopwatch_.time("resolve_contact", [&] { resolve_contact(strength); });
     stopwatch_.time("move_particles", [&] { move_particles(); });
     stopwatch_.time("update_stress_and_porosity", [&] { update_stress_and_porosity(); });
   }
@@ -155,14 +156,14 @@ void Simulation<Dim>::press_on_ground() {
 }
 
 template <int Dim>
-void Simulation<Dim>::resolve_contact() {
+void Simulation<Dim>::resolve_contact(const terrain::StrengthLaw* strength) {
   if (body_contact_) {
     body_contact_->add_forces(grid_, particles_, model_.between_bodies, model_.motion.sizes,
                               model_.contact.mass_damping, dt_, nodes_);
   }
   press_on_ground();
   contact_ = terrain::resolve_contact(grid_, ground(), model_.constraints, model_.contact, static_cast<Real>(time_),
-                                      dt_, nodes_, bed_to_meet());
+                                      dt_, nodes_, bed_to_meet(), strength);
   contact_.force[0] -= force_of_walls_;  // the walls are part of the ground
   collect_bed();
   add_contact_energy();
@@ -176,16 +177,16 @@ void Simulation<Dim>::resolve_contact() {
 template <int Dim>
 void Simulation<Dim>::move_particles() {
   const auto work = mpm::move_particles(grid_, particles_, model_.motion, dt_, nodes_);
-  ledger_.numerical += work.particle_kinetic - contact_.node_kinetic;
+  budget_.numerical += work.particle_kinetic - contact_.node_kinetic;
   if (model_.motion.filter_order > 0 && filters_in_step(parameters_, time_, static_cast<double>(dt_))) {
-    ledger_.numerical += mpm::filter_velocities(grid_, particles_, model_.motion, nodes_);
+    budget_.numerical += mpm::filter_velocities(grid_, particles_, model_.motion, nodes_);
   }
-  ledger_.numerical += terrain::constrain_mapped_back(grid_, ground(), model_.constraints, model_.contact,
+  budget_.numerical += terrain::constrain_mapped_back(grid_, ground(), model_.constraints, model_.contact,
                                                       model_.motion.gravity, static_cast<Real>(time_), dt_, nodes_);
   if (body_contact_) {
     const auto between = body_contact_->constrain_mapped_back(model_.motion.gravity, dt_, nodes_);
-    ledger_.contact_loss += between.loss;
-    ledger_.numerical += between.numerical;
+    budget_.contact_loss += between.loss;
+    budget_.numerical += between.numerical;
   }
 }
 
@@ -200,13 +201,13 @@ void Simulation<Dim>::rescale_band() {
     return;
   }
   Real added = 0;
-  const bool depends_on_place = model_.band.region != band::BandRegion::all || model_.layer_thickness;
-  if (depends_on_place || band_thickness() != current_band_thickness_) {
+  const bool depends_on_position = model_.band.region != band::BandRegion::all || model_.layer_thickness;
+  if (depends_on_position || band_thickness() != current_band_thickness_) {
     current_band_thickness_ = band_thickness();
     added = band::rescale_band(grid_, model_.band, static_cast<Real>(current_band_thickness_), model_.layer_thickness,
                                particles_);
   }
-  ledger_.band_rescale += model_.band.heat ? added : Real(0);
+  budget_.band_rescale += model_.band.heat ? added : Real(0);
 }
 
 template <int Dim>
@@ -215,7 +216,7 @@ void Simulation<Dim>::conduct_heat() {
     rescale_band();
   }
   if (band_columns_) {  // the body's temperature is constant
-    ledger_.friction_heat += contact_.friction_work - contact_.converted;
+    budget_.friction_heat += contact_.friction_work - contact_.converted;
     return;
   }
   band::average_seeping_water(grid_, model_.band, particles_, nodes_);
@@ -233,9 +234,9 @@ void Simulation<Dim>::drain_pore_pressure() {
   update_columns();
   update_normal_load();
   const auto loss = band::drain_pore_pressure(grid_, model_.band, flow_depth_, dt_, nodes_, particles_);
-  ledger_.drained_water += loss.drained.mass;
-  ledger_.drained_heat += loss.drained.heat;
-  ledger_.vented_water += loss.vented;
+  budget_.drained_water += loss.drained.mass;
+  budget_.drained_heat += loss.drained.heat;
+  budget_.vented_water += loss.vented;
 }
 
 template <int Dim>
@@ -269,8 +270,9 @@ std::string material_text(const config::Case& parameters, const Model<Dim>& mode
     ++p;
   }
   const std::string& material = model.material_names[static_cast<std::size_t>(particles.material(p))];
-  return fmt::format(", with a Young's modulus of {:g} Pa and {:.4g} kg/m3",
-                     parameters.materials.at(material).youngs_modulus, particles.mass(p) / particles.volume(p));
+  return fmt::format(", with a Young's modulus of {:g} Pa and {} kg/m3",
+                     parameters.materials.at(material).youngs_modulus,
+                     rounded_text(particles.mass(p) / particles.volume(p), 3));
 }
 
 }  // namespace
@@ -291,9 +293,9 @@ Simulation<Dim>::Simulation(const config::Case& parameters, const config::Site& 
         sim::step_limit(parameters_, model_, parameters_.band.thickness.smallest(), extremes_of(model_, particles_));
     if (parameters_.time.step > limit.step) {
       throw UserError(
-          fmt::format("{}: time.step is {} s, above the limit of {:.4g} s set by {}{}. Use a smaller time.step, or "
+          fmt::format("{}: time.step is {} s, above the limit of {:.3g} s set by {}{}. Use a smaller time.step, or "
                       "time.stepping = \"adaptive\".",
-                      config::place_of(parameters_, "time.step"), parameters_.time.step, rounded_down(limit.step, 4),
+                      config::location_of(parameters_, "time.step"), parameters_.time.step, rounded_down(limit.step, 3),
                       limit.what, material_text(parameters_, model_, particles_, limit)));
     }
   }
@@ -362,11 +364,11 @@ void Simulation<Dim>::update_columns() {
 template <int Dim>
 void Simulation<Dim>::start_ledger() {
   const BodySums<Dim> sums = sum_over_body();
-  ledger_ = {};
-  ledger_.initial_mechanical = sums.kinetic + sums.potential;
-  ledger_.initial_thermal = sums.sensible + sums.latent;
-  ledger_.initial_mass = sums.mass;
-  ledger_.initial_momentum = sums.momentum;
+  budget_ = {};
+  budget_.initial_mechanical = sums.kinetic + sums.potential;
+  budget_.initial_thermal = sums.sensible + sums.latent;
+  budget_.initial_mass = sums.mass;
+  budget_.initial_momentum = sums.momentum;
   const double direction = direction_at_start(model_, particles_, parameters_.grid.cell);
   double rear = HUGE_VAL;
   for (std::size_t p = 0; p < particles_.size(); ++p) {

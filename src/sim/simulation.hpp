@@ -18,8 +18,8 @@
 #include "mpm/front.hpp"
 #include "mpm/motion.hpp"
 #include "sim/bed_of_device.hpp"
+#include "sim/budget.hpp"
 #include "sim/grid_of_device.hpp"
-#include "sim/ledger.hpp"
 #include "sim/model.hpp"
 #include "sim/monitor.hpp"
 #include "sim/time_step.hpp"
@@ -45,6 +45,13 @@ struct NewParticle {
   Real heat = 0;  // in addition to the heat content at its temperature [J]: it warms or melts the particle
 };
 
+// Thrown by a step that leaves no particle, if the case removes leaving particles. The state is that of this step and
+// still contains the particles that left last; they count in no left_* column of the history.
+class SlideLeft : public RunError {
+ public:
+  using RunError::RunError;
+};
+
 using band::BodySums;
 
 template <int Dim>
@@ -66,8 +73,9 @@ class Simulation {
   bool settle(const std::function<bool()>& may_continue = [] { return true; });
 
   // Performs one time step of dt [s]. Throws RunError if a particle becomes invalid; the state is then that of the
-  // failed step.
-  void step(double dt);
+  // failed step. strength: replaces the basal laws of the case on the CPU; if it throws, the particles are those before
+  // the step, which can be repeated.
+  void step(double dt, const terrain::StrengthLaw* strength = nullptr);
 
   // Performs all further steps on a device. Throws UserError, with the key, for features that no device supports; a
   // step throws DeviceError if the device fails.
@@ -136,7 +144,7 @@ class Simulation {
   }
   // Null without terrain.
   [[nodiscard]] const terrain::GroundOnGrid<Dim>* ground() const { return model_.ground ? &ground_ : nullptr; }
-  [[nodiscard]] const Ledger<Dim>& ledger() const { return ledger_; }
+  [[nodiscard]] const Budget<Dim>& budget() const { return budget_; }
   [[nodiscard]] const terrain::ContactWork<Dim>& contact() const { return contact_; }
   // Null unless the band consists of columns.
   [[nodiscard]] const band::BasalSegments<Dim>* band_columns() const {
@@ -172,11 +180,11 @@ class Simulation {
   void release_device();
   [[nodiscard]] BodySums<Dim> sum_over_particles(const std::uint8_t* marked) const;
   [[nodiscard]] band::SumsOfParticle<Dim> sums_of_particle() const;
-  [[nodiscard]] bool any_has_left(const std::vector<Vector<Real, Dim>>& places) const;
+  [[nodiscard]] bool any_has_left(const std::vector<Vector<Real, Dim>>& points) const;
   // True if a device performed the step and no particle is invalid or has left: the device counts them.
   [[nodiscard]] bool needs_no_host_check() const;
 
-  // Adds the terms of a step to the budget (step_accounts.cpp).
+  // Adds the terms of a step to the budget (step_budget.cpp).
   void add_contact_energy();
   void add_bed_energy();
   void add_stress_work(const mpm::StressWork& work);
@@ -184,14 +192,14 @@ class Simulation {
 
   // The stages of a step, in order (simulation.cpp).
   [[nodiscard]] double time_after(double dt);
-  void step_on_cpu();
+  void step_on_cpu(const terrain::StrengthLaw* strength);
   void post_step();
   void find_particles_cells();
   void update_ground() const;
   void momentum_to_grid();
   void average_band_on_grid();
   void press_on_ground();
-  void resolve_contact();
+  void resolve_contact(const terrain::StrengthLaw* strength);
   void move_particles();
   void update_stress_and_porosity();
   void conduct_heat();
@@ -203,7 +211,7 @@ class Simulation {
   void mark_left_particles();
   void remove_marked_particles();
   // Null without an erodible bed, and while the base is fixed.
-  [[nodiscard]] const terrain::Bed<Dim>* bed_in_reach() const { return model_.contact.base_holds ? nullptr : bed(); }
+  [[nodiscard]] const terrain::Bed<Dim>* bed_in_reach() const { return model_.contact.base_is_fixed ? nullptr : bed(); }
   const terrain::Bed<Dim>* bed_to_meet();
   void collect_bed();
   void entrain_bed();
@@ -220,15 +228,15 @@ class Simulation {
   [[nodiscard]] band::StepExtremes extremes() const;
   [[nodiscard]] double adaptive_step() const;
   void stop_if_step_collapses(double dt) const;
-  [[nodiscard]] std::size_t place_in_memory(std::int64_t id) const;
-  [[nodiscard]] Vector<double, Dim> place_of(std::size_t particle) const;
+  [[nodiscard]] std::size_t index_in_memory(std::int64_t id) const;
+  [[nodiscard]] Vector<double, Dim> position_of(std::size_t particle) const;
   [[nodiscard]] std::string particle_text(std::size_t particle) const;
   [[nodiscard]] std::string fault_text(std::size_t particle) const;
   [[nodiscard]] bool is_too_soft(std::size_t particle) const;
   [[nodiscard]] std::string step_to_halve() const;
   [[nodiscard]] std::string cause_in_material(std::size_t particle) const;
-  [[noreturn]] void stop_for_energy(double growth, double share) const;
-  [[noreturn]] void stop_for_removed_mass(double share);
+  [[noreturn]] void stop_for_energy(double growth, double fraction) const;
+  [[noreturn]] void stop_for_removed_mass(double fraction);
   [[nodiscard]] std::string likely_cause(std::size_t particle) const;
   [[nodiscard]] std::string terrain_ahead(std::size_t particle) const;
   void mark_band();
@@ -245,7 +253,7 @@ class Simulation {
   void start_ledger();
   [[nodiscard]] std::vector<Vector<double, Dim - 1>> places_below_slide(
       const std::vector<typename terrain::Bed<Dim>::Column>& columns) const;
-  [[nodiscard]] NewParticle<Dim> particle_of_bed(Vector<double, Dim - 1> place,
+  [[nodiscard]] NewParticle<Dim> particle_of_bed(Vector<double, Dim - 1> point,
                                                  const terrain::LooseMaterial<Dim>& material,
                                                  std::int64_t number) const;
   void stop_if_invalid();
@@ -262,17 +270,17 @@ class Simulation {
   device::SolverFactory<Dim> make_solver_;  // empty: steps on the CPU
   // Null if particles have changed on the host since, or the device has failed.
   mutable std::unique_ptr<device::Solver<Dim>> device_solver_;
-  device::StepSums<Dim> device_sums_;     // of its last step
+  device::StepSums<Dim> device_sums_;  // of its last step
+  terrain::ContactWork<Dim> contact_;
+  Budget<Dim> budget_, budget_before_;    // current, and before the step
   mutable device::MapSample map_sample_;  // of the last step
   std::string device_name_;
   band::FlowDepth<Dim> flow_depth_;
   std::optional<band::BasalSegments<Dim>> band_columns_;
   std::unique_ptr<GridOfDevice<Dim>> grid_of_device_;  // as band columns read it; null without band columns
   std::optional<terrain::Bed<Dim>> bed_;
-  std::unique_ptr<BedOfDevice<Dim>> bed_of_device_;  // null without a bed below a device step
-  terrain::ContactWork<Dim> contact_;
+  std::unique_ptr<BedOfDevice<Dim>> bed_of_device_;      // null without a bed below a device step
   std::unique_ptr<mpm::BodyContact<Dim>> body_contact_;  // null if all bodies share nodes
-  Ledger<Dim> ledger_, ledger_before_;                   // current, and before the step
   RunMonitor monitor_;
   Removed removed_;
   mpm::InvalidParticle invalid_;

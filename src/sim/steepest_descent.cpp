@@ -9,51 +9,51 @@ namespace thawslide::sim {
 
 namespace {
 
-constexpr double step_share = 0.1;         // fraction of the width
+constexpr double step_fraction = 0.1;      // fraction of the width
 constexpr std::size_t patient_steps = 40;  // without descending: four widths
 constexpr double least_fall = 1e-6;        // fraction of a step: minimum descent, and minimum slope
 
 // Points a width or more apart, and the last one.
-PathLine thinned(const std::vector<Place2>& places, double width) {
+PathLine thinned(const std::vector<Point2>& points, double width) {
   PathLine line;
-  line.add(places.front());
-  for (const Place2& place : places) {
-    const Place2& last = line.corners().back();
-    if (std::hypot(place[0] - last[0], place[1] - last[1]) >= width) {
-      line.add(place);
+  line.add(points.front());
+  for (const Point2& point : points) {
+    const Point2& last = line.corners().back();
+    if (std::hypot(point[0] - last[0], point[1] - last[1]) >= width) {
+      line.add(point);
     }
   }
-  line.add(places.back());
+  line.add(points.back());
   return line;
 }
 
 }  // namespace
 
-Descent steepest_descent(const Raster& ground, const Place2& start, double width) {
+Descent steepest_descent(const Raster& ground, const Point2& start, double width) {
   const terrain::HeightField field(ground);
-  const double step = step_share * width;
+  const double step = step_fraction * width;
   const Vector<double, 2> half = Vector<double, 2>::Constant(0.5 * width);
-  Vector<double, 2> place(start[0], start[1]);
-  std::vector<Place2> places{start};
+  Vector<double, 2> point(start[0], start[1]);
+  std::vector<Point2> points{start};
   std::size_t lowest = 0;
-  double lowest_height = field.height(place);
+  double lowest_height = field.height(point);
   Descent descent;
-  while (field.is_known(place - half, place + half)) {
-    const Vector<double, 2> gradient = field.gradient(place, width);
-    if (gradient.norm() <= least_fall || places.size() > lowest + patient_steps) {
-      places.resize(lowest + 1);
-      descent.pit = places.back();
+  while (field.is_known(point - half, point + half)) {
+    const Vector<double, 2> gradient = field.gradient(point, width);
+    if (gradient.norm() <= least_fall || points.size() > lowest + patient_steps) {
+      points.resize(lowest + 1);
+      descent.pit = points.back();
       break;
     }
-    place -= step * gradient.normalized();
-    places.push_back({place[0], place[1]});
-    const double height = field.height(place);
+    point -= step * gradient.normalized();
+    points.push_back({point[0], point[1]});
+    const double height = field.height(point);
     if (height < lowest_height - least_fall * step) {
       lowest_height = height;
-      lowest = places.size() - 1;
+      lowest = points.size() - 1;
     }
   }
-  descent.line = thinned(places, width);
+  descent.line = thinned(points, width);
   return descent;
 }
 

@@ -13,11 +13,11 @@ namespace thawslide::sim {
 
 struct Descent {
   PathLine line;              // corners a width apart, and the end; empty if nothing is lower than the start
-  std::optional<Place2> pit;  // closed depression in which the line ends: the ground rises in all directions
+  std::optional<Point2> pit;  // closed depression in which the line ends: the ground rises in all directions
 };
 
 // width: of the square [m]. The line ends where the square reaches beyond the known ground, or in a closed depression,
 // where it descends no further within four widths.
-[[nodiscard]] Descent steepest_descent(const Raster& ground, const Place2& start, double width);
+[[nodiscard]] Descent steepest_descent(const Raster& ground, const Point2& start, double width);
 
 }  // namespace thawslide::sim

@@ -37,11 +37,11 @@ void Simulation<Dim>::on_device(const std::function<void()>& work) const {
 template <int Dim>
 device::StepSums<Dim> Simulation<Dim>::step_on_device() {
   if (!device_solver_) {
-    device::HostCallbacks<Dim> ask = terrain_for_device(model_, parameters_.grid.cell);
-    ask.columns = host_columns();
-    ask.bed = host_bed();
+    device::HostCallbacks<Dim> callbacks = terrain_for_device(model_, parameters_.grid.cell);
+    callbacks.columns = host_columns();
+    callbacks.bed = host_bed();
     device_solver_ = make_solver_(device_model_of(parameters_, model_, step_number_ == 0), mpm::view_of(particles_),
-                                  particles_.size(), std::move(ask));
+                                  particles_.size(), std::move(callbacks));
   }
   if (sorting_interval_ > 0 && step_number_ % sorting_interval_ == 0) {
     device_solver_->sort_in_memory();
@@ -59,19 +59,19 @@ void Simulation<Dim>::advance_on_device() {
     add_contact_energy();
     add_bed_energy();
   }
-  ledger_.numerical += sums.particle_kinetic - contact_.node_kinetic;
-  ledger_.numerical += sums.filtered;
-  ledger_.numerical += sums.mapped_back;
+  budget_.numerical += sums.particle_kinetic - contact_.node_kinetic;
+  budget_.numerical += sums.filtered;
+  budget_.numerical += sums.mapped_back;
   add_stress_work(sums.deformed.work);
-  ledger_.band_rescale += model_.band.heat ? sums.band_rescale : Real(0);
+  budget_.band_rescale += model_.band.heat ? sums.band_rescale : Real(0);
   if (band_columns_) {  // the body's temperature is constant
-    ledger_.friction_heat += contact_.friction_work - contact_.converted;
+    budget_.friction_heat += contact_.friction_work - contact_.converted;
   } else {
     add_heat_gain(sums.heat);
   }
-  ledger_.drained_water += sums.drained.mass;
-  ledger_.drained_heat += sums.drained.heat;
-  ledger_.vented_water += sums.vented;
+  budget_.drained_water += sums.drained.mass;
+  budget_.drained_heat += sums.drained.heat;
+  budget_.vented_water += sums.vented;
   invalid_ += sums.deformed.invalid;
   invalid_ += sums.invalid;
 }
@@ -89,17 +89,17 @@ bool Simulation<Dim>::needs_no_host_check() const {
 }
 
 template <int Dim>
-bool Simulation<Dim>::any_has_left(const std::vector<Vector<Real, Dim>>& places) const {
+bool Simulation<Dim>::any_has_left(const std::vector<Vector<Real, Dim>>& positions) const {
   const Vector<Real, Dim>& extent = model_.constraints.extent;
-  const auto left = [&](const Vector<Real, Dim>& place) {
-    return (place.array() < Real(0)).any() || (place.array() > extent.array()).any() ||
-           (model_.ground && !model_.ground->is_known(place.template head<Dim - 1>().template cast<double>()));
+  const auto left = [&](const Vector<Real, Dim>& position) {
+    return (position.array() < Real(0)).any() || (position.array() > extent.array()).any() ||
+           (model_.ground && !model_.ground->is_known(position.template head<Dim - 1>().template cast<double>()));
   };
   constexpr std::size_t of_a_task = 1024;
   return parallel_sum<std::size_t>(
-             (places.size() + of_a_task - 1) / of_a_task, [&](std::size_t task, std::size_t& sum) {
-               for (std::size_t k = task * of_a_task; k < std::min(places.size(), (task + 1) * of_a_task); ++k) {
-                 sum += left(places[k]) ? 1 : 0;
+             (positions.size() + of_a_task - 1) / of_a_task, [&](std::size_t task, std::size_t& sum) {
+               for (std::size_t k = task * of_a_task; k < std::min(positions.size(), (task + 1) * of_a_task); ++k) {
+                 sum += left(positions[k]) ? 1 : 0;
                }
              }) > 0;
 }

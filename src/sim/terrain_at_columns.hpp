@@ -11,23 +11,23 @@ namespace thawslide::sim {
 
 // Empty without ground. cell: mesh size [m].
 template <int Dim>
-band::OfPlace<Dim> slope_cosine_of(const Model<Dim>& model, double cell) {
+band::OfPosition<Dim> slope_cosine_of(const Model<Dim>& model, double cell) {
   if (!model.ground) {
     return {};
   }
-  return [&model, cell](const Vector<Real, Dim - 1>& place) {
-    return static_cast<Real>(model.ground->slope_cosine(place.template cast<double>(), cell));
+  return [&model, cell](const Vector<Real, Dim - 1>& point) {
+    return static_cast<Real>(model.ground->slope_cosine(point.template cast<double>(), cell));
   };
 }
 
 template <int Dim>
-band::OfPlace<Dim> normal_gravity_of(const Model<Dim>& model, double cell) {
-  return [&model, cell](const Vector<Real, Dim - 1>& place) {
+band::OfPosition<Dim> normal_gravity_of(const Model<Dim>& model, double cell) {
+  return [&model, cell](const Vector<Real, Dim - 1>& point) {
     const Vector<double, Dim> gravity = model.motion.gravity.template cast<double>();
     if (!model.ground) {
       return static_cast<Real>(-gravity[Dim - 1]);
     }
-    const auto normal = model.ground->normal_below(place.template cast<double>(), cell);
+    const auto normal = model.ground->normal_below(point.template cast<double>(), cell);
     return static_cast<Real>(std::max(0.0, gravity.dot(normal)) * -normal[Dim - 1]);
   };
 }

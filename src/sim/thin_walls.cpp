@@ -7,13 +7,15 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/rounding.hpp"
+
 namespace thawslide::sim {
 
 namespace {
 
 struct Wall {
   double height = 0.0;  // above the higher of its two sides [m]
-  std::array<double, 2> place{};
+  std::array<double, 2> point{};
 };
 
 Wall highest_on_profile(const config::ProfileTable& profile, double from, double to, double cell) {
@@ -33,10 +35,10 @@ Wall highest_on_profile(const config::ProfileTable& profile, double from, double
 // Searches along the axes and the diagonals. Points more than half a cell apart cannot form so thin a wall.
 Wall highest_on_raster(const Raster& ground, const config::Grid& grid) {
   Wall highest;
-  for (const std::array<int, 2> way : {std::array{1, 0}, std::array{0, 1}, std::array{1, 1}, std::array{1, -1}}) {
-    const double distance = std::hypot(way[0] * ground.cell_x, way[1] * ground.cell_y);
+  for (const std::array<int, 2> direction : {std::array{1, 0}, std::array{0, 1}, std::array{1, 1}, std::array{1, -1}}) {
+    const double distance = std::hypot(direction[0] * ground.cell_x, direction[1] * ground.cell_y);
     const int reach = static_cast<int>(0.5 * grid.cell / distance);
-    const int columns = reach * way[0], rows = reach * way[1];
+    const int columns = reach * direction[0], rows = reach * direction[1];
     for (int row = std::abs(rows); reach > 0 && row < ground.rows - std::abs(rows); ++row) {
       for (int column = columns; column < ground.columns - columns; ++column) {
         const double side = std::max(ground.at(column - columns, row - rows), ground.at(column + columns, row + rows));
@@ -65,13 +67,14 @@ std::string warning_of_thin_walls(const config::Case& parameters, const config::
   if (!(wall.height > cell)) {
     return "";
   }
-  const std::string place = parameters.general.dimension == 3
-                                ? fmt::format("x = {:.6g}, y = {:.6g} m", wall.place[0], wall.place[1])
-                                : fmt::format("x = {:.6g} m", wall.place[0]);
+  const std::string point =
+      parameters.general.dimension == 3
+          ? fmt::format("x = {}, y = {} m", coordinate_text(wall.point[0]), coordinate_text(wall.point[1]))
+          : fmt::format("x = {} m", coordinate_text(wall.point[0]));
   return fmt::format(
-      "grid.cell: at {} the terrain has a wall thinner than a cell ({:g} m), {:.2g} m high. A slide can enter it, and "
+      "grid.cell: at {} the terrain has a wall thinner than a cell ({:g} m), {} m high. A slide can enter it, and "
       "bodies on its two sides push each other through it. Use cells no larger than the wall is thick, or remove it.",
-      place, cell, wall.height);
+      point, cell, rounded_text(wall.height, 2));
 }
 
 }  // namespace thawslide::sim

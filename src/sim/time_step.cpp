@@ -5,6 +5,7 @@
 
 #include "base/instances.hpp"
 #include "base/parallel.hpp"
+#include "base/rounding.hpp"
 
 namespace thawslide::sim {
 
@@ -13,9 +14,9 @@ namespace {
 // Safety factors of the limits named next to each (docs/theory.md, "Stability limits"). The factor of the wave limit
 // was measured on resting and sliding blocks with 2 particles per cell and axis. Diffusion was stable at 0.99 of the
 // textbook limit.
-constexpr double wave_share = 1.0;       // of cell / P-wave speed, with viscosity as in wave_limit
-constexpr double particle_share = 0.5;   // of cell / particle speed: a particle may not skip a node
-constexpr double diffusion_share = 1.0;  // of length^2 / (2 Dim diffusivity)
+constexpr double wave_fraction = 1.0;       // of cell / P-wave speed, with viscosity as in wave_limit
+constexpr double particle_fraction = 0.5;   // of cell / particle speed: a particle may not skip a node
+constexpr double diffusion_fraction = 1.0;  // of length^2 / (2 Dim diffusivity)
 
 // Wave speeds [m/s]: elastic, from the current stiffness; viscous, from viscosity, which also acts on opened material.
 struct WaveSpeeds {
@@ -40,18 +41,18 @@ bool viscosity_rules(double cell, const WaveSpeeds& speeds, double viscosity_tim
 std::string wave_text(const std::string& material, double cell, const WaveSpeeds& speeds, double viscosity_time) {
   if (viscosity_rules(cell, speeds, viscosity_time)) {
     return fmt::format(
-        "the viscosity of material '{}' (viscosity_time {} s, at a wave speed of {:.4g} m/s) on cells of {} m",
-        material, viscosity_time, speeds.viscous, cell);
+        "the viscosity of material '{}' (viscosity_time {} s, at a wave speed of {} m/s) on cells of {} m", material,
+        viscosity_time, rounded_text(speeds.viscous, 3), cell);
   }
   const std::string viscosity = viscosity_time > 0.0 ? fmt::format(", viscosity {} s", viscosity_time) : "";
-  return fmt::format("the elastic wave of material '{}' ({:.4g} m/s{}) on cells of {} m", material, speeds.elastic,
-                     viscosity, cell);
+  return fmt::format("the elastic wave of material '{}' ({} m/s{}) on cells of {} m", material,
+                     rounded_text(speeds.elastic, 3), viscosity, cell);
 }
 
 // Calls take(step [s], kind, id of the limiting particle, text) for every limit; text() describes it.
-template <int Dim, class Take>
+template <int Dim, class Visit>
 void for_limits(const config::Case& parameters, const Model<Dim>& model, double thickness,
-                const band::StepExtremes& found, const Take& take) {
+                const band::StepExtremes& found, const Visit& visit) {
   const double cell = parameters.grid.cell;
   if (parameters.mechanics.enabled) {
     band::Extreme lightest = found.density, stiffest = found.elastic_density;
@@ -70,12 +71,13 @@ void for_limits(const config::Case& parameters, const Model<Dim>& model, double 
       const auto viscosity_time = static_cast<double>(material.viscosity_time);
       const bool is_viscous = viscosity_rules(cell, speeds, viscosity_time);
       const band::Extreme& what = is_viscous || of_pores > of_skeleton ? lightest : stiffest;
-      take(wave_share * wave_limit(cell, speeds, viscosity_time), is_viscous ? LimitKind::viscosity : LimitKind::wave,
-           what.particle, [&] { return wave_text(model.material_names[m], cell, speeds, viscosity_time); });
+      visit(wave_fraction * wave_limit(cell, speeds, viscosity_time),
+            is_viscous ? LimitKind::viscosity : LimitKind::wave, what.particle,
+            [&] { return wave_text(model.material_names[m], cell, speeds, viscosity_time); });
     }
     if (found.speed.value > 0.0) {
-      take(particle_share * cell / found.speed.value, LimitKind::particle_speed, found.speed.particle,
-           [&] { return fmt::format("the particle speed of {:.4g} m/s", found.speed.value); });
+      visit(particle_fraction * cell / found.speed.value, LimitKind::particle_speed, found.speed.particle,
+            [&] { return fmt::format("the particle speed of {} m/s", rounded_text(found.speed.value, 3)); });
     }
   }
   if (model.contact.band_columns) {
@@ -85,13 +87,14 @@ void for_limits(const config::Case& parameters, const Model<Dim>& model, double 
   const double scaled = thickness * (cell / static_cast<double>(model.largest_layer));
   const double length = thickness > 0.0 ? std::min(cell, scaled) : cell;
   if (parameters.heat.enabled && parameters.heat.conduction && found.diffusivity.value > 0.0) {
-    take(diffusion_share * length * length / (2.0 * Dim * found.diffusivity.value), LimitKind::conduction,
-         found.diffusivity.particle, [&] { return fmt::format("heat conduction over {:.4g} m", length); });
+    visit(diffusion_fraction * length * length / (2.0 * Dim * found.diffusivity.value), LimitKind::conduction,
+          found.diffusivity.particle,
+          [&] { return fmt::format("heat conduction over {} m", rounded_text(length, 3)); });
   }
   if (parameters.pressure.enabled && parameters.pressure.seepage && found.seepage.value > 0.0) {
     const double pore_length = model.band.published_seepage ? std::sqrt(cell * length) : length;
-    take(diffusion_share * pore_length * pore_length / (2.0 * Dim * found.seepage.value), LimitKind::seepage,
-         found.seepage.particle, [&] { return fmt::format("seepage over {:.4g} m", pore_length); });
+    visit(diffusion_fraction * pore_length * pore_length / (2.0 * Dim * found.seepage.value), LimitKind::seepage,
+          found.seepage.particle, [&] { return fmt::format("seepage over {} m", rounded_text(pore_length, 3)); });
   }
 }
 
@@ -127,12 +130,12 @@ template <int Dim>
 StepLimit step_limit(const config::Case& parameters, const Model<Dim>& model, double thickness,
                      const band::StepExtremes& extremes) {
   StepLimit limit{HUGE_VAL, "no limit"};
-  const auto take = [&](double step, LimitKind kind, std::int64_t particle, const auto& text) {
+  const auto visit = [&](double step, LimitKind kind, std::int64_t particle, const auto& text) {
     if (step < limit.step) {
       limit = {step, text(), kind, particle};
     }
   };
-  for_limits(parameters, model, thickness, extremes, take);
+  for_limits(parameters, model, thickness, extremes, visit);
   return limit;
 }
 

@@ -9,7 +9,7 @@ namespace thawslide::sim {
 
 namespace {
 
-using Place = Vector<double, 2>;
+using Point = Vector<double, 2>;
 
 // Part of the ground across the path.
 struct Strip {
@@ -62,14 +62,14 @@ std::vector<double> valley_factors(const PathLine& line, const std::vector<doubl
   const double width = 0.5 * section.width / static_cast<double>(half);
   std::vector<double> factors;
   for (const double station : stations) {
-    const Place2 middle = line.point_at(station), behind = line.point_at(station - 0.5 * section.spacing),
+    const Point2 middle = line.point_at(station), behind = line.point_at(station - 0.5 * section.spacing),
                  ahead = line.point_at(station + 0.5 * section.spacing);
-    const Place onward = Place(ahead[0] - behind[0], ahead[1] - behind[1]).normalized(), left(-onward[1], onward[0]);
+    const Point onward = Point(ahead[0] - behind[0], ahead[1] - behind[1]).normalized(), left(-onward[1], onward[0]);
     std::vector<Strip> strips;
     for (long k = -half; k < half; ++k) {
-      const Place right_edge = Place(middle[0], middle[1]) + static_cast<double>(k) * width * left;
-      const Place left_edge = right_edge + width * left, centre = 0.5 * (right_edge + left_edge);
-      const Place back = centre - 0.5 * width * onward, front = centre + 0.5 * width * onward;
+      const Point right_edge = Point(middle[0], middle[1]) + static_cast<double>(k) * width * left;
+      const Point left_edge = right_edge + width * left, centre = 0.5 * (right_edge + left_edge);
+      const Point back = centre - 0.5 * width * onward, front = centre + 0.5 * width * onward;
       if (field.is_known(right_edge) && field.is_known(left_edge) && field.is_known(back) && field.is_known(front)) {
         const double to_right = field.height(right_edge), to_left = field.height(left_edge);
         strips.push_back({0.5 * (to_right + to_left), (field.height(front) - field.height(back)) / width,

@@ -12,11 +12,11 @@ template <int Dim>
 struct LeaveBand {
   using Reads = mpm::RecordList<>;
   using Adds = mpm::RecordList<>;
-  using Account = mpm::NoAccount;
+  using Totals = mpm::NoTotals;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& /*seen*/,
-                                                       Scatter& /*added*/, Account& /*account*/) const {
+                                                       Scatter& /*added*/, Totals& /*totals*/) const {
     particles.in_band.store_whole(at, typename At::Value(Real(0)));
   }
 };
@@ -27,13 +27,13 @@ template <int Dim>
 struct MarkBand {
   using Reads = mpm::RecordList<mpm::Contact>;
   using Adds = mpm::RecordList<>;
-  using Account = mpm::NoAccount;
+  using Totals = mpm::NoTotals;
 
   Real dt;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& /*added*/, Account& /*account*/) const {
+                                                       Scatter& /*added*/, Totals& /*totals*/) const {
     using mpm::Contact;
     using Value = typename At::Value;
     const auto contact = seen.template read<Contact, 3>().value;

@@ -44,7 +44,7 @@ std::array<Real, static_cast<std::size_t>(mpm::Tile<Dim>::nodes)> base_pressure(
     const auto first = static_cast<std::size_t>(T::in_patch(lowest));
     pressure[static_cast<std::size_t>(k)] = base_pressure_of_node<Dim>(
         ground.block(b)[static_cast<std::size_t>(k)].normal, dt, smallest_area, [&](std::size_t node) -> const auto& {
-          return patch.records[first + mpm::CellNodes<Dim>::place(node)];
+          return patch.records[first + mpm::CellNodes<Dim>::index(node)];
         });
   }
   return pressure;

@@ -88,24 +88,24 @@ void Bed<Dim>::cover(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
 
 template <int Dim>
 void Bed<Dim>::distribute(const mpm::SparseGrid<Dim>& grid, mpm::Nodes<Dim>& nodes) const {
-  nodes.bed.hold(grid.blocks().size(), [&](std::size_t b) { return nodes.base.holds(b); });
-  struct Place {
+  nodes.bed.allocate(grid.blocks().size(), [&](std::size_t b) { return nodes.base.contains(b); });
+  struct Point {
     std::size_t block, node;
   };
-  std::vector<Place> places;
+  std::vector<Point> points;
   std::vector<Pressing> pressing;
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-    for (std::size_t k = 0; nodes.base.holds(b) && k < nodes.base.nodes; ++k) {
+    for (std::size_t k = 0; nodes.base.contains(b) && k < nodes.base.nodes; ++k) {
       nodes.bed.of_block(b)[k] = {};
       if (nodes.base(b, k)[BaseLayout::load] > Real(0)) {
-        places.push_back({b, k});
+        points.push_back({b, k});
         pressing.push_back({number_of(column_of(grid, b, k)), nodes.base(b, k)[BaseLayout::load]});
       }
     }
   }
   distribute(pressing);
-  for (std::size_t n = 0; n < places.size(); ++n) {
-    nodes.bed.of_block(places[n].block)[places[n].node][Layout::available] = pressing[n].available;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    nodes.bed.of_block(points[n].block)[points[n].node][Layout::available] = pressing[n].available;
   }
 }
 
@@ -135,9 +135,9 @@ template <int Dim>
 void Bed<Dim>::collect(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes, Real dt) {
   age(dt);
   for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
-    for (std::size_t k = 0; nodes.bed.holds(b) && k < nodes.bed.nodes; ++k) {
+    for (std::size_t k = 0; nodes.bed.contains(b) && k < nodes.bed.nodes; ++k) {
       const auto& contact = nodes.contact(b, k);
-      if (nodes.bed(b, k)[Layout::taken] > Real(0)) {
+      if (nodes.bed(b, k)[Layout::entrained] > Real(0)) {
         collect(number_of(column_of(grid, b, k)), nodes.bed(b, k).data(),
                 contact[mpm::Contact::normal_force] / contact[mpm::Contact::area]);
       }
@@ -154,10 +154,10 @@ void Bed<Dim>::age(Real dt) {
 
 template <int Dim>
 void Bed<Dim>::collect(std::size_t column, const Real* record, Real normal_pressure) {
-  const Real taken = record[Layout::taken];
+  const Real entrained = record[Layout::entrained];
   LooseMaterial<Dim>& material = loose_[column];
-  left_[column] = std::max(left_[column] - taken, Real(0));  // the shares sum to it up to round-off
-  material.mass += taken;
+  left_[column] = std::max(left_[column] - entrained, Real(0));  // the shares sum to it up to round-off
+  material.mass += entrained;
   material.momentum += mpm::vector_at<Dim>(record, Layout::impulse);
   material.work += record[Layout::work];
   material.normal_pressure = normal_pressure;

@@ -47,11 +47,11 @@ inline THAWSLIDE_HD EntrainmentImpulse entrainment_of(const BedMaterial& materia
       material.law == BedLaw::strength
           ? physics::erosion_by_strength(shear, strength, speed, material.depth_per_slip)
           : physics::erosion_by_momentum(shear, strength, material.density, speed, material.depth_per_slip);
-  const Real taken = min(available, material.density * rate * area * dt);
+  const Real entrained = min(available, material.density * rate * area * dt);
   if (material.law == BedLaw::momentum) {
-    return {taken, taken * speed, taken * speed};
+    return {entrained, entrained * speed, entrained * speed};
   }
-  return {taken, taken * physics::speed_with_taken(mass, speed, taken), Real(0)};
+  return {entrained, entrained * physics::speed_after_entrainment(mass, speed, entrained), Real(0)};
 }
 
 // Entrainment by a sliding node. Fills its record of BedLayout; the momentum along the slip is that after friction.
@@ -72,13 +72,13 @@ struct BedBelowNode {
     const Real speed = (tangential_size - impulse.tangential) / mass;
     const EntrainmentImpulse entrain =
         entrainment_of(*material, record[Layout::available], mass, speed, strength, normal_pressure, area, dt);
-    record[Layout::taken] = entrain.taken;
+    record[Layout::entrained] = entrain.entrained;
     for (std::size_t a = 0; a < Dim; ++a) {
       record[Layout::impulse + a] = entrain.impulse * along[static_cast<int>(a)];
     }
     return entrain;
   }
-  THAWSLIDE_HD void note_work(Real work) const { record[mpm::BedLayout<Dim>::work] = work; }
+  THAWSLIDE_HD void record_work(Real work) const { record[mpm::BedLayout<Dim>::work] = work; }
 };
 
 }  // namespace thawslide::terrain

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "base/instances.hpp"
@@ -40,7 +41,7 @@ void add_contact_node(const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k
                    : contact_node_of(nodes.state(b, k), nodes.averages(b, k)[Averages::volume], nodes.near_ground(b, k),
                                      pressure, model.pore_pressure, ground.normal, state);
   if (model.band_columns) {
-    take_columns_state(nodes.base_state(b, k), model.pore_pressure, known);
+    set_columns_state(nodes.base_state(b, k), model.pore_pressure, known);
   }
   BasalNodes& basal = contact.basal;
   const std::size_t c = basal.count++;
@@ -60,27 +61,55 @@ void add_contact_node(const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k
   basal.unit_weight[c] = unit_weight_of<Dim>(nodes.momentum(b, k), model.law.gravity);
 }
 
+// Computes the normal pressure of a block with candidate nodes, finds its loaded nodes, and evaluates the laws of the
+// case. finish(state, k): called for all other nodes with mass.
+template <int Dim, class Finish>
+void find_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
+                  const typename GroundOnGrid<Dim>::Block* known, const ContactModel<Dim>& model,
+                  const mpm::BlockConstraints<Dim>& on_block, std::size_t b, Real time, Real dt,
+                  const mpm::Nodes<Dim>& nodes, BlockContact<Dim>& contact, const Finish& finish) {
+  constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
+  std::array<Real, block_nodes> pressure{};
+  if (known != nullptr) {
+    const Real smallest = static_cast<Real>(smallest_area) * (Dim == 2 ? grid.cell() : grid.cell() * grid.cell());
+    pressure = base_pressure(grid, *ground, nodes, b, dt, smallest);
+  }
+  for (std::size_t k = 0; k < block_nodes; ++k) {
+    if (!(nodes.momentum(b, k)[MomentumLayout<Dim>::mass] > Real(0))) {
+      continue;
+    }
+    const mpm::NodeConstraints<Dim> walls{on_block, k};
+    const auto state = trial_state<Dim>(walls, dt, model.mass_damping, nodes.momentum(b, k));
+    if (known != nullptr && nodes.base(b, k)[BaseLayout::load] > Real(0)) {
+      add_contact_node(nodes, b, k, pressure[k], dt, model, (*known)[k], state, contact);
+    } else {
+      finish(state, k);
+    }
+  }
+  evaluate_basal_law(model.law, time, contact.basal);
+}
+
 // Filled fraction of a node's space, 0 to 1.
 template <int Dim>
-Real filled_share_at(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground, const mpm::SectionWidth& width,
-                     const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k) {
+Real filled_fraction_at(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
+                        const mpm::SectionWidth& width, const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k) {
   const bool near_ground = ground.any_candidate(b) && ground.block(b)[k].candidate;
   const Real cell = grid.cell();
   const Real space = near_ground ? ground.block(b)[k].space
                      : Dim == 2  ? cell * cell * width.at(mpm::node_position(grid, b, k)[0])
                                  : cell * cell * cell;
-  return filled_share(nodes.momentum(b, k)[MomentumLayout<Dim>::volume], space);
+  return filled_fraction(nodes.momentum(b, k)[MomentumLayout<Dim>::volume], space);
 }
 
 // Covered fraction of the ground below a node.
 template <int Dim>
-Real covered_share_at(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground, const mpm::SectionWidth& width,
-                      const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k) {
-  return covered_share<Dim>(k, ground.block(b)[k].normal, [&](int direction, int node) {
+Real covered_fraction_at(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
+                         const mpm::SectionWidth& width, const mpm::Nodes<Dim>& nodes, std::size_t b, std::size_t k) {
+  return covered_fraction<Dim>(k, ground.block(b)[k].normal, [&](int direction, int node) {
     const std::int32_t block = grid.blocks_about_block(b)[direction];
     return block == KeyIndex::absent ? Real(0)
-                                     : filled_share_at(grid, ground, width, nodes, static_cast<std::size_t>(block),
-                                                       static_cast<std::size_t>(node));
+                                     : filled_fraction_at(grid, ground, width, nodes, static_cast<std::size_t>(block),
+                                                          static_cast<std::size_t>(node));
   });
 }
 
@@ -98,10 +127,64 @@ const typename GroundOnGrid<Dim>::Block* candidates_of(const GroundOnGrid<Dim>* 
   return ground != nullptr && ground->any_candidate(b) ? &ground->block(b) : nullptr;
 }
 
+// Strengths by a law of the caller: of all loaded nodes, and the first one of each block.
+struct GivenStrengths {
+  std::vector<std::size_t> first;
+  LoadedNodes nodes;
+};
+
+template <int Dim>
+void add_loaded_nodes(const mpm::SparseGrid<Dim>& grid, std::size_t b, const BlockContact<Dim>& contact,
+                      LoadedNodes& nodes) {
+  const BasalNodes& basal = contact.basal;
+  const auto append = [&](auto& all, const auto& column) {
+    all.insert(all.end(), column.begin(), column.begin() + static_cast<std::ptrdiff_t>(basal.count));
+  };
+  for (std::size_t c = 0; c < basal.count; ++c) {
+    const Vector<Real, Dim> position = mpm::node_position(grid, b, contact.node[c]);
+    nodes.position.insert(nodes.position.end(), position.data(), position.data() + Dim);
+  }
+  append(nodes.area, contact.area);
+  append(nodes.substrate, basal.substrate);
+  append(nodes.normal_pressure, basal.normal_pressure);
+  append(nodes.pore_pressure, basal.pore_pressure);
+  append(nodes.temperature, basal.temperature);
+  append(nodes.saturation, basal.saturation);
+  append(nodes.solid_fraction, basal.solid_fraction);
+  append(nodes.slip, basal.slip);
+  append(nodes.speed, basal.speed);
+  append(nodes.unit_weight, basal.unit_weight);
+  append(nodes.strength, basal.strength);
+}
+
+// Collects the loaded nodes of all blocks on one thread, and calls the law.
+template <int Dim>
+GivenStrengths strengths_by(const StrengthLaw& law, const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
+                            const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, Real time,
+                            Real dt, const mpm::Nodes<Dim>& nodes) {
+  GivenStrengths given;
+  given.nodes.time = time;
+  given.nodes.dt = dt;
+  for (std::size_t b = 0; b < grid.blocks().size(); ++b) {
+    given.first.push_back(given.nodes.strength.size());
+    if (const auto* known = candidates_of(ground, b); known != nullptr) {
+      BlockContact<Dim> contact;
+      find_contact(grid, ground, known, model, mpm::BlockConstraints<Dim>(grid, constraints, b, time), b, time, dt,
+                   nodes, contact, [](const NodeState<Dim>& /*state*/, std::size_t /*k*/) {});
+      add_loaded_nodes(grid, b, contact, given.nodes);
+    }
+  }
+  const std::size_t count = given.nodes.strength.size();
+  law(given.nodes);
+  THAWSLIDE_ASSERT(given.nodes.strength.size() == count, "{} strengths of {} nodes", given.nodes.strength.size(),
+                   count);
+  return given;
+}
+
 template <int Dim>
 void apply_contact_conditions(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
                               mpm::Nodes<Dim>& nodes) {
-  nodes.contact.hold(grid.blocks().size(), [&](std::size_t b) { return candidates_of(ground, b) != nullptr; });
+  nodes.contact.allocate(grid.blocks().size(), [&](std::size_t b) { return candidates_of(ground, b) != nullptr; });
 }
 
 }  // namespace
@@ -115,7 +198,7 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
   thread_local std::vector<std::uint8_t> buffer;
   buffer.assign(grid.blocks().size(), 0);
   auto& loaded = buffer;  // the buffer of the calling thread, shared by all threads
-  nodes.base.hold(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
+  nodes.base.allocate(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (!ground.any_candidate(b)) {
       return;
@@ -150,7 +233,7 @@ void press_on_ground(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& 
       const GroundAtNode<Dim>& known = ground.block(b)[k];
       if (known.candidate) {
         nodes.base.of_block(b)[k][BaseLayout::covered] =
-            known.area * covered_share_at(grid, ground, model.width, nodes, b, k);
+            known.area * covered_fraction_at(grid, ground, model.width, nodes, b, k);
       }
     }
   });
@@ -160,7 +243,7 @@ template <int Dim>
 void start_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground, mpm::Nodes<Dim>& nodes) {
   apply_contact_conditions(grid, ground, nodes);
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
-    if (nodes.contact.holds(b)) {
+    if (nodes.contact.contains(b)) {
       start_block(ground->block(b), b, nodes);
     }
   });
@@ -169,7 +252,7 @@ void start_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* gr
 template <int Dim>
 bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& nodes) {
   return parallel_any(grid.blocks().size(), [&](std::size_t b) {
-    for (std::size_t k = 0; nodes.base.holds(b) && k < nodes.base.nodes; ++k) {
+    for (std::size_t k = 0; nodes.base.contains(b) && k < nodes.base.nodes; ++k) {
       if (nodes.base(b, k)[BaseLayout::load] > Real(0) && !(nodes.base_state(b, k)[mpm::BaseState::area] > Real(0))) {
         return true;
       }
@@ -181,55 +264,48 @@ bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& 
 template <int Dim>
 ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
                                  const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, Real time,
-                                 Real dt, mpm::Nodes<Dim>& nodes, const Bed<Dim>* bed) {
+                                 Real dt, mpm::Nodes<Dim>& nodes, const Bed<Dim>* bed, const StrengthLaw* strength) {
   constexpr auto block_nodes = static_cast<std::size_t>(mpm::Tile<Dim>::nodes);
   nodes.motion.resize(grid.blocks().size());
   apply_contact_conditions(grid, ground, nodes);
-  const Real smallest = static_cast<Real>(smallest_area) * (Dim == 2 ? grid.cell() : grid.cell() * grid.cell());
   if (bed != nullptr) {
     bed->distribute(grid, nodes);
+  }
+  std::optional<GivenStrengths> given;
+  if (strength != nullptr && !model.base_is_fixed) {
+    given = strengths_by(*strength, grid, ground, constraints, model, time, dt, nodes);
   }
   using Work = ContactWork<Dim>;
   return parallel_sum<Work>(grid.blocks().size(), [&](std::size_t b, Work& work) {
     const mpm::BlockConstraints<Dim> on_block(grid, constraints, b, time);
     const auto* known = candidates_of(ground, b);
-    std::array<Real, block_nodes> pressure{};
     if (known != nullptr) {
       start_block(*known, b, nodes);
-      pressure = base_pressure(grid, *ground, nodes, b, dt, smallest);
+    }
+    for (std::size_t k = 0; k < block_nodes; ++k) {
+      nodes.motion(b, k).fill(Real(0));
     }
     const auto finish = [&](const NodeState<Dim>& state, std::size_t k) {
       finish_node<Dim>(state, on_block.any(), model.mass_damping, dt, work, nodes.motion(b, k));
     };
     BlockContact<Dim> contact;
-    for (std::size_t k = 0; k < block_nodes; ++k) {
-      nodes.motion(b, k).fill(Real(0));
-      if (!(nodes.momentum(b, k)[MomentumLayout<Dim>::mass] > Real(0))) {
-        continue;
-      }
-      const mpm::NodeConstraints<Dim> walls{on_block, k};
-      const auto state = trial_state<Dim>(walls, dt, model.mass_damping, nodes.momentum(b, k));
-      if (known != nullptr && nodes.base(b, k)[BaseLayout::load] > Real(0)) {
-        add_contact_node(nodes, b, k, pressure[k], dt, model, (*known)[k], state, contact);
-      } else {
-        finish(state, k);
-      }
-    }
-    evaluate_basal_law(model.law, time, contact.basal);
+    find_contact(grid, ground, known, model, on_block, b, time, dt, nodes, contact, finish);
     for (std::size_t c = 0; c < contact.basal.count; ++c) {
       const std::size_t k = contact.node[c];
-      const Real strength = model.base_holds ? std::numeric_limits<Real>::infinity() : contact.basal.strength[c];
+      const Real limit = model.base_is_fixed ? std::numeric_limits<Real>::infinity()
+                         : given             ? given->nodes.strength[given->first[b] + c]
+                                             : contact.basal.strength[c];
       const BedBelowNode<Dim> below{bed != nullptr ? &bed->material() : nullptr,
                                     bed != nullptr ? nodes.bed.of_block(b)[k].data() : nullptr,
                                     contact.area[c],
-                                    strength,
+                                    limit,
                                     dt,
                                     contact.state[c].mass};
-      const ContactConditions<Dim> hold{(*known)[k].normal, nodes.base(b, k)[BaseLayout::load],
-                                        (*known)[k].bend,   contact.area[c],
-                                        strength,           contact.basal.friction[c]};
-      apply_contact(mpm::NodeConstraints<Dim>{on_block, k}, hold, model.law.heat_fraction, dt, below, contact.state[c],
-                    work, nodes.contact.of_block(b)[k]);
+      const ContactConditions<Dim> conditions{
+          (*known)[k].normal,       nodes.base(b, k)[BaseLayout::load], (*known)[k].bend, contact.area[c], limit,
+          contact.basal.friction[c]};
+      apply_contact(mpm::NodeConstraints<Dim>{on_block, k}, conditions, model.law.heat_fraction, dt, below,
+                    contact.state[c], work, nodes.contact.of_block(b)[k]);
       finish(contact.state[c], k);
     }
   });
@@ -243,7 +319,7 @@ ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundO
   template bool loads_bare_ground<Dim>(const mpm::SparseGrid<Dim>&, const mpm::Nodes<Dim>&);                         \
   template ContactWork<Dim> resolve_contact<Dim>(const mpm::SparseGrid<Dim>&, const GroundOnGrid<Dim>*,              \
                                                  const mpm::Constraints<Dim>&, const ContactModel<Dim>&, Real, Real, \
-                                                 mpm::Nodes<Dim>&, const Bed<Dim>*);
+                                                 mpm::Nodes<Dim>&, const Bed<Dim>*, const StrengthLaw*);
 THAWSLIDE_FOR_ALL_INSTANCES(THAWSLIDE_INSTANTIATE)
 #undef THAWSLIDE_INSTANTIATE
 

@@ -10,6 +10,7 @@
 #include "terrain/bed.hpp"
 #include "terrain/contact_work.hpp"
 #include "terrain/ground_on_grid.hpp"
+#include "terrain/strength_law.hpp"
 
 namespace thawslide::terrain {
 
@@ -17,7 +18,7 @@ template <int Dim>
 struct ContactModel {
   BasalLaw law;
   mpm::SectionWidth width;      // of a 2D section
-  bool base_holds = false;      // no slip, during gravity settling
+  bool base_is_fixed = false;   // no slip, during gravity settling
   bool pore_pressure = true;    // off: P = 0 at contact nodes (mechanism P of Sec. 3.3)
   bool band_columns = false;    // the basal state is that of nodes.base_state
   Real mass_damping = 0;        // [1/s]
@@ -37,11 +38,13 @@ bool loads_bare_ground(const mpm::SparseGrid<Dim>& grid, const mpm::Nodes<Dim>& 
 
 // From nodal momentum and force to nodal motion: trial momentum, constraints, contact. `ground` may be null; with
 // ground, call press_on_ground before. Requires nodes.averages, nodes.state and nodes.near_ground of this step, except
-// at nodes with band columns. Entrainment is stored in nodes.bed; bed may be null.
+// at nodes with band columns. Entrainment is stored in nodes.bed; bed may be null. strength: replaces the strengths of
+// the case's laws unless it is null or the base is fixed.
 template <int Dim>
 ContactWork<Dim> resolve_contact(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>* ground,
                                  const mpm::Constraints<Dim>& constraints, const ContactModel<Dim>& model, Real time,
-                                 Real dt, mpm::Nodes<Dim>& nodes, const Bed<Dim>* bed = nullptr);
+                                 Real dt, mpm::Nodes<Dim>& nodes, const Bed<Dim>* bed = nullptr,
+                                 const StrengthLaw* strength = nullptr);
 
 // Initializes nodes.contact before the first motion, without contact. `ground` may be null.
 template <int Dim>

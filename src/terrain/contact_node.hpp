@@ -72,22 +72,22 @@ inline THAWSLIDE_HD Real approach(bool distance_check, Real clearance, Real dt, 
 }
 
 // Filled fraction of a node's space [m3], 0 to 1.
-inline THAWSLIDE_HD Real filled_share(Real volume, Real space) { return volume < space ? volume / space : Real(1); }
+inline THAWSLIDE_HD Real filled_fraction(Real volume, Real space) { return volume < space ? volume / space : Real(1); }
 
 // Covered fraction of the ground below a node of a block: the largest filled fraction of the node's space and of the
 // spaces of the next two nodes away from the ground, because contact acts before the gap below the mass is closed.
 // filled(direction, node): filled fraction at a node of the block in that direction; 0 if there is none.
 template <int Dim, class Filled>
-THAWSLIDE_HD Real covered_share(std::size_t node, const Vector<Real, Dim>& into_ground, const Filled& filled) {
+THAWSLIDE_HD Real covered_fraction(std::size_t node, const Vector<Real, Dim>& into_ground, const Filled& filled) {
   using T = mpm::Tile<Dim>;
   const int axis = main_axis<Dim>(into_ground);
   const int outward = into_ground[axis] > Real(0) ? -1 : 1;
-  Real share = filled(T::stencil / 2, static_cast<int>(node));
-  for (int step = 1; step <= 2 && share < Real(1); ++step) {
+  Real fraction = filled(T::stencil / 2, static_cast<int>(node));
+  for (int step = 1; step <= 2 && fraction < Real(1); ++step) {
     const typename T::Adjacent further = T::adjacent(static_cast<int>(node), axis, step * outward);
-    share = max(share, filled(further.direction, further.local));
+    fraction = max(fraction, filled(further.direction, further.local));
   }
-  return share;
+  return fraction;
 }
 
 // Normal pressure [Pa] of a node on the ground (terrain/base_pressure.hpp). base(k): record of BaseLayout of neighbour
@@ -153,7 +153,7 @@ THAWSLIDE_HD Real unit_weight_of(const Record& record, Real gravity) {
 // Replaces the basal state by that of the band columns. Without columns yet, the state is that of the body, with zero
 // pore pressure. state: record of BaseState.
 template <class Record>
-THAWSLIDE_HD void take_columns_state(const Record& state, bool pore_pressure, physics::basal::ContactNode& node) {
+THAWSLIDE_HD void set_columns_state(const Record& state, bool pore_pressure, physics::basal::ContactNode& node) {
   using mpm::BaseState;
   const Real area = state[BaseState::area];
   if (!(area > Real(0))) {
@@ -169,7 +169,7 @@ THAWSLIDE_HD void take_columns_state(const Record& state, bool pore_pressure, ph
 
 // Transfer from a contact node to the bed material in a step.
 struct EntrainmentImpulse {
-  Real taken = 0;        // [kg]
+  Real entrained = 0;    // [kg]
   Real impulse = 0;      // along the slip [N s]
   Real of_friction = 0;  // part of it already removed by friction [N s]
 };
@@ -181,7 +181,7 @@ struct NoBed {
                                           const Vector<Real, Dim>& /*along*/, Real /*tangential_size*/) const {
     return {};
   }
-  THAWSLIDE_HD void note_work(Real /*work*/) const {}
+  THAWSLIDE_HD void record_work(Real /*work*/) const {}
 };
 
 // Ground and strength at a contact node. In a bend of the ground, the normal pressures on its parts partly cancel:
@@ -199,19 +199,21 @@ struct ContactConditions {
 // Applies the contact impulse of one node and adds its work. Updates state.momentum from trial to final. left: record
 // of Contact.
 template <int Dim, class Walls, class FromBed, class Record>
-THAWSLIDE_HD void apply_contact(const Walls& walls, const ContactConditions<Dim>& hold, Real heat_fraction, Real dt,
-                                const FromBed& bed, NodeState<Dim>& state, ContactWork<Dim>& work, Record& left) {
+THAWSLIDE_HD void apply_contact(const Walls& walls, const ContactConditions<Dim>& conditions, Real heat_fraction,
+                                Real dt, const FromBed& bed, NodeState<Dim>& state, ContactWork<Dim>& work,
+                                Record& left) {
   using mpm::Contact;
-  const Vector<Real, Dim>& normal = hold.normal;
+  const Vector<Real, Dim>& normal = conditions.normal;
   const Vector<Real, Dim> tangential = state.momentum - state.momentum.dot(normal) * normal;
   const Real tangential_size = tangential.norm();
-  auto impulse = physics::contact_impulse(hold.load / hold.bend, tangential_size, hold.area, dt, hold.strength);
+  auto impulse = physics::contact_impulse(conditions.load / conditions.bend, tangential_size, conditions.area, dt,
+                                          conditions.strength);
   Vector<Real, Dim> along = Vector<Real, Dim>::Zero();
   if (tangential_size > Real(0)) {
     along = tangential / tangential_size;
   }
   const EntrainmentImpulse entrain =
-      bed.template entrain<Dim>(impulse, hold.load / (hold.area * dt), along, tangential_size);
+      bed.template entrain<Dim>(impulse, conditions.load / (conditions.area * dt), along, tangential_size);
   impulse.tangential -= entrain.of_friction;
   const Vector<Real, Dim> total = -impulse.normal * normal - impulse.tangential * along;
   const Vector<Real, Dim> to_bed = entrain.impulse * along;
@@ -220,8 +222,8 @@ THAWSLIDE_HD void apply_contact(const Walls& walls, const ContactConditions<Dim>
   const Vector<Real, Dim> middle = (state.old_momentum + state.momentum) / (Real(2) * state.mass);
   const Real slip_speed = max(Real(0), Real(middle.dot(along)));
   const Real friction_work = impulse.slides ? impulse.tangential * slip_speed : Real(0);
-  if (entrain.taken > Real(0)) {
-    bed.note_work(to_bed.dot(middle));
+  if (entrain.entrained > Real(0)) {
+    bed.record_work(to_bed.dot(middle));
     work.bed_work += to_bed.dot(middle);
     work.bed_impulse += to_bed;
   }
@@ -229,14 +231,14 @@ THAWSLIDE_HD void apply_contact(const Walls& walls, const ContactConditions<Dim>
   work.converted += (Real(1) - heat_fraction) * friction_work;
   work.loss += -total.dot(middle) - friction_work;
   work.force -= total / dt;
-  work.area += hold.area;
-  work.friction_area += hold.friction * hold.area;
+  work.area += conditions.area;
+  work.friction_area += conditions.friction * conditions.area;
   work.shear_force += impulse.tangential / dt;
   left[Contact::touching] = Real(1);
   left[Contact::slip_speed] = impulse.slides ? slip_speed : Real(0);
   left[Contact::friction_heat] = heat_fraction * friction_work / dt;
-  left[Contact::normal_force] = hold.load / dt;
-  left[Contact::area] = hold.area;
+  left[Contact::normal_force] = conditions.load / dt;
+  left[Contact::area] = conditions.area;
 }
 
 // Stores the motion of a node, and sums the energy dissipated by constraints, damping and FLIP. constrained: walls or

@@ -26,7 +26,7 @@ typename mpm::Tile<Dim>::Index first_node_of(std::uint64_t block) {
 template <int Dim>
 bool is_ground_known(const Surface<Dim>& surface, std::uint64_t block, double cell) {
   const auto first = first_node_of<Dim>(block);
-  typename Surface<Dim>::Place from, to;
+  typename Surface<Dim>::Point from, to;
   for (int a = 0; a + 1 < Dim; ++a) {
     from[a] = static_cast<double>(first[static_cast<std::size_t>(a)] - 1) * cell;
     to[a] = static_cast<double>(first[static_cast<std::size_t>(a)] + mpm::Tile<Dim>::edge) * cell;
@@ -71,7 +71,7 @@ class GroundOnGrid {
     any_candidate_.resize(keys_.size());
     partly_unknown_.resize(keys_.size());
     parallel_for(keys_.size() - known_before, [&](std::size_t k) {
-      learn(surface, substrates, static_cast<double>(grid.cell()), known_before + k);
+      evaluate(surface, substrates, static_cast<double>(grid.cell()), known_before + k);
     });
     near_.resize(keys_.size());
     tile_.resize(grid.tiles().size());
@@ -103,7 +103,7 @@ class GroundOnGrid {
     return partly_unknown_[static_cast<std::size_t>(number_[b])] != 0;
   }
   // Number of cached blocks, including those that the sliding mass has left.
-  [[nodiscard]] std::size_t held() const { return blocks_.size(); }
+  [[nodiscard]] std::size_t stored() const { return blocks_.size(); }
 
  private:
   using Patch = std::array<std::uint8_t, static_cast<std::size_t>(T::patch_nodes)>;
@@ -116,8 +116,8 @@ class GroundOnGrid {
 
   // Removes inactive blocks from the cache when most of its blocks are inactive.
   void forget_left_blocks(const mpm::SparseGrid<Dim>& grid) {
-    constexpr std::size_t held_per_active = 3;
-    if (blocks_.size() <= held_per_active * grid.blocks().size()) {
+    constexpr std::size_t stored_per_active = 3;
+    if (blocks_.size() <= stored_per_active * grid.blocks().size()) {
       return;
     }
     KeyIndex index;
@@ -143,7 +143,7 @@ class GroundOnGrid {
     near_.clear();
   }
 
-  void learn(const Surface<Dim>& surface, const Substrates* substrates, double cell, std::size_t k) {
+  void evaluate(const Surface<Dim>& surface, const Substrates* substrates, double cell, std::size_t k) {
     std::array<GroundAtNode<Dim>, static_cast<std::size_t>(T::nodes)> nodes;
     query_ground<Dim>(surface, substrates, keys_[k], cell, nodes.data());
     any_candidate_[k] = 0;

@@ -43,10 +43,10 @@ HeightField::HeightField(Raster points) : points_(std::move(points)) {
                    [](double value) { return std::isnan(value); });
     fill_from_nearest_known(points_);
   }
-  summarise_blocks();
+  summarize_blocks();
 }
 
-void HeightField::summarise_blocks() {
+void HeightField::summarize_blocks() {
   for (int row = 0; row < points_.rows; row += block) {
     for (int column = 0; column < points_.columns; column += block) {
       block_summary_.push_back(summary_one_by_one({column, std::min(column + block, points_.columns) - 1},
@@ -83,7 +83,7 @@ HeightField::Summary HeightField::summary_of_points(Span columns, Span rows) con
   return summary;
 }
 
-HeightField::Summary HeightField::summary(const Place& from, const Place& to) const {
+HeightField::Summary HeightField::summary(const Point& from, const Point& to) const {
   const auto points = [](Span cells, int count) {
     return Span{std::max(cells.first, 0), std::min(cells.last + 1, count - 1)};
   };
@@ -105,7 +105,7 @@ double HeightField::height_at(int column, int row) const {
   return points_.at(std::clamp(column, 0, points_.columns - 1), std::clamp(row, 0, points_.rows - 1));
 }
 
-HeightField::Cell HeightField::cell(int column, int row, const Place& from, const Place& to) const {
+HeightField::Cell HeightField::cell(int column, int row, const Point& from, const Point& to) const {
   const double west = column < 0 ? std::min(from[0], points_.x - points_.cell_x) : points_.x_of(column);
   const double east =
       column + 1 < points_.columns ? points_.x_of(column + 1) : std::max(to[0], points_.x_end() + points_.cell_x);
@@ -121,13 +121,13 @@ HeightField::Cell HeightField::cell(int column, int row, const Place& from, cons
   return cell;
 }
 
-HeightField::Cell HeightField::cell_at(const Place& place) const {
-  return cell(cell_columns(place[0], place[0]).first, cell_rows(place[1], place[1]).first, place, place);
+HeightField::Cell HeightField::cell_at(const Point& point) const {
+  return cell(cell_columns(point[0], point[0]).first, cell_rows(point[1], point[1]).first, point, point);
 }
 
 // Calls visit(cell, k) for the triangles of all cells that overlap a rectangle.
 template <class Visit>
-void HeightField::for_triangles(const Place& from, const Place& to, const Visit& visit) const {
+void HeightField::for_triangles(const Point& from, const Point& to, const Visit& visit) const {
   const Span columns = cell_columns(from[0], to[0]), rows = cell_rows(from[1], to[1]);
   for (int row = rows.first; row <= rows.last; ++row) {
     for (int column = columns.first; column <= columns.last; ++column) {
@@ -139,47 +139,47 @@ void HeightField::for_triangles(const Place& from, const Place& to, const Visit&
   }
 }
 
-std::size_t HeightField::Cell::triangle_at(const Place& place) const {
-  const double x = (place[0] - centre[0]) / (point[2][0] - point[0][0]);
-  const double y = (place[1] - centre[1]) / (point[2][1] - point[0][1]);
+std::size_t HeightField::Cell::triangle_at(const Point& position) const {
+  const double x = (position[0] - centre[0]) / (point[2][0] - point[0][0]);
+  const double y = (position[1] - centre[1]) / (point[2][1] - point[0][1]);
   if (std::abs(x) > std::abs(y)) {
     return x > 0.0 ? 1 : 3;
   }
   return y > 0.0 ? 2 : 0;
 }
 
-HeightField::Place HeightField::Cell::gradient(std::size_t k) const {
+HeightField::Point HeightField::Cell::gradient(std::size_t k) const {
   const Vector<double, 3>&a = point[k], &b = point[(k + 1) % 4];
   const int along = k % 2 == 0 ? 0 : 1;  // axis of the outer edge
   const int across = 1 - along;
-  Place gradient;
+  Point gradient;
   gradient[along] = (b[2] - a[2]) / (b[along] - a[along]);
   gradient[across] = (centre[2] - 0.5 * (a[2] + b[2])) / (centre[across] - a[across]);
   return gradient;
 }
 
-HeightField::Place HeightField::gradient(const Place& place, double width) const {
+HeightField::Point HeightField::gradient(const Point& point, double width) const {
   if (width <= 0.0) {
-    const Cell cell = cell_at(place);
-    return cell.gradient(cell.triangle_at(place));
+    const Cell cell = cell_at(point);
+    return cell.gradient(cell.triangle_at(point));
   }
-  const Place from = place.array() - 0.5 * width, to = place.array() + 0.5 * width;
-  Place sum = Place::Zero();
+  const Point from = point.array() - 0.5 * width, to = point.array() + 0.5 * width;
+  Point sum = Point::Zero();
   for_triangles(from, to, [&](const Cell& cell, std::size_t k) {
     sum += ConvexPolygon(cell.triangle(k)).over(from, to).plan_area() * cell.gradient(k);
   });
   return sum / (width * width);
 }
 
-double HeightField::height(const Place& place) const {
-  const Cell cell = cell_at(place);
-  return cell.centre[2] + cell.gradient(cell.triangle_at(place)).dot(place - cell.centre.head<2>());
+double HeightField::height(const Point& point) const {
+  const Cell cell = cell_at(point);
+  return cell.centre[2] + cell.gradient(cell.triangle_at(point)).dot(point - cell.centre.head<2>());
 }
 
-double HeightField::highest(const Place& from, const Place& to) const {
+double HeightField::highest(const Point& from, const Point& to) const {
   // Beyond the outermost points, the ground is as high as at the edge.
-  const Place least(points_.x, points_.y), greatest(points_.x_end(), points_.y_end());
-  const Place low = from.cwiseMax(least).cwiseMin(greatest), high = to.cwiseMax(least).cwiseMin(greatest);
+  const Point least(points_.x, points_.y), greatest(points_.x_end(), points_.y_end());
+  const Point low = from.cwiseMax(least).cwiseMin(greatest), high = to.cwiseMax(least).cwiseMin(greatest);
   const Span columns = cell_columns(low[0], high[0]), rows = cell_rows(low[1], high[1]);
   double top = -HUGE_VAL;
   if (columns.first < columns.last && rows.first < rows.last) {
@@ -205,17 +205,17 @@ double HeightField::highest(const Place& from, const Place& to) const {
   return top;
 }
 
-bool HeightField::is_known(const Place& place) const { return is_known(place, place); }
+bool HeightField::is_known(const Point& point) const { return is_known(point, point); }
 
-bool HeightField::is_known(const Place& from, const Place& to) const {
-  const Place cells(points_.cell_x, points_.cell_y);
-  const Place margin = round_off * cells;
-  const Place least(points_.x, points_.y), greatest(points_.x_end(), points_.y_end());
+bool HeightField::is_known(const Point& from, const Point& to) const {
+  const Point cells(points_.cell_x, points_.cell_y);
+  const Point margin = round_off * cells;
+  const Point least(points_.x, points_.y), greatest(points_.x_end(), points_.y_end());
   if ((from.array() < (least - margin).array()).any() || (to.array() > (greatest + margin).array()).any()) {
     return false;
   }
   // Cells that only touch the rectangle do not count.
-  const Place low = (from + margin).cwiseMin(greatest - margin);
+  const Point low = (from + margin).cwiseMin(greatest - margin);
   return summary(low, (to - margin).cwiseMax(low)).known;
 }
 
@@ -225,8 +225,8 @@ void HeightField::at_block(const NodeIndex& first, double cell_size, int edge, G
 
 void HeightField::at_nodes_from(const Vector<double, 3>& lowest, double cell_size, int edge,
                                 GroundAtNode<3>* nodes) const {
-  const Place from = lowest.head<2>().array() - cell_size;
-  const Place to = lowest.head<2>().array() + edge * cell_size;
+  const Point from = lowest.head<2>().array() - cell_size;
+  const Point to = lowest.head<2>().array() + edge * cell_size;
   const Summary below = summary(from, to);
   SurfaceIntegrals integrals(lowest, cell_size, edge, nodes);
   if (below.highest <= lowest[2] - cell_size) {
@@ -250,14 +250,14 @@ void HeightField::set_distances(const Vector<double, 3>& lowest, double cell_siz
     GroundAtNode<3>& node = nodes[k];
     const int column = k % edge, row = k / edge % edge, layer = k / (edge * edge);
     const Vector<double, 3> position = lowest + cell_size * Vector<double, 3>(column, row, layer);
-    const Place place = position.head<2>();
-    const double sign = position[2] >= height(place) ? 1.0 : -1.0;
+    const Point point = position.head<2>();
+    const double sign = position[2] >= height(point) ? 1.0 : -1.0;
     const auto foot = any_near ? nearest(position, reach) : std::nullopt;
     const double distance = foot ? (*foot - position).norm() : reach;
     node.distance = sign * distance;
     if (node.normal.isZero(0.0)) {
       node.normal = foot && distance > round_off * cell_size ? Vector<double, 3>(sign * (*foot - position) / distance)
-                                                             : normal_below(place, 0.0);
+                                                             : normal_below(point, 0.0);
       node.plane = position.dot(node.normal) + node.distance;
     }
     if (!node.candidate) {
@@ -267,8 +267,8 @@ void HeightField::set_distances(const Vector<double, 3>& lowest, double cell_siz
 }
 
 std::optional<Vector<double, 3>> HeightField::nearest(const Vector<double, 3>& position, double reach) const {
-  const Place place = position.head<2>();
-  const Place from = place.array() - reach, to = place.array() + reach;
+  const Point point = position.head<2>();
+  const Point from = point.array() - reach, to = point.array() + reach;
   std::optional<Vector<double, 3>> nearest;
   double least = reach * reach;
   const auto examine = [&](int column, int row) {
@@ -286,12 +286,12 @@ std::optional<Vector<double, 3>> HeightField::nearest(const Vector<double, 3>& p
     }
   };
   // Starts at the foot on the plane of the triangle below, because nearly all other cells are then known to be too far.
-  const Place slope = gradient(place, 0.0);
-  const Place foot = place + slope * ((position[2] - height(place)) / (1.0 + slope.squaredNorm()));
+  const Point slope = gradient(point, 0.0);
+  const Point foot = point + slope * ((position[2] - height(point)) / (1.0 + slope.squaredNorm()));
   examine(cell_columns(foot[0], foot[0]).first, cell_rows(foot[1], foot[1]).first);
   const double rest = std::sqrt(least);
-  const Span columns = cell_columns(place[0] - rest, place[0] + rest);
-  const Span rows = cell_rows(place[1] - rest, place[1] + rest);
+  const Span columns = cell_columns(point[0] - rest, point[0] + rest);
+  const Span rows = cell_rows(point[1] - rest, point[1] + rest);
   for (int row = rows.first; row <= rows.last; ++row) {
     for (int column = columns.first; column <= columns.last; ++column) {
       examine(column, row);

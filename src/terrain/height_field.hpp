@@ -23,10 +23,10 @@ class HeightField final : public Surface<3> {
   // and one with data.
   explicit HeightField(Raster points);
 
-  [[nodiscard]] double height(const Place& place) const override;
+  [[nodiscard]] double height(const Point& point) const override;
   // With zero width: gradient of the triangle that contains the place; on an edge, of one of the two.
-  [[nodiscard]] Place gradient(const Place& place, double width) const override;
-  [[nodiscard]] double highest(const Place& from, const Place& to) const override;
+  [[nodiscard]] Point gradient(const Point& point, double width) const override;
+  [[nodiscard]] double highest(const Point& from, const Point& to) const override;
 
   // Area and space are exact to round-off. The normal is along the integral of S n dA if the node has area, otherwise
   // towards the nearest point of the surface. If the surface is further than `reach_in_cells`, the distance is that
@@ -36,8 +36,8 @@ class HeightField final : public Surface<3> {
   void at_nodes_from(const Vector<double, 3>& lowest, double cell, int edge, GroundAtNode<3>* nodes) const;
 
   // True within the outermost points if all points of the cells there have data.
-  [[nodiscard]] bool is_known(const Place& place) const override;
-  [[nodiscard]] bool is_known(const Place& from, const Place& to) const override;
+  [[nodiscard]] bool is_known(const Point& point) const override;
+  [[nodiscard]] bool is_known(const Point& from, const Point& to) const override;
 
   // Point of the surface nearest to a position, if nearer than `reach` [m].
   [[nodiscard]] std::optional<Vector<double, 3>> nearest(const Vector<double, 3>& position, double reach) const;
@@ -63,8 +63,8 @@ class HeightField final : public Surface<3> {
     [[nodiscard]] std::array<Vector<double, 3>, 3> triangle(std::size_t k) const {
       return {point[k], point[(k + 1) % 4], centre};
     }
-    [[nodiscard]] std::size_t triangle_at(const Place& place) const;
-    [[nodiscard]] Place gradient(std::size_t triangle) const;
+    [[nodiscard]] std::size_t triangle_at(const Point& position) const;
+    [[nodiscard]] Point gradient(std::size_t triangle) const;
   };
 
   // Columns -1 and columns - 1, and the corresponding rows, are the cells beyond the outermost points.
@@ -72,16 +72,16 @@ class HeightField final : public Surface<3> {
   [[nodiscard]] Span cell_rows(double from, double to) const;
   [[nodiscard]] double height_at(int column, int row) const;  // of the nearest point for places outside the DEM
   // Cells beyond the outermost points extend to the sides of the rectangle.
-  [[nodiscard]] Cell cell(int column, int row, const Place& from, const Place& to) const;
-  [[nodiscard]] Cell cell_at(const Place& place) const;
+  [[nodiscard]] Cell cell(int column, int row, const Point& from, const Point& to) const;
+  [[nodiscard]] Cell cell_at(const Point& point) const;
   template <class Visit>
-  void for_triangles(const Place& from, const Place& to, const Visit& visit) const;
+  void for_triangles(const Point& from, const Point& to, const Visit& visit) const;
 
   [[nodiscard]] Summary summary_of_points(Span columns, Span rows) const;
   [[nodiscard]] Summary summary_one_by_one(Span columns, Span rows) const;
   // Summary of the points of all cells that overlap a rectangle.
-  [[nodiscard]] Summary summary(const Place& from, const Place& to) const;
-  void summarise_blocks();
+  [[nodiscard]] Summary summary(const Point& from, const Point& to) const;
+  void summarize_blocks();
 
   // Squared distance [m2] to the bounding box of a cell of the DEM: a lower bound of that to its ground.
   [[nodiscard]] double squared_distance_of_cell(const Vector<double, 3>& position, int column, int row) const;

@@ -48,28 +48,28 @@ LayerThickness<Dim>::LayerThickness(std::shared_ptr<const Surface<Dim>> ground, 
 
 template <int Dim>
 typename LayerThickness<Dim>::Column LayerThickness<Dim>::make_column(const Number& number) const {
-  Place corner;
+  Point corner;
   for (int a = 0; a + 1 < Dim; ++a) {
     corner[a] = static_cast<double>(number[static_cast<std::size_t>(a)]) * cell_;
   }
   // The corners of the column's cells are candidates if their linear shape functions, one cell wide on each side,
   // overlap the ground.
-  const double highest = ground_->highest(corner - Place::Constant(cell_), corner + Place::Constant(2.0 * cell_));
+  const double highest = ground_->highest(corner - Point::Constant(cell_), corner + Point::Constant(2.0 * cell_));
   const double highest_corner = std::ceil(highest / cell_ + 1.0 - round_off) - 1.0;
   const double top = (highest_corner + 1.0) * cell_;
   const double footprint = std::pow(spacing_, Dim - 1);
   Column column{0.0, 0.0};
   for_offsets<Dim - 1>(0, std::lround(cell_ / spacing_) - 1, [&](const Number& part) {
-    Place place = corner;
+    Point point = corner;
     for (int a = 0; a + 1 < Dim; ++a) {
-      place[a] += (static_cast<double>(part[static_cast<std::size_t>(a)]) + 0.5) * spacing_;
+      point[a] += (static_cast<double>(part[static_cast<std::size_t>(a)]) + 0.5) * spacing_;
     }
-    const double height = ground_->height(place);
+    const double height = ground_->height(point);
     const double bottom = filling_ == Filling::on_ground
                               ? height
                               : std::ceil(height / spacing_ - 0.5 - round_off) * spacing_;  // of the lowest particle
     column.filled += (top - bottom) * footprint;
-    column.ground += std::hypot(1.0, ground_->gradient(place, spacing_).norm()) * footprint;
+    column.ground += std::hypot(1.0, ground_->gradient(point, spacing_).norm()) * footprint;
   });
   return column;
 }
@@ -105,15 +105,15 @@ double LayerThickness<Dim>::at_middle(const Number& number) {
 }
 
 template <int Dim>
-double LayerThickness<Dim>::at(const Place& place) {
+double LayerThickness<Dim>::at(const Point& point) {
   Number left;
-  std::array<double, Dim - 1> share;
+  std::array<double, Dim - 1> fraction;
   for (std::size_t a = 0; a < left.size(); ++a) {
-    const double in_columns = place[static_cast<int>(a)] / cell_ + 0.5;  // 1 in the middle of column 0
+    const double in_columns = point[static_cast<int>(a)] / cell_ + 0.5;  // 1 in the middle of column 0
     left[a] = static_cast<long>(std::floor(in_columns)) - 1;
-    share[a] = in_columns - std::floor(in_columns);
+    fraction[a] = in_columns - std::floor(in_columns);
   }
-  return between_middles(share, [&](const std::array<int, Dim - 1>& steps) {
+  return between_middles(fraction, [&](const std::array<int, Dim - 1>& steps) {
     Number number = left;
     for (std::size_t a = 0; a < number.size(); ++a) {
       number[a] += steps[a];
@@ -123,7 +123,7 @@ double LayerThickness<Dim>::at(const Place& place) {
 }
 
 template <int Dim>
-double LayerThickness<Dim>::largest(const Place& from, const Place& to) {
+double LayerThickness<Dim>::largest(const Point& from, const Point& to) {
   Number first, count;
   long total = 1;
   for (int a = 0; a + 1 < Dim; ++a) {

@@ -15,7 +15,7 @@ namespace thawslide::terrain {
 template <int Dim>
 class LayerThickness {
  public:
-  using Place = typename Surface<Dim>::Place;
+  using Point = typename Surface<Dim>::Point;
   using Number = std::array<long, Dim - 1>;  // of a column of cells, along each horizontal axis
 
   // Initial arrangement of particles in the cells. lattice: at the centres of equal parts of the cells, `spacing` [m]
@@ -27,11 +27,11 @@ class LayerThickness {
   // Volume of the particles in the band cells (those with a candidate corner, see GroundAtNode) per ground surface [m],
   // averaged over adjacent columns of cells with linearly decreasing weights. Without averaging, it would jump between
   // columns, and with it the heat of particles that move through them.
-  [[nodiscard]] double at(const Place& place);
+  [[nodiscard]] double at(const Point& point);
   // The same at the middle of a column.
   [[nodiscard]] double at_middle(const Number& number);
   // Maximum over the middles of the columns in a rectangle [m].
-  [[nodiscard]] double largest(const Place& from, const Place& to);
+  [[nodiscard]] double largest(const Point& from, const Point& to);
 
  private:
   // One column of cells: particle volume in its band cells, and area of its ground [m2, m in 2D; m3, m2 in 3D].

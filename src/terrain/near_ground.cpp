@@ -26,16 +26,16 @@ Simd<Real> contact_offset_of_box(const mpm::Reading<Dim, Simd<Real>, 1 + Dim>& s
 template <int Dim>
 Simd<Real> smallest_gap(const mpm::BatchStencil<Dim>& stencil, const mpm::Particles<Dim>& particles,
                         const mpm::TileBatch<Dim>& batch, const mpm::PatchOf<mpm::Planes, Dim>& planes) {
-  Simd<Real> place[Dim];
+  Simd<Real> point[Dim];
   for (int a = 0; a < Dim; ++a) {
-    place[a] = particles.position.load(batch, a);
+    point[a] = particles.position.load(batch, a);
   }
   Simd<Real> smallest = std::numeric_limits<Real>::max();
   mpm::with_fetch(stencil.nodes, planes, [&](const auto& fetch) {
     mpm::for_each_node<Dim>(
         stencil.axis, 0, [&](std::size_t offset, Simd<Real> weight, const Vector<Simd<Real>, Dim>& /*slope*/) {
           const Simd<Real> gap = mpm::gap_to_plane<Dim>(
-              place, Simd<Real>(Real(0)), [&](std::size_t component) { return fetch(offset, component); });
+              point, Simd<Real>(Real(0)), [&](std::size_t component) { return fetch(offset, component); });
           smallest = select(weight > round_off, min(smallest, gap), smallest);
         });
   });
@@ -84,7 +84,7 @@ void to_candidates(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& gr
     const mpm::MomentumWeights<decltype(shape), Dim> weights{model.sizes, model.sides};
     mpm::particle_pass(grid, weights, particles, records, sees_candidates, kernel);
   });
-  nodes.near_ground.hold(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
+  nodes.near_ground.allocate(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (ground.any_candidate(b)) {
       (mpm::sum_block<Parts>(grid, b, nodes, sees_candidates), ...);

@@ -23,14 +23,14 @@ template <int Dim>
 struct LowerClearance {
   using Reads = mpm::RecordList<mpm::Planes>;
   using Adds = mpm::RecordList<mpm::Clearance>;
-  using Account = mpm::NoAccount;
+  using Totals = mpm::NoTotals;
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& added, Account& /*account*/) const {
+                                                       Scatter& added, Totals& /*totals*/) const {
     auto& gaps = added.template of<mpm::Clearance>();
     unrolled<static_cast<std::size_t>(Dim)>(
-        [&](auto a) THAWSLIDE_INLINE_LAMBDA { gaps.place[a] = particles.position.load(at, static_cast<int>(a())); });
+        [&](auto a) THAWSLIDE_INLINE_LAMBDA { gaps.position[a] = particles.position.load(at, static_cast<int>(a())); });
     gaps.reach = particles.contact_offset.load(at);
     gaps.planes = seen.template planes<mpm::Planes>();
   }
@@ -42,14 +42,14 @@ template <int Dim>
 struct AddNearGround {
   using Reads = mpm::RecordList<mpm::Planes>;
   using Adds = mpm::RecordList<mpm::NearGround, mpm::NearGroundByLinear, mpm::Clearance>;
-  using Account = mpm::NoAccount;
+  using Totals = mpm::NoTotals;
 
   physics::Phases phases;
   bool lubrication;  // off: the solid fraction uses the initial porosity and saturation
 
   template <class Particles, class At, class Seen, class Scatter>
   THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE void operator()(const Particles& particles, const At& at, const Seen& seen,
-                                                       Scatter& added, Account& account) const {
+                                                       Scatter& added, Totals& totals) const {
     using mpm::NearGround, mpm::NearGroundByLinear;
     using Value = typename At::Value;
     const Value mass = particles.mass.load(at), volume = particles.volume.load(at);
@@ -65,7 +65,7 @@ struct AddNearGround {
     constexpr std::size_t first = mpm::first_in_register<NearGroundByLinear, Dim>;
     by_linear.value[NearGround::saturation_by_linear - first] = volume * saturation;
     by_linear.value[NearGround::solid_fraction_by_linear - first] = volume * solid_fraction;
-    LowerClearance<Dim>{}(particles, at, seen, added, account);
+    LowerClearance<Dim>{}(particles, at, seen, added, totals);
   }
 };
 

@@ -90,7 +90,7 @@ double linear_shape_above(double q) {
 
 }  // namespace
 
-Polyline::LinearShare Polyline::linear_share(double x, double z, double cell) const {
+Polyline::LinearFraction Polyline::linear_fraction(double x, double z, double cell) const {
   // Between these abscissae, the integrands are polynomials of at most third degree, for which three Gauss points are
   // exact.
   std::vector<double> breaks{x - cell, x, x + cell};
@@ -105,7 +105,7 @@ Polyline::LinearShare Polyline::linear_share(double x, double z, double cell) co
   }
   std::sort(breaks.begin(), breaks.end());
   constexpr double outer = 0.774596669241483377;  // sqrt(3/5)
-  LinearShare share;
+  LinearFraction fraction;
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
     const double from = std::max(breaks[k], x - cell);
     const double to = std::min(breaks[k + 1], x + cell);
@@ -120,13 +120,13 @@ Polyline::LinearShare Polyline::linear_share(double x, double z, double cell) co
       const Vector<double, 2> from_node(u - x, base + slope * (u - middle) - z);
       const double across = weight * half * linear_shape(from_node[0] / cell);
       const double surface = across * linear_shape(from_node[1] / cell);
-      share.length += stretch * surface;
-      share.resultant += surface * Vector<double, 2>(slope, -1.0);
-      share.moment += stretch * surface * from_node;
-      share.above += across * cell * linear_shape_above(from_node[1] / cell);
+      fraction.length += stretch * surface;
+      fraction.resultant += surface * Vector<double, 2>(slope, -1.0);
+      fraction.moment += stretch * surface * from_node;
+      fraction.above += across * cell * linear_shape_above(from_node[1] / cell);
     }
   }
-  return share;
+  return fraction;
 }
 
 }  // namespace thawslide::terrain

@@ -27,13 +27,13 @@ class Polyline {
 
   // Integrals over the ground of a node's linear shape function S of half-width `cell`, centred at (x, height). Exact
   // for a polyline.
-  struct LinearShare {
+  struct LinearFraction {
     double length = 0;                                        // B = integral of S along the ground [m]
     double above = 0;                                         // integral of S over the space above it [m2]
     Vector<double, 2> resultant = Vector<double, 2>::Zero();  // G = integral of S n, n from above into it [m]
     Vector<double, 2> moment = Vector<double, 2>::Zero();     // integral of S (place - node) along it [m2]
   };
-  [[nodiscard]] LinearShare linear_share(double x, double height, double cell) const;
+  [[nodiscard]] LinearFraction linear_fraction(double x, double height, double cell) const;
 
   [[nodiscard]] const std::vector<double>& x() const { return x_; }
   [[nodiscard]] const std::vector<double>& heights() const { return height_; }

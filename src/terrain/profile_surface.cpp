@@ -8,9 +8,9 @@
 namespace thawslide::terrain {
 
 template <int Dim>
-typename ProfileSurface<Dim>::Place ProfileSurface<Dim>::gradient(const Place& place, double /*width*/) const {
-  Place gradient = Place::Zero();
-  gradient[0] = line_.gradient(place[0]);
+typename ProfileSurface<Dim>::Point ProfileSurface<Dim>::gradient(const Point& point, double /*width*/) const {
+  Point gradient = Point::Zero();
+  gradient[0] = line_.gradient(point[0]);
   return gradient;
 }
 
@@ -39,28 +39,28 @@ GroundAtNode<Dim> ProfileSurface<Dim>::at_node(const Vector<double, Dim>& positi
     fit_to_points(x, z, cell, node);
     return node;
   }
-  const Polyline::LinearShare share = line_.linear_share(x, z, cell);
+  const Polyline::LinearFraction fraction = line_.linear_fraction(x, z, cell);
   const double across = Dim == 2 ? width_.at(x) : cell;  // integral of the shape function along y
   node.candidate = line_.highest(x - cell, x + cell) > z - cell + round_off * cell;
-  const Vector<double, 2> place(x, z);
+  const Vector<double, 2> point(x, z);
   Vector<double, 2> normal = nearest.normal;
-  node.plane = place.dot(normal) + nearest.distance;
-  if (share.length > round_off * cell) {
-    const double resultant = share.resultant.norm();
-    normal = share.resultant / resultant;
-    node.bend = share.length / resultant;
-    node.plane = normal.dot(place + share.moment / share.length);
+  node.plane = point.dot(normal) + nearest.distance;
+  if (fraction.length > round_off * cell) {
+    const double resultant = fraction.resultant.norm();
+    normal = fraction.resultant / resultant;
+    node.bend = fraction.length / resultant;
+    node.plane = normal.dot(point + fraction.moment / fraction.length);
   }
   if (!node.candidate) {
     node.plane = HUGE_VAL;
   }
   node.normal[0] = normal[0];
   node.normal[Dim - 1] = normal[1];
-  node.area = across * share.length;
-  if (Dim == 2 && share.length > round_off * cell) {
-    node.area = width_.at(x + share.moment[0] / share.length) * share.length;
+  node.area = across * fraction.length;
+  if (Dim == 2 && fraction.length > round_off * cell) {
+    node.area = width_.at(x + fraction.moment[0] / fraction.length) * fraction.length;
   }
-  node.space = across * share.above;
+  node.space = across * fraction.above;
   return node;
 }
 

@@ -11,7 +11,7 @@ namespace thawslide::terrain {
 template <int Dim>
 class ProfileSurface final : public Surface<Dim> {
  public:
-  using Place = typename Surface<Dim>::Place;
+  using Point = typename Surface<Dim>::Point;
   using NodeIndex = typename Surface<Dim>::NodeIndex;
 
   // width: of a 2D section.
@@ -21,10 +21,10 @@ class ProfileSurface final : public Surface<Dim> {
   ProfileSurface(Polyline line, double spacing, int layers, mpm::SectionWidth width = {})
       : line_(std::move(line)), width_(std::move(width)), spacing_(spacing), layers_(layers) {}
 
-  [[nodiscard]] double height(const Place& place) const override { return line_.height(place[0]); }
+  [[nodiscard]] double height(const Point& point) const override { return line_.height(point[0]); }
   // Gradient of the segment at the place, independent of the width.
-  [[nodiscard]] Place gradient(const Place& place, double width) const override;
-  [[nodiscard]] double highest(const Place& from, const Place& to) const override {
+  [[nodiscard]] Point gradient(const Point& point, double width) const override;
+  [[nodiscard]] double highest(const Point& from, const Point& to) const override {
     return line_.highest(from[0], to[0]);
   }
   void at_block(const NodeIndex& first, double cell, int edge, GroundAtNode<Dim>* nodes) const override;

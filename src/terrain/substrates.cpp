@@ -49,16 +49,16 @@ int Substrates::at(double x, double y) const {
   x += origin_[0];
   y += origin_[1];
   for (const Area& area : areas_) {
-    if (std::visit([&](const auto& where) { return where.holds(x, y); }, area.where)) {
+    if (std::visit([&](const auto& where) { return where.contains(x, y); }, area.where)) {
       return area.number;
     }
   }
   return 0;
 }
 
-bool Substrates::Strip::holds(double x, double /*y*/) const { return x >= from && x < to; }
+bool Substrates::Strip::contains(double x, double /*y*/) const { return x >= from && x < to; }
 
-bool Substrates::Rings::holds(double x, double y) const {
+bool Substrates::Rings::contains(double x, double y) const {
   const double belt = std::floor((y - first) / width);
   if (!(belt >= 0.0 && belt <= static_cast<double>(belts.size()))) {
     return false;
@@ -66,14 +66,14 @@ bool Substrates::Rings::holds(double x, double y) const {
   bool inside = false;
   for (const Edge& edge : belts[std::min(belts.size() - 1, static_cast<std::size_t>(belt))]) {
     if (edge.low[1] <= y && y < edge.high[1]) {
-      const double share = (y - edge.low[1]) / (edge.high[1] - edge.low[1]);
-      inside ^= x < edge.low[0] + share * (edge.high[0] - edge.low[0]);
+      const double fraction = (y - edge.low[1]) / (edge.high[1] - edge.low[1]);
+      inside ^= x < edge.low[0] + fraction * (edge.high[0] - edge.low[0]);
     }
   }
   return inside;
 }
 
-bool Substrates::Code::holds(double x, double y) const {
+bool Substrates::Code::contains(double x, double y) const {
   const double column = std::floor((x - codes->x) / codes->cell_x + 0.5);
   const double row = std::floor((y - codes->y) / codes->cell_y + 0.5);
   return column >= 0.0 && row >= 0.0 && column < codes->columns && row < codes->rows &&

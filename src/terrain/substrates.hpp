@@ -30,7 +30,7 @@ class Substrates {
  private:
   struct Strip {
     double from, to;
-    [[nodiscard]] bool holds(double x, double y) const;
+    [[nodiscard]] bool contains(double x, double y) const;
   };
   struct Edge {
     std::array<double, 2> low, high;  // by y
@@ -39,12 +39,12 @@ class Substrates {
   struct Rings {
     double first = 0.0, width = 1.0;  // of the belts [m]
     std::vector<std::vector<Edge>> belts;
-    [[nodiscard]] bool holds(double x, double y) const;
+    [[nodiscard]] bool contains(double x, double y) const;
   };
   struct Code {
     std::shared_ptr<const Raster> codes;
     double code;
-    [[nodiscard]] bool holds(double x, double y) const;
+    [[nodiscard]] bool contains(double x, double y) const;
   };
   struct Area {
     int number;

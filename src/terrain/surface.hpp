@@ -26,7 +26,7 @@ struct GroundAtNode {
 template <int Dim>
 class Surface {
  public:
-  using Place = Vector<double, Dim - 1>;  // x in 2D; x, y in 3D
+  using Point = Vector<double, Dim - 1>;  // x in 2D; x, y in 3D
   using NodeIndex = std::array<int, Dim>;
 
   Surface() = default;
@@ -35,11 +35,11 @@ class Surface {
   Surface& operator=(const Surface&) = delete;
 
   // Elevation at a place [m].
-  [[nodiscard]] virtual double height(const Place& place) const = 0;
+  [[nodiscard]] virtual double height(const Point& point) const = 0;
   // Gradient at a place; on a surface of finer detail, its mean over a square of side `width` [m].
-  [[nodiscard]] virtual Place gradient(const Place& place, double width) const = 0;
+  [[nodiscard]] virtual Point gradient(const Point& point, double width) const = 0;
   // Highest elevation over the rectangle between two places [m].
-  [[nodiscard]] virtual double highest(const Place& from, const Place& to) const = 0;
+  [[nodiscard]] virtual double highest(const Point& from, const Point& to) const = 0;
 
   // Fills the ground data of the `edge`^Dim nodes of a block, x fastest. first: index of its first node along each axis
   // of a grid with cells of side `cell` [m].
@@ -47,17 +47,17 @@ class Surface {
 
   // True if the ground is known at a place, or everywhere in the rectangle between two places. On unknown ground, the
   // other functions extrapolate.
-  [[nodiscard]] virtual bool is_known(const Place& /*place*/) const { return true; }
-  [[nodiscard]] virtual bool is_known(const Place& /*from*/, const Place& /*to*/) const { return true; }
+  [[nodiscard]] virtual bool is_known(const Point& /*point*/) const { return true; }
+  [[nodiscard]] virtual bool is_known(const Point& /*from*/, const Point& /*to*/) const { return true; }
 
   // Cosine of the slope, averaged over `width` [m].
-  [[nodiscard]] double slope_cosine(const Place& place, double width) const {
-    return 1.0 / std::hypot(1.0, gradient(place, width).norm());
+  [[nodiscard]] double slope_cosine(const Point& point, double width) const {
+    return 1.0 / std::hypot(1.0, gradient(point, width).norm());
   }
   // Unit normal into the ground below a place, averaged over `width` [m].
-  [[nodiscard]] Vector<double, Dim> normal_below(const Place& place, double width) const {
+  [[nodiscard]] Vector<double, Dim> normal_below(const Point& point, double width) const {
     Vector<double, Dim> normal;
-    normal.template head<Dim - 1>() = gradient(place, width);
+    normal.template head<Dim - 1>() = gradient(point, width);
     normal[Dim - 1] = -1.0;
     return normal.normalized();
   }

@@ -63,14 +63,14 @@ Moments moments(const ConvexPolygon& segment, const Vector<double, 3>& floor) {
       for (const Vector<double, 3>* once : {&a, &b, &c}) {
         const Vector<double, 3> at = all + (1.0 - 3.0 * twice) * *once;
         const double u = at[0], v = at[1], w = at[2];
-        const OfCorners share = (weight * plan) * OfCorners((1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v);
-        sum.plan += share;
-        sum.first += share * w;
-        sum.second += share * (w * w);
+        const OfCorners fraction = (weight * plan) * OfCorners((1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v);
+        sum.plan += fraction;
+        sum.first += fraction * w;
+        sum.second += fraction * (w * w);
         const std::array<OfCorners, 2> along{OfCorners(u, u - 1, u, u - 1), OfCorners(v, v, v - 1, v - 1)};
         for (std::size_t a = 0; a < 2; ++a) {
-          sum.plan_along[a] += share * along[a];
-          sum.first_along[a] += share * along[a] * w;
+          sum.plan_along[a] += fraction * along[a];
+          sum.first_along[a] += fraction * along[a] * w;
         }
       }
     }
@@ -95,7 +95,7 @@ SurfaceIntegrals::SurfaceIntegrals(const Vector<double, 3>& lowest, double cell,
 void SurfaceIntegrals::add(const std::array<Vector<double, 3>, 3>& triangle) {
   std::array<Vector<double, 3>, 3> in_cells;
   std::transform(triangle.begin(), triangle.end(), in_cells.begin(),
-                 [&](const Vector<double, 3>& place) -> Vector<double, 3> { return (place - corner_) / cell_; });
+                 [&](const Vector<double, 3>& point) -> Vector<double, 3> { return (point - corner_) / cell_; });
   const Vector<double, 3> up = (in_cells[1] - in_cells[0]).cross(in_cells[2] - in_cells[0]);
   const Facet facet{-up[0] / up[2], -up[1] / up[2], up.norm() / up[2]};
   for_slices(ConvexPolygon(in_cells), 0, edge_ + 1, [&](int column, const ConvexPolygon& strip) {

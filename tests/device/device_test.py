@@ -1,4 +1,4 @@
-"""Physics and the step in device code: they compile wherever nvcc is found, and keep to their registers."""
+"""Device code of physics and of the step: compiled if nvcc is available, within limits of registers."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ STEP = Path(__file__).with_name("step_kernels.cu")
 GPU = ROOT / "src" / "device" / "gpu.cu"
 BASAL_LAWS = ROOT / "src" / "physics" / "basal" / "laws.hpp"
 OLDEST = 12  # version of nvcc: the first with C++20
-LIMIT = 600.0  # s; alone it takes about 10, and 60 for the step on a card
+LIMIT = 600.0  # s; the physics alone needs about 10, the step on a GPU 60
 
-# Registers that a kernel may use: what nvcc 13.0 gives it, and a tenth or so for other versions. A multiprocessor of
+# Maximum registers of a kernel: those of nvcc 13.0, and about a tenth more for other versions. A multiprocessor of
 # sm_90 has 65,536, so that 80 leave it 24 groups of 32 threads, 96 leave it 20.
 REGISTERS_OF_PHYSICS = {
     "strain_and_stress<LinearElastic, 2>": 52,  # 46
@@ -41,7 +41,7 @@ REGISTERS_OF_PHYSICS = {
     "basal_contact": 30,  # 24
     "body_contact": 40,  # 34
     "entrainment": 36,  # 30
-    "band_column<PowerLawCurve>": 146,  # 92; the cells' numbers lie in local memory
+    "band_column<PowerLawCurve>": 146,  # 92; the numbers of the cells are in local memory
     "band_column<LinearCurve>": 146,  # 134
     "join_columns<PowerLawCurve>": 184,  # 168
     "join_columns<LinearCurve>": 184,  # 168
@@ -49,7 +49,7 @@ REGISTERS_OF_PHYSICS = {
 }
 REGISTERS_OF_BASAL_LAW = 36  # 30
 
-# Of the kernels of the step, which make their weights and read their nodes too; in the plane and in space.
+# Kernels of the step, which also compute weights and read nodes, in 2D and in 3D.
 REGISTERS_OF_STEP = {
     "averages": (24, 24),  # 16, 16
     "momentum": (40, 40),  # 32, 32
@@ -92,10 +92,10 @@ REGISTERS_OF_STEP = {
 
 def find_nvcc() -> str:
     """Return nvcc's path, or skip the test."""
-    beside = os.environ.get("CUDA_HOME", "/usr/local/cuda")
-    nvcc = shutil.which("nvcc") or shutil.which("nvcc", path=f"{beside}/bin")
+    cuda_home = os.environ.get("CUDA_HOME", "/usr/local/cuda")
+    nvcc = shutil.which("nvcc") or shutil.which("nvcc", path=f"{cuda_home}/bin")
     if not nvcc:
-        pytest.skip(f"no nvcc on the path or in {beside}/bin: device code is not compiled here")
+        pytest.skip(f"no nvcc on the path or in {cuda_home}/bin: device code is not compiled")
     reported = subprocess.run([nvcc, "--version"], capture_output=True, text=True, timeout=60, check=True).stdout
     version = re.search(r"release (\d+)\.(\d+)", reported)
     assert version, reported
@@ -105,7 +105,7 @@ def find_nvcc() -> str:
 
 
 def compiled(nvcc: str, source: Path, folder: Path) -> str:
-    """Compile for sm_90 and return what the compiler and ptxas say, with names as in the source."""
+    """Compile for sm_90; return the output of the compiler and ptxas, with names as in the source."""
     eigen = subprocess.run(["pkg-config", "--cflags-only-I", "eigen3"], capture_output=True, text=True, check=True)
     options = ["-std=c++20", "-arch=sm_90", f"-I{ROOT / 'src'}", "--expt-relaxed-constexpr", "--ptxas-options=-v"]
     options += ["-Werror", "all-warnings", "-Xcompiler", "-Wall,-Wextra"]
@@ -137,14 +137,14 @@ def resources(reported: str) -> dict[str, tuple[int, int]]:
 
 
 def expect_within(limits: dict[str, int], used: dict[str, tuple[int, int]]) -> None:
-    """Check that the kernels are these, that none spills, and that none needs more registers."""
+    """Fail unless the kernels are these, without spills and within their registers."""
     assert set(used) == set(limits)
     assert {kernel: spilled for kernel, (_, spilled) in used.items() if spilled > 0} == {}
     assert {kernel: number for kernel, (number, _) in used.items() if number > limits[kernel]} == {}
 
 
 def basal_laws() -> list[str]:
-    """Return the kernels of the laws of the base, as their list has them."""
+    """Return the kernels of the basal laws in their list."""
     listed = re.findall(r"using (Friction|Cohesion)Law = std::variant<(.*?)>;", BASAL_LAWS.read_text(), flags=re.DOTALL)
     assert len(listed) == 2
     return [f"{kind.lower()}_law<basal::{law}>" for kind, laws in listed for law in re.findall(r"\w+", laws)]
@@ -202,16 +202,16 @@ def test_every_function_marked_for_devices_is_called_by_a_kernel() -> None:
 def test_every_kernel_of_the_step_is_compiled() -> None:
     kernels = set()
     for path in sorted(set((ROOT / "src").glob("*/*kernel*.hpp")) - set((ROOT / "src" / "device").glob("*"))):
-        for found in re.finditer(r"struct (\w+) \{(?:\n(?!\};).*)*?\n  using Account = ", path.read_text()):
+        for found in re.finditer(r"struct (\w+) \{(?:\n(?!\};).*)*?\n  using Totals = ", path.read_text()):
             kernels.add(found.group(1))
     assert len(kernels) > 12
     code = STEP.read_text()
-    by_law = {"UpdateStress"}  # chooses among the laws of Deform, on the processor
+    by_law = {"UpdateStress"}  # selects a law of Deform, on the CPU
     assert {kernel for kernel in kernels - by_law if not re.search(rf"\b{kernel}<", code)} == set()
 
 
-def test_the_program_for_a_card_goes_well_without_one() -> None:
-    """Build it, and let it compare the processor with threads of the processor in no order, choice by choice."""
+def test_emulated_gpu_steps_are_bitwise_identical_to_cpu_steps() -> None:
+    """The program compares CPU steps with emulated GPU threads in shuffled order, for each model option."""
     find_nvcc()
     build = ["cmake", "--build", str(ROOT / "build" / "release"), "--target", "thawslide_device_test"]
     built = subprocess.run(build, capture_output=True, text=True, timeout=LIMIT, check=False)
@@ -224,9 +224,9 @@ def test_the_program_for_a_card_goes_well_without_one() -> None:
     assert [(same, count) for same, count in compared if same != count] == []
 
 
-def test_the_step_on_a_card_compiles_without_spills(tmp_path: Path) -> None:
-    """As launched: passes by groups of threads, nodes, sorting."""
+def test_the_step_on_a_gpu_compiles_without_spills(tmp_path: Path) -> None:
+    """Kernels are those that are launched: passes by groups of threads, nodes, sorting."""
     used = resources(compiled(find_nvcc(), GPU, tmp_path))
-    ours = {kernel: spilled for kernel, (_, spilled) in used.items() if kernel.startswith("device::run_")}
-    assert len(ours) > 50
-    assert {kernel: spilled for kernel, spilled in ours.items() if spilled > 0} == {}
+    kernels = {kernel: spilled for kernel, (_, spilled) in used.items() if kernel.startswith("device::run_")}
+    assert len(kernels) > 50
+    assert {kernel: spilled for kernel, spilled in kernels.items() if spilled > 0} == {}

@@ -141,29 +141,29 @@ template __global__ void heat<LinearCurve>(HeatContent<LinearCurve>, Real*, Real
 
 template <class Curve>
 __global__ void band_column(ColumnModel<Curve> model, const Real* temperatures, const ColumnDrive* drives,
-                            BandColumn* columns, ColumnAccount* accounts, BandMeans* means, ColumnVolumes* volumes,
+                            BandColumn* columns, ColumnBudget* totals, BandMeans* means, ColumnVolumes* volumes,
                             Real* liquid) {
   const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
   ColumnDrive drive = drives[k];
   drive.body_heat = body_enthalpy(model, temperatures[k]);
-  accounts[k] = step_column(model, drive, columns[k]);
+  totals[k] = step_column(model, drive, columns[k]);
   means[k] = band_means(model, drive.normal_pressure, columns[k]);
   volumes[k] = column_volumes(model, drive.normal_pressure, columns[k]);
   liquid[k] = liquid_volume(model, columns[k]);
 }
 template __global__ void band_column<PowerLawCurve>(ColumnModel<PowerLawCurve>, const Real*, const ColumnDrive*,
-                                                    BandColumn*, ColumnAccount*, BandMeans*, ColumnVolumes*, Real*);
+                                                    BandColumn*, ColumnBudget*, BandMeans*, ColumnVolumes*, Real*);
 template __global__ void band_column<LinearCurve>(ColumnModel<LinearCurve>, const Real*, const ColumnDrive*,
-                                                  BandColumn*, ColumnAccount*, BandMeans*, ColumnVolumes*, Real*);
+                                                  BandColumn*, ColumnBudget*, BandMeans*, ColumnVolumes*, Real*);
 
 template <class Curve>
-__global__ void join_columns(ColumnModel<Curve> model, const Real* shares, const BandColumn* others, Real load,
+__global__ void join_columns(ColumnModel<Curve> model, const Real* fractions, const BandColumn* others, Real load,
                              BandColumn* columns) {
   const std::size_t k = blockIdx.x * blockDim.x + threadIdx.x;
   BandColumn other = others[k];
-  take_cell_growth(model, columns[k].cell_growth, body_enthalpy(model, Real(0)), water_of_full_pores(model, Real(0)),
-                   other);
-  columns[k] = joined_columns(model, shares[k], columns[k], other, load);
+  apply_cell_growth(model, columns[k].cell_growth, body_enthalpy(model, Real(0)), water_of_full_pores(model, Real(0)),
+                    other);
+  columns[k] = joined_columns(model, fractions[k], columns[k], other, load);
 }
 template __global__ void join_columns<PowerLawCurve>(ColumnModel<PowerLawCurve>, const Real*, const BandColumn*, Real,
                                                      BandColumn*);
@@ -204,7 +204,7 @@ __global__ void pore_water(Phases phases, Real gravity, Real dt, Real sign, bool
   result.put(pore_stiffness(phases, porosity, saturation));
   const Real scaling = pore_space_scaling(row.take(), as_published);
   const Real diffusivity = hydraulic_diffusivity(phases, porosity, saturation, scaling * row.take());
-  result.put(share_of_subgrid_diffusion(diffusivity, row.take(), 3, dt));
+  result.put(subgrid_diffusion_fraction(diffusivity, row.take(), 3, dt));
 }
 
 __global__ void water_balance(Phases phases, WaterExpansion water, Real skeleton_compressibility, Real* numbers,
@@ -270,7 +270,7 @@ __global__ void entrainment(Real* numbers, Real* results, std::size_t particles)
   const Real strength = bed_strength(row.take(), row.take(), row.take()), speed = row.take();
   result.put(erosion_by_strength(row.take(), strength, speed, row.take()));
   result.put(erosion_by_momentum(row.take(), strength, row.take(), speed, row.take()));
-  result.put(speed_with_taken(row.take(), speed, row.take()));
+  result.put(speed_after_entrainment(row.take(), speed, row.take()));
 }
 
 }  // namespace thawslide::physics

@@ -1,6 +1,6 @@
-"""Whole cases by the code of a card, from start to end.
+"""Complete cases on the GPU code path.
 
-On thawslide_rehearsal, whose card is the processor; or, with THAWSLIDE_ON_GPU=1, on the program itself and a card.
+The program is thawslide_rehearsal, which emulates the GPU on the CPU; with THAWSLIDE_ON_GPU=1 it is thawslide on a GPU.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "release"
-PROCESSOR = Path(os.environ.get("THAWSLIDE_BINARY", BUILD / "thawslide"))
+ON_CPU = Path(os.environ.get("THAWSLIDE_BINARY", BUILD / "thawslide"))
 LIMIT = 900.0  # s, also of the build
 CASES = ROOT / "cases"
-# Each with what makes it small: the code of a card goes thread after thread here.
+# Cases with settings that make them small: the emulation executes one thread at a time.
 SMALL = {
     "lamplugh": (CASES / "lamplugh", ("grid.cell=40", "time.end=20")),
     "lamplugh-columns": (CASES / "lamplugh-columns", ("grid.cell=40", "time.end=20")),
@@ -30,16 +30,16 @@ SMALL = {
     "valley3d": (CASES / "valley3d", ("grid.cell=60", "time.end=1.2")),
     "valley3d-columns": (CASES / "valley3d" / "columns.toml", ("grid.cell=60", "time.end=1.2")),
 }
-# Of each column of the history, as a share of the largest value of its unit: round-off that the slide makes larger,
-# up to 1.8e-7 in these.
+# Of each column of the history, relative to the maximum value of its unit. The slide amplifies round-off, here to
+# 1.8e-7.
 TOLERANCE = 1e-6
 
 
 @pytest.fixture(scope="session")
-def on_card() -> Path:
-    """Return the program, built if need be; skip where there is no nvcc."""
+def on_gpu() -> Path:
+    """Return the program, built if necessary; skip without nvcc."""
     if os.environ.get("THAWSLIDE_ON_GPU"):
-        return PROCESSOR
+        return ON_CPU
     if shutil.which("nvcc") is None and not Path(os.environ.get("CUDA_HOME", "/usr/local/cuda"), "bin/nvcc").exists():
         pytest.skip("no nvcc")
     command = ["cmake", "--build", str(BUILD), "--target", "thawslide_rehearsal"]
@@ -63,16 +63,16 @@ def history(folder: Path) -> dict[str, np.ndarray]:
     return {name: np.atleast_1d(columns[name]) for name in columns.dtype.names}
 
 
-def expect_the_same_history(found: Path, expected: Path) -> None:
-    of_card, of_processor = history(found), history(expected)
-    assert list(of_card) == list(of_processor)
+def expect_same_history(found: Path, expected: Path) -> None:
+    of_gpu, of_cpu = history(found), history(expected)
+    assert list(of_gpu) == list(of_cpu)
     largest: dict[str, float] = {}
-    for name, values in of_processor.items():
+    for name, values in of_cpu.items():
         unit = name.rsplit("_", 1)[-1]
         largest[unit] = np.nanmax(np.abs(values), initial=largest.get(unit, 0.0))
-    for name, values in of_processor.items():
+    for name, values in of_cpu.items():
         allowed = TOLERANCE * largest[name.rsplit("_", 1)[-1]]
-        np.testing.assert_allclose(of_card[name], values, rtol=0.0, atol=allowed, err_msg=name)
+        np.testing.assert_allclose(of_gpu[name], values, rtol=0.0, atol=allowed, err_msg=name)
 
 
 def devices(folder: Path) -> list[str]:
@@ -80,40 +80,40 @@ def devices(folder: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("name", SMALL)
-def test_a_case_goes_from_start_to_end(on_card: Path, tmp_path: Path, name: str) -> None:
+def test_a_case_has_the_same_history_on_gpu_and_cpu(on_gpu: Path, tmp_path: Path, name: str) -> None:
     case, sets = SMALL[name][0], settings(name)
-    run(PROCESSOR, "run", case, *sets, "--output", tmp_path / "processor")
-    run(on_card, "run", case, *sets, "--output", tmp_path / "card", "--device", "gpu")
-    assert all(devices(tmp_path / "card"))
-    expect_the_same_history(tmp_path / "card", tmp_path / "processor")
-    files = [{path.relative_to(run) for path in run.rglob("*")} for run in (tmp_path / "processor", tmp_path / "card")]
+    run(ON_CPU, "run", case, *sets, "--output", tmp_path / "cpu")
+    run(on_gpu, "run", case, *sets, "--output", tmp_path / "gpu", "--device", "gpu")
+    assert all(devices(tmp_path / "gpu"))
+    expect_same_history(tmp_path / "gpu", tmp_path / "cpu")
+    files = [{path.relative_to(run) for path in run.rglob("*")} for run in (tmp_path / "cpu", tmp_path / "gpu")]
     assert files[0] == files[1]
 
 
 @pytest.mark.parametrize("name", ["incline", "valley3d-columns"])
-def test_checkpoints_go_from_the_processor_to_a_card_and_back(on_card: Path, tmp_path: Path, name: str) -> None:
+def test_a_run_continues_from_cpu_to_gpu_and_back(on_gpu: Path, tmp_path: Path, name: str) -> None:
     end = float(SMALL[name][1][-1].split("=")[1])
     case, sets = SMALL[name][0], [*settings(name), "--set", f"time.history_interval={end / 4}"]
-    run(PROCESSOR, "run", case, *sets, "--output", tmp_path / "whole")
-    run(PROCESSOR, "run", case, *sets, "--set", f"time.end={end / 4}", "--output", tmp_path / "parts")
-    run(on_card, "resume", tmp_path / "parts", "--end", end / 2, "--device", "gpu")
-    run(PROCESSOR, "resume", tmp_path / "parts", "--end", end)
+    run(ON_CPU, "run", case, *sets, "--output", tmp_path / "complete")
+    run(ON_CPU, "run", case, *sets, "--set", f"time.end={end / 4}", "--output", tmp_path / "parts")
+    run(on_gpu, "resume", tmp_path / "parts", "--end", end / 2, "--device", "gpu")
+    run(ON_CPU, "resume", tmp_path / "parts", "--end", end)
     assert [device != "" for device in devices(tmp_path / "parts")] == [False, True, False]
-    expect_the_same_history(tmp_path / "parts", tmp_path / "whole")
+    expect_same_history(tmp_path / "parts", tmp_path / "complete")
 
 
-def test_a_killed_run_on_a_card_ends_with_the_same_bits(on_card: Path, tmp_path: Path) -> None:
+def test_a_killed_run_on_a_gpu_ends_bitwise_identical(on_gpu: Path, tmp_path: Path) -> None:
     case, sets = SMALL["incline"][0], [*settings("incline"), "--set", "checkpoint.interval=0.02"]
-    run(on_card, "run", case, *sets, "--output", tmp_path / "whole", "--device", "gpu")
-    words = [on_card, "run", case, *sets, "--output", tmp_path / "killed", "--device", "gpu"]
+    run(on_gpu, "run", case, *sets, "--output", tmp_path / "complete", "--device", "gpu")
+    words = [on_gpu, "run", case, *sets, "--output", tmp_path / "killed", "--device", "gpu"]
     process = subprocess.Popen([str(word) for word in words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     rows = tmp_path / "killed" / "history.csv"
-    while not rows.exists() or rows.read_text().count("\n") < 3:  # a header and two rows: some checkpoints later
+    while not rows.exists() or rows.read_text().count("\n") < 3:  # a header and two rows: after some checkpoints
         assert process.poll() is None
         time.sleep(0.005)
     process.kill()
     assert process.wait() == -signal.SIGKILL
-    outcome = run(on_card, "resume", tmp_path / "killed", "--device", "gpu")
+    outcome = run(on_gpu, "resume", tmp_path / "killed", "--device", "gpu")
     assert "continuing from t = " in outcome.stdout
     for file in ("history.csv", "checkpoint.bin"):
-        assert (tmp_path / "killed" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()
+        assert (tmp_path / "killed" / file).read_bytes() == (tmp_path / "complete" / file).read_bytes()

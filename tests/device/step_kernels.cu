@@ -30,7 +30,7 @@ struct TileOnDevice {
   const std::int32_t* nearest[Dim];
   const std::uint32_t* first_node;
   const Real* records;
-  Real* accounts;
+  Real* totals;
   std::size_t count;
   Real cell, inverse_cell;
   int sides[2][Dim];
@@ -70,7 +70,7 @@ struct CarriedOf<Dim, mpm::RecordList<Names...>> {
 // Runs a kernel for the thread's particle. Shape: of momentum.
 template <class Shape, int Dim, class Kernel>
 __device__ void visit(const TileOnDevice<Dim>& tile, typename CarriedOf<Dim, typename Kernel::Adds>::Type* carried,
-                      typename Kernel::Account* accounts, const Kernel& kernel) {
+                      typename Kernel::Totals* totals, const Kernel& kernel) {
   extern __shared__ Real shared[];
   const auto patches = fetch<Dim>(typename Kernel::Reads{}, tile.records, shared);
   const std::size_t k = threadIdx.x;
@@ -79,29 +79,29 @@ __device__ void visit(const TileOnDevice<Dim>& tile, typename CarriedOf<Dim, typ
   }
   mpm::ParticleView<Dim> particles = tile.particles;
   const mpm::ScalarIndex at{{tile.particle[k]}};
-  mpm::OnePlace<Dim> place{{}, tile.first_node[k], {}};
+  mpm::OneGridPosition<Dim> position{{}, tile.first_node[k], {}};
   for (std::size_t a = 0; a < Dim; ++a) {
     const std::int32_t nearest = tile.nearest[a][k];
-    place.offset[static_cast<int>(a)] =
+    position.offset[static_cast<int>(a)] =
         particles.position(at.particle[0], static_cast<int>(a)) * tile.inverse_cell - static_cast<Real>(nearest);
-    place.at_side[a] = nearest == tile.sides[0][a] || nearest == tile.sides[1][a];
+    position.at_side[a] = nearest == tile.sides[0][a] || nearest == tile.sides[1][a];
   }
   mpm::OneWeights<Dim> weights;
-  weights.set_linear(place, tile.inverse_cell);
-  weights.template set_momentum<Shape>(place, tile.sizes.of(particles, at), tile.inverse_cell);
-  weights.template set_affine<Shape>(place, tile.cell, tile.inverse_cell);
+  weights.set_linear(position, tile.inverse_cell);
+  weights.template set_momentum<Shape>(position, tile.sizes.of(particles, at), tile.inverse_cell);
+  weights.template set_affine<Shape>(position, tile.cell, tile.inverse_cell);
   const mpm::ScalarGather<mpm::OneWeights<Dim>, decltype(patches)> seen{weights, patches};
   typename CarriedOf<Dim, typename Kernel::Adds>::Type added{};
-  typename Kernel::Account account{};
-  kernel(particles, at, seen, added, account);
+  typename Kernel::Totals own{};
+  kernel(particles, at, seen, added, own);
   carried[k] = added;
-  accounts[k] = account;
+  totals[k] = own;
 }
 
 template <int Dim, class Kernel>
 struct Results {
   typename CarriedOf<Dim, typename Kernel::Adds>::Type* carried;
-  typename Kernel::Account* accounts;
+  typename Kernel::Totals* totals;
 };
 
 template <int Dim>
@@ -109,69 +109,69 @@ using Shape = mpm::Ugimp;
 
 template <int Dim>
 __global__ void averages(TileOnDevice<Dim> tile, Results<Dim, band::AddAverages<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::AddAverages<Dim>{});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, band::AddAverages<Dim>{});
 }
 
 template <int Dim>
 __global__ void momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddMomentum<Dim>> to, mpm::AddMomentum<Dim> kernel) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
+  visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
 }
 
 template <int Dim>
 __global__ void affine_momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddAffineMomentum<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddAffineMomentum<Dim>{});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, mpm::AddAffineMomentum<Dim>{});
 }
 
 template <int Dim>
 __global__ void near_ground(TileOnDevice<Dim> tile, Results<Dim, terrain::AddNearGround<Dim>> to,
                             terrain::AddNearGround<Dim> kernel) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
+  visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
 }
 
 template <int Dim>
 __global__ void clearance(TileOnDevice<Dim> tile, Results<Dim, terrain::LowerClearance<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, terrain::LowerClearance<Dim>{});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, terrain::LowerClearance<Dim>{});
 }
 
 template <int Dim>
 __global__ void mark_band(TileOnDevice<Dim> tile, Results<Dim, terrain::MarkBand<Dim>> to, Real dt) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, terrain::MarkBand<Dim>{dt});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, terrain::MarkBand<Dim>{dt});
 }
 
 template <int Dim>
 __global__ void leave_band(TileOnDevice<Dim> tile, Results<Dim, terrain::LeaveBand<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, terrain::LeaveBand<Dim>{});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, terrain::LeaveBand<Dim>{});
 }
 
 template <int Dim>
 __global__ void move(TileOnDevice<Dim> tile, Results<Dim, mpm::Move<Dim>> to, mpm::Move<Dim> kernel) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
+  visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
 }
 
 template <int Dim>
 __global__ void move_affine(TileOnDevice<Dim> tile, Results<Dim, mpm::MoveAffine<Dim>> to,
                             mpm::MoveAffine<Dim> kernel) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
+  visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
 }
 
 template <int Dim>
 __global__ void filter_moments(TileOnDevice<Dim> tile, Results<Dim, mpm::AddFilterMoments<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddFilterMoments<Dim>{});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, mpm::AddFilterMoments<Dim>{});
 }
 
 template <int Dim>
 __global__ void filter_momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddFilterMomentum<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::AddFilterMomentum<Dim>{});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, mpm::AddFilterMomentum<Dim>{});
 }
 
 template <int Dim>
 __global__ void sweep_filter(TileOnDevice<Dim> tile, Results<Dim, mpm::SweepFilter<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::SweepFilter<Dim>{});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, mpm::SweepFilter<Dim>{});
 }
 
 template <int Dim>
 __global__ void take_filtered(TileOnDevice<Dim> tile, Results<Dim, mpm::ApplyFiltered<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, mpm::ApplyFiltered<Dim>{});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, mpm::ApplyFiltered<Dim>{});
 }
 
 template <int Dim, class Law>
@@ -179,7 +179,7 @@ __global__ void deform(TileOnDevice<Dim> tile, Results<Dim, mpm::Deform<Dim, Law
                        physics::Elastic elastic, physics::Phases phases, bool gaps, Real viscosity_time,
                        bool effective_stress, Real dt) {
   const mpm::Deform<Dim, Law> kernel{law, elastic, phases, gaps, viscosity_time, effective_stress, dt};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
+  visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
 }
 
 template <class Curve>
@@ -193,21 +193,21 @@ __global__ void heat_flows(TileOnDevice<Dim> tile, Results<Dim, band::HeatFlows<
                            Real dt, bool subgrid) {
   const Law<Curve> law{content};
   const band::HeatFlows<Dim, Law<Curve>> kernel{model, hydraulic, law, dt, tile.inverse_cell, subgrid};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
+  visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
 }
 
 template <int Dim, class Curve>
 __global__ void secant_capacity(TileOnDevice<Dim> tile, Results<Dim, band::SecantCapacity<Dim, Law<Curve>>> to,
                                 Content<Curve> content, Real dt) {
   const Law<Curve> law{content};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::SecantCapacity<Dim, Law<Curve>>{law, dt});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, band::SecantCapacity<Dim, Law<Curve>>{law, dt});
 }
 
 template <int Dim, class Curve>
 __global__ void take_heat(TileOnDevice<Dim> tile, Results<Dim, band::UpdateHeat<Dim, Law<Curve>>> to,
                           Content<Curve> content, band::BandPhysics model, Real dt) {
   const Law<Curve> law{content};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::UpdateHeat<Dim, Law<Curve>>{model, law, dt});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, band::UpdateHeat<Dim, Law<Curve>>{model, law, dt});
 }
 
 template <int Dim, class Curve>
@@ -215,31 +215,31 @@ __global__ void update_heat_as_published(TileOnDevice<Dim> tile,
                                          Results<Dim, band::UpdateHeatApparentCapacity<Dim, Law<Curve>>> to,
                                          Content<Curve> content, band::BandPhysics model, Real dt) {
   const Law<Curve> law{content};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::UpdateHeatApparentCapacity<Dim, Law<Curve>>{model, law, dt});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, band::UpdateHeatApparentCapacity<Dim, Law<Curve>>{model, law, dt});
 }
 
 template <int Dim, class Curve>
 __global__ void new_heat_masses(TileOnDevice<Dim> tile, Results<Dim, band::UpdateHeatMass<Dim, Law<Curve>>> to,
                                 Content<Curve> content) {
   const Law<Curve> law{content};
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::UpdateHeatMass<Dim, Law<Curve>>{law});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, band::UpdateHeatMass<Dim, Law<Curve>>{law});
 }
 
 template <int Dim>
 __global__ void unreached_heat(TileOnDevice<Dim> tile, Results<Dim, band::RedistributeUnreachedHeat<Dim>> to, Real dt) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::RedistributeUnreachedHeat<Dim>{dt});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, band::RedistributeUnreachedHeat<Dim>{dt});
 }
 
 template <int Dim>
 __global__ void seepage(TileOnDevice<Dim> tile, Results<Dim, band::SeepageFlows<Dim>> to, band::BandPhysics model,
                         band::HydraulicConductivity hydraulic, Real dt) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::SeepageFlows<Dim>{model, hydraulic, dt, tile.inverse_cell});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, band::SeepageFlows<Dim>{model, hydraulic, dt, tile.inverse_cell});
 }
 
 template <int Dim>
 __global__ void seeping_water(TileOnDevice<Dim> tile, Results<Dim, band::AddSeepingWater<Dim>> to,
                               band::BandPhysics model, band::HydraulicConductivity hydraulic) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, band::AddSeepingWater<Dim>{model, hydraulic});
+  visit<Shape<Dim>>(tile, to.carried, to.totals, band::AddSeepingWater<Dim>{model, hydraulic});
 }
 
 template <int Dim, bool Balances>
@@ -248,7 +248,7 @@ using Pressure = band::PorePressure<const band::ColumnsOfTile<Dim>&, true, Balan
 template <int Dim, bool Balances>
 __global__ void pore_pressure(TileOnDevice<Dim> tile, Results<Dim, Pressure<Dim, Balances>> to, band::BandPhysics model,
                               band::HydraulicConductivity hydraulic, const band::ColumnsOfTile<Dim>* columns) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts,
+  visit<Shape<Dim>>(tile, to.carried, to.totals,
                     Pressure<Dim, Balances>{model, hydraulic, Real(0.5) * tile.cell, *columns});
 }
 
@@ -278,7 +278,7 @@ __global__ void load(TileOnDevice<Dim> tile, band::ColumnsOfTile<Dim, band::Numb
 template <int Dim>
 __global__ void take_position(TileOnDevice<Dim> tile, Results<Dim, mpm::UpdatePosition<Dim>> to,
                               mpm::UpdatePosition<Dim> kernel) {
-  visit<Shape<Dim>>(tile, to.carried, to.accounts, kernel);
+  visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
 }
 
 // Second phase of a pass: reduces the contributions of particles first .. last-1 of a cell to a number of one of its

@@ -1,4 +1,4 @@
-// The bytes of a case file; one that is valid must come back from its resolved text as the same text.
+// Bytes of a case file; the resolved text of a valid one must be resolved to the same text.
 
 #include <string>
 
@@ -12,8 +12,8 @@ namespace thawslide::fuzz {
 
 namespace {
 
-// What the paths of a case may name, in the folder itself and where a resolved case has its inputs. Maps are opened
-// when a run begins: here it is enough that they are there.
+// Files that the paths of a case can name, in the folder itself and in that of a resolved case's inputs. Maps are
+// opened when a run begins: here their existence is sufficient.
 void write_what_cases_name() {
   static const bool done = [] {
     std::filesystem::create_directories(folder() / "inputs");

@@ -1,4 +1,4 @@
-// Changes to sound bytes that a target's own bytes tell of: they reach deeper than bytes made of nothing.
+// Changes to valid bytes, specified by a target's input: they reach more code than random bytes.
 #pragma once
 
 #include <fuzzer/FuzzedDataProvider.h>

@@ -1,5 +1,5 @@
-// The bytes of a map file: the first says what it is, the others are the file, or changes to a sound one. GDAL reads
-// them first, so what is found here may be a matter of GDAL.
+// Bytes of a map file: the first selects its kind, the others are the file, or changes to a valid one. GDAL reads
+// them first, therefore findings can be errors of GDAL.
 #include <memory>
 
 #include "gis/raster_file.hpp"
@@ -12,7 +12,7 @@ namespace {
 using namespace thawslide;
 using fuzz::Provider;
 
-constexpr std::size_t most_points = 1U << 22U;  // of a raster that is read whole
+constexpr std::size_t most_points = 1U << 22U;  // of a raster that is read completely
 
 void read_raster(const std::string& file) {
   fuzz::gives_value(file, [&] {
@@ -57,14 +57,14 @@ void write_layer(const char* driver, const std::string& file) {
   static_cast<void>(layer.CreateFeature(feature.get()));
 }
 
-struct SoundFiles {
+struct ValidFiles {
   std::string geopackage, shape, shape_index, shape_table, tiff, tiled;
 };
 
-const SoundFiles& sound_files() {
-  static const SoundFiles made = [] {
-    SoundFiles files;
-    const std::string folder = fuzz::memory + "sound/";
+const ValidFiles& valid_files() {
+  static const ValidFiles made = [] {
+    ValidFiles files;
+    const std::string folder = fuzz::memory + "valid/";
     write_layer("GPKG", folder + "area.gpkg");
     write_layer("ESRI Shapefile", folder + "area.shp");
     files.geopackage = bytes_of(folder + "area.gpkg");
@@ -81,7 +81,7 @@ const SoundFiles& sound_files() {
     std::ifstream tiled(fuzz::folder() / "tiled.tif", std::ios::binary);
     files.tiled.assign(std::istreambuf_iterator<char>(tiled), {});
     Provider nothing(nullptr, 0);
-    files.tiff = bytes_of(fuzz::raster_from(nothing, "sound/plain.tif", 1000.0, 1100.0));
+    files.tiff = bytes_of(fuzz::raster_from(nothing, "valid/plain.tif", 1000.0, 1100.0));
     return files;
   }();
   return made;
@@ -94,7 +94,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   if (size == 0) {
     return 0;
   }
-  const SoundFiles& sound = sound_files();
+  const ValidFiles& valid = valid_files();
   Provider bytes(data + 1, size - 1);
   switch (data[0]) {
     case 't':
@@ -107,18 +107,18 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
       read_features(fuzz::in_memory("area.geojson", bytes.ConsumeRemainingBytesAsString()));
       break;
     case 'p':
-      read_raster(fuzz::in_memory("map.tif", fuzz::changed(sound.tiff, bytes)));
+      read_raster(fuzz::in_memory("map.tif", fuzz::changed(valid.tiff, bytes)));
       break;
     case 'd':
-      read_raster(fuzz::in_memory("map.tif", fuzz::changed(sound.tiled, bytes)));
+      read_raster(fuzz::in_memory("map.tif", fuzz::changed(valid.tiled, bytes)));
       break;
     case 'g':
-      read_features(fuzz::in_memory("area.gpkg", fuzz::changed(sound.geopackage, bytes)));
+      read_features(fuzz::in_memory("area.gpkg", fuzz::changed(valid.geopackage, bytes)));
       break;
     case 's':
-      fuzz::in_memory("area.shx", sound.shape_index);
-      fuzz::in_memory("area.dbf", sound.shape_table);
-      read_features(fuzz::in_memory("area.shp", fuzz::changed(sound.shape, bytes)));
+      fuzz::in_memory("area.shx", valid.shape_index);
+      fuzz::in_memory("area.dbf", valid.shape_table);
+      read_features(fuzz::in_memory("area.shp", fuzz::changed(valid.shape, bytes)));
       break;
     default:
       return -1;

@@ -1,4 +1,4 @@
-// Map files in GDAL's own memory, made of what a target's bytes say.
+// Map files in GDAL's own memory, generated from a target's input.
 #pragma once
 
 #include <cpl_conv.h>
@@ -19,7 +19,7 @@ namespace thawslide::fuzz {
 
 inline const std::string memory = "/vsimem/";
 
-// Formats that fetch what they name from a network or from other programs are no business of a file's bytes.
+// Formats that read from a network or from other programs are excluded: they do not depend on a file's bytes.
 inline void prepare_gdal() {
   static const bool done = [] {
     CPLSetConfigOption("GDAL_SKIP", "HTTP WMS WCS WMTS DAAS EEDA EEDAI PLMosaic NGW STACIT STACTA ESRIC OGCAPI");
@@ -38,7 +38,7 @@ inline std::string in_memory(const std::string& name, const std::string& bytes) 
   return file;
 }
 
-// A number as files have them: mostly a few eighths, at times one that breaks sums.
+// A number as in files: mostly a few eighths, sometimes one that makes sums overflow.
 inline double number_from(Provider& bytes, double low, double high) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   const std::array<double, 10> odd{0.0,    -0.0,   -9999.0, std::numeric_limits<double>::quiet_NaN(), inf, -inf, 1e300,
@@ -54,7 +54,7 @@ inline double number_from(Provider& bytes, double low, double high) {
   return low + (high - low) * bytes.ConsumeIntegralInRange(0, steps) / steps;
 }
 
-// The reference systems that a file may tell: of the ground, another one, in feet, in degrees, of no place, none.
+// Reference systems of a file: that of the terrain, another one, in feet, in degrees, invalid, none.
 inline OGRSpatialReference* system_from(Provider& bytes) {
   static std::vector<OGRSpatialReference> systems = [] {
     std::vector<OGRSpatialReference> made(5);
@@ -69,7 +69,7 @@ inline OGRSpatialReference* system_from(Provider& bytes) {
   return kind < systems.size() ? &systems[kind] : kind < 20 ? systems.data() : nullptr;
 }
 
-inline constexpr double west = 400000.0, south = 300000.0, wide = 160.0;  // [m], where all files lie, more or less
+inline constexpr double west = 400000.0, south = 300000.0, wide = 160.0;  // [m], approximate extent of all files
 
 // A GeoTIFF of up to 20 x 20 points.
 inline std::string raster_from(Provider& bytes, const std::string& name, double low, double high) {
@@ -117,7 +117,7 @@ inline std::string raster_from(Provider& bytes, const std::string& name, double 
   return file;
 }
 
-// Corners on a coarse lattice, so that lines touch, cross and fall together often; `closed` repeats the first.
+// Corners on a coarse lattice, so that lines often touch, cross and coincide; `closed` repeats the first.
 inline std::string corners_from(Provider& bytes, bool closed, const char* between) {
   std::vector<std::array<double, 2>> corners;
   for (int left = bytes.ConsumeIntegralInRange(closed ? 3 : 1, 8); left > 0; --left) {
@@ -139,7 +139,7 @@ inline std::string corners_from(Provider& bytes, bool closed, const char* betwee
   return text;
 }
 
-// An outline, and at times a hole.
+// An outline, sometimes with a hole.
 inline std::string rings_from(Provider& bytes, bool json) {
   const std::string open = json ? "[" : "(", close = json ? "]" : ")";
   std::string text;
@@ -164,7 +164,7 @@ inline std::string geometry_json(Provider& bytes, bool lines) {
              : fmt::format(R"({{"type":"Polygon","coordinates":{}}})", rings_from(bytes, true));
 }
 
-// Features with a name, a thickness and a temperature each: GeoJSON, or WKT in a table, whose corners may be no
+// Features with a name, a thickness and a temperature each: GeoJSON, or WKT in a table, whose corners can be invalid
 // numbers.
 inline std::string features_from(Provider& bytes, const std::string& name, bool lines) {
   const bool json = !chance(bytes, 4);

@@ -1,4 +1,4 @@
-// What maps hold: the bytes say the layout, values, systems and geometry of small files, and the keys that name them.
+// Contents of maps: the input specifies layout, values, reference systems and geometry of small files, and their keys.
 #include "gis/site.hpp"
 #include "map_files.hpp"
 
@@ -27,7 +27,7 @@ config::Body body_from(Provider& bytes, const std::string& name, const std::stri
   body.thickness.from = static_cast<config::MapValue::From>(bytes.ConsumeIntegralInRange(0, 3));
   body.thickness.number = 5.0;
   body.thickness.source = body.thickness.from == config::MapValue::From::attribute ? "thickness" : thickness_file;
-  // As the checks of a case have it.
+  // As in the checks of a case.
   const bool is_surface = body.thickness.from == config::MapValue::From::surface;
   if (!is_surface && fuzz::chance(bytes, 4)) {
     body.thickness_along = config::ThicknessAlong::normal;
@@ -88,10 +88,10 @@ bool fits(const Raster& raster) {
          raster.values.size() == static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows);
 }
 
-// What the simulation takes for granted.
+// Assumptions of the simulation.
 void check(const config::Site& site) {
   if (site.ground == nullptr || !fits(*site.ground)) {
-    fuzz::fail("a ground whose values do not fit its size");
+    fuzz::fail("a terrain whose values do not fit its size");
   }
   for (const auto& [name, release] : site.releases) {
     for (const double thickness : release.thickness.values) {
@@ -113,7 +113,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   fuzz::prepare_gdal();
   Provider bytes(data, size);
   const config::Case parameters = case_from(bytes);
-  // A message names the case's file, or that of the map.
+  // A message names the case file or the map.
   fuzz::gives_value("", [&] { check(gis::load_site(parameters).site); });
   VSIRmdirRecursive(fuzz::memory.c_str());
   return 0;

@@ -1,4 +1,4 @@
-// The bytes of a terrain profile.
+// Bytes of a terrain profile.
 #include "config/profile_csv.hpp"
 
 #include "target.hpp"

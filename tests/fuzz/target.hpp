@@ -1,4 +1,4 @@
-// What the targets have in common: a folder for the bytes, and what a reader may do with them.
+// Common parts of the targets: a folder for the input, and the allowed results of a reader.
 #pragma once
 
 #include <unistd.h>
@@ -15,7 +15,7 @@
 
 namespace thawslide::fuzz {
 
-// A folder of this process, in memory where the system has such a place.
+// A folder of this process, in memory if the system has a memory file system.
 inline const std::filesystem::path& folder() {
   static const std::filesystem::path made = [] {
     const std::filesystem::path memory = "/dev/shm";
@@ -42,8 +42,8 @@ inline std::filesystem::path write(const std::string& name, std::string_view byt
   std::abort();
 }
 
-// Whether `read` gave a value. A reader may throw what tells the user of a mistake, with a file's name in it; whatever
-// else it throws ends the process as a finding.
+// Returns whether `read` returned a value. A reader may throw an error of the user that names a file; any other
+// exception ends the process as a finding.
 template <class Read>
 bool gives_value(const std::string& file, const Read& read) {
   const auto specified = [&](const std::exception& error) {

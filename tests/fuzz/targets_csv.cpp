@@ -1,4 +1,4 @@
-// The bytes of a file of reported values.
+// Bytes of a file of reported values.
 #include <cmath>
 
 #include "config/reported_quantities.hpp"

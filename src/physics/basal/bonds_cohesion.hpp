@@ -12,8 +12,9 @@
 namespace thawslide::physics::basal {
 
 struct BondsCohesion {
-  static constexpr const char* word = "bonds";
-  static constexpr const char* text = "cohesion exp(-slip/slip_distance) (1 - S_L): bonds of ice, lost to nothing";
+  static constexpr const char* keyword = "bonds";
+  static constexpr const char* text =
+      "c_S = cohesion exp(-slip/slip_distance) (1 - S_L): bonds of ice, lost completely";
   static constexpr auto parameters = parameter_list(initial_cohesion, slip_distance);
 
   Real initial;   // c_0 [Pa]

@@ -9,8 +9,8 @@
 namespace thawslide::physics::basal {
 
 struct CoefficientFriction {
-  static constexpr const char* word = "coefficient";
-  static constexpr const char* text = "friction_coefficient times N, whatever the pore pressure";
+  static constexpr const char* keyword = "coefficient";
+  static constexpr const char* text = "friction_coefficient times N, independent of pore pressure";
   static constexpr bool depends_on_pore_pressure = false;
   static constexpr auto parameters = parameter_list(friction_coefficient);
 

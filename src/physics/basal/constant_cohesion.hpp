@@ -7,8 +7,8 @@
 namespace thawslide::physics::basal {
 
 struct ConstantCohesion {
-  static constexpr const char* word = "constant";
-  static constexpr const char* text = "cohesion, for ever";
+  static constexpr const char* keyword = "constant";
+  static constexpr const char* text = "c_S = cohesion, constant";
   static constexpr auto parameters = parameter_list(initial_cohesion);
 
   Real initial;  // c_0 [Pa]

@@ -9,8 +9,8 @@
 namespace thawslide::physics::basal {
 
 struct ConstantFriction {
-  static constexpr const char* word = "constant";
-  static constexpr const char* text = "tan(friction_angle)";
+  static constexpr const char* keyword = "constant";
+  static constexpr const char* text = "mu_e = tan(friction_angle)";
   static constexpr bool depends_on_pore_pressure = true;
   static constexpr auto parameters = parameter_list(friction_angle);
 

@@ -16,24 +16,24 @@ inline constexpr Parameter lubrication_exponent{
     .initial = 2.0,
     .low = 0.0,
     .low_open = true,
-    .text = "exponent omega: the larger, the later friction falls as solid is lost",
-    .source = "Eq. 25"};
+    .text = "exponent omega; with a larger value, friction decreases later as solid is lost",
+    .source = "Lei et al., Eq. 25"};
 inline constexpr Parameter min_solid_fraction{.key = "min_solid_fraction",
                                               .initial = 0.05,
                                               .low = 0.0,
                                               .high = 1.0,
-                                              .text = "effective solid fraction at which friction vanishes, n_min",
-                                              .source = "Eq. 25"};
+                                              .text = "effective solid fraction n_min at which friction vanishes",
+                                              .source = "Lei et al., Eq. 25"};
 inline constexpr Parameter max_solid_fraction{.key = "max_solid_fraction",
                                               .initial = 0.85,
                                               .low = 0.0,
                                               .high = 1.0,
-                                              .text = "effective solid fraction at which friction is whole, n_max",
-                                              .source = "Eq. 25"};
+                                              .text = "effective solid fraction n_max at which friction is not reduced",
+                                              .source = "Lei et al., Eq. 25"};
 
 struct LubricatedFriction {
-  static constexpr const char* word = "lubricated";
-  static constexpr const char* text = "tan(friction_angle) times a factor that falls as ice melts (Eq. 25)";
+  static constexpr const char* keyword = "lubricated";
+  static constexpr const char* text = "mu_e = tan(friction_angle) times a factor that decreases as ice melts (Eq. 25)";
   static constexpr bool depends_on_pore_pressure = true;
   static constexpr auto parameters =
       parameter_list(friction_angle, lubrication_exponent, min_solid_fraction, max_solid_fraction);

@@ -1,6 +1,6 @@
 // Declaration of a basal law (Eq. 17) and its parameters in the case file. A law is a struct in a separate header, with
 // one line in laws.hpp. It has
-//   word, text          keyword in the case file, and description
+//   keyword, text       keyword in the case file, and description
 //   parameters          its numbers, declared there or shared with other laws (shared_parameters.hpp)
 //   from(numbers)       creates the law from a function that returns the number of a parameter
 //   coefficient(node)   friction law: mu_e; depends_on_pore_pressure: applied to N - P; optional drag(node):
@@ -26,7 +26,7 @@ struct Parameter {
   double usual_low = -std::numeric_limits<double>::infinity();  // typical range with band columns, not checked
   double usual_high = std::numeric_limits<double>::infinity();
   const char* usual_where = "";  // "on a glacier"
-  const char* usual_law = "";    // word of the only law to which the typical range applies; empty: all
+  const char* usual_law = "";    // keyword of the only law to which the typical range applies; empty: all
   const char* text = "";  // "{laws}" in it is replaced by the law "x", or the laws "x" and "y", that use the number
   const char* source = "";
 };

@@ -12,7 +12,7 @@ inline constexpr Parameter friction_angle{.key = "friction_angle",
                                           .high = 90.0,
                                           .high_open = true,
                                           .text = "basal friction angle phi_f",
-                                          .source = "Eq. 25, Tables 2, 3"};
+                                          .source = "Lei et al., Eq. 25, Tables 2, 3"};
 
 // The typical range is that of back-calculated rock avalanches on glaciers, not checked.
 inline constexpr Parameter friction_coefficient{.key = "friction_coefficient",
@@ -27,10 +27,10 @@ inline constexpr Parameter friction_coefficient{.key = "friction_coefficient",
 
 // Used by all cohesion laws. If it is 0, none of their other parameters is required.
 inline constexpr Parameter initial_cohesion{
-    .key = "cohesion", .unit = "Pa", .low = 0.0, .text = "cohesion along the ground at t = 0, c_0", .source = "Eq. 17"};
+    .key = "cohesion", .unit = "Pa", .low = 0.0, .text = "basal cohesion c_0 at t = 0", .source = "Lei et al., Eq. 17"};
 
 inline constexpr Parameter residual_cohesion{
-    .key = "residual_cohesion", .unit = "Pa", .low = 0.0, .text = "cohesion that is left, c_r, of {laws}"};
+    .key = "residual_cohesion", .unit = "Pa", .low = 0.0, .text = "residual cohesion c_r of {laws}"};
 
 inline constexpr Parameter slip_distance{.key = "slip_distance",
                                          .unit = "m",
@@ -39,8 +39,8 @@ inline constexpr Parameter slip_distance{.key = "slip_distance",
                                          .low_open = true,
                                          .usual_low = 1.0,
                                          .usual_high = 100.0,
-                                         .usual_where = "of bonds",
+                                         .usual_where = "for ice bonds",
                                          .usual_law = "bonds",
-                                         .text = "slip over which the cohesion falls to 1/e, d_c, of {laws}"};
+                                         .text = "slip d_c over which the cohesion decreases to 1/e with {laws}"};
 
 }  // namespace thawslide::physics::basal

@@ -10,8 +10,8 @@
 namespace thawslide::physics::basal {
 
 struct SlipCohesion {
-  static constexpr const char* word = "slip";
-  static constexpr const char* text = "c_r + (c_0 - c_r) exp(-slip/slip_distance)";
+  static constexpr const char* keyword = "slip";
+  static constexpr const char* text = "c_S = c_r + (c_0 - c_r) exp(-slip/slip_distance)";
   static constexpr auto parameters = parameter_list(initial_cohesion, residual_cohesion, slip_distance);
 
   Real initial, residual;  // c_0, c_r [Pa]

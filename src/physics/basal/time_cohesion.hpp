@@ -10,11 +10,11 @@ inline constexpr Parameter cohesion_loss_time{.key = "cohesion_loss_time",
                                               .unit = "s",
                                               .is_needed = true,
                                               .low = 0.0,
-                                              .text = "time at which the cohesion is lost, of {laws}"};
+                                              .text = "time at which the cohesion is lost with {laws}"};
 
 struct TimeCohesion {
-  static constexpr const char* word = "time";
-  static constexpr const char* text = "cohesion before cohesion_loss_time, residual_cohesion from then on";
+  static constexpr const char* keyword = "time";
+  static constexpr const char* text = "c_S = cohesion before cohesion_loss_time, residual_cohesion after it";
   static constexpr auto parameters = parameter_list(initial_cohesion, residual_cohesion, cohesion_loss_time);
 
   Real initial, residual;  // c_0, c_r [Pa]

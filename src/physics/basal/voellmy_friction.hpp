@@ -16,12 +16,13 @@ inline constexpr Parameter turbulent_friction{
     .only_with_its_laws = true,
     .low = 0.0,
     .low_open = true,
-    .text = "turbulent friction xi of {laws}: the larger, the less drag rho g v^2/xi",
-    .source = "Voellmy 1955"};
+    .text = "turbulent friction xi of {laws}; a larger value reduces the drag rho g v^2/xi",
+    .source = "Voellmy (1955)"};
 
 struct VoellmyFriction {
-  static constexpr const char* word = "voellmy";
-  static constexpr const char* text = "friction_coefficient (N - P) + rho g v^2/turbulent_friction, v the slip speed";
+  static constexpr const char* keyword = "voellmy";
+  static constexpr const char* text =
+      "friction_coefficient (N - P) + rho g v^2/turbulent_friction, with the slip speed v";
   static constexpr bool depends_on_pore_pressure = true;
   static constexpr auto parameters = parameter_list(friction_coefficient, turbulent_friction);
 

@@ -1,4 +1,4 @@
-// The thickness of the slide does not depend on where the grid's lines cut it.
+// The thickness of the slide is independent of the position of grid lines.
 #include "band/flow_depth.hpp"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@ namespace {
 constexpr double cell = 10.0;
 constexpr double spacing = 5.0;  // of particles
 
-// A box of `length` particles along each horizontal axis and `layers` up, its lower corner at `from` [m]; the lowest
-// layer, ahead of the others by `bulge` [m], is the band.
+// A box of `length` particles along each horizontal axis and `layers` vertically, with its lower corner at `from` [m];
+// the lowest layer is the band, `bulge` [m] ahead of the others.
 template <int Dim>
 void fill_box(std::size_t length, std::size_t layers, double from, double bulge, mpm::Particles<Dim>& box) {
   std::size_t columns = 1;
@@ -60,14 +60,14 @@ void expect_thickness(double from, double bulge, double allowed) {
   }
 }
 
-TEST(FlowDepth, IsThatOfTheBoxWhereverItStands) {
+TEST(FlowDepth, IsThatOfTheBoxAtAnyPosition) {
   for (const double from : {-3.0, 0.0, 1e-12, 0.7, 2.5, 3.6, 5.0 - 1e-12, 5.0, 7.5, 9.999}) {
     expect_thickness<2>(from, 0.0, 1e-9);
     expect_thickness<3>(from, 0.0, 1e-9);
   }
 }
 
-// N of the columns, and by how much it changes, on ground that a slope's cosine of 0.8 and 0.6 of gravity press.
+// N of the columns and its change, on ground with a slope cosine of 0.8, with 0.6 of gravity.
 template <int Dim>
 void expect_load(double from) {
   constexpr std::size_t layers = 6;
@@ -97,24 +97,24 @@ void expect_load(double from) {
   }
 }
 
-TEST(FlowDepth, TellsTheLoadOfTheBoxWhereverItStands) {
+TEST(FlowDepth, GivesTheLoadOfTheBoxAtAnyPosition) {
   for (const double from : {-3.0, 0.0, 0.7, 2.5, 5.0, 9.999}) {
     expect_load<2>(from);
     expect_load<3>(from);
   }
 }
 
-// The foremost particle of the band alone stands in a column of its own when the front passes a line of the grid: it
-// must not take its own top for the surface.
-TEST(FlowDepth, SeesTheBodyAboveABandThatIsAhead) {
+// When the front passes a grid line, the foremost particle of the band is alone in a column. Its own top must not count
+// as the surface.
+TEST(FlowDepth, IncludesTheBodyAboveABandThatIsAhead) {
   for (double from = 0.0; from < 10.0; from += 0.1) {
     expect_thickness<2>(from, 0.02, 0.3);
     expect_thickness<3>(from, 0.02, 0.3);
   }
 }
 
-// Columns are numbered anew when the body comes to other tiles.
-TEST(FlowDepth, GoesWithTheBodyFromTileToTile) {
+// Columns are renumbered when the body reaches other tiles.
+TEST(FlowDepth, FollowsTheBodyFromTileToTile) {
   mpm::Particles<2> box;
   fill_box<2>(7, 6, 2.5, 0.0, box);
   mpm::SparseGrid<2> grid(cell);

@@ -13,7 +13,7 @@ namespace thawslide::band {
 namespace {
 
 using Segment = BasalSegment<2>;
-using physics::ColumnAccount;
+using physics::ColumnBudget;
 
 constexpr double weight = 2e4;  // of the slide [N/m3]
 
@@ -47,12 +47,12 @@ double heat_of(const Segment& segment) {
 }
 double water_of(const Segment& segment) { return segment.area_of_column * physics::water_of(segment.column); }
 
-// The depth is the mean since the first load, and after ten times the time of the load that of the time before.
+// The depth is the mean since the first load; after ten times the load time, it is that of the load time before.
 TEST(SegmentStep, AveragesTheDepthOfTheSlide) {
   const ColumnsModel model = make_columns_model();
   Segment segment;
   const double dt = 0.01;
-  for (int step = 0; step < 400; ++step) {  // contact that switches on and off
+  for (int step = 0; step < 400; ++step) {  // contact that alternates
     follow_load(model, step % 4 == 0 ? weight * 80.0 : 0.0, step % 4 == 0 ? 80.0 : 0.0, dt, segment);
   }
   EXPECT_NEAR(segment.depth, 20.0, 1e-9);
@@ -67,8 +67,8 @@ TEST(SegmentStep, AveragesTheDepthOfTheSlide) {
   EXPECT_NEAR(segment.load, weight * 5.0, 1e-3 * weight);
 }
 
-// Below a slide deeper than a full column nothing is otherwise than with one ratio of cells for all columns.
-TEST(SegmentStep, IsBitForBitThatOfFullColumnsBelowADeepSlide) {
+// Below a slide deeper than a full column, results equal those with one ratio of cells for all columns.
+TEST(SegmentStep, IsBitwiseIdenticalToThatOfFullColumnsBelowADeepSlide) {
   ColumnsModel model = make_columns_model();
   model.growth = BandGrowth::slip;
   model.growth_per_slip = 1e-3;
@@ -86,7 +86,7 @@ TEST(SegmentStep, IsBitForBitThatOfFullColumnsBelowADeepSlide) {
       each->depth = 40.0;
     }
     step_segment(model, 0.1, 0.05, segment);
-    // The same written out, with the ratio of the model.
+    // The same step with the ratio of the model.
     const auto& column = column_model(model);
     const double log_area = std::log(other.area / other.area_of_column);
     const int parts = std::max(1, static_cast<int>(std::ceil(std::abs(log_area) / 0.1)));
@@ -109,9 +109,10 @@ TEST(SegmentStep, IsBitForBitThatOfFullColumnsBelowADeepSlide) {
   EXPECT_GT(means_of(model, segment).temperature, 0.0);
 }
 
-// A slide that keeps its volume and spreads out to a fifth of its depth: the column gives back what it can no longer
-// hold, so that it has no more ice and water than the slide above it. With one ratio for all it would have three times.
-TEST(SegmentStep, HoldsAtMostTheIceAndWaterOfASlideThatThins) {
+// A slide of constant volume spreads to a fifth of its depth. The column returns excess ice and water to the body, and
+// therefore never contains more than the slide above it. With one ratio for all columns it would contain three times as
+// much.
+TEST(SegmentStep, ContainsAtMostTheIceAndWaterOfAThinningSlide) {
   ColumnsModel model = make_columns_model();
   model.growth = BandGrowth::slip;
   model.growth_per_slip = 5e-4;
@@ -119,7 +120,7 @@ TEST(SegmentStep, HoldsAtMostTheIceAndWaterOfASlideThatThins) {
   const double of_body = physics::water_of_full_pores(column_model(model), -10.0);
   Segment segment = make_segment(model, 0.5, volume / 100.0);
   double heat = heat_of(segment), water = water_of(segment), friction = 0.0;
-  bool gave_back = false;
+  bool returned_water = false;
   for (int step = 0; step < 2400; ++step) {
     segment.area *= step < 1200 ? std::exp(std::log(5.0) / 1200.0) : 1.0;
     segment.speed = step < 1200 ? 20.0 : 0.0;
@@ -127,23 +128,23 @@ TEST(SegmentStep, HoldsAtMostTheIceAndWaterOfASlideThatThins) {
     segment.heat += step < 1200 ? dt * 2e4 * segment.area : 0.0;
     friction += step < 1200 ? dt * 2e4 * segment.area : 0.0;
     follow_load(model, weight * volume / segment.area, volume / segment.area, dt, segment);
-    const ColumnAccount account = step_segment(model, 0.5, dt, segment);
-    heat += account.body_heat + account.ground_heat - account.vented_heat - account.steam_heat;
-    water += account.body_water - account.vented_water - account.steam;
-    gave_back = gave_back || account.body_water < 0.0;
+    const ColumnBudget budget = step_segment(model, 0.5, dt, segment);
+    heat += budget.body_heat + budget.ground_heat - budget.vented_heat - budget.steam_heat;
+    water += budget.body_water - budget.vented_water - budget.steam;
+    returned_water = returned_water || budget.body_water < 0.0;
     ASSERT_NEAR(height_of(model, segment), std::min(segment.depth, 25.367 * segment.column.thickness), 1e-3);
     ASSERT_LT(water_of(segment), 1.001 * of_body * volume) << "at any time";
     ASSERT_NEAR(heat_of(segment), heat + friction, 1e-11 * std::abs(heat));
     ASSERT_NEAR(water_of(segment), water, 1e-11 * water);
   }
   EXPECT_NEAR(segment.column.thickness, 0.5 + 5e-4 * 1200.0, 1e-9);
-  EXPECT_GT(25.0 * segment.column.thickness * segment.area, 2.5 * volume) << "what a full column would hold";
-  EXPECT_TRUE(gave_back) << "to the body, as the mean of the depth follows";
+  EXPECT_GT(25.0 * segment.column.thickness * segment.area, 2.5 * volume) << "content of a full column";
+  EXPECT_TRUE(returned_water) << "to the body, as the mean of the depth follows";
 }
 
-// Pieces that stretch, slow down, thin out, part and join at random: heat and water are what came in less what left, no
-// cell holds less than nothing, and no column is taller than the slide or 2.5 bands.
-TEST(SegmentStep, LosesNothingInRandomLives) {
+// Segments that stretch, slow down, thin out, split and merge at random: heat and water equal intake minus losses, no
+// cell has a negative content, and no column is taller than the slide or 2.5 bands.
+TEST(SegmentStep, ConservesHeatAndWaterInRandomHistories) {
   std::mt19937 random(11);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   int joined = 0, shortened = 0;
@@ -155,9 +156,9 @@ TEST(SegmentStep, LosesNothingInRandomLives) {
     model.inertial_number = 0.3;
     Segment segment = make_segment(model, between(0.05, 1.0), between(0.0, 30.0));
     double heat = heat_of(segment), water = water_of(segment), scale = std::abs(heat);
-    const auto book = [&](const ColumnAccount& account) {
-      heat += account.body_heat + account.ground_heat - account.vented_heat - account.steam_heat;
-      water += account.body_water - account.vented_water - account.steam;
+    const auto book = [&](const ColumnBudget& budget) {
+      heat += budget.body_heat + budget.ground_heat - budget.vented_heat - budget.steam_heat;
+      water += budget.body_water - budget.vented_water - budget.steam;
     };
     double depth = segment.depth;
     for (int step = 0; step < 200; ++step) {

@@ -10,8 +10,8 @@ namespace {
 using Counter = std::array<std::uint32_t, 4>;
 using Key = std::array<std::uint32_t, 2>;
 
-// The known answers that Salmon et al. publish with their generator.
-TEST(CounterRandom, GivesThePublishedWords) {
+// Test vectors published by Salmon et al. with their generator.
+TEST(CounterRandom, ReproducesThePublishedTestVectors) {
   EXPECT_EQ(random_words(Counter{0, 0, 0, 0}, Key{0, 0}),
             (Counter{0x6627e8d5U, 0xe169c58dU, 0xbc57ac4cU, 0x9b00dbd8U}));
   constexpr std::uint32_t ones = 0xffffffffU;
@@ -21,11 +21,11 @@ TEST(CounterRandom, GivesThePublishedWords) {
             (Counter{0xd16cfe09U, 0x94fdcceb, 0x5001e420U, 0x24126ea1U}));
 }
 
-TEST(CounterRandom, NumbersLieEvenlyBetweenTheEnds) {
+TEST(CounterRandom, NumbersAreUniformlyDistributed) {
   EXPECT_EQ(between_minus_one_and_one(0), -1.0 + std::ldexp(1.0, -32));
   EXPECT_EQ(between_minus_one_and_one(0xffffffffU), 1.0 - std::ldexp(1.0, -32));
   EXPECT_EQ(between_minus_one_and_one(0x7fffffffU), -between_minus_one_and_one(0x80000000U));
-  // Neighbouring counters and keys: mean 0, mean square 1/3, and no number tells of the next.
+  // Neighbouring counters and keys: mean 0, mean square 1/3, no correlation between consecutive numbers.
   constexpr int count = 20000;
   double sum = 0.0, squares = 0.0, along = 0.0, across = 0.0;
   for (std::uint32_t k = 0; k < count; ++k) {
@@ -35,7 +35,7 @@ TEST(CounterRandom, NumbersLieEvenlyBetweenTheEnds) {
     along += here * between_minus_one_and_one(random_words({k + 1, 0, 0, 0}, {5, 0})[0]);
     across += here * between_minus_one_and_one(random_words({k, 0, 0, 0}, {6, 0})[0]);
   }
-  const double deviation = 1.0 / std::sqrt(3.0 * count);  // of the mean of as many such numbers
+  const double deviation = 1.0 / std::sqrt(3.0 * count);  // of the mean of that many numbers
   EXPECT_NEAR(sum / count, 0.0, 4.0 * deviation);
   EXPECT_NEAR(squares / count, 1.0 / 3.0, 4.0 * deviation);
   EXPECT_NEAR(along / count, 0.0, 4.0 * deviation);

@@ -9,7 +9,7 @@
 namespace thawslide {
 namespace {
 
-// In parts of so many, which are then added up.
+// Sum in parts of the given size, which are then added up.
 double sum_in_parts(const std::vector<double>& numbers, std::size_t of_a_part) {
   ExactSum all;
   for (std::size_t first = 0; first < numbers.size(); first += of_a_part) {
@@ -29,7 +29,7 @@ TEST(ExactSum, DoesNotDependOnTheOrder) {
   std::generate(numbers.begin(), numbers.end(), [&] { return mass(random); });
   long double in_more_digits = 0.0L;
   for (const double number : numbers) {
-    in_more_digits += number;  // 11 bits more: its own rounding is far below the last place of a double
+    in_more_digits += number;  // 11 bits more: its rounding is far below the last digit of a double
   }
   const auto expected = static_cast<double>(in_more_digits);
   bool plain_sums_differ = false;

@@ -1,4 +1,4 @@
-// What lanes do beside arithmetic: between memory and registers, and from rows to columns.
+// Operations of lanes other than arithmetic: between memory and registers, and from rows to columns.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ class LanesTest : public testing::Test {};
 using Reals = testing::Types<double, float>;
 TYPED_TEST_SUITE(LanesTest, Reals);
 
-TYPED_TEST(LanesTest, GatherAndScatterGoByPlaces) {
+TYPED_TEST(LanesTest, GatherAndScatterUseIndices) {
   using Real = TypeParam;
   constexpr std::size_t count = simd_width<Real>;
   std::array<Real, 3 * count> numbers{};
@@ -71,7 +71,7 @@ TYPED_TEST(LanesTest, RowsBecomeColumnsAndBack) {
   expect_rows_and_columns<TypeParam, simd_width<TypeParam>>();
 }
 
-TYPED_TEST(LanesTest, MasksKnowTheirLanes) {
+TYPED_TEST(LanesTest, MasksSelectTheirLanes) {
   using Real = TypeParam;
   EXPECT_FALSE(any(lanes_before<Real>(0)));
   for (std::size_t count = 1; count <= simd_width<Real>; ++count) {
@@ -84,8 +84,8 @@ TYPED_TEST(LanesTest, MasksKnowTheirLanes) {
   }
 }
 
-// Zeros of both signs and what is no number, too.
-TYPED_TEST(LanesTest, SmallerAndLargerAreThoseOfOneNumberInEveryBit) {
+// Including zeros of both signs and NaN.
+TYPED_TEST(LanesTest, SmallerAndLargerAreBitwiseEqualToScalarOnes) {
   using Real = TypeParam;
   const std::array<Real, 7> numbers{Real(-2),
                                     Real(-0.0),

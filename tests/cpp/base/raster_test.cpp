@@ -1,4 +1,4 @@
-// Values between the points of a raster, where points have none, and what a thickness holds.
+// Values between the points of a raster, at points without data, and the volume of a thickness.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ TEST(Bilinear, IsExactOnAPlaneUpToTheOutermostPoints) {
   EXPECT_EQ(bilinear(raster, 25.0, 15.0, Missing::zero), 0.0);
 }
 
-TEST(Bilinear, OfAPointWithoutData) {
+TEST(Bilinear, IgnoresAPointWithoutData) {
   Raster raster = plane_raster();
   raster.values[raster.index(1, 1)] = no_data;
   EXPECT_TRUE(std::isnan(bilinear(raster, 7.5, 5.0, Missing::unknown)));
@@ -64,7 +64,7 @@ TEST(Bilinear, AThicknessKeepsItsVolumeOnFinerPoints) {
   EXPECT_NEAR(sum / volume_of(thickness), 1.0, 1e-12);
 }
 
-TEST(FillFromNearestKnown, TakesTheNearestPoint) {
+TEST(FillFromNearestKnown, UsesTheNearestPoint) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> number(0.0, 1.0);
   Raster points;

@@ -1,4 +1,4 @@
-// Items in another order against a copy of them.
+// Reordered items compared with a copy of them.
 #include "base/reorder.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace thawslide {
 namespace {
 
-TEST(Reorder, GivesWhatACopyGives) {
+TEST(Reorder, IsEqualToACopyInTheNewOrder) {
   std::mt19937 random(7);
   ReorderBuffer buffer;
   for (const std::size_t count : {0u, 1u, 2u, 3u, 17u, 1000u, 10000u}) {
@@ -18,7 +18,7 @@ TEST(Reorder, GivesWhatACopyGives) {
     std::iota(order.begin(), order.end(), 0u);
     for (int trial = 0; trial < 20; ++trial) {
       std::shuffle(order.begin(), order.end(), random);
-      std::vector<double> items(count + 2), expected;  // those beyond the order stay
+      std::vector<double> items(count + 2), expected;  // those beyond the order are kept
       std::iota(items.begin(), items.end(), 100.0);
       expected = items;
       for (std::size_t k = 0; k < count; ++k) {

@@ -1,4 +1,4 @@
-// Bounds in few digits stay on their side.
+// Bounds rounded to few digits remain bounds.
 #include "base/rounding.hpp"
 
 #include <gtest/gtest.h>
@@ -6,24 +6,24 @@
 namespace thawslide {
 namespace {
 
-TEST(Rounding, KeepsToItsSideOfTheNumber) {
+TEST(Rounding, RoundsBoundsInTheirDirection) {
   EXPECT_DOUBLE_EQ(rounded_up(1.3e7, 1), 2e7);
   EXPECT_DOUBLE_EQ(rounded_up(1.234e-5, 3), 1.24e-5);
   EXPECT_DOUBLE_EQ(rounded_down(1.9e7, 1), 1e7);
   EXPECT_DOUBLE_EQ(rounded_down(0.014069, 4), 0.01406);
-  EXPECT_DOUBLE_EQ(rounded_up(9.6, 1), 10.0) << "and comes to another digit";
+  EXPECT_DOUBLE_EQ(rounded_up(9.6, 1), 10.0) << "with a carry";
 }
 
-TEST(Rounding, LeavesWhatHasNoMoreDigitsAsItIs) {
+TEST(Rounding, LeavesShortNumbersUnchanged) {
   for (const double number : {3e-9, 0.3, 1.0, 20.0, 7e12}) {
     EXPECT_DOUBLE_EQ(rounded_up(number, 1), number);
     EXPECT_DOUBLE_EQ(rounded_down(number, 1), number);
-    EXPECT_DOUBLE_EQ(rounded_up(number * (1.0 + 1e-15), 2), number) << "round-off is no more";
-    EXPECT_DOUBLE_EQ(rounded_down(number * (1.0 - 1e-15), 2), number) << "nor less";
+    EXPECT_DOUBLE_EQ(rounded_up(number * (1.0 + 1e-15), 2), number) << "round-off does not increase it";
+    EXPECT_DOUBLE_EQ(rounded_down(number * (1.0 - 1e-15), 2), number) << "or decrease it";
   }
 }
 
-TEST(Rounding, PutsCommasBetweenThousands) {
+TEST(Rounding, SeparatesThousandsByCommas) {
   EXPECT_EQ(with_commas(1.0, 3), "1");
   EXPECT_EQ(with_commas(999.4, 3), "999");
   EXPECT_EQ(with_commas(4512.0, 3), "4,510");
@@ -39,6 +39,13 @@ TEST(Rounding, EstimatesHaveTwoDigitsAndNoExponent) {
   EXPECT_EQ(rounded_text(12345678.0), "12,000,000");
   EXPECT_EQ(rounded_text(84284.0, 4), "84,280");
   EXPECT_EQ(rounded_text(1e303), "1e+303");
+}
+
+TEST(Rounding, CoordinatesHaveSevenDigitsAndNoExponent) {
+  EXPECT_EQ(coordinate_text(400805.0), "400805");
+  EXPECT_EQ(coordinate_text(-2190.123456), "-2190.123");
+  EXPECT_EQ(coordinate_text(0.125), "0.125");
+  EXPECT_EQ(coordinate_text(20037508.3), "20037508");
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ TEST(Table, IsLinearBetweenEntriesAndConstantBeyond) {
   EXPECT_DOUBLE_EQ(Table(4.5).at(1e9), 4.5);
 }
 
-TEST(Table, AtAJumpTheLaterValueHolds) {
+TEST(Table, AtAJumpTheLaterValueApplies) {
   const Table band({0.0, 75.0, 75.0, 200.0}, {0.05, 0.05, 0.5, 0.5});
   EXPECT_DOUBLE_EQ(band.at(74.999), 0.05);
   EXPECT_DOUBLE_EQ(band.at(75.0), 0.5);
@@ -48,7 +48,7 @@ TEST(InitialField, LooksUpDepthOrX) {
   EXPECT_DOUBLE_EQ(field.at(1000.0, 2.5), -2.5);
 }
 
-TEST(ParallelFor, RunsEachOnceAndPassesFailuresOn) {
+TEST(ParallelFor, RunsEachOnceAndPropagatesExceptions) {
   std::vector<std::atomic<int>> runs(1000);
   parallel_for(runs.size(), [&](std::size_t k) { ++runs[k]; });
   for (const auto& count : runs) {
@@ -79,7 +79,7 @@ TEST(ParallelSum, AddsEachOnceAndInTheSameOrderOnAnyThreads) {
   set_thread_count(before);
 }
 
-TEST(SingleThreadScope, LeavesTheNumberOfThreadsAsItWas) {
+TEST(SingleThreadScope, RestoresTheNumberOfThreads) {
   const int before = thread_count();
   set_thread_count(3);
   {

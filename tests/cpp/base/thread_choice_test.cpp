@@ -10,7 +10,7 @@
 namespace thawslide {
 namespace {
 
-// A run on a clock of its own, whose steps take step_seconds(threads, time).
+// A run with a simulated clock, whose steps take step_seconds(threads, time).
 struct TimedRun {
   ThreadChoice choice;
   double now = 0.0;
@@ -29,8 +29,8 @@ struct TimedRun {
 constexpr double step = 0.001;
 
 double shared_well(int threads, double /*time*/) { return step / threads; }
-// Threads wait for the one whose core is not its own.
-double beside_another(int threads, double /*time*/) { return threads == 1 ? step : 2.0 * step; }
+// All threads wait for the one that shares its core with another process.
+double next_to_another(int threads, double /*time*/) { return threads == 1 ? step : 2.0 * step; }
 
 TEST(ThreadChoice, UsesAllThreadsOfAQuietMachine) {
   TimedRun run(4);
@@ -39,17 +39,17 @@ TEST(ThreadChoice, UsesAllThreadsOfAQuietMachine) {
   EXPECT_GT(static_cast<double>(run.steps), 0.98 * 20.0 / (step / 4));
 }
 
-TEST(ThreadChoice, GivesUpAThreadThatHoldsUpTheOther) {
+TEST(ThreadChoice, StopsUsingAThreadThatDelaysTheOther) {
   TimedRun run(2);
-  run.until(20.0, beside_another);
+  run.until(20.0, next_to_another);
   EXPECT_GT(static_cast<double>(run.steps), 0.98 * 20.0 / step);
 }
 
-TEST(ThreadChoice, FollowsWhatElseTheMachineDoes) {
+TEST(ThreadChoice, FollowsTheLoadOfTheMachine) {
   TimedRun run(2);
   run.until(20.0, shared_well);
   const std::int64_t before = run.steps;
-  run.until(30.0, beside_another);
+  run.until(30.0, next_to_another);
   EXPECT_GT(static_cast<double>(run.steps - before), 0.95 * 10.0 / step);
   const std::int64_t adjacent = run.steps;
   run.until(60.0, shared_well);
@@ -57,7 +57,7 @@ TEST(ThreadChoice, FollowsWhatElseTheMachineDoes) {
 }
 
 TEST(ThreadChoice, FindsFewThreadsAmongMany) {
-  // Every thread beyond four costs more than it brings.
+  // Every thread beyond four costs more time than it saves.
   const auto small_case = [](int threads, double /*time*/) {
     return step / std::min(threads, 4) + 1e-4 * std::max(0, threads - 4);
   };
@@ -67,15 +67,15 @@ TEST(ThreadChoice, FindsFewThreadsAmongMany) {
   EXPECT_LE(run.choice.threads(), 5);
 }
 
-TEST(ThreadChoice, LosesLittleWhereStepsAreLong) {
+TEST(ThreadChoice, LosesLittleIfStepsAreLong) {
   TimedRun run(2);
   run.until(1000.0, [](int threads, double /*time*/) { return 2.0 / threads; });
   EXPECT_EQ(run.choice.threads(), 2);
   EXPECT_GT(static_cast<double>(run.steps), 0.95 * 1000.0);
 }
 
-TEST(ThreadChoice, KeepsTheFasterNumberWhereTrialsScatter) {
-  // Two threads are a third faster, but the machine goes at another speed every thirtieth of a second, a third to full.
+TEST(ThreadChoice, KeepsTheFasterNumberDespiteScatter) {
+  // Two threads are a third faster, but the speed of the machine changes 30 times per second between a third and full.
   std::mt19937 random(1);
   std::vector<double> pace(3000);
   std::generate(pace.begin(), pace.end(), [&] { return std::uniform_real_distribution<double>(1.0, 3.0)(random); });
@@ -89,7 +89,7 @@ TEST(ThreadChoice, KeepsTheFasterNumberWhereTrialsScatter) {
   EXPECT_GT(with_two, 0.9 * 90.0);
 }
 
-TEST(ThreadChoice, LeavesOneThreadAlone) {
+TEST(ThreadChoice, KeepsASingleThread) {
   TimedRun run(1);
   run.until(1.0, shared_well);
   EXPECT_EQ(run.choice.threads(), 1);

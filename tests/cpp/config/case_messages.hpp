@@ -1,4 +1,4 @@
-// A sound case, and what reading a changed one says. Shared by the tests of the case file.
+// A valid case and the messages for modified ones. Shared by the tests of the case file.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 
 namespace thawslide::config::case_messages {
 
-// Lines are counted in the tests: [time] is line 1.
-inline const std::string sound = R"([time]
+// Line numbers count from [time], which is line 1.
+inline const std::string valid_case = R"([time]
 end = 2.0
 step = 0.001
 [grid]
@@ -40,7 +40,7 @@ friction_angle = 20.0
 )";
 
 // A valid case of a release on a DEM; write_map_files writes its files to the same folder. [case] is line 1.
-inline const std::string sound_on_dem = R"([case]
+inline const std::string valid_case_on_dem = R"([case]
 dimension = 3
 [time]
 end = 2.0
@@ -65,9 +65,9 @@ thickness = 10.0
 friction_angle = 20.0
 )";
 
-using Change = std::pair<std::string, std::string>;  // a text of the case, and what stands there instead
+using Change = std::pair<std::string, std::string>;  // text of the case and its replacement
 
-inline std::string changed(const std::vector<Change>& changes, std::string text = sound) {
+inline std::string changed(const std::vector<Change>& changes, std::string text = valid_case) {
   for (const auto& [from, to] : changes) {
     const std::size_t at = text.find(from);
     if (at == std::string::npos) {
@@ -86,7 +86,7 @@ inline void write_next_to_the_case(const std::string& name, const std::string& t
   std::ofstream(file, std::ios::binary) << text;
 }
 
-// The values of a resolved case, without the marks of what was not given.
+// Values of a resolved case, without the marks of keys that were not given.
 inline std::string without_marks(std::string resolved) {
   for (const std::string mark : {"  # not given", ", not given"}) {
     for (std::size_t at = resolved.find(mark); at != std::string::npos; at = resolved.find(mark)) {
@@ -96,14 +96,14 @@ inline std::string without_marks(std::string resolved) {
   return resolved;
 }
 
-// Maps are opened when a run begins: to the case file it is enough that they are there.
+// Maps are opened when a run begins. For the case file it is sufficient that they exist.
 inline void write_map_files() {
   for (const char* name : {"dem.tif", "release.geojson", "map.tif", "line.geojson"}) {
     write_next_to_the_case(name, "");
   }
 }
 
-// The whole error that `read` throws, the folder of this test written as FOLDER.
+// Complete error that `read` throws, with the folder of this test replaced by FOLDER.
 template <class Read>
 std::string error_of(const Read& read) {
   std::string message = "no error";
@@ -119,7 +119,7 @@ std::string error_of(const Read& read) {
   return message;
 }
 
-// The whole error of a case text.
+// Complete error of a case text.
 inline std::string error_of_text(const std::string& text, const std::vector<std::string>& sets = {}) {
   return error_of([&] { testing_support::case_from_text(text, sets); });
 }

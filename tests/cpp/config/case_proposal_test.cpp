@@ -1,4 +1,4 @@
-// The domain that `thawslide new` proposes: it holds the release, whose edge and top lie between points of the DEM.
+// The domain that `thawslide new` proposes contains the release, whose edge and top lie between points of the DEM.
 #include "config/case_proposal.hpp"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ Raster release_at(int first_column, int first_row, double thickness) {
   return raster;
 }
 
-TEST(CaseProposal, HoldsAReleaseThinnerThanASlopeAcrossACellOfTheDem) {
+TEST(CaseProposal, ContainsAReleaseThinnerThanASlopeAcrossACellOfTheDem) {
   for (const double thickness : {3.0, 1.0, 0.1}) {
     const Proposal proposal = propose(dem_points(), release_at(20, 15, thickness), 44.0);
     EXPECT_EQ(proposal.thickness, thickness);
@@ -57,11 +57,11 @@ TEST(CaseProposal, HoldsAReleaseThinnerThanASlopeAcrossACellOfTheDem) {
     EXPECT_GE(proposal.max[1], 2230.0 + margin);
     // The point to the west of the release is 8 m above its highest one.
     EXPECT_GE(proposal.max[2], 500.0 - 0.8 * 190.0 + thickness + margin);
-    EXPECT_LE(proposal.min[2], 500.0 - 0.8 * 300.0 - thickness - margin) << "room for one that is cut out";
+    EXPECT_LE(proposal.min[2], 500.0 - 0.8 * 300.0 - thickness - margin) << "space for an excavated release";
   }
 }
 
-// Half of 80 points are 4 m thick, the others 20 m: five sixths of the volume lie where it is thicker.
+// Half of 80 points are 4 m thick, the others 20 m: five sixths of the volume are in the thicker half.
 TEST(CaseProposal, TheCellFollowsTheVolumeAndTheMedianTheArea) {
   Raster release = release_at(20, 15, 20.0);
   for (int row = 15; row < 19; ++row) {
@@ -86,8 +86,8 @@ TEST(CaseProposal, TheCellIsThatOfTheResolutionUnlessTheUserGivesOne) {
   EXPECT_EQ(case_text(ProposalInput(), standard).find("Maps of thickness and area need"), std::string::npos);
 }
 
-// What a case says of a file's name, whatever letters it has.
-TEST(CaseProposal, NamesAreTextsOfToml) {
+// A case contains the name of a file with any characters.
+TEST(CaseProposal, NamesAreTomlStrings) {
   const std::string name = "x\"\n[time]\nend = 5\n#\\.geojson";
   ProposalInput input;
   input.title = input.release_file = name;
@@ -98,21 +98,21 @@ TEST(CaseProposal, NamesAreTextsOfToml) {
   EXPECT_NE(text.find("\ntitle = " + escaped + "\n"), std::string::npos) << text;
   EXPECT_NE(text.find("\nrelease = " + escaped + "\n"), std::string::npos) << text;
   EXPECT_NE(text.find("\nthickness = { attribute = \"thick\\\"ness\" }  # m\n"), std::string::npos) << text;
-  EXPECT_EQ(text.find("\nend = 5\n"), std::string::npos) << "no key comes of a name";
+  EXPECT_EQ(text.find("\nend = 5\n"), std::string::npos) << "names create no keys";
   const std::string section = section_text(name, name, Proposal());
   EXPECT_NE(section.find("\ntitle = " + escaped + "\n"), std::string::npos) << section;
   EXPECT_NE(section.find("\nfile = " + escaped + "\n"), std::string::npos) << section;
 }
 
 // The value is the rest speed of a run without the key.
-TEST(CaseProposal, RunsEndOnceTheSlideHasComeToRest) {
+TEST(CaseProposal, RunsEndAtRest) {
   const std::string line = fmt::format("\nstop_at_rest = {:g}  # m/s; ", sim::usual_rest_speed);
   const Proposal proposal = propose(dem_points(), release_at(20, 15, 20.0), 20.0);
   EXPECT_NE(case_text(ProposalInput(), proposal).find(line), std::string::npos);
   EXPECT_NE(section_text("title", "profile.csv", proposal).find(line), std::string::npos);
 }
 
-TEST(CaseProposal, BeginsAtTheEdgeOfTheDemWhereAMultipleOfTheCellWouldCutTheRelease) {
+TEST(CaseProposal, BeginsAtTheEdgeOfTheDemIfAMultipleOfTheCellWouldCutTheRelease) {
   const Proposal west = propose(dem_points(), release_at(1, 1, 23.0), 8.0);
   EXPECT_EQ(west.cell, 6.0);
   EXPECT_EQ(west.min[0], 1000.0) << "a multiple of 6 m would be 1002 m";

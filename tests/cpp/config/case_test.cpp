@@ -1,4 +1,4 @@
-// A case as read: what the file says, and the defaults of what it does not.
+// A case as read: values of the file, and defaults for all other keys.
 #include <cmath>
 #include <map>
 #include <set>
@@ -14,8 +14,8 @@ namespace {
 using namespace case_messages;
 using testing_support::case_from_text;
 
-// What `sound` says, over a case of member initialisers.
-Case sound_over_initialisers() {
+// `valid_case`, constructed from member initializers.
+Case valid_case_from_initializers() {
   Case expected;
   expected.time.end = 2.0;
   expected.time.step = 0.001;
@@ -34,20 +34,20 @@ Case sound_over_initialisers() {
   return expected;
 }
 
-TEST(CaseFile, TakesMemberInitialisersWhereItSaysNothing) {
-  const Case found = case_from_text(sound);
+TEST(CaseFile, UsesMemberInitialisersForKeysNotGiven) {
+  const Case found = case_from_text(valid_case);
   EXPECT_EQ(without_marks(resolved_toml(found, "inputs")),
-            without_marks(resolved_toml(sound_over_initialisers(), "inputs")));
-  // Keys that the resolved case leaves out where they are absent.
+            without_marks(resolved_toml(valid_case_from_initializers(), "inputs")));
+  // Keys that the resolved case omits if they are not given.
   EXPECT_EQ(found.mechanics.k0, Mechanics{}.k0);
   EXPECT_FALSE(found.band.thickness.is_given());
   EXPECT_TRUE(found.terrain.file.empty());
   EXPECT_TRUE(std::isinf(found.materials.at("rock").tension_cutoff));
 }
 
-// The values of Tables 1 to 3 of the paper, and the readings of it that are ours.
+// Values of Tables 1 to 3 of the paper, and the interpretations of it chosen in Thawslide.
 TEST(CaseFile, DefaultsAreThoseOfThePaper) {
-  const Case found = case_from_text(sound);
+  const Case found = case_from_text(valid_case);
   EXPECT_EQ(found.phases.rock_density, 2750.0);
   EXPECT_EQ(found.phases.ice_density, 917.0);
   EXPECT_EQ(found.phases.latent_heat, 333.5e3);
@@ -74,9 +74,10 @@ TEST(CaseFile, DefaultsAreThoseOfThePaper) {
   EXPECT_EQ(found.bodies.at("block").porosity.at(0.0, 0.0), 0.375);
 }
 
-// Where the paper's forms make heat or water, or let pressure pass the load, the defaults are others.
-TEST(CaseFile, DefaultsOfTheBaseMakeNothingFromNothing) {
-  const Case found = case_from_text(sound);
+// The defaults differ from the published formulation if the latter creates heat or water, or allows pore pressure above
+// the load.
+TEST(CaseFile, DefaultsOfTheBaseConserveHeatAndWater) {
+  const Case found = case_from_text(valid_case);
   EXPECT_EQ(found.band.model, BandKind::scaled) << "no band";
   EXPECT_EQ(found.phases.water_expansion_law, WaterExpansionLaw::by_temperature);
   EXPECT_EQ(found.pressure.frozen, FrozenPressure::none);
@@ -90,7 +91,7 @@ TEST(CaseFile, DefaultsOfTheBaseMakeNothingFromNothing) {
   EXPECT_TRUE(found.block.bends);
 }
 
-TEST(CaseFile, ABandIsOfColumnsWhereThereIsABase) {
+TEST(CaseFile, UsesBandColumnsIfThereIsABase) {
   const std::string with_band = changed({{"[basal]", "[band]\nthickness = 0.1\n[basal]"}});
   EXPECT_EQ(case_from_text(with_band).band.model, BandKind::columns);
   for (const char* without :
@@ -99,14 +100,14 @@ TEST(CaseFile, ABandIsOfColumnsWhereThereIsABase) {
   }
 }
 
-TEST(CaseFile, DefaultsOfTheReferenceAreThoseInForce) {
+TEST(CaseFile, DefaultsOfTheReferenceAreThoseApplied) {
   write_map_files();
   const std::string wall = "[frame.wall]\nmin = [90.0, 0.0]\nmax = [95.0, 5.0]\naxis = \"x\"\nvelocity = 0.0\n";
   const std::set<std::string> given{"case.dimension", "terrain.type", "material.law", "body.shape", "bed.law"};
   const std::string noise = "[initial]\nnoise = 0.1\n";
   const std::string columns = "[band]\nthickness = 0.5\n", growth = "growth = \"inertial\"\n";
-  std::map<std::string, bool> in_force;  // whether a key's default could be told in one of the cases
-  std::string of_surface = sound_on_dem;
+  std::map<std::string, bool> in_force;  // whether the default of a key has an effect in one of the cases
+  std::string of_surface = valid_case_on_dem;
   const std::string number = "thickness = 10.0";
   of_surface.replace(of_surface.find(number), number.size(), "thickness = { surface = \"map.tif\" }");
   const std::string bed =
@@ -115,9 +116,10 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseInForce) {
   const std::string resting = changed({{"step = 0.001", "step = 0.001\nstop_at_rest = 0.1"}});
   write_next_to_the_case("force.csv", "time_s,up_N,north_N,east_N\n0,0,0,0\n1,0,0,0\n");
   const std::string record = "[report]\nforce_record = \"force.csv\"\nforce_periods = [10.0, 200.0]\n";
-  for (const std::string& text : {sound + record, sound + wall + ice + "x_min = 50.0\n", sound + noise, sound + bed,
-                                  sound + columns, sound + columns + growth, sound_on_dem, of_surface, resting,
-                                  sound_on_dem + ice + "outline = \"release.geojson\"\n"}) {
+  for (const std::string& text :
+       {valid_case + record, valid_case + wall + ice + "x_min = 50.0\n", valid_case + noise, valid_case + bed,
+        valid_case + columns, valid_case + columns + growth, valid_case_on_dem, of_surface, resting,
+        valid_case_on_dem + ice + "outline = \"release.geojson\"\n"}) {
     const Case found = case_from_text(text);
     const std::string before = without_marks(resolved_toml(found, "inputs"));
     for (const auto& table : tables()) {
@@ -132,7 +134,7 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseInForce) {
         }
         const std::string own_name = names[0].empty() ? "" : "." + names[0];
         const std::string set = table->name + own_name + "." + entry.rule->key + "=" + entry.default_text;
-        // The reference tells points of two numbers.
+        // The reference describes points by two numbers.
         const std::string error = error_of_text(text, {set});
         const bool has_meaning = error.find("has a meaning only") == std::string::npos &&
                                  error.find("as case.dimension is 3") == std::string::npos;
@@ -149,16 +151,16 @@ TEST(CaseFile, DefaultsOfTheReferenceAreThoseInForce) {
   }
 }
 
-TEST(CaseFile, FillsInWhatFollowsFromOtherKeys) {
+TEST(CaseFile, FillsInDependentKeys) {
   const Case found = case_from_text(changed(
       {{"step = 0.001", "stepping = \"adaptive\""}, {"law = \"elastic\"", "friction_angle = 30.0\ncohesion = 2e5"}}));
-  EXPECT_EQ(found.time.step, 2.0) << "no cap but the end";
+  EXPECT_EQ(found.time.step, 2.0) << "no limit except the end";
   EXPECT_EQ(found.materials.at("rock").residual_cohesion, 2e5) << "no softening";
   EXPECT_EQ(found.materials.at("rock").residual_friction_angle, 30.0) << "no softening";
 }
 
 TEST(CaseFile, IsNamedByItsFolder) {
-  const Case found = case_from_text(sound);
+  const Case found = case_from_text(valid_case);
   EXPECT_EQ(found.name, "CaseFile.IsNamedByItsFolder");
   EXPECT_EQ(found.file, (folder_of_this_test() / "case.toml").string());
 }

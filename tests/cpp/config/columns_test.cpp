@@ -1,4 +1,4 @@
-// What a case with band columns may not hold, since it would do nothing there.
+// Options that have no effect with band columns are refused.
 #include <array>
 
 #include "case_messages.hpp"
@@ -10,22 +10,22 @@ using namespace case_messages;
 
 const std::string on_columns = changed({{"[basal]", "[band]\nmodel = \"columns\"\nthickness = 0.5\n[basal]"}});
 
-TEST(Columns, RefuseWhatWorksOnTheHeatAndWaterOfParticles) {
-  // Key, what is given, how the message names it, what is allowed.
+TEST(Columns, RefuseOptionsOfTheHeatAndWaterOfParticles) {
+  // Key, given value, its name in the message, allowed values.
   const std::vector<std::array<std::string, 4>> refused{
       {"mechanics.enabled", "false", "false", "true"},
       {"mechanics.effective_stress", "true", "true", "false"},
       {"heat.enabled", "false", "false", "true"},
       {"heat.advection", "false", "false", "true"},
-      {"heat.advection_form", "as_printed", "\"as_printed\"", "\"conservative\""},
+      {"heat.advection_form", "as_published", "\"as_published\"", "\"conservative\""},
       {"heat.boundary.x_max", "{temperature = 5}", "not \"insulated\"", "\"insulated\""},
-      {"pressure.clapeyron", "printed", "\"printed\"", "\"usual\""},
+      {"pressure.clapeyron", "published", "\"published\"", "\"usual\""},
       {"pressure.volumetric_term", "true", "true", "false"},
-      {"pressure.seepage_scaling", "printed", "\"printed\"", "\"consistent\""},
+      {"pressure.seepage_scaling", "published", "\"published\"", "\"consistent\""},
       {"pressure.frozen", "ice_pressure", "\"ice_pressure\"", "\"none\""},
       {"pressure.frozen_rows", "draining", "\"draining\"", "\"sealed\" or \"vented\""},
       {"pressure.melt_contraction", "false", "false", "true"},
-      {"band.thickness_change", "as_printed", "\"as_printed\"", "\"conserving\""}};
+      {"band.thickness_change", "as_published", "\"as_published\"", "\"conserving\""}};
   EXPECT_EQ(error_of_text(on_columns), "no error");
   for (const auto& [key, value, found, allowed] : refused) {
     const std::string set = key + "=" + value;
@@ -36,7 +36,7 @@ TEST(Columns, RefuseWhatWorksOnTheHeatAndWaterOfParticles) {
   }
 }
 
-TEST(Columns, RefuseKeysOfTheOtherBand) {
+TEST(Columns, RefuseKeysOfTheOtherBandModel) {
   const auto error = [](const std::string& set, const std::string& more = "time.end=2.0") {
     return error_of_text(on_columns, {more, set});
   };
@@ -54,7 +54,7 @@ TEST(Columns, RefuseKeysOfTheOtherBand) {
   }
 }
 
-TEST(Columns, RefuseNumbersOfAnotherGrowth) {
+TEST(Columns, RefuseParametersOfAnotherGrowthLaw) {
   const auto without_meaning = [](const std::string& set, const std::string& growth) {
     return "--set " + set + ": " + set.substr(0, set.find('=')) +
            " has a meaning only when band.model is \"columns\" and band.growth is \"" + growth +

@@ -1,4 +1,4 @@
-// What reading a case says of contact between bodies that cannot be, and which bodies move as one.
+// Error messages for invalid contact between bodies, and bodies bonded to each other.
 #include "case_messages.hpp"
 #include "config/body_layers.hpp"
 
@@ -15,18 +15,18 @@ const std::string frictional = "[contact]\nbetween_bodies = \"frictional\"\nfric
 std::string pair(const std::string& name, const std::string& bodies, const std::string& contact) {
   return "[contact_pair." + name + "]\nbodies = " + bodies + "\ncontact = " + contact + "\n";
 }
-std::string error_of(const std::string& text) { return error_of_text(sound + more_bodies + text); }
+std::string error_of(const std::string& text) { return error_of_text(valid_case + more_bodies + text); }
 BodyLayers layers_of(const std::string& text) {
-  return body_layers(testing_support::case_from_text(sound + more_bodies + text));
+  return body_layers(testing_support::case_from_text(valid_case + more_bodies + text));
 }
 const std::string bonded = "\"bonded\"", rubs = "\"frictional\"\nfriction_angle = 30.0";
 
-TEST(ContactOfBodies, IsBondedUnlessTheCaseSaysOtherwise) {
+TEST(ContactOfBodies, IsBondedByDefault) {
   EXPECT_EQ(layers_of("").of_body, (std::vector<std::size_t>{0, 0, 0}));
   EXPECT_EQ(layers_of(frictional).of_body, (std::vector<std::size_t>{0, 1, 2}));
 }
 
-TEST(ContactOfBodies, BondsByWayOfOthers) {
+TEST(ContactOfBodies, BondsThroughOtherBodies) {
   const std::string seam = pair("seam", "[\"block\", \"ice\"]", bonded);
   EXPECT_EQ(layers_of(frictional + seam).of_body, (std::vector<std::size_t>{0, 0, 1}));
   EXPECT_EQ(layers_of(frictional + seam + pair("other", "[\"wall\", \"ice\"]", bonded)).of_body,
@@ -40,14 +40,14 @@ TEST(ContactOfBodies, HasTheFrictionOfThePair) {
   EXPECT_EQ(layers.friction_between(2, 1), 30.0);
 }
 
-TEST(ContactOfBodies, LacksItsFriction) {
+TEST(ContactOfBodies, WithoutFrictionIsRefused) {
   EXPECT_EQ(error_of("[contact]\nbetween_bodies = \"frictional\"\n"),
             "FOLDER/case.toml:30:1: key 'contact.friction_angle' is missing: it is needed when contact.between_bodies "
             "is \"frictional\". Add 'friction_angle = ...' to [contact]: friction angle between bodies that are in "
             "contact, a number, >= 0 and < 90 [degrees].");
 }
 
-TEST(ContactOfBodies, NamesNoTwoBodies) {
+TEST(ContactOfBodies, MustNameTwoBodies) {
   EXPECT_EQ(error_of(pair("slip", "[\"block\"]", bonded)),
             "FOLDER/case.toml:31:10: contact_pair.slip.bodies has 1 names of 1 bodies; allowed: the names of two. Name "
             "the two bodies, as in bodies = [\"ice\", \"rock\"].");
@@ -59,7 +59,7 @@ TEST(ContactOfBodies, NamesNoTwoBodies) {
             "too. Remove one.");
 }
 
-TEST(ContactOfBodies, ContradictsItself) {
+TEST(ContactOfBodies, ThatIsContradictoryIsRefused) {
   EXPECT_EQ(error_of(pair("slip", "[\"block\", \"ice\"]", rubs)),
             "FOLDER/case.toml:32:11: contact_pair.slip: block and ice are frictional here, but bonded through other "
             "bodies. Set contact.between_bodies = \"frictional\", and make only those pairs \"bonded\" that "
@@ -70,7 +70,7 @@ TEST(ContactOfBodies, ContradictsItself) {
             "bodies are bonded to these, 30; allowed: one between bodies that move as one. Give both the same.");
 }
 
-TEST(ContactOfBodies, FitsNeitherBandColumnsNorABed) {
+TEST(ContactOfBodies, ExcludesBandColumnsAndABed) {
   EXPECT_NE(error_of(frictional + "[band]\nmodel = \"columns\"\nthickness = 0.5\n")
                 .find("contact.between_bodies: frictional contact between bodies and band.model = \"columns\" exclude "
                       "each other. Set contact.between_bodies = \"bonded\", or band.model = \"scaled\"."),

@@ -1,4 +1,4 @@
-// What `thawslide new` says of a release near the edge of the known terrain.
+// Warnings of `thawslide new` about a release near the edge of the known terrain.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ Raster level_points(int columns, int rows) {
   return raster;
 }
 
-// 10 x 8 points, which ends a cell beyond them: 110 m x 90 m.
+// 10 x 8 points; the release ends a cell beyond them: 110 m x 90 m.
 Raster release_at(const Raster& dem, int first_column, int first_row) {
   Raster raster = dem.filled(0.0);
   for (int row = first_row; row < first_row + 8; ++row) {
@@ -33,7 +33,7 @@ Raster release_at(const Raster& dem, int first_column, int first_row) {
   return raster;
 }
 
-TEST(EdgeWarning, ComesWhereTheEdgeIsNearerThanTheReleaseIsLong) {
+TEST(EdgeWarning, IsGivenIfTheEdgeIsNearerThanTheLengthOfTheRelease) {
   const Raster dem = level_points(60, 60);
   for (int first = 1; first < 49; first += 4) {
     for (const bool along_x : {true, false}) {
@@ -47,11 +47,10 @@ TEST(EdgeWarning, ComesWhereTheEdgeIsNearerThanTheReleaseIsLong) {
   }
   EXPECT_EQ(edge_warning(propose(dem, release_at(dem, 4, 25), 20.0)),
             "--dem: the release is close to the edge of the known terrain (found 30 m; needed at least its own length, "
-            "110 m). "
-            "Particles that pass the edge are removed, and the results lack them. Use a larger DEM");
+            "110 m). Particles that pass the edge are removed, and the results do not include them. Use a larger DEM");
 }
 
-TEST(EdgeWarning, ComesForPointsWithoutDataToo) {
+TEST(EdgeWarning, IsGivenForPointsWithoutData) {
   Raster dem = level_points(60, 60);
   const Raster release = release_at(dem, 25, 25);  // from 1240 to 1350 m and from 2240 to 2330 m
   EXPECT_EQ(edge_warning(propose(dem, release, 20.0)), "");
@@ -61,7 +60,7 @@ TEST(EdgeWarning, ComesForPointsWithoutDataToo) {
   EXPECT_NE(edge_warning(proposal).find("(found 50 m; needed at least its own length, 110 m"), std::string::npos);
 }
 
-TEST(EdgeWarning, ComesWithACaseThatRemovesWhatLeaves) {
+TEST(EdgeWarning, IsGivenForACaseThatRemovesLeavingParticles) {
   const Raster dem = level_points(60, 60);
   ProposalInput input;
   input.dem_file = "dem.tif";

@@ -1,4 +1,4 @@
-// Cases in which every key stands, none at its default.
+// Cases that contain every key, none with its default value.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace thawslide::config {
 
-// Every key of a plane case, none at its default, written as the program writes it. What only a 3D case can show is in
-// the other texts.
+// Every key of a 2D case, none with its default value, in the format of the program. Keys for 3D cases only are in the
+// other texts.
 inline const std::string every_key = R"([case]
 title = "Every \"key\""
 width = 12.5
@@ -117,7 +117,7 @@ seed = 7
 enabled = false
 shape_function = "linear"
 transfer = "blend"
-pic_share = 0.125
+pic_fraction = 0.125
 initial_stress = "settle"
 k0 = 0.4
 effective_stress = true
@@ -170,7 +170,7 @@ pressurization = false
 thickness = { time = [0.0, 75.0, 75.0], value = [0.05, 0.05, 0.5] }
 region = "first_layer"
 cut_cells = "equal_thickness"
-thickness_change = "as_printed"
+thickness_change = "as_published"
 [heat]
 enabled = false
 update = "apparent_capacity"
@@ -179,7 +179,7 @@ latent = false
 steam = false
 conduction = false
 advection = false
-advection_form = "as_printed"
+advection_form = "as_published"
 [heat.boundary]
 x_min = { temperature = -6.0 }
 x_max = { flux = 12.5 }
@@ -187,7 +187,7 @@ y_min = { temperature = -7.0 }
 y_max = { flux = -2.0 }
 [pressure]
 thermal_pressurization = false
-clapeyron = "printed"
+clapeyron = "published"
 volumetric_term = true
 frozen = "ice_pressure"
 melt_contraction = false
@@ -196,7 +196,7 @@ seepage = false
 column_top = "sealed"
 water_to_steam_viscosity = 20.0
 frozen_rows = "vented"
-seepage_scaling = "printed"
+seepage_scaling = "published"
 thickness_direction = "vertical"
 thickness_update = "frozen"
 [block]
@@ -253,7 +253,7 @@ enabled = false
 residual_stress = 20000.0
 )";
 
-// A release on a DEM, with all that maps give.
+// A release on a DEM, with all fields from maps.
 inline const std::string release_on_dem = R"([case]
 dimension = 3
 [time]
@@ -319,7 +319,7 @@ contact = "frictional"
 friction_angle = 12.5
 )";
 
-// The same release between two surfaces, on columns that grow, and the substrate from a raster.
+// The same release between two surfaces, with growing band columns, and the substrate from a raster.
 inline std::string release_of_a_surface() {
   using namespace case_messages;
   std::string text =

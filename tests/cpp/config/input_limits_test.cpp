@@ -5,7 +5,7 @@
 namespace thawslide::config {
 namespace {
 
-TEST(InputLimits, WhatSteersATerminalIsReplaced) {
+TEST(InputLimits, TerminalControlCharactersAreReplaced) {
   EXPECT_EQ(printable("a\x1b[2J\x7f\n\tb"), "a?[2J???b");
   EXPECT_EQ(printable("a\x1b[2J\n\tb", "\n\t"), "a?[2J\n\tb");
   EXPECT_EQ(printable("left \u202e right \u2069 \u202f"), "left ? right ? \u202f") << "a space that is no mark stays";

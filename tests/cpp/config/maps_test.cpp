@@ -1,4 +1,4 @@
-// The keys of a DEM, of releases, of what maps give to bodies, of maps and probes: reading, defaults, mistakes.
+// Keys of a DEM, of releases, of fields from maps, of maps and probes: reading, defaults, errors.
 #include <set>
 
 #include "case_messages.hpp"
@@ -12,9 +12,9 @@ namespace fs = std::filesystem;
 using namespace case_messages;
 using testing_support::case_from_text;
 
-// The case on the DEM with lines below body.slide.thickness, which is line 22 and so on.
+// The case on the DEM with additional lines below body.slide.thickness, from line 22 on.
 std::string with_body_lines(const std::string& lines) {
-  return changed({{"thickness = 10.0", "thickness = 10.0\n" + lines}}, sound_on_dem);
+  return changed({{"thickness = 10.0", "thickness = 10.0\n" + lines}}, valid_case_on_dem);
 }
 
 class Maps : public testing::Test {
@@ -22,10 +22,10 @@ class Maps : public testing::Test {
   void SetUp() override { write_map_files(); }
 
   static Case read(const std::vector<Change>& changes, const std::vector<std::string>& sets = {}) {
-    return case_from_text(changed(changes, sound_on_dem), sets);
+    return case_from_text(changed(changes, valid_case_on_dem), sets);
   }
   static std::string error_on_dem(const std::vector<Change>& changes, const std::vector<std::string>& sets = {}) {
-    return error_of_text(changed(changes, sound_on_dem), sets);
+    return error_of_text(changed(changes, valid_case_on_dem), sets);
   }
   static std::string path_of(const std::string& name) { return (folder_of_this_test() / name).string(); }
 };
@@ -113,15 +113,14 @@ TEST_F(Maps, OfThicknessNeedNoPolygons) {
               "no error");
   }
   for (const std::string value : {"10.0", "{ attribute = \"depth\" }"}) {
-    EXPECT_EQ(
-        error_on_dem({{"release = \"release.geojson\"\nthickness = 10.0", "thickness = " + value}}),
-        "FOLDER/case.toml:17:1: key 'body.slide.release' is missing: it is needed when the shape is \"release\" and "
-        "thickness is a number or an attribute. Add 'release = ...' to [body.slide]: file of polygons that bound "
-        "the body: Shapefile, GeoPackage or GeoJSON, the path of a file, in quotes.");
+    EXPECT_EQ(error_on_dem({{"release = \"release.geojson\"\nthickness = 10.0", "thickness = " + value}}),
+              "FOLDER/case.toml:17:1: key 'body.slide.release' is missing: it is needed when the shape is \"release\" "
+              "and thickness is a number or an attribute. Add 'release = ...' to [body.slide]: file of the release "
+              "polygons: Shapefile, GeoPackage or GeoJSON, the path of a file, in quotes.");
   }
 }
 
-TEST_F(Maps, OfThicknessHaveMistakes) {
+TEST_F(Maps, OfThicknessReportMistakes) {
   const auto with_thickness = [](const std::string& value) {
     return error_on_dem({{"thickness = 10.0", "thickness = " + value}});
   };
@@ -130,8 +129,8 @@ TEST_F(Maps, OfThicknessHaveMistakes) {
       "; allowed: a number, { attribute = \"NAME\" }, { raster = \"FILE\" } or { surface = \"FILE\" }, > 0 [m].";
   EXPECT_EQ(with_thickness("0"),
             start +
-                "is 0; allowed: > 0 m (thickness of the body: a number, an attribute of the polygons, a raster of "
-                "it, or a raster of the surface before the slide, from which the DEM is subtracted).");
+                "is 0; allowed: > 0 m (release thickness: a number, an attribute of the polygons, a raster of "
+                "thickness, or a raster of the surface before the event, from which the DEM is subtracted).");
   EXPECT_EQ(with_thickness("\"thick\""), start + "is the text \"thick\"" + allowed);
   EXPECT_EQ(with_thickness("{ rastr = \"map.tif\" }"), start + "is a table with the keys rastr" + allowed);
   EXPECT_EQ(with_thickness("{ raster = \"map.tif\", surface = \"map.tif\" }"),
@@ -152,9 +151,9 @@ TEST_F(Maps, OfThicknessHaveMistakes) {
             "body.slide.thickness='{ raster = \"PATH\" }'.");
   EXPECT_EQ(error_on_dem({{"thickness = 10.0\n", ""}}),
             "FOLDER/case.toml:17:1: key 'body.slide.thickness' is missing: it is needed when the shape is \"release\". "
-            "Add 'thickness = ...' to [body.slide]: thickness of the body: a number, an attribute of the polygons, a "
-            "raster of it, or a raster of the surface before the slide, from which the DEM is subtracted, a number, { "
-            "attribute = \"NAME\" }, { raster = \"FILE\" } or { surface = \"FILE\" }, > 0 [m].");
+            "Add 'thickness = ...' to [body.slide]: release thickness: a number, an attribute of the polygons, a "
+            "raster of thickness, or a raster of the surface before the event, from which the DEM is subtracted, a "
+            "number, { attribute = \"NAME\" }, { raster = \"FILE\" } or { surface = \"FILE\" }, > 0 [m].");
 }
 
 TEST_F(Maps, OfASurfaceGiveAVerticalThicknessOnTheDem) {
@@ -171,7 +170,7 @@ TEST_F(Maps, OfASurfaceGiveAVerticalThicknessOnTheDem) {
 
 TEST_F(Maps, AreForBodiesOfTheShapeRelease) {
   EXPECT_EQ(
-      error_of_text(sound, {"body.block.temperature={ raster = \"" + path_of("map.tif") + "\" }"}),
+      error_of_text(valid_case, {"body.block.temperature={ raster = \"" + path_of("map.tif") + "\" }"}),
       "--set body.block.temperature={ raster = \"FOLDER/map.tif\" }: body.block.temperature is a raster, and "
       "body.block.shape is not \"release\"; only a release takes it from maps. Give a number or a table over depth "
       "or x.");
@@ -201,17 +200,16 @@ TEST_F(Maps, AreForBodiesOfTheShapeRelease) {
             "leave it out for the default [].");
 }
 
-TEST_F(Maps, OfADemAreTheGroundOfThreeDimensions) {
+TEST_F(Maps, OfADemAreTheGroundInThreeDimensions) {
   EXPECT_EQ(
       error_of_text(changed({{"type = \"flat\"\nelevation = 0.0", "type = \"dem\"\nfile = \"dem.tif\""}})),
       "FOLDER/case.toml:9:8: terrain.type is \"dem\", and case.dimension is 2; a DEM is the ground of a 3D case. Set "
       "case.dimension = 3, or cut a 2D case out of the DEM with `thawslide section`.");
-  EXPECT_EQ(
-      error_on_dem({{"file = \"dem.tif\"\n", ""}}),
-      "FOLDER/case.toml:10:1: key 'terrain.file' is missing: it is needed when terrain.type is \"profile\" or "
-      "\"dem\". Add 'file = ...' to [terrain]: profile: CSV file with the columns "
-      "distance_m,terrain_elevation_m[,surface_elevation_m]; dem: GeoTIFF or ESRI ASCII grid, the path of a file, "
-      "in quotes.");
+  EXPECT_EQ(error_on_dem({{"file = \"dem.tif\"\n", ""}}),
+            "FOLDER/case.toml:10:1: key 'terrain.file' is missing: it is needed when terrain.type is \"profile\" or "
+            "\"dem\". Add 'file = ...' to [terrain]: file of the terrain; profile: CSV file with the columns "
+            "distance_m,terrain_elevation_m[,surface_elevation_m]; dem: GeoTIFF or ESRI ASCII grid, the path of a "
+            "file, in quotes.");
   EXPECT_EQ(
       error_on_dem({{"[terrain]", "[terrain]\nrepresentation = \"rigid_points\""}}),
       "FOLDER/case.toml:11:18: terrain.representation is \"rigid_points\", and terrain.type is \"dem\"; rigid points "
@@ -231,14 +229,14 @@ TEST_F(Maps, OfADemAreTheGroundOfThreeDimensions) {
       "a DEM, or in it. Set terrain.type = \"dem\" and terrain.file, or use another shape.");
   EXPECT_EQ(error_on_dem({{"type = \"dem\"", "type = \"den\"\ncrs = \"EPSG:31287\""}}).substr(0, 65),
             "FOLDER/case.toml:11:8: terrain.type is \"den\"; did you mean 'dem'?")
-      << "a word that is not known decides nothing";
+      << "an unknown keyword has no effect";
 }
 
-TEST_F(Maps, LetBodiesOfOtherShapesStandOnADem) {
+TEST_F(Maps, AllowBodiesOfOtherShapesOnADem) {
   EXPECT_EQ(error_on_dem({{"shape = \"release\"\nrelease = \"release.geojson\"\nthickness = 10.0",
                            "shape = \"box\"\nmin = [0.0, 0.0, 5.0]\nmax = [10.0, 10.0, 20.0]"}}),
             "no error")
-      << "where the ground is, the simulation knows";
+      << "the simulation knows the position of the ground";
 }
 
 TEST_F(Maps, AreSmoothedByANumberOrAsTheirNoiseNeeds) {
@@ -255,33 +253,22 @@ TEST_F(Maps, AreSmoothedByANumberOrAsTheirNoiseNeeds) {
             "FOLDER/case.toml:11:10: terrain.smooth is the text \"2.5\"; allowed: a number, >= 0 [m], or \"auto\"; "
             "remove the quotes. Correct it, or leave it out for the default \"auto\".");
   EXPECT_EQ(error_on_dem({{"[terrain]", "[terrain]\nsmooth = -1.0"}}),
-            "FOLDER/case.toml:11:10: terrain.smooth is -1; allowed: >= 0 m (standard deviation of a Gaussian filter "
-            "over the DEM; 0: no filter; auto: what the DEM's noise and short bumps need, none on smooth ground). "
-            "Correct it, or leave it out for the default \"auto\".");
+            "FOLDER/case.toml:11:10: terrain.smooth is -1; allowed: >= 0 m (standard deviation of the Gaussian filter "
+            "applied to the DEM; 0: no filter; auto: determined by noise and short bumps of the DEM, no filter on "
+            "smooth terrain). Correct it, or leave it out for the default \"auto\".");
 }
 
-TEST_F(Maps, TellTheNewNameOfTheRepresentation) {
-  const std::string found =
-      "key 'terrain.description' is not known in [terrain]; it is called 'terrain.representation' now. Allowed here: "
-      "type, elevation, slope, file, extend, representation, layers, crs, resample, smooth.";
-  EXPECT_EQ(error_of_changed({{"elevation = 0.0", "description = \"rigid_points\""}}),
-            "FOLDER/case.toml:10:1: " + found);
-  EXPECT_EQ(error_of_text(sound, {"terrain.description=rigid_points"}),
-            "--set terrain.description=rigid_points: " + found);
-}
-
-TEST_F(Maps, SaturationStandsForATemperature) {
+TEST_F(Maps, SaturationReplacesTheTemperature) {
   const Case found = case_from_text(with_body_lines("saturation = { depth = [0.0, 9.0], value = [0.3, 0.1] }"));
   EXPECT_TRUE(found.bodies.at("slide").saturation.is_given());
   EXPECT_EQ(found.bodies.at("slide").saturation.at(9.0, 0.0), 0.1);
   EXPECT_EQ(resolved_toml(found, "inputs").find("\ntemperature ="), std::string::npos) << "it follows";
-  EXPECT_EQ(
-      error_of_text(with_body_lines("saturation = 0.3\ntemperature = -2.0")),
-      "FOLDER/case.toml:23:15: body.slide.temperature has a meaning only when saturation is not given, from which it "
-      "follows by the freezing curve. Remove it, or change body.slide.saturation.");
+  EXPECT_EQ(error_of_text(with_body_lines("saturation = 0.3\ntemperature = -2.0")),
+            "FOLDER/case.toml:23:15: body.slide.temperature has a meaning only when saturation is not given. Remove "
+            "it, or change body.slide.saturation.");
   EXPECT_EQ(error_of_text(with_body_lines("saturation = 1.1")),
             "FOLDER/case.toml:22:14: body.slide.saturation is 1.1; allowed: between 0 and 1, ends included (liquid "
-            "saturation at t = 0: share of water in the pores, instead of a temperature).");
+            "saturation at t = 0, instead of temperature: fraction of the pores that is filled with water).");
   EXPECT_EQ(
       error_of_text(with_body_lines("saturation = 0.0")),
       "FOLDER/case.toml:22:14: body.slide.saturation is 0, and the freezing curve does not fall so low: at -273.15 C "
@@ -290,14 +277,13 @@ TEST_F(Maps, SaturationStandsForATemperature) {
   EXPECT_EQ(error_of_text(with_body_lines("saturation = 1.0")), "no error");
 }
 
-TEST_F(Maps, IceContentStandsForAPorosity) {
+TEST_F(Maps, IceContentReplacesThePorosity) {
   const Case found = case_from_text(with_body_lines("ice_content = 0.3"));
   EXPECT_EQ(found.bodies.at("slide").ice_content.at(0.0, 0.0), 0.3);
   EXPECT_EQ(resolved_toml(found, "inputs").find("\nporosity ="), std::string::npos) << "it follows";
-  EXPECT_EQ(
-      error_of_text(with_body_lines("ice_content = 0.3\nporosity = 0.3")),
-      "FOLDER/case.toml:23:12: body.slide.porosity has a meaning only when ice_content is not given, from which it "
-      "follows. Remove it, or change body.slide.ice_content.");
+  EXPECT_EQ(error_of_text(with_body_lines("ice_content = 0.3\nporosity = 0.3")),
+            "FOLDER/case.toml:23:12: body.slide.porosity has a meaning only when ice_content is not given. Remove it, "
+            "or change body.slide.ice_content.");
   EXPECT_EQ(
       error_of_text(with_body_lines("ice_content = 0.6\nsaturation = 0.5")),
       "FOLDER/case.toml:22:15: body.slide.ice_content is 0.6, and the saturation is 0.5; the porosity, ice_content / "
@@ -309,16 +295,15 @@ TEST_F(Maps, IceContentStandsForAPorosity) {
       "(1 - saturation), must not exceed 0.95. Allowed with it: at most 0. Give less ice, or less water.");
 }
 
-TEST_F(Maps, ProbesAreAPlaceOrASection) {
+TEST_F(Maps, ProbesAreAPointOrASection) {
   const auto with_probe = [](const std::string& lines) {
-    return error_of_text(sound_on_dem + "[probe.gauge]\n" + lines);
+    return error_of_text(valid_case_on_dem + "[probe.gauge]\n" + lines);
   };
   EXPECT_EQ(with_probe("point = [1.0, 2.0]\n"), "no error");
   EXPECT_EQ(with_probe("line = \"line.geojson\"\n"), "no error");
-  EXPECT_EQ(
-      with_probe(""),
-      "FOLDER/case.toml:24:1: key 'probe.gauge.point' is missing: it is needed when line is not given. Add 'point = "
-      "...' to [probe.gauge]: place of the probe on the map, an array of 2 numbers, x and y [m].");
+  EXPECT_EQ(with_probe(""),
+            "FOLDER/case.toml:24:1: key 'probe.gauge.point' is missing: it is needed when line is not given. Add "
+            "'point = ...' to [probe.gauge]: horizontal coordinates of the probe, an array of 2 numbers, x and y [m].");
   EXPECT_EQ(with_probe("point = [1.0, 2.0, 3.0]\n"),
             "FOLDER/case.toml:25:9: probe.gauge.point is an array of 3 numbers; allowed: 2 numbers, x and y.");
   EXPECT_EQ(
@@ -329,7 +314,7 @@ TEST_F(Maps, ProbesAreAPlaceOrASection) {
 
 TEST_F(Maps, FilesOfLinesNeedADem) {
   for (const std::string lines : {"[maps]\npath = \"line.geojson\"\n", "[probe.gauge]\nline = \"line.geojson\"\n"}) {
-    std::string text = sound_on_dem + lines;
+    std::string text = valid_case_on_dem + lines;
     const auto from = text.find("shape = \"release\""), to = text.find("\n[", from);
     text.replace(from, to - from, "shape = \"box\"\nmin = [0.0, 0.0, 5.0]\nmax = [10.0, 10.0, 20.0]");
     EXPECT_EQ(error_of_text(text), "no error");
@@ -341,8 +326,8 @@ TEST_F(Maps, FilesOfLinesNeedADem) {
   }
 }
 
-// A run copies what input_files names, and its case.toml names the copies.
-TEST_F(Maps, GoWithTheRun) {
+// A run copies the files listed by input_files, and its case.toml names the copies.
+TEST_F(Maps, AreCopiedWithTheRun) {
   for (const char* name : {"dem.tif.aux.xml", "dem.tfw", "release.shp", "release.shx", "release.dbf", "release.prj",
                            "release.CPG", "release.sbn", "before.asc", "before.prj", "water.tif", "section.geojson"}) {
     write_next_to_the_case(name, "");
@@ -357,7 +342,7 @@ TEST_F(Maps, GoWithTheRun) {
   std::set<std::string> names;
   for (const fs::path& file : input_files(found)) {
     EXPECT_EQ(file.parent_path(), folder_of_this_test());
-    EXPECT_TRUE(names.insert(file.filename().string()).second) << file << " is there once";
+    EXPECT_TRUE(names.insert(file.filename().string()).second) << file << " is listed once";
   }
   EXPECT_EQ(names, (std::set<std::string>{"case.toml", "dem.tif", "dem.tif.aux.xml", "dem.tfw", "release.shp",
                                           "release.shx", "release.dbf", "release.prj", "release.CPG", "before.asc",
@@ -371,24 +356,24 @@ TEST_F(Maps, GoWithTheRun) {
   const Case again = read_case(run);
   EXPECT_EQ(resolved_toml(again, "inputs"), resolved);
   EXPECT_EQ(again.bodies.at("slide").release, (run / "inputs" / "release.shp").string());
-  EXPECT_EQ(again.bodies.at("other").thickness.source, "map.tif") << "an attribute is no file";
+  EXPECT_EQ(again.bodies.at("other").thickness.source, "map.tif") << "an attribute is not a file";
   for (const fs::path& file : input_files(again)) {
     EXPECT_TRUE(file == run / "case.toml" || file.parent_path() == run / "inputs") << file;
   }
 }
 
-TEST_F(Maps, AndProbesAreForThreeDimensions) {
+TEST_F(Maps, AndProbesNeedThreeDimensions) {
   EXPECT_EQ(
-      error_of_text(sound + "[probe.gauge]\n[probe.other]\npoint = [1.0, 2.0]\n"),
+      error_of_text(valid_case + "[probe.gauge]\n[probe.other]\npoint = [1.0, 2.0]\n"),
       "FOLDER/case.toml:22:1: [probe.gauge] has a meaning only in three dimensions, and case.dimension is 2. Remove "
       "it.\n"
       "FOLDER/case.toml:23:1: [probe.other] has a meaning only in three dimensions, and case.dimension is 2. Remove "
       "it.");
   EXPECT_EQ(
-      error_of_text(sound + "[maps]\ncell = 5.0\n"),
+      error_of_text(valid_case + "[maps]\ncell = 5.0\n"),
       "FOLDER/case.toml:23:8: maps.cell has a meaning only in three dimensions, and case.dimension is 2. Remove it.");
-  EXPECT_EQ(resolved_toml(case_from_text(sound), "inputs").find("[maps]"), std::string::npos);
-  EXPECT_EQ(error_of_text(sound, {"grid.leaving=remove"}), "no error");
+  EXPECT_EQ(resolved_toml(case_from_text(valid_case), "inputs").find("[maps]"), std::string::npos);
+  EXPECT_EQ(error_of_text(valid_case, {"grid.leaving=remove"}), "no error");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a mistake in the case file is told as: the whole text, with its place.
+// Error messages for mistakes in the case file, compared completely, with their location.
 #include <algorithm>
 
 #include "case_messages.hpp"
@@ -16,11 +16,11 @@ const std::string all_tables =
     "[bed], [contact], [contact_pair.NAME], [mechanisms], [band], "
     "[heat], [heat.boundary], [pressure], [block].";
 
-TEST(Mistakes, SoundCaseHasNone) { EXPECT_EQ(error_of_text(sound), "no error"); }
+TEST(Mistakes, ValidCaseHasNone) { EXPECT_EQ(error_of_text(valid_case), "no error"); }
 
 TEST(Mistakes, NoSuchFile) {
   const fs::path folder = folder_of_this_test();
-  write_next_to_the_case("case.toml", sound);
+  write_next_to_the_case("case.toml", valid_case);
   EXPECT_EQ(error_of([&] { read_case(folder / "lamplugh"); }),
             "FOLDER/lamplugh: there is no such file or folder. Give a case file, or a folder with a case.toml.");
   EXPECT_EQ(error_of([&] { read_case(folder / "cas.toml"); }),
@@ -34,8 +34,8 @@ TEST(Mistakes, FolderWithoutCaseFile) {
   fs::create_directories(folder);
   EXPECT_EQ(error_of([&] { read_case(folder); }),
             "FOLDER: the folder has no case.toml. Give a case file, or a folder with a case.toml.");
-  write_next_to_the_case("DLP.toml", sound);
-  write_next_to_the_case("DL.toml", sound);
+  write_next_to_the_case("DLP.toml", valid_case);
+  write_next_to_the_case("DL.toml", valid_case);
   write_next_to_the_case("README.md", "");
   EXPECT_EQ(error_of([&] { read_case(folder); }),
             "FOLDER: the folder has no case.toml. Give one of its case files: DL.toml, DLP.toml.");
@@ -72,7 +72,7 @@ TEST(Mistakes, NotToml) {
       << found;
 }
 
-TEST(Mistakes, NumbersInUnitsThatAreLikely) {
+TEST(Mistakes, NumbersInLikelyUnits) {
   const auto with_block = [](const std::string& line) {
     return error_of_changed({{"[body.block]", "[body.block]\n" + line}});
   };
@@ -95,7 +95,7 @@ TEST(Mistakes, NumberExpected) {
   EXPECT_EQ(with_cell("{ size = 5.0 }"), start + "a table" + allowed + ".");
   EXPECT_EQ(with_cell("2016-06-28"), start + "a date or time" + allowed + ".");
   for (const std::string value : {"nan", "inf", "-5", "0"}) {
-    EXPECT_EQ(with_cell(value), start + value + "; allowed: > 0 m (side of a grid cell).");
+    EXPECT_EQ(with_cell(value), start + value + "; allowed: > 0 m (side length of a grid cell).");
   }
 }
 
@@ -141,8 +141,8 @@ TEST(Mistakes, TablesOverDepth) {
             "> 0 and <= 0.95." +
                 remedy);
   EXPECT_EQ(with_porosity("{ depth = [0.0, 5.0], value = [0.3, 1.0] }"),
-            "FOLDER/case.toml:18:48: body.block.porosity is 1; allowed: > 0 and <= 0.95 (porosity n "
-            "at t = 0: share of ice and water in the volume)." +
+            "FOLDER/case.toml:18:48: body.block.porosity is 1; allowed: > 0 and <= 0.95 (porosity n at t = 0: volume "
+            "fraction of ice and water)." +
                 remedy);
 }
 
@@ -154,11 +154,12 @@ TEST(Mistakes, OutOfRange) {
         "for the default 2750.0.";
     EXPECT_EQ(error_of_changed({{"[basal]", "[phases]\nrock_density = " + density + "\n[basal]"}}),
               "FOLDER/case.toml:21:16" + found);
-    EXPECT_EQ(error_of_text(sound, {"phases.rock_density=" + density}), "--set phases.rock_density=" + density + found);
+    EXPECT_EQ(error_of_text(valid_case, {"phases.rock_density=" + density}),
+              "--set phases.rock_density=" + density + found);
   }
   EXPECT_EQ(error_of_changed({{"shape = \"box\"", "shape = \"box\"\nporosity = 1.0"}}),
-            "FOLDER/case.toml:18:12: body.block.porosity is 1; allowed: > 0 and <= 0.95 (porosity n "
-            "at t = 0: share of ice and water in the volume). Correct it, or leave it out for the default 0.375.");
+            "FOLDER/case.toml:18:12: body.block.porosity is 1; allowed: > 0 and <= 0.95 (porosity n at t = 0: volume "
+            "fraction of ice and water). Correct it, or leave it out for the default 0.375.");
 }
 
 TEST(Mistakes, UnknownKey) {
@@ -173,12 +174,11 @@ TEST(Mistakes, UnknownKey) {
             "FOLDER/case.toml:6:1: key 'grid.cohesion' is not known in [grid]; it belongs in [material.NAME] or "
             "[basal] or [substrate.NAME]." +
                 here);
-  EXPECT_EQ(
-      error_of_changed({{"cell = 5.0", "cel = 5.0"}}),
-      "FOLDER/case.toml:4:1: key 'grid.cell' is missing: it has no default. Add 'cell = ...' to [grid]: side of a "
-      "grid cell, a number, > 0 [m].\n"
-      "FOLDER/case.toml:5:1: key 'grid.cel' is not known in [grid]; did you mean 'cell'?" +
-          here);
+  EXPECT_EQ(error_of_changed({{"cell = 5.0", "cel = 5.0"}}),
+            "FOLDER/case.toml:4:1: key 'grid.cell' is missing: it has no default. Add 'cell = ...' to [grid]: side "
+            "length of a grid cell, a number, > 0 [m].\n"
+            "FOLDER/case.toml:5:1: key 'grid.cel' is not known in [grid]; did you mean 'cell'?" +
+                here);
 }
 
 TEST(Mistakes, UnknownTable) {
@@ -203,12 +203,12 @@ TEST(Mistakes, TableExpected) {
             "Rename it.");
 }
 
-TEST(Mistakes, UnknownWord) {
+TEST(Mistakes, UnknownKeyword) {
   const std::string remedy =
       "\"elastic\", \"mohr_coulomb\". Correct it, or leave it out for the default \"mohr_coulomb\".";
   EXPECT_EQ(error_of_changed({{"\"elastic\"", "\"elastik\""}}),
             "FOLDER/case.toml:12:7: material.rock.law is \"elastik\"; did you mean 'elastic'? Allowed: " + remedy)
-      << "nothing that the default law would ask for is missed";
+      << "keys of the default law are not reported as missing";
   EXPECT_EQ(error_of_changed({{"\"elastic\"", "\"rubber\""}}),
             "FOLDER/case.toml:12:7: material.rock.law is \"rubber\"; allowed: " + remedy);
 }
@@ -216,15 +216,15 @@ TEST(Mistakes, UnknownWord) {
 TEST(Mistakes, MissingKey) {
   EXPECT_EQ(error_of_changed({{"step = 0.001\n", ""}}),
             "FOLDER/case.toml:1:1: key 'time.step' is missing: it is needed when time.stepping is \"fixed\". Add 'step "
-            "= ...' to [time]: the fixed time step, or the largest adaptive one, a number, > 0 [s].");
+            "= ...' to [time]: fixed time step, or upper limit of the adaptive time step, a number, > 0 [s].");
   EXPECT_EQ(error_of_changed({{"[basal]\nfriction_angle = 20.0\n", ""}}),
             "FOLDER/case.toml: key 'basal.friction_angle' is missing: it is needed when there is a terrain and "
             "basal.friction is \"constant\" or \"lubricated\". Add 'friction_angle = ...' to [basal]: basal friction "
             "angle phi_f, a number, >= 0 and < 90 [degrees].");
   EXPECT_EQ(error_of_changed({{"[basal]", "[basal]\ncohesion = 1.0"}}),
             "FOLDER/case.toml:20:1: key 'basal.slip_distance' is missing: it is needed when basal.cohesion > 0 and "
-            "basal.cohesion_law is \"slip\" or \"bonds\". Add 'slip_distance = ...' to [basal]: slip over which the "
-            "cohesion falls to 1/e, d_c, of the laws \"slip\" and \"bonds\", a number, > 0 [m].");
+            "basal.cohesion_law is \"slip\" or \"bonds\". Add 'slip_distance = ...' to [basal]: slip d_c over which "
+            "the cohesion decreases to 1/e with the laws \"slip\" and \"bonds\", a number, > 0 [m].");
 }
 
 TEST(Mistakes, KeyOfAnotherDimension) {
@@ -233,14 +233,14 @@ TEST(Mistakes, KeyOfAnotherDimension) {
             "2. Remove it.");
 }
 
-TEST(Mistakes, SeveralInOrderOfTheirPlaces) {
+TEST(Mistakes, SeveralInOrderOfTheirLocations) {
   EXPECT_EQ(error_of_changed({{"end = 2.0", "ende = 2.0"}, {"cell = 5.0", "cell = -5.0\ncolour = 1"}},
                              {"basal.friction_angle=95", "band.thicknes=0.1"}),
             "FOLDER/case.toml:1:1: key 'time.end' is missing: it has no default. Add 'end = ...' to [time]: simulated "
             "time at which the run ends, a number, > 0 [s].\n"
             "FOLDER/case.toml:2:1: key 'time.ende' is not known in [time]; did you mean 'end'? Allowed here: end, "
             "stepping, step, safety, output_interval, history_interval, stop_at_rest, rest_time.\n"
-            "FOLDER/case.toml:5:8: grid.cell is -5; allowed: > 0 m (side of a grid cell).\n"
+            "FOLDER/case.toml:5:8: grid.cell is -5; allowed: > 0 m (side length of a grid cell).\n"
             "FOLDER/case.toml:6:1: key 'grid.colour' is not known in [grid]. Allowed here: cell, min, max, leaving, "
             "boundary.\n"
             "--set basal.friction_angle=95: basal.friction_angle is 95; allowed: >= 0 and < 90 degrees (basal friction "
@@ -250,7 +250,7 @@ TEST(Mistakes, SeveralInOrderOfTheirPlaces) {
             "growth_per_slip, mixing_slip, load_time, column_step, ground_temperature.");
 }
 
-TEST(Mistakes, SeveralThatDoNotFitTogether) {
+TEST(Mistakes, SeveralInconsistencies) {
   EXPECT_EQ(
       error_of_changed({{"step = 0.001", "step = 3"},
                         {"max = [100.0, 50.0]", "max = [101.0, 50.0]"},

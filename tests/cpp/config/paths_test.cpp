@@ -1,4 +1,4 @@
-// Paths that a case names: where they may lead, and what no file is called. The whole text, with its place.
+// Paths in a case: allowed locations and file names. Messages are compared completely, with their location.
 #include "case_messages.hpp"
 
 namespace thawslide::config {
@@ -38,16 +38,17 @@ TEST(Paths, DoNotLeaveTheFolderOfTheCase) {
   EXPECT_EQ(with_file("new\\nline"),
             "FOLDER/case.toml:10:8: terrain.file is \"new?line\": no such file (FOLDER); allowed: a file, relative to "
             "the folder of the case file.");
-  EXPECT_EQ(error_of_changed({profile}, {"terrain.file=" + outside.string()}), "no error") << "the command line may";
+  EXPECT_EQ(error_of_changed({profile}, {"terrain.file=" + outside.string()}), "no error")
+      << "allowed on the command line";
   fs::remove(outside);
 }
 
-TEST(Paths, AreNoEmptyTextWhereAFileIsNeeded) {
-  EXPECT_EQ(
-      error_of_changed({{"type = \"flat\"\nelevation = 0.0", "type = \"profile\"\nfile = \"\""}}),
-      "FOLDER/case.toml:10:8: terrain.file is empty, and it is needed when terrain.type is \"profile\" or \"dem\". "
-      "Allowed: profile: CSV file with the columns distance_m,terrain_elevation_m[,surface_elevation_m]; dem: "
-      "GeoTIFF or ESRI ASCII grid, the path of a file, in quotes.");
+TEST(Paths, MustNotBeEmptyIfAFileIsNeeded) {
+  EXPECT_EQ(error_of_changed({{"type = \"flat\"\nelevation = 0.0", "type = \"profile\"\nfile = \"\""}}),
+            "FOLDER/case.toml:10:8: terrain.file is empty, and it is needed when terrain.type is \"profile\" or "
+            "\"dem\". Allowed: file of the terrain; profile: CSV file with the columns "
+            "distance_m,terrain_elevation_m[,surface_elevation_m]; dem: GeoTIFF or ESRI ASCII grid, the path of a "
+            "file, in quotes.");
 }
 
 }  // namespace

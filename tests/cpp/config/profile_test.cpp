@@ -1,4 +1,4 @@
-// Terrain profiles: what is read, and what each wrong line is told.
+// Terrain profiles: accepted formats, and messages for invalid lines.
 #include "case_messages.hpp"
 #include "config/profile_csv.hpp"
 
@@ -7,7 +7,7 @@ namespace {
 
 using namespace case_messages;
 
-// What reading a profile of this text says.
+// Error from reading a profile with this text.
 std::string error_of_profile(const std::string& text) {
   write_next_to_the_case("profile.csv", text);
   return error_of([] { read_profile(folder_of_this_test() / "profile.csv"); });
@@ -28,7 +28,7 @@ TEST(Profile, WithoutSurface) {
   EXPECT_TRUE(read_profile(folder_of_this_test() / "profile.csv").surface.empty());
 }
 
-TEST(Profile, GroundIsLinearBetweenRowsAndGoesOnBeyondThem) {
+TEST(Profile, GroundIsLinearBetweenRowsAndExtrapolatedBeyondThem) {
   const ProfileTable profile{{0.0, 10.0, 20.0}, {0.0, 5.0, 4.0}, {}};
   EXPECT_DOUBLE_EQ(profile.terrain_at(4.0), 2.0);
   EXPECT_DOUBLE_EQ(profile.terrain_at(10.0), 5.0);
@@ -46,11 +46,14 @@ TEST(Profile, MistakesNameTheLine) {
   }
   EXPECT_EQ(error_of_profile("# profile\nx,z\n"),
             file + "2: the header is 'x,z'; " + headers + ", separated by commas.");
+  EXPECT_EQ(error_of_profile("distance_m\tterrain_elevation_m\n0\t1\n"),
+            file +
+                "1: the columns are separated by tabs; allowed: commas. Replace them: sed -i 's/\\t/,/g' "
+                "FOLDER/profile.csv.");
   EXPECT_EQ(error_of_profile(std::string("II*\0\10\0,\0\n", 9)),
             file +
-                "1: this is no text file; allowed: columns separated by commas under the header "
-                "distance_m,terrain_elevation_m[,surface_elevation_m]. A DEM is read with terrain.type = "
-                "\"dem\".");
+                "1: this is not a text file; allowed: columns separated by commas under the header "
+                "distance_m,terrain_elevation_m[,surface_elevation_m]. A DEM is read with terrain.type = \"dem\".");
   EXPECT_EQ(error_of_profile(header + "0,0,0\n"), file + "2: the profile has 1 rows; a profile needs at least 2.");
   EXPECT_EQ(error_of_profile(header + "0,0\n"), file + "2: the row has 2 fields; the header has 3.");
   const std::string number = "'; allowed: a finite number with a decimal point.";
@@ -69,7 +72,7 @@ TEST(Profile, MistakesNameTheLine) {
   }
 }
 
-TEST(Profile, MistakesAreToldAtTheKeyThatNamesTheFile) {
+TEST(Profile, MistakesAreReportedAtTheKeyOfTheFile) {
   write_next_to_the_case("profile.csv", "distance_m,terrain_elevation_m\n0,0\n50,10\n40,12\n100,0\n");
   EXPECT_EQ(error_of_changed({{"type = \"flat\"\nelevation = 0.0", "type = \"profile\"\nfile = \"profile.csv\""}}),
             "FOLDER/case.toml:10:8: terrain.file: FOLDER/profile.csv:4: the profile folds back: distance_m is 40 after "

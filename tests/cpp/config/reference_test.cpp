@@ -1,4 +1,4 @@
-// The reference of the case file in its four forms.
+// The reference of the case file in its four formats.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -12,14 +12,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The part of a text from a title to what begins the next one.
+// Text from a title to the beginning of the next part.
 std::string section(const std::string& text, const std::string& title, const std::string& next) {
   const std::size_t begin = text.find(title);
   EXPECT_NE(begin, std::string::npos) << title;
   return begin == std::string::npos ? "" : text.substr(begin, text.find(next, begin + 1) - begin);
 }
 
-TEST(Reference, DeclaresEveryKeyOnceWithItsWords) {
+TEST(Reference, DeclaresEveryKeyOnceWithItsKeywords) {
   std::set<std::string> seen;
   for (const auto& table : tables()) {
     EXPECT_FALSE(table->text.empty()) << table->name;
@@ -34,7 +34,7 @@ TEST(Reference, DeclaresEveryKeyOnceWithItsWords) {
   EXPECT_GT(seen.size(), 90U);
 }
 
-TEST(Reference, TextHoldsEveryTableAndKey) {
+TEST(Reference, TextContainsEveryTableAndKey) {
   const std::string text = describe_text();
   for (const auto& table : tables()) {
     const std::string part = section("\n" + text, "\n" + table->title() + "  " + table->text + "\n", "\n\n");
@@ -45,7 +45,7 @@ TEST(Reference, TextHoldsEveryTableAndKey) {
   }
 }
 
-TEST(Reference, MarkdownHoldsEveryTableAndKey) {
+TEST(Reference, MarkdownContainsEveryTableAndKey) {
   const std::string text = describe_markdown();
   for (const auto& table : tables()) {
     const std::string part = section(text, "\n## `" + table->title() + "`\n", "\n## ");
@@ -56,7 +56,7 @@ TEST(Reference, MarkdownHoldsEveryTableAndKey) {
   }
 }
 
-TEST(Reference, JsonHoldsEveryTableAndKeyInOrder) {
+TEST(Reference, JsonContainsEveryTableAndKeyInOrder) {
   const Json json = Json::parse(describe_json());
   ASSERT_EQ(json.size(), tables().size());
   for (std::size_t t = 0; t < json.size(); ++t) {
@@ -69,13 +69,13 @@ TEST(Reference, JsonHoldsEveryTableAndKeyInOrder) {
       EXPECT_EQ(key.at("unit"), entries[k].rule->unit);
       EXPECT_EQ(key.at("text"), entries[k].rule->text);
       EXPECT_EQ(key.at("only"), entries[k].only);
-      EXPECT_EQ(key.at("keywords").size(), entries[k].words.size());
+      EXPECT_EQ(key.at("keywords").size(), entries[k].keywords.size());
       EXPECT_EQ(key.at("default").is_null(), entries[k].default_text.empty()) << entries[k].rule->key;
     }
   }
 }
 
-TEST(Reference, SchemaHoldsEveryTableAndKey) {
+TEST(Reference, SchemaContainsEveryTableAndKey) {
   const Json schema = Json::parse(schema_json());
   EXPECT_EQ(schema.at("additionalProperties"), false);
   for (const auto& table : tables()) {
@@ -98,16 +98,17 @@ TEST(Reference, SchemaHoldsEveryTableAndKey) {
       << "a table inside a table leaves its keys";
 }
 
-TEST(Reference, TellsUnitRangeDefaultWordsAndNeed) {
+TEST(Reference, StatesUnitRangeDefaultKeywordsAndNeed) {
   const std::string text = describe_text();
   const auto expect = [&](const std::string& part) { EXPECT_NE(text.find(part), std::string::npos) << part; };
   expect(
       "  youngs_modulus            Young's modulus [Pa]\n"
-      "                            a number, > 0 [Pa]; required when mechanics.enabled is true; Tables 2, 3\n");
-  expect("a number, > 0 [s]; required when time.stepping is \"fixed\"; otherwise time.end, that is no cap\n");
+      "                            a number, > 0 [Pa]; required when mechanics.enabled is true; Lei et al., Tables 2, "
+      "3\n");
+  expect("a number, > 0 [s]; required when time.stepping is \"fixed\"; otherwise no upper limit\n");
   expect(
-      "{ raster = \"FILE\" }, > 0 and <= 0.95; default: 0.375; only when ice_content is not given, from which it "
-      "follows; Eq. 1, Table 2\n");
+      "{ raster = \"FILE\" }, > 0 and <= 0.95; default: 0.375; only when ice_content is not given; Lei et al., Eq. 1, "
+      "Table 2\n");
   expect("a number, >= 0 [1/Pa]; usually 1e-09 to 1e-07 (not checked); default: 2e-09\n");
   expect("\"keep_cohesion\": mu_e max(0, N - P) + c_S: cohesion is kept\n");
   const Json all = Json::parse(describe_json());
@@ -117,7 +118,7 @@ TEST(Reference, TellsUnitRangeDefaultWordsAndNeed) {
   EXPECT_EQ(all[1]["keys"][3]["default"], "0.8");
 }
 
-TEST(Schema, KnowsTypesRangesWordsAndRequiredKeys) {
+TEST(Schema, SpecifiesTypesRangesKeywordsAndRequiredKeys) {
   const Json schema = Json::parse(schema_json())["properties"];
   EXPECT_EQ(schema["time"]["required"], Json::array({"end"}));
   EXPECT_EQ(schema["time"]["properties"]["end"]["exclusiveMinimum"], 0.0);

@@ -23,7 +23,7 @@ BodyOnCells body_on(double thickness, double cell, int particles_per_axis, bool 
           .has_maps = has_maps};
 }
 
-// The cells that a note proposes: all numbers between "to" and "m, at about".
+// Cell sizes that a warning proposes: all numbers between "to" and "m, at about".
 std::vector<double> cells_named(const std::string& warning) {
   std::vector<double> cells;
   const std::regex named(R"( to ([0-9.]+) m, at about)");
@@ -33,7 +33,7 @@ std::vector<double> cells_named(const std::string& warning) {
   return cells;
 }
 
-TEST(Resolution, ANoteComesWithTooFewParticlesAndIfMapsAreAskedForWithTooFewCells) {
+TEST(Resolution, WarnsOfTooFewParticlesAndForMapsOfTooFewCells) {
   for (const double thickness : {3.0, 24.0, 90.0}) {
     for (const int particles : {1, 2, 4}) {
       for (int tenths = 2; tenths <= 120; ++tenths) {
@@ -50,7 +50,7 @@ TEST(Resolution, ANoteComesWithTooFewParticlesAndIfMapsAreAskedForWithTooFewCell
   }
 }
 
-TEST(Resolution, ACellThatIsNamedIsFineEnough) {
+TEST(Resolution, AProposedCellIsFineEnough) {
   const std::vector<std::vector<double>> domains{{}, {960.0, 480.0, 240.0}, {96.0, 144.0, 48.0}};
   for (const auto& lengths : domains) {
     for (const double cell : {24.0, 12.0, 8.0, 6.0, 4.0}) {
@@ -73,7 +73,7 @@ TEST(Resolution, ACellThatIsNamedIsFineEnough) {
   }
 }
 
-TEST(Resolution, NotesNameWhatIsFoundWhatIsNeededAndWhatItCosts) {
+TEST(Resolution, WarningsStateTheFoundAndNeededNumbersAndTheCost) {
   EXPECT_EQ(
       resolution_warning(body_on(24.0, 8.0, 2, true), "--cell"),
       "--cell: across the median thickness of body slide, 24 m, there are too few cells for maps of thickness and "
@@ -90,7 +90,7 @@ TEST(Resolution, NotesNameWhatIsFoundWhatIsNeededAndWhatItCosts) {
             "and thinning (found 3; needed 4). Set grid.cell to 0.5 m, at about 8 times the run time.");
 }
 
-TEST(Resolution, ANumberThatIsTooSmallDoesNotReadAsEnough) {
+TEST(Resolution, ANumberThatIsTooSmallIsRoundedDown) {
   EXPECT_NE(resolution_warning(body_on(7.99, 1.0, 2, true), "grid.cell").find("(found 7.9; needed 8)"),
             std::string::npos);
   EXPECT_NE(resolution_warning(body_on(3.99, 1.0, 1, false), "grid.cell").find("(found 3.9; needed 4)"),
@@ -98,7 +98,7 @@ TEST(Resolution, ANumberThatIsTooSmallDoesNotReadAsEnough) {
   EXPECT_EQ(resolution_warning(body_on(8.0 * (1.0 - 1e-12), 1.0, 2, true), "grid.cell"), "") << "round-off";
 }
 
-TEST(Resolution, RunTimeGoesWithTheCellsAndTheSteps) {
+TEST(Resolution, RunTimeIsProportionalToCellsAndSteps) {
   EXPECT_EQ(run_time_factor(8.0, 4.0, 3), 16.0);
   EXPECT_EQ(run_time_factor(8.0, 4.0, 2), 8.0);
   EXPECT_EQ(run_time_factor(5.0, 5.0, 3), 1.0);
@@ -128,11 +128,11 @@ max = [10.0, 5.0{}]
 friction_angle = 30.0
 )";
 
-TEST(Resolution, MapsAreAskedForByTheirCellOrByTheThicknessThatCounts) {
+TEST(Resolution, MapsAreRequestedByTheirCellOrTheirMinimumThickness) {
   const std::string space = fmt::format(fmt::runtime(text), 3, ", 0.0", ", 20.0", ", 1.0", ", 5.0");
   const std::string plane = fmt::format(fmt::runtime(text), 2, "", "", "", "");
   const auto asks = [](const std::string& file, const std::vector<std::string>& sets = {}) {
-    return asks_for_maps(testing_support::case_from_text(file, sets));
+    return requests_maps(testing_support::case_from_text(file, sets));
   };
   EXPECT_FALSE(asks(plane));
   EXPECT_FALSE(asks(space));
@@ -142,8 +142,8 @@ TEST(Resolution, MapsAreAskedForByTheirCellOrByTheThicknessThatCounts) {
   EXPECT_TRUE(asks(space, {"maps.cell=2.0"}));
 }
 
-// The comment in a case of `thawslide new` gives the same cell and cost as the note.
-TEST(Resolution, TheCommentOfACaseSaysTheSame) {
+// The comment in a case of `thawslide new` states the same cell and cost as the warning.
+TEST(Resolution, TheCommentOfACaseAgreesWithTheWarning) {
   for (const double cell : {30.0, 8.0, 4.0, 3.1}) {
     const BodyOnCells body = body_on(24.0, cell, 2, true);
     const std::string comment = maps_comment(body), warning = resolution_warning(body, "--cell");
@@ -167,7 +167,7 @@ TEST(Resolution, AProposedCaseHasTheComment) {
   EXPECT_NE(maps_comment(release_on_cells(proposal)), "");
 }
 
-TEST(Resolution, HasTheCellsThatItsResultsNeed) {
+TEST(Resolution, HasTheCellsNeededForItsResults) {
   for (const double median : {1.3, 10.0, 24.0, 31.0}) {
     const double thickness = 1.2 * median;  // of half the volume
     for (const int particles : {1, 2, 4}) {
@@ -182,7 +182,7 @@ TEST(Resolution, HasTheCellsThatItsResultsNeed) {
   }
 }
 
-TEST(Resolution, StandardNeedsNoNoteAboutMaps) {
+TEST(Resolution, StandardCausesNoWarningAboutMaps) {
   for (const double thickness : {1.3, 10.0, 24.0, 31.0}) {
     const double cell = cell_of(Resolution::standard, thickness, thickness, 2);
     const BodyOnCells body{.name = "slide", .thickness = thickness, .cell = cell, .has_maps = true};

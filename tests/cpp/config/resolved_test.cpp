@@ -1,4 +1,4 @@
-// The resolved case: every key as it was given or filled in, and read back to the same case.
+// The resolved case contains every key, as given or by default, and is read back to the same case.
 #include <map>
 #include <sstream>
 
@@ -41,7 +41,7 @@ Case read_with_inputs(const std::string& text) {
   return case_from_text(text);
 }
 
-// The name in the case of what the reference calls [body.NAME].
+// Name in the case of the table that the reference calls [body.NAME].
 std::string own_name(const TableDeclaration& table) {
   const std::map<std::string, std::string> names{{"material", "rock"}, {"body", "block"},    {"frame", "wall"},
                                                  {"probe", "gauge"},   {"substrate", "ice"}, {"contact_pair", "seam"}};
@@ -60,11 +60,11 @@ TEST(Resolved, WritesEveryKeyAsItWasGivenAndReadsBack) {
       }
     }
   }
-  // The texts leave out no key, and give none at its default.
+  // The texts contain every key, none with its default value.
   for (const auto& table : tables()) {
     for (const Entry& entry : table->entries()) {
       if (entry.rule->key == "based_on") {
-        continue;  // a resolved case is based on nothing; variants_test.cpp
+        continue;  // a resolved case has no base case; see variants_test.cpp
       }
       const std::string value = given[own_name(*table)][entry.rule->key];
       EXPECT_NE(value, "") << table->name << '.' << entry.rule->key << " is not tested";
@@ -72,19 +72,19 @@ TEST(Resolved, WritesEveryKeyAsItWasGivenAndReadsBack) {
     }
   }
 }
-TEST(Resolved, WritesDefaultsUnitsAndNoKeyWithoutMeaning) {
-  const std::string text = resolved_toml(case_from_text(sound), "inputs");
+TEST(Resolved, WritesDefaultsAndUnitsButNoIrrelevantKeys) {
+  const std::string text = resolved_toml(case_from_text(valid_case), "inputs");
   const Lines lines = lines_of(text);
   EXPECT_EQ(lines.at("phases").at("latent_heat"), "333500.0");
   EXPECT_EQ(lines.at("material.rock").at("tension_cutoff"), "inf");
   EXPECT_EQ(lines.at("grid.boundary").at("x_min"), "\"open\"");
   EXPECT_EQ(lines.at("grid.boundary").count("z_min"), 0U);       // in 3D only
-  EXPECT_EQ(lines.at("basal").count("cohesion_loss_time"), 0U);  // not needed, and no default
+  EXPECT_EQ(lines.at("basal").count("cohesion_loss_time"), 0U);  // not needed, and without a default
   EXPECT_EQ(text.find("\nthickness ="), std::string::npos);      // no band
   EXPECT_NE(text.find("\nlatent_heat = 333500.0  # J/kg, not given\n"), std::string::npos);
   EXPECT_NE(text.find("\ngravity_tilt = 0.0  # degrees, not given\n"), std::string::npos);
   EXPECT_NE(text.find("\nextend = false  # not given\n"), std::string::npos);
-  EXPECT_NE(text.find("\nend = 2.0  # s\n"), std::string::npos) << "it was";
+  EXPECT_NE(text.find("\nend = 2.0  # s\n"), std::string::npos) << "given";
 }
 
 TEST(Resolved, LamplughReadsBackToItself) {
@@ -103,7 +103,7 @@ TEST(Resolved, LamplughReadsBackToItself) {
   EXPECT_EQ(lines_of(resolved)["terrain"]["file"], "\"inputs/lamplugh_profile.csv\"");
 }
 
-// Numbers that no short decimal hits, a text with marks, three dimensions, every kind of table.
+// Numbers without a short decimal representation, a text with quotation marks, three dimensions, every kind of table.
 TEST(Resolved, KeepsEveryBit) {
   const std::string text = changed({{"[time]", "[case]\ndimension = 3\ntitle = 'a \"b\" \\ c'\n[time]"},
                                     {"step = 0.001", "step = 0.00030000000000000003"},

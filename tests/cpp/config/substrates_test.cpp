@@ -1,4 +1,4 @@
-// Substrates in the case file: what they take, and what they are told.
+// Substrates in the case file: accepted keys and error messages.
 #include "case_messages.hpp"
 #include "config/describe.hpp"
 #include "config/strips.hpp"
@@ -11,11 +11,11 @@ using namespace case_messages;
 using testing_support::case_from_text;
 
 const std::string coefficient = "friction = \"coefficient\"\nfriction_coefficient = 0.1\n";
-// Its first line is line 22 of the case.
-std::string on_glacier(const std::string& place) { return sound + "[substrate.ice]\n" + place + coefficient; }
-std::string on_map(const std::string& place) { return sound_on_dem + "[substrate.ice]\n" + place + coefficient; }
+// The added text begins at line 22 of the case.
+std::string on_glacier(const std::string& place) { return valid_case + "[substrate.ice]\n" + place + coefficient; }
+std::string on_map(const std::string& place) { return valid_case_on_dem + "[substrate.ice]\n" + place + coefficient; }
 
-TEST(Substrates, HaveLawsAndPlacesOfTheirOwn) {
+TEST(Substrates, HaveSeparateLawsAndAreas) {
   const Case found =
       case_from_text(on_glacier("x_min = 50.0\n") + "cohesion = 1e4\ncohesion_law = \"ice\"\n" +
                      "[substrate.moraine]\nx_max = 50.0\nfriction = \"constant\"\nfriction_angle = 30\n");
@@ -27,12 +27,12 @@ TEST(Substrates, HaveLawsAndPlacesOfTheirOwn) {
   EXPECT_EQ(ice.x_min, 50.0);
   EXPECT_TRUE(std::isinf(ice.x_max));
   EXPECT_EQ(moraine.numbers(physics::basal::friction_angle), 30.0);
-  EXPECT_EQ(moraine.numbers(physics::basal::initial_cohesion), 0.0) << "that of [basal] is not handed on";
+  EXPECT_EQ(moraine.numbers(physics::basal::initial_cohesion), 0.0) << "the value of [basal] is not inherited";
   EXPECT_TRUE(warnings_of_gaps(found).empty());
   EXPECT_EQ(found.basal.friction, "lubricated");
 }
 
-TEST(Substrates, ComeBackFromTheResolvedCase) {
+TEST(Substrates, AreReadBackFromTheResolvedCase) {
   write_map_files();
   for (const std::string& text :
        {on_glacier("x_min = 50.0\n"), on_map("outline = \"release.geojson\"\npolygons = [\"a\"]\n"),
@@ -44,17 +44,17 @@ TEST(Substrates, ComeBackFromTheResolvedCase) {
   EXPECT_NE(resolved.find("\n[substrate.ice]\nx_min = 50.0  # m\nfriction = \"coefficient\"\nlubrication_exponent"),
             std::string::npos)
       << resolved;
-  EXPECT_EQ(resolved_toml(case_from_text(sound), "inputs").find("substrate"), std::string::npos);
+  EXPECT_EQ(resolved_toml(case_from_text(valid_case), "inputs").find("substrate"), std::string::npos);
 }
 
-TEST(Substrates, MustSayWhereTheyLie) {
+TEST(Substrates, NeedAnArea) {
   EXPECT_EQ(error_of_text(on_glacier("")),
-            "FOLDER/case.toml:22:1: [substrate.ice] does not say where it lies. Give x_min, x_max or both; what holds "
-            "everywhere else stands in [basal].");
+            "FOLDER/case.toml:22:1: [substrate.ice] does not specify its area. Give x_min, x_max or both; [basal] "
+            "applies everywhere else.");
   write_map_files();
   EXPECT_EQ(error_of_text(on_map("")),
-            "FOLDER/case.toml:24:1: [substrate.ice] does not say where it lies. Give x_min, x_max or both, or outline, "
-            "or raster and code; what holds everywhere else stands in [basal].");
+            "FOLDER/case.toml:24:1: [substrate.ice] does not specify its area. Give x_min, x_max or both, or outline, "
+            "or raster and code; [basal] applies everywhere else.");
 }
 
 TEST(Substrates, MustLieInTheDomain) {
@@ -82,9 +82,10 @@ TEST(Substrates, MayNotOverlapNorLeaveAGapBelowACell) {
       "grid: substrate.ice.x_max is 50 m, and substrate.snow.x_min is 50.5 m. Let them meet, or leave a gap of "
       "at least 5 m.");
   EXPECT_TRUE(warnings_of_gaps(case_from_text(with(50.0))).empty());
-  EXPECT_EQ(warnings_of_gaps(case_from_text(with(60.0))),
-            std::vector<std::string>{
-                "between the substrates ice and snow, from x = 50 to 60 m, none lies: [basal] holds there"});
+  EXPECT_EQ(
+      warnings_of_gaps(case_from_text(with(60.0))),
+      std::vector<std::string>{
+          "between the substrates ice and snow, from x = 50 to 60 m, there is no substrate: [basal] applies there"});
 }
 
 TEST(Substrates, OnMapsNeedADem) {
@@ -101,13 +102,12 @@ TEST(Substrates, OnMapsNeedADem) {
   EXPECT_EQ(error_of_text(on_map("outline = \"release.geojson\"\nraster = \"map.tif\"\ncode = 1\n")),
             "FOLDER/case.toml:26:10: substrate.ice.outline and substrate.ice.raster are both given; allowed: one of "
             "them, since each says where the substrate lies. Remove one.");
-  EXPECT_EQ(
-      error_of_text(on_map("raster = \"map.tif\"\n")),
-      "FOLDER/case.toml:24:1: key 'substrate.ice.code' is missing: it is needed when raster is given. Add 'code = "
-      "...' to [substrate.ice]: the substrate's code in the raster, a whole number.");
+  EXPECT_EQ(error_of_text(on_map("raster = \"map.tif\"\n")),
+            "FOLDER/case.toml:24:1: key 'substrate.ice.code' is missing: it is needed when raster is given. Add 'code "
+            "= ...' to [substrate.ice]: code of the substrate in the raster, a whole number.");
   EXPECT_EQ(error_of_text(on_map("raster = \"map.tif\"\ncode = 3000000000\n")),
-            "FOLDER/case.toml:26:8: substrate.ice.code is 3000000000; allowed: whole numbers up to 2147483647 "
-            "(the substrate's code in the raster).");
+            "FOLDER/case.toml:26:8: substrate.ice.code is 3000000000; allowed: whole numbers up to 2147483647 (code of "
+            "the substrate in the raster).");
   EXPECT_EQ(error_of_text(on_map("raster = \"map.tif\"\ncode = 1\n") +
                           "[substrate.snow]\nraster = \"map.tif\"\ncode = 1\n" + coefficient),
             "FOLDER/case.toml:31:8: substrate.ice.code and substrate.snow.code are both 1, of the same raster; a place "
@@ -117,25 +117,26 @@ TEST(Substrates, OnMapsNeedADem) {
             "Remove it, or change substrate.ice.outline.");
 }
 
-TEST(Substrates, NeedATerrainAndTheNumbersOfTheirLaws) {
+TEST(Substrates, NeedATerrainAndTheParametersOfTheirLaws) {
   EXPECT_EQ(error_of_changed({{"type = \"flat\"\nelevation = 0.0\n", ""},
                               {"[basal]\n", "[substrate.ice]\nx_min = 50.0\n" + coefficient + "[basal]\n"}}),
-            "FOLDER/case.toml:18:1: [substrate.ice] says what bodies slide on, and the case has no terrain. Remove it, "
-            "or give terrain.type.");
+            "FOLDER/case.toml:18:1: [substrate.ice] specifies what bodies slide on, and the case has no terrain. "
+            "Remove it, or give terrain.type.");
   EXPECT_EQ(
-      error_of_text(sound + "[substrate.ice]\nx_min = 50.0\nfriction = \"coefficient\"\n"),
+      error_of_text(valid_case + "[substrate.ice]\nx_min = 50.0\nfriction = \"coefficient\"\n"),
       "FOLDER/case.toml:22:1: key 'substrate.ice.friction_coefficient' is missing: it is needed when there is a "
       "terrain and friction is \"coefficient\" or \"voellmy\". Add 'friction_coefficient = ...' to [substrate.ice]: "
       "friction coefficient mu of the laws \"coefficient\" and \"voellmy\", a number, >= 0.");
-  EXPECT_EQ(error_of_text(sound + "[substrate.ice]\nx_min = 50.0\nfriction_coefficient = 0.1\nfriction_angle = 5.0\n"),
-            "FOLDER/case.toml:24:24: substrate.ice.friction_coefficient has a meaning only when friction is "
-            "\"coefficient\" or \"voellmy\". Remove it, or change substrate.ice.friction.");
   EXPECT_EQ(
-      error_of_text(sound + "[substrate.ice]\nx_min = 50.0\nfriction = \"voellmy\"\nfriction_coefficient = 0.1\n"),
+      error_of_text(valid_case + "[substrate.ice]\nx_min = 50.0\nfriction_coefficient = 0.1\nfriction_angle = 5.0\n"),
+      "FOLDER/case.toml:24:24: substrate.ice.friction_coefficient has a meaning only when friction is "
+      "\"coefficient\" or \"voellmy\". Remove it, or change substrate.ice.friction.");
+  EXPECT_EQ(
+      error_of_text(valid_case + "[substrate.ice]\nx_min = 50.0\nfriction = \"voellmy\"\nfriction_coefficient = 0.1\n"),
       "FOLDER/case.toml:22:1: key 'substrate.ice.turbulent_friction' is missing: it is needed when there is a "
       "terrain and friction is \"voellmy\". Add 'turbulent_friction = ...' to [substrate.ice]: turbulent friction "
-      "xi of the law \"voellmy\": the larger, the less drag rho g v^2/xi, a number, > 0 [m/s2].");
-  EXPECT_EQ(error_of_text(sound + "[substrate.ice]\nx_min = 50.0\n" + coefficient + "turbulent_friction = 500\n"),
+      "xi of the law \"voellmy\"; a larger value reduces the drag rho g v^2/xi, a number, > 0 [m/s2].");
+  EXPECT_EQ(error_of_text(valid_case + "[substrate.ice]\nx_min = 50.0\n" + coefficient + "turbulent_friction = 500\n"),
             "FOLDER/case.toml:26:22: substrate.ice.turbulent_friction has a meaning only when friction is \"voellmy\". "
             "Remove it, or change substrate.ice.friction.");
   EXPECT_EQ(

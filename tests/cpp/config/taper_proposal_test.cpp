@@ -1,4 +1,5 @@
-// The taper that `thawslide new --cut` proposes: wide enough for the slide to get out, as far as there is room.
+// The taper that `thawslide new --cut` proposes: wide enough for the sliding mass to leave the excavation, within the
+// available space.
 #include "config/taper_proposal.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ Raster plane(double slope) {
   return dem;
 }
 
-// As thick on `columns` x `rows` points from one on, and one point more on each side, as a release is read.
+// Uniform thickness on `columns` x `rows` points, plus one point on each side, as a release is read.
 Raster release(int first_column, int first_row, int columns, int rows, double thickness) {
   Raster raster = points(columns + 2, rows + 2);
   raster.x = (first_column - 1) * cell;
@@ -54,7 +55,7 @@ TEST(TaperProposal, FallsNoLessThanTheTerrainAndIsThreeThicknessesWide) {
   EXPECT_EQ(propose_taper(plane(0.0), release(30, 20, 25, 25, 20.0)).width, 200.0) << "10 x 20 m";
 }
 
-TEST(TaperProposal, NoneWhereTheCellsOfTheDemAreAsWide) {
+TEST(TaperProposal, IsOmittedIfTheCellsOfTheDemAreAsWide) {
   const EdgeTaper taper = propose_taper(plane(0.8), release(30, 20, 21, 21, 6.0));
   EXPECT_EQ(taper.width, 0.0);
   EXPECT_FALSE(taper.is_cramped());
@@ -68,11 +69,11 @@ TEST(TaperProposal, StaysOnKnownGround) {
     EXPECT_EQ(taper.width, width) << first_column;
     EXPECT_EQ(taper.is_cramped(), width < 80.0) << first_column;
   }
-  // A hole off the corner counts along the axis where it is farther.
+  // For a hole diagonal to the corner, the distance along the axis with the larger distance counts.
   Raster holed = dem;
   holed.values[holed.index(28, 16)] = std::nan("");
   EXPECT_EQ(propose_taper(holed, release(30, 20, 21, 21, 20.0)).width, 60.0);
-  // One within the rectangle about the release, but away from its points.
+  // A hole within the bounding rectangle of the release, but away from its points.
   Raster angled = release(30, 20, 31, 31, 20.0);
   for (int row = 12; row <= 31; ++row) {
     for (int column = 12; column <= 31; ++column) {
@@ -84,21 +85,21 @@ TEST(TaperProposal, StaysOnKnownGround) {
   EXPECT_EQ(propose_taper(far, angled).width, 80.0);
 }
 
-TEST(TaperProposal, LeavesTheMiddleAsThickAsItIs) {
+TEST(TaperProposal, KeepsTheThicknessInTheMiddle) {
   const EdgeTaper taper = propose_taper(plane(0.5), release(30, 20, 21, 7, 20.0));
   EXPECT_EQ(taper.width, 60.0);
   EXPECT_EQ(taper.wanted, 80.0);
   EXPECT_NEAR(taper.steepest, 2.0 / 3.0, 1e-12);
 }
 
-TEST(TaperProposal, AThicknessThatThinsOutByItselfNeedsNone) {
+TEST(TaperProposal, IsOmittedForAReleaseThatThinsOut) {
   Raster cone = release(30, 20, 21, 21, 1.0);
   for (int row = 1; row <= 21; ++row) {
     for (int column = 1; column <= 21; ++column) {
       cone.values[cone.index(column, row)] = 22.0 - 2.0 * std::max(std::abs(column - 11), std::abs(row - 11));
     }
   }
-  EXPECT_EQ(propose_taper(plane(0.5), cone).width, 0.0) << "4 m thick beside its edge";
+  EXPECT_EQ(propose_taper(plane(0.5), cone).width, 0.0) << "4 m thick next to its edge";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Texts of files, and files that cannot be read.
+// Text files, readable and unreadable.
 #include "config/text_file.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ std::string refusal_of(const std::filesystem::path& file) {
   return "none";
 }
 
-TEST(TextFile, IsReadAsItStands) {
+TEST(TextFile, IsReadUnchanged) {
   const std::string text = std::string("one\r\ntwo") + '\0' + "\xFF";
   case_messages::write_next_to_the_case("text.txt", text);
   case_messages::write_next_to_the_case("empty.txt", "");
@@ -25,7 +25,7 @@ TEST(TextFile, IsReadAsItStands) {
   EXPECT_EQ(read_text_file(case_messages::folder_of_this_test() / "empty.txt"), "");
 }
 
-TEST(TextFile, ThatCannotBeReadIsNamedWithTheReason) {
+TEST(TextFile, ThatIsUnreadableIsReportedWithTheReason) {
   EXPECT_EQ(refusal_of("/nowhere/case.toml"),
             "/nowhere/case.toml: cannot be read: No such file or directory. Check that the file is whole and may be "
             "read.");

@@ -1,4 +1,4 @@
-// Errors and warnings for a section whose width varies along x, and how the case is written again.
+// Errors and warnings for a section whose width varies along x, and the width in the resolved case.
 #include "case_messages.hpp"
 #include "config/describe.hpp"
 #include "config/plausibility.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 using namespace case_messages;
 
-std::string with_width(const std::string& width) { return "[case]\nwidth = " + width + "\n" + sound; }
+std::string with_width(const std::string& width) { return "[case]\nwidth = " + width + "\n" + valid_case; }
 std::string error_of(const std::string& width, const std::string& more = "") {
   return error_of_text(with_width(width) + more);
 }
@@ -22,7 +22,7 @@ TEST(Width, IsOneNumberOrATableOverX) {
   EXPECT_TRUE(table.general.width.varies());
   EXPECT_EQ(table.general.width.table.value, (std::vector<double>{20.0, 40.0}));
   EXPECT_EQ(table.general.width.factor(), 20.0) << "results are per metre of the first";
-  EXPECT_EQ(testing_support::case_from_text(sound).general.width.factor(), 1.0) << "none is given";
+  EXPECT_EQ(testing_support::case_from_text(valid_case).general.width.factor(), 1.0) << "none is given";
 }
 
 TEST(Width, IsWrittenAsItWasRead) {
@@ -30,7 +30,7 @@ TEST(Width, IsWrittenAsItWasRead) {
   EXPECT_NE(resolved_toml(table, {}).find("width = " + widening + "  # m\n"), std::string::npos);
 }
 
-TEST(Width, RefusesWhatIsNoTable) {
+TEST(Width, RefusesInvalidTables) {
   const std::string allowed = "; allowed: a number or { x = [...], value = [...] }, >= 0 [m]",
                     at = "FOLDER/case.toml:2:", or_default = ". Correct it, or leave it out for the default 0.0.";
   EXPECT_EQ(error_of("{ x = [10.0, 60.0] }"), at + "9: case.width is a table with the keys x" + allowed + or_default);
@@ -48,7 +48,7 @@ TEST(Width, RefusesWhatIsNoTable) {
             std::string::npos);
 }
 
-TEST(Width, ThatVariesRefusesWhatHasNotBeenVerifiedWithIt) {
+TEST(Width, ThatVariesRefusesOptionsNotVerifiedWithIt) {
   const auto refused = [](const std::string& what) {
     return "FOLDER/case.toml:2:9: case.width: a width that varies along x and " + what +
            " exclude each other. Give one width, or remove the latter.";
@@ -66,13 +66,13 @@ TEST(Width, ThatVariesRefusesWhatHasNotBeenVerifiedWithIt) {
   EXPECT_EQ(error_of("20.0", frame), "no error");
 }
 
-TEST(Width, IsOfASection) {
+TEST(Width, IsForSectionsOnly) {
   write_map_files();
   EXPECT_EQ(
-      error_of_text(changed({{"[case]\n", "[case]\nwidth = 617.0\n"}}, sound_on_dem)),
+      error_of_text(changed({{"[case]\n", "[case]\nwidth = 617.0\n"}}, valid_case_on_dem)),
       "FOLDER/case.toml:2:9: case.width has a meaning only in two dimensions, and case.dimension is 3. Remove it.");
   EXPECT_EQ(
-      error_of_text(changed({{"[case]\n", "[case]\nwidth = " + widening + "\n"}}, sound_on_dem)),
+      error_of_text(changed({{"[case]\n", "[case]\nwidth = " + widening + "\n"}}, valid_case_on_dem)),
       "FOLDER/case.toml:2:9: case.width has a meaning only in two dimensions, and case.dimension is 3. Remove it.");
 }
 

@@ -1,4 +1,4 @@
-// Sums over many parts on a device (device/add_up.hpp) against those of the processor: the same bits.
+// Sums over many parts on a device (device/add_up.hpp) are bitwise identical to those of the CPU.
 #include "device/add_up.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace thawslide::device {
 namespace {
 
-// Of all magnitudes, so that another order gives other bits.
+// Numbers of very different magnitudes, such that a different order changes the sum.
 std::vector<double> parts_of(std::size_t count) {
   std::mt19937 random(7);
   std::vector<double> parts(count);
@@ -26,16 +26,16 @@ std::vector<double> parts_of(std::size_t count) {
   return parts;
 }
 
-double emulated(const std::vector<double>& parts) {
+double on_cpu(const std::vector<double>& parts) {
   return parallel_sum<double>(parts.size(), [&](std::size_t k, double& sum) { sum = parts[k]; });
 }
 
 double on_device(const std::vector<double>& parts, ThreadOrder order) {
   Host host(order);
   Array<double, Host> sums(host);
-  std::vector<double> with_room = parts;
-  with_room.resize(partial_sum_count(parts.size()));
-  sums.set(with_room);
+  std::vector<double> padded = parts;
+  padded.resize(partial_sum_count(parts.size()));
+  sums.set(padded);
   const double* sum = add_up(host, sums.data(), parts.size());
   double found = 0.0;
   host.copy_out(&found, sum, 1);
@@ -49,20 +49,20 @@ TEST(AddUp, IsBitwiseIdenticalToTheCpu) {
        {std::size_t{0}, std::size_t{1}, run - 1, run, run + 1, 2 * run, 5 * run + 3, run * run, run * run + run + 1}) {
     const std::vector<double> parts = parts_of(count);
     for (const ThreadOrder order : {ThreadOrder::forward, ThreadOrder::shuffled}) {
-      EXPECT_EQ(on_device(parts, order), emulated(parts)) << count;
+      EXPECT_EQ(on_device(parts, order), on_cpu(parts)) << count;
     }
   }
 }
 
-// What the test above looks at: another order would show.
+// The previous test is sensitive to the order.
 TEST(AddUp, DependsOnItsOrder) {
   const std::vector<double> parts = parts_of(5 * parts_of_a_run);
   double one_after_the_other = 0.0;
   for (const double part : parts) {
     one_after_the_other += part;
   }
-  EXPECT_NE(emulated(parts), one_after_the_other);
-  EXPECT_NEAR(emulated(parts), one_after_the_other, 1e-6);
+  EXPECT_NE(on_cpu(parts), one_after_the_other);
+  EXPECT_NEAR(on_cpu(parts), one_after_the_other, 1e-6);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Order, tiles and blocks as a device finds them (device/cells.hpp), against those of SparseGrid.
+// Order, tiles and blocks as computed by a device (device/cells.hpp), compared with those of SparseGrid.
 #include "device/cells.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 using device::Host, device::ThreadOrder;
 
-// Particles anywhere, below and above 0, many in one cell, with ids that do not follow their places in memory.
+// Particles at positive and negative positions, many in one cell, with ids independent of their order in memory.
 template <int Dim>
 void scatter(std::size_t count, Particles<Dim>& particles) {
   std::mt19937 random(3);
@@ -67,7 +67,7 @@ void expect_the_tables_of(const SparseGrid<Dim>& grid, const device::TileTables<
   }
 }
 
-// Sorted in memory only at first by the grid, never here: places in memory are the same then.
+// The grid sorts particles in memory only at the beginning, the device never: the order in memory is then the same.
 template <int Dim>
 void expect_the_tables_of_the_grid(std::size_t count, const Host& with) {
   Particles<Dim> particles;
@@ -85,10 +85,10 @@ void expect_the_tables_of_the_grid(std::size_t count, const Host& with) {
   bool any_kept = false;
   for (int step = 0; step < 6; ++step) {
     for (std::size_t p = 0; p < count; ++p) {
-      // In the last steps too little for any to leave its cell, but for one that goes far.
-      const double way = step < 3 ? 0.1 : 1e-9;
+      // In the last steps too little to leave a cell, except for one particle that moves far.
+      const double distance = step < 3 ? 0.1 : 1e-9;
       for (int a = 0; a < Dim; ++a) {
-        particles.position(p, a) += std::uniform_real_distribution<double>(-way, way)(random);
+        particles.position(p, a) += std::uniform_real_distribution<double>(-distance, distance)(random);
       }
     }
     particles.position(count / 2, 0) += step == 4 ? 40.0 : 0.0;
@@ -115,7 +115,7 @@ void expect_the_tables_of_the_grid(std::size_t count, const Host& with) {
   }
 }
 
-TEST(DeviceCells, HaveTheOrderAndTheTablesOfTheGrid) {
+TEST(DeviceCells, HaveTheOrderAndTablesOfTheGrid) {
   for (const ThreadOrder order : {ThreadOrder::forward, ThreadOrder::backward, ThreadOrder::shuffled}) {
     expect_the_tables_of_the_grid<2>(500, Host(order));
     expect_the_tables_of_the_grid<3>(300, Host(order));

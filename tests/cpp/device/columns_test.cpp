@@ -1,5 +1,5 @@
-// The columns of the slide as a device sums them (device/columns.hpp) against band::FlowDepth: the same bits, whatever
-// the order of threads.
+// The columns of the slide as summed by a device (device/columns.hpp) are bitwise identical to those of
+// band::FlowDepth, for any order of threads.
 #include "device/columns.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 using namespace testing_support;
 using device::Host, device::ThreadOrder;
 
-// Other at every column.
+// A different value for every column.
 template <int Dim>
 double cosine_at(const Vector<double, Dim - 1>& place) {
   return 1.0 / (1.0 + 1e-3 * place.squaredNorm());
@@ -31,7 +31,7 @@ double gravity_at(const Vector<double, Dim - 1>& place) {
   return 9.81 - 1e-3 * place.sum();
 }
 
-// What each tile sees of thickness, top and cosine, and the loads of particles, in canonical order.
+// Thickness, top and cosine for each tile, and the loads of particles, in canonical order.
 template <int Dim>
 std::vector<double> by_flow_depth(Scene<Dim>& scene) {
   band::FlowDepth<Dim> depth;
@@ -109,10 +109,10 @@ void expect_the_columns_of_the_cpu(int barriers) {
   }
 }
 
-TEST(DeviceColumns, AreThoseOfTheFlowDepthInThePlane) { expect_the_columns_of_the_cpu<2>(1); }
+TEST(DeviceColumns, AgreeWithTheFlowDepthInThePlane) { expect_the_columns_of_the_cpu<2>(1); }
 
-// Tiles with more particles than a group takes at a time.
-TEST(DeviceColumns, AreThoseInSpace) { expect_the_columns_of_the_cpu<3>(2); }
+// Tiles with more particles than a group processes at a time.
+TEST(DeviceColumns, AgreeWithTheFlowDepthInSpace) { expect_the_columns_of_the_cpu<3>(2); }
 
 }  // namespace
 }  // namespace thawslide::sim

@@ -8,30 +8,31 @@
 namespace thawslide::sim {
 namespace {
 
-TEST(DeviceRun, EndsWithTheSameWords) {
+TEST(DeviceRun, FailsWithTheSameMessage) {
   const config::Case parameters = sliding_bodies<2>();
-  Simulation<2> emulated(parameters), on_device(parameters);
+  Simulation<2> on_cpu(parameters), on_device(parameters);
   on_device.use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
-  for (Simulation<2>* simulation : {&emulated, &on_device}) {
+  for (Simulation<2>* simulation : {&on_cpu, &on_device}) {
     for (std::size_t p = 0; p < simulation->particles().size(); ++p) {
       simulation->particles().velocity(p, 0) = -500.0;
     }
   }
-  const std::string expected = error_of(emulated);
+  const std::string expected = error_of(on_cpu);
   EXPECT_NE(expected.find("left the domain"), std::string::npos) << expected;
   EXPECT_EQ(error_of(on_device), expected);
 }
 
-// Steps until it breaks down, or until particles are asked for.
-class BreaksDown final : public PassesOn<2> {
+// Advances until it fails, or until particles are requested.
+class FailingSolver final : public ForwardingSolver<2> {
  public:
-  BreaksDown(std::unique_ptr<device::Solver<2>> steps, int sound) : PassesOn(std::move(steps)), left_(sound) {}
+  FailingSolver(std::unique_ptr<device::Solver<2>> steps, int steps_before_failure)
+      : ForwardingSolver(std::move(steps)), left_(steps_before_failure) {}
 
   device::StepSums<2> step(double time, double dt) override {
     if (left_-- == 0) {
       throw device::Failure("allocating memory on the GPU: out of memory");
     }
-    return PassesOn::step(time, dt);
+    return ForwardingSolver::step(time, dt);
   }
   void copy_to(const mpm::ParticleView<2>& /*particles*/) override {
     throw device::Failure("copying from the GPU: unspecified launch failure");
@@ -41,58 +42,59 @@ class BreaksDown final : public PassesOn<2> {
   int left_;
 };
 
-// Steps of a device that breaks down after so many; returns what is told, and the particles that are left.
-std::string reported_failure(int sound, int steps) {
+// Runs on a device that fails after a number of steps. Returns the error message, and checks the remaining particles.
+std::string reported_failure(int steps_before_failure, int steps) {
   Simulation<2> simulation(sliding_bodies<2>());
   const auto at_start = fields_by_id(simulation.particles());
-  const auto make = [sound](const auto& model, const auto& particles, std::size_t count, auto ask) {
-    return std::make_unique<BreaksDown>(emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)),
-                                        sound);
+  const auto make = [steps_before_failure](const auto& model, const auto& particles, std::size_t count,
+                                           auto callbacks) {
+    return std::make_unique<FailingSolver>(
+        emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(callbacks)), steps_before_failure);
   };
   simulation.use_device("a GPU", make);
-  std::string specified;
+  std::string message;
   try {
     for (int k = 0; k < steps; ++k) {
       simulation.step(0.002);
     }
     static_cast<void>(std::as_const(simulation).particles());
   } catch (const DeviceError& error) {
-    specified = error.what();
+    message = error.what();
   }
   EXPECT_EQ(fields_by_id(std::as_const(simulation).particles()).at("position"), at_start.at("position"));
-  return specified;
+  return message;
 }
 
-TEST(DeviceRun, TellsOfADeviceThatFails) {
+TEST(DeviceRun, ReportsAFailingDevice) {
   EXPECT_EQ(reported_failure(3, 5), "a GPU failed at step 3: allocating memory on the GPU: out of memory");
   EXPECT_EQ(reported_failure(9, 5), "a GPU failed at step 5: copying from the GPU: unspecified launch failure");
 }
 
 // The same while a body settles.
-TEST(DeviceRun, TellsOfADeviceThatFailsAsABodySettles) {
+TEST(DeviceRun, ReportsADeviceThatFailsWhileABodySettles) {
   Simulation<2> simulation(sliding_bodies<2>(
       {"mechanics.initial_stress=\"settle\"", "mechanics.settle_time=0.1", "mechanics.settle_damping=5.0"}));
-  simulation.use_device("a GPU", [](const auto& model, const auto& particles, std::size_t count, auto ask) {
-    return std::make_unique<BreaksDown>(emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(ask)),
-                                        3);
+  simulation.use_device("a GPU", [](const auto& model, const auto& particles, std::size_t count, auto callbacks) {
+    return std::make_unique<FailingSolver>(
+        emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(callbacks)), 3);
   });
   EXPECT_THROW(simulation.settle(), DeviceError);
 }
 
-// From the numbers of a checkpoint, on the processor or on a device again.
-TEST(DeviceRun, GoesOnFromACheckpoint) {
+// Continues from a checkpoint, on the CPU or on a device again.
+TEST(DeviceRun, ContinuesFromACheckpoint) {
   const config::Case parameters = sliding_bodies<2>({"time.stepping=\"adaptive\""});
   Simulation<2> whole(parameters), first(parameters);
   for (Simulation<2>* simulation : {&whole, &first}) {
     simulation->use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
   }
-  const auto go_on = [](Simulation<2>& simulation, int steps) {
+  const auto advance = [](Simulation<2>& simulation, int steps) {
     for (int k = 0; k < steps; ++k) {
       simulation.step(simulation.next_step(10.0));
     }
   };
-  go_on(whole, 30);
-  go_on(first, 13);
+  advance(whole, 30);
+  advance(first, 13);
   const std::filesystem::path folder = folder_of_this_test();
   io::write_checkpoint<2>(folder, std::as_const(first).particles(), first.particles_at_start(), first.scalars(), {},
                           "");
@@ -104,14 +106,14 @@ TEST(DeviceRun, GoesOnFromACheckpoint) {
     std::vector<double> numbers;
     io::read_checkpoint<2>(io::newest_checkpoint(folder), second.particles(), numbers);
     second.restore(numbers);
-    go_on(second, 17);
+    advance(second, 17);
     EXPECT_EQ(second.time(), whole.time());
     expect_the_same_particles(second, whole);
   }
 }
 
-// Each refusal names the option as a case has it.
-TEST(DeviceRun, RefusesWhatNoDeviceDoesYet) {
+// Each refusal names the option as written in a case.
+TEST(DeviceRun, RefusesOptionsThatAreNotSupportedOnAGpu) {
   const std::pair<std::vector<std::string>, std::string> options[] = {
       {{"terrain.representation=\"rigid_points\""}, "terrain.representation = \"rigid_points\""},
       {{"contact.between_bodies=frictional", "contact.friction_angle=20.0"},
@@ -119,18 +121,18 @@ TEST(DeviceRun, RefusesWhatNoDeviceDoesYet) {
       {{"heat.update=\"apparent_capacity\""}, "heat.update = \"apparent_capacity\""},
       {{"heat.masses=\"current\""}, "heat.masses = \"current\""}};
   std::vector<std::pair<config::Case, std::string>> cases;
-  for (const auto& [sets, specified] : options) {
-    cases.emplace_back(sliding_bodies<2>(sets), specified);
+  for (const auto& [sets, option] : options) {
+    cases.emplace_back(sliding_bodies<2>(sets), option);
   }
   cases.emplace_back(sliding_bodies<2>(), "a [frame]");
   cases.back().first.frames["driver"] = {{-3.0, 2.4}, {7.5, 20.0}, "x", 25.0};
-  for (const auto& [parameters, specified] : cases) {
+  for (const auto& [parameters, option] : cases) {
     Simulation<2> simulation(parameters);
     try {
       simulation.use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
-      ADD_FAILURE() << specified;
+      ADD_FAILURE() << option;
     } catch (const UserError& error) {
-      EXPECT_NE(std::string(error.what()).find(specified + " is not supported on a GPU"), std::string::npos)
+      EXPECT_NE(std::string(error.what()).find(option + " is not supported on a GPU"), std::string::npos)
           << error.what();
     }
   }

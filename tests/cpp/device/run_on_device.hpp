@@ -1,4 +1,4 @@
-// Runs whose steps a device takes, the processor in a card's place, for tests.
+// Runs on the CPU emulation of the GPU backend, for tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,11 +26,11 @@ device::SolverFactory<Dim> emulated_gpu(ThreadOrder order) {
   return device::emulated<Dim>(order);
 }
 
-// Leaves all to other steps, for tests that change some of it.
+// Forwards all calls to another solver; tests override some of them.
 template <int Dim>
-class PassesOn : public device::Solver<Dim> {
+class ForwardingSolver : public device::Solver<Dim> {
  public:
-  explicit PassesOn(std::unique_ptr<device::Solver<Dim>> steps) : steps_(std::move(steps)) {}
+  explicit ForwardingSolver(std::unique_ptr<device::Solver<Dim>> steps) : steps_(std::move(steps)) {}
 
   device::StepSums<Dim> step(double time, double dt) override { return steps_->step(time, dt); }
   mpm::MonitorSums monitor(const mpm::MonitorKernel<Dim>& kernel) override { return steps_->monitor(kernel); }
@@ -38,7 +38,9 @@ class PassesOn : public device::Solver<Dim> {
   band::BodySums<Dim> sum_over_body(const band::SumsOfParticle<Dim>& of_particle) override {
     return steps_->sum_over_body(of_particle);
   }
-  mpm::PathSample front(const mpm::Transformation<Dim>& way, double mass) override { return steps_->front(way, mass); }
+  mpm::PathSample front(const mpm::Transformation<Dim>& path, double mass) override {
+    return steps_->front(path, mass);
+  }
   std::vector<Vector<double, Dim>> escaped_positions() override { return steps_->escaped_positions(); }
   void sort_in_memory() override { steps_->sort_in_memory(); }
   void copy_to(const mpm::ParticleView<Dim>& particles) override { steps_->copy_to(particles); }
@@ -49,16 +51,16 @@ class PassesOn : public device::Solver<Dim> {
   std::unique_ptr<device::Solver<Dim>> steps_;
 };
 
-// Counts how often particles come back.
+// Counts how often particles are copied back.
 template <int Dim>
-class CountsCopies final : public PassesOn<Dim> {
+class CopyCountingSolver final : public ForwardingSolver<Dim> {
  public:
-  CountsCopies(std::unique_ptr<device::Solver<Dim>> steps, int& copies)
-      : PassesOn<Dim>(std::move(steps)), copies_(copies) {}
+  CopyCountingSolver(std::unique_ptr<device::Solver<Dim>> steps, int& copies)
+      : ForwardingSolver<Dim>(std::move(steps)), copies_(copies) {}
 
   void copy_to(const mpm::ParticleView<Dim>& particles) override {
     ++copies_;
-    PassesOn<Dim>::copy_to(particles);
+    ForwardingSolver<Dim>::copy_to(particles);
   }
 
  private:
@@ -66,9 +68,9 @@ class CountsCopies final : public PassesOn<Dim> {
 };
 template <int Dim>
 device::SolverFactory<Dim> counting_copies(ThreadOrder order, int& copies) {
-  return [order, &copies](const auto& model, const auto& particles, std::size_t count, auto ask) {
-    return std::make_unique<CountsCopies<Dim>>(emulated_gpu<Dim>(order)(model, particles, count, std::move(ask)),
-                                               copies);
+  return [order, &copies](const auto& model, const auto& particles, std::size_t count, auto callbacks) {
+    return std::make_unique<CopyCountingSolver<Dim>>(
+        emulated_gpu<Dim>(order)(model, particles, count, std::move(callbacks)), copies);
   };
 }
 

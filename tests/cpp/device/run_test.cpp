@@ -1,5 +1,5 @@
-// Runs whose steps a device takes, the processor in a card's place, against runs of the processor: particles, accounts
-// and maps. The stages of Simulation are compiled without contraction here.
+// Runs on the CPU emulation of the GPU backend compared with runs on the CPU: particles, budgets and maps. The stages
+// of Simulation are compiled without contraction here.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -14,23 +14,23 @@
 namespace thawslide::sim {
 namespace {
 
-// Returns how often particles came back from the device before anyone asked for them.
+// Returns how often particles were copied back from the device before they were requested.
 template <int Dim>
 int expect_the_same_run(const config::Case& parameters, int steps, const config::Site& site = {}) {
-  Simulation<Dim> emulated(parameters, site), on_device(parameters, site);
+  Simulation<Dim> on_cpu(parameters, site), on_device(parameters, site);
   int copies = 0;
   on_device.use_device("a GPU", counting_copies<Dim>(ThreadOrder::shuffled, copies));
   on_device.set_sorting_interval(32);
   for (int k = 0; k < steps; ++k) {
-    emulated.step(emulated.next_step(10.0));
+    on_cpu.step(on_cpu.next_step(10.0));
     on_device.step(on_device.next_step(10.0));
-    EXPECT_EQ(on_device.time(), emulated.time());
+    EXPECT_EQ(on_device.time(), on_cpu.time());
   }
   const int copies_of_steps = copies;
-  EXPECT_EQ(on_device.removed().left, emulated.removed().left);
-  const auto expected = history_row(emulated), found = history_row(on_device);
-  EXPECT_EQ(copies, copies_of_steps) << "a row brings particles back";
-  expect_the_same_particles(on_device, emulated);
+  EXPECT_EQ(on_device.removed().left, on_cpu.removed().left);
+  const auto expected = history_row(on_cpu), found = history_row(on_device);
+  EXPECT_EQ(copies, copies_of_steps) << "a row copies particles back";
+  expect_the_same_particles(on_device, on_cpu);
   EXPECT_EQ(found.size(), expected.size());
   const auto unit_of = [](const std::string& name) { return name.substr(name.rfind('_') + 1); };
   std::map<std::string, double> largest;
@@ -39,8 +39,8 @@ int expect_the_same_run(const config::Case& parameters, int steps, const config:
         std::isnan(value) ? largest[unit_of(name)] : std::max(largest[unit_of(name)], std::abs(value));
   }
   for (std::size_t k = 0; k < found.size(); ++k) {
-    // After particles have come or gone sums go by where they stand now, and not by where the step began: they differ
-    // by round-off.
+    // After particles have been added or removed, sums use their current positions, not those at the beginning of the
+    // step: they differ by round-off.
     EXPECT_EQ(std::isnan(found[k].second), std::isnan(expected[k].second)) << found[k].first;
     if (std::isnan(expected[k].second)) {
       continue;
@@ -61,7 +61,7 @@ const std::vector<std::string> on_columns{
     "body.right.material=\"frozen\"", "body.right.temperature=-0.5", "heat.advection_form=conservative",
     "pressure.frozen=none",           "pressure.frozen_rows=sealed", "pressure.melt_contraction=true"};
 
-// Shape functions, transfers, conditions of heat at a face that the body lies at, and heat alone.
+// Shape functions, transfers, thermal conditions at a face in contact with the body, and heat alone.
 template <int Dim>
 void expect_the_same_with_every_choice(int steps) {
   const std::string at_face = Dim == 2 ? "grid.min=[0.0,-4.0]" : "grid.min=[0.0,-4.0,-4.0]";
@@ -82,47 +82,47 @@ void expect_the_same_with_every_choice(int steps) {
     EXPECT_EQ(expect_the_same_run<Dim>(sliding_bodies<Dim>(sets), steps), 0);
   }
 }
-TEST(DeviceRun, DoesWhatACaseChooses) {
+TEST(DeviceRun, SupportsTheOptionsOfACase) {
   expect_the_same_with_every_choice<2>(30);
   expect_the_same_with_every_choice<3>(12);
 }
 
-// The columns stay with the processor; pieces of base are laid, move on and stretch.
+// The columns remain on the CPU; basal segments are created, moved and stretched.
 template <int Dim>
 void expect_the_same_columns(int steps) {
   const config::Case parameters = sliding_bodies<Dim>(on_columns);
   EXPECT_EQ(expect_the_same_run<Dim>(parameters, steps), 0);
-  Simulation<Dim> emulated(parameters), on_device(parameters);
+  Simulation<Dim> on_cpu(parameters), on_device(parameters);
   on_device.use_device("a GPU", emulated_gpu<Dim>(ThreadOrder::forward));
-  const std::size_t at_start = emulated.band_columns()->segments().size();
+  const std::size_t at_start = on_cpu.band_columns()->segments().size();
   for (int k = 0; k < steps; ++k) {
-    emulated.step(0.002);
+    on_cpu.step(0.002);
     on_device.step(0.002);
   }
-  EXPECT_GT(emulated.band_columns()->segments().size(), at_start);
-  EXPECT_EQ(on_device.band_columns()->state(), emulated.band_columns()->state());
+  EXPECT_GT(on_cpu.band_columns()->segments().size(), at_start);
+  EXPECT_EQ(on_device.band_columns()->state(), on_cpu.band_columns()->state());
 }
 TEST(DeviceRun, KeepsTheBandColumnsOfTheCpu) {
   expect_the_same_columns<2>(60);
   expect_the_same_columns<3>(25);
 }
 
-// The bed stays with the processor; what is taken of it joins the slide.
+// The bed remains on the CPU; entrained material is added to the slide.
 template <int Dim>
 void expect_the_same_bed(const std::vector<std::string>& more, int steps) {
   std::vector<std::string> sets = loose_bed();
   sets.insert(sets.end(), more.begin(), more.end());
   const config::Case parameters = sliding_bodies<Dim>(sets);
   EXPECT_GT(expect_the_same_run<Dim>(parameters, steps), 0);
-  Simulation<Dim> emulated(parameters), on_device(parameters);
+  Simulation<Dim> on_cpu(parameters), on_device(parameters);
   on_device.use_device("a GPU", emulated_gpu<Dim>(ThreadOrder::backward));
   for (int k = 0; k < steps; ++k) {
-    emulated.step(0.002);
+    on_cpu.step(0.002);
     on_device.step(0.002);
-    ASSERT_EQ(on_device.bed()->state(), emulated.bed()->state()) << "after step " << k;
+    ASSERT_EQ(on_device.bed()->state(), on_cpu.bed()->state()) << "after step " << k;
   }
-  EXPECT_GT(emulated.particle_count(), emulated.particles_at_start() + 5);
-  EXPECT_EQ(on_device.particle_count(), emulated.particle_count());
+  EXPECT_GT(on_cpu.particle_count(), on_cpu.particles_at_start() + 5);
+  EXPECT_EQ(on_device.particle_count(), on_cpu.particle_count());
 }
 TEST(DeviceRun, EntrainsTheBedOfTheCpu) {
   for (const std::string law : {"momentum", "strength"}) {
@@ -138,22 +138,22 @@ TEST(DeviceRun, EntrainsTheBedOfTheCpu) {
 TEST(DeviceRun, SettlesABody) {
   const config::Case parameters = sliding_bodies<2>(
       {"mechanics.initial_stress=\"settle\"", "mechanics.settle_time=0.1", "mechanics.settle_damping=5.0"});
-  Simulation<2> emulated(parameters), on_device(parameters);
+  Simulation<2> on_cpu(parameters), on_device(parameters);
   int copies = 0;
   on_device.use_device("a GPU", counting_copies<2>(ThreadOrder::shuffled, copies));
-  EXPECT_TRUE(emulated.settle() && on_device.settle());
+  EXPECT_TRUE(on_cpu.settle() && on_device.settle());
   EXPECT_EQ(copies, 1);
   EXPECT_EQ(on_device.time(), 0.0);
-  expect_the_same_particles(on_device, emulated);
+  expect_the_same_particles(on_device, on_cpu);
   for (int k = 0; k < 20; ++k) {
-    emulated.step(0.002);
+    on_cpu.step(0.002);
     on_device.step(0.002);
   }
-  expect_the_same_particles(on_device, emulated);
+  expect_the_same_particles(on_device, on_cpu);
 }
 
-// They come back when some have left, and only then.
-TEST(DeviceRun, RemovesWhatLeaves) {
+// Particles are copied back when some have left, and only then.
+TEST(DeviceRun, RemovesLeavingParticles) {
   const config::Case parameters = sliding_bodies<2>({"grid.leaving=remove", "grid.max=[11.0,18.0]"});
   Simulation<2> simulation(parameters);
   while (simulation.removed().left == 0) {
@@ -166,7 +166,7 @@ TEST(DeviceRun, RemovesWhatLeaves) {
   EXPECT_LE(copies, 21);
 }
 
-// Bumps below the bodies; where the ground is not known, beyond a place along x, a slide may not go.
+// Bumps below the bodies; the area without data, beyond a position along x, must not be reached by the slide.
 config::Site bumpy_site(double known_to, double spacing = 2.0) {
   config::Site site;
   const int columns = static_cast<int>(120.0 / spacing), rows = static_cast<int>(32.0 / spacing);
@@ -176,7 +176,7 @@ config::Site bumpy_site(double known_to, double spacing = 2.0) {
   return site;
 }
 
-TEST(DeviceRun, StaysOnGroundThatIsKnown) {
+TEST(DeviceRun, StaysOnKnownGround) {
   std::ofstream(folder_of_this_test() / "dem.tif");
   const config::Case parameters = sliding_bodies<3>({}, "type = \"dem\"\nfile = \"dem.tif\"\n");
   EXPECT_EQ(expect_the_same_run<3>(parameters, 12, bumpy_site(40.0)), 0);
@@ -185,24 +185,24 @@ TEST(DeviceRun, StaysOnGroundThatIsKnown) {
                          "band.thickness={time=[0.0,0.01],value=[0.1,0.2]}"},
                         "type = \"dem\"\nfile = \"dem.tif\"\n");
   EXPECT_EQ(expect_the_same_run<3>(by_layer, 12, bumpy_site(40.0)), 0);
-  std::vector<std::string> specified;
+  std::vector<std::string> messages;
   for (const bool on_device : {false, true}) {
     Simulation<3> simulation(parameters, bumpy_site(8.0));
     if (on_device) {
       simulation.use_device("a GPU", emulated_gpu<3>(ThreadOrder::forward));
     }
-    specified.push_back(error_of(simulation));
+    messages.push_back(error_of(simulation));
   }
-  EXPECT_NE(specified[0].find("known"), std::string::npos) << specified[0];
-  EXPECT_EQ(specified[1], specified[0]);
+  EXPECT_NE(messages[0].find("known"), std::string::npos) << messages[0];
+  EXPECT_EQ(messages[1], messages[0]);
 }
 
-// Above a block whose ground is not known everywhere, and well away from where it is not.
-TEST(DeviceRun, ChecksEscapedParticlesAlone) {
+// Above a block with a part of the ground unknown, and well away from it.
+TEST(DeviceRun, ChecksEscapedParticlesOnly) {
   std::ofstream(folder_of_this_test() / "dem.tif");
   const config::Case parameters = sliding_bodies<3>({}, "type = \"dem\"\nfile = \"dem.tif\"\n");
   for (double known_to = 30.0;; known_to -= 0.5) {
-    ASSERT_GT(known_to, 0.0) << "no ground ends beside the slide";
+    ASSERT_GT(known_to, 0.0) << "the known ground never ends next to the slide";
     const config::Site site = bumpy_site(known_to, 0.5);
     Simulation<3> simulation(parameters, site);
     bool adjacent = false;
@@ -236,8 +236,8 @@ void expect_the_same_map(const MapKind& kind, const FlowMaps& found, const FlowM
   }
 }
 
-// Of cells as wide as those of the grid, of narrower and wider ones, and over band columns.
-TEST(DeviceRun, GathersTheMapsOfTheCpu) {
+// Maps with cells as wide as those of the grid, with narrower and wider ones, and with band columns.
+TEST(DeviceRun, RecordsTheMapsOfTheCpu) {
   const std::vector<std::vector<std::string>> choices{{"maps.arrival_thickness=0.1"},
                                                       {"maps.cell=0.6"},
                                                       {"maps.cell=2.7"},
@@ -246,23 +246,23 @@ TEST(DeviceRun, GathersTheMapsOfTheCpu) {
   for (const std::vector<std::string>& sets : choices) {
     SCOPED_TRACE(sets.front());
     const config::Case parameters = sliding_bodies<3>(sets);
-    Simulation<3> emulated(parameters), on_device(parameters);
+    Simulation<3> on_cpu(parameters), on_device(parameters);
     int copies = 0;
     on_device.use_device("a GPU", counting_copies<3>(ThreadOrder::backward, copies));
-    RunRecords<3> expected(emulated, {}), found(on_device, {});
-    expected.start(emulated);
+    RunRecords<3> expected(on_cpu, {}), found(on_device, {});
+    expected.start(on_cpu);
     found.start(on_device);
     for (int k = 0; k < 40; ++k) {
-      emulated.step(0.002);
+      on_cpu.step(0.002);
       on_device.step(0.002);
-      expected.after_step(emulated);
+      expected.after_step(on_cpu);
       found.after_step(on_device);
     }
-    const auto front = found.front(on_device), expected_front = expected.front(emulated);
+    const auto front = found.front(on_device), expected_front = expected.front(on_cpu);
     ASSERT_TRUE(front && expected_front);
     EXPECT_EQ(front->along, expected_front->along);
-    EXPECT_EQ(front->place, expected_front->place);
-    EXPECT_EQ(copies > 0, emulated.removed().left > 0);
+    EXPECT_EQ(front->position, expected_front->position);
+    EXPECT_EQ(copies > 0, on_cpu.removed().left > 0);
     for (const MapKind& kind : map_kinds()) {
       expect_the_same_map(kind, *found.maps(), *expected.maps());
     }
@@ -270,16 +270,16 @@ TEST(DeviceRun, GathersTheMapsOfTheCpu) {
   }
 }
 
-// However a device sorts them.
-TEST(DeviceRun, BringsParticlesBackInTheirOrder) {
+// The order does not depend on sorting on the device.
+TEST(DeviceRun, ReturnsParticlesInTheirOrder) {
   Simulation<2> simulation(sliding_bodies<2>());
   const auto ids = [&] {
     const auto& particles = std::as_const(simulation).particles();
-    std::vector<std::int64_t> by_place(particles.size());
-    for (std::size_t p = 0; p < by_place.size(); ++p) {
-      by_place[p] = particles.id(p);
+    std::vector<std::int64_t> by_position(particles.size());
+    for (std::size_t p = 0; p < by_position.size(); ++p) {
+      by_position[p] = particles.id(p);
     }
-    return by_place;
+    return by_position;
   };
   const std::vector<std::int64_t> at_start = ids();
   simulation.use_device("a GPU", emulated_gpu<2>(ThreadOrder::forward));
@@ -290,12 +290,12 @@ TEST(DeviceRun, BringsParticlesBackInTheirOrder) {
   EXPECT_EQ(ids(), at_start);
 }
 
-// Steps go on from particles that the processor has changed.
+// Time steps continue with particles that the CPU has modified.
 TEST(DeviceRun, ContinuesFromParticlesChangedOnTheCpu) {
   const config::Case parameters = sliding_bodies<2>();
-  Simulation<2> emulated(parameters), on_device(parameters);
+  Simulation<2> on_cpu(parameters), on_device(parameters);
   on_device.use_device("a GPU", emulated_gpu<2>(ThreadOrder::backward));
-  for (Simulation<2>* simulation : {&emulated, &on_device}) {
+  for (Simulation<2>* simulation : {&on_cpu, &on_device}) {
     for (int k = 0; k < 7; ++k) {
       simulation->step(0.002);
     }
@@ -307,7 +307,7 @@ TEST(DeviceRun, ContinuesFromParticlesChangedOnTheCpu) {
       simulation->step(0.002);
     }
   }
-  expect_the_same_particles(on_device, emulated);
+  expect_the_same_particles(on_device, on_cpu);
 }
 
 }  // namespace

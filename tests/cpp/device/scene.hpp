@@ -1,4 +1,4 @@
-// Particles, nodes and ground for passes that are run in different ways.
+// Particles, nodes and ground for passes with different implementations.
 #pragma once
 
 #include <random>
@@ -10,7 +10,7 @@
 
 namespace thawslide::testing_support {
 
-// Particles of a run of two bodies, copied, on a grid of their own, with nodes that hold any numbers, and the ground.
+// Copied particles of a run with two bodies, on a separate grid, with random numbers at nodes, and the ground.
 template <int Dim>
 class Scene {
  public:
@@ -26,7 +26,7 @@ class Scene {
       for (int c = 0; c < Dim * Dim; ++c) {
         particles.affine_velocity(p, c) = std::uniform_real_distribution<double>(-1.0, 1.0)(random);
       }
-      // Most hover, so that what they read of the distance matters.
+      // Most particles hover, such that the distance read from nodes has an effect.
       particles.contact_offset(p) = std::uniform_real_distribution<double>(-1.0, 0.1)(random);
       particles.pore_void(p) = std::uniform_real_distribution<double>(-1e-4, 1e-4)(random);
       particles.normal_load(p) = std::uniform_real_distribution<double>(0.0, 1e5)(random);
@@ -62,8 +62,8 @@ class Scene {
   template <class Name>
   void fill(const std::vector<double>& sizes, std::mt19937& random) {
     auto& records = nodes.template of<Name>();
-    if constexpr (requires { records.holds(0); }) {
-      records.hold(grid.blocks().size(), [](std::size_t /*block*/) { return true; });
+    if constexpr (requires { records.contains(0); }) {
+      records.allocate(grid.blocks().size(), [](std::size_t /*block*/) { return true; });
     } else {
       records.resize(grid.blocks().size());
     }

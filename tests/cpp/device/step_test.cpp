@@ -1,5 +1,5 @@
-// Steps as a device takes them (device/step.hpp) against those of Simulation: the same bits, whatever the order of
-// threads and of particles in memory. The stages of Simulation are compiled without contraction here.
+// Time steps of a device (device/step.hpp) are bitwise identical to those of Simulation, for any order of threads and
+// of particles in memory. The stages of Simulation are compiled without contraction here.
 #include "device/step.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ device::StepModel<Dim> step_model_of(const Simulation<Dim>& simulation) {
   return device_model_of(simulation.parameters(), simulation.model(), true);
 }
 
-// Fields that a step without heat and pore pressure has no part in.
+// Fields that a step without heat and pore pressure does not use.
 const std::set<std::string> of_band{"thermal_scaling"};
 
 template <int Dim>
@@ -58,8 +58,8 @@ void expect_the_same_contact(const terrain::ContactWork<Dim>& expected, const te
   EXPECT_EQ(found.constraint_impulse, expected.constraint_impulse) << when;
 }
 
-// What steps brought, as the ledger has it.
-struct Brought {
+// Sums over steps, as in the budgets.
+struct StepTotals {
   double friction_heat = 0, advection = 0, band_rescale = 0, drained_water = 0, drained_heat = 0, vented_water = 0;
 
   template <int Dim>
@@ -73,8 +73,8 @@ struct Brought {
   }
 };
 template <int Dim>
-void expect_the_same_ledger(const Simulation<Dim>& simulation, const Brought& found, const std::string& when) {
-  const Ledger<Dim>& expected = simulation.ledger();
+void expect_the_same_budgets(const Simulation<Dim>& simulation, const StepTotals& found, const std::string& when) {
+  const Budget<Dim>& expected = simulation.budget();
   if (simulation.model().band.heat) {
     EXPECT_EQ(found.friction_heat, expected.friction_heat) << when;
     EXPECT_EQ(found.advection, expected.advection) << when;
@@ -87,7 +87,7 @@ void expect_the_same_ledger(const Simulation<Dim>& simulation, const Brought& fo
 
 using Fields = std::map<std::string, std::vector<double>>;
 
-// How many particles were at first, and then are, as is asked for.
+// Number of particles that satisfy at_first initially and then `then`.
 template <class AtFirst, class Then>
 std::ptrdiff_t count(const std::vector<double>& first, const AtFirst& at_first, const std::vector<double>& now,
                      const Then& then) {
@@ -98,7 +98,7 @@ std::ptrdiff_t count(const std::vector<double>& first, const AtFirst& at_first, 
   return found;
 }
 
-// That the slide does what the comparison is of.
+// Asserts that the compared effects occur in the slide.
 template <int Dim>
 void expect_water_to_work(const Simulation<Dim>& simulation, const Fields& first) {
   const band::BandModel<Dim>& band = simulation.model().band;
@@ -115,11 +115,11 @@ void expect_water_to_work(const Simulation<Dim>& simulation, const Fields& first
   EXPECT_GT(count(first.at("temperature"), melted, now.at("temperature"), melted), 0);
   EXPECT_NE(now.at("flow_depth"), first.at("flow_depth"));
   EXPECT_GT(count_now("pore_pressure", some), 0);
-  const bool seeps = band.lets_water_seep();
+  const bool seeps = band.has_seepage();
   EXPECT_EQ(seeps, count_now("seepage_in_cell", some) > 0);
-  EXPECT_EQ(seeps, simulation.ledger().drained_water > 0.0);
-  EXPECT_EQ(seeps && band.frozen_rows != band::FrozenRows::sealed, simulation.ledger().vented_water != 0.0);
-  EXPECT_EQ(seeps && band.conservative_advection, simulation.ledger().drained_heat > 0.0);
+  EXPECT_EQ(seeps, simulation.budget().drained_water > 0.0);
+  EXPECT_EQ(seeps && band.frozen_rows != band::FrozenRows::sealed, simulation.budget().vented_water != 0.0);
+  EXPECT_EQ(seeps && band.conservative_advection, simulation.budget().drained_heat > 0.0);
   if (band.needs_normal_load()) {
     EXPECT_NE(now.at("normal_load"), first.at("normal_load"));
     EXPECT_GT(count_now("load_change", some), 0);
@@ -127,7 +127,7 @@ void expect_water_to_work(const Simulation<Dim>& simulation, const Fields& first
   }
 }
 
-// So many steps; particles are sorted in memory before number `sorted_before`.
+// Advances a number of steps; particles are sorted in memory before step `sorted_before`.
 template <int Dim>
 void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int sorted_before, const Host& with) {
   constexpr double dt = 0.002;
@@ -139,7 +139,7 @@ void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int 
                                                 terrain_for_device(simulation.model(), simulation.grid().cell()));
   const bool heat = simulation.model().band.heat, pressure = simulation.model().band.pressure;
   const Fields first = fields_by_id(simulation.particles());
-  Brought brought;
+  StepTotals totals;
   const std::vector<std::uint64_t> blocks = simulation.grid().blocks();
   for (int k = 0; k < steps; ++k) {
     if (k == sorted_before) {
@@ -151,22 +151,22 @@ void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int 
     const std::string when = fmt::format("step {}", k);
     expect_the_same_contact(simulation.contact(), sums.contact, when);
     EXPECT_EQ(sums.invalid.id, -1) << when;
-    brought.add(sums);
-    expect_the_same_ledger(simulation, brought, when);
+    totals.add(sums);
+    expect_the_same_budgets(simulation, totals, when);
     if (::testing::Test::HasFailure()) {
       return;
     }
   }
   EXPECT_GT(simulation.contact().friction_work, 0.0);
-  EXPECT_GT(simulation.ledger().plastic, 0.0);
+  EXPECT_GT(simulation.budget().plastic, 0.0);
   EXPECT_NE(simulation.grid().blocks(), blocks);
   EXPECT_EQ(mechanics.tables().tiles, simulation.grid().tiles().size());
   mpm::Particles<Dim> found;
   found.resize(simulation.particles().size());
   mechanics.copy_to(mpm::view_of(found));
   expect_the_same_particles(simulation.particles(), found, heat || pressure, "at the end");
-  EXPECT_EQ(heat, brought.friction_heat > 0.0);
-  EXPECT_EQ(brought.band_rescale != 0.0, parameters.band.thickness.table.value.size() > 1);
+  EXPECT_EQ(heat, totals.friction_heat > 0.0);
+  EXPECT_EQ(totals.band_rescale != 0.0, parameters.band.thickness.table.value.size() > 1);
   if (pressure) {
     expect_water_to_work(simulation, first);
   }
@@ -182,14 +182,14 @@ config::Case without_pressure(const std::string& heat) {
   return sliding_bodies<Dim>({"heat.enabled=" + heat, "pressure.enabled=false"});
 }
 
-// The frozen body is about to melt.
+// The frozen body is close to melting.
 template <int Dim>
 config::Case with_pressure(std::vector<std::string> sets = {}) {
   sets.push_back("body.left.temperature=-1e-4");
   return sliding_bodies<Dim>(sets);
 }
 
-// Pores by the balance of their water.
+// Pores with the balance of their water.
 std::vector<std::string> balanced(const std::string& frozen_rows) {
   return {"pressure.frozen=\"none\"",
           "pressure.frozen_rows=\"" + frozen_rows + "\"",
@@ -208,11 +208,11 @@ TEST(DeviceStep, IsBitwiseIdenticalToTheCpuInThePlane) {
   }
 }
 
-TEST(DeviceStep, HasThemInSpace) {
+TEST(DeviceStep, IsBitwiseIdenticalToTheCpuInSpace) {
   expect_the_steps_of_the_cpu<3>(without_pressure<3>("true"), 100, 50, Host(ThreadOrder::shuffled, 96));
 }
 
-TEST(DeviceStep, HasTheBitsOfVoellmyFriction) {
+TEST(DeviceStep, IsBitwiseIdenticalToTheCpuWithVoellmyFriction) {
   const std::vector<std::string> voellmy{"heat.enabled=false", "pressure.enabled=false", "basal.friction=voellmy",
                                          "basal.friction_coefficient=0.2", "basal.turbulent_friction=100"};
   expect_the_steps_of_the_cpu<2>(sliding_bodies<2>(voellmy), 100, 50, Host(ThreadOrder::shuffled, 32));
@@ -228,13 +228,13 @@ TEST(DeviceStep, IsBitwiseIdenticalToTheCpuWithPorePressureInThePlane) {
                                  Host(ThreadOrder::backward, 32));
 }
 
-TEST(DeviceStep, HasThemWithTheBalanceOfWater) {
+TEST(DeviceStep, IsBitwiseIdenticalToTheCpuWithTheBalanceOfWater) {
   expect_the_steps_of_the_cpu<2>(with_pressure<2>(balanced("sealed")), 150, 60, Host(ThreadOrder::forward));
   expect_the_steps_of_the_cpu<2>(with_pressure<2>(balanced("vented")), 150, 60, Host(ThreadOrder::shuffled, 7));
 }
 
-// It takes in matter, and does not.
-TEST(DeviceStep, HasThemInABandThatThickens) {
+// The band entrains material in the first case, and not in the second.
+TEST(DeviceStep, IsBitwiseIdenticalToTheCpuWithAThickeningBand) {
   const std::string thickness = "band.thickness={time=[0.0, 0.3], value=[0.1, 0.2]}";
   std::vector<std::string> conserving = balanced("vented");
   conserving.insert(conserving.end(), {"band.thickness_change=\"conserving\"", thickness});
@@ -243,13 +243,13 @@ TEST(DeviceStep, HasThemInABandThatThickens) {
                                  Host(ThreadOrder::backward, 32));
 }
 
-TEST(DeviceStep, HasThemWithPorePressureInSpace) {
+TEST(DeviceStep, IsBitwiseIdenticalToTheCpuWithPorePressureInSpace) {
   expect_the_steps_of_the_cpu<3>(with_pressure<3>(), 100, 50, Host(ThreadOrder::shuffled, 96));
   expect_the_steps_of_the_cpu<3>(with_pressure<3>(balanced("vented")), 100, 50, Host(ThreadOrder::backward, 7));
 }
 
-// The launches of a step in which no particle comes to another cell: they wait for what the processor asks, which is
-// whether there is one, whether water seeps (for the averages, and for the pressures) and the sums of the step.
+// Launches of a step in which no particle changes its cell. The CPU waits for four results: whether a particle has
+// changed its cell, whether water seeps (for the averages, and for the pressures), and the sums of the step.
 TEST(DeviceStep, IsSubmittedInFourGraphs) {
   const config::Case parameters = with_pressure<3>(balanced("vented"));
   Simulation<3> simulation(parameters);
@@ -257,7 +257,7 @@ TEST(DeviceStep, IsSubmittedInFourGraphs) {
   device::Step<Host, mpm::Ugimp, 3> steps(host, step_model_of(simulation), mpm::view_of(simulation.particles()),
                                           simulation.particles().size(),
                                           terrain_for_device(simulation.model(), simulation.grid().cell()));
-  // Steps so short that some of the later ones leave all particles in their cells.
+  // Some of the later steps are so short that all particles remain in their cells.
   std::size_t fewest_waits = 1000, launches = 0;
   double time = 0.0;
   for (int k = 0; k < 20; ++k) {

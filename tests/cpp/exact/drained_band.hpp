@@ -1,6 +1,6 @@
-// Steady drained band, derived in chapter 16, for the arrest or runaway of Goren and Aharonov (2009). Friction heats a
-// band over its thickness e; water leaves it through its top, where P = 0; its base is sealed, and no heat is lost.
-// With strength mu (N - P), P the mean over the band,
+// Steady drained band, derived in docs/theory/band-columns.md, for the arrest or runaway of Goren and Aharonov (2009).
+// Friction heats a band over its thickness e; water leaves it through its top, where P = 0; its base is sealed, and no
+// heat is lost. With strength mu (N - P), P the mean over the band,
 //   tau = mu N/(1 + A v/k),   A = mu beta_m gamma_w eta e/(3 C)
 // A block on a slope a accelerates if tau < N tan(a) and decelerates if tau > N tan(a). Strength decreases with the
 // speed v; the speed at which both are equal,

@@ -1,4 +1,5 @@
-// Rasters finer than the ground are averaged over its cells: volumes stay, whatever the points and the systems.
+// Rasters finer than the ground are averaged over its cells: volumes are conserved for any points and reference
+// systems.
 #include "gis/averaging.hpp"
 
 #include <random>
@@ -11,7 +12,7 @@ namespace {
 
 using namespace site_case;
 
-// Any thickness from 0 to 20 m at points of any distances, in 30 m x 24 m and with nothing about it.
+// Random thickness from 0 to 20 m at points with any spacing, in 30 m x 24 m, surrounded by zeros.
 Raster random_raster(std::mt19937& random, double cell_x, double cell_y) {
   std::uniform_real_distribution<double> thickness(0.0, 20.0), place(0.0, 10.0);
   Raster raster =
@@ -26,7 +27,7 @@ Raster points_about(const Raster& raster, double cell, double shift) {
                    cell, 10 + static_cast<int>(40.0 / cell), 10 + static_cast<int>(40.0 / cell));
 }
 
-TEST(AveragingTest, VolumesAreExactForPointsOfAnyDistanceAndPlace) {
+TEST(AveragingTest, VolumesAreExactForAnySpacingAndOffsetOfPoints) {
   std::mt19937 random(7);
   for (const auto& [cell_x, cell_y] : {std::pair(1.0, 1.0), {0.3, 0.7}, {2.3, 0.9}, {2.9, 2.9}}) {
     for (const double shift : {0.0, 0.37, 1.5, 2.9}) {
@@ -39,7 +40,7 @@ TEST(AveragingTest, VolumesAreExactForPointsOfAnyDistanceAndPlace) {
   }
 }
 
-TEST(AveragingTest, MeansAreThoseOfTheCellsWithin) {
+TEST(AveragingTest, MeansAreOverTheCellsWithin) {
   const Raster ribs = raster_of([](double x, double) { return x == 2.0 ? 20.0 : 4.0; }, 0.0, 0.0, 1.0, 10, 10);
   const Raster layout = raster_of([](double, double) { return 0.0; }, 2.0, 2.0, 5.0, 2, 2);
   const Raster means = averaged(ribs, layout, Missing::unknown);
@@ -47,7 +48,7 @@ TEST(AveragingTest, MeansAreThoseOfTheCellsWithin) {
   EXPECT_NEAR(means.at(1, 1), 4.0, 1e-12);
 }
 
-TEST(AveragingTest, PointsWithoutDataAreLeftOutOrNothing) {
+TEST(AveragingTest, PointsWithoutDataAreIgnoredOrZero) {
   Raster raster = raster_of([](double, double) { return 8.0; }, 0.0, 0.0, 1.0, 4, 4);
   raster.values[raster.index(0, 0)] = raster.values[raster.index(1, 0)] = missing;
   const Raster layout = raster_of([](double, double) { return 0.0; }, 0.5, 0.5, 2.0, 3, 2);
@@ -62,7 +63,7 @@ TEST(AveragingTest, PointsWithoutDataAreLeftOutOrNothing) {
   EXPECT_TRUE(std::isnan(mean_at(2, Missing::nothing)));
 }
 
-TEST(AveragingTest, FinerIsByMoreThanAHundredthAlongAnyAxis) {
+TEST(AveragingTest, FinerMeansByMoreThanOnePercentAlongAnyAxis) {
   Raster raster = raster_of([](double, double) { return 1.0; }, 400000.0, 300000.0, 5.0, 20, 20);
   const Raster layout = raster_of([](double, double) { return 0.0; }, 400000.0, 300000.0, 5.0, 20, 20);
   EXPECT_FALSE(is_finer(raster, layout));
@@ -73,7 +74,7 @@ TEST(AveragingTest, FinerIsByMoreThanAHundredthAlongAnyAxis) {
   EXPECT_FALSE(is_finer(layout, raster));
 }
 
-// Ribs of 20 m, one metre in five, over 200 m x 200 m; `cell`: of the raster.
+// Ribs of 20 m, one metre in five, over 200 m x 200 m; `cell`: cell size of the raster.
 Raster ribs(const std::string& crs, double x, double y, double cell) {
   const auto count = static_cast<int>(std::lround(240.0 / cell));
   return raster_of(
@@ -95,18 +96,18 @@ TEST(AveragingTest, ReleasesKeepTheVolumeOfAFinerRaster) {
       config::Case parameters = plain_case(ground());
       parameters.bodies["rock"] = raster_body(geotiff("ribs.tif", raster));
       EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs, 1e-6);
-      // Within the outline, which runs along cells of the ground or across them.
+      // Within an outline along cells of the ground or across them.
       parameters.bodies.at("rock").release =
           geojson("outline.geojson", {{"", box_at(320 + shift, 320 + shift, 520 + shift, 520 + shift)}});
       EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs, 1e-4);
-      // In the western half.
+      // Western half.
       parameters.bodies.at("rock").release = geojson("outline.geojson", {{"", box_at(250, 250, 420 + shift, 700)}});
       EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), 0.5 * volume_of_ribs, 1e-4);
     }
   }
 }
 
-// The lengths of the other system differ by up to 4 in 10,000, areas by twice as much.
+// Lengths in the other system differ by up to 4 in 10,000, areas by twice as much.
 TEST(AveragingTest, ReleasesKeepTheVolumeOfAFinerRasterOfAnotherSystem) {
   std::vector<double> x{west + 300.0}, y{south + 300.0};
   ASSERT_TRUE(Reprojection(reference_system_named("EPSG:31287"), reference_system_named("EPSG:32633")).apply(x, y));
@@ -120,7 +121,7 @@ TEST(AveragingTest, ReleasesKeepTheVolumeOfAFinerRasterOfAnotherSystem) {
               5e-3 * volume_of_ribs);
 }
 
-// The two systems differ by less than a metre in place and not in length.
+// Positions in the two systems differ by less than a metre; lengths are equal.
 TEST(AveragingTest, ReleasesKeepTheVolumeOfAFinerRasterOfNearlyTheSameSystem) {
   const Raster raster = ribs("EPSG:25833", west + 300.0, south + 300.0, 1.0);
   config::Case parameters = plain_case(ground("EPSG:32633"));
@@ -147,9 +148,9 @@ TEST(AveragingTest, SurfacesFinerThanTheGroundKeepTheVolumeAboveIt) {
               0.01 * volume_of_ribs);
 }
 
-// A surface that is known within the release alone, at points of any distance and place among the ground's. Between
-// points that are farther apart than these, interpolation keeps the volume nearly.
-TEST(AveragingTest, SurfacesWithoutDataAboutTheReleaseKeepItsVolume) {
+// A surface known within the release only, at points of any spacing and offset relative to the ground. Between points
+// with a larger spacing than the ground, interpolation conserves the volume nearly.
+TEST(AveragingTest, SurfacesWithoutDataAroundTheReleaseKeepItsVolume) {
   for (const double cell : {0.5, 1.0, 2.0, 5.0, 9.0}) {
     for (const double shift : {0.0, 0.3, 2.5, 4.0}) {
       const auto inside = static_cast<int>(198.0 / cell);
@@ -168,7 +169,7 @@ TEST(AveragingTest, SurfacesWithoutDataAboutTheReleaseKeepItsVolume) {
         parameters.bodies["rock"] = raster_body(geotiff("before.tif", surface));
         parameters.bodies["rock"].thickness.from = config::MapValue::From::surface;
         const double volume = 10.0 * std::pow(inside * cell, 2);
-        // A tolerance, as of noise, takes nothing away where the surface is known in a part of a cell.
+        // A tolerance, as for noise, removes nothing if the surface is known in a part of a cell.
         for (const double tolerance : {0.01, cell < 5.0 ? 4.0 : 0.01}) {
           parameters.bodies["rock"].surface_tolerance = tolerance;
           EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume,
@@ -180,7 +181,7 @@ TEST(AveragingTest, SurfacesWithoutDataAboutTheReleaseKeepItsVolume) {
   }
 }
 
-// Two stripes a metre wide, of -4 and -8 C, are -6 C on average; a single value that none may have is refused.
+// Two stripes a metre wide, of -4 and -8 C, average to -6 C; a single invalid value is refused.
 TEST(AveragingTest, TemperaturesAreMeansAndEachIsChecked) {
   config::Case parameters = case_with_release({{"", box_at(302, 302, 398, 398)}});
   InitialField& temperature = parameters.bodies.at("rock").temperature;
@@ -208,7 +209,7 @@ TEST(AveragingTest, NegativeThicknessIsNotHiddenByAMean) {
   EXPECT_NE(error_of_site(parameters).find("is -1 m; allowed: 0 and more."), std::string::npos);
 }
 
-TEST(AveragingTest, BedsAreMeans) {
+TEST(AveragingTest, BedsAreAveraged) {
   config::Case parameters = case_with_release({{"", box_at(300, 300, 400, 400)}});
   parameters.bed.law = config::BedLaw::strength;
   parameters.bed.depth.over = InitialField::Over::raster;

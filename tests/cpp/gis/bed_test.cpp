@@ -1,4 +1,4 @@
-// The depth of an erodible bed from a raster: the same as a number, and what is refused.
+// Depth of an erodible bed from a raster: equal to a number, and refused rasters.
 #include "gis/bed.hpp"
 
 #include <cmath>
@@ -36,7 +36,7 @@ std::string depth_file(const std::function<double(double, double)>& depth, int c
   return geotiff("depth.tif", raster_of(depth, west, south, 10.0, columns, 11));
 }
 
-TEST(BedOfMaps, RasterOfOneDepthIsTheNumber) {
+TEST(BedOfMaps, UniformRasterIsEqualToTheNumber) {
   const double of_number = taken_after(slide_over_bed("1.5"));
   depth_file([](double, double) { return 1.5; });
   const double of_raster = taken_after(slide_over_bed("{ raster = \"depth.tif\" }"));
@@ -44,7 +44,7 @@ TEST(BedOfMaps, RasterOfOneDepthIsTheNumber) {
   EXPECT_NEAR(of_raster / of_number, 1.0, 1e-6);
 }
 
-TEST(BedOfMaps, WhatDoesNotCoverTheDomainIsRefused) {
+TEST(BedOfMaps, RasterThatDoesNotCoverTheDomainIsRefused) {
   depth_file([](double, double) { return 1.5; }, 20);
   EXPECT_NE(
       error_of_site(slide_over_bed("{ raster = \"depth.tif\" }"))
@@ -55,7 +55,7 @@ TEST(BedOfMaps, WhatDoesNotCoverTheDomainIsRefused) {
       << error_of_site(slide_over_bed("{ raster = \"depth.tif\" }"));
 }
 
-TEST(BedOfMaps, DepthsThatCannotBeAreRefused) {
+TEST(BedOfMaps, InvalidDepthsAreRefused) {
   depth_file([](double x, double) { return x > west + 100.0 ? 6.0 : 0.0; });
   EXPECT_NE(error_of_site(slide_over_bed("{ raster = \"depth.tif\" }")).find("the depth of the bed is 6 m; allowed"),
             std::string::npos);

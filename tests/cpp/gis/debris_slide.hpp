@@ -1,4 +1,4 @@
-// A slide of debris on a DEM, 300 m by 100 m, for tests of what lies on the ground below it.
+// A slide of debris on a DEM, 300 m by 100 m, for tests of substrates and beds below it.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace thawslide::gis::debris_slide {
 
 using namespace site_case;
 
-// `ground`: height of the DEM at x, y [m]; `velocity`: of the debris at the start [m/s]; `more`: TOML that follows
+// `ground`: height of the DEM at x, y [m]; `velocity`: of the debris at the start [m/s]; `more`: TOML added after
 // [basal].
 inline config::Case debris_case(const std::function<double(double, double)>& ground, double end,
                                 const std::string& velocity, const std::string& more) {

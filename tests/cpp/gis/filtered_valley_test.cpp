@@ -1,4 +1,4 @@
-// What the filter of a DEM takes of the wedge effect of valleys.
+// Effect of the DEM filter on the wedge effect of valleys.
 #include <cmath>
 #include <functional>
 
@@ -11,8 +11,8 @@ namespace {
 
 using namespace site_case;
 
-// Mean of the load over the width of a fill with a level surface, whose walls bear p = rho g times its depth: the
-// friction of a channel is mu times this factor.
+// Average load over the width of a fill with a level surface, whose walls carry p = rho g times the depth. The friction
+// of a channel is mu times this factor.
 double wedge_factor(const std::function<double(int)>& height, double step, double level) {
   double area = 0.0, width = 0.0;
   for (int k = -4000; k < 4000; ++k) {
@@ -23,7 +23,7 @@ double wedge_factor(const std::function<double(int)>& height, double step, doubl
   return area / width;
 }
 
-// What the filter takes of the wedge effect of V valleys, filled to a width (in standard deviations).
+// Reduction of the wedge effect of V-shaped valleys by the filter, for a filled width in standard deviations.
 double wedge_lost(double opening, double width) {
   const double wall = 1.0 / std::tan(0.5 * opening * M_PI / 180.0), step = width / 6000.0;
   const auto smooth = [&](int k) {
@@ -34,7 +34,7 @@ double wedge_lost(double opening, double width) {
 }
 
 TEST(FilteredValley, NarrowValleysLoseThreePercentOfTheirWedge) {
-  // As computed and found in runs with one cell as the standard deviation: docs/theory/contact.md.
+  // Computed values, confirmed by runs with a standard deviation of one cell: docs/theory/contact.md.
   EXPECT_NEAR(wedge_lost(120.0, 8.0), 0.058, 0.001);
   EXPECT_NEAR(wedge_lost(90.0, 8.0), 0.123, 0.001);
   EXPECT_NEAR(wedge_lost(60.0, 8.0), 0.201, 0.001);
@@ -42,7 +42,7 @@ TEST(FilteredValley, NarrowValleysLoseThreePercentOfTheirWedge) {
   EXPECT_NEAR(wedge_lost(90.0, 4.0), 0.20, 0.005);
   EXPECT_NEAR(wedge_lost(60.0, 4.0), 0.32, 0.005);
   EXPECT_NEAR(wedge_lost(90.0, narrow_valley(1.0)), 0.03, 0.0005);
-  // Entries of the table there with widths over standard deviations of their own.
+  // Entries of the table in that page with other ratios of width to standard deviation.
   EXPECT_NEAR(wedge_lost(90.0, 16.0), 0.069, 0.001);
   EXPECT_NEAR(wedge_lost(90.0, 32.0), 0.037, 0.001);
   EXPECT_NEAR(wedge_lost(60.0, 2.0), 0.457, 0.001);
@@ -50,7 +50,7 @@ TEST(FilteredValley, NarrowValleysLoseThreePercentOfTheirWedge) {
 }
 
 TEST(FilteredValley, HasTheWedgeOfTheTable) {
-  // Four points in a standard deviation.
+  // Four points per standard deviation.
   const Raster valley = raster_of([](double x, double) { return std::abs(x); }, -25.0, 0.0, 0.25, 201, 41);
   const Raster smooth = smoothed(valley, 1.0);
   const auto height = [&](int k) { return std::abs(k) > 100 ? 25.0 : smooth.at(k + 100, 20); };

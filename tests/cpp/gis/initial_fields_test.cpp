@@ -1,4 +1,4 @@
-// Temperature, saturation, porosity and ice content of a release, each from whatever may tell it.
+// Temperature, saturation, porosity and ice content of a release, from every possible source.
 #include <cmath>
 #include <map>
 
@@ -26,7 +26,7 @@ Simulation with(const std::string& key, const std::string& value) {
   return Simulation(parameters, load_site(parameters).site);
 }
 
-// What the key tells, of a particle.
+// Value of a particle that the key specifies.
 double value_of(const Simulation& simulation, const std::string& key, std::size_t p) {
   const double temperature = simulation.particles().temperature(p), porosity = simulation.particles().porosity(p);
   const double saturation = simulation.model().band.with_heat_content(
@@ -37,7 +37,7 @@ double value_of(const Simulation& simulation, const std::string& key, std::size_
                                : porosity * (1.0 - saturation);
 }
 
-// Vertical, below the top of the body on the plane [m].
+// Vertical depth below the top of the body on the plane [m].
 double depth_of(const Simulation& simulation, std::size_t p) {
   const auto& particles = simulation.particles();
   const auto& origin = simulation.model().origin;
@@ -49,13 +49,13 @@ class InitialFieldsTest : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     geotiff("dem.tif", ground());
-    geojson("slide.geojson", {{R"("told":0.25)", box_at(300, 300, 400, 400)}});
-    geotiff("told.tif", raster_of([](double, double) { return 0.25; }, west, south, 10.0, 101, 81));
+    geojson("slide.geojson", {{R"("given":0.25)", box_at(300, 300, 400, 400)}});
+    geotiff("given.tif", raster_of([](double, double) { return 0.25; }, west, south, 10.0, 101, 81));
   }
 };
 
-TEST_P(InitialFieldsTest, NumberAttributeRasterAndTableSayTheSame) {
-  for (const char* form : {"0.25", "{ attribute = \"told\" }", "{ raster = \"told.tif\" }",
+TEST_P(InitialFieldsTest, NumberAttributeRasterAndTableAgree) {
+  for (const char* form : {"0.25", "{ attribute = \"given\" }", "{ raster = \"given.tif\" }",
                            "{ depth = [0.0, 100.0], value = [0.25, 0.25] }"}) {
     const Simulation simulation = with(GetParam(), form);
     ASSERT_GT(simulation.particles().size(), 1000U);
@@ -65,7 +65,7 @@ TEST_P(InitialFieldsTest, NumberAttributeRasterAndTableSayTheSame) {
   }
 }
 
-TEST_P(InitialFieldsTest, ATableIsOverDepth) {
+TEST_P(InitialFieldsTest, ATableDependsOnDepth) {
   const Simulation simulation = with(GetParam(), "{ depth = [0.0, 12.0], value = [0.1, 0.4] }");
   const auto& particles = simulation.particles();
   int count = 0;

@@ -38,7 +38,7 @@ inline std::string text_file(const std::string& name, const std::string& text) {
   return in_folder(name);
 }
 
-// z(x, y) at points from x, y on.
+// Heights z(x, y) at points, the first of them at x, y.
 inline Raster raster_of(const std::function<double(double, double)>& z, double x, double y, double cell, int columns,
                         int rows, const std::string& crs = "EPSG:31287") {
   Raster raster;
@@ -61,8 +61,8 @@ inline std::string geotiff(const std::string& name, const Raster& raster) {
   return in_folder(name);
 }
 
-// A GeoTIFF as others write them: any type, bands, geotransform and tag; all values 1, 2, 3, ... row after row from the
-// first line of the file.
+// A GeoTIFF as written by other programs: any type, bands, geotransform and tag; all values 1, 2, 3, ... row by row
+// from the first line of the file.
 struct ForeignRaster {
   GDALDataType type = GDT_Float32;
   int bands = 1, columns = 4, rows = 3;

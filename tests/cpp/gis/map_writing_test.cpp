@@ -1,15 +1,19 @@
-// What a run hands to a GIS: GeoPackages that open again, and styles that are sound XML.
+// Output for a GIS: GeoPackages that can be opened again, and styles that are valid XML.
 #include <cpl_minixml.h>
+#include <fmt/format.h>
 #include <ogrsf_frmts.h>
 
 #include <chrono>
 #include <fstream>
 #include <thread>
 
+#include "base/atomic_file.hpp"
 #include "gis/geopackage.hpp"
+#include "gis/map_classes.hpp"
 #include "gis/map_style.hpp"
 #include "gis/vector_file.hpp"
 #include "map_files.hpp"
+#include "sim/map_kinds.hpp"
 
 namespace thawslide::gis {
 namespace {
@@ -27,10 +31,10 @@ std::vector<MapLayer> layers() {
       {"probes", std::vector<std::array<double, 2>>{{5.5, 6.5}}, {{"name", std::vector<std::string>{"hut <A&B>"}}}}};
 }
 
-TEST(MapWritingTest, GeopackageOpensAgain) {
+TEST(MapWritingTest, GeopackageCanBeReadBack) {
   const std::string file = in_folder("maps.gpkg"), ground = reference_system_named("EPSG:31287");
   write_geopackage(file, layers(), ground);
-  write_geopackage(file, layers(), ground);  // an older one is replaced
+  write_geopackage(file, layers(), ground);  // an existing one is replaced
   const VectorLayer area = read_polygons(file, ground);
   EXPECT_EQ(area.warnings, std::vector<std::string>{});
   ASSERT_EQ(area.features.size(), 1U);
@@ -46,7 +50,7 @@ TEST(MapWritingTest, GeopackageOpensAgain) {
   EXPECT_EQ(probes.features[0].points[0], (std::array<double, 2>{5.5, 6.5}));
   EXPECT_EQ(probes.features[0].title, "point 1 (hut <A&B>)");
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(file).parent_path())) {
-    EXPECT_EQ(entry.path().filename(), "maps.gpkg") << "left behind";
+    EXPECT_EQ(entry.path().filename(), "maps.gpkg") << "temporary file";
   }
 }
 
@@ -72,7 +76,7 @@ TEST(MapWritingTest, GeopackageWithoutASystem) {
   EXPECT_EQ(read_lines(in_folder("maps.gpkg"), "").features.size(), 2U);
 }
 
-// The format's date of the last change has a resolution of a millisecond.
+// The format stores the date of the last change to a millisecond.
 TEST(MapWritingTest, EqualLayersMakeEqualBytes) {
   const std::string crs = reference_system_named("EPSG:31287");
   const auto bytes = [&](const std::string& name) {
@@ -88,12 +92,12 @@ TEST(MapWritingTest, EqualLayersMakeEqualBytes) {
   EXPECT_TRUE(first == bytes("second.gpkg"));
 }
 
-TEST(MapWritingTest, FoldersThatAreNotThere) {
+TEST(MapWritingTest, MissingFoldersAreReported) {
   const std::string message = error_of([] { write_geopackage(in_folder("no/such/maps.gpkg"), layers(), ""); });
   EXPECT_EQ(message.substr(0, 37), "cannot write FOLDER/no/such/maps.gpkg") << message;
 }
 
-// Returns the value of the attribute at a path of an XML file that GDAL's reader takes.
+// Returns the value of the attribute at a path of an XML file that GDAL can parse.
 std::string in_xml(const std::string& file, const char* path) {
   CPLXMLNode* const root = CPLParseXMLFile(file.c_str());
   EXPECT_NE(root, nullptr);
@@ -103,43 +107,70 @@ std::string in_xml(const std::string& file, const char* path) {
   return value;
 }
 
-TEST(MapWritingTest, RasterStyleHoldsItsStops) {
-  const std::string file = in_folder("max_speed.qml");
-  write_raster_style(file, even_stops(0.0, 80.0), "m/s", 0.0);
+std::string text_of(const std::string& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(MapWritingTest, RasterStyleContainsItsClasses) {
+  const std::string file = in_folder("max_pressure.qml");
+  write_raster_style(file, style_of_map("max_pressure"));
   EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.type"), "singlebandpseudocolor");
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.classificationMax"), "80");
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.classificationMax"), "3000000");
   EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rasterTransparency.singleValuePixelList.pixelListEntry.max"), "0");
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.color"), "#440154");
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.label"), "0 m/s");
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.colorRampType"), "DISCRETE");
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.value"), "3000");
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.color"), "#fcfdbf");
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.label"), "0 to 3 kPa");
+  const std::string text = text_of(file);
+  EXPECT_NE(text.find("value=\"inf\" label=\"above 3000 kPa\""), std::string::npos);
 }
 
-TEST(MapWritingTest, RasterStyleOfWhatRisesAndFalls) {
+TEST(MapWritingTest, RasterStyleOfSignedValues) {
   const std::string file = in_folder("elevation_change.qml");
-  write_raster_style(file, diverging_stops(12.0), "", -std::numeric_limits<double>::infinity());
+  write_raster_style(file, style_of_map("elevation_change"));
   EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rasterTransparency"), "missing");
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.minimumValue"), "-12");
-  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.label"), "-12");
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.minimumValue"), "-20");
+  EXPECT_EQ(in_xml(file, "pipe.rasterrenderer.rastershader.colorrampshader.item.label"), "below -20 m");
+  EXPECT_NE(text_of(file).find("label=\"-0.5 to 0.5 m\" color=\"#f6f7f7\" alpha=\"0\""), std::string::npos);
 }
 
-TEST(MapWritingTest, ColoursGetLighterAllTheWay) {
-  double before = 0.0;
-  for (const ColorStop& stop : even_stops(0.0, 1.0)) {
-    const double lightness = 0.2126 * stop.color[0] + 0.7152 * stop.color[1] + 0.0722 * stop.color[2];  // Rec. 709
-    EXPECT_GT(lightness, before);
-    before = lightness;
+TEST(MapWritingTest, HazardStylesHaveTheUsualLimits) {
+  const std::string file = in_folder("hazard.qml");
+  write_raster_style(file, hazard_style_of_map("max_thickness"));
+  const std::string thickness = text_of(file);
+  for (const char* label : {"0 to 0.5 m", "0.5 to 1 m", "1 to 2 m", "above 2 m"}) {
+    EXPECT_NE(thickness.find(fmt::format("label=\"{}\"", label)), std::string::npos) << label;
+  }
+  write_raster_style(file, hazard_style_of_map("max_pressure"));
+  const std::string pressure = text_of(file);
+  for (const char* label : {"0 to 3 kPa", "3 to 30 kPa", "above 30 kPa"}) {
+    EXPECT_NE(pressure.find(fmt::format("label=\"{}\"", label)), std::string::npos) << label;
+  }
+  EXPECT_TRUE(hazard_style_of_map("max_speed").classes.empty());
+}
+
+TEST(MapWritingTest, EveryMapHasAStyleWithIncreasingLimits) {
+  for (const sim::MapKind& kind : sim::map_kinds()) {
+    const RasterStyle style = style_of_map(kind.name);
+    double before = style.lowest;
+    for (const ColorClass& each : style.classes) {
+      EXPECT_GT(each.upper, before) << kind.name;
+      before = each.upper;
+    }
   }
 }
 
-TEST(MapWritingTest, VectorStylesAreSound) {
+TEST(MapWritingTest, VectorStylesAreValid) {
   const std::string file = in_folder("style.qml");
-  write_vector_style(file, {LayerKind::polygons, {200, 30, 30}, 0.6, 0.2, ""});
+  write_file_atomically(file, vector_style({LayerKind::polygons, {200, 30, 30}, 0.6, 0.2, ""}));
   EXPECT_EQ(in_xml(file, "renderer-v2.symbols.symbol.type"), "fill");
   EXPECT_EQ(in_xml(file, "renderer-v2.symbols.symbol.layer.Option.Option.value"), "200,30,30,51");
   EXPECT_EQ(in_xml(file, "labelsEnabled"), "0");
-  write_vector_style(file, {LayerKind::lines, {0, 0, 0}, 0.4, 1.0, "time_s"});
+  write_file_atomically(file, vector_style({LayerKind::lines, {0, 0, 0}, 0.4, 1.0, "time_s"}));
   EXPECT_EQ(in_xml(file, "renderer-v2.symbols.symbol.type"), "line");
   EXPECT_EQ(in_xml(file, "labeling.settings.text-style.fieldName"), "time_s");
-  write_vector_style(file, {LayerKind::points, {0, 0, 0}, 2.0, 1.0, "a<b"});
+  write_file_atomically(file, vector_style({LayerKind::points, {0, 0, 0}, 2.0, 1.0, "a<b"}));
   EXPECT_EQ(in_xml(file, "renderer-v2.symbols.symbol.layer.class"), "SimpleMarker");
   EXPECT_EQ(in_xml(file, "labeling.settings.text-style.fieldName"), "a<b");
 }

@@ -1,4 +1,4 @@
-// Points of a DEM whose value stands for no data although the file does not say so.
+// Points of a DEM whose value indicates missing data although the file does not declare it.
 #include "gis/pits.hpp"
 
 #include "site_case.hpp"
@@ -24,13 +24,13 @@ std::string warning_of(const Raster& dem) { return pits_warning("folder/dem.tif"
 TEST(PitsTest, HolesFilledWithAConstant) {
   EXPECT_EQ(warning_of(slope_with(0.0, 3, 5)),
             "15 points of dem.tif are exactly 0 m among heights of 1292 to 1302 m, such as (400100, 300050): a hole "
-            "without data? Then say so in the file, gdal_edit.py -a_nodata 0 folder/dem.tif, or fill it");
+            "without data? Then declare it in the file, gdal_edit.py -a_nodata 0 folder/dem.tif, or fill it");
   EXPECT_EQ(warning_of(slope_with(0.0, 1, 1)),
             "1 point of dem.tif is exactly 0 m among heights of 1298 to 1302 m, such as (400100, 300050): a hole "
-            "without data? Then say so in the file, gdal_edit.py -a_nodata 0 folder/dem.tif, or fill it");
+            "without data? Then declare it in the file, gdal_edit.py -a_nodata 0 folder/dem.tif, or fill it");
   EXPECT_EQ(warning_of(slope_with(-99.5, 2, 1)).substr(0, 39), "2 points of dem.tif are exactly -99.5 m");
   EXPECT_EQ(warning_of(slope_with(8000.0, 2, 2)).substr(0, 38), "4 points of dem.tif are exactly 8000 m");
-  // As warping leaves it: beyond an edge of the DEM's.
+  // As created by warping: beyond an edge of the DEM.
   Raster edge = slope_with(0.0, 0, 0);
   for (int row = 0; row < edge.rows; ++row) {
     edge.values[edge.index(0, row)] = edge.values[edge.index(1, row)] = 0.0;
@@ -38,12 +38,12 @@ TEST(PitsTest, HolesFilledWithAConstant) {
   EXPECT_EQ(warning_of(edge).substr(0, 62), "62 points of dem.tif are exactly 0 m among heights of 1345 to ");
 }
 
-TEST(PitsTest, SoundGroundIsNotTold) {
+TEST(PitsTest, ValidGroundCausesNoWarning) {
   EXPECT_EQ(warning_of(slope_with(0.0, 0, 0)), "");
   EXPECT_EQ(warning_of(slope_with(1230.0, 3, 5)), "") << "a lake 70 m below its shores";
   EXPECT_EQ(warning_of(slope_with(500.0, 1, 1)), "") << "a single point is noise";
   EXPECT_EQ(warning_of(raster_of([](double, double) { return 0.0; }, west, south, 5.0, 20, 20)), "");
-  // Sea level below cliffs of 400 m, with a beach in one place; and the same without the beach, which is no coast.
+  // Sea level below cliffs of 400 m, with a beach in one place; and the same without the beach, which is not a coast.
   const auto coast = [](bool has_beach) {
     Raster dem = raster_of([](double x, double) { return x < west + 100.0 ? 0.0 : 400.0 + 0.1 * (x - west); }, west,
                            south, 5.0, 41, 31);
@@ -56,7 +56,7 @@ TEST(PitsTest, SoundGroundIsNotTold) {
   EXPECT_NE(warning_of(coast(false)), "");
 }
 
-TEST(PitsTest, TheSiteTellsOfThem) {
+TEST(PitsTest, LoadingTheSiteWarnsOfThem) {
   config::Case parameters = case_with_release({{"", box_at(300, 300, 400, 400)}});
   Raster dem = ground();
   for (const int column : {110, 111}) {

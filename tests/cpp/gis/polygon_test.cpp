@@ -1,4 +1,4 @@
-// Areas: union, shares of cells, and areas of a mask.
+// Areas: union, fractions of cells, and areas of a mask.
 #include <numbers>
 #include <numeric>
 #include <random>
@@ -27,19 +27,20 @@ TEST(PolygonTest, OverlappingOutlinesCountOnce) {
   EXPECT_TRUE(intersection_of({box(0, 0, 1, 1)}, {box(5, 5, 6, 6)}).empty());
 }
 
-TEST(PolygonTest, SharesOfABoxAreThoseOfItsSides) {
+TEST(PolygonTest, FractionsOfABoxFollowFromItsSides) {
   const Raster layout = raster_of([](double, double) { return 0.0; }, 0.0, 0.0, 10.0, 5, 4);
-  const Raster share = coverage_of({box(-5.0, 2.5, 25.0, 25.0)}, layout);
+  const Raster fraction = coverage_of({box(-5.0, 2.5, 25.0, 25.0)}, layout);
   const std::vector<double> rows{0.25, 1.0, 1.0, 0.0};  // cells begin at -5, 5, 15, 25
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 5; ++column) {
-      EXPECT_EQ(share.at(column, row), column < 3 ? rows[static_cast<std::size_t>(row)] : 0.0) << column << " " << row;
+      EXPECT_EQ(fraction.at(column, row), column < 3 ? rows[static_cast<std::size_t>(row)] : 0.0)
+          << column << " " << row;
     }
   }
 }
 
 // A star with a hole, far from the origin, on cells that are not square.
-TEST(PolygonTest, SharesAddUpToTheArea) {
+TEST(PolygonTest, FractionsSumToTheArea) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> number(0.0, 1.0);
   for (int k = 0; k < 20; ++k) {
@@ -54,28 +55,28 @@ TEST(PolygonTest, SharesAddUpToTheArea) {
     star.outline.push_back(star.outline.front());
     star.holes.push_back(box(centre_x - 20.3, centre_y - 11.1, centre_x + 15.2, centre_y + 22.2).outline);
     if (k % 2 == 0) {
-      std::reverse(star.outline.begin(), star.outline.end());  // rings run either way in files
+      std::reverse(star.outline.begin(), star.outline.end());  // rings in files may have either orientation
     }
     Raster layout = raster_of([](double, double) { return 0.0; }, centre_x - 203.0, centre_y - 201.0, 4.9977, 83, 1);
     layout.cell_y = 7.25;
     layout.rows = 57;
-    const Raster share = coverage_of({star}, layout);
+    const Raster fraction = coverage_of({star}, layout);
     const double area = area_of({star});
-    EXPECT_NEAR(sum_of(share) * layout.cell_x * layout.cell_y, area, 1e-9 * area) << corners;
-    EXPECT_GE(*std::min_element(share.values.begin(), share.values.end()), 0.0);
-    EXPECT_LE(*std::max_element(share.values.begin(), share.values.end()), 1.0);
+    EXPECT_NEAR(sum_of(fraction) * layout.cell_x * layout.cell_y, area, 1e-9 * area) << corners;
+    EXPECT_GE(*std::min_element(fraction.values.begin(), fraction.values.end()), 0.0);
+    EXPECT_LE(*std::max_element(fraction.values.begin(), fraction.values.end()), 1.0);
   }
 }
 
-TEST(PolygonTest, ShareOfATriangleInOneCell) {
+TEST(PolygonTest, FractionOfATriangleInOneCell) {
   const Raster layout = raster_of([](double, double) { return 0.0; }, 0.0, 0.0, 1.0, 3, 3);
   const Polygon triangle{{{0.6, 0.6}, {1.4, 0.6}, {0.6, 1.4}, {0.6, 0.6}}, {}};
-  const Raster share = coverage_of({triangle}, layout);
-  EXPECT_NEAR(share.at(1, 1), 0.32, 1e-15);
-  EXPECT_NEAR(sum_of(share), 0.32, 1e-15);
+  const Raster fraction = coverage_of({triangle}, layout);
+  EXPECT_NEAR(fraction.at(1, 1), 0.32, 1e-15);
+  EXPECT_NEAR(sum_of(fraction), 0.32, 1e-15);
 }
 
-TEST(PolygonTest, AreasOfAMaskAreItsCells) {
+TEST(PolygonTest, AreasOfAMaskCoverItsCells) {
   // A ring about one empty cell, and a cell that touches it at a corner only.
   Raster mask = raster_of([](double, double) { return 0.0; }, 100.0, 200.0, 2.0, 5, 4);
   for (int row = 0; row < 3; ++row) {
@@ -92,10 +93,10 @@ TEST(PolygonTest, AreasOfAMaskAreItsCells) {
   EXPECT_EQ(extent.max_x, 107.0);
   EXPECT_EQ(extent.min_y, 199.0);
   EXPECT_EQ(extent.max_y, 207.0);
-  // What was made of the cells covers the cells.
-  const Raster share = coverage_of(areas, mask);
+  // Polygons made from cells cover these cells.
+  const Raster fraction = coverage_of(areas, mask);
   for (std::size_t k = 0; k < mask.values.size(); ++k) {
-    EXPECT_EQ(share.values[k], mask.values[k] > 0.0 ? 1.0 : 0.0);
+    EXPECT_EQ(fraction.values[k], mask.values[k] > 0.0 ? 1.0 : 0.0);
   }
 }
 

@@ -1,4 +1,4 @@
-// What the user is told of a raster that cannot be used.
+// Error messages for rasters that cannot be used.
 #include "gis/raster_file.hpp"
 #include "map_files.hpp"
 
@@ -23,6 +23,19 @@ TEST(RasterFaultsTest, NoRaster) {
       << message;
 }
 
+TEST(RasterFaultsTest, AsciiGridsThatGdalDoesNotOpen) {
+  const std::string header = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999\n";
+  EXPECT_EQ(
+      error_of_file(text_file("mark.asc", "\xEF\xBB\xBF" + header + "1 2\n3 4\n")),
+      "FOLDER/mark.asc: the file begins with a UTF-8 byte order mark, which an ASCII grid may not have. Remove it: "
+      "sed -i '1s/^\\xEF\\xBB\\xBF//' FOLDER/mark.asc");
+  for (const std::string first : {"nan", "NaN"}) {
+    EXPECT_EQ(error_of_file(text_file("first.asc", header + first + " 2\n3 4\n")),
+              "FOLDER/first.asc: the first value of the ASCII grid is nan, which GDAL does not read there. Write the "
+              "number of NODATA_value in its place, for example -9999: sed -i 's/nan/-9999/gi' FOLDER/first.asc");
+  }
+}
+
 TEST(RasterFaultsTest, SeveralBands) {
   ForeignRaster what;
   what.bands = 3;
@@ -40,18 +53,19 @@ TEST(RasterFaultsTest, Rotated) {
             "FOLDER/turned.tif straight.tif");
 }
 
-TEST(RasterFaultsTest, PlaceThatIsNoNumber) {
+TEST(RasterFaultsTest, OriginThatIsNotANumber) {
   ForeignRaster what;
   what.transform = {400000.0, std::numeric_limits<double>::quiet_NaN(), 0.0, 300030.0, 0.0, -8.0};
-  EXPECT_NE(error_of_file(foreign("cells.tif", what)).find("cells.tif: the raster lies nowhere (geotransform "),
-            std::string::npos);
+  EXPECT_NE(
+      error_of_file(foreign("cells.tif", what)).find("cells.tif: the raster has no valid position (geotransform "),
+      std::string::npos);
   what.transform = {400000.0, 8.0, 0.0, 300030.0, 0.0, -1e308};
   EXPECT_EQ(error_of_file(foreign("height.tif", what)),
-            "FOLDER/height.tif: the raster lies nowhere (geotransform 400000, 8, 0, 300030, 0, -1e+308): corners and "
-            "sizes of cells must be finite numbers. Export it again with its place.");
+            "FOLDER/height.tif: the raster has no valid position (geotransform 400000, 8, 0, 300030, 0, -1e+308): "
+            "corners and sizes of cells must be finite numbers. Export it again with georeferencing.");
 }
 
-TEST(RasterFaultsTest, WithoutItsPlace) {
+TEST(RasterFaultsTest, WithoutAnOrigin) {
   GDALAllRegister();
   const std::string file = in_folder("picture.tif");
   GDALDatasetUniquePtr(
@@ -68,7 +82,7 @@ TEST(RasterFaultsTest, ComplexNumbers) {
             "FOLDER/radar.tif: the values are of the type CFloat32; allowed: real numbers or integers.");
 }
 
-TEST(RasterFaultsTest, NothingButNodata) {
+TEST(RasterFaultsTest, NodataOnly) {
   ForeignRaster what;
   what.nodata = -1.0;
   what.values.assign(12, -1.0);
@@ -76,7 +90,7 @@ TEST(RasterFaultsTest, NothingButNodata) {
             "FOLDER/holes.tif: no point holds a value, all are nodata. Check that it is the right file.");
 }
 
-TEST(RasterFaultsTest, TruncatedFilesAreNotTakenForData) {
+TEST(RasterFaultsTest, TruncatedFilesAreRefused) {
   const Raster raster = raster_of([](double x, double y) { return std::sin(x * y); }, 0.0, 0.0, 5.0, 200, 150);
   const std::string tiff = geotiff("cut.tif", raster);
   std::filesystem::resize_file(tiff, std::filesystem::file_size(tiff) / 2);
@@ -94,7 +108,7 @@ TEST(RasterFaultsTest, TruncatedFilesAreNotTakenForData) {
       "file seems to be damaged or truncated: copy it again.");
 }
 
-TEST(RasterFaultsTest, MapsAreNotWrittenWhereTheyCannotBe) {
+TEST(RasterFaultsTest, MapsThatCannotBeWrittenAreReported) {
   const Raster raster = raster_of([](double, double) { return 1.0; }, 0.0, 0.0, 5.0, 4, 4);
   const std::string message = error_of([&] {
     write_geotiff(in_folder("no/such/folder/map.tif"), raster, {"m", "thickness"});

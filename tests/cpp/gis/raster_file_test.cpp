@@ -1,4 +1,4 @@
-// Rasters in files: what is read is what was written, whatever the format, the type and the direction of rows.
+// Rasters in files: values read equal those written, for every format, type and direction of rows.
 #include "gis/raster_file.hpp"
 
 #include <chrono>
@@ -37,7 +37,7 @@ TEST(RasterFileTest, GeotiffRoundTripKeepsEveryBit) {
   }
 }
 
-TEST(RasterFileTest, GeotiffIsTiledCompressedAndTellsItsBand) {
+TEST(RasterFileTest, GeotiffIsTiledAndCompressedWithADescribedBand) {
   const std::string file = in_folder("map.tif");
   write_geotiff(file, raster_of([](double, double) { return 0.5; }, 0.0, 0.0, 5.0, 300, 280), {"m/s", "largest speed"},
                 Precision::float32);
@@ -54,7 +54,7 @@ TEST(RasterFileTest, GeotiffIsTiledCompressedAndTellsItsBand) {
   EXPECT_STREQ(dataset->GetMetadataItem("COMPRESSION", "IMAGE_STRUCTURE"), "DEFLATE");
   EXPECT_LT(std::filesystem::file_size(file), 300U * 280U);
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(file).parent_path())) {
-    EXPECT_EQ(entry.path().filename(), "map.tif") << "left behind";
+    EXPECT_EQ(entry.path().filename(), "map.tif") << "temporary file";
   }
 }
 
@@ -70,7 +70,7 @@ TEST(RasterFileTest, EveryTypeIsReadInBothDirectionsOfRows) {
       SCOPED_TRACE(fmt::format("{} {}", GDALGetDataTypeName(type), direction));
       EXPECT_EQ(read.x, 400005.0);
       EXPECT_EQ(read.y, 300005.0);
-      // The first line of the file is the northernmost one if it is north up.
+      // The first line of the file is the northernmost one if the raster is north up.
       EXPECT_EQ(read.at(0, direction < 0.0 ? 2 : 0), 1.0);
       EXPECT_EQ(read.at(3, direction < 0.0 ? 0 : 2), 12.0);
       EXPECT_TRUE(std::isnan(read.at(1, 1)));
@@ -78,9 +78,9 @@ TEST(RasterFileTest, EveryTypeIsReadInBothDirectionsOfRows) {
   }
 }
 
-TEST(RasterFileTest, NodataOfFloatsAndWhatIsNotFiniteIsMissing) {
+TEST(RasterFileTest, NodataOfFloatsAndNonFiniteValuesAreMissing) {
   ForeignRaster what;
-  what.nodata = -9999.9;  // as a float it is another number
+  what.nodata = -9999.9;  // as a float, this is a different number
   what.values = {-9999.9, missing, std::numeric_limits<double>::infinity(), 7.5};
   const Raster read = RasterFile(foreign("dem.tif", what), Quantity::length).read();
   EXPECT_TRUE(std::isnan(read.at(0, 2)));
@@ -123,7 +123,7 @@ TEST(RasterFileTest, WindowIsPartOfTheWhole) {
 }
 
 TEST(RasterFileTest, AsciiGridKeepsItsDigitsAndCellSize) {
-  // Integers first: a reader that guesses the type from the beginning of the file would lose the fractions.
+  // Integers first: a reader that infers the type from the beginning of the file would lose the fractions.
   std::string text = "ncols 3\nnrows 2\nxllcorner 400000.5\nyllcorner 300000.25\ncellsize 4.9977\nNODATA_value -9999\n";
   text += "1234 1235 -9999\n1300 2345.6789012 1302\n";
   const Raster read = RasterFile(text_file("dem.asc", text), Quantity::length).read();

@@ -1,4 +1,4 @@
-// Masks of rasters count as no data, however a file holds them.
+// Masks of rasters count as no data, in every form in which files store them.
 #include "base/raster_sampling.hpp"
 #include "site_case.hpp"
 
@@ -9,7 +9,7 @@ using namespace site_case;
 
 enum class MaskKind { internal, adjacent, alpha, real_alpha };
 
-// A raster of the foreign kind, whose points are masked where `is_masked` says so.
+// A raster as in map_files.hpp, with points masked by `is_masked`.
 std::string masked(const std::string& name, MaskKind kind, const ForeignRaster& what,
                    const std::function<bool(int, int)>& is_masked) {
   GDALAllRegister();
@@ -96,7 +96,7 @@ TEST(RasterMaskTest, NodataAndMaskBothCount) {
   }
 }
 
-TEST(RasterMaskTest, NothingButMaskedPointsIsAnError) {
+TEST(RasterMaskTest, MaskedPointsOnlyAreAnError) {
   for (const MaskKind kind : kinds) {
     EXPECT_EQ(error_of([&] {
                 static_cast<void>(
@@ -107,15 +107,15 @@ TEST(RasterMaskTest, NothingButMaskedPointsIsAnError) {
   }
 }
 
-TEST(RasterMaskTest, MaskBesideARasterIsAGeotiff) {
+TEST(RasterMaskTest, MaskFileNextToARasterIsAGeotiff) {
   const std::string file = foreign("map.tif", {});
   text_file("map.tif.msk", "<VRTDataset rasterXSize=\"4\" rasterYSize=\"3\"></VRTDataset>");
   EXPECT_EQ(error_of([&] { static_cast<void>(RasterFile(file, Quantity::length)); }),
-            "FOLDER/map.tif.msk: the mask of FOLDER/map.tif is no GeoTIFF. Remove it, or write the raster with its "
+            "FOLDER/map.tif.msk: the mask of FOLDER/map.tif is not a GeoTIFF. Remove it, or write the raster with its "
             "mask again.");
 }
 
-// Points 10 m apart, as many as hold the ground; leftovers below the mask.
+// Points 10 m apart that cover the ground; residual values below the mask.
 ForeignRaster leftovers(double value) {
   ForeignRaster what;
   what.columns = 101;
@@ -125,10 +125,10 @@ ForeignRaster leftovers(double value) {
   return what;
 }
 
-// Masked but for columns 30 to 49 and lines 30 to 49.
+// Masked except for columns 30 to 49 and lines 30 to 49.
 bool beyond_box(int column, int line) { return column < 30 || column >= 50 || line < 30 || line >= 50; }
 
-TEST(RasterMaskTest, LeftoversBelowAMaskAreNoThickness) {
+TEST(RasterMaskTest, ValuesBelowAMaskAreNotThickness) {
   for (const MaskKind kind : kinds) {
     config::Case parameters = plain_case(ground());
     parameters.bodies["rock"] = raster_body(masked("thickness.tif", kind, leftovers(10.0), beyond_box));

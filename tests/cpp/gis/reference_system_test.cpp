@@ -1,4 +1,4 @@
-// Coordinate reference systems: which ones a run can be computed in, and what the user is told of the others.
+// Coordinate reference systems: usable ones, and error messages for the others.
 #include "gis/reference_system.hpp"
 
 #include "map_files.hpp"
@@ -16,13 +16,13 @@ std::string error_of_system(const Located& raster, const std::string& of_file, c
       [&] { static_cast<void>(metric_system(raster, of_file.empty() ? "" : reference_system_named(of_file), given)); });
 }
 
-TEST(ReferenceSystemTest, ProjectionsInMetresAreTaken) {
+TEST(ReferenceSystemTest, ProjectionsInMetresAreAccepted) {
   EXPECT_EQ(name_of(metric_system(metric_raster, reference_system_named("EPSG:31254"), "")), "EPSG:31254");
   EXPECT_EQ(name_of(metric_system(metric_raster, reference_system_named("EPSG:4326"), "EPSG:31254")), "EPSG:31254");
   EXPECT_EQ(name_of(metric_system(metric_raster, "", "EPSG:32632")), "EPSG:32632");
 }
 
-TEST(ReferenceSystemTest, HeightsAreLeftOutOfASystem) {
+TEST(ReferenceSystemTest, HeightsAreRemovedFromASystem) {
   EXPECT_EQ(name_of(metric_system(metric_raster, reference_system_named("EPSG:31254+5778"), "")), "EPSG:31254");
   EXPECT_EQ(name_of(metric_system(metric_raster, reference_system_named("EPSG:26910+6360"), "")), "EPSG:26910")
       << "the unit of the heights is that of the values, which are converted";
@@ -35,25 +35,24 @@ TEST(ReferenceSystemTest, HeightsAreLeftOutOfASystem) {
 }
 
 TEST(ReferenceSystemTest, NumberWithoutItsRegistry) {
-  EXPECT_EQ(
-      error_of_system(metric_raster, "", "32632"),
-      "'32632' is no coordinate reference system that is known; did you mean \"EPSG:32632\"? Allowed: a number of "
-      "the EPSG registry such as \"EPSG:31287\" (epsg.io finds it), or a WKT.");
+  EXPECT_EQ(error_of_system(metric_raster, "", "32632"),
+            "'32632' is not a known coordinate reference system; did you mean \"EPSG:32632\"? Allowed: a number of the "
+            "EPSG registry such as \"EPSG:31287\" (epsg.io finds it), or a WKT.");
   EXPECT_EQ(error_of_system(metric_raster, "", "99999999").find("did you mean"), std::string::npos);
 }
 
 TEST(ReferenceSystemTest, FarOutsideTheAreaOfTheSystem) {
   const auto warning = [](const Rectangle& extent, const char* system) {
-    return place_warning({"folder/dem.tif", extent, 10.0, 10.0}, reference_system_named(system));
+    return location_warning({"folder/dem.tif", extent, 10.0, 10.0}, reference_system_named(system));
   };
   EXPECT_EQ(warning({500000.0, 5200000.0, 502000.0, 5201200.0}, "EPSG:32632"), "");
   EXPECT_EQ(warning({400000.0, 300000.0, 401000.0, 301000.0}, "EPSG:31287"), "");
-  // Numbers of zone 32 of the UTM, taken to be Austrian Lambert's.
+  // Coordinates in UTM zone 32, declared as Austrian Lambert.
   EXPECT_EQ(warning({500000.0, 5200000.0, 502000.0, 5201200.0}, "EPSG:31287"),
             "the middle of dem.tif would be at longitude 20.74, latitude 85.64 in EPSG:31287, which is for longitudes "
             "9.53 to 17.17 and latitudes 46.4 to 49.02: is it the right system? If not, set terrain.crs to the one the "
             "numbers are in");
-  // The far north of Norway in zone 33, as its maps are.
+  // The far north of Norway in zone 33, as in its maps.
   EXPECT_EQ(warning({1100000.0, 7800000.0, 1101000.0, 7801000.0}, "EPSG:25833"), "");
   EXPECT_EQ(warning({2600000.0, 1200000.0, 2601000.0, 1201000.0}, "EPSG:32632").substr(0, 78),
             "the middle of dem.tif would be at longitude 27.85, latitude 10.29 in EPSG:3263")
@@ -98,23 +97,23 @@ TEST(ReferenceSystemTest, Feet) {
             "dem-EPSG32610.tif");
 }
 
-TEST(ReferenceSystemTest, KeyThatDoesNotHelp) {
+TEST(ReferenceSystemTest, InvalidKey) {
   EXPECT_EQ(error_of_system(metric_raster, "", "EPSG:99999"),
-            "'EPSG:99999' is no coordinate reference system that is known; allowed: a number of the EPSG registry such "
-            "as \"EPSG:31287\" (epsg.io finds it), or a WKT.");
+            "'EPSG:99999' is not a known coordinate reference system; allowed: a number of the EPSG registry such as "
+            "\"EPSG:31287\" (epsg.io finds it), or a WKT.");
   EXPECT_EQ(error_of_system(metric_raster, "EPSG:31254", "EPSG:4326"),
             "EPSG:4326 is in degrees; allowed: a map projection in metres, such as \"EPSG:31287\".");
   EXPECT_EQ(error_of_system(metric_raster, "EPSG:31254", "EPSG:2227"),
             "EPSG:2227 is in the unit 'US survey foot'; allowed: a map projection in metres, such as \"EPSG:31287\".");
 }
 
-TEST(ReferenceSystemTest, SystemsThatAreNoProjection) {
+TEST(ReferenceSystemTest, SystemsThatAreNotProjections) {
   EXPECT_EQ(error_of_system(metric_raster, "EPSG:4978"),
-            "dem.tif: the coordinate reference system 'EPSG:4978' is no map projection; allowed: a projection in "
+            "dem.tif: the coordinate reference system 'EPSG:4978' is not a map projection; allowed: a projection in "
             "metres. Set terrain.crs, such as terrain.crs = \"EPSG:31287\".");
 }
 
-// In a process of its own, where nothing of the database is remembered: another program's proj.db, which is none.
+// In a separate process, which has not cached the database: a proj.db of another program, which is not valid.
 TEST(ReferenceSystemTest, MissingDatabaseIsNamed) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
   const std::string folder = std::filesystem::path(text_file("proj.db", "no database")).parent_path().string();
@@ -131,11 +130,11 @@ TEST(ReferenceSystemTest, MissingDatabaseIsNamed) {
       "apt-get install proj-data., or let PROJ_LIB name the folder that holds it");
 }
 
-TEST(ReferenceSystemTest, WayThereAndBackIsTheSamePlace) {
+TEST(ReferenceSystemTest, ReprojectionRoundTripIsTheIdentity) {
   const std::string lambert = reference_system_named("EPSG:31287"), degrees = reference_system_named("EPSG:4326");
   std::vector<double> x{350000.0}, y{400000.0};
   ASSERT_TRUE(Reprojection(lambert, degrees).apply(x, y));
-  EXPECT_NEAR(x[0], 12.66, 0.05);  // longitude first, as files have it
+  EXPECT_NEAR(x[0], 12.66, 0.05);  // longitude first, as in files
   EXPECT_NEAR(y[0], 47.5, 0.05);
   ASSERT_TRUE(Reprojection(degrees, lambert).apply(x, y));
   EXPECT_NEAR(x[0], 350000.0, 1e-3);

@@ -1,4 +1,4 @@
-// What the user is told of a release that cannot be used.
+// Error messages for releases that cannot be used.
 #include "site_case.hpp"
 
 namespace thawslide::gis {
@@ -34,7 +34,7 @@ TEST(ReleaseFaultsTest, OutsideTheDomain) {
 
 TEST(ReleaseFaultsTest, TaperThatReachesTooFar) {
   config::Case parameters = case_with_release({{"", box_at(111, 300, 200, 400)}});
-  parameters.places["body.rock.taper"] = "--set body.rock.taper=50";
+  parameters.locations["body.rock.taper"] = "--set body.rock.taper=50";
   parameters.bodies["rock"].taper = 50.0;
   EXPECT_EQ(
       error_of_site(parameters),
@@ -184,10 +184,11 @@ TEST(ReleaseFaultsTest, RasterAsTheRelease) {
                 .find("the release lies partly outside the domain, by 100 m in the west and 100 m in the south;"),
             std::string::npos);
   parameters.bodies["rock"] = release_body(geotiff("release.tif", ground()), 5.0);
-  EXPECT_EQ(error_of_site(parameters),
-            std::string(at_release) +
-                "FOLDER/release.tif: the file is a raster; needed: polygons, in a Shapefile, GeoPackage or GeoJSON. A "
-                "raster of a body's thickness goes to thickness = { raster = \"FILE\" }, which needs no polygons.");
+  EXPECT_EQ(
+      error_of_site(parameters),
+      std::string(at_release) +
+          "FOLDER/release.tif: the file is a raster; needed: polygons, in a Shapefile, GeoPackage, GeoJSON or KML. A "
+          "raster of a body's thickness goes to thickness = { raster = \"FILE\" }, which needs no polygons.");
   parameters.bodies["rock"] = raster_body(geotiff("before.tif", ground()));
   parameters.bodies["rock"].thickness.from = config::MapValue::From::surface;
   EXPECT_EQ(error_of_site(parameters),
@@ -220,9 +221,8 @@ TEST(ReleaseFaultsTest, SurfacesBeforeTheSlide) {
   body.surface_tolerance = 0.01;
   body.placement = config::Placement::cut;
   EXPECT_EQ(with(12.0),
-            "case.toml: body.rock.placement: a thickness between a surface before the slide and the DEM takes the DEM "
-            "for what the slide lay on, so that nothing is to be cut out of it. "
-            "Set \"on_top\".");
+            "case.toml: body.rock.placement: a thickness from a surface before the slide to the DEM requires that the "
+            "DEM is the sliding surface: nothing is cut out of it. Set \"on_top\".");
   body.placement = config::Placement::on_top;
   body.thickness_along = config::ThicknessAlong::normal;
   EXPECT_EQ(with(12.0),
@@ -252,7 +252,7 @@ TEST(ReleaseFaultsTest, FieldsOutOfRange) {
             "release, the temperature is missing; allowed: above -273.15 C and up to 100 C.");
 }
 
-TEST(ReleaseFaultsTest, CrossingOutlineIsToldAtTheKey) {
+TEST(ReleaseFaultsTest, CrossingOutlineIsReportedAtTheKey) {
   EXPECT_EQ(
       error_of_site(case_with_release({{R"("name":"scarp")", polygon_json({{west + 300, south + 300},
                                                                            {west + 400, south + 400},

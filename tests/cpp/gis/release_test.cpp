@@ -28,7 +28,7 @@ TEST(ReleaseTest, VolumeIsAreaTimesThickness) {
   EXPECT_NEAR(volume_of(release.thickness), 7.5 * release.area, 1e-9 * 7.5 * release.area);
   EXPECT_EQ(thickness_at(release, 350.0, 335.0), 7.5);
   EXPECT_EQ(*std::max_element(release.thickness.values.begin(), release.thickness.values.end()), 7.5);
-  // A point more than those with a thickness on each side: 300 .. 460 and one.
+  // One point more than those with a thickness on each side: 300 .. 460 and one.
   EXPECT_NEAR(release.thickness.x, west + 295.0, 1e-6);
   EXPECT_NEAR(release.thickness.x_end(), west + 465.0, 1e-6);
   EXPECT_TRUE(release.fields.empty());
@@ -77,7 +77,7 @@ TEST(ReleaseTest, VolumeIsExactOnCellsOfAnyShapeInIntegersFromSouthToNorth) {
   EXPECT_EQ(site.ground->at(3, 4) - site.ground->at(3, 3), 1.0);
 }
 
-TEST(ReleaseTest, BodiesOfOneFileSayItOnce) {
+TEST(ReleaseTest, BodiesOfOneFileRepeatNoWarning) {
   config::Case parameters = plain_case(ground());
   const std::string file =
       geojson("two.geojson",
@@ -100,7 +100,7 @@ TEST(ReleaseTest, AttributeGivesEachPolygonItsThickness) {
   const config::Release release = release_of(parameters);
   EXPECT_EQ(thickness_at(release, 350.0, 350.0), 4.0);
   EXPECT_EQ(thickness_at(release, 450.0, 350.0), 6.5);
-  EXPECT_NEAR(thickness_at(release, 400.0, 350.0), 5.25, 1e-9);  // half the cell each
+  EXPECT_NEAR(thickness_at(release, 400.0, 350.0), 5.25, 1e-9);  // half the cell for each
   EXPECT_NEAR(release.area, 20000.0 + 600.0, 1e-6);
   EXPECT_NEAR(volume_of(release.thickness), 4.0 * 10600.0 + 6.5 * 10000.0, 1e-4);
 }
@@ -147,10 +147,10 @@ TEST(ReleaseTest, WarnsOfANarrowRelease) {
   config::Case strip = case_with_release({{"", box_at(300, 300, 400, 303)}}, 2.0);
   const SiteAndWarnings loaded = load_site(strip);
   EXPECT_NEAR(volume_of(loaded.site.releases.at("rock").thickness), 600.0, 1e-6);
-  EXPECT_EQ(loaded.warnings, std::vector<std::string>{
-                                 "the release of the body rock covers no cell of the DEM, 5 m x 5 m, as a "
-                                 "whole: it is spread over cells that it covers in part, and gets up to 50 % of the "
-                                 "thickness given; the volume stays. Draw it larger, or resample the DEM"});
+  EXPECT_EQ(loaded.warnings,
+            std::vector<std::string>{"the release of the body rock covers no cell of the DEM, 5 m x 5 m, as a whole. "
+                                     "It is spread over partly covered cells, and receives up to 50 % of the given "
+                                     "thickness. The volume is preserved. Draw it larger, or resample the DEM"});
 }
 
 TEST(ReleaseTest, WarnsOfATower) {
@@ -166,7 +166,7 @@ TEST(ReleaseTest, WarnsOfATower) {
 TEST(ReleaseTest, RasterGivesTheThicknessWithinPolygons) {
   config::Case parameters = case_with_release({{"", box_at(302.5, 302.5, 402.5, 402.5)}});
   const auto wedge = [](double x, double) { return 0.1 * (x - west - 250.0); };
-  // Points of its own, shifted against those of the ground: a linear thickness is met exactly.
+  // Points shifted relative to those of the ground: a linear thickness is reproduced exactly.
   parameters.bodies["rock"].thickness = {
       config::MapValue::From::raster, 0.0,
       geotiff("thickness.tif", raster_of(wedge, west + 251.0, south + 252.0, 7.0, 40, 40))};
@@ -177,7 +177,7 @@ TEST(ReleaseTest, RasterGivesTheThicknessWithinPolygons) {
   EXPECT_NEAR(volume_of(release.thickness), 1e4 * 0.5 * (5.25 + 15.25), 1e-3);
 }
 
-TEST(ReleaseTest, SurfaceBeforeTheSlideLessTheGround) {
+TEST(ReleaseTest, SurfaceBeforeTheSlideMinusTheGround) {
   config::Case parameters = case_with_release({{"", box_at(302.5, 302.5, 402.5, 402.5)}});
   const auto before = [](double x, double y) { return plane(x, y) + 0.2 * (x - west - 300.0); };
   parameters.bodies["rock"].thickness = {config::MapValue::From::surface, 0.0,
@@ -215,7 +215,7 @@ TEST(ReleaseTest, SurfaceAloneIsTheRelease) {
     for (int column = 0; column < surface.columns; ++column) {
       const bool inside =
           std::abs(surface.x_of(column) - west - 400.0) < 51.0 && std::abs(surface.y_of(row) - south - 300.0) < 31.0;
-      surface.values[surface.index(column, row)] += inside ? 6.0 : 0.004;  // of which rounding is nothing
+      surface.values[surface.index(column, row)] += inside ? 6.0 : 0.004;  // 0.004 m is within the noise tolerance
     }
   }
   parameters.bodies["rock"] = raster_body(geotiff("before.tif", surface));
@@ -226,7 +226,7 @@ TEST(ReleaseTest, SurfaceAloneIsTheRelease) {
   EXPECT_GT(release.area, 100.0 * 60.0);
 }
 
-// Every quantity of a body that may come from a map, from both kinds of maps.
+// Every field of a body that may be given by a map, from both kinds of maps.
 TEST(ReleaseTest, SaturationAndIceContentFromMaps) {
   config::Case parameters = case_with_release({{R"("S":0.2,"ice":0.3)", box_at(300, 300, 500, 400)}});
   config::Body& body = parameters.bodies["rock"];

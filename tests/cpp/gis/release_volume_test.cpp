@@ -22,7 +22,7 @@ using testing_support::paper_case;
 
 constexpr double west = 400000.0, south = 300000.0;
 
-// Rolling ground that falls by 27 degrees to the east, and the cosine of its slope.
+// Undulating ground that falls by 27 degrees to the east, and the cosine of its slope.
 double height(double x, double y) {
   return 1500.0 - 0.5 * (x - west) + 8.0 * std::sin((x - west) / 60.0) * std::cos((y - south) / 70.0);
 }
@@ -33,10 +33,10 @@ double slope_cosine(double x, double y) {
   return 1.0 / std::sqrt(1.0 + along_x * along_x + along_y * along_y);
 }
 
-// Of the raster of a thickness; it does not follow the polygons.
+// Extent of the raster of a thickness; it does not follow the polygons.
 double thickness_on_map(double x, double y) { return 9.0 + 0.02 * (x - west - 300.0) + 0.01 * (y - south - 300.0); }
 
-// A parallelogram with a thickness of its own.
+// A parallelogram with a separate thickness.
 struct Polygon {
   std::array<double, 2> corner, first, second;  // from west, south; its sides [m]
   double thickness;
@@ -49,11 +49,11 @@ struct Polygon {
     return {fmt::format(R"("thick":{})", thickness), polygon_json({at(0, 0), at(1, 0), at(1, 1), at(0, 1)})};
   }
 };
-// They share a side.
+// Polygons with a common side.
 constexpr std::array<Polygon, 2> polygons{
     {{{300.3, 300.7}, {90.0, 15.0}, {21.0, 93.0}, 12.0}, {{390.3, 315.7}, {61.0, -13.0}, {21.0, 93.0}, 8.0}}};
 
-// The integral of the thickness over the polygons, by the midpoint rule.
+// Integral of the thickness over the polygons, by the midpoint rule.
 template <class Thickness>
 double volume_over_polygons(const Thickness& thickness) {
   constexpr int parts = 100;
@@ -113,41 +113,41 @@ struct Sums {
   }
 };
 
-// The largest differences over all releases.
+// Maximum differences over all releases.
 struct Differences {
   double raster = 0.0, volume = 0.0, mass = 0.0, maps = 0.0;
 };
 
-void take_differences(const config::Case& parameters, double volume, Differences& largest) {
-  const auto warning = [](double& difference, double found, double expected) {
+void update_differences(const config::Case& parameters, double volume, Differences& largest) {
+  const auto update = [](double& difference, double found, double expected) {
     difference = std::max(difference, std::abs(found / expected - 1.0));
   };
   const config::Site site = load_site(parameters).site;
-  warning(largest.raster, volume_of(site.releases.at("slide").thickness), volume);
+  update(largest.raster, volume_of(site.releases.at("slide").thickness), volume);
   sim::Simulation<3> simulation(parameters, site);
   sim::RunRecords<3> records(simulation, site);
   records.start(simulation);
   const Sums start(simulation.particles());
-  warning(largest.volume, start.volume, volume);
-  warning(largest.mass, start.mass,
-          volume * (0.7 * parameters.phases.rock_density + 0.3 * parameters.phases.ice_density));
+  update(largest.volume, start.volume, volume);
+  update(largest.mass, start.mass,
+         volume * (0.7 * parameters.phases.rock_density + 0.3 * parameters.phases.ice_density));
   for (int k = 0; k < 20; ++k) {
     simulation.step(parameters.time.step);
     records.after_step(simulation);
   }
   double on_maps = 0.0;
   records.maps()->for_cells([&](int, int, const sim::MapCell& cell) { on_maps += cell.thickness; });
-  warning(largest.maps, on_maps * records.maps()->map_grid().cell_area(), Sums(simulation.particles()).volume);
+  update(largest.maps, on_maps * records.maps()->map_grid().cell_area(), Sums(simulation.particles()).volume);
 }
 
 TEST(ReleaseVolume, IsThatOfThePolygonsTimesTheThickness) {
   verification::Record record(
       "Volume and mass of a release",
       "Two irregular polygons are on undulating ground that falls by 27 degrees. The release is placed on the DEM or "
-      "cut out of it. Its thickness is vertical or normal, and a number, an attribute or a raster. Points each 5 m, "
-      "cells of 6 m. Maps after 20 steps.",
-      "the integral of the thickness, along the normal over the cosine of the slope, over the polygons; maps hold the "
-      "particles' volume",
+      "cut out of it. Its thickness is vertical or normal, and a number, an attribute or a raster. Points are 5 m "
+      "apart, cells 6 m wide. Maps after 20 steps.",
+      "the integral of the thickness, along the normal over the cosine of the slope, over the polygons; maps contain "
+      "the particles' volume",
       "midpoint rule on the formulas of ground and thickness");
   geotiff("thickness.tif", raster_of(thickness_on_map, west + 281.0, south + 282.0, 7.0, 40, 30));
   const auto number = [](const Polygon&, double, double) { return 10.0; };
@@ -160,7 +160,7 @@ TEST(ReleaseVolume, IsThatOfThePolygonsTimesTheThickness) {
         const double volume = volume_over_polygons([&](const Polygon& polygon, double x, double y) {
           return thickness(polygon, x, y) / (along == "normal" ? slope_cosine(x, y) : 1.0);
         });
-        take_differences(case_of(placement, along, key), volume, largest);
+        update_differences(case_of(placement, along, key), volume, largest);
       };
       expect("10.0", number);
       expect("{ attribute = \"thick\" }", attribute);
@@ -176,7 +176,7 @@ TEST(ReleaseVolume, IsThatOfThePolygonsTimesTheThickness) {
   record.expect_near("largest difference of the maps' volume, over the particles'", largest.maps, 0.0, 1e-9);
 }
 
-// What the columns at the rim cannot hold goes to the others: no more than a twentieth.
+// Volume that does not fit into the columns at the margin is distributed to the others: at most a twentieth.
 TEST(ReleaseVolume, TooThinForTheParticlesIsRefused) {
   config::Case parameters = case_of("on_top", "vertical", "0.25");
   const config::Site site = load_site(parameters).site;

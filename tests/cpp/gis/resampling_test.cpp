@@ -1,4 +1,4 @@
-// New points, tapers and values between points.
+// Resampled points, tapers and values between points.
 #include "gis/resampling.hpp"
 
 #include <numeric>
@@ -33,13 +33,13 @@ TEST(ResamplingTest, PlanesStayPlanes) {
   }
 }
 
-TEST(ResamplingTest, SameDistanceKeepsEveryBit) {
+TEST(ResamplingTest, SameSpacingKeepsEveryBit) {
   const Raster raster = raster_of([](double x, double y) { return std::sin(x) * y; }, 3.0, 4.0, 5.0, 12, 9);
   EXPECT_EQ(resampled(raster, resampled_layout(raster, 5.0)).values, raster.values);
 }
 
-// Half the distance: the mean of two and of four neighbours. Twice the distance: weights 1/8, 3/8, 3/8, 1/8 along an
-// axis about a place half way between points.
+// Half the spacing: the mean of two and of four neighbours. Twice the spacing: weights 1/8, 3/8, 3/8, 1/8 along an axis
+// about a position half-way between points.
 TEST(ResamplingTest, WeightsAreThoseOfTheFormulas) {
   const Raster raster =
       raster_of([](double x, double y) { return x == 2.0 && y == 2.0 ? 64.0 : 0.0; }, 0.0, 0.0, 1.0, 6, 6);
@@ -57,7 +57,7 @@ TEST(ResamplingTest, WeightsAreThoseOfTheFormulas) {
   EXPECT_NEAR(coarse.at(1, 1), 4.0, 1e-12);
 }
 
-TEST(ResamplingTest, HolesStayHolesButDoNotGrow) {
+TEST(ResamplingTest, HolesRemainAndDoNotGrow) {
   Raster raster = raster_of(plane, 0.0, 0.0, 1.0, 9, 9);
   raster.values[raster.index(4, 4)] = missing;
   const Raster fine = resampled(raster, resampled_layout(raster, 0.5));
@@ -78,7 +78,7 @@ TEST(ResamplingTest, TaperKeepsTheVolumeAndReachesHalfItsWidth) {
   const Raster soft = tapered(thickness, 12.0);
   EXPECT_NEAR(volume(soft), volume(thickness), 1e-12 * volume(thickness));
   EXPECT_NEAR(soft.at(30, 30), 10.0, 1e-12);
-  // The last point with a thickness is at x = 30, the next at 32: the weights reach two points on each side.
+  // The last point with a thickness is at x = 30, the next at 32: the weights extend over two points on each side.
   EXPECT_EQ(taper_reach(12.0, 2.0), 2);
   EXPECT_GT(soft.at(47, 30), 0.0);
   EXPECT_EQ(soft.at(48, 30), 0.0);
@@ -97,7 +97,7 @@ TEST(ResamplingTest, GradientsAndThicknessAlongTheNormal) {
   }
   raster.values[raster.index(3, 2)] = missing;
   EXPECT_NEAR(gradient_at(raster, 2, 2).x, 0.3, 1e-12);
-  // 3-4-5: a slope whose cosine is 0.8.
+  // A 3-4-5 triangle: a slope whose cosine is 0.8.
   EXPECT_NEAR(vertical_thickness(8.0, 0.75, 0.0), 10.0, 1e-12);
   EXPECT_NEAR(vertical_thickness(8.0, 0.45, -0.6), 10.0, 1e-12);
 }

@@ -1,4 +1,4 @@
-// Noise of DEMs: found on ground of any shape, none on clean ground; the filter that follows from it.
+// Noise of DEMs: detected on ground of any shape, not on clean ground; the resulting filter.
 #include "gis/roughness.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using namespace site_case;
 
 constexpr double spacing = 5.0;
 
-// Along x and y in distances of points.
+// Along x and y, in multiples of the point spacing.
 using Shape = std::function<double(double, double)>;
 
 // Across a thalweg or a crest at `degrees` from the y axis, between points.
@@ -79,7 +79,7 @@ TEST(RoughnessTest, NoiseIsFoundOnGroundOfAnyShape) {
   }
 }
 
-// A channel in a domain that is hardly wider, with points one and half a cell apart.
+// A channel in a domain that is barely wider, with points one and a half cells apart.
 TEST(RoughnessTest, NoiseIsFoundInNarrowDomains) {
   for (const double degrees : {0.0, 22.5, 45.0}) {
     const Shape channel = [&](double x, double y) { return std::abs(across(x + 48.3, y, degrees)); };
@@ -116,7 +116,7 @@ TEST(RoughnessTest, NoiseOfAPartOfTheDomainCounts) {
   }
 }
 
-// A band of noise narrower than a tile is none in the domain; a release on it triggers the warning.
+// A band of noise narrower than a tile is not detected in the domain; a release on it triggers the warning.
 TEST(RoughnessTest, NoiseBelowABodyCounts) {
   Raster raster = ground_of([](double x, double y) { return 0.5 * x - 0.1 * y; }, 0.2, 7, 321, 161);
   for (int row = 0; row < raster.rows; ++row) {
@@ -134,7 +134,7 @@ TEST(RoughnessTest, NoiseBelowABodyCounts) {
   EXPECT_GT(roughness_of(raster, span_of_points(raster), spacing, {.is_auto = true}, {body}).width, 0.7 * spacing);
 }
 
-// Offsets of whole rows or columns, as surveys leave them.
+// Offsets of whole rows or columns, as found in surveys.
 TEST(RoughnessTest, StripesAreNoise) {
   std::mt19937 random(9);
   std::normal_distribution<double> normal(0.0, 0.2 * spacing);
@@ -163,15 +163,15 @@ TEST(RoughnessTest, NoiseCountsWithinTheRectangleAlone) {
   EXPECT_NEAR(noise_rms(raster, {45.0 * spacing, 0.0, 120.0 * spacing, 120.0 * spacing}), 0.3 * spacing, 0.3);
   EXPECT_EQ(noise_rms(raster, {1e6, 1e6, 1e6 + 100.0, 1e6 + 100.0}), 0.0);
   EXPECT_EQ(noise_rms(raster, {50.0 * spacing, 0.0, 57.0 * spacing, 7.0 * spacing}), 0.0);
-  // Holes are no noise, and hide none.
+  // Holes are not noise and do not hide noise.
   for (std::size_t k = 0; k < raster.values.size(); k += 37) {
     raster.values[k] = missing;
   }
   EXPECT_NEAR(noise_rms(raster, {45.0 * spacing, 0.0, 120.0 * spacing, 120.0 * spacing}), 0.3 * spacing, 0.3);
 }
 
-// Widths over rms and spacing, all in cells.
-TEST(RoughnessTest, WidthIsTheLeastThatLeavesLittleFriction) {
+// Ratio of width to rms and point spacing, all in cells.
+TEST(RoughnessTest, WidthIsTheMinimumThatLeavesLittleFriction) {
   struct Row {
     double rms, spacing, width;
   };
@@ -185,7 +185,7 @@ TEST(RoughnessTest, WidthIsTheLeastThatLeavesLittleFriction) {
   }
 }
 
-// Waves in all directions, of one wavelength [points] and an rms slope.
+// Waves in all directions, with one wavelength [points] and an rms slope.
 Shape waves(double length, double slope) {
   return [=](double x, double y) {
     constexpr int count = 24;
@@ -198,7 +198,7 @@ Shape waves(double length, double slope) {
   };
 }
 
-// (1 - exp(-2 pi^2 2.2^2 / L^2))^3 of the slope, less what the filter takes.
+// (1 - exp(-2 pi^2 2.2^2 / L^2))^3 of the slope, minus the reduction by the filter.
 TEST(RoughnessTest, BumpsShorterThanEightPointsCount) {
   for (const double length : {5.0, 6.5, 7.8, 10.0, 16.0, 30.0}) {
     const Raster raster = ground_of(waves(length, 0.2), 0.0, 0, 241, 241);
@@ -215,9 +215,9 @@ TEST(RoughnessTest, BumpsShorterThanEightPointsCount) {
   EXPECT_DOUBLE_EQ(bump_length(5.0, 20.0), 78.0);
 }
 
-// Bumps several points long, which white noise does not stand for: the filter leaves little of them, and the same on
+// Bumps several points long, which white noise does not represent: the filter leaves little of them, and the same on
 // all cells that the points resolve.
-TEST(RoughnessTest, BumpsOfSeveralPointsAreFilteredAlikeOnAllCells) {
+TEST(RoughnessTest, BumpsOfSeveralPointsAreFilteredEquallyOnAllCells) {
   const Raster raster = ground_of(waves(7.0, 0.25), 0.0, 0, 241, 241);
   const double width = roughness_of(raster, span_of_points(raster), spacing, {.is_auto = true}).width;
   EXPECT_GT(width, spacing);
@@ -231,8 +231,8 @@ TEST(RoughnessTest, BumpsOfSeveralPointsAreFilteredAlikeOnAllCells) {
   EXPECT_GT(roughness_of(raster, span_of_points(raster), spacing, {.number = 0.5 * spacing}).remaining_slope, 0.1);
 }
 
-// Friction found in runs without a filter, and with one: docs/theory/contact.md.
-TEST(RoughnessTest, ApparentFrictionIsThatOfTheRuns) {
+// Friction found in runs without a filter and with one: docs/theory/contact.md.
+TEST(RoughnessTest, ApparentFrictionAgreesWithRuns) {
   struct Row {
     double rms, spacing, width, friction;
   };
@@ -250,7 +250,7 @@ TEST(RoughnessTest, ApparentFrictionIsThatOfTheRuns) {
   EXPECT_GT(apparent_friction(0.7), 0.76);
 }
 
-// The plane of plain_case.
+// Plane of plain_case.
 Raster ground_with_noise(double rms, unsigned seed) {
   Raster rough = ground();
   std::mt19937 random(seed);
@@ -292,14 +292,14 @@ TEST(RoughnessTest, GroundOfACaseIsFilteredByItsNoise) {
   EXPECT_EQ(raw.site.roughness->noise, found.noise);
   EXPECT_EQ(raw.site.ground->at(20, 20), rough.at(column + 20, row + 20));
   EXPECT_EQ(roughness_warning(parameters, raw.site).substr(0, 16), "terrain.smooth: ");
-  // Points that were interpolated between those of the file are as rough as these.
+  // Points interpolated between those of the file are equally rough.
   parameters.terrain.smooth.is_auto = true;
   parameters.terrain.resample = 2.5;
   EXPECT_EQ(load_site(parameters).site.roughness->noise, found.noise);
 }
 
-// Domains whose sides lie on points, at distances of points that are no binary fractions.
-TEST(RoughnessTest, PointsStayWhereTheDomainLiesOnThem) {
+// Domains whose sides are on points, with point spacings that are not binary fractions.
+TEST(RoughnessTest, PointsAreKeptIfTheDomainIsAlignedWithThem) {
   for (const double distance : {3.3, 2.2, 2.1, 1.1, 4.7, 0.7, 5.0}) {
     for (const int first : {20, 21, 27}) {
       Raster rough = raster_of(plane, west, south, distance, 101, 91, "EPSG:31287");
@@ -323,14 +323,14 @@ TEST(RoughnessTest, PointsStayWhereTheDomainLiesOnThem) {
   }
 }
 
-// A surface before the slide is not smoothed, and neither is the ground that it is compared with.
-TEST(RoughnessTest, ThicknessBelowASurfaceIsThatOfTheFiles) {
+// Neither a surface before the release nor the ground it is compared with is smoothed.
+TEST(RoughnessTest, ThicknessBelowASurfaceIsTheDifferenceOfTheFiles) {
   const Raster rough = ground_with_noise(1.0, 12);
   Raster before = rough;
   for (double& height : before.values) {
     height += 8.0;
   }
-  // The same with a file of the DEM that tells another system than the case.
+  // The same if the file of the DEM declares a different system than the case.
   Raster of_other_system = rough;
   of_other_system.crs = ground("EPSG:32633").crs;
   for (const Raster& dem : {rough, of_other_system}) {
@@ -342,7 +342,7 @@ TEST(RoughnessTest, ThicknessBelowASurfaceIsThatOfTheFiles) {
     const config::Site site = load_site(parameters).site;
     EXPECT_GT(site.roughness->width, 0.0);
     EXPECT_NEAR(volume_of(site.releases.at("rock").thickness), 8.0 * 100.0 * 100.0, 1e-6);
-    // Without polygons, where the surface lies 8 m above the ground at 20 x 20 points and on it elsewhere.
+    // Without polygons: the surface is 8 m above the ground at 20 x 20 points and on it elsewhere.
     Raster partly = rough;
     for (int row = 60; row < 80; ++row) {
       for (int column = 80; column < 100; ++column) {

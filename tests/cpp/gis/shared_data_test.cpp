@@ -1,4 +1,4 @@
-// DEMs of real mountains, which lie beside the project where they are at hand.
+// DEMs of real mountains, read from a shared folder if it exists.
 #include "gis/polygons.hpp"
 #include "gis/site.hpp"
 #include "gis/vector_file.hpp"

@@ -1,5 +1,5 @@
-// A case whose ground is a plane that falls to the east, 3 m on 4 m: points 5 m apart over 1000 m x 800 m, and
-// bodies on it. Built by hand, without a case file.
+// A case whose ground is a plane that falls to the east, 3 m over 4 m: points 5 m apart over 1000 m x 800 m, and bodies
+// on it. Constructed without a case file.
 #pragma once
 
 #include "gis/release_thickness.hpp"
@@ -21,7 +21,7 @@ inline Raster ground(const std::string& crs = "EPSG:31287") {
 inline config::Case plain_case(const Raster& dem) {
   config::Case made;
   made.file = "case.toml";
-  made.places = {{"terrain.file", "case.toml:5:8"}, {"body.rock.release", "case.toml:9:11"}};
+  made.locations = {{"terrain.file", "case.toml:5:8"}, {"body.rock.release", "case.toml:9:11"}};
   made.terrain.kind = config::TerrainKind::dem;
   made.terrain.file = geotiff("dem.tif", dem);
   made.general.dimension = 3;
@@ -39,7 +39,7 @@ inline config::Body release_body(const std::string& file, double thickness) {
   return body;
 }
 
-// Without polygons: where the raster has a thickness.
+// Release without polygons: the area in which the raster has a thickness.
 inline config::Body raster_body(const std::string& file) {
   config::Body body = release_body("", 0.0);
   body.thickness.from = config::MapValue::From::raster;
@@ -47,7 +47,7 @@ inline config::Body raster_body(const std::string& file) {
   return body;
 }
 
-// In metres from the first point of the ground.
+// Box in metres from the first point of the ground.
 inline std::string box_at(double min_x, double min_y, double max_x, double max_y) {
   return box_json(west + min_x, south + min_y, west + max_x, south + max_y);
 }
@@ -58,7 +58,7 @@ inline config::Case case_with_release(const std::vector<JsonFeature>& features, 
   return made;
 }
 
-// The thickness at a place in metres from the first point of the ground; 0 beyond the raster.
+// Thickness at a position in metres from the first point of the ground; 0 beyond the raster.
 inline double thickness_at(const config::Release& release, double x, double y) {
   const Raster& raster = release.thickness;
   const auto column = static_cast<int>(std::lround((west + x - raster.x) / raster.cell_x));

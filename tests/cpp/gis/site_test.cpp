@@ -11,7 +11,7 @@ using namespace site_case;
 TEST(SiteTest, GroundIsCroppedToTheDomainAndSomeCells) {
   const SiteAndWarnings loaded = load_site(plain_case(ground()));
   const Raster& raster = *loaded.site.ground;
-  // 3 cells of the grid and 2 of the DEM: 40 m, and a point more.
+  // 3 cells of the grid and 2 of the DEM: 40 m, plus one point.
   EXPECT_NEAR(raster.x, west + 60.0, 5.0 + 1e-6);
   EXPECT_NEAR(raster.x_end(), west + 940.0, 5.0 + 1e-6);
   EXPECT_NEAR(raster.y, south + 60.0, 5.0 + 1e-6);
@@ -56,7 +56,7 @@ TEST(SiteTest, CroppingChangesNoValueOfResampledAndSmoothedGround) {
   }
 }
 
-TEST(SiteTest, KeyOverrulesTheFile) {
+TEST(SiteTest, KeyOverridesTheFile) {
   config::Case parameters = plain_case(ground("EPSG:4326"));
   parameters.terrain.crs = "EPSG:31254";
   const SiteAndWarnings loaded = load_site(parameters);
@@ -66,19 +66,19 @@ TEST(SiteTest, KeyOverrulesTheFile) {
                 "note: dem.tif is read as EPSG:31254, as set by terrain.crs; the file specifies EPSG:4326"});
 }
 
-TEST(SiteTest, WrongTagIsToldAtTheKey) {
+TEST(SiteTest, WrongTagIsReportedAtTheKey) {
   EXPECT_EQ(error_of_site(plain_case(ground("EPSG:4326"))),
             "case.toml:5:8: terrain.file: FOLDER/dem.tif: the tag specifies degrees (EPSG:4326), but the numbers are "
             "metric (x from 399997.5 to 401002.5, y from 299997.5 to 300802.5). Set terrain.crs = \"EPSG:...\" to the "
             "system of the coordinates, which the data provider states.");
   config::Case parameters = plain_case(ground(""));
   parameters.terrain.crs = "EPSG:31278x";
-  EXPECT_EQ(error_of_site(parameters).substr(0, 62), "case.toml: terrain.crs: 'EPSG:31278x' is no coordinate referen");
+  EXPECT_EQ(error_of_site(parameters).substr(0, 62), "case.toml: terrain.crs: 'EPSG:31278x' is not a known coordinat");
 }
 
 TEST(SiteTest, DomainBeyondTheTerrainModel) {
   config::Case parameters = plain_case(ground());
-  parameters.places["grid.min"] = "case.toml:3:1";
+  parameters.locations["grid.min"] = "case.toml:3:1";
   parameters.grid.min = {west - 12.5, south + 100.0, 0.0};
   parameters.grid.max = {west + 900.0, south + 840.0, 3000.0};
   EXPECT_EQ(
@@ -92,7 +92,7 @@ TEST(SiteTest, DomainBeyondTheTerrainModel) {
       "case.toml:3:1: grid.min: the domain reaches beyond the outermost points of FOLDER/dem.tif, taken to points 20 m "
       "apart, by 22.5 m in the west and 50 m in the north; allowed: x from 400010 to 400990, y from 300010 to "
       "300790. Set grid.min = [400017.5, 300100, 0] and grid.max = [400900, 300790, 3000], or take a larger DEM.");
-  parameters.places["terrain.resample"] = "case.toml:4:1";
+  parameters.locations["terrain.resample"] = "case.toml:4:1";
   parameters.terrain.resample = 1e-7;
   EXPECT_EQ(error_of_site(parameters),
             "case.toml:4:1: terrain.resample: points 1e-07 m apart along the 1000 m of FOLDER/dem.tif would be 1e+10; "
@@ -108,14 +108,13 @@ TEST(SiteTest, DomainBeyondTheTerrainModel) {
   EXPECT_EQ(load_site(parameters).site.ground->columns, 201);
 }
 
-TEST(SiteTest, ElevationsThatAreNone) {
+TEST(SiteTest, ImplausibleElevations) {
   Raster dem = ground();
   dem.values[dem.index(100, 80)] = -32768.0;
-  EXPECT_EQ(
-      error_of_site(plain_case(dem)),
-      "case.toml:5:8: terrain.file: FOLDER/dem.tif: the elevation at 400500, 300400 is -32768 m, which is none on "
-      "Earth. If it stands for no data, say so in the file: gdal_translate -a_nodata -32768 FOLDER/dem.tif "
-      "with-nodata.tif");
+  EXPECT_EQ(error_of_site(plain_case(dem)),
+            "case.toml:5:8: terrain.file: FOLDER/dem.tif: the elevation at 400500, 300400 is -32768 m, which is "
+            "impossible on Earth. If it represents missing data, declare it in the file: gdal_translate -a_nodata "
+            "-32768 FOLDER/dem.tif with-nodata.tif");
 }
 
 TEST(SiteTest, ElevationsInAnUnknownUnit) {

@@ -13,15 +13,15 @@ using namespace map_files;
 
 double plane(double x, double y) { return 2000.0 + 0.3 * x - 0.7 * y; }
 
-// With holes of several shapes, a line of known points between two of them, and one known point alone.
+// With holes of several shapes, a line of known points between two of them, and one isolated known point.
 Raster plane_with_holes() {
   Raster raster = raster_of(plane, 0.0, 0.0, 2.0, 61, 47);
   for (int row = 0; row < raster.rows; ++row) {
     for (int column = 0; column < raster.columns; ++column) {
       const bool corner = column + row < 15;
-      const bool beside_line = column > 40 && column < 60 && row > 20 && row < 30 && row != 25;
+      const bool next_to_line = column > 40 && column < 60 && row > 20 && row < 30 && row != 25;
       const bool about_point = std::abs(column - 20) < 6 && std::abs(row - 30) < 6 && (column != 20 || row != 30);
-      if (corner || beside_line || about_point) {
+      if (corner || next_to_line || about_point) {
         raster.values[raster.index(column, row)] = missing;
       }
     }
@@ -44,7 +44,7 @@ Raster with_noise(Raster raster, double rms, unsigned seed, int margin) {
   return raster;
 }
 
-TEST(SmoothingTest, PlanesStayPlanesAtEveryEdgeOfWhatIsKnown) {
+TEST(SmoothingTest, PlanesStayPlanesAtEveryEdgeOfTheKnownArea) {
   const Raster raster = plane_with_holes();
   for (const double width : {0.1, 1.0, 3.0, 10.0, 100.0, 1e12}) {
     const Raster smooth = smoothed(raster, width);
@@ -62,8 +62,8 @@ TEST(SmoothingTest, PlanesStayPlanesAtEveryEdgeOfWhatIsKnown) {
   }
 }
 
-// A wave of number k keeps exp(-k^2 s^2 / 2) of its height, along both axes and with points unlike along them.
-TEST(SmoothingTest, WavesAreLoweredAsByTheGaussian) {
+// A wave of wavenumber k keeps exp(-k^2 s^2 / 2) of its height, along both axes and with different spacings along them.
+TEST(SmoothingTest, WavesAreDampedByTheGaussianFactor) {
   Raster wave = raster_of([](double x, double) { return x; }, 0.0, 0.0, 0.5, 201, 121);
   wave.cell_y = 0.8;
   for (int row = 0; row < wave.rows; ++row) {
@@ -75,20 +75,20 @@ TEST(SmoothingTest, WavesAreLoweredAsByTheGaussian) {
   EXPECT_NEAR(smoothed(wave, 2.0).at(100, 60), std::exp(-0.5 * (0.09 + 0.04) * 4.0), 1e-4);
 }
 
-TEST(SmoothingTest, MeanHeightStays) {
+TEST(SmoothingTest, MeanHeightIsConserved) {
   const Raster slope = raster_of(plane, 0.0, 0.0, 1.0, 90, 80);
   for (const double width : {0.5, 1.0, 2.0}) {
-    // Exactly, where what is rough lies farther from the edge than the filter reaches twice.
+    // Exact if the rough part is more than two filter widths from the edge.
     const Raster inside = with_noise(slope, 1.0, 7, 18);
     EXPECT_NEAR(mean(smoothed(inside, width)), mean(inside), 1e-9) << width;
-    // Noise at the edges too: its own mean varies by rms / sqrt(points) = 0.012; the filter changes it by less.
+    // Noise at the edges, too: its own mean varies by rms / sqrt(points) = 0.012; the filter changes it by less.
     const Raster everywhere = with_noise(slope, 1.0, 8, 0);
     EXPECT_NEAR(mean(smoothed(everywhere, width)), mean(everywhere), 0.01) << width;
   }
 }
 
-// White noise of rms r keeps r d / (2 sqrt(pi) s), and its slope r d / (2 sqrt(pi) s^2).
-TEST(SmoothingTest, NoiseIsLoweredAsTheFormulaSays) {
+// White noise of rms r is reduced to r d / (2 sqrt(pi) s), and its slope to r d / (2 sqrt(pi) s^2).
+TEST(SmoothingTest, NoiseIsReducedAccordingToTheFormula) {
   const Raster noise = with_noise(raster_of(plane, 0.0, 0.0, 1.0, 200, 200), 1.0, 3, 0);
   const double width = 2.0;
   const Raster smooth = smoothed(noise, width);

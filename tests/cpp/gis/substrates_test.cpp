@@ -1,4 +1,4 @@
-// Substrates from polygons and rasters: where they lie, what is refused, what is noted.
+// Substrates from polygons and rasters: their areas, errors, warnings.
 #include "gis/substrates.hpp"
 
 #include <algorithm>
@@ -14,9 +14,9 @@ namespace {
 
 using namespace debris_slide;
 
-// ---- a slide down a valley that is the same along y but for its walls
+// ---- a slide down a valley that is uniform along y except for its walls
 
-constexpr double border = 92.5;  // along x, half way between two nodes and at an edge of the raster's cells
+constexpr double border = 92.5;  // along x, half-way between two nodes and at an edge of the raster's cells
 
 double valley(double x, double y) {
   const double along = x - west, across = y - south - 50.0;
@@ -57,11 +57,11 @@ TEST(SubstratesOfMaps, PolygonsRasterAndStripGiveTheSameBits) {
     EXPECT_TRUE(along_x[k].second == in_polygon[k].second || std::isnan(along_x[k].second)) << along_x[k].first;
     EXPECT_TRUE(along_x[k].second == in_raster[k].second || std::isnan(along_x[k].second)) << along_x[k].first;
   }
-  EXPECT_GT(value_in(along_x, "front_position_m"), west + border + 20.0) << "the slide must have come there";
+  EXPECT_GT(value_in(along_x, "front_position_m"), west + border + 20.0) << "the slide must have reached it";
   EXPECT_GT(value_in(along_x, "mean_velocity_m_s"), value_in(without, "mean_velocity_m_s") + 0.2);
 }
 
-TEST(SubstratesOfMaps, KnowTheirAreaAndAreCopiedWithTheRun) {
+TEST(SubstratesOfMaps, ReportTheirAreaAndAreCopiedWithTheRun) {
   const config::Site of_polygon =
       load_site(valley_case("[substrate.ice]\noutline = \"areas.geojson\"\npolygons = [\"glacier\"]\n" + slippery))
           .site;
@@ -70,7 +70,7 @@ TEST(SubstratesOfMaps, KnowTheirAreaAndAreCopiedWithTheRun) {
   EXPECT_NEAR(load_site(of_raster).site.substrates.at("ice").area, 20.0 * 8.0 * 100.0, 1e-6);
 }
 
-// ---- what is refused and noted, on the plane of site_case
+// ---- errors and warnings, on the plane of site_case
 
 config::Substrate in_polygons(const std::string& file, const std::vector<std::string>& names = {}) {
   config::Substrate substrate;
@@ -108,7 +108,7 @@ TEST(SubstratesOfMaps, OutsideTheDomainAreRefused) {
             "and 4.");
 }
 
-TEST(SubstratesOfMaps, ThatOverlapAreRefusedButForSlivers) {
+TEST(SubstratesOfMaps, ThatOverlapAreRefusedExceptForSlivers) {
   const std::string file = geojson("areas.geojson", {{R"("name":"ice")", box_at(200.0, 200.0, 500.0, 400.0)},
                                                      {R"("name":"snow")", box_at(480.0, 200.0, 600.0, 400.0)},
                                                      {R"("name":"sliver")", box_at(499.99, 200.0, 600.0, 400.0)}});
@@ -134,7 +134,7 @@ TEST(SubstratesOfMaps, ThatOverlapAreRefusedButForSlivers) {
       << error_of_site(made);
 }
 
-TEST(SubstratesOfMaps, NumbersThatAreNotWholeAreNoCodes) {
+TEST(SubstratesOfMaps, NonIntegerCodesAreRefused) {
   config::Case made = plane_case();
   made.substrates["ice"] = in_raster(codes_file([](double x, double) { return x < west + 500.0 ? 1.0 : 1.5; }), 1);
   EXPECT_EQ(error_of_site(made),
@@ -142,29 +142,28 @@ TEST(SubstratesOfMaps, NumbersThatAreNotWholeAreNoCodes) {
             "numbers, the codes of substrates. Check that it is the right file.");
 }
 
-TEST(SubstratesOfMaps, WhatNoSubstrateNamesIsNoted) {
+TEST(SubstratesOfMaps, CodesWithoutASubstrateCauseAWarning) {
   config::Case made = plane_case();
   const auto code = [](double x, double y) {
     return y > south + 600.0 ? missing : x < west + 500.0 ? 1.0 : x < west + 800.0 ? 2.0 : 3.0;
   };
   made.substrates["ice"] = in_raster(codes_file(code), 1);
   made.substrates["snow"] = in_raster(in_folder("codes.tif"), 2);
-  EXPECT_EQ(
-      warnings_of(made),
-      (std::vector<std::string>{
-          "the code 3 of codes.tif (10 % of the domain, x from 400805 to 400895, y from 300105 to 300595) belongs "
-          "to no substrate: [basal] holds there",
-          "codes.tif has no data at 800 of its points in the domain (17 % of the domain, x from 400105 to 400895, "
-          "y from 300605 to 300695): [basal] holds there"}));
+  EXPECT_EQ(warnings_of(made),
+            (std::vector<std::string>{"the code 3 of codes.tif (10 % of the domain, x from 400805 to 400895, y from "
+                                      "300105 to 300595) belongs to no substrate: [basal] applies there",
+                                      "codes.tif has no data at 800 of its points in the domain (17 % of the domain, x "
+                                      "from 400105 to 400895, y from 300605 to 300695): [basal] applies there"}));
   made.substrates["ice"] = in_raster(codes_file([](double, double) { return 1.0; }, 60), 1);
   made.substrates.erase("snow");
-  EXPECT_EQ(warnings_of(made),
-            std::vector<std::string>{"codes.tif does not cover the domain, which reaches beyond it by "
-                                     "300 m in the east: [basal] holds there"});
+  EXPECT_EQ(
+      warnings_of(made),
+      std::vector<std::string>{
+          "codes.tif does not cover the domain, which reaches beyond it by 300 m in the east: [basal] applies there"});
 }
 
-// A raster in longitude and latitude: every point of the ground takes the code of the nearest of its points.
-TEST(SubstratesOfMaps, CodesInAnotherSystemAreTakenToTheGroundsPoints) {
+// A raster in longitude and latitude: every point of the ground receives the code of the nearest raster point.
+TEST(SubstratesOfMaps, CodesInAnotherSystemAreMappedToThePointsOfTheGround) {
   config::Case made = plane_case();
   std::vector<double> x{west, west + 1000.0}, y{south, south + 800.0};
   ASSERT_TRUE(Reprojection(reference_system_named("EPSG:31287"), reference_system_named("EPSG:4326")).apply(x, y));

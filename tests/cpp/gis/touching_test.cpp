@@ -1,4 +1,4 @@
-// Bodies whose outlines share an edge: each keeps its volume, no place is filled twice, no gap opens between them.
+// Bodies whose outlines share an edge: each keeps its volume, without overlaps or gaps between them.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -17,7 +17,7 @@ using namespace site_case;
 
 constexpr double spacing = 2.5;  // of particles [m]
 
-// "ice" and "rock" of two materials on the plane, whose points are 5 m apart; `more`: lines of both.
+// "ice" and "rock" of two materials on the plane, whose points are 5 m apart; `more`: lines added to both.
 config::Case touching_case(const std::string& ice, const std::string& rock, double ice_thickness, double rock_thickness,
                            const std::string& more = "") {
   geotiff("dem.tif", ground());
@@ -46,8 +46,9 @@ struct Column {
 };
 
 struct Seeded {
-  std::map<std::pair<long, long>, Column> columns;  // by place in units of half a spacing from the ground's first point
-  std::array<double, 2> volumes{};                  // of ice and rock [m3]
+  std::map<std::pair<long, long>, Column>
+      columns;                      // by position in units of half a spacing from the ground's first point
+  std::array<double, 2> volumes{};  // of ice and rock [m3]
   std::array<std::set<int>, 2> materials;
   double nearest = HUGE_VAL;  // horizontal distance of particles of two bodies [m]
 };
@@ -78,7 +79,7 @@ Seeded seeded(const config::Case& parameters) {
   return found;
 }
 
-// The body of the column at a place, and its thickness [m]; -1 and 0 where there is none or are several.
+// Body of the column at a position, and its thickness [m]; -1 and 0 if there are none or several.
 std::pair<int, double> at(const Seeded& found, double x, double y) {
   const auto column = found.columns.find({std::lround(2.0 * x / spacing), std::lround(2.0 * y / spacing)});
   if (column == found.columns.end() || column->second.bodies.size() != 1) {
@@ -87,7 +88,7 @@ std::pair<int, double> at(const Seeded& found, double x, double y) {
   return {*column->second.bodies.begin(), column->second.volume / (spacing * spacing)};
 }
 
-// Every column within the box [from, to) belongs to the body and is as thick, but for the rounding of the volumes.
+// Every column within the box [from, to) belongs to the body and has the thickness, except for the rounding of volumes.
 void expect_filled(const Seeded& found, std::array<double, 2> from, std::array<double, 2> to, int body,
                    double thickness, double tolerance) {
   for (double y = from[1] + 0.5 * spacing; y < to[1]; y += spacing) {
@@ -108,7 +109,7 @@ TEST(TouchingTest, TwoRectanglesThatShareAnEdge) {
   EXPECT_EQ(found.materials[ice], std::set<int>{0});
   EXPECT_EQ(found.materials[rock], std::set<int>{1});
   EXPECT_NEAR(found.nearest, spacing, 1e-9);
-  // Up to the edge, less the cell within which the outer edges fall to 0.
+  // Up to the edge, minus the cell within which the outer edges taper to 0.
   expect_filled(found, {305, 305}, {400, 395}, rock, 12.0, 0.01);
   expect_filled(found, {400, 305}, {475, 395}, ice, 7.5, 0.01);
 }
@@ -118,12 +119,12 @@ TEST(TouchingTest, AnEdgeBetweenThePointsOfTheGround) {
   EXPECT_NEAR(found.volumes[ice], 78.3 * 100.0 * 7.5, 1e-6);
   EXPECT_NEAR(found.volumes[rock], 101.7 * 100.0 * 12.0, 1e-6);
   EXPECT_NEAR(found.nearest, spacing, 1e-9);
-  // Columns whose centre lies within the outline: the edge is drawn to half a column, which changes volumes by 1 %.
+  // Columns whose centre is within the outline: the edge is resolved to half a column, which changes volumes by 1 %.
   expect_filled(found, {305, 305}, {402.5, 395}, rock, 12.0, 0.012);
   expect_filled(found, {402.5, 305}, {475, 395}, ice, 7.5, 0.012);
 }
 
-TEST(TouchingTest, ASlantingEdge) {
+TEST(TouchingTest, AnObliqueEdge) {
   const std::string left = polygon_json(
       {{west + 300, south + 300}, {west + 380, south + 300}, {west + 430, south + 400}, {west + 300, south + 400}});
   const std::string right = polygon_json(
@@ -147,7 +148,7 @@ TEST(TouchingTest, OneFillsAHoleOfTheOther) {
       {{west + 300, south + 300}, {west + 400, south + 300}, {west + 400, south + 400}, {west + 300, south + 400}});
   const std::string inner = polygon_json(
       {{west + 332, south + 333}, {west + 352, south + 333}, {west + 352, south + 363}, {west + 332, south + 363}});
-  // The ring of the inner one becomes the hole of the outer one.
+  // The ring of the inner body is the hole of the outer one.
   const std::string ring = inner.substr(inner.find("[[") + 1, inner.rfind("]}") - inner.find("[[") - 1);
   const std::string with_hole = outer.substr(0, outer.rfind("]}")) + "," + ring + "]}";
   const Seeded found = seeded(touching_case(inner, with_hole, 5.0, 25.0));
@@ -167,7 +168,7 @@ TEST(TouchingTest, OneFillsAHoleOfTheOther) {
   EXPECT_EQ(count, 8 * 12);
 }
 
-// Cut out with tapers: the outer edges slant, the shared one does not.
+// Cut out with tapers: the outer edges are inclined, the shared one is not.
 TEST(TouchingTest, CutOutWithATaper) {
   const config::Case parameters = touching_case(box_at(400, 300, 480, 400), box_at(300, 300, 400, 400), 7.5, 12.0,
                                                 "placement = \"cut\"\ntaper = 40.0\n");
@@ -192,9 +193,9 @@ TEST(TouchingTest, CutOutWithATaper) {
   expect_filled(found, {400, 325}, {455, 375}, ice, 7.5, 0.01);
 }
 
-TEST(TouchingTest, ARasterBesideAPolygon) {
+TEST(TouchingTest, ARasterNextToAPolygon) {
   config::Case parameters = touching_case(box_at(400, 300, 480, 400), box_at(300, 300, 400, 400), 7.5, 12.0);
-  // Its points' cells reach from 302.5 to 402.5; the polygon begins there.
+  // The cells of its points extend from 302.5 to 402.5; the polygon begins there.
   geojson("ice.geojson", {{"", box_at(402.5, 302.5, 480, 402.5)}});
   const auto thickness = [](double x, double y) {
     return std::abs(x - west - 352.5) < 50.0 && std::abs(y - south - 352.5) < 50.0 ? 12.0 : 0.0;
@@ -209,24 +210,24 @@ TEST(TouchingTest, ARasterBesideAPolygon) {
   expect_filled(found, {402.5, 307.5}, {475, 397.5}, ice, 7.5, 0.01);
 }
 
-TEST(TouchingTest, FarBodiesAreLeftAsTheyAre) {
+TEST(TouchingTest, DistantBodiesAreUnchanged) {
   const config::Site site =
       load_site(touching_case(box_at(410, 300, 480, 400), box_at(300, 300, 400, 400), 7.5, 12.0)).site;
   for (const auto& [name, release] : site.releases) {
-    EXPECT_TRUE(release.standing.empty() && release.claim.empty()) << name;
+    EXPECT_TRUE(release.assigned_thickness.empty() && release.claim.empty()) << name;
   }
 }
 
 TEST(TouchingTest, TapersMustBeTheSame) {
   config::Case parameters = touching_case(box_at(400, 300, 480, 400), box_at(300, 300, 400, 400), 7.5, 12.0);
   parameters.bodies["ice"].taper = 30.0;
-  parameters.places["body.rock.taper"] = "case.toml:30:9";
+  parameters.locations["body.rock.taper"] = "case.toml:30:9";
   EXPECT_EQ(error_of_site(parameters),
             "case.toml:30:9: body.rock.taper: the bodies 'ice' and 'rock' touch, or lie in one another's taper, and "
             "their tapers differ: 30 m and 0 m; allowed: the same. Set both keys to one value.");
 }
 
-TEST(TouchingTest, OverlapsAreTold) {
+TEST(TouchingTest, OverlapsAreReported) {
   config::Case parameters = plain_case(ground());
   const auto with = [&](const std::string& snow) {
     parameters.bodies["rock"] = release_body(geojson("rock.geojson", {{"", box_at(300, 300, 400, 400)}}), 10.0);

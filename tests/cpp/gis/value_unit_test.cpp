@@ -1,4 +1,4 @@
-// Units of rasters: converted where they are known, refused where they are not.
+// Units of rasters: known ones are converted, unknown ones are refused.
 #include "gis/value_unit.hpp"
 
 #include "base/raster_sampling.hpp"
@@ -53,7 +53,7 @@ TEST(ValueUnitTest, LengthsInEverySpellingAreMetres) {
   }
 }
 
-TEST(ValueUnitTest, TemperaturesAndSharesAreConverted) {
+TEST(ValueUnitTest, TemperaturesAndFractionsAreConverted) {
   for (const char* unit : {"", "C", "°C", "degC", "Celsius"}) {
     EXPECT_EQ(computed(unit, Quantity::temperature, -5.0), -5.0) << unit;
   }
@@ -64,8 +64,8 @@ TEST(ValueUnitTest, TemperaturesAndSharesAreConverted) {
     EXPECT_NEAR(computed(unit, Quantity::temperature, 32.0), 0.0, 1e-12) << unit;
     EXPECT_NEAR(computed(unit, Quantity::temperature, 23.0), -5.0, 1e-12) << unit;
   }
-  EXPECT_NEAR(computed("%", Quantity::share, 30.0), 0.3, 1e-15);
-  EXPECT_EQ(computed("1", Quantity::share, 0.3), 0.3);
+  EXPECT_NEAR(computed("%", Quantity::fraction, 30.0), 0.3, 1e-15);
+  EXPECT_EQ(computed("1", Quantity::fraction, 0.3), 0.3);
   EXPECT_EQ(computed("whatever", Quantity::code, 7.0), 7.0);
   EXPECT_EQ(conversion_from({"map.tif", "K", "", 1.0}, Quantity::temperature).warning,
             "note: map.tif states the unit 'K': its values were converted to degrees Celsius");
@@ -79,17 +79,17 @@ TEST(ValueUnitTest, UnknownUnitsAndThoseOfAnotherQuantityAreRefused) {
   EXPECT_EQ(error_of_unit({"map.tif", "m", "", 1.0}, Quantity::temperature),
             "map.tif: the unit of the values is 'm'; allowed: a unit of temperature (C, K, F). Check that it is the "
             "right file, or state the unit that the values have: gdal_edit.py -units C map.tif");
-  EXPECT_EQ(error_of_unit({"map.tif", "kg", "", 1.0}, Quantity::share),
-            "map.tif: the unit of the values is 'kg'; allowed: a unit of share (1, %). Check that it is the right "
+  EXPECT_EQ(error_of_unit({"map.tif", "kg", "", 1.0}, Quantity::fraction),
+            "map.tif: the unit of the values is 'kg'; allowed: a unit of fraction (1, %). Check that it is the right "
             "file, or state the unit that the values have: gdal_edit.py -units 1 map.tif");
 }
 
-// GDAL gives a band without a unit that of the heights of its reference system, whatever the band measures.
-TEST(ValueUnitTest, HeightsOfTheReferenceSystemHoldForLengthsAlone) {
+// GDAL assigns the unit of heights of its reference system to a band without a unit, whatever the band's quantity.
+TEST(ValueUnitTest, HeightUnitOfTheReferenceSystemAppliesToLengthsOnly) {
   const StatedUnits heights{"map.tif", "US survey foot", "US survey foot", 1200.0 / 3937.0};
   EXPECT_NEAR(conversion_from(heights, Quantity::length).factor, 1200.0 / 3937.0, 1e-15);
   EXPECT_EQ(conversion_from(heights, Quantity::temperature).factor, 1.0);
-  EXPECT_EQ(conversion_from(heights, Quantity::share).factor, 1.0);
+  EXPECT_EQ(conversion_from(heights, Quantity::fraction).factor, 1.0);
   EXPECT_NEAR(conversion_from({"map.tif", "", "clarke's foot", 0.3047972654}, Quantity::length).factor, 0.3047972654,
               1e-15);
   EXPECT_EQ(conversion_from({"map.tif", "cm", "", 1.0}, Quantity::length).factor, 0.01);
@@ -111,7 +111,7 @@ TEST(ValueUnitTest, UnitIsThatOfTheScaledValues) {
   EXPECT_NEAR(RasterFile(file, Quantity::length).read().at(0, 2), 0.01 * (10.0 * 1.0 + 500.0), 1e-12);
 }
 
-TEST(ValueUnitTest, ScalesThatAreNoneAreRefused) {
+TEST(ValueUnitTest, InvalidScalesAreRefused) {
   const std::string file = foreign("map.tif", {});
   GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_UPDATE));
   dataset->GetRasterBand(1)->SetScale(0.0);
@@ -129,8 +129,8 @@ Raster times(Raster raster, double factor) {
   return raster;
 }
 
-// The same release whatever the units of the ground and the thickness.
-TEST(ValueUnitTest, VolumesAreThoseOfMetresInEveryUnit) {
+// The release is the same for all units of the ground and the thickness.
+TEST(ValueUnitTest, VolumesAreTheSameInEveryUnit) {
   const Raster thickness = raster_of(
       [](double x, double y) {
         return std::abs(x - west - 350.0) < 50.0 && std::abs(y - south - 350.0) < 50.0 ? 8 : 0;
@@ -152,7 +152,7 @@ TEST(ValueUnitTest, VolumesAreThoseOfMetresInEveryUnit) {
   }
 }
 
-TEST(ValueUnitTest, CompoundSystemsAreInThePlaceOfTheirHorizontalPart) {
+TEST(ValueUnitTest, CompoundSystemsUseTheirHorizontalPart) {
   const Raster thickness = raster_of(
       [](double x, double y) {
         return std::abs(x - west - 350.0) < 50.0 && std::abs(y - south - 350.0) < 50.0 ? 8 : 0;
@@ -168,9 +168,9 @@ TEST(ValueUnitTest, CompoundSystemsAreInThePlaceOfTheirHorizontalPart) {
                                      "converted to metres"});
 }
 
-TEST(ValueUnitTest, UnitOfAnotherQuantityIsToldAtTheKey) {
+TEST(ValueUnitTest, UnitOfAnotherQuantityIsReportedAtTheKey) {
   config::Case parameters = case_with_release({{"", box_at(250, 250, 450, 450)}});
-  parameters.places["body.rock.temperature"] = "case.toml:11:3";
+  parameters.locations["body.rock.temperature"] = "case.toml:11:3";
   parameters.bodies.at("rock").temperature.over = InitialField::Over::raster;
   parameters.bodies.at("rock").temperature.source = in_folder("temperature.tif");
   write_geotiff(in_folder("temperature.tif"), ground(), {"m", "elevation"});

@@ -1,4 +1,4 @@
-// Polygons, lines and points in files, and what the user is told of those that cannot be used.
+// Polygons, lines and points in files, and error messages for unusable ones.
 #include "gis/vector_file.hpp"
 
 #include <ogrsf_frmts.h>
@@ -82,7 +82,7 @@ TEST(VectorFileTest, ShapefileWithoutPrjIsInTheSystemOfTheGround) {
                                                      "DEM, EPSG:31287, is assumed"});
 }
 
-TEST(VectorFileTest, OtherSystemsAreReprojectedAndSaid) {
+TEST(VectorFileTest, OtherSystemsAreReprojectedAndReported) {
   std::vector<double> x{400000.0, 400100.0, 400100.0, 400000.0}, y{300000.0, 300000.0, 300050.0, 300050.0};
   ASSERT_TRUE(Reprojection(ground(), reference_system_named("EPSG:4326")).apply(x, y));
   const std::string file =
@@ -93,7 +93,7 @@ TEST(VectorFileTest, OtherSystemsAreReprojectedAndSaid) {
   EXPECT_NEAR(area_of(layer.features.front().polygons), 5000.0, 2.0);
 }
 
-TEST(VectorFileTest, DegreesThatCannotBeAreSaid) {
+TEST(VectorFileTest, ImpossibleDegreesAreReported) {
   const VectorLayer layer =
       read_polygons(geojson("r.geojson", {{"", box_json(400000, 300000, 400100, 300050)}}, "4326"), ground());
   EXPECT_EQ(layer.warnings, std::vector<std::string>{"r.geojson specifies degrees (EPSG:4326), which 400000, 300000 "
@@ -117,7 +117,7 @@ TEST(VectorFileTest, FeaturesAreChosenByName) {
             "Correct the name, or add the attribute.");
 }
 
-TEST(VectorFileTest, NamesAreMatchedExactlyBeforeTheCaseOfLettersIsLeftOut) {
+TEST(VectorFileTest, NamesAreMatchedExactlyFirstAndThenIgnoringCase) {
   const std::string box = box_json(0, 0, 10, 10);
   const VectorLayer layer = read_polygons(
       geojson("r.geojson", {{R"("Thickness":2.0,"thickness":10.0,"NAME":"old","name":"a","Density":5)", box}}),
@@ -136,7 +136,7 @@ TEST(VectorFileTest, NamesAreMatchedExactlyBeforeTheCaseOfLettersIsLeftOut) {
             "rename the others.");
 }
 
-TEST(VectorFileTest, TruthValuesDatesAndTextsAreNoNumbers) {
+TEST(VectorFileTest, BooleansDatesAndTextsAreNotNumbers) {
   const std::string box = box_json(0, 0, 10, 10);
   const VectorLayer layer = read_polygons(
       geojson("r.geojson",
@@ -154,13 +154,35 @@ TEST(VectorFileTest, TruthValuesDatesAndTextsAreNoNumbers) {
   }
 }
 
+TEST(VectorFileTest, KmlIsReadInDegrees) {
+  const std::string file = text_file(
+      "release.kml",
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\"><Document><Folder>"
+      "<name>areas</name><Placemark><name>rock</name><Polygon><outerBoundaryIs><LinearRing><coordinates>"
+      "13.333333,47.5,0 13.334333,47.5,0 13.334333,47.501,0 13.333333,47.5,0"
+      "</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark></Folder></Document></kml>\n");
+  const VectorLayer layer = read_polygons(file, reference_system_named("EPSG:31287"));
+  ASSERT_EQ(layer.features.size(), 1U);
+  EXPECT_EQ(layer.features.front().title, "polygon 1 (rock)");
+  const auto& corner = layer.features.front().polygons.front().outline.front();
+  EXPECT_NEAR(corner[0], 400000.0, 200.0) << "the central meridian of the system";
+  EXPECT_NEAR(corner[1], 400000.0, 200.0);
+}
+
+TEST(VectorFileTest, AShapefileWithoutItsIndexIsReportedWithTheRemedy) {
+  EXPECT_EQ(error_of_polygons(text_file("lone.shp", "a Shapefile whose index is missing")),
+            "FOLDER/lone.shp: the index of the Shapefile, lone.shx, is missing. Copy the .shx, .dbf and .prj file next "
+            "to it, or restore the index: ogrinfo --config SHAPE_RESTORE_SHX YES FOLDER/lone.shp");
+}
+
 TEST(VectorFileTest, WrongFiles) {
   EXPECT_EQ(error_of_polygons(in_folder("none.shp")), "FOLDER/none.shp: there is no such file. Correct the path.");
   const std::string nonsense = error_of_polygons(text_file("bad.gpkg", "this is no GeoPackage"));
   EXPECT_NE(nonsense.find("FOLDER/bad.gpkg: the file cannot be opened; GDAL says: "), std::string::npos) << nonsense;
-  EXPECT_NE(nonsense.find("Allowed: Shapefile (with its .shx and .dbf), GeoPackage or GeoJSON; check that the file is "
-                          "complete and readable."),
-            std::string::npos);
+  EXPECT_NE(
+      nonsense.find("Allowed: Shapefile (with its .shx and .dbf), GeoPackage, GeoJSON or KML; check that the file "
+                    "is complete and readable."),
+      std::string::npos);
   EXPECT_EQ(error_of_polygons(geojson("empty.geojson", {})),
             "FOLDER/empty.geojson: the layer is empty; needed: polygons. Draw them, or name the file that has them.");
   EXPECT_EQ(error_of_polygons(geojson("way.geojson", {{"", line_json({{0, 0}, {5, 5}})}})),
@@ -173,12 +195,12 @@ TEST(VectorFileTest, WrongFiles) {
       "FOLDER/mixed.geojson: polygon 2 is of the kind LINESTRING; allowed: polygons.");
 }
 
-TEST(VectorFileTest, NamesThatWouldSteerATerminalAreShownWithoutThat) {
+TEST(VectorFileTest, ControlCharactersInNamesAreReplacedInMessages) {
   const std::string polygon = box_json(0, 0, 9, 9);
   const VectorLayer layer =
       read_polygons(geojson("steering.geojson", {{R"("name": "a\u001b[2J")", polygon}}), ground());
   EXPECT_EQ(layer.features.front().title, "polygon 1 (a?[2J)");
-  EXPECT_EQ(layer.features.front().texts.at("name"), "a\x1b[2J") << "values stay what they are";
+  EXPECT_EQ(layer.features.front().texts.at("name"), "a\x1b[2J") << "values are unchanged";
   EXPECT_EQ(error_of([&] { static_cast<void>(features_named(layer, {"b"}, "name")); }),
             "FOLDER/steering.geojson: no polygon has the name 'b'; the file has: a?[2J");
   const VectorLayer other = read_polygons(geojson("letters.geojson", {{R"("th\u0007ick": 3)", polygon}}), ground());
@@ -190,7 +212,7 @@ TEST(VectorFileTest, NamesThatWouldSteerATerminalAreShownWithoutThat) {
 TEST(VectorFileTest, TruncatedShapefile) {
   const std::string file = foreign_polygon("ESRI Shapefile", "cut.shp", "EPSG:31287");
   std::filesystem::resize_file(file, 120);
-  // What GDAL says in between is its own.
+  // The part in between is GDAL's own message.
   const std::string message = error_of_polygons(file);
   const std::string begin = "FOLDER/cut.shp: the features cannot be read; GDAL says: ";
   const std::string end = ". The file seems to be damaged or truncated: copy it again.";

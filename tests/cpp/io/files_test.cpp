@@ -1,4 +1,4 @@
-// Files of a run: whole or absent, exact numbers, damage refused.
+// Files of a run: complete or absent, exact numbers, damaged files refused.
 #include "io/files.hpp"
 
 #include <gtest/gtest.h>
@@ -34,17 +34,17 @@ TEST_F(Files, AreWholeOrAbsent) {
   const std::string message = failure_of([&] { write_file_atomically(lost, "x"); });
   EXPECT_NE(message.find("cannot write " + lost.string() + ": No such file or directory"), std::string::npos)
       << message;
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "nothing is left behind";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "no temporary file remains";
 }
 
-TEST_F(Files, EmptyOnesAreReadAndMissingOnesAreNot) {
+TEST_F(Files, EmptyOnesAreReadAndMissingOnesAreRefused) {
   write_file_atomically(folder_ / "empty.txt", "");
   EXPECT_EQ(read_file(folder_ / "empty.txt"), "");
   const fs::path missing = folder_ / "missing.txt";
   EXPECT_EQ(failure_of([&] { read_file(missing); }), "cannot read " + missing.string() + ": No such file or directory");
 }
 
-TEST_F(Files, ProvenanceIsWrittenOfTextsThatAreNotUnicode) {
+TEST_F(Files, ProvenanceIsWrittenForTextsThatAreNotUnicode) {
   Provenance provenance;
   provenance.parts.push_back(part_of_this_process());
   provenance.parts.back().command = "thawslide run caf\xE9";
@@ -52,11 +52,11 @@ TEST_F(Files, ProvenanceIsWrittenOfTextsThatAreNotUnicode) {
   EXPECT_NE(read_file(folder_ / "run.json").find("\"thawslide run caf\xEF\xBF\xBD\""), std::string::npos);
 }
 
-TEST_F(Files, Sha256KnowsItsStandardAnswer) {
+TEST_F(Files, Sha256GivesItsStandardResult) {
   EXPECT_EQ(sha256_hex("abc", 3), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");  // FIPS 180-4
 }
 
-TEST_F(Files, NumbersReadBackBitForBit) {
+TEST_F(Files, NumbersAreReadBackBitwise) {
   std::mt19937_64 random(9);
   for (int k = 0; k < 10000; ++k) {
     const std::uint64_t bits = random();
@@ -71,7 +71,7 @@ TEST_F(Files, NumbersReadBackBitForBit) {
   EXPECT_EQ(shortest(std::nan("")), "nan");
 }
 
-TEST_F(Files, HistoryGoesOnAfterATime) {
+TEST_F(Files, HistoryContinuesAfterATime) {
   const fs::path file = folder_ / "history.csv";
   HistoryExtent then;
   {
@@ -81,7 +81,7 @@ TEST_F(Files, HistoryGoesOnAfterATime) {
       then = k == 2 ? writer.extent() : then;
     }
   }
-  std::ofstream(file, std::ios::app) << "2.5,3";  // a row cut short
+  std::ofstream(file, std::ios::app) << "2.5,3";  // a truncated row
   {
     std::vector<std::string> warnings;
     HistoryWriter writer = HistoryWriter::continue_after(file, "time_s,speed", then, warnings);
@@ -116,7 +116,7 @@ std::vector<std::uint32_t> another_order(std::size_t count) {
   return order;
 }
 
-TEST_F(Files, CheckpointComesBackWhateverTheStorageOrder) {
+TEST_F(Files, CheckpointIsReadBackForAnyStorageOrder) {
   mpm::Particles<2> particles, loaded;
   fill(particles);
   loaded.resize(particles.size());
@@ -158,8 +158,8 @@ TEST_F(Files, DamagedCheckpointsAreRefused) {
   }
 }
 
-// The one before is there whatever happens to the last, or while it is being written; the note says so.
-TEST_F(Files, ADamagedCheckpointGivesWayToTheOneBefore) {
+// The previous checkpoint is always intact, also while the last one is being written; the warning says so.
+TEST_F(Files, ADamagedCheckpointIsReplacedByThePreviousOne) {
   mpm::Particles<2> particles, loaded;
   fill(particles);
   loaded.resize(particles.size());
@@ -198,13 +198,13 @@ TEST_F(Files, UnfinishedFilesAreRemoved) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / ".whole.csv.17.thawslide-part"));
 }
 
-TEST_F(Files, SnapshotsStandByIdAndGiveTheSameBytes) {
+TEST_F(Files, SnapshotsAreSortedByIdAndReproducible) {
   mpm::Particles<2> particles;
   fill(particles);
   const Vector<double, 2> origin(100.0, -50.0);
-  const Snapshot first = take_snapshot<2>(particles, origin, 2.5, 250);
+  const Snapshot first = make_snapshot<2>(particles, origin, 2.5, 250);
   particles.reorder(another_order(particles.size()));
-  const Snapshot second = take_snapshot<2>(particles, origin, 2.5, 250);
+  const Snapshot second = make_snapshot<2>(particles, origin, 2.5, 250);
   EXPECT_EQ(snapshot_bytes(first), snapshot_bytes(second));
   ASSERT_EQ(first.particles(), 37U);
   EXPECT_EQ(first.points[2], 0.0) << "z in the plane";
@@ -235,7 +235,7 @@ TEST_F(Files, RunFoldersAreNeverOverwrittenByAccident) {
       << message;
   make_run_folder(folder_ / "deep" / "run", true);
   EXPECT_FALSE(fs::exists(folder_ / "deep" / "run" / "history.csv"));
-  EXPECT_TRUE(fs::exists(folder_ / "deep" / "run" / "notes.txt")) << "what is no file of a run stays";
+  EXPECT_TRUE(fs::exists(folder_ / "deep" / "run" / "notes.txt")) << "other files are kept";
   EXPECT_NE(
       failure_of([&] { require_usable(folder_ / "deep" / "run", true); }).find("contains other files, and no run"),
       std::string::npos);
@@ -243,7 +243,7 @@ TEST_F(Files, RunFoldersAreNeverOverwrittenByAccident) {
             std::string::npos);
 }
 
-TEST_F(Files, SnapshotHoldsTheBaseBesideTheParticles) {
+TEST_F(Files, SnapshotContainsTheBaseAndTheParticles) {
   Snapshot snapshot{0.0, 0, {1.0, 2.0, 0.0}, {}, {}};
   const auto has_base = [&] {
     SnapshotSeries series(folder_);
@@ -265,7 +265,7 @@ TEST_F(Files, SnapshotHoldsTheBaseBesideTheParticles) {
   EXPECT_TRUE(has_base());
 }
 
-TEST_F(Files, SnapshotThatCouldNotBeWrittenIsToldByTheNextCall) {
+TEST_F(Files, SnapshotThatCouldNotBeWrittenIsReportedByTheNextCall) {
   const Snapshot snapshot{0.0, 0, {1.0, 2.0, 0.0}, {}, {}};
   SnapshotSeries series(folder_);
   series.add(snapshot);

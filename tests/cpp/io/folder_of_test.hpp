@@ -1,4 +1,4 @@
-// A folder of its own for each test, and what a refusal says.
+// A separate folder for each test, and the message of a failure.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Links, pipes, devices and folders in the place of a run's files: refused or replaced, never followed, never waited
-// for.
+// Links, pipes, devices and folders in place of a run's files are refused or replaced. They are never followed or
+// waited for.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -18,11 +18,11 @@ namespace fs = std::filesystem;
 
 class HostileFiles : public FolderOfTest {};
 
-TEST_F(HostileFiles, ReadingTakesRegularFilesAlone) {
+TEST_F(HostileFiles, OnlyRegularFilesAreRead) {
   const fs::path pipe = folder_ / "pipe", endless = folder_ / "endless", damaged = folder_ / "damaged";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   fs::create_symlink("/dev/zero", endless);
-  fs::create_symlink("/proc/self/mem", damaged);  // whose first byte cannot be read
+  fs::create_symlink("/proc/self/mem", damaged);  // its first byte cannot be read
   const auto refusal = [](const fs::path& file, const std::string& found) {
     return file.string() + " is " + found + "; a regular file is needed. Replace it by the file itself, or remove it.";
   };
@@ -33,7 +33,7 @@ TEST_F(HostileFiles, ReadingTakesRegularFilesAlone) {
   EXPECT_EQ(failure_of([&] { (void)last_time_in_history(pipe); }), refusal(pipe, "a pipe"));
 }
 
-TEST_F(HostileFiles, UnfinishedOnesAreToldFromWhatAUserMayHave) {
+TEST_F(HostileFiles, UnfinishedOnesAreDistinguishedFromFilesOfTheUser) {
   for (const char* name :
        {".a.csv.12.thawslide-part", ".a.12.thawslide-part.tif", ".a.12.thawslide-part.gpkg-journal"}) {
     EXPECT_TRUE(is_unfinished(folder_ / name)) << name;
@@ -45,7 +45,7 @@ TEST_F(HostileFiles, UnfinishedOnesAreToldFromWhatAUserMayHave) {
   }
 }
 
-TEST_F(HostileFiles, CopiesOfInputsAreNeverTakenForUnfinishedOnes) {
+TEST_F(HostileFiles, CopiesOfInputsAreNeverMistakenForUnfinishedOnes) {
   const fs::path valley = folder_ / "from" / "valley.1.part.csv", taken = folder_ / "from" / ".a.1.thawslide-part";
   put(valley, "0,1\n");
   put(taken, "0,1\n");
@@ -58,13 +58,13 @@ TEST_F(HostileFiles, CopiesOfInputsAreNeverTakenForUnfinishedOnes) {
                 "Give the file another name.");
 }
 
-TEST_F(HostileFiles, ALongNameIsWrittenAllTheSame) {
+TEST_F(HostileFiles, FilesWithLongNamesAreWritten) {
   const fs::path file = folder_ / std::string(250, 'n');
   write_file_atomically(file, "text");
   EXPECT_EQ(content(file), "text");
 }
 
-TEST_F(HostileFiles, WhatWaitsInThePlaceOfAnUnfinishedOneIsReplaced) {
+TEST_F(HostileFiles, APipeInPlaceOfAnUnfinishedOneIsReplaced) {
   const fs::path adjacent = folder_ / fmt::format(".a.{}.thawslide-part.txt", getpid()), victim = folder_ / "victim";
   put(victim, "mine");
   const auto expect_replaced = [&] {
@@ -79,7 +79,7 @@ TEST_F(HostileFiles, WhatWaitsInThePlaceOfAnUnfinishedOneIsReplaced) {
   expect_replaced();
 }
 
-TEST_F(HostileFiles, AHistoryReplacesWhatStandsInItsPlace) {
+TEST_F(HostileFiles, AHistoryReplacesLinksAndPipes) {
   const fs::path file = folder_ / "history.csv", victim = folder_ / "victim";
   put(victim, "mine");
   fs::create_symlink(victim, file);
@@ -91,7 +91,7 @@ TEST_F(HostileFiles, AHistoryReplacesWhatStandsInItsPlace) {
   ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
   HistoryWriter::start_in_run(file).add({{"time_s", 1.0}});
   EXPECT_EQ(content(file), "time_s\n1\n");
-  // One that goes on takes the rows from where the link leads.
+  // A history that is continued uses the rows of the link's target.
   fs::rename(file, victim);
   fs::create_symlink(victim, file);
   std::vector<std::string> warnings;
@@ -101,7 +101,7 @@ TEST_F(HostileFiles, AHistoryReplacesWhatStandsInItsPlace) {
   EXPECT_EQ(content(file), "time_s\n1\n2\n");
 }
 
-TEST_F(HostileFiles, AHistoryThatAUserHasNamedGoesWhereALinkLeads) {
+TEST_F(HostileFiles, AHistoryNamedByAUserIsWrittenThroughALink) {
   const fs::path file = folder_ / "rows.csv", disk = folder_ / "disk.csv";
   fs::create_symlink(disk, file);
   HistoryWriter(file).add({{"time_s", 0.0}});
@@ -121,7 +121,7 @@ class HostileCheckpoints : public HostileFiles {
   fs::path before() const { return folder_ / previous_checkpoint_name; }
 };
 
-TEST_F(HostileCheckpoints, WhatCannotBeReadGivesWayToTheOneBefore) {
+TEST_F(HostileCheckpoints, AnUnreadableOneIsReplacedByThePreviousOne) {
   const auto expect_passed_over = [&](const std::string& fault) {
     const WholeCheckpoint found = newest_checkpoint(folder_);
     EXPECT_EQ(found.file, before());
@@ -137,11 +137,11 @@ TEST_F(HostileCheckpoints, WhatCannotBeReadGivesWayToTheOneBefore) {
   expect_passed_over(last().string() + " is a pipe, no file");
   fs::create_symlink("/proc/self/mem", last());
   expect_passed_over("cannot read " + last().string() + ": Invalid argument");
-  fs::create_symlink("nothing", last());  // the next checkpoint may not push the good one out for it
+  fs::create_symlink("nothing", last());  // the next checkpoint must not replace the valid one by it
   expect_passed_over("cannot read " + last().string() + ": No such file or directory");
 }
 
-TEST_F(HostileCheckpoints, AMissingOneIsToldAndNothingIsToBeKept) {
+TEST_F(HostileCheckpoints, AMissingOneIsReportedWithoutADamagedFile) {
   EXPECT_EQ(newest_checkpoint(folder_).damaged, "");
   fs::remove(last());
   const WholeCheckpoint found = newest_checkpoint(folder_);
@@ -155,7 +155,7 @@ TEST_F(HostileCheckpoints, AMissingOneIsToldAndNothingIsToBeKept) {
           " is damaged: its checksum does not fit its 4 bytes. Use another copy, or run the case from its start.");
 }
 
-// Root may remove everything: while it lives, root is somebody else.
+// Root may remove everything: for the lifetime of this object, root is another user.
 class Nobody {
  public:
   Nobody() : was_root_(geteuid() == 0) { EXPECT_TRUE(!was_root_ || seteuid(65534) == 0); }
@@ -167,7 +167,7 @@ class Nobody {
   bool was_root_;
 };
 
-TEST_F(HostileFiles, WhatCannotBeRemovedIsAFailureToWrite) {
+TEST_F(HostileFiles, AFileThatCannotBeRemovedIsAFailureToWrite) {
   const fs::path torn = folder_ / ".history.csv.17.thawslide-part";
   put(torn, "half");
   const auto all_may_read = static_cast<fs::perms>(0555);

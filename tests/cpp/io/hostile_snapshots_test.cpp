@@ -1,4 +1,4 @@
-// Snapshots that no run wrote: told as those that cannot be read, whatever they claim.
+// Snapshots that no run has written are reported as unreadable, whatever their contents.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Snapshot sound(double time) {
+Snapshot valid_snapshot(double time) {
   Snapshot snapshot{time, 0, {1.0, 2.0, 0.0, 3.0, 4.0, 0.0}, {}, {}};
   snapshot.fields.push_back({"mass", "kg", 1, false, {5.0, 6.0}, {}});
   return snapshot;
@@ -53,12 +53,12 @@ class HostileSnapshots : public FolderOfTest {
     FolderOfTest::SetUp();
     SnapshotSeries series(folder_);
     for (const double time : {0.0, 0.5, 1.0}) {
-      series.add(sound(time));
+      series.add(valid_snapshot(time));
     }
     series.finish_writing();
   }
 
-  // What is changed is the second of three: its groups VTKHDF and PointData, and the field mass.
+  // Modifies the second of three snapshots: its groups VTKHDF and PointData, and the field mass.
   using Change = std::function<void(hid_t root, hid_t data, hid_t mass)>;
   void change_second(const Change& change) const {
     const hdf5::Handle file(H5Fopen(second().c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "the snapshot");
@@ -72,14 +72,13 @@ class HostileSnapshots : public FolderOfTest {
     SnapshotSeries::continue_after(folder_, 3, warnings).write_index();
     ASSERT_EQ(warnings.size(), 1U);
     EXPECT_EQ(warnings[0],
-              "of the 3 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf leaves them "
-              "out");
+              "of the 3 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf omits them");
     EXPECT_TRUE(fs::exists(folder_ / "particles.vtkhdf"));
   }
   fs::path second() const { return folder_ / "snapshots" / "000001.vtkhdf"; }
 };
 
-TEST_F(HostileSnapshots, SoundOnesAreTaken) {
+TEST_F(HostileSnapshots, ValidOnesAreAccepted) {
   std::vector<std::string> warnings;
   SnapshotSeries::continue_after(folder_, 3, warnings).write_index();
   EXPECT_TRUE(warnings.empty());
@@ -93,7 +92,7 @@ TEST_F(HostileSnapshots, ATimeOfManyNumbers) {
   expect_left_out();
 }
 
-TEST_F(HostileSnapshots, ATimeThatIsAText) {
+TEST_F(HostileSnapshots, ATimeThatIsAString) {
   change_second([](hid_t root, hid_t, hid_t) {
     const hdf5::Handle type = text_type(3);
     write_value(root, "time", type, "now");
@@ -101,7 +100,7 @@ TEST_F(HostileSnapshots, ATimeThatIsAText) {
   expect_left_out();
 }
 
-TEST_F(HostileSnapshots, AUnitOfManyTexts) {
+TEST_F(HostileSnapshots, AUnitOfManyStrings) {
   change_second([](hid_t, hid_t, hid_t mass) {
     const hdf5::Handle type = text_type(2);
     const std::string texts(8000, 'k');
@@ -119,7 +118,7 @@ TEST_F(HostileSnapshots, AUnitOfVariableLength) {
   expect_left_out();
 }
 
-TEST_F(HostileSnapshots, FieldsOfOtherNumbersOfRows) {
+TEST_F(HostileSnapshots, FieldsWithOtherNumbersOfRows) {
   change_second([](hid_t, hid_t data, hid_t) { claim_rows(data, "volume", 3); });
   expect_left_out();
 }

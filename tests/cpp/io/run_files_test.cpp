@@ -1,4 +1,4 @@
-// Whose files are in a folder: a run that is replaced takes its own with it, and nothing else.
+// Ownership of files in a folder: a run that is replaced is removed with its files, and no others.
 #include "io/run_files.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ class RunFiles : public FolderOfTest {
   }
 };
 
-TEST_F(RunFiles, ARunThatIsReplacedTakesItsFilesWithIt) {
+TEST_F(RunFiles, ARunThatIsReplacedIsRemovedWithItsFiles) {
   put_run_json();
   put_all({"history.csv",
            "probes.csv",
@@ -44,6 +44,7 @@ TEST_F(RunFiles, ARunThatIsReplacedTakesItsFilesWithIt) {
            "checkpoint.bin",
            "checkpoint.previous.bin",
            "report.html",
+           "contours-max_thickness.gpkg",
            "history.damaged.csv",
            "probes.damaged.12.csv",
            "checkpoint.damaged.bin",
@@ -54,6 +55,7 @@ TEST_F(RunFiles, ARunThatIsReplacedTakesItsFilesWithIt) {
            "inputs/valley.1.part.csv",
            "maps/max_speed.tif",
            "maps/max_speed.qml",
+           "maps/max_pressure.hazard.qml",
            "maps/max_speed.tif.aux.xml",
            "maps/results.gpkg",
            "figures/motion.png",
@@ -63,7 +65,7 @@ TEST_F(RunFiles, ARunThatIsReplacedTakesItsFilesWithIt) {
   EXPECT_EQ(left(), std::vector<std::string>{"run.lock"});
 }
 
-TEST_F(RunFiles, WhatOthersHavePutThereStays) {
+TEST_F(RunFiles, FilesOfOthersAreKept) {
   const std::vector<std::string> foreign{"figures/motion.svg",      "figures/photo.jpg",   "history.damaged.xlsx",
                                          "history.damaged.old.csv", "inputs/notes.txt",    "inputs/x.7.part",
                                          "maps/alps.tif",           "maps/max_speed.pdf",  "notes.txt",
@@ -78,7 +80,7 @@ TEST_F(RunFiles, WhatOthersHavePutThereStays) {
   EXPECT_EQ(left(), expected);
 }
 
-TEST_F(RunFiles, LinksGoAndWhatTheyLeadToStays) {
+TEST_F(RunFiles, LinksAreRemovedAndTheirTargetsKept) {
   put_run_json();
   put(folder_ / "elsewhere" / "max_speed.tif", "mine");
   fs::create_symlink(folder_ / "elsewhere", run() / "maps");
@@ -88,7 +90,7 @@ TEST_F(RunFiles, LinksGoAndWhatTheyLeadToStays) {
   EXPECT_EQ(content(folder_ / "elsewhere" / "max_speed.tif"), "mine");
 }
 
-TEST_F(RunFiles, FoldersAndNamesAloneMakeNoRun) {
+TEST_F(RunFiles, FoldersAndNamesAloneAreNotARun) {
   put_all({"snapshots/photo.jpg", "maps/alps.tif", "case.toml", "history.csv"});
   const std::vector<std::string> before = left();
   EXPECT_EQ(failure_of([&] { make_run_folder(run(), true); }),
@@ -96,7 +98,7 @@ TEST_F(RunFiles, FoldersAndNamesAloneMakeNoRun) {
   EXPECT_EQ(left(), before);
 }
 
-TEST_F(RunFiles, ARunJsonOfAnotherProgramMakesNoRun) {
+TEST_F(RunFiles, ARunJsonOfAnotherProgramIsNotARun) {
   for (const char* text : {"", "{", "[]", "3", R"({"program": 3})", R"({"program": "jogger"})", R"({"km": 12})"}) {
     put(run() / "run.json", text);
     EXPECT_EQ(failure_of([&] { make_run_folder(run(), true); }),
@@ -108,13 +110,13 @@ TEST_F(RunFiles, ARunJsonOfAnotherProgramMakesNoRun) {
   }
 }
 
-// Inputs, resolved case and an empty history are there before run.json (app/run_output.cpp).
-TEST_F(RunFiles, AStartIsTakenOverAndMoreThanThatIsNot) {
+// Inputs, resolved case and an empty history are written before run.json (run/run_output.cpp).
+TEST_F(RunFiles, AnUnstartedRunIsReplacedAndOtherFoldersAreRefused) {
   { const RunLock lock = make_run_folder(run(), false); }
   put_all({"inputs/dem.tif", "case.toml", ".case.toml.7.thawslide-part", "snapshots/.000000.vtkhdf.7.thawslide-part"});
   put(run() / "history.csv", "");
   EXPECT_EQ(failure_of([&] { make_run_folder(run(), false); }), "no failure");
-  EXPECT_EQ(left(), (std::vector<std::string>{"inputs", "inputs/dem.tif", "run.lock"})) << "whose it is nobody knows";
+  EXPECT_EQ(left(), (std::vector<std::string>{"inputs", "inputs/dem.tif", "run.lock"})) << "their owner is unknown";
   for (const char* name : {"maps/alps.tif", "snapshots/photo.jpg", "notes.txt", "history.csv", "checkpoint.bin"}) {
     put(run() / name, "mine");
     EXPECT_NE(failure_of([&] { make_run_folder(run(), true); }).find("contains other files, and no run"),

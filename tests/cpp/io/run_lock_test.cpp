@@ -19,7 +19,7 @@ bool has_locks = true;
 
 }  // namespace
 
-// Stands before that of the system: some network disks have no locks.
+// Overrides the function of the system: some network disks have no locks.
 extern "C" int flock(int descriptor, int kind) noexcept {
   if (!has_locks) {
     errno = ENOLCK;
@@ -54,8 +54,8 @@ TEST_F(RunLockTest, OneAtATime) {
   EXPECT_NE(process_at_work(folder_).process, "");
 }
 
-// Its file may come to have another number (file systems without lasting ones), or be another's.
-TEST_F(RunLockTest, TellsWhetherTheFolderIsItsOwn) {
+// The inode of the file may change on file systems without persistent numbers, or the file may be replaced.
+TEST_F(RunLockTest, DetectsThatItNoLongerOwnsTheFolder) {
   const RunLock lock(folder_);
   const OwnFolder own(folder_);
   EXPECT_NO_THROW(own.require());
@@ -69,7 +69,7 @@ TEST_F(RunLockTest, TellsWhetherTheFolderIsItsOwn) {
   EXPECT_THROW(own.require(), WriteError);
 }
 
-TEST_F(RunLockTest, StaysAsASignOfAStartAndGoesWithARun) {
+TEST_F(RunLockTest, IsKeptAfterAFailedStartAndRemovedWithARun) {
   { const RunLock lock(folder_); }
   EXPECT_TRUE(fs::exists(folder_ / lock_name));
   std::ofstream(folder_ / "run.json") << "{}";
@@ -86,7 +86,7 @@ TEST_F(RunLockTest, MovesWithItsOwner) {
   EXPECT_EQ(process_at_work(folder_).process, "");
 }
 
-TEST_F(RunLockTest, AFolderThatIsNotThereIsTold) { EXPECT_THROW(RunLock{folder_ / "none"}, WriteError); }
+TEST_F(RunLockTest, AMissingFolderIsReported) { EXPECT_THROW(RunLock{folder_ / "none"}, WriteError); }
 
 // Another process, which waits until it is killed.
 class Waiting {
@@ -107,7 +107,7 @@ class Waiting {
       waitpid(std::exchange(number_, 0), nullptr, 0);
     }
   }
-  [[nodiscard]] std::string words() const {
+  [[nodiscard]] std::string name() const {
     char host[256] = "";
     gethostname(host, sizeof host - 1);
     return fmt::format("process {} on {}", number_, host);
@@ -124,7 +124,7 @@ class WithoutLocks : public RunLockTest {
 
   void write(const std::string& line) const { std::ofstream(file()) << line << "\n"; }
   fs::path file() const { return folder_ / lock_name; }
-  // Empty: the lock can be taken.
+  // Empty: the lock can be acquired.
   std::string refusal() const {
     try {
       const RunLock lock(folder_);
@@ -135,13 +135,13 @@ class WithoutLocks : public RunLockTest {
   }
 };
 
-TEST_F(WithoutLocks, AProcessOfThisMachineKeepsOthersOutWhileItLives) {
+TEST_F(WithoutLocks, AProcessOfThisMachineExcludesOthersWhileItExists) {
   Waiting other;
-  const std::string words = other.words();
-  write(words);
+  const std::string name = other.name();
+  write(name);
   EXPECT_TRUE(process_at_work(folder_).is_known);
-  EXPECT_EQ(process_at_work(folder_).process, words);
-  EXPECT_EQ(refusal(), folder_.string() + " is being written by " + words +
+  EXPECT_EQ(process_at_work(folder_).process, name);
+  EXPECT_EQ(refusal(), folder_.string() + " is being written by " + name +
                            ". Wait until that has ended, or stop it. Its file system has no locks: if that process is "
                            "no run any more, remove " +
                            file().string() + ".");
@@ -151,7 +151,7 @@ TEST_F(WithoutLocks, AProcessOfThisMachineKeepsOthersOutWhileItLives) {
   EXPECT_EQ(refusal(), "");
 }
 
-TEST_F(WithoutLocks, AProcessOfAnotherMachineIsTakenToLive) {
+TEST_F(WithoutLocks, AProcessOfAnotherMachineIsAssumedToExist) {
   for (const char* line : {"process 12 on elsewhere", "proc"}) {
     write(line);
     EXPECT_FALSE(process_at_work(folder_).is_known);
@@ -165,34 +165,34 @@ TEST_F(WithoutLocks, AProcessOfAnotherMachineIsTakenToLive) {
   EXPECT_EQ(refusal(), "");
 }
 
-TEST_F(WithoutLocks, AProcessThatEndsTakesItsNameOut) {
+TEST_F(WithoutLocks, AProcessThatEndsRemovesItsName) {
   {
     const RunLock lock(folder_);
     EXPECT_GT(fs::file_size(file()), 0U);
   }
   EXPECT_EQ(fs::file_size(file()), 0U);
-  EXPECT_FALSE(process_at_work(folder_).is_known) << "nothing tells of anyone";
+  EXPECT_FALSE(process_at_work(folder_).is_known) << "no process is recorded";
   EXPECT_EQ(process_at_work(folder_).process, "");
 }
 
-TEST_F(WithoutLocks, ANameOfOurOwnNumberIsOfAnEarlierProcess) {
+TEST_F(WithoutLocks, ANameWithTheOwnNumberIsOfAnEarlierProcess) {
   char host[256] = "";
   gethostname(host, sizeof host - 1);
   write(fmt::format("process {} on {}", getpid(), host));
   EXPECT_EQ(refusal(), "");
 }
 
-TEST_F(RunLockTest, WhereThereAreLocksTheNameAloneKeepsNobodyOut) {
+TEST_F(RunLockTest, IfLocksExistTheNameAloneExcludesNobody) {
   std::ofstream(folder_ / lock_name) << "process 12 on elsewhere\n";
   EXPECT_EQ(process_at_work(folder_).process, "");
   EXPECT_NO_THROW(RunLock{folder_});
 }
 
-TEST_F(RunLockTest, TheFileOfAnotherIsNotTakenAway) {
+TEST_F(RunLockTest, TheFileOfAnotherProcessIsNotRemoved) {
   std::ofstream(folder_ / "run.json") << "{}";
   {
     const RunLock lock(folder_);
-    fs::remove(folder_ / lock_name);  // by hand
+    fs::remove(folder_ / lock_name);  // by a user
     std::ofstream(folder_ / lock_name) << "process 12 on elsewhere\n";
   }
   EXPECT_TRUE(fs::exists(folder_ / lock_name));

@@ -1,4 +1,4 @@
-// Cylindrical granular columns of three heights fall apart.
+// Cylindrical granular columns of three heights collapse.
 #include "../verification/cylinder_column.hpp"
 
 namespace thawslide::verification {

@@ -1,4 +1,4 @@
-// The whole Lamplugh run: what its README says of it, and ledgers that close to the end.
+// The complete Lamplugh run: numbers in its README, and budgets that close until the end.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ TEST(WholeLamplugh, RunsOutAndStopsNearWhatWasReported) {
   const auto row = history_row(simulation);
   EXPECT_NEAR(peak, 80.0, 4.0);
   EXPECT_NEAR(value_of(row, "mean_displacement_m"), 5770.0, 160.0);
-  // A run of the case would have ended here, with the results of the end.
+  // A run of the case would end here, with the results of the end.
   EXPECT_GT(rests_at, 100.0);
   EXPECT_NEAR(displacement_at_rest, value_of(row, "mean_displacement_m"), 0.05);
   EXPECT_LT(value_of(row, "mean_velocity_m_s"), 0.01);

@@ -6,7 +6,7 @@ namespace {
 
 using namespace plane_on_dem;
 
-// By the symmetries of the square the azimuths stand for 0, 7.5, 15, ... 45 degrees.
+// By the symmetries of the square, the azimuths represent 0, 7.5, 15, ... 45 degrees.
 TEST(PlanesOnDem, SlidesOrSticksOnAllAlike) {
   Record record = make_record("Block on planes of a DEM, four slopes and eight directions");
   for (const double slope : {0.0, 15.0, 30.0, 45.0}) {
@@ -29,8 +29,8 @@ TEST(PlanesOnDem, SlidesOrSticksOnAllAlike) {
   }
 }
 
-// Cohesion feels the area of contact, which is nearer to the base's on smaller cells.
-const std::vector<std::string> half_cells{"grid.cell=2.5", "time.step=0.0005", "material.matter.viscosity_time=0.01"};
+// Cohesion depends on the contact area, which is closer to that of the base on smaller cells.
+const std::vector<std::string> half_cells{"grid.cell=2.5", "time.step=0.0005", "material.debris.viscosity_time=0.01"};
 
 TEST(PlanesOnDem, CohesionBrakesInAllDirections) {
   Record record = make_record("Block with cohesion on planes of a DEM");

@@ -1,4 +1,4 @@
-// Noise of many sizes on the points of a DEM, filtered.
+// Noise of many amplitudes on the points of a DEM, filtered.
 #ifdef THAWSLIDE_WITH_GIS
 #include "../verification/rough_dem.hpp"
 

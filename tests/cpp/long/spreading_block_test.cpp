@@ -1,4 +1,4 @@
-// A loose block that spreads over level ground, on a grid line and between two.
+// A cohesionless block that spreads over level ground, on a grid line and between two.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -60,8 +60,8 @@ double spread(double cell, double above) {
   return testing_support::mass_spread(simulation);
 }
 
-// A known limitation (docs/theory/contact.md): the contact condition also applies to the node above ground that lies
-// between nodes. If this is fixed, the deficits vanish: change this test and that page.
+// A known limitation (docs/theory/contact.md): the contact condition also applies to the node above ground between
+// nodes. If this is fixed, the deficits vanish: change this test and that page.
 TEST(SpreadingBlock, SpreadsLessWhereTheGroundCutsCells) {
   Record record(
       "Loose block that spreads over level ground",

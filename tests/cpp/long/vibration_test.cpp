@@ -1,4 +1,4 @@
-// The manufactured vibration with large displacements, refined once more than the tests of every day.
+// The manufactured vibration with large displacements, with one more refinement than the short tests.
 #include <gtest/gtest.h>
 
 #include "../support/record.hpp"

@@ -1,5 +1,5 @@
-// The sparse grid as particles move, against what follows from their positions alone; what blocks know of the nodes
-// beside them and of constraints.
+// The sparse grid while particles move, compared with results from their positions alone; adjacent nodes and
+// constraints of blocks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double cell = 5.0;
 
-// Particles of two materials in a box; those on one side move much, the others little.
+// Particles of two materials in a box; those on one side move far, the others little.
 template <int Dim>
 class Crowd {
  public:
@@ -41,12 +41,12 @@ class Crowd {
     }
   }
 
-  // Takes particles away by chance, or those beyond x = `from`; returns where the others went.
-  std::vector<std::uint32_t> remove(double share, double from) {
-    std::bernoulli_distribution goes(share);
+  // Removes particles at random, or those beyond x = `from`; returns the new indices of the others.
+  std::vector<std::uint32_t> remove(double fraction, double from) {
+    std::bernoulli_distribution is_removed(fraction);
     std::vector<std::uint8_t> marked(particles.size());
     for (std::size_t p = 0; p < marked.size(); ++p) {
-      marked[p] = goes(random_) || particles.position(p, 0) > from ? 1 : 0;
+      marked[p] = is_removed(random_) || particles.position(p, 0) > from ? 1 : 0;
     }
     return particles.remove(marked);
   }
@@ -69,7 +69,7 @@ class Crowd {
   std::mt19937 random_{7};
 };
 
-// Tile and place in it of a particle's nearest node, and the particle's id: what the canonical order goes by.
+// Tile of a particle's nearest node, the node's index in it, and the particle's id: the key of the canonical order.
 template <int Dim>
 std::tuple<std::uint64_t, int, std::int64_t> canonical(const Particles<Dim>& particles, std::size_t p) {
   typename Tile<Dim>::Index node{}, tile{};
@@ -81,9 +81,9 @@ std::tuple<std::uint64_t, int, std::int64_t> canonical(const Particles<Dim>& par
   return {Tile<Dim>::key(tile), local, particles.id(p)};
 }
 
-// Place in the patch of a tile of the node with the numbers number(axis).
+// Index in the patch of a tile of the node number(axis).
 template <int Dim, class Number>
-int place_in_patch(std::uint64_t tile_key, const Number& number) {
+int index_in_patch(std::uint64_t tile_key, const Number& number) {
   typename Tile<Dim>::Index relative = Tile<Dim>::index(tile_key);
   for (int a = 0; a < Dim; ++a) {
     auto& along = relative[static_cast<std::size_t>(a)];
@@ -120,7 +120,7 @@ void expect_tiles_and_blocks(const Particles<Dim>& particles, const SparseGrid<D
   EXPECT_TRUE(std::equal(blocks.begin(), blocks.end(), grid.blocks().begin(), grid.blocks().end()));
 }
 
-// Runs of lanes that see the same nodes, in a batch whose lanes are known to be in canonical order.
+// Runs of lanes with the same nodes, in a batch whose lanes are in canonical order.
 void expect_runs(const BatchNodes& nodes) {
   std::vector<std::size_t> begins{0};
   for (std::size_t lane = 1; lane < nodes.first.size(); ++lane) {
@@ -146,7 +146,7 @@ void expect_batches(const Particles<Dim>& particles, const SparseGrid<Dim>& grid
         for (int a = 0; a < Dim; ++a) {
           EXPECT_EQ(batch.nearest[static_cast<std::size_t>(a)][lane], nearest(a));
         }
-        EXPECT_EQ(batch.nodes.first[lane], place_in_patch<Dim>(tile.key, [&](int a) { return nearest(a) - 1; }));
+        EXPECT_EQ(batch.nodes.first[lane], index_in_patch<Dim>(tile.key, [&](int a) { return nearest(a) - 1; }));
         EXPECT_TRUE(!batch.contiguous || p == batch.particle[0] + lane);
       }
       expect_runs(batch.nodes);
@@ -178,7 +178,7 @@ void expect_the_grid_to_follow() {
   EXPECT_LT(changes_of_blocks, 40);
 }
 
-// Right after a removal as after the next update.
+// Immediately after a removal and after the next update.
 template <int Dim>
 void expect_the_grid_to_follow_changes_of_the_set() {
   Crowd<Dim> crowd(Dim == 2 ? 200 : 900);
@@ -200,10 +200,10 @@ void expect_the_grid_to_follow_changes_of_the_set() {
   }
 }
 
-TEST(SparseGrid, FollowsParticlesThatComeAndGoInThePlane) { expect_the_grid_to_follow_changes_of_the_set<2>(); }
-TEST(SparseGrid, FollowsParticlesThatComeAndGoInSpace) { expect_the_grid_to_follow_changes_of_the_set<3>(); }
+TEST(SparseGrid, FollowsAddedAndRemovedParticlesInThePlane) { expect_the_grid_to_follow_changes_of_the_set<2>(); }
+TEST(SparseGrid, FollowsAddedAndRemovedParticlesInSpace) { expect_the_grid_to_follow_changes_of_the_set<3>(); }
 
-TEST(Particles, KeepTheirValuesWhenOthersGoAndNewOnesHaveNone) {
+TEST(Particles, KeepTheirValuesWhenOthersAreRemovedAndNewOnesAreZero) {
   Particles<2> particles;
   particles.resize(21);
   for (std::size_t p = 0; p < 21; ++p) {
@@ -223,7 +223,7 @@ TEST(Particles, KeepTheirValuesWhenOthersGoAndNewOnesHaveNone) {
       EXPECT_EQ(particles.velocity(now_at[p], 1), 10.0 * static_cast<double>(p));
     }
   }
-  for (int c = 0; c < 2; ++c) {  // what a device leaves in the rest of a block
+  for (int c = 0; c < 2; ++c) {  // as a device leaves it in the rest of a block
     particles.velocity(16, c) = 7.0;
   }
   EXPECT_EQ(particles.append(5), 16U);
@@ -237,11 +237,11 @@ TEST(Particles, KeepTheirValuesWhenOthersGoAndNewOnesHaveNone) {
 TEST(SparseGrid, FollowsParticlesInThePlane) { expect_the_grid_to_follow<2>(); }
 TEST(SparseGrid, FollowsParticlesInSpace) { expect_the_grid_to_follow<3>(); }
 
-// Calls of update after a large move until particles stand in memory in canonical order, or `most` if they never do.
+// Calls of update after a large move until particles are in canonical order in memory, or `most` if they never are.
 int calls_until_sorted(int interval, int most) {
   Crowd<2> crowd(5000);
   for (std::size_t p = 0; p < crowd.particles.size(); ++p) {
-    crowd.particles.material(p) = 0;  // particles of two materials in turn never make a whole batch
+    crowd.particles.material(p) = 0;  // particles of two materials in turn never fill a batch
   }
   SparseGrid<2> grid(cell);
   grid.update(crowd.particles, interval);
@@ -256,7 +256,7 @@ int calls_until_sorted(int interval, int most) {
   return most;
 }
 
-TEST(SparseGrid, SortsParticlesWhenTheyAreScatteredOrTheIntervalIsOver) {
+TEST(SparseGrid, SortsParticlesWhenScatteredOrAfterTheInterval) {
   EXPECT_EQ(calls_until_sorted(3, 100), 2);
   const int when_scattered = calls_until_sorted(1'000'000, 100);
   EXPECT_GT(when_scattered, 2);
@@ -264,7 +264,7 @@ TEST(SparseGrid, SortsParticlesWhenTheyAreScatteredOrTheIntervalIsOver) {
   EXPECT_EQ(calls_until_sorted(0, 100), 100);
 }
 
-TEST(Tile, FindsTheNodeBesideAnother) {
+TEST(Tile, FindsAdjacentNodes) {
   using T = Tile<3>;
   for (int local = 0; local < T::nodes; ++local) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -281,7 +281,7 @@ TEST(Tile, FindsTheNodeBesideAnother) {
   }
 }
 
-// The layer of a tile changes nothing of its place, and no particle's key has all bits set.
+// The layer of a tile does not change its position, and no particle's key has all bits set.
 template <int Dim>
 void expect_layers_above_places() {
   using T = Tile<Dim>;
@@ -294,20 +294,20 @@ void expect_layers_above_places() {
       const std::uint64_t key = T::in_layer(T::key(index), layer);
       EXPECT_EQ(T::index(key), index);
       EXPECT_EQ(T::layer(key), layer);
-      EXPECT_EQ(T::place(key), T::key(index));
-      EXPECT_EQ(key << T::node_bits >> T::node_bits, key) << "there is room for the node";
+      EXPECT_EQ(T::without_layer(key), T::key(index));
+      EXPECT_EQ(key << T::node_bits >> T::node_bits, key) << "the bits of the node are free";
       EXPECT_NE((key << T::node_bits | (T::nodes - 1)), ~std::uint64_t{0});
     }
   }
 }
 
-TEST(Tile, HasItsLayerAboveItsPlace) {
+TEST(Tile, StoresItsLayerAboveItsPosition) {
   expect_layers_above_places<2>();
   expect_layers_above_places<3>();
 }
 
-// A block that says it has no constraints has none, and many say so.
-TEST(BlockConstraints, AreTheOnesOfTheirNodes) {
+// A block that reports no constraints has none, and many blocks report so.
+TEST(BlockConstraints, AgreeWithThoseOfTheirNodes) {
   Constraints<2> constraints;
   constraints.extent = {70.0, 70.0};
   constraints.faces[0] = BoundaryKind::fixed;

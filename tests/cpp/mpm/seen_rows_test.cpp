@@ -1,5 +1,5 @@
-// Rows in which particles have nodes: numbers of other rows of a patch reach no node, and no number of these rows is
-// missing.
+// Rows that contain nodes of particles: other rows of a patch contribute to no node, and every number of these rows is
+// included.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -150,19 +150,19 @@ void expect_patches_of_seen_rows() {
   }
 }
 
-TEST(SeenRows, HoldAllNodesThatParticlesSee) {
+TEST(SeenRows, ContainAllNodesOfParticles) {
   expect_seen_rows_to_hold_all_nodes_that_are_seen<2>();
   expect_seen_rows_to_hold_all_nodes_that_are_seen<3>();
 }
 
-TEST(SeenRows, AreSummedAloneAndWhole) {
+TEST(SeenRows, AreSummedExclusivelyAndCompletely) {
   for (const bool of_all_tiles : {true, false}) {
     expect_sums_of_seen_rows<2>(of_all_tiles);
     expect_sums_of_seen_rows<3>(of_all_tiles);
   }
 }
 
-TEST(SeenRows, AreClearedAndReadAlone) {
+TEST(SeenRows, AreClearedAndReadExclusively) {
   expect_patches_of_seen_rows<2>();
   expect_patches_of_seen_rows<3>();
 }

@@ -1,4 +1,4 @@
-// Shape functions on the grid: partition of unity, linear fields, and what the transfers keep.
+// Shape functions on the grid: partition of unity, linear fields, and conservation by the transfers.
 #include "mpm/shape.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace thawslide::mpm {
 namespace {
 
-// At random offsets, away from sides and at them.
+// At random offsets, away from sides and at sides.
 template <class Shape>
 void expect_sound_weights(double half) {
   const double inverse_cell = 1.0 / 5.0, h = 1e-6;
@@ -39,7 +39,7 @@ void expect_sound_weights(double half) {
   }
 }
 
-TEST(Shape, WeightsSumToOneReproduceLinearFieldsAndHaveTheirOwnSlopes) {
+TEST(Shape, WeightsSumToOneReproduceLinearFieldsAndMatchTheirSlopes) {
   for (const double half : {0.25, 0.125, 0.5}) {
     expect_sound_weights<Ugimp>(half);
   }
@@ -60,7 +60,7 @@ TEST(Shape, QuadraticIsSmoothAcrossCellsAndIntoTheHalfCellAtASide) {
   EXPECT_EQ(here.weight[0], 0.0);
 }
 
-// What APIC rests on: from node velocities a + b x they make b, and no weight goes to a.
+// Basis of APIC: node velocities a + b x give b, independent of a.
 template <class Shape>
 void expect_affine_velocity(double half) {
   for (double d = -0.499; d < 0.5; d += 0.0137) {
@@ -83,7 +83,7 @@ TEST(Shape, AffineWeightsFindALinearVelocity) {
 }
 
 TEST(Ugimp, IsTheLinearShapeFunctionAveragedOverTheParticle) {
-  // Simpson's rule over the particle's width, with the linear shape function's kinks as ends of its pieces.
+  // Simpson's rule over the particle's width, divided at the kinks of the linear shape function.
   const double half = 0.25, d = 0.1;
   const auto linear = [](double x) { return std::max(0.0, 1.0 - std::abs(x)); };
   for (int node = -1; node <= 1; ++node) {
@@ -126,7 +126,7 @@ void expect_linear_shape_reproduces_a_linear_field() {
         Vector<double, Dim> gradient = Vector<double, Dim>::Zero();
         for_each_node<Dim>(stencil.axis, static_cast<std::size_t>(stencil.nodes.first[lane]),
                            [&](std::size_t node, const Simd<double>& weight, const auto& slope) {
-                             // The patch's first node along x lies one before the tile.
+                             // The patch's first node along x is one node before the tile.
                              const auto i = static_cast<double>(node % static_cast<std::size_t>(T::patch_edge));
                              const double at = 5.0 * (static_cast<double>(index[0] * T::edge) - 1.0 + i);
                              sum += weight[lane];
@@ -147,7 +147,7 @@ void expect_linear_shape_reproduces_a_linear_field() {
   EXPECT_EQ(seen, particles.size());
 }
 
-// Whatever number of runs of lanes a batch has, it reads the same bits. seen: counts batches by that number.
+// A batch reads bitwise identical values for any number of runs of lanes. seen: number of batches by that number.
 template <int Dim>
 void expect_the_same_readings_by_runs(std::size_t count, std::array<int, BatchNodes::irregular + 1>& seen) {
   Particles<Dim> particles;
@@ -162,9 +162,9 @@ void expect_the_same_readings_by_runs(std::size_t count, std::array<int, BatchNo
   }
   for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
     for (TileBatch<Dim> batch : grid.batches(t)) {
-      const auto place = place_of(grid, particles, batch);
+      const auto place = grid_position(grid, particles, batch);
       const auto read = [&] {
-        const auto stencil = make_stencil<Ugimp>(grid, batch, place, {Simd<double>(0.25)}, HeldSides<Dim>());
+        const auto stencil = make_stencil<Ugimp>(grid, batch, place, {Simd<double>(0.25)}, PrescribedSides<Dim>());
         return std::tuple(read_nodes<3>(linear_stencil(grid, particles, batch), patch), read_nodes<3>(stencil, patch),
                           read_values(stencil, patch));
       };
@@ -187,7 +187,7 @@ void expect_the_same_readings_by_runs(std::size_t count, std::array<int, BatchNo
   }
 }
 
-// Few particles a node make many runs, many make few, with four lanes and with eight.
+// Few particles per node make many runs, many particles few, with four lanes and with eight.
 template <int Dim>
 void expect_the_same_readings_by_any_runs(std::size_t few, std::size_t many) {
   std::array<int, BatchNodes::irregular + 1> seen{};
@@ -196,13 +196,13 @@ void expect_the_same_readings_by_any_runs(std::size_t few, std::size_t many) {
   EXPECT_GT(*std::min_element(seen.begin() + 1, seen.end()), 0) << "one, two and many runs should all occur";
 }
 
-TEST(Transfer, ReadsTheSameByAnyRunsInThePlane) { expect_the_same_readings_by_any_runs<2>(400, 5000); }
-TEST(Transfer, ReadsTheSameByAnyRunsInSpace) { expect_the_same_readings_by_any_runs<3>(3000, 60000); }
+TEST(Transfer, ReadsTheSameForAnyRunsInThePlane) { expect_the_same_readings_by_any_runs<2>(400, 5000); }
+TEST(Transfer, ReadsTheSameForAnyRunsInSpace) { expect_the_same_readings_by_any_runs<3>(3000, 60000); }
 
 TEST(LinearShape, ReproducesALinearFieldInThePlane) { expect_linear_shape_reproduces_a_linear_field<2>(); }
 TEST(LinearShape, ReproducesALinearFieldInSpace) { expect_linear_shape_reproduces_a_linear_field<3>(); }
 
-TEST(SparseGrid, OrderDoesNotDependOnWhereParticlesStand) {
+TEST(SparseGrid, OrderDoesNotDependOnPositionsInMemory) {
   Particles<2> straight, shuffled;
   fill<2>(straight, 1000);
   fill<2>(shuffled, 1000);
@@ -220,7 +220,7 @@ TEST(SparseGrid, OrderDoesNotDependOnWhereParticlesStand) {
   }
 }
 
-TEST(SparseGrid, HoldsBlocksWhereParticlesAreAndNowhereElse) {
+TEST(SparseGrid, HasBlocksAtParticlesOnly) {
   Particles<2> particles;
   particles.resize(2);
   particles.id(1) = 1;

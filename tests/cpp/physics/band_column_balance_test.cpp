@@ -1,4 +1,4 @@
-// What a band column takes in, gives and keeps.
+// Intake, losses and conservation of a band column.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,8 +9,8 @@
 namespace thawslide::physics {
 namespace {
 
-// A hot band in cold matter, stretched to `area` times its area while it grows to `grown` times its thickness, mixes
-// with what lay above: its hot matter is then the share 1/(area grown) of it.
+// A hot band in cold material, stretched to `area` times its area while it grows to `grown` times its thickness, mixes
+// with the material above. The fraction of its hot material is then 1/(area grown).
 TEST(BandColumn, MixesEnthalpyWhileItStretchesAndGrows) {
   Model model = make_model();
   model.conduction = model.pressurization = model.steam = false;
@@ -32,11 +32,12 @@ TEST(BandColumn, MixesEnthalpyWhileItStretchesAndGrows) {
   for (int k = 0; k < Cells::band; ++k) {
     band += column.heat[Cells::ground + k];
   }
-  const double share = 1.0 / (area * 1.5);
-  EXPECT_NEAR(band / (1.5 * e), share * hot + (1.0 - share) * cold, 1e-10 * hot);
+  const double fraction = 1.0 / (area * 1.5);
+  EXPECT_NEAR(band / (1.5 * e), fraction * hot + (1.0 - fraction) * cold, 1e-10 * hot);
 }
 
-// Mixed whole, a band is of one temperature and one share of water; nothing is lost, and what lies about it stays.
+// A completely mixed band has uniform temperature and liquid saturation; nothing is lost, and its surroundings are
+// unchanged.
 TEST(BandColumn, ShearMixesTheBand) {
   Model model = make_model();
   model.conduction = model.seepage = false;
@@ -56,8 +57,8 @@ TEST(BandColumn, ShearMixesTheBand) {
   }
 }
 
-// Two columns of different thickness and heat become one that holds what both held.
-TEST(BandColumn, TwoJoinToWhatBothHold) {
+// Two columns of different thickness and heat merge into one with the content of both.
+TEST(BandColumn, TwoMergeIntoOneWithTheContentOfBoth) {
   const Model model = make_model();
   Column hot = start_column(model, 0.3, model.growth, 60.0, 5.0, load),
          cold = start_column(model, 0.1, model.growth, -10.0, -10.0, load);
@@ -66,17 +67,17 @@ TEST(BandColumn, TwoJoinToWhatBothHold) {
   for (int step = 0; step < 20; ++step) {
     step_column(model, drive, hot);
   }
-  for (const double share : {0.0, 0.2, 0.7, 1.0}) {
-    const Column joined = joined_columns(model, share, hot, cold, load);
-    EXPECT_NEAR(joined.thickness, share * 0.3 + (1.0 - share) * 0.1, 1e-15);
-    EXPECT_NEAR(heat_of(joined), share * heat_of(hot) + (1.0 - share) * heat_of(cold), 1e-6);
-    EXPECT_NEAR(water_of(joined), share * water_of(hot) + (1.0 - share) * water_of(cold), 1e-12 * water_of(hot));
+  for (const double fraction : {0.0, 0.2, 0.7, 1.0}) {
+    const Column joined = joined_columns(model, fraction, hot, cold, load);
+    EXPECT_NEAR(joined.thickness, fraction * 0.3 + (1.0 - fraction) * 0.1, 1e-15);
+    EXPECT_NEAR(heat_of(joined), fraction * heat_of(hot) + (1.0 - fraction) * heat_of(cold), 1e-6);
+    EXPECT_NEAR(water_of(joined), fraction * water_of(hot) + (1.0 - fraction) * water_of(cold), 1e-12 * water_of(hot));
     for (int k = 0; k < Cells::slide; ++k) {
       EXPECT_GE(joined.pressure[k], 0.0);
       EXPECT_LE(joined.pressure[k], load);
     }
   }
-  // Pressures but for what a step leaves between its seepage and its swelling.
+  // Pressures agree except for the difference that a step leaves between its seepage and its swelling.
   const Column same = joined_columns(model, 0.4, hot, hot, load);
   for (int k = 0; k < Cells::slide; ++k) {
     EXPECT_NEAR(same.temperature[Cells::ground + k], hot.temperature[Cells::ground + k], 1e-9);
@@ -84,8 +85,8 @@ TEST(BandColumn, TwoJoinToWhatBothHold) {
   }
 }
 
-// Whatever happens to a column: heat and water are what came in less what left, and 0 <= P <= N.
-TEST(BandColumn, LosesNothingInRandomSteps) {
+// After any sequence of changes, heat and water equal intake minus losses, and 0 <= P <= N.
+TEST(BandColumn, ConservesHeatAndWaterInRandomSteps) {
   std::mt19937 random(5);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   double hottest = 0.0, opening = 0.0, vented = 0.0, steam = 0.0;
@@ -109,10 +110,10 @@ TEST(BandColumn, LosesNothingInRandomSteps) {
       drive.mixed = run % 2 == 0 ? 0.0 : between(0.0, 1.0);
       e = drive.thickness = e * between(0.98, 1.02);
       const double left = 1.0 / (1.0 + drive.stretching * drive.dt);
-      const Account account = step_column(model, drive, column);
-      heat = left * heat + account.friction_heat + account.body_heat + account.ground_heat - account.vented_heat -
-             account.steam_heat;
-      water = left * water + account.body_water - account.vented_water - account.steam;
+      const ColumnBudget budget = step_column(model, drive, column);
+      heat = left * heat + budget.friction_heat + budget.body_heat + budget.ground_heat - budget.vented_heat -
+             budget.steam_heat;
+      water = left * water + budget.body_water - budget.vented_water - budget.steam;
       scale = std::max(scale, std::abs(heat));
       ASSERT_NEAR(heat_of(column), heat, 1e-11 * scale) << run << ", step " << step;
       ASSERT_NEAR(water_of(column), water, 1e-11 * water) << run << ", step " << step;
@@ -123,8 +124,8 @@ TEST(BandColumn, LosesNothingInRandomSteps) {
         hottest = std::max(hottest, column.temperature[Cells::ground + k]);
       }
       opening = std::max(opening, column_volumes(model, drive.normal_pressure, column).opening);
-      vented += account.vented_water;
-      steam += account.steam;
+      vented += budget.vented_water;
+      steam += budget.steam;
     }
   }
   EXPECT_GT(hottest, 200.0);

@@ -1,4 +1,4 @@
-// How tall a band column is, and what it takes in and gives back as its cells change.
+// The height of a band column, and its intake and losses as its cells change.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,8 +41,8 @@ TEST(ColumnHeight, IsAtMostThatOfTheModelAndAtLeastTwoAndAHalfBands) {
   EXPECT_EQ(cell_growth_below(1e-3, 0.21, 1.0), 1.0);
 }
 
-// The cells of the ground do not follow those of the slide.
-TEST(ColumnHeight, LeavesTheGroundAsItIs) {
+// The ground cells do not follow those of the slide.
+TEST(ColumnHeight, DoesNotChangeTheGround) {
   const Model model = make_model();
   const auto tall = grid_of(model, 0.3, 1.4), low = grid_of(model, 0.3, 1.05);
   for (int k = 0; k < Cells::ground + Cells::band; ++k) {
@@ -54,40 +54,40 @@ TEST(ColumnHeight, LeavesTheGroundAsItIs) {
 class RandomChanges : public testing::Test {
  protected:
   double between(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
-  // Anything that may happen in a step: much stretching either way, a band that grows or not, any ratio of cells.
+  // Any possible change in a step: large stretching of either sign, a growing or constant band, any ratio of cells.
   ColumnChange change_of(const Column& column) {
     return {between(-0.6, 0.6), column.thickness, column.thickness * between(0.95, 1.05), column.cell_growth,
             between(0.0, 1.0) < 0.3 ? column.cell_growth : between(1.0, 1.4)};
   }
-  // Does it to a column in its parts; returns the account, per area at the end.
-  static Account take(const Model& model, const ColumnChange& change, Column& column) {
+  // Applies the change to a column in its parts; returns the budget, per area at the end.
+  static ColumnBudget apply(const Model& model, const ColumnChange& change, Column& column) {
     const int parts = parts_of(model, change);
     Drive drive = drive_of(model, 1.0, 0.0, -10.0);
     drive.stretching = std::expm1(change.stretch / parts);
-    Account sum;
+    ColumnBudget sum;
     for (int part = 1; part <= parts; ++part) {
-      Account account;
+      ColumnBudget budget;
       drive.thickness = change.thickness_after(part, parts);
       drive.cell_growth = change.cell_growth_after(part, parts);
-      take_in(model, grid_of(model, column), grid_of(model, drive.thickness, drive.cell_growth), drive, column,
-              account);
+      mix_in_surroundings(model, grid_of(model, column), grid_of(model, drive.thickness, drive.cell_growth), drive,
+                          column, budget);
       const double left = std::exp(-change.stretch / parts);
-      sum.body_heat = left * sum.body_heat + account.body_heat;
-      sum.ground_heat = left * sum.ground_heat + account.ground_heat;
-      sum.body_water = left * sum.body_water + account.body_water;
+      sum.body_heat = left * sum.body_heat + budget.body_heat;
+      sum.ground_heat = left * sum.ground_heat + budget.ground_heat;
+      sum.body_water = left * sum.body_water + budget.body_water;
     }
     return sum;
   }
   std::mt19937 random_{7};
 };
 
-// What is the same everywhere stays so, whatever the faces do: cells take in and give by the volume that they sweep.
-TEST_F(RandomChanges, LeaveUniformMaterialUniform) {
+// Uniform fields remain uniform for any motion of the faces: the intake and losses of cells follow the swept volume.
+TEST_F(RandomChanges, KeepUniformMaterialUniform) {
   const Model model = make_model();
   const double water = water_of_full_pores(model, -10.0), heat = body_enthalpy(model, -10.0);
   Column column = start_column(model, 0.3, 1.2, -10.0, -10.0, load);
   for (int step = 0; step < 500; ++step) {
-    take(model, change_of(column), column);
+    apply(model, change_of(column), column);
     const auto grid = grid_of(model, column);
     for (int k = 0; k < Cells::slide; ++k) {
       ASSERT_NEAR(column.water[k], water * grid.slide_height(k), 1e-11 * water * grid.slide_height(k)) << k;
@@ -98,8 +98,8 @@ TEST_F(RandomChanges, LeaveUniformMaterialUniform) {
   }
 }
 
-// Single wet cells among dry ones: no content becomes negative, and the sums are what came in.
-TEST_F(RandomChanges, TakeFromNoCellMoreThanItHas) {
+// Single wet cells among dry ones: no content becomes negative, and the sums equal the intake.
+TEST_F(RandomChanges, KeepContentsNonNegative) {
   const Model model = make_model();
   int most_parts = 0, single = 0;
   for (int run = 0; run < 2000; ++run) {
@@ -110,10 +110,9 @@ TEST_F(RandomChanges, TakeFromNoCellMoreThanItHas) {
     for (int step = 0; step < 5; ++step) {
       const ColumnChange change = change_of(column);
       const double water = water_of(column), heat = heat_of(column), left = std::exp(-change.stretch);
-      const Account account = take(model, change, column);
-      ASSERT_NEAR(water_of(column), left * water + account.body_water, 1e-11 * (1.0 + water)) << run;
-      ASSERT_NEAR(heat_of(column), left * heat + account.body_heat + account.ground_heat, 1e-11 * std::abs(heat))
-          << run;
+      const ColumnBudget budget = apply(model, change, column);
+      ASSERT_NEAR(water_of(column), left * water + budget.body_water, 1e-11 * (1.0 + water)) << run;
+      ASSERT_NEAR(heat_of(column), left * heat + budget.body_heat + budget.ground_heat, 1e-11 * std::abs(heat)) << run;
       for (const double of_cell : column.water) {
         ASSERT_GE(of_cell, -1e-12 * (1.0 + water)) << run;
       }
@@ -125,7 +124,7 @@ TEST_F(RandomChanges, TakeFromNoCellMoreThanItHas) {
   EXPECT_GT(single, 10);
 }
 
-// Columns of full height take a step in parts of a tenth of stretching, while the band grows by no more than usual.
+// Columns of full height divide a step into parts of a tenth of stretching, for usual growth of the band.
 TEST(ColumnHeight, DoesNotDivideTheStepsOfTallColumns) {
   const Model model = make_model();
   for (double stretch = -0.6; stretch < 0.6; stretch += 0.01) {
@@ -136,21 +135,22 @@ TEST(ColumnHeight, DoesNotDivideTheStepsOfTallColumns) {
   }
 }
 
-// Two columns come to one ratio before they join: what the one gives back and the other takes in is in the accounts.
-TEST(ColumnHeight, TakesAnotherRatioWithTheBody) {
+// Two columns are brought to the same ratio before they merge; the budgets contain the resulting exchange with the
+// body.
+TEST(ColumnHeight, ChangesItsRatioByExchangeWithTheBody) {
   const Model model = make_model();
   const double heat = body_enthalpy(model, -10.0), water = water_of_full_pores(model, -10.0);
   for (const double growth : {1.0, 1.1, 1.25, 1.4}) {
     Column column = start_column(model, 0.5, 1.25, -10.0, -10.0, load);
     column.heat[Cells::ground] += 1e7;
     const Column before = column;
-    const Account account = take_cell_growth(model, growth, heat, water, column);
+    const ColumnBudget budget = apply_cell_growth(model, growth, heat, water, column);
     EXPECT_EQ(column.cell_growth, growth);
-    EXPECT_NEAR(heat_of(column), heat_of(before) + account.body_heat, 1e-12 * std::abs(heat_of(before)));
-    EXPECT_NEAR(water_of(column), water_of(before) + account.body_water, 1e-12 * water_of(before));
-    EXPECT_NEAR(account.body_water, water * (top_of(0.5, growth) - top_of(0.5, 1.25)), 1e-9 * water);
+    EXPECT_NEAR(heat_of(column), heat_of(before) + budget.body_heat, 1e-12 * std::abs(heat_of(before)));
+    EXPECT_NEAR(water_of(column), water_of(before) + budget.body_water, 1e-12 * water_of(before));
+    EXPECT_NEAR(budget.body_water, water * (top_of(0.5, growth) - top_of(0.5, 1.25)), 1e-9 * water);
     for (int k = 0; k < Cells::ground + Cells::band - 1; ++k) {
-      EXPECT_NEAR(column.heat[k], before.heat[k], 1e-9 * std::abs(before.heat[k])) << "the band stays as it is";
+      EXPECT_NEAR(column.heat[k], before.heat[k], 1e-9 * std::abs(before.heat[k])) << "the band is unchanged";
     }
   }
 }

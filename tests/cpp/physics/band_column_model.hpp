@@ -1,4 +1,4 @@
-// What tests of a band column share: a model of thawing rock and ice, and drives that do nothing.
+// Shared by tests of band columns: a model of thawing rock and ice, and drives without effect.
 #pragma once
 
 #include <limits>
@@ -13,7 +13,6 @@ using ModelOf = ColumnModel<Curve>;
 using Model = ModelOf<PowerLawCurve>;
 using Column = BandColumn;
 using Drive = ColumnDrive;
-using Account = ColumnAccount;
 using Cells = ColumnCells;
 
 constexpr double load = 5e5;  // N [Pa]

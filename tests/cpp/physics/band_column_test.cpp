@@ -12,8 +12,8 @@ namespace {
 
 class Undrained : public testing::TestWithParam<WaterExpansionLaw> {};
 
-// Adiabatic and undrained: T = T0 + q t/(C e), P = P0 + integral of beta_m dT/S_s, until P = N; the rest opens the
-// base.
+// Adiabatic and undrained: T = T0 + q t/(C e), P = P0 + integral of beta_m dT/S_s, until P = N; further expansion opens
+// the base.
 TEST_P(Undrained, HeatingIsTheClosedForm) {
   Model model = make_model();
   model.water_expansion.law = GetParam();
@@ -43,8 +43,8 @@ TEST_P(Undrained, HeatingIsTheClosedForm) {
 INSTANTIATE_TEST_SUITE_P(BandColumn, Undrained,
                          testing::Values(WaterExpansionLaw::constant, WaterExpansionLaw::by_temperature));
 
-// dP = m_v dN/S_s at once, and back.
-TEST(BandColumn, LoadThatGoesTakesPressureAlong) {
+// dP = m_v dN/S_s immediately, and reversible.
+TEST(BandColumn, PressureFollowsAnUnloading) {
   Model model = make_model();
   model.conduction = model.seepage = false;
   model.residual_stress = 2e5;
@@ -56,13 +56,13 @@ TEST(BandColumn, LoadThatGoesTakesPressureAlong) {
   drive.normal_pressure = load;
   step_column(model, drive, column);
   EXPECT_NEAR(column.pressure[0], 3e5, 1e-3);
-  // Between two steps of the column the law of the base sees no more pressure than there is load.
+  // Between two steps of the column, the basal law uses a pressure not above the load.
   EXPECT_NEAR(band_means(model, load, column).pore_pressure, 3e5, 1e-3);
   EXPECT_NEAR(band_means(model, 1e5, column).pore_pressure, 1e5, 1e-3);
 }
 
-// Melt fills r of the pore that its ice filled: the void n (1 - r) takes up the first expansion.
-TEST(BandColumn, MeltLeavesAVoidThatHeatingMustFill) {
+// Melt fills a fraction r of the pore that its ice filled: the void n (1 - r) accommodates the first expansion.
+TEST(BandColumn, MeltLeavesAVoidThatHeatingFillsFirst) {
   Model model = make_model();
   model.conduction = model.seepage = model.steam = false;
   model.residual_stress = 0.0;
@@ -84,15 +84,15 @@ TEST(BandColumn, MeltLeavesAVoidThatHeatingMustFill) {
   }
   const double temperature = column.temperature[Cells::ground];
   const double swells_by = (1.0 - model.porosity) * model.phases.rock_expansion +
-                           model.porosity * ratio * model.phases.water_expansion;  // of what melt there is, per kelvin
+                           model.porosity * ratio * model.phases.water_expansion;  // of the melt, per kelvin
   const double filled_at = (gas_void - on_thawing) / swells_by;
   EXPECT_GT(filled_at, 200.0);
   EXPECT_NEAR(temperature, filled_at, 0.01 * filled_at + 1e6 * dt / (e * melted_capacity(model)));
 }
 
-// A band that drains into air above it, sealed below, under heat from a strength mu (N - P): in balance
-//   tau = mu N/(1 + mu beta_m gamma_w eta v e/(3 C k)),   P the mean over the band.
-TEST(BandColumn, DrainedBandComesToItsSteadyStrength) {
+// A band that drains into air above it, sealed below, heated by friction with a strength mu (N - P), in balance:
+//   tau = mu N/(1 + mu beta_m gamma_w eta v e/(3 C k)),   with P the mean over the band.
+TEST(BandColumn, DrainedBandReachesItsSteadyStrength) {
   Model model = make_model();
   model.conduction = false;
   model.at_frozen = EndOfWater::vented;
@@ -100,7 +100,7 @@ TEST(BandColumn, DrainedBandComesToItsSteadyStrength) {
   const double e = 0.1, friction = 0.3, speed = 2.0, dt = 0.02;
   Column column = start_column(model, e, model.growth, -10.0, -10.0, load);
   const ColumnGrid grid = grid_of(model, e, model.growth);
-  for (int k = 0; k < Cells::band; ++k) {  // the band alone is melted, its pores full
+  for (int k = 0; k < Cells::band; ++k) {  // only the band is melted, and its pores are full
     column.water[k] = model.porosity * model.phases.water_density * grid.slide_height(k);
     column.heat[Cells::ground + k] =
         enthalpy(model.curve, cell_coefficients(model, grid, column, Cells::ground + k), 1.0);
@@ -120,7 +120,8 @@ TEST(BandColumn, DrainedBandComesToItsSteadyStrength) {
   EXPECT_NEAR(strength, friction * load / (1.0 + divisor), 0.01 * friction * load);
 }
 
-// Slip on a plane (Rice 2006), with matter on one side: the plane is a band thinner than what heat and water reach.
+// Slip on a plane (Rice 2006), with material on one side: the plane is a band thinner than the diffusion lengths of
+// heat and water.
 TEST(BandColumn, StrengthOfASlippingPlane) {
   Model model = make_model();
   model.growth = 1.55;
@@ -150,7 +151,7 @@ TEST(BandColumn, StrengthOfASlippingPlane) {
   EXPECT_LT(largest, 0.02);
 }
 
-// A column that freezes from a ground which stays at -10 C (Neumann).
+// A column that freezes from ground at constant -10 C (Neumann).
 TEST(BandColumn, FreezingFrontIsNeumanns) {
   ModelOf<LinearCurve> model;
   const Model numbers = make_model();
@@ -193,8 +194,8 @@ TEST(BandColumn, FreezingFrontIsNeumanns) {
 
 class Boiling : public testing::TestWithParam<double> {};
 
-// Water boils where its steam lifts the load, and is gone after n r rho_L L_v e/q.
-TEST_P(Boiling, TakesItsTime) {
+// Water boils when its steam pressure carries the load, and is gone after n r rho_L L_v e/q.
+TEST_P(Boiling, TakesTheTimeOfItsLatentHeat) {
   Model model = make_model();
   model.conduction = model.seepage = false;
   const double e = 0.1, flux = 2e6, dt = 0.02, boiling = boiling_temperature(GetParam());
@@ -217,12 +218,12 @@ TEST_P(Boiling, TakesItsTime) {
   const double exact = water_of_full_pores(model, -10.0) * heat_of_vaporization(boiling) * e / flux;
   EXPECT_NEAR(time - begun, exact, 2.0 * dt);
   step_column(model, drive, column);
-  EXPECT_GT(column.temperature[Cells::ground], boiling + 0.1) << "dry matter goes on heating";
+  EXPECT_GT(column.temperature[Cells::ground], boiling + 0.1) << "dry material continues to heat";
 }
 INSTANTIATE_TEST_SUITE_P(BandColumn, Boiling, testing::Values(0.0, 2e5));
 
-// In a void steam presses: P is what belongs to T, long before the water fills its pores again.
-TEST(BandColumn, SteamPressesInAVoid) {
+// Steam exerts pressure in a void: P is the vapour pressure at T, long before water fills the pores again.
+TEST(BandColumn, SteamExertsPressureInAVoid) {
   Model model = make_model();
   model.conduction = false;
   Column column = start_column(model, 0.1, model.growth, -10.0, -10.0, load);
@@ -235,7 +236,7 @@ TEST(BandColumn, SteamPressesInAVoid) {
   EXPECT_GT(column_volumes(model, load, column).gas_void, 0.0);
 }
 
-// Thaw consolidation (Morgenstern and Nixon 1971): r = 1, s0 = 0, no heating; matter thaws from a drained top down to
+// Thaw consolidation (Morgenstern and Nixon 1971): r = 1, s0 = 0, no heating; material thaws from a drained top down to
 // X = a sqrt(t): u/N = erf(z/(2 sqrt(c t)))/(erf R + exp(-R^2)/(sqrt(pi) R)), R = a/(2 sqrt(c)).
 TEST(BandColumn, ThawConsolidation) {
   Model model = make_model();
@@ -271,7 +272,7 @@ TEST(BandColumn, ThawConsolidation) {
     const double exact = std::erf(depth / (2.0 * std::sqrt(consolidation * end))) / divisor;
     mean += column.pressure[k] / load;
     exact_mean += exact;
-    if (k > 2) {  // cells thaw whole: the front is where the last one did
+    if (k > 2) {  // cells thaw completely: the front is at the last cell that thawed
       EXPECT_NEAR(column.pressure[k] / load, exact, 0.045) << k;
     }
   }

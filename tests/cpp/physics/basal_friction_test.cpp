@@ -14,7 +14,7 @@ namespace {
 using namespace basal;
 using Node = ContactNode;
 
-// A law from numbers by key.
+// A law with parameters by key.
 template <class Law>
 Law law_from(const std::map<std::string, double>& numbers) {
   return Law::from([&](const Parameter& number) {
@@ -28,10 +28,10 @@ void expect_words_and_keys_to_be_unique() {
   std::set<std::string> words;
   std::map<std::string, const Parameter*> numbers;
   for_each_law<Laws>([&]<class Law>(OfType<Law>) {
-    EXPECT_TRUE(words.insert(Law::word).second) << Law::word;
-    EXPECT_FALSE(std::string(Law::text).empty()) << Law::word;
+    EXPECT_TRUE(words.insert(Law::keyword).second) << Law::keyword;
+    EXPECT_FALSE(std::string(Law::text).empty()) << Law::keyword;
     for (const Parameter* number : Law::parameters) {
-      EXPECT_EQ(numbers.emplace(number->key, number).first->second, number) << Law::word << " " << number->key;
+      EXPECT_EQ(numbers.emplace(number->key, number).first->second, number) << Law::keyword << " " << number->key;
       EXPECT_FALSE(std::string(number->text).empty()) << number->key;
       EXPECT_TRUE(number->is_needed ||
                   (number->low_open ? number->initial > number->low
@@ -42,7 +42,7 @@ void expect_words_and_keys_to_be_unique() {
   EXPECT_EQ(words.size(), std::variant_size_v<Laws>);
 }
 
-TEST(BasalLaws, WordsAndKeysAreUnique) {
+TEST(BasalLaws, KeywordsAndKeysAreUnique) {
   expect_words_and_keys_to_be_unique<FrictionLaw>();
   expect_words_and_keys_to_be_unique<CohesionLaw>();
 }
@@ -65,19 +65,19 @@ TEST(ConstantFriction, IsTheTangent) {
   EXPECT_DOUBLE_EQ(law_from<ConstantFriction>({{"friction_angle", 45.0}}).coefficient(Node{}), 1.0);
 }
 
-TEST(VoellmyFriction, AddsADragThatIsNoShareOfTheLoad) {
+TEST(VoellmyFriction, AddsADragIndependentOfTheLoad) {
   const auto law = law_from<VoellmyFriction>({{"friction_coefficient", 0.155}, {"turbulent_friction", 4000.0}});
   EXPECT_EQ(law.coefficient(Node{.normal_pressure = 1e5, .speed = 50.0}), 0.155);
   // Snow of 200 kg/m3 at 40 m/s: 200 9.81 1600/4000 = 784.8 Pa.
   EXPECT_DOUBLE_EQ(law.drag(Node{.speed = 40.0, .unit_weight = 200.0 * 9.81}), 784.8);
   EXPECT_EQ(law.drag(Node{.normal_pressure = 1e5, .unit_weight = 2e4}), 0.0) << "none at rest";
   const Node node{.normal_pressure = 1e5, .pore_pressure = 5e4, .speed = 7.0, .unit_weight = 2e4};
-  EXPECT_DOUBLE_EQ(law.drag(node), law.drag(Node{.speed = 7.0, .unit_weight = 2e4})) << "whatever N and P";
+  EXPECT_DOUBLE_EQ(law.drag(node), law.drag(Node{.speed = 7.0, .unit_weight = 2e4})) << "independent of N and P";
   EXPECT_DOUBLE_EQ(drag_of(law, node), law.drag(node));
   EXPECT_EQ(drag_of(ConstantFriction{0.5}, node), 0.0);
 }
 
-// Whatever speed, xi, step and depth per area of base: friction stops the node at most.
+// For any speed, xi, step and depth per area of base, friction at most stops the node.
 TEST(VoellmyFriction, NeverReversesTheSlip) {
   constexpr double density = 2000.0, gravity = 9.81;
   for (const double turbulence : {1e-3, 1.0, 100.0, 5000.0}) {
@@ -98,7 +98,7 @@ TEST(VoellmyFriction, NeverReversesTheSlip) {
   }
 }
 
-TEST(SlidingStrength, TheTwoClampsDifferOnlyWherePressurePassesN) {
+TEST(SlidingStrength, TheTwoClampsDifferOnlyIfPressureExceedsN) {
   using enum FrictionClamp;
   EXPECT_DOUBLE_EQ(sliding_strength(0.5, 10.0, 4.0, 2.0, keep_cohesion, false), 5.0);
   EXPECT_DOUBLE_EQ(sliding_strength(0.5, 10.0, 4.0, 2.0, joint, false), 5.0);
@@ -121,8 +121,8 @@ TEST(Cohesion, Laws) {
   EXPECT_DOUBLE_EQ(time.cohesion(Node{.time = 10.0}), 1e5);
 }
 
-// Simpson's rule over the slip: the energy that sliding takes, while all is frozen, is c_0 d_c.
-TEST(Cohesion, BondsCostTheirEnergyOnce) {
+// Simpson's rule over the slip: the energy dissipated by sliding, while all is frozen, is c_0 d_c.
+TEST(Cohesion, BondsDissipateTheirEnergyOnce) {
   const double initial = 1.9e5, distance = 20.0;
   const auto bonds = law_from<BondsCohesion>({{"cohesion", initial}, {"slip_distance", distance}});
   const int parts = 4000;

@@ -1,4 +1,4 @@
-// Contact of two bodies at a node: what it keeps, and when it acts.
+// Contact of two bodies at a node: conservation and onset.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double mass = 3.0, other_mass = 5.0, dt = 0.01;
 
-TEST(BodyContact, ActsOnlyOnBodiesThatApproach) {
+TEST(BodyContact, ActsOnApproachingBodiesOnly) {
   for (const double closing : {-4.0, -1e-9, 0.0}) {
     const auto impulse = body_impulse(mass, other_mass, closing, 2.0, 0.0, dt, 0.5);
     EXPECT_EQ(impulse.normal, 0.0);
@@ -18,8 +18,8 @@ TEST(BodyContact, ActsOnlyOnBodiesThatApproach) {
   }
 }
 
-TEST(BodyContact, LetsTheGapCloseFirst) {
-  // In 0.01 s bodies that close at 2 m/s come 0.02 m nearer.
+TEST(BodyContact, ActsAfterTheGapHasClosed) {
+  // In 0.01 s, bodies that approach at 2 m/s get 0.02 m closer.
   EXPECT_EQ(body_impulse(mass, other_mass, 2.0, 0.0, 0.02, dt, 0.0).normal, 0.0);
   EXPECT_EQ(body_impulse(mass, other_mass, 2.0, 0.0, 0.5, dt, 0.0).normal, 0.0);
   for (const double gap : {0.0, 0.005, 0.015}) {
@@ -34,7 +34,7 @@ TEST(BodyContact, LetsTheGapCloseFirst) {
 
 TEST(BodyContact, SticksUpToCoulombsLimit) {
   const double slip = 1.5, reduced = mass * other_mass / (mass + other_mass);
-  for (const double friction : {0.0, 0.2, 0.74}) {  // 0.75 holds it
+  for (const double friction : {0.0, 0.2, 0.74}) {  // 0.75 stops the sliding
     const auto slides = body_impulse(mass, other_mass, 2.0, slip, 0.0, dt, friction);
     EXPECT_DOUBLE_EQ(slides.tangential, friction * slides.normal);
     EXPECT_LT(slides.tangential, reduced * slip);

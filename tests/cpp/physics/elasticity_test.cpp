@@ -1,4 +1,4 @@
-// The energy that a stress holds.
+// Elastic energy of a stress.
 #include "physics/elasticity.hpp"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ TEST(ElasticEnergy, IsThatOfOneModulusInSimpleStates) {
               1e-9 * stress * stress / bulk);
 }
 
-// Half of stress times strain, whatever the strain.
-TEST(ElasticEnergy, IsTheWorkThatMadeTheStress) {
+// Half of stress times strain, for any strain.
+TEST(ElasticEnergy, IsTheWorkDoneByTheStress) {
   const auto elastic = Elastic::from_young_poisson(2e9, 0.3);
   SymmetricTensor<double> strain;
   strain << 1e-3, -2e-3, 5e-4, 3e-4, -7e-4, 1e-4;

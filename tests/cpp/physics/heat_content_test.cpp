@@ -45,7 +45,7 @@ TYPED_TEST(FreezingCurve, DerivativeAndIntegralBelongToTheSaturation) {
   EXPECT_GT(law.at(0.0).derivative, 0.0) << "at the reference temperature the frozen side's slope holds";
 }
 
-TEST(PowerLawCurve, IsEquation24AndTakesAnyExponent) {
+TEST(PowerLawCurve, IsEquation24ForAnyExponent) {
   EXPECT_NEAR((PowerLawCurve{0.0, 5.0}.saturation(-1.0)), 1.0 / 32.0, 1e-16);
   EXPECT_NEAR((PowerLawCurve{-0.5, 2.5}.saturation(-4.5)), std::pow(5.0, -2.5), 1e-16);
   EXPECT_NEAR((PowerLawCurve{0.0, 1.0}.at(-3.0).integral), -std::log(4.0), 1e-15);
@@ -65,7 +65,7 @@ TYPED_TEST(FreezingCurve, TemperatureInvertsHeatContent) {
     double worst = 0.0;
     for (int k = 0; k < 20000; ++k) {
       const double t = temperature(random), n = porosity(random);
-      // From a guess far off: convexity must bring it home.
+      // From a distant initial guess: convexity ensures convergence.
       worst = std::max(worst, std::abs(content.temperature(content.content(t, n), n, t + offset(random)) - t));
     }
     EXPECT_LT(worst, 1e-10) << "latent " << latent;
@@ -90,14 +90,15 @@ TYPED_TEST(FreezingCurve, HeatContentRisesWithTheApparentCapacity) {
   }
 }
 
-TEST(HeatContent, MeltingTakesTheHeatThatSection32LeavesOut) {
+TEST(HeatContent, MeltingUsesTheHeatThatSection32Omits) {
   // From -10 C to wholly melted at 0 C at a porosity of 0.375: 136.7 MJ/m3 (sensible heat and latent heat).
   const HeatContent<PowerLawCurve> content{table1(), {0.0, 5.0}, true};
   EXPECT_NEAR(content.content(0.0, 0.375) - content.content(-10.0, 0.375), 136.7e6, 0.2e6);
 }
 
 TEST(HeatContent, SecantSumsToTheContent) {
-  // The secant's purpose: capacity times change is the change of content, to round-off, across the melting point too.
+  // The secant capacity times the temperature change equals the change of content to round-off, also across the melting
+  // point.
   const HeatContent<PowerLawCurve> content{table1(), {0.0, 5.0}, true};
   for (const double change : {1e-3, 0.7, 5.0, -4.0}) {
     const double t = -1.3;

@@ -22,7 +22,7 @@ TEST(Kinematics, RigidRotationGivesNoStrainAndAnExactRotation) {
 }
 
 TEST(Kinematics, StressTurnsWithTheBody) {
-  // A full turn in 360 steps brings a stress home; principal values never change.
+  // A full turn in 360 steps restores a stress; principal values never change.
   const double angle = 2.0 * pi / 360.0;
   Matrix<double, 3> turn;
   turn << std::cos(angle), -std::sin(angle), 0, std::sin(angle), std::cos(angle), 0, 0, 0, 1;

@@ -38,8 +38,8 @@ TEST(Mixture, MixesByVolume) {
   EXPECT_EQ(mixed(10.0, -30.0, 1.0), 10.0);
 }
 
-TEST(Mixture, PorosityKeepsTheGrains) {
-  // The grains' share of a volume V is (1 - n) V; it may change only by their thermal expansion.
+TEST(Mixture, PorosityConservesTheGrains) {
+  // The grain fraction of a volume V is (1 - n) V; it may change only by thermal expansion.
   std::mt19937 random(7);
   std::uniform_real_distribution<double> strain(-0.05, 0.05), porosity(0.2, 0.6), change(-20.0, 20.0);
   const auto phases = table1();
@@ -88,9 +88,9 @@ TEST(Pressurization, CoefficientsByHand) {
   EXPECT_NEAR(hydraulic_diffusivity(phases, 0.375, 1.0, 2e-8), 20.0 / (0.375 * 9810.0), 1e-15);
 }
 
-// Eq. 8 with Eqs. 3 and 6 keeps the mass of ice and water in a closed volume of rock, ice and water (Eq. 7): what is
-// lost in a step falls with its square.
-TEST(Pressurization, KeepsIceAndWaterOfAClosedVolume) {
+// Eq. 8 with Eqs. 3 and 6 conserves the mass of ice and water in a closed volume of rock, ice and water (Eq. 7): the
+// loss in a step decreases with its square.
+TEST(Pressurization, ConservesIceAndWaterOfAClosedVolume) {
   const auto phases = table1();
   const PowerLawCurve curve{0.0, 5.0};
   const double n = 0.375, r = phases.ice_density / phases.water_density;
@@ -117,14 +117,15 @@ TEST(Pressurization, KeepsIceAndWaterOfAClosedVolume) {
   }
 }
 
-// The share of subgrid diffusion is what a step of pure decay takes: two half steps make a whole one, none a none.
+// The factor of subgrid diffusion is that of pure decay in a step: two half steps equal a whole one, and a zero step
+// has no effect.
 TEST(Seepage, WithinACellDecaysExponentially) {
   const double diffusivity = 5e-3, size = 0.05, dt = 0.01;
-  const double whole = share_of_subgrid_diffusion(diffusivity, 1.0 / size, 2, dt);
-  const double half = share_of_subgrid_diffusion(diffusivity, 1.0 / size, 2, 0.5 * dt);
+  const double whole = subgrid_diffusion_fraction(diffusivity, 1.0 / size, 2, dt);
+  const double half = subgrid_diffusion_fraction(diffusivity, 1.0 / size, 2, 0.5 * dt);
   EXPECT_NEAR(1.0 - whole, (1.0 - half) * (1.0 - half), 1e-15);
   EXPECT_NEAR(whole, 1.0 - std::exp(-0.08), 1e-15);
-  EXPECT_EQ(share_of_subgrid_diffusion(0.0, 1.0 / size, 2, dt), 0.0);
+  EXPECT_EQ(subgrid_diffusion_fraction(0.0, 1.0 / size, 2, dt), 0.0);
 }
 
 TEST(Mixture, LogarithmOfARatioKeepsAllDigits) {
@@ -133,7 +134,7 @@ TEST(Mixture, LogarithmOfARatioKeepsAllDigits) {
         << ratio;
   }
   EXPECT_EQ(log_of_ratio(273.15, 273.15), 0.0);
-  // The difference of near temperatures is not lost in their ratio.
+  // The difference of close temperatures is not lost in their ratio.
   EXPECT_NEAR(log_of_ratio(273.15 + 1e-9, 273.15) / ((273.15 + 1e-9 - 273.15) / 273.15), 1.0, 1e-11);
 }
 

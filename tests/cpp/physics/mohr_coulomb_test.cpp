@@ -28,7 +28,7 @@ MohrCoulomb<> law_of(const Set& set) {
   return MohrCoulomb<>::make(elastic, {set.friction, set.dilation, set.cohesion, set.cohesion, set.cutoff});
 }
 
-// F of Eq. 11, and the cut-off's excess, whichever is larger; from the sines and cosines as the paper writes it.
+// F of Eq. 11 or the excess over the cut-off, whichever is larger; from sines and cosines as in the paper.
 double excess(const Set& set, const Tensor& stress) {
   const auto values = principal(stress).values;
   const double phi = set.friction * pi / 180.0;
@@ -51,7 +51,8 @@ Tensor random_stress(std::mt19937& random, bool plane) {
 
 double size(const Tensor& stress) { return stress.cwiseAbs().maxCoeff(); }
 
-// Four (as many as lanes) at a time are what they are one by one: faces, edges, apex and cut-off in one batch too.
+// Batches of four (the number of lanes) give the same result as single stresses, also with faces, edges, apex and
+// cut-off in one batch.
 template <class Law>
 void expect_lanes_return_as_single_numbers_do(double softening_strain, double angle_lost) {
   using Wide = Simd<double>;
@@ -83,7 +84,7 @@ void expect_lanes_return_as_single_numbers_do(double softening_strain, double an
         EXPECT_NEAR(together.equivalent_plastic_strain_increment[lane], alone.equivalent_plastic_strain_increment,
                     1e-12);
         EXPECT_NEAR(together.opening[lane], alone.opening, 1e-12);
-        // Whatever goes with it in a batch, its bits are the same.
+        // The result is bitwise independent of the other members of the batch.
         SymmetricTensor<Wide> by_itself;
         for (int c = 0; c < 6; ++c) {
           by_itself[c] = one[lane][c];
@@ -100,11 +101,11 @@ void expect_lanes_return_as_single_numbers_do(double softening_strain, double an
     EXPECT_GT(yielded, 200);
   }
 }
-TEST(MohrCoulomb, LanesReturnAsSingleNumbersDo) {
+TEST(MohrCoulomb, LanesAgreeWithScalars) {
   expect_lanes_return_as_single_numbers_do<MohrCoulomb<>>(1.0, 0.0);
   expect_lanes_return_as_single_numbers_do<MohrCoulomb<>>(0.1, 0.0);
 }
-TEST(MohrCoulomb, LanesReturnAsSingleNumbersDoWhereFrictionFalls) {
+TEST(MohrCoulomb, LanesAgreeWithScalarsIfFrictionSoftens) {
   expect_lanes_return_as_single_numbers_do<MohrCoulomb<true>>(0.1, 15.0);
 }
 
@@ -120,7 +121,7 @@ TEST(Principal, RebuildsTheTensor) {
   }
 }
 
-// At the apex, say: round-off is all that tells the values apart, and the deviator need not be free of a trace.
+// At the apex, for example: the values differ by round-off only, and the deviator may have a trace.
 TEST(Principal, RebuildsTensorsThatAreIsotropicToRoundOff) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> number(-3e6, 3e6);
@@ -172,9 +173,9 @@ TEST(MohrCoulomb, ReturnsAreAdmissibleOnTheSurfaceAndIdempotent) {
 }
 
 // Every stress that solves the return, found by trying all sets of up to three active conditions, over all orders of
-// the principal stresses: trial - s = D sum lambda_c m_c, lambda_c >= 0, no condition violated, those active met. For
-// associated flow that is the closest admissible stress in the energy norm (one solution); without association it is a
-// complementarity problem. It knows neither faces nor edges.
+// the principal stresses: trial - s = D sum lambda_c m_c, lambda_c >= 0, no condition violated, active conditions
+// satisfied with equality. For associated flow that is the closest admissible stress in the energy norm (one solution);
+// without association it is a complementarity problem. This search uses neither faces nor edges.
 std::vector<Vector<double, 3>> solutions_of_return(const Set& set, const Vector<double, 3>& trial) {
   const auto ratio = [](double degrees) {
     const double sine = std::sin(degrees * pi / 180.0);
@@ -264,7 +265,7 @@ TEST(MohrCoulomb, ReturnSolvesTheConstrainedProgramme) {
       const auto returned = principal(result.stress).values;
       const double scale = values.norm() + set.cohesion;
       const auto solutions = solutions_of_return(set, values);
-      if (solutions.empty()) {  // flow without dilation cannot lower the mean tension: the apex is what is left
+      if (solutions.empty()) {  // flow without dilation cannot lower the mean tension: only the apex remains
         EXPECT_EQ(set.dilation, 0.0);
         EXPECT_NEAR(returned[0], set.cohesion / std::tan(set.friction * pi / 180.0), 1e-9 * scale);
         EXPECT_NEAR(returned[0], returned[2], 1e-9 * scale);
@@ -321,7 +322,7 @@ TEST(MohrCoulomb, HydrostaticTensionGoesToTheApexOrTheCutoff) {
   EXPECT_NEAR(law_of({35, 0, 1e6, 2e5}).update(trial, 0.0).stress[1], 2e5, 1e-3);
 }
 
-TEST(MohrCoulomb, OpensGapsAtTheApexAndTheCutoffAlone) {
+TEST(MohrCoulomb, OpensGapsAtTheApexAndTheCutoffOnly) {
   Tensor tension;
   tension << 9e6, 9e6, 9e6, 0, 0, 0;
   const double bulk_modulus = 5e8 / (3.0 * (1.0 - 2.0 * 0.2));

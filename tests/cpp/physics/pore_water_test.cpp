@@ -15,7 +15,7 @@ namespace {
 constexpr WaterExpansion constant{WaterExpansionLaw::constant, 2.75e-4};
 constexpr WaterExpansion by_temperature{WaterExpansionLaw::by_temperature, 0.0};
 
-TEST(WaterExpansion, TakesTheFourValuesAndRunsStraightBetweenAndBeyond) {
+TEST(WaterExpansion, IsLinearBetweenAndBeyondTheFourValues) {
   EXPECT_DOUBLE_EQ(by_temperature.at(0.0), -0.7e-4);
   EXPECT_DOUBLE_EQ(by_temperature.at(20.0), 2.1e-4);
   EXPECT_DOUBLE_EQ(by_temperature.at(50.0), 4.6e-4);
@@ -34,7 +34,7 @@ TEST(WaterExpansion, IsIntegratedInClosedForm) {
   EXPECT_NEAR(by_temperature.swelling(0.0, 20.0), 14e-4, 1e-17);
   EXPECT_NEAR(by_temperature.swelling(0.0, 100.0), 417e-4, 1e-16);
   EXPECT_NEAR(by_temperature.swelling(100.0, 0.0), -417e-4, 1e-16);
-  // Water is densest where the expansion passes 0, at 5 C on the first line: as dense at 10 C as at 0 C.
+  // Water is densest where the expansion is 0, at 5 C on the first line: it is as dense at 10 C as at 0 C.
   EXPECT_NEAR(by_temperature.swelling(0.0, 10.0), 0.0, 1e-18);
   EXPECT_LT(by_temperature.swelling(0.0, 5.0), 0.0);
   // Beyond: from 100 to 200 C (7.5 + 13.3)/2 x 100, from -10 to 0 C (-2.1 - 0.7)/2 x 10.
@@ -43,29 +43,26 @@ TEST(WaterExpansion, IsIntegratedInClosedForm) {
   EXPECT_DOUBLE_EQ(constant.swelling(4.0, 24.0), 5.5e-3);
 }
 
-TEST(WaterExpansion, SwellingAddsUpAndHasTheExpansionForItsRate) {
+TEST(WaterExpansion, SwellingIsAdditiveWithTheExpansionAsItsRate) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> temperature(-40.0, 220.0);
   for (int k = 0; k < 1000; ++k) {
     const double a = temperature(random), b = temperature(random), c = temperature(random);
     EXPECT_NEAR(by_temperature.swelling(a, b) + by_temperature.swelling(b, c), by_temperature.swelling(a, c), 2e-16);
     EXPECT_NEAR(by_temperature.swelling(a, b), -by_temperature.swelling(b, a), 1e-16);
-    // The rate by a central difference, which is exact on a line; a bend within it is at most h times its jump off.
+    // The rate by a central difference, which is exact on a line; at a bend, the error is at most h times its jump.
     const double h = 1e-3;
     const double rate = (by_temperature.swelling(a - h, a + h)) / (2.0 * h);
     EXPECT_NEAR(rate, by_temperature.at(a), h * 1e-5);
   }
 }
 
-TEST(PoreWater, LanesAreTheNumbers) {
+TEST(PoreWater, LanesAgreeWithScalars) {
   std::mt19937 random(12);
   std::uniform_real_distribution<double> temperature(-40.0, 220.0);
-  Simd<double> from, to;
+  const auto draw = [&](std::size_t /*lane*/) { return temperature(random); };
   for (int k = 0; k < 100; ++k) {
-    for (std::size_t lane = 0; lane < simd_width<double>; ++lane) {
-      set_lane(from, lane, temperature(random));
-      set_lane(to, lane, temperature(random));
-    }
+    const Simd<double> from = Simd<double>::of(draw), to = Simd<double>::of(draw);
     const Simd<double> expansion = by_temperature.at(from), swelling = by_temperature.swelling(from, to);
     for (std::size_t lane = 0; lane < simd_width<double>; ++lane) {
       EXPECT_DOUBLE_EQ(extract(expansion, lane), by_temperature.at(extract(from, lane)));
@@ -103,15 +100,15 @@ TEST(PoreWater, StorageByHand) {
   EXPECT_NEAR(melting_void(phases, 0.375, 1.0) / expansion(phases, 0.375, 1.0), 255.4, 0.05);
 }
 
-TEST(PoreWater, PressureStaysBetweenNothingAndTheLoad) {
+TEST(PoreWater, PressureIsBetweenZeroAndTheLoad) {
   EXPECT_EQ(bounded_pore_pressure(5e5, 8e5), 5e5);
   EXPECT_EQ(bounded_pore_pressure(9e5, 8e5), 8e5);
   EXPECT_EQ(bounded_pore_pressure(-1e5, 8e5), 0.0);
   EXPECT_EQ(bounded_pore_pressure(5e5, -1.0), 0.0);
 }
 
-// Whatever the surplus, pressure, void and opening hold it exactly, exclude one another, and keep the bounds.
-TEST(PoreWater, SurplusIsKeptByPressureVoidAndOpening) {
+// For any surplus, pressure, void and opening store it exactly, exclude each other, and respect the bounds.
+TEST(PoreWater, SurplusIsStoredByPressureVoidAndOpening) {
   std::mt19937 random(13);
   std::uniform_real_distribution<double> surplus(-0.04, 0.04), load(-1e5, 1e6), exponent(-10.0, -7.0);
   int voids = 0, openings = 0, pressed = 0;
@@ -141,7 +138,7 @@ TEST(PoreWater, SurplusIsKeptByPressureVoidAndOpening) {
   EXPECT_GT(pressed, 1000);
 }
 
-TEST(PoreWater, ThawingLeavesTheLoadLessTheResidualStressAndTheVoid) {
+TEST(PoreWater, ThawingLeavesTheLoadMinusTheResidualStressAndTheVoid) {
   const auto phases = table1();
   const double storage = pore_storage(phases, 0.375, 1e-8), load = 8e5;
   // No void: N - s0.
@@ -150,7 +147,7 @@ TEST(PoreWater, ThawingLeavesTheLoadLessTheResidualStressAndTheVoid) {
   EXPECT_EQ(thawing_surplus(storage, load, HUGE_VAL, 0.0), 0.0);
   // A void of 0.001: 6e5 - 0.001/1.0375e-8
   EXPECT_NEAR(pore_filling(thawing_surplus(storage, load, 2e5, 0.001), storage, load).pressure, 503614.457831, 1e-6);
-  // Melt's whole void takes all of it, and most of the void stays.
+  // The complete void of melt stores all of it, and most of the void remains.
   const double all = melting_void(phases, 0.375, 1.0);
   const auto filling = pore_filling(thawing_surplus(storage, load, 0.0, all), storage, load);
   EXPECT_EQ(filling.pressure, 0.0);

@@ -1,4 +1,4 @@
-// Strength that falls with plastic strain: its closed forms, and the energy that it takes to break matter.
+// Strength that decreases with plastic strain: closed forms, and the fracture energy.
 #include "physics/softening.hpp"
 
 #include <fmt/format.h>
@@ -17,29 +17,30 @@ namespace {
 using Tensor = SymmetricTensor<double>;
 const Elastic elastic = Elastic::from_young_poisson(5e8, 0.2);
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double pressure = 1e6;  // of the element before it is sheared [Pa]
+constexpr double pressure = 1e6;  // of the element before shearing [Pa]
 
 double sine_of(double degrees) { return std::sin(degrees * pi / 180.0); }
 
-// Of strength: c [Pa] and sin(phi) after a plastic strain, from their definitions.
+// Strength: c [Pa] and sin(phi) after a plastic strain, from their definitions.
 struct Softened {
   double cohesion, sine;
 };
 Softened softened(const Strength& strength, double plastic_strain) {
-  const double share = std::exp(-plastic_strain / strength.softening_strain);
+  const double fraction = std::exp(-plastic_strain / strength.softening_strain);
   const double first = sine_of(strength.friction_angle), last = sine_of(strength.residual_friction_angle);
-  return {strength.residual_cohesion + (strength.cohesion - strength.residual_cohesion) * share,
-          last + (first - last) * share};
+  return {strength.residual_cohesion + (strength.cohesion - strength.residual_cohesion) * fraction,
+          last + (first - last) * fraction};
 }
 
 struct Sheared {
-  double largest_difference = 0;  // of the radius of Mohr's circle from the closed form, over the latter
+  double largest_difference = 0;  // of the radius of Mohr's circle from the closed form, relative to the latter
   double plastic_strain = 0, work = 0;
   double first_radius = 0, last_radius = 0;  // [Pa]
 };
 
-// An element under even pressure in plane strain, sheared in equal steps of shear strain (half the angle). Without
-// dilation the mean of its stresses in the plane stays, so that the radius of Mohr's circle is c cos(phi) + p sin(phi).
+// An element under isotropic pressure in plane strain, sheared in equal steps of shear strain (half the angle). Without
+// dilation the mean of its in-plane stresses is constant, and the radius of Mohr's circle is therefore c cos(phi) + p
+// sin(phi).
 template <class Law>
 Sheared shear(const Strength& strength, double step, int steps) {
   const auto law = Law::make(elastic, strength);
@@ -48,7 +49,7 @@ Sheared shear(const Strength& strength, double step, int steps) {
   Sheared result;
   for (int k = 0; k < steps; ++k) {
     Tensor strain = Tensor::Zero();
-    strain[0] = 0.6 * step;  // axes of the strain aslant to those of the element, for the principal axes' sake
+    strain[0] = 0.6 * step;  // strain axes oblique to those of the element, to test the principal axes
     strain[1] = -0.6 * step;
     strain[3] = 0.8 * step;
     const auto now = law.template update<2>(Tensor(stress + stress_increment(elastic, strain)), result.plastic_strain);
@@ -95,8 +96,8 @@ TEST(Softening, AShearedElementHasTheStrengthOfItsPlasticStrain) {
   }
 }
 
-// The work of shearing beyond that of the broken matter: sqrt(3) eps_c times what is lost of the strength.
-TEST(Softening, TheEnergyItTakesIsThatOfTheLostStrength) {
+// Work of shearing in excess of that of the broken material: sqrt(3) eps_c times the loss of strength.
+TEST(Softening, DissipatesTheEnergyOfTheLostStrength) {
   verification::Record record(
       "Energy of softening",
       "The same element; the plastic work per volume, of the cohesion's loss and of the friction's.",
@@ -125,10 +126,10 @@ TEST(Softening, TheEnergyItTakesIsThatOfTheLostStrength) {
   record.explain("Strength is held within a step, so that the work is of first order in the step.");
 }
 
-// A layer under shear, of which one cell softens and the rest stays elastic: at a traction tau its top has moved by
-// tau H/G + sqrt(3) h eps, and beyond the peak eps = eps_c ln((R_0 - R_f)/(tau - R_f)). With eps_c of a slip the cell
-// cancels.
-TEST(Softening, OverASlipIsTheSameOnEveryCell) {
+// A layer under shear in which one cell softens and the rest remains elastic. At a traction tau its top has moved by
+// tau H/G + sqrt(3) h eps, and beyond the peak eps = eps_c ln((R_0 - R_f)/(tau - R_f)). With eps_c derived from a slip,
+// the cell size cancels.
+TEST(Softening, OverASlipIsIndependentOfTheCell) {
   verification::Record record("Shear layer that softens over a slip",
                               "A layer of height H under even pressure p is sheared. One cell of height h yields, the "
                               "rest is elastic. The displacement of its top after the peak, and the energy taken per "
@@ -154,8 +155,9 @@ TEST(Softening, OverASlipIsTheSameOnEveryCell) {
   }
 }
 
-// Within a cell as wide as the limit the displacement still grows as the traction falls; in a wider one it would not.
-TEST(Softening, TheWidestCellIsWhereTheDisplacementTurnsBack) {
+// In a cell as wide as the limit, the displacement still grows while the traction decreases; in a wider one it does
+// not.
+TEST(Softening, TheWidestCellIsTheLimitOfSnapBack) {
   constexpr double slip = 0.02;
   const double loss = (1e6 - 2e4) * std::sqrt(1.0 - sine_of(35) * sine_of(35));
   const double widest = widest_softening_cell(slip, elastic.shear_modulus, loss);
@@ -168,7 +170,7 @@ TEST(Softening, TheWidestCellIsWhereTheDisplacementTurnsBack) {
   EXPECT_FALSE(grows(1.001 * widest));
 }
 
-// Where friction falls, the return is that of matter which has the remaining angle and cohesion from the start.
+// If friction decreases, the return equals that of material with the remaining angle and cohesion from the start.
 TEST(Softening, ReturnsWithTheRemainingStrength) {
   std::mt19937 random(31);
   std::normal_distribution<double> normal(0.0, 2e6);
@@ -202,7 +204,7 @@ TEST(Softening, ReturnsWithTheRemainingStrength) {
       skipped += may_yield ? 0 : 1;
     }
     EXPECT_GT(yielded, 1000);
-    EXPECT_GT(skipped, 20) << "what is surely elastic is told";
+    EXPECT_GT(skipped, 20) << "elastic states are detected";
   }
 }
 

@@ -1,4 +1,4 @@
-// A step and what is gathered of it allocate nothing once its rooms have grown.
+// A time step and the gathering of its results allocate nothing after their storage has grown.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -36,7 +36,7 @@ void operator delete(void* place, std::size_t /*bytes*/, std::align_val_t /*boun
 namespace thawslide::sim {
 namespace {
 
-// Of bodies large enough that loops over tiles are shared among threads; sets: of the case.
+// Bodies large enough that loops over tiles are distributed to threads; sets: keys of the case.
 template <int Dim>
 long allocations_of_steps(const std::vector<std::string>& sets = {}) {
   const int threads_before = thread_count();
@@ -66,7 +66,7 @@ TEST(Step, AllocatesNothingInThePlane) {
   EXPECT_EQ(allocations_of_steps<2>(), 0);
 }
 TEST(Step, AllocatesNothingInSpace) { EXPECT_EQ(allocations_of_steps<3>(), 0); }
-TEST(Step, AllocatesNothingThoughItsLengthIsFoundAnew) {
+TEST(Step, AllocatesNothingWithAdaptiveSteps) {
   for (const std::string band : {"band.thickness=0.1", "band.thickness={time=[0.0,1.0],value=[0.1,0.2]}"}) {
     EXPECT_EQ(allocations_of_steps<2>({"time.stepping=adaptive", band}), 0) << band;
     EXPECT_EQ(allocations_of_steps<3>({"time.stepping=adaptive", band}), 0) << band;

@@ -1,4 +1,5 @@
-// Particles that join a run while others leave it: ids, rows, balances, and bits on any threads and after a stop.
+// Particles added during a run while others leave: ids, rows, balances, and bitwise identical results for any number of
+// threads and after a restart.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +27,7 @@ constexpr double length = Dim == 2 ? 30.0 : 12.0;  // of the left body [m]
 template <int Dim>
 constexpr int steps = Dim == 2 ? 60 : 30;
 
-// Bodies that slide off the end of their domain.
+// Bodies that slide across the edge of their domain.
 template <int Dim>
 config::Case leaving_bodies(std::vector<std::string> sets) {
   const double end = length<Dim> + 5.0;
@@ -36,7 +37,7 @@ config::Case leaving_bodies(std::vector<std::string> sets) {
   return two_bodies<Dim>(5e3, length<Dim>, 5.0, 20.0, "type = \"flat\"\nelevation = 0.0", sets);
 }
 
-// Particles that slide along with the left body, from a place behind it or upon it on.
+// Particles that move with the left body, starting from a position behind or on top of it.
 template <int Dim>
 std::vector<NewParticle<Dim>> some_particles(const Simulation<Dim>& simulation, bool behind) {
   std::vector<NewParticle<Dim>> some;
@@ -60,36 +61,36 @@ std::vector<NewParticle<Dim>> some_particles(const Simulation<Dim>& simulation, 
   return some;
 }
 
-// The run as it ends, and what was noted on the way.
+// Final state of the run, and maxima recorded during the run.
 struct Seen {
   std::map<std::string, std::vector<double>> state;
   HistoryRow row;
-  double mass = 0.0, momentum = 0.0, heat = 0.0;  // largest that the accounts leave over, as shares
+  double mass = 0.0, momentum = 0.0, heat = 0.0;  // maximum relative residuals of the budgets
 };
 
 template <int Dim>
-void note_accounts(const Simulation<Dim>& simulation, Seen& seen) {
+void record_residuals(const Simulation<Dim>& simulation, Seen& seen) {
   const HistoryRow row = history_row(simulation);
-  const double mass = simulation.ledger().initial_mass;
-  const auto warning = [](double& largest, double share) { largest = std::max(largest, std::abs(share)); };
-  warning(seen.mass, value_of(row, "mass_residual_kg") / mass);
-  warning(seen.mass,
-          (value_of(row, "rock_kg") + value_of(row, "ice_kg") + value_of(row, "water_kg") - value_of(row, "mass_kg")) /
-              mass);
+  const double mass = simulation.budget().initial_mass;
+  const auto update = [](double& largest, double fraction) { largest = std::max(largest, std::abs(fraction)); };
+  update(seen.mass, value_of(row, "mass_residual_kg") / mass);
+  update(seen.mass,
+         (value_of(row, "rock_kg") + value_of(row, "ice_kg") + value_of(row, "water_kg") - value_of(row, "mass_kg")) /
+             mass);
   for (const std::string axis : Dim == 2 ? std::vector{"x", "y"} : std::vector{"x", "y", "z"}) {
-    warning(seen.momentum, value_of(row, "momentum_residual_" + axis + "_N_s") / (mass * 20.0));
+    update(seen.momentum, value_of(row, "momentum_residual_" + axis + "_N_s") / (mass * 20.0));
   }
-  warning(seen.heat,
-          value_of(row, "thermal_residual_J") / (std::abs(value_of(row, "sensible_J")) + value_of(row, "latent_J")));
+  update(seen.heat,
+         value_of(row, "thermal_residual_J") / (std::abs(value_of(row, "sensible_J")) + value_of(row, "latent_J")));
 }
 
-// Ids that no two have had, and rows in their order.
+// Ids are unique, and rows are in their order.
 template <int Dim>
 void expect_ids_and_rows(const Simulation<Dim>& simulation, std::size_t joined, std::size_t left) {
   const auto& particles = simulation.particles();
   EXPECT_EQ(particles.size(), simulation.particles_at_start() + joined - left);
   EXPECT_GT(left, 0U);
-  const io::Snapshot snapshot = io::take_snapshot<Dim>(particles, simulation.model().origin, 0.0, 0);
+  const io::Snapshot snapshot = io::make_snapshot<Dim>(particles, simulation.model().origin, 0.0, 0);
   std::map<std::int64_t, std::size_t> by_id;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     EXPECT_TRUE(by_id.emplace(particles.id(p), p).second) << "id " << particles.id(p);
@@ -105,7 +106,8 @@ void expect_ids_and_rows(const Simulation<Dim>& simulation, std::size_t joined, 
   }
 }
 
-// Twice on the way particles join. stop: the step before which the run stops and goes on from its checkpoint; -1: none.
+// Particles are added twice during the run. stop: time step before which the run stops and resumes from its checkpoint;
+// -1: no stop.
 template <int Dim>
 Seen run(const std::vector<std::string>& sets, int threads, int interval, int stop) {
   const int threads_before = thread_count();
@@ -121,7 +123,7 @@ Seen run(const std::vector<std::string>& sets, int threads, int interval, int st
         const auto joining = some_particles(*simulation, behind);
         simulation->append(joining);
         joined += joining.size();
-        note_accounts(*simulation, seen);
+        record_residuals(*simulation, seen);
       }
     }
     if (k == stop) {
@@ -137,7 +139,7 @@ Seen run(const std::vector<std::string>& sets, int threads, int interval, int st
     const std::size_t before = simulation->particles().size();
     simulation->step(simulation->next_step(1.0));
     left += before - simulation->particles().size();
-    note_accounts(*simulation, seen);
+    record_residuals(*simulation, seen);
   }
   expect_ids_and_rows(*simulation, joined, left);
   seen.state = state_of(*simulation);
@@ -165,16 +167,16 @@ void expect_sound_runs(const std::vector<std::string>& sets) {
   }
 }
 
-TEST(Append, BalancesCloseAndBitsStayInThePlane) { expect_sound_runs<2>({}); }
-TEST(Append, BalancesCloseAndBitsStayInSpace) { expect_sound_runs<3>({}); }
-TEST(Append, BalancesCloseAndBitsStayWithOtherChoices) {
+TEST(Append, BalancesCloseAndResultsAreReproducibleInThePlane) { expect_sound_runs<2>({}); }
+TEST(Append, BalancesCloseAndResultsAreReproducibleInSpace) { expect_sound_runs<3>({}); }
+TEST(Append, BalancesCloseAndResultsAreReproducibleWithOtherChoices) {
   expect_sound_runs<2>({"mechanics.transfer=apic", "time.stepping=adaptive"});
   expect_sound_runs<2>({"band.region=first_layer", "band.thickness={time=[0.0,0.05],value=[0.1,0.2]}"});
   expect_sound_runs<2>({"mechanics.effective_stress=true", "pressure.thickness_update=frozen", "time.step=0.001"});
 }
 
-// Those that join with the state of one at t = 0 are as that one was then.
-TEST(Append, NewParticlesAreAsThoseAtTheStart) {
+// Particles added with the initial state of another particle equal that particle at t = 0.
+TEST(Append, NewParticlesEqualThoseAtTheStart) {
   const config::Case parameters = leaving_bodies<2>({"mechanics.initial_stress=none"});
   const Simulation<2> start(parameters);
   Simulation<2> simulation(parameters);
@@ -196,7 +198,7 @@ TEST(Append, NewParticlesAreAsThoseAtTheStart) {
   auto fields = fields_by_id(simulation.particles());
   EXPECT_EQ(fields.at("id").back(), static_cast<double>(before.size()));
   fields.erase("id");
-  fields.erase("in_band");  // known from the next step on
+  fields.erase("in_band");  // determined in the next time step
   for (const auto& [name, numbers] : fields) {
     const std::size_t components = numbers.size() / (before.size() + 1);
     for (std::size_t c = 0; c < components; ++c) {
@@ -205,8 +207,8 @@ TEST(Append, NewParticlesAreAsThoseAtTheStart) {
   }
 }
 
-// What joins counts by its own volume; dilation is the change since then.
-TEST(Append, IsNoDilation) {
+// Added particles count with their own volume; dilation is the change since they were added.
+TEST(Append, CausesNoDilation) {
   Simulation<2> simulation(leaving_bodies<2>({}));
   const std::size_t before = simulation.particles().size();
   simulation.append(some_particles<2>(simulation, false));
@@ -225,7 +227,7 @@ TEST(Append, IsNoDilation) {
   EXPECT_NEAR(state.dilation_fraction, 0.06, 1e-12);
   const std::vector<std::string> warnings = warnings_of(state, false);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_EQ(warnings[0].rfind("Dilation has changed the volume of the slide by +6.0 %, ", 0), 0U) << warnings[0];
+  EXPECT_EQ(warnings[0].rfind("dilation has changed the volume of the slide by +6.0 %, ", 0), 0U) << warnings[0];
   EXPECT_NE(warnings[0].find(" m3 (expected: at most 5 %). Thicknesses, areas and volumes are too large by"),
             std::string::npos)
       << warnings[0];

@@ -1,4 +1,4 @@
-// Band columns under a slide: balances, motion, bits, and what they have in common with the rigid block's.
+// Band columns below a slide: balances, motion, reproducibility, and agreement with those of the rigid block.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void expect_balances() {
   while (simulation.time() < 3.0 - 1e-9) {
     simulation.step(simulation.next_step(3.0));
     for (const auto& segment : simulation.band_columns()->segments()) {
-      EXPECT_LE(simulation.band_columns()->means_now(segment).pore_pressure, segment.load) << "at every step";
+      EXPECT_LE(simulation.band_columns()->current_means(segment).pore_pressure, segment.load) << "at every step";
     }
     const HistoryRow row = history_row(simulation);
     const double heat = value_of(row, "friction_heat_J");
@@ -47,9 +47,9 @@ void expect_balances() {
 TEST(BandColumns, LoseNeitherHeatNorWater2D) { expect_balances<2>(); }
 TEST(BandColumns, LoseNeitherHeatNorWater3D) { expect_balances<3>(); }
 
-// A slab keeps its shape: in its middle its base is what the rigid block's is, through melting and boiling. Its toe
-// bears more.
-TEST(BandColumns, UnderASlabAreThatOfTheBlock) {
+// A slab keeps its shape: the base in its middle agrees with that of the rigid block, through melting and boiling. Its
+// toe carries more load.
+TEST(BandColumns, UnderASlabAgreeWithThoseOfTheBlock) {
   const config::Case parameters =
       case_from_text(column_slab(), {"time.end=6.0", "time.history_interval=6.0", "body.slab.max=[400.0, 80.0]",
                                      "grid.max=[800.0, 160.0]", "body.slab.temperature=-0.1",
@@ -60,7 +60,7 @@ TEST(BandColumns, UnderASlabAreThatOfTheBlock) {
   const auto* columns = simulation.band_columns();
   const auto expect_middle = [&](const char* name, const auto& of, double start) {
     const double middle =
-        median_over_base(simulation, [&](const auto& segment) { return of(columns->means_now(segment)); });
+        median_over_base(simulation, [&](const auto& segment) { return of(columns->current_means(segment)); });
     EXPECT_NEAR(middle - start, value_of(block, name) - start, 0.02 * (value_of(block, name) - start)) << name;
   };
   EXPECT_NEAR(value_of(history_row(simulation), "mean_velocity_m_s"), value_of(block, "velocity_m_s"),
@@ -72,8 +72,8 @@ TEST(BandColumns, UnderASlabAreThatOfTheBlock) {
       "band_pore_pressure_Pa", [](const auto& means) { return means.pore_pressure; }, 0.0);
 }
 
-// On ground as steep as 84 degrees a cell of the lattice reaches over ten cells of the grid: every node in contact
-// finds a piece all the same, or friction heat would be lost.
+// On ground as steep as 84 degrees, a cell of the lattice extends over ten cells of the grid. Every node in contact
+// must find a basal segment; otherwise friction heat is lost.
 TEST(BandColumns, LoseNoHeatOnSteepGround) {
   Simulation<2> simulation(case_from_text(
       column_slab(),
@@ -88,8 +88,8 @@ TEST(BandColumns, LoseNoHeatOnSteepGround) {
   EXPECT_GT(simulation.band_columns()->segments().size(), 10U);
 }
 
-// What keeps a step short for particles does not for columns, which are implicit.
-TEST(BandColumns, TakeThinBandsAndLargeConductivitiesAtAnyStep) {
+// Columns are implicit, so the step limits of particles do not apply to them.
+TEST(BandColumns, AllowThinBandsAndLargeConductivitiesAtAnyStep) {
   for (const char* hard : {"band.thickness=0.01", "material.rock.hydraulic_conductivity=1e-5"}) {
     Simulation<2> simulation(case_from_text(column_slab(), {hard}));
     EXPECT_EQ(simulation.step_limit().what.rfind("the elastic wave", 0), 0U) << simulation.step_limit().what;
@@ -100,8 +100,8 @@ TEST(BandColumns, TakeThinBandsAndLargeConductivitiesAtAnyStep) {
   }
 }
 
-// One that stands in a flow that spreads evenly: matter comes in from above as its area grows, so that what stands on a
-// square metre stays the same.
+// Spreading flow: material enters columns from above as their area grows, and the material per square metre is
+// constant.
 TEST(BandColumns, SegmentsOfASpreadingSlideGrowAndSplit) {
   Simulation<2> simulation(
       case_from_text(column_slab(), {"time.end=4.0", "basal.friction_angle=1.0", "case.gravity_tilt=0.0",
@@ -124,17 +124,16 @@ TEST(BandColumns, SegmentsOfASpreadingSlideGrowAndSplit) {
   EXPECT_NEAR(grown, (last - first + 5.0) / (200.0 * std::exp(0.2 * 0.5)), 0.08 * grown);
   EXPECT_GT(simulation.band_columns()->segments().size(), before + 5);
   const HistoryRow row = history_row(simulation);
-  const double gained = (grown - 1.0) * water;  // at the ice that stood on a square metre
+  const double gained = (grown - 1.0) * water;  // with the initial ice per square metre
   EXPECT_GT(gained, 0.3 * water);
   EXPECT_NEAR(value_of(row, "column_intake_kg") - intake, gained, 0.01 * gained);
   EXPECT_LT(std::abs(value_of(row, "column_water_residual_kg")), 1e-12 * value_of(row, "column_water_kg"));
 }
 
-// One that comes together: pieces crowd, and small ones join, so that there are about as many as cells of the base;
-// what leaves at the top and what stays is all that there was.
+// Contracting flow: basal segments crowd and small ones merge, until their number is close to that of the cells of the
+// base. Losses at the top plus the remaining material equal the initial material.
 TEST(BandColumns, SegmentsOfAShorteningSlideMerge) {
-  using Which =
-      std::pair<int, std::string>;  // thick bands: columns as tall as the slide, each of its own ratio of cells
+  using Which = std::pair<int, std::string>;  // 3 m: columns as tall as the slide, each with its ratio of cells
   for (const auto& [dimension, thickness] : {Which{2, "0.1"}, Which{3, "0.1"}, Which{2, "3.0"}}) {
     SCOPED_TRACE(fmt::format("{}D, {} m", dimension, thickness));
     const auto come_together = [](auto& simulation) {
@@ -168,7 +167,7 @@ TEST(BandColumns, SegmentsOfAShorteningSlideMerge) {
   }
 }
 
-// The heights of columns [m].
+// Heights of columns [m].
 template <class Simulation>
 std::vector<double> heights_in(const Simulation& simulation) {
   std::vector<double> heights;
@@ -179,8 +178,8 @@ std::vector<double> heights_in(const Simulation& simulation) {
   return heights;
 }
 
-// With a band 3 m thick full columns would be 76 m tall below a slab of 40 m. They end at its surface, and together
-// hold no more ice and water than it has.
+// With a band 3 m thick, full columns would be 76 m tall below a slab of 40 m. They end at its surface, and together
+// contain no more ice and water than the slab.
 TEST(BandColumns, AreNoTallerThanTheSlide) {
   Simulation<2> simulation(case_from_text(column_slab(), {"band.thickness=3.0", "body.slab.velocity=[0.0, 0.0]"}));
   run_until(simulation, 2.0);
@@ -199,7 +198,7 @@ TEST(BandColumns, AreNoTallerThanTheSlide) {
   EXPECT_LT(std::abs(value_of(row, "thermal_residual_J")), 1e-10 * std::abs(value_of(row, "column_heat_J")));
 }
 
-// Below a slide that is deeper than a full column all cells grow by the one ratio, bitwise identical.
+// Below a slide deeper than a full column, all cells grow by the same ratio, bitwise identical.
 TEST(BandColumns, AreFullBelowADeepSlide) {
   Simulation<2> simulation(case_from_text(column_slab()));
   run_until(simulation, 1.0);
@@ -210,7 +209,7 @@ TEST(BandColumns, AreFullBelowADeepSlide) {
   }
 }
 
-// The column below the rigid block is as tall as the block is thick, whatever presses on it.
+// The column below the rigid block is as tall as the block is thick, for any load.
 TEST(BandColumns, BelowABlockAreAsTallAsItIsThick) {
   band::ColumnsModel model;
   model.column = physics::make_model();
@@ -226,8 +225,8 @@ TEST(BandColumns, BelowABlockAreAsTallAsItIsThick) {
   }
 }
 
-// What snapshots hold of the base is what the history's means are of.
-TEST(BandColumns, StandInATable) {
+// The base data in snapshots average to the values of the history.
+TEST(BandColumns, AreListedInATable) {
   Simulation<3> simulation(case_from_text(column_slab(3), {"grid.min=[-100.0, 0.0, -20.0]"}));
   run_until(simulation, 1.0);
   const NamedNumbers table = base_table(simulation);
@@ -251,7 +250,7 @@ TEST(BandColumns, StandInATable) {
   EXPECT_TRUE(base_table(Simulation<2>(case_from_text(column_slab(), {"band.model=scaled"}))).empty());
 }
 
-TEST(BandColumns, KeepTheirBitsOnAnyThreadsAndThroughACheckpoint) {
+TEST(BandColumns, AreBitwiseIdenticalOnAnyThreadsAndThroughACheckpoint) {
   const int threads_before = thread_count();
   std::vector<std::vector<double>> states;
   std::vector<band::BasalSegment<3>> segments;
@@ -267,7 +266,7 @@ TEST(BandColumns, KeepTheirBitsOnAnyThreadsAndThroughACheckpoint) {
   Simulation<3> other(case_from_text(column_slab(3)));
   other.restore_band_columns(states[0]);
   EXPECT_EQ(other.band_columns()->state(), states[0]);
-  // The other data of pieces are computed again from their columns.
+  // Other data of segments are recomputed from their columns.
   const auto& restored = other.band_columns()->segments();
   ASSERT_FALSE(segments.empty());
   ASSERT_EQ(restored.size(), segments.size());
@@ -279,10 +278,10 @@ TEST(BandColumns, KeepTheirBitsOnAnyThreadsAndThroughACheckpoint) {
   }
 }
 
-TEST(BandColumns, RefuseABandThickerThanTheSlideAndWhatMakesHeatOrWater) {
+TEST(BandColumns, RefuseABandThickerThanTheSlideAndSpuriousHeatOrWater) {
   EXPECT_THROW((Simulation<2>(case_from_text(column_slab(), {"band.thickness=45.0"}))), UserError);
   for (const char* set : {"pressure.frozen=ice_pressure", "pressure.frozen_rows=draining",
-                          "pressure.melt_contraction=false", "band.thickness_change=as_printed"}) {
+                          "pressure.melt_contraction=false", "band.thickness_change=as_published"}) {
     EXPECT_THROW(case_from_text(column_slab(), {set}), UserError) << set;
   }
 }

@@ -58,10 +58,10 @@ advection = false
 seepage = false
 )";
 
-// All nodes but those of the base are driven.
+// The frame drives all nodes except those of the base.
 const std::vector<std::string> base_free = {"frame.driver.min=[-50.0,5.0]"};
 
-// Friction coefficient the base shows: basal shear force over normal force, from two rows of particles a band.
+// Effective friction coefficient: basal shear force over normal force, from two rows of particles per band.
 TEST(AdiabaticBand, FrictionFallsExponentiallyWithTheFactorOfTwoRows) {
   Record record("Adiabatic, undrained band of two particle rows",
                 "A melted slab of 50 m driven at 1 m/s, band of 0.05 m in cells of 10 m, no conduction and no seepage.",
@@ -82,7 +82,7 @@ TEST(AdiabaticBand, FrictionFallsExponentiallyWithTheFactorOfTwoRows) {
   int samples = 0;
   while (simulation.time() < 1.5 - 1e-9) {
     simulation.step(0.001);
-    // Mean over a tenth of a second: the slab's elastic waves ring around the mean.
+    // Mean over a tenth of a second, because the slab's elastic waves oscillate around the mean.
     if (simulation.time() > 1.4) {
       shear += std::abs(simulation.contact().force[0]) / 200.0;
       ++samples;
@@ -90,12 +90,13 @@ TEST(AdiabaticBand, FrictionFallsExponentiallyWithTheFactorOfTwoRows) {
   }
   const double expected = mu * (normal - pressure) * std::exp(-rate * 1.45);
   record.expect_near("friction after 1.45 m over exact", shear / samples / expected, 1.0, 0.01);
-  // Without the factor the answer would be another by far.
+  // Without the factor, the result would differ by far.
   EXPECT_GT(std::exp(-rate / 1.25 * 1.45) / std::exp(-rate * 1.45), 1.1);
 }
 
 TEST(AdiabaticBand, BlockModelFollowsTheSameExponential) {
-  // A block heavy enough to keep its speed: gravity turned so that it slides at constant speed while friction stays.
+  // A block heavy enough to keep its speed; gravity is tilted such that it slides at constant speed with constant
+  // friction.
   const config::Case parameters =
       paper_case(slab, {"time.end=0.5", "body.slab.velocity=[1.0,0.0]", "case.gravity_tilt=0.0", "time.step=0.0005"});
   Record record("The same band in the rigid block", "The rigid-block model with its base as above.",
@@ -104,7 +105,7 @@ TEST(AdiabaticBand, BlockModelFollowsTheSameExponential) {
   const auto& first = rows.front();
   const auto& last = rows.back();
   const double lambda = 325000.0, capacity = 3042156.25;
-  // d ln(N - P)/d(slip) = -1.25 mu Lambda/(C e), whatever the speed.
+  // d ln(N - P)/d(slip) = -1.25 mu Lambda/(C e), for any speed.
   const double slip = value_of(last, "displacement_m");
   const double decay = std::log((value_of(last, "normal_pressure_Pa") - value_of(last, "pore_pressure_Pa")) /
                                 (value_of(first, "normal_pressure_Pa") - value_of(first, "pore_pressure_Pa")));
@@ -113,7 +114,7 @@ TEST(AdiabaticBand, BlockModelFollowsTheSameExponential) {
   EXPECT_GT(slip, 0.2);
 }
 
-// Frozen, melting and pressurised base under gravity: the deformable slab against the rigid block.
+// Frozen, melting and pressurized base under gravity: the deformable slab compared with the rigid block.
 const std::string sliding = R"(
 [case]
 gravity_tilt = 25.0
@@ -157,27 +158,26 @@ TEST(BlockModel, AgreesWithTheMaterialPoints) {
   run_until(simulation, parameters.time.end);
   const auto row = history_row(simulation);
   const auto& block = rows.back();
-  Record record(
-      "Deformable slab and rigid block",
-      "A slab of 200 m by 50 m at -1 C slides down 25 degrees for 6 s: its base melts and is pressurised. The "
-      "rigid block moves as an ordinary differential equation has it, on one column of the same band.",
-      "the same motion, heat and pressure", "docs/theory/block-model.md");
+  Record record("Deformable slab and rigid block",
+                "A slab of 200 m by 50 m at -1 C slides down 25 degrees for 6 s: its base melts and is pressurized. "
+                "The rigid block follows an ordinary differential equation, on one column of the same band.",
+                "the same motion, heat and pressure", "docs/theory/block-model.md");
   record.expect_near("velocity, slab over block", value_of(row, "mean_velocity_m_s") / value_of(block, "velocity_m_s"),
                      1.0, 0.02);
-  record.expect_near("way, slab over block", value_of(row, "mean_displacement_m") / value_of(block, "displacement_m"),
-                     1.0, 0.02);
+  record.expect_near("displacement, slab over block",
+                     value_of(row, "mean_displacement_m") / value_of(block, "displacement_m"), 1.0, 0.02);
   record.expect_near("friction work, slab over block",
                      value_of(row, "friction_work_J") / 200.0 / value_of(block, "friction_work_J_m2"), 1.0, 0.02);
-  // The slab's two ends, which rise from their cells' middle, are warmer than its long inside.
+  // The two ends of the slab are warmer than its long middle.
   EXPECT_NEAR(value_of(row, "band_temperature_C"), value_of(block, "band_temperature_C"), 0.25);
   EXPECT_NEAR(value_of(row, "band_saturation") / value_of(block, "band_saturation"), 1.0, 0.05);
   EXPECT_NEAR(value_of(row, "band_pore_pressure_Pa") / value_of(block, "band_pore_pressure_Pa"), 1.0, 0.05);
   EXPECT_GT(value_of(block, "band_saturation"), 0.3) << "the base must have begun to melt for this to say much";
 }
 
-// The same by the balance of water: ice does not press, its rows are tight, the skeleton gives and the load is
-// followed.
-TEST(BlockModel, AgreesWithTheMaterialPointsByTheBalanceOfWater) {
+// The same with the balance of water: ice does not press, its rows are sealed, the skeleton is compressible and the
+// load is followed.
+TEST(BlockModel, AgreesWithTheMaterialPointsWithTheBalanceOfWater) {
   const config::Case parameters =
       paper_case(sliding, {"time.step=0.0005", "pressure.frozen=none", "pressure.residual_stress=2e5",
                            "pressure.frozen_rows=sealed", "pressure.skeleton_compressibility=5e-9",
@@ -196,7 +196,7 @@ TEST(BlockModel, AgreesWithTheMaterialPointsByTheBalanceOfWater) {
   EXPECT_GT(value_of(block, "band_pore_pressure_Pa"), 1e5) << "the base must have melted for this to say much";
 }
 
-// With the scaling on the band alone, the rows above conduct less heat out of it.
+// With the scaling restricted to the band, the rows above conduct less heat out of it.
 TEST(BlockModel, FollowsTheRegionOfTheScaling) {
   const config::Case parameters = paper_case(sliding, {"band.region=first_layer"});
   const auto block = run_block(parameters).back(), scaled_all = run_block(paper_case(sliding)).back();
@@ -209,7 +209,8 @@ TEST(BlockModel, FollowsTheRegionOfTheScaling) {
   EXPECT_GT(value_of(block, "band_temperature_C"), value_of(scaled_all, "band_temperature_C") + 1.0);
 }
 
-// Adaptive stepping takes the limits of the run, with the cap that time.step sets, and gives what a fixed step gives.
+// Adaptive stepping uses the limits of the run, with the maximum set by time.step, and gives the same result as fixed
+// steps.
 TEST(BlockModel, StepsAdaptively) {
   const std::vector<std::string> adaptive{"time.stepping=adaptive", "time.step=0.002"};
   const auto fixed = run_block(paper_case(sliding, {"time.step=0.001"}));

@@ -1,4 +1,4 @@
-// Bodies with velocity fields of their own: when they act on one another, what they keep, and what bonds them.
+// Bodies with separate velocity fields: onset of interaction, conservation, and bonds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,10 +17,10 @@ namespace {
 
 using namespace testing_support;
 
-constexpr double cell = 2.0;  // m; particles stand half of it apart
+constexpr double cell = 2.0;  // m; twice the particle spacing
 constexpr double dt = 0.001;
 
-// Two blocks on level ground without friction, of one elastic material. In 3D as wide as they are high.
+// Two blocks on level ground without friction, of the same elastic material. In 3D as wide as they are high.
 template <int Dim>
 config::Case two_blocks(double gap, double speed, double other_speed, std::vector<std::string> sets = {},
                         const std::string& tables = "") {
@@ -71,7 +71,7 @@ porosity = 0.3
 
 const std::vector<std::string> frictional{"contact.between_bodies=frictional", "contact.friction_angle=0.0"};
 
-// Of one body.
+// Motion of one body.
 struct Motion {
   double mass = 0.0, speed = 0.0, rise = 0.0;  // means along x and upwards [m/s]
   double first = std::numeric_limits<double>::max(), last = std::numeric_limits<double>::lowest();  // along x [m]
@@ -95,7 +95,7 @@ Motion motion_of(const Simulation<Dim>& simulation, int body) {
   return motion;
 }
 
-// Between the edges of the particles [m].
+// Gap between the edges of the particles [m].
 template <int Dim>
 double gap_between(const Simulation<Dim>& simulation) {
   return motion_of(simulation, 1).first - motion_of(simulation, 0).last - 0.5 * cell;
@@ -126,14 +126,14 @@ void expect_collision_without_action_at_a_distance() {
   EXPECT_GT(right.speed, 0.5 * speed);
 }
 
-TEST(BetweenBodies, ActOnlyOnceTheGapIsClosedInThePlane) { expect_collision_without_action_at_a_distance<2>(); }
-TEST(BetweenBodies, ActOnlyOnceTheGapIsClosedInSpace) { expect_collision_without_action_at_a_distance<3>(); }
+TEST(BetweenBodies, InteractOnlyAfterTheGapHasClosedInThePlane) { expect_collision_without_action_at_a_distance<2>(); }
+TEST(BetweenBodies, InteractOnlyAfterTheGapHasClosedInSpace) { expect_collision_without_action_at_a_distance<3>(); }
 
-// From edge to edge on: the first goes at the speed at which it was sent, the second stays.
+// After contact from edge to edge, the first block moves at its initial speed, and the second stays at rest.
 template <int Dim>
 void expect_no_drag_as_they_part(double gap) {
   constexpr double speed = 2.0;
-  // Edge to edge their weight presses them sideways against one another until they have parted.
+  // Edge to edge, their weight presses them sideways against each other until they have separated.
   const double bound = gap > 0.0 ? 1e-7 : 1e-3 * speed;
   Simulation<Dim> free(two_blocks<Dim>(gap, 0.0, speed, frictional));
   Simulation<Dim> bonded(two_blocks<Dim>(gap, 0.0, speed));
@@ -146,14 +146,14 @@ void expect_no_drag_as_they_part(double gap) {
   EXPECT_GT(motion_of(bonded, 0).speed, 0.05 * speed) << "one velocity field drags it along";
 }
 
-TEST(BetweenBodies, PartWithoutDragInThePlane) {
+TEST(BetweenBodies, SeparateWithoutDragInThePlane) {
   expect_no_drag_as_they_part<2>(0.0);
   expect_no_drag_as_they_part<2>(0.6);
 }
-TEST(BetweenBodies, PartWithoutDragInSpace) { expect_no_drag_as_they_part<3>(0.0); }
+TEST(BetweenBodies, SeparateWithoutDragInSpace) { expect_no_drag_as_they_part<3>(0.0); }
 
-// Bodies that never meet have the same motion, to the last bit, whether they share nodes or not.
-TEST(BetweenBodies, AreOfNoConcernToBodiesFarApart) {
+// Bodies that never meet have bitwise identical motion, whether they share nodes or not.
+TEST(BetweenBodies, DoNotInteractFarApart) {
   Simulation<2> shared(two_blocks<2>(20.0, -1.0, 1.0)), own(two_blocks<2>(20.0, -1.0, 1.0, frictional));
   for (int k = 0; k < 200; ++k) {
     shared.step(dt);
@@ -162,8 +162,8 @@ TEST(BetweenBodies, AreOfNoConcernToBodiesFarApart) {
   expect_the_same_state(fields_by_id(shared.particles()), fields_by_id(own.particles()), "after 200 steps");
 }
 
-// What is bonded shares nodes, whatever the default says.
-TEST(BetweenBodies, AreOneWhereTheyAreBonded) {
+// Bonded bodies share nodes, for any default.
+TEST(BetweenBodies, ShareNodesIfBonded) {
   const std::string seam = "[contact_pair.seam]\nbodies = [\"left\", \"right\"]\ncontact = \"bonded\"\n";
   Simulation<2> bonded(two_blocks<2>(0.0, 0.0, 1.0, frictional, seam)), one(two_blocks<2>(0.0, 0.0, 1.0));
   for (int k = 0; k < 100; ++k) {
@@ -173,8 +173,8 @@ TEST(BetweenBodies, AreOneWhereTheyAreBonded) {
   expect_the_same_state(state_of(one), state_of(bonded), "after 100 steps");
 }
 
-// The upper block slides on a long lower one, which stands on rough ground: friction slows it by g tan(phi) and holds
-// it below that.
+// The upper block slides on a long lower one, which is fixed on rough ground: friction decelerates it by g tan(phi) and
+// holds it below that angle.
 double slowing(double friction_angle, double speed) {
   const config::Case parameters =
       two_blocks<2>(0.0, 0.0, speed,
@@ -188,7 +188,7 @@ double slowing(double friction_angle, double speed) {
   return before - motion_of(simulation, 1).speed;
 }
 
-TEST(BetweenBodies, RubByCoulombsLaw) {
+TEST(BetweenBodies, FollowCoulombsLaw) {
   for (const double angle : {10.0, 30.0}) {
     const double exact = 9.81 * std::tan(angle * pi / 180.0);
     EXPECT_NEAR(slowing(angle, 9.0), exact, 0.05 * exact) << angle << " degrees";
@@ -196,8 +196,8 @@ TEST(BetweenBodies, RubByCoulombsLaw) {
   EXPECT_NEAR(slowing(0.0, 5.0), 0.0, 0.02) << "no friction";
 }
 
-// What no account has is the error of time integration, which falls with the step.
-TEST(BetweenBodies, KeepTheirAccounts) {
+// The residual of the energy budget is the error of time integration, which decreases with the step.
+TEST(BetweenBodies, CloseTheirBudgets) {
   const auto residual_after_impact = [](double step) {
     std::vector<std::string> sets = frictional;
     sets.push_back(fmt::format("time.step={}", step));
@@ -211,7 +211,7 @@ TEST(BetweenBodies, KeepTheirAccounts) {
   EXPECT_NEAR(fine / coarse, 0.25, 0.05);
 }
 
-TEST(BetweenBodies, AreDoubtedWhereTheyStandApartAndShareNodes) {
+TEST(BetweenBodies, CauseAWarningIfTheyShareNodesAcrossAGap) {
   const auto warning = [](double gap, const std::vector<std::string>& sets) {
     return warning_of_bodies_apart(Simulation<2>(two_blocks<2>(gap, 0.0, 0.0, sets)));
   };
@@ -219,7 +219,7 @@ TEST(BetweenBodies, AreDoubtedWhereTheyStandApartAndShareNodes) {
   EXPECT_EQ(warning(10.0, frictional), "");
   EXPECT_EQ(warning(10.0, {"contact.between_bodies=bonded"}), "") << "it is meant";
   EXPECT_NE(warning(10.0, {}).find("body.right stands apart from body.left, and contact.between_bodies is \"bonded\": "
-                                   "from a gap of 1 to 2 cells (2 to 4 m) on they act on one another"),
+                                   "below a gap of 1 to 2 cells (2 to 4 m) they interact"),
             std::string::npos)
       << warning(10.0, {});
 }

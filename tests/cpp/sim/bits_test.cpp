@@ -1,4 +1,4 @@
-// The bits of a run depend neither on the threads nor on the order of particles in memory, whatever the case chooses.
+// Results are bitwise independent of the number of threads and of the order of particles in memory, for all options.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,10 +22,10 @@ using namespace testing_support;
 
 using State = std::map<std::string, std::vector<double>>;
 
-// Bodies that run into new tiles, large enough that every loop of the step is shared among threads.
+// Bodies that move into new tiles, large enough that every loop of the time step is distributed to threads.
 template <int Dim>
 void expect_the_same_bits(double length, double height, int steps) {
-  constexpr std::size_t particles_of_shared_loops = 1024 * fewest_shared_calls;  // some go by so many at a time
+  constexpr std::size_t particles_of_shared_loops = 1024 * fewest_shared_calls;  // chunk size of loops
   const int threads_before = thread_count();
   const auto case_of_bodies = two_bodies<Dim>(5e3, length, height, 20.0);
   std::map<std::string, std::vector<double>> first;
@@ -62,8 +62,8 @@ const std::string flat = "type = \"flat\"\nelevation = 0.0\n";
 const std::string plane = "type = \"plane\"\nslope = 0.5\nelevation = -0.01\n";
 const std::string dem = "type = \"dem\"\nfile = \"dem.tif\"\n";
 
-// What a case may choose, on top of two bodies that run down a slope. terrain: its table, and more tables; acts: how
-// the state shows that it came to bear, where another state alone does not.
+// Options of a case, added to two bodies that move down a slope. terrain: its table, and more tables; acts: evidence in
+// the state that the option has an effect, if a different state is not sufficient.
 struct Choice {
   std::string name;
   std::vector<std::string> sets;
@@ -84,7 +84,7 @@ bool lacks_particles(const State& state) {
   return ids.back() + 1.0 > static_cast<double>(ids.size());
 }
 
-// A box about the upper part of the left body, which drives it on.
+// A box around the upper part of the left body, which drives it.
 template <int Dim>
 std::string frame() {
   return fmt::format("[frame.driver]\nmin = [-3.0, {}2.4]\nmax = [7.5, {}20.0]\naxis = \"x\"\nvelocity = 25.0\n",
@@ -102,7 +102,7 @@ std::vector<Choice> choices() {
       {"a plane that cuts through cells", {}, plane},
       {"APIC", {"mechanics.transfer=apic"}},
       {"APIC, quadratic", {"mechanics.transfer=apic", "mechanics.shape_function=quadratic"}},
-      {"FLIP and PIC", {"mechanics.transfer=blend", "mechanics.pic_share=0.1"}},
+      {"FLIP and PIC", {"mechanics.transfer=blend", "mechanics.pic_fraction=0.1"}},
       {"FMPM", {"mechanics.transfer=fmpm", "mechanics.fmpm_interval=0.005", "mechanics.fmpm_order=3"}},
       {"linear shape functions", {"mechanics.shape_function=linear"}},
       {"quadratic shape functions", {"mechanics.shape_function=quadratic"}},
@@ -139,7 +139,7 @@ std::vector<Choice> choices() {
       {"current masses", {"heat.masses=current"}},
       {"heat through a side", {"heat.boundary.x_min={temperature=5.0}", corner("min", 0.0, -4.0, -4.0)}},
       {"seepage", {"material.frozen.hydraulic_conductivity=1e-8", "material.melted.hydraulic_conductivity=1e-8"}},
-      {"seepage as printed", {"pressure.seepage_scaling=printed"}},
+      {"seepage as published", {"pressure.seepage_scaling=published"}},
       {"sealed frozen rows", {"pressure.frozen_rows=sealed", "body.left.temperature=-1e-6"}, flat, melts},
       {"vented frozen rows", {"pressure.frozen_rows=vented", "body.left.temperature=-1e-6"}, flat, melts},
       {"a balance of water",
@@ -166,7 +166,7 @@ std::vector<Choice> choices() {
   return all;
 }
 
-// Bumps below the bodies, all over their domain.
+// Bumps below the bodies, throughout their domain.
 config::Site bumpy_site() {
   config::Site site;
   site.ground = std::make_shared<const Raster>(raster(-10.0, -10.0, 2.0, 60, 16, [](double x, double y) {
@@ -175,7 +175,7 @@ config::Site bumpy_site() {
   return site;
 }
 
-// After some tens of steps.
+// State after several tens of time steps.
 template <int Dim>
 State state_after(const Choice& choice, int threads, int interval) {
   const int threads_before = thread_count();
@@ -197,7 +197,7 @@ void expect_the_same_bits_with_every_choice() {
   for (const Choice& choice : choices<Dim>()) {
     SCOPED_TRACE(choice.name);
     const State first = state_after<Dim>(choice, 1, 0);
-    EXPECT_TRUE(first != plain && (choice.acts == nullptr || choice.acts(first))) << "it does not come to bear";
+    EXPECT_TRUE(first != plain && (choice.acts == nullptr || choice.acts(first))) << "the option has no effect";
     for (const auto& [threads, interval] : {std::pair(2, 7), std::pair(3, 1)}) {
       expect_the_same_state(first, state_after<Dim>(choice, threads, interval),
                             fmt::format("{} threads, sorted every {} steps", threads, interval));
@@ -205,8 +205,8 @@ void expect_the_same_bits_with_every_choice() {
   }
 }
 
-TEST(Bits, AreTheSameWithEveryChoiceInThePlane) { expect_the_same_bits_with_every_choice<2>(); }
-TEST(Bits, AreTheSameWithEveryChoiceInSpace) { expect_the_same_bits_with_every_choice<3>(); }
+TEST(Bits, AreTheSameWithEveryOptionInThePlane) { expect_the_same_bits_with_every_choice<2>(); }
+TEST(Bits, AreTheSameWithEveryOptionInSpace) { expect_the_same_bits_with_every_choice<3>(); }
 
 }  // namespace
 }  // namespace thawslide::sim

@@ -1,4 +1,4 @@
-// What the rigid block takes of a case.
+// Input of the rigid block from a case.
 #include "sim/block.hpp"
 
 #include <gtest/gtest.h>
@@ -51,8 +51,8 @@ max = [200.0, 50.0]
          more;
 }
 
-// At -1 C the power law leaves a saturation of 1/(1 + ...) of water; given as such, the state is the same.
-TEST(Block, TakesSaturationAndIceContentForTemperatureAndPorosity) {
+// At -1 C the power law gives a saturation of 1/(1 + ...) of water; if it is given as such, the state is the same.
+TEST(Block, UsesSaturationAndIceContentForTemperatureAndPorosity) {
   const auto rows = run_block(paper_case(slab("temperature = -1.0\nporosity = 0.4\n")));
   double saturation = 0.0;
   for (const auto& [name, value] : rows.front()) {
@@ -71,8 +71,8 @@ TEST(Block, TakesSaturationAndIceContentForTemperatureAndPorosity) {
   }
 }
 
-// Rows gain the heat of friction, all of it; with masses that follow the porosity some is made beside it.
-TEST(Block, TakesTheMassesThatHoldHeatFromTheCase) {
+// Rows gain all the heat of friction; with masses that follow the porosity, additional heat is created.
+TEST(Block, UsesTheHeatMassesOfTheCase) {
   const auto gain_over_friction_heat = [](const std::string& masses) {
     const auto rows = run_block(paper_case(slab("temperature = -1.0\nporosity = 0.4\n"), {"heat.masses=" + masses}));
     const std::map<std::string, double> last(rows.back().begin(), rows.back().end());
@@ -83,7 +83,7 @@ TEST(Block, TakesTheMassesThatHoldHeatFromTheCase) {
   EXPECT_GT(std::abs(gain_over_friction_heat("current") - 1.0), 1e-5);
 }
 
-TEST(Block, SlidesOneBodyOfASection) {
+TEST(Block, AcceptsOneBodyOfASectionOnly) {
   const std::string second = R"([body.other]
 material = "rock"
 min = [210.0, 0.0]

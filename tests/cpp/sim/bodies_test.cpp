@@ -1,4 +1,4 @@
-// How bodies are filled with particles.
+// Filling of bodies with particles.
 #include <gtest/gtest.h>
 
 #include "../support/case_from_text.hpp"
@@ -34,7 +34,7 @@ enabled = false
 enabled = false
 )";
 
-TEST(Bodies, MayNotOverlapNorMissTheirVolume) {
+TEST(Bodies, MustNotOverlapOrMissTheirVolume) {
   const auto mistake = [](const std::string& text, const Sets& sets) -> std::string {
     try {
       const Simulation<2> simulation(paper_case(text, sets));

@@ -1,4 +1,4 @@
-// What bodies come to and how they stand, against sums by hand.
+// Volumes, thicknesses and support of bodies, compared with sums by hand.
 #include "sim/body_figures.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 using testing_support::case_from_text;
 
-// A step of two heights on level ground at 1 m: 8 m x 4 m and beside it 4 m x 2 m, as one polygon.
+// A body with a step on level ground at 1 m: 8 m x 4 m next to 4 m x 2 m, as one polygon.
 const std::string step = R"(
 [time]
 end = 1.0
@@ -66,8 +66,8 @@ TEST(BodyFigures, AreThoseOfTheBody) {
   EXPECT_TRUE(body_warnings(case_from_text(step), bodies).empty());
 }
 
-// A heap of 5 m x 8 m with a blanket of 25 m x 1 m before it, from where on it is squeezed too.
-TEST(BodyFigures, TheMedianIsByAreaAndANoteLooksAtIt) {
+// A heap of 5 m x 8 m with a layer of 25 m x 1 m in front of it, so soft that its weight compresses it.
+TEST(BodyFigures, TheMedianIsByAreaAndTriggersAWarning) {
   const std::vector<std::string> sets{
       "grid.max=[50.0,20.0]", "material.rock.youngs_modulus=2e6",
       "body.step.vertices=[[5.0,1.0],[35.0,1.0],[35.0,2.0],[10.0,2.0],[10.0,9.0],[5.0,9.0]]"};
@@ -78,8 +78,8 @@ TEST(BodyFigures, TheMedianIsByAreaAndANoteLooksAtIt) {
   EXPECT_NEAR(bodies.front().max_particles_across, 16.0, 1e-12);
   const auto warnings = body_warnings(case_from_text(step, sets), bodies);
   ASSERT_EQ(warnings.size(), 2U);
-  EXPECT_NE(warnings[0].find("the weight of body step, 1.6e+05 Pa where it is thickest, squeezes it by 8 % there. Give "
-                             "it 4e+06 Pa or more."),
+  EXPECT_NE(warnings[0].find("the weight of body step, 160,000 Pa where it is thickest, compresses it by 8 % there. "
+                             "Give it 4e+06 Pa or more."),
             std::string::npos)
       << warnings[0];
   EXPECT_NE(
@@ -110,7 +110,7 @@ TEST(BodyFigures, ABrokenBodyWeakerThanItsBaseCausesAWarning) {
   EXPECT_NE(
       warnings.front().find(
           "the base is stronger than the broken material of body step (shear strength 0.577 and 0.466 of the "
-          "load): the slide shears above its base, the base stays cold, and the results depend on grid.cell. Set "
+          "load). The slide shears above its base, the base stays cold, and the results depend on grid.cell. Set "
           "a larger material.rock.residual_friction_angle, or a basal friction of at most 0.466 (an angle of 25.0 "
           "degrees)."),
       std::string::npos)
@@ -121,13 +121,13 @@ TEST(BodyFigures, ABrokenBodyWeakerThanItsBaseCausesAWarning) {
   EXPECT_TRUE(warnings_with({slip, angle, residual + "25.0", "material.rock.residual_cohesion=2e4"}).empty());
   EXPECT_EQ(warnings_with({slip, "material.rock.friction_angle=20.0"}).size(), 1U) << "friction that does not soften";
   EXPECT_TRUE(warnings_with({slip, angle, residual + "25.0", "mechanisms.deformation=false"}).empty());
-  // Over a strain of 1, on cells of 1 m a slip of sqrt(3) m, the body stays unbroken as it slides.
+  // Over a strain of 1, on cells of 1 m a slip of sqrt(3) m, the body remains unbroken while it slides.
   EXPECT_TRUE(warnings_with({"material.rock.softening_strain=1.0", angle, residual + "25.0"}).empty()) << "the paper's";
   EXPECT_TRUE(warnings_with({"material.rock.softening_slip=1.74", angle, residual + "25.0"}).empty());
   EXPECT_EQ(warnings_with({"material.rock.softening_slip=1.73", angle, residual + "25.0"}).size(), 1U);
 }
 
-// R_0 - R_f is 1e5 cos 35 + p (sin 35 - sin 30), p the weight of 4 m.
+// R_0 - R_f is 1e5 cos 35 + p (sin 35 - sin 30), with p the weight of 4 m.
 TEST(BodyFigures, ACellTooWideForSofteningCausesAWarning) {
   const std::vector<std::string> sets =
       with_strength({"material.rock.friction_angle=35.0", "material.rock.residual_friction_angle=30.0",
@@ -142,7 +142,7 @@ TEST(BodyFigures, ACellTooWideForSofteningCausesAWarning) {
       << warnings.front();
 }
 
-// If cohesion stays and friction falls, the radius of Mohr's circle may grow, and no energy is released.
+// If cohesion is constant and friction decreases, the radius of Mohr's circle may grow, and no energy is released.
 TEST(BodyFigures, SofteningThatLosesNoStrengthIsNotReported) {
   const std::vector<std::string> sets = with_strength(
       {"material.rock.friction_angle=35.0", "material.rock.residual_friction_angle=20.0", "material.rock.cohesion=1e7",
@@ -150,19 +150,19 @@ TEST(BodyFigures, SofteningThatLosesNoStrengthIsNotReported) {
   EXPECT_TRUE(body_warnings(case_from_text(step, sets), figures_of(step, sets)).empty());
 }
 
-TEST(BodyFigures, TellHowFarABodyIsAboveTheGround) {
+TEST(BodyFigures, ReportTheClearanceAboveTheGround) {
   const std::vector<BodyFigures> bodies = figures_of(step, {"terrain.elevation=-0.75"});
   EXPECT_NEAR(bodies.front().clearance, 1.75, 1e-12);
   EXPECT_EQ(bodies.front().resting_fraction, 0.0);
   const auto warnings = body_warnings(case_from_text(step), bodies);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings.front().find("body.step floats: its underside is 1.75 m above what is below it, and it falls for "
-                                  "0.6 s before it touches. Begin it on that"),
+                                  "0.6 s before it touches. Place it on that"),
             std::string::npos)
       << warnings.front();
 }
 
-TEST(BodyFigures, TellWhatTheLatticeMakesOfAVolume) {
+TEST(BodyFigures, ReportTheVolumeErrorOfTheLattice) {
   const std::vector<std::string> lower{
       "body.step.vertices=[[10.0,1.0],[22.0,1.0],[22.0,3.0],[18.0,3.0],[18.0,4.8],[10.0,4.8]]"};
   const std::vector<BodyFigures> bodies = figures_of(step, lower);
@@ -177,8 +177,9 @@ TEST(BodyFigures, TellWhatTheLatticeMakesOfAVolume) {
       << warnings.front();
 }
 
-// A box with its lower left corner on a slope of 45 degrees: of its 24 columns the first stands within half a metre.
-TEST(BodyFigures, TellWhatShareOfABodyStands) {
+// A box with its lower left corner on a slope of 45 degrees: the first of its 24 columns is within half a metre of the
+// ground.
+TEST(BodyFigures, ReportTheFractionOfABodyThatRestsOnTheGround) {
   const std::vector<BodyFigures> bodies =
       figures_of(step, {"terrain.type=plane", "terrain.slope=45", "terrain.elevation=11"});
   EXPECT_NEAR(bodies.front().clearance, 0.25, 1e-12) << "at the middle of the first column";
@@ -188,7 +189,7 @@ TEST(BodyFigures, TellWhatShareOfABodyStands) {
 const std::string lid =
     "[body.lid]\nmaterial = \"rock\"\nmin = [10.0, 5.0]\nmax = [18.0, 7.0]\nparticles_per_axis = 4\nporosity = 0.4\n";
 
-TEST(BodyFigures, BodiesStandOnBodies) {
+TEST(BodyFigures, BodiesRestOnBodies) {
   const std::vector<BodyFigures> bodies = figures_of(step + lid);
   ASSERT_EQ(bodies.size(), 2U);
   EXPECT_EQ(bodies[0].name, "lid");
@@ -201,7 +202,7 @@ TEST(BodyFigures, BodiesStandOnBodies) {
   EXPECT_NEAR(moved[0].resting_fraction, 0.5, 0.04) << "the other half is over the lower step";
 }
 
-TEST(BodyFigures, NothingBelowIsToldSo) {
+TEST(BodyFigures, BodiesWithNothingBelowHaveInfiniteClearance) {
   const std::vector<std::string> sets{"terrain.type=none"};
   EXPECT_TRUE(std::isinf(figures_of(step, sets).front().clearance));
   const std::vector<std::string> held{"terrain.type=none", "grid.boundary.y_min=fixed", "grid.min=[0.0,1.0]",

@@ -61,7 +61,7 @@ TEST(Boundary, ColumnBetweenRollersCarriesItsWeight) {
   EXPECT_GT(value_of(row, "damping_J"), 0.0);
 }
 
-TEST(Boundary, LedgerOfTheColumnClosesInFirstOrderOfTheStep) {
+TEST(Boundary, BudgetOfTheColumnClosesInFirstOrderOfTheStep) {
   double residual[2];
   for (int k = 0; k < 2; ++k) {
     Simulation<2> simulation(paper_case(column, {k == 0 ? "time.step=0.002" : "time.step=0.001"}));
@@ -80,7 +80,7 @@ TEST(Boundary, OpenSideLetsTheColumnSpread) {
   EXPECT_LT(history_row(held)[3].second, history_row(open)[3].second) << "mean velocity";
 }
 
-TEST(Frame, DrivesWhatIsInItAndCountsItsWork) {
+TEST(Frame, DrivesNodesWithinAndCountsItsWork) {
   const std::string text = R"(
 [case]
 gravity = 0.0
@@ -115,7 +115,7 @@ velocity = 3.0
   EXPECT_NEAR(value_of(row, "frame_work_J") / (0.5 * value_of(row, "mass_kg") * 9.0), 1.0, 1e-9);
 }
 
-TEST(Bodies, OfDifferentMaterialsKeepTheirOwn) {
+TEST(Bodies, OfDifferentMaterialsKeepTheirMaterials) {
   const std::string text = R"(
 [time]
 end = 0.5

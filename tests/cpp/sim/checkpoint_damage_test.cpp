@@ -1,4 +1,4 @@
-// A checkpoint whose bytes are not those that a run wrote: damage is found.
+// Damaged checkpoints are detected.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -18,12 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 using testing_support::folder_of_this_test;
 
-// Twelve cells of a slide in space, with its maps.
+// Twelve cells of a 3D slide, with its maps.
 config::Case small_slide() {
   return testing_support::slide_in_space("velocity = [8.0, 1.0, 0.0]", {"body.box.max=[2.0, 5.0, 1.0]"});
 }
 
-// Two generations of the run's checkpoint, some steps apart.
+// Two generations of the run's checkpoint, several time steps apart.
 void write_two_generations(const fs::path& folder) {
   Simulation<3> simulation(small_slide());
   RunRecords<3> records(simulation, {});
@@ -51,12 +51,12 @@ class CheckpointDamage : public testing::Test {
     bytes_of_previous_ = io::read_file(previous_);
   }
 
-  // As damage happens: in its place. Returns the byte that stood there.
-  static char put(const fs::path& file, std::size_t place, char byte) {
+  // Damages the file in place, as hardware does. Returns the original byte.
+  static char put(const fs::path& file, std::size_t offset, char byte) {
     std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
-    stream.seekg(static_cast<std::streamoff>(place));
+    stream.seekg(static_cast<std::streamoff>(offset));
     const char before = static_cast<char>(stream.get());
-    stream.seekp(static_cast<std::streamoff>(place));
+    stream.seekp(static_cast<std::streamoff>(offset));
     stream.put(byte);
     return before;
   }
@@ -72,16 +72,16 @@ class CheckpointDamage : public testing::Test {
   std::string bytes_of_last_, bytes_of_previous_;
 };
 
-TEST_F(CheckpointDamage, OfAnyOneByteIsFoundAndTheOneBeforeIsTaken) {
+TEST_F(CheckpointDamage, OfAnySingleByteIsDetectedAndThePreviousCheckpointIsUsed) {
   ASSERT_NE(bytes_of_last_, bytes_of_previous_);
   std::mt19937 random(1);
-  for (std::size_t place = 0; place < bytes_of_last_.size(); ++place) {
-    put(last_, place, another(bytes_of_last_[place], random));
+  for (std::size_t offset = 0; offset < bytes_of_last_.size(); ++offset) {
+    put(last_, offset, another(bytes_of_last_[offset], random));
     const io::WholeCheckpoint found = io::newest_checkpoint(folder_);
-    ASSERT_EQ(found.file, previous_) << "byte " << place;
-    ASSERT_EQ(found.bytes, bytes_of_previous_) << "byte " << place;
-    ASSERT_EQ(found.warning, damage_words(last_, bytes_of_last_.size())) << "byte " << place;
-    put(last_, place, bytes_of_last_[place]);
+    ASSERT_EQ(found.file, previous_) << "byte " << offset;
+    ASSERT_EQ(found.bytes, bytes_of_previous_) << "byte " << offset;
+    ASSERT_EQ(found.warning, damage_words(last_, bytes_of_last_.size())) << "byte " << offset;
+    put(last_, offset, bytes_of_last_[offset]);
   }
   EXPECT_EQ(io::newest_checkpoint(folder_).bytes, bytes_of_last_);
 }

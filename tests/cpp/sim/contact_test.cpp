@@ -1,4 +1,4 @@
-// Contact with the ground: the area a body stands on, its pressure, what walls and impulses do to it.
+// Contact with the ground: contact area of a body, pressure, effects of walls and impulses.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,15 +56,15 @@ pressurization = false
                      slope, run, 1.3 - fall, run, 1.3 - fall + rise, 1.3 + rise);
 }
 
-// Means over the second half of a run: area in contact [m2] and its change, force on the ground [N].
-struct Standing {
+// Means over the second half of a run: contact area [m2] and its change, force on the ground [N].
+struct MeanContact {
   double area = 0.0, normal = 0.0, tangential = 0.0, mass = 0.0, velocity = 0.0;
 };
 
-Standing stand(const std::vector<std::string>& sets) {
+MeanContact mean_contact(const std::vector<std::string>& sets) {
   Simulation<2> simulation(paper_case(slab_on_plane(), sets));
   run_until(simulation, 1.5);
-  Standing mean;
+  MeanContact mean;
   int count = 0;
   const double angle = slope * pi / 180.0;
   const Vector<double, 2> down(-std::sin(angle), -std::cos(angle)), along(std::cos(angle), -std::sin(angle));
@@ -81,14 +81,14 @@ Standing stand(const std::vector<std::string>& sets) {
 }
 
 TEST(ContactArea, OfASlabAtRestOnASlopeThroughTheGridIsItsBase) {
-  const Standing seen = stand({"basal.friction_angle=60.0"});
+  const MeanContact seen = mean_contact({"basal.friction_angle=60.0"});
   EXPECT_LT(seen.velocity, 0.05);
   EXPECT_NEAR(seen.area / length, 1.0, 0.05);
   EXPECT_NEAR(seen.normal / (seen.mass * 9.81 * std::cos(slope * pi / 180.0)), 1.0, 0.01);
 }
 
 TEST(ContactArea, OfASlidingSlabIsItsBase) {
-  const Standing seen = stand({});
+  const MeanContact seen = mean_contact({});
   EXPECT_GT(seen.velocity, 5.0);
   EXPECT_NEAR(seen.area / length, 1.0, 0.05);
   EXPECT_NEAR(seen.tangential / seen.normal, std::tan(pi / 6.0), 1e-3);
@@ -96,13 +96,14 @@ TEST(ContactArea, OfASlidingSlabIsItsBase) {
 
 // Friction from cohesion alone is cohesion times the base, at any angle to the grid.
 TEST(ContactArea, CohesionActsOnTheBase) {
-  const Standing seen = stand({"basal.friction_angle=0.0", "basal.cohesion=1e5", "basal.cohesion_law=constant"});
+  const MeanContact seen =
+      mean_contact({"basal.friction_angle=0.0", "basal.cohesion=1e5", "basal.cohesion_law=constant"});
   EXPECT_GT(seen.velocity, 5.0);
   EXPECT_NEAR(seen.tangential / (1e5 * length), 1.0, 0.05);
 }
 
-// The momentum of the slab is that at t = 0 and the impulses of gravity, ground and walls, to round-off.
-TEST(Ledger, OfMomentumCloses) {
+// The momentum of the slab equals its initial momentum plus the impulses of gravity, ground and walls, to round-off.
+TEST(Budget, OfMomentumCloses) {
   Simulation<2> simulation(paper_case(slab_on_plane(), {"grid.boundary.x_min=roller", "mechanics.mass_damping=0.1"}));
   run_until(simulation, 2.0);
   const auto row = history_row(simulation);
@@ -116,7 +117,7 @@ TEST(Ledger, OfMomentumCloses) {
   EXPECT_EQ(value_of(row, "mass_residual_kg"), 0.0);
 }
 
-// A block on flat ground against a roller: the wall's node of the ground keeps the wall's condition.
+// A block on flat ground against a roller: the node shared by wall and ground keeps the boundary condition of the wall.
 const std::string cornered = R"(
 [case]
 gravity_tilt = -20.0
@@ -149,7 +150,7 @@ friction_angle = 5.0
 pressurization = false
 )";
 
-TEST(Walls, HoldWhereTheyMeetTheGround) {
+TEST(Walls, ApplyWhereTheyMeetTheGround) {
   Simulation<2> simulation(paper_case(cornered));
   run_until(simulation, 2.0);
   const auto row = history_row(simulation);
@@ -160,8 +161,8 @@ TEST(Walls, HoldWhereTheyMeetTheGround) {
   }
 }
 
-// Without the distance check contact is felt up to a cell early; a body that hovers by half a cell still has all of its
-// base.
+// Without the distance check, contact acts up to a cell too early. A body that hovers by half a cell still has its
+// complete base.
 TEST(ContactArea, OfAHoveringSlabIsItsBase) {
   Simulation<2> simulation(paper_case(
       cornered, {"case.gravity_tilt=0", "grid.boundary.x_min=open", "terrain.elevation=-2.5", "body.block.min=[20,0]",
@@ -182,7 +183,7 @@ TEST(ContactArea, OfAHoveringSlabIsItsBase) {
   EXPECT_NEAR(tangential / (1e4 * 40.0), 1.0, 0.06);
 }
 
-// Gravity switched on at once makes the base ring between none and twice its weight; a settled body stands still.
+// Sudden gravity makes the base force oscillate between zero and twice the weight; a settled body is at rest.
 struct Ringing {
   double least = HUGE_VAL, most = -HUGE_VAL;
 };
@@ -200,7 +201,7 @@ Ringing ring(const std::vector<std::string>& sets) {
   return seen;
 }
 
-TEST(Settling, LeavesTheBaseCarryingItsWeight) {
+TEST(Settling, MakesTheBaseCarryTheWeight) {
   const std::vector<std::string> level{"case.gravity_tilt=0.0", "material.rock.viscosity_time=0.0"};
   std::vector<std::string> sudden = level, settled = level;
   sudden.push_back("mechanics.initial_stress=none");
@@ -215,7 +216,7 @@ TEST(Settling, LeavesTheBaseCarryingItsWeight) {
   EXPECT_LT(quiet.most, 1.1);
 }
 
-TEST(Settling, ChangesNothingButStress) {
+TEST(Settling, ChangesStressOnly) {
   const std::vector<std::string> sets{"case.gravity_tilt=0.0", "mechanics.initial_stress=settle",
                                       "mechanics.settle_time=2.0", "mechanics.settle_damping=5.0"};
   const config::Case parameters = paper_case(cornered, sets);

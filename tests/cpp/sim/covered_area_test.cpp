@@ -1,4 +1,4 @@
-// The area that a slide covers: as drawn while it does not move, by shares of cells at its edge where it has moved.
+// Area covered by a slide: the given outline before it moves, fractions of cells at its edge after it has moved.
 #include "sim/covered_area.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double least = 0.1;  // m
 
-// A raster of cells of 10 m about the origin, with the mean of a thickness over each cell.
+// A raster of cells of 10 m around the origin, with the mean of a thickness over each cell.
 Raster cells_of(int half, const std::function<double(double, double)>& thickness) {
   Raster raster;
   raster.cell_x = raster.cell_y = 10.0;
@@ -41,7 +41,7 @@ Raster cells_of(int half, const std::function<double(double, double)>& thickness
 }
 
 struct Rectangle {
-  double length, width, degrees, x, y;  // m, m, from east, middle [m]
+  double length, width, degrees, x, y;  // m, m, from east, centre [m]
 
   [[nodiscard]] bool contains(double east, double north) const {
     const double angle = degrees * 3.14159265358979323846 / 180.0;
@@ -62,7 +62,7 @@ struct Rectangle {
   }
 };
 
-// Eight cells wide and more, level, oblique and off the cells' borders.
+// At least eight cells wide; aligned, oblique and offset from the cell borders.
 std::vector<Rectangle> rectangles() {
   std::vector<Rectangle> all;
   for (const auto& [length, width] : {std::array{80.0, 80.0}, {84.0, 87.0}, {150.0, 80.0}}) {
@@ -75,7 +75,7 @@ std::vector<Rectangle> rectangles() {
   return all;
 }
 
-// Of a release alone, or with a box.
+// Area of a release alone, or with a box.
 DrawnArea drawn_area(const config::Release& release, const MapGrid& grid, double taper = 0.0,
                      const std::map<std::string, config::Body>& others = {}) {
   config::Case parameters;
@@ -96,12 +96,12 @@ double area_of_whole_cells(const Raster& thickness) {
                                                    [](double h) { return h > least; }));
 }
 
-TEST(CoveredArea, OfWallsIsTheirOwnInAnyDirection) {
+TEST(CoveredArea, OfWallsIsExactInAnyDirection) {
   double largest_of_cells = 0.0;
   for (const Rectangle& wall : rectangles()) {
     for (const double height : {0.3, 2.0, 25.0}) {
       const Raster h = cells_of(14, [&](double x, double y) { return wall.contains(x, y) ? height : 0.0; });
-      // As it was at the start, and as it came to a place where nothing was.
+      // At the start, and after arrival at a location that was empty.
       for (const Raster& start : {h, h.filled(0.0)}) {
         const CoveredCells covered = covered_cells(h, start, {}, 0, 0, least);
         EXPECT_NEAR(covered.area(), wall.area(), 0.05 * wall.area())
@@ -114,11 +114,11 @@ TEST(CoveredArea, OfWallsIsTheirOwnInAnyDirection) {
   EXPECT_GT(largest_of_cells, 1.25) << "whole cells are no measure of the area";
 }
 
-TEST(CoveredArea, OfAReleaseThatDoesNotMoveIsTheDrawnOne) {
+TEST(CoveredArea, OfAReleaseAtRestIsThatOfItsOutline) {
   const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
-  for (const Rectangle& drawn : rectangles()) {
-    // The DEM's points interpolate the thickness: a ramp, two cells wide, about the outline.
-    const Raster points = cells_of(14, [&](double x, double y) { return drawn.contains(x, y) ? 20.0 : 0.0; });
+  for (const Rectangle& rectangle : rectangles()) {
+    // The points of the DEM interpolate the thickness: a ramp, two cells wide, along the outline.
+    const Raster points = cells_of(14, [&](double x, double y) { return rectangle.contains(x, y) ? 20.0 : 0.0; });
     Raster h = points;
     for (int row = 1; row + 1 < h.rows; ++row) {
       for (int column = 1; column + 1 < h.columns; ++column) {
@@ -133,11 +133,12 @@ TEST(CoveredArea, OfAReleaseThatDoesNotMoveIsTheDrawnOne) {
     }
     config::Release release;
     release.thickness = points;
-    release.outlines = {drawn.outline()};
+    release.outlines = {rectangle.outline()};
     const CoveredCells covered = covered_cells(h, h, drawn_area(release, grid), 0, 0, least);
-    EXPECT_NEAR(covered.area(), drawn.area(), 0.05 * drawn.area()) << drawn.degrees << " degrees, off " << drawn.x;
-    EXPECT_NEAR(mask_area(covered), covered.area(), 1e-9 * drawn.area());
-    EXPECT_GT(area_of_whole_cells(h), 1.3 * drawn.area()) << "cells that the ramp reaches";
+    EXPECT_NEAR(covered.area(), rectangle.area(), 0.05 * rectangle.area())
+        << rectangle.degrees << " degrees, off " << rectangle.x;
+    EXPECT_NEAR(mask_area(covered), covered.area(), 1e-9 * rectangle.area());
+    EXPECT_GT(area_of_whole_cells(h), 1.3 * rectangle.area()) << "cells that the ramp reaches";
     // It settles by less than a tenth.
     Raster settled = h;
     std::for_each(settled.values.begin(), settled.values.end(), [](double& value) { value *= 1.05; });
@@ -146,9 +147,9 @@ TEST(CoveredArea, OfAReleaseThatDoesNotMoveIsTheDrawnOne) {
 }
 
 TEST(CoveredArea, OfARasterReleaseIsThatOfItsCells) {
-  const Rectangle drawn{100.0, 80.0, 0.0, 5.0, 5.0};
+  const Rectangle rectangle{100.0, 80.0, 0.0, 5.0, 5.0};
   config::Release release;
-  release.thickness = cells_of(14, [&](double x, double y) { return drawn.contains(x, y) ? 20.0 : 0.0; });
+  release.thickness = cells_of(14, [&](double x, double y) { return rectangle.contains(x, y) ? 20.0 : 0.0; });
   for (const double cell : {10.0, 5.0, 20.0}) {
     const MapGrid grid{-145.0 + 0.5 * cell,
                        -145.0 + 0.5 * cell,
@@ -164,85 +165,87 @@ TEST(CoveredArea, OfARasterReleaseIsThatOfItsCells) {
         parts += std::popcount(area.parts(column, row));
       }
     }
-    EXPECT_NEAR(parts / parts_of_cell * cell * cell, drawn.area(), 1e-9 * drawn.area()) << cell;
+    EXPECT_NEAR(parts / parts_of_cell * cell * cell, rectangle.area(), 1e-9 * rectangle.area()) << cell;
   }
 }
 
-// Next to the release, where the DEM makes a ramp of its outline, and far from it.
-TEST(CoveredArea, OfABoxBesideAReleaseIsItsOwnToo) {
+// Next to the release, where the DEM turns its outline into a ramp, and far from it.
+TEST(CoveredArea, OfABoxNextToAReleaseIsExact) {
   const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
-  const Rectangle drawn{80.0, 80.0, 0.0, -45.0, 5.0};
+  const Rectangle rectangle{80.0, 80.0, 0.0, -45.0, 5.0};
   for (const double x : {35.0, 55.0}) {
     const Rectangle box{80.0, 60.0, 0.0, x, 5.0};
     const Raster h = cells_of(14, [&](double east, double north) {
-      return drawn.contains(east, north) || box.contains(east, north) ? 20.0 : 0.0;
+      return rectangle.contains(east, north) || box.contains(east, north) ? 20.0 : 0.0;
     });
     config::Release release;
     release.thickness =
-        cells_of(14, [&](double east, double north) { return drawn.contains(east, north) ? 20.0 : 0.0; });
-    release.outlines = {drawn.outline()};
+        cells_of(14, [&](double east, double north) { return rectangle.contains(east, north) ? 20.0 : 0.0; });
+    release.outlines = {rectangle.outline()};
     config::Body body;
     body.min = {x - 40.0, -25.0, 0.0};
     body.max = {x + 40.0, 35.0, 20.0};
     const DrawnArea area = drawn_area(release, grid, 0.0, {{"box", body}});
-    EXPECT_NEAR(covered_cells(h, h, area, 0, 0, least).area(), drawn.area() + box.area(), 1e-9) << x;
-    EXPECT_NEAR(covered_cells(h, h, drawn_area(release, grid), 0, 0, least).area(), drawn.area(), 1e-9);
+    EXPECT_NEAR(covered_cells(h, h, area, 0, 0, least).area(), rectangle.area() + box.area(), 1e-9) << x;
+    EXPECT_NEAR(covered_cells(h, h, drawn_area(release, grid), 0, 0, least).area(), rectangle.area(), 1e-9);
   }
 }
 
-TEST(CoveredArea, OfATaperedReleaseReachesToWhereItIsThin) {
+TEST(CoveredArea, OfATaperedReleaseExtendsToTheMinimumThickness) {
   const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
-  const Rectangle drawn{80.0, 80.0, 0.0, 5.0, 5.0};
+  const Rectangle rectangle{80.0, 80.0, 0.0, 5.0, 5.0};
   constexpr double taper = 40.0;  // m, half of it beyond the outline; the ramp is that of gis::tapered
   const auto ramp = [](double from_middle) {
-    const double share = std::clamp(0.5 - (std::abs(from_middle) - 40.0) / taper, 0.0, 1.0),
+    const double fraction = std::clamp(0.5 - (std::abs(from_middle) - 40.0) / taper, 0.0, 1.0),
                  turn = 2.0 * std::numbers::pi;
-    return share - std::sin(turn * share) / turn;
+    return fraction - std::sin(turn * fraction) / turn;
   };
   config::Release release;
-  release.thickness = cells_of(14, [&](double x, double y) { return 20.0 * ramp(x - drawn.x) * ramp(y - drawn.y); });
-  release.outlines = {drawn.outline()};
+  release.thickness =
+      cells_of(14, [&](double x, double y) { return 20.0 * ramp(x - rectangle.x) * ramp(y - rectangle.y); });
+  release.outlines = {rectangle.outline()};
   const Raster h = cells_of(14, [&](double x, double y) { return bilinear(release.thickness, x, y, Missing::zero); });
-  // 20 m times the ramp is 0.1 m at 3.7 m from where the taper ends; points 10 m apart take it up to 5 m farther.
+  // 20 m times the ramp is 0.1 m at 3.7 m from the end of the taper; points 10 m apart extend it by up to 5 m.
   const double area = covered_cells(h, h, drawn_area(release, grid, taper), 0, 0, least).area();
   EXPECT_GT(area, 0.97 * 112.6 * 112.6);
   EXPECT_LT(area, 122.6 * 122.6);
-  // A taper that is no wider than two cells changes no point.
-  EXPECT_NEAR(covered_cells(h, h, drawn_area(release, grid, 20.0), 0, 0, least).area(), drawn.area(), 1e-9);
+  // A taper at most two cells wide changes no point.
+  EXPECT_NEAR(covered_cells(h, h, drawn_area(release, grid, 20.0), 0, 0, least).area(), rectangle.area(), 1e-9);
 }
 
-TEST(CoveredArea, GrowsByWhatTheSlideReaches) {
-  const Rectangle drawn{80.0, 80.0, 0.0, 5.0, 5.0}, reached{200.0, 80.0, 0.0, 5.0, 5.0};
+TEST(CoveredArea, GrowsByTheReachedArea) {
+  const Rectangle rectangle{80.0, 80.0, 0.0, 5.0, 5.0}, reached{200.0, 80.0, 0.0, 5.0, 5.0};
   const MapGrid grid{-140.0, -140.0, 10.0, 10.0, 29, 29, ""};
   const auto slab = [&](const Rectangle& place) {
     return cells_of(14, [&](double x, double y) { return place.contains(x, y) ? 10.0 : 0.0; });
   };
   config::Release release;
-  release.thickness = slab(drawn);
-  release.outlines = {drawn.outline()};
+  release.thickness = slab(rectangle);
+  release.outlines = {rectangle.outline()};
   const DrawnArea area = drawn_area(release, grid);
-  EXPECT_NEAR(covered_cells(slab(reached), slab(drawn), area, 0, 0, least).area(), reached.area(), 1e-9);
-  EXPECT_EQ(covered_cells(slab(drawn).filled(0.0), slab(drawn), area, 0, 0, least).area(), 0.0) << "it has gone";
+  EXPECT_NEAR(covered_cells(slab(reached), slab(rectangle), area, 0, 0, least).area(), reached.area(), 1e-9);
+  EXPECT_EQ(covered_cells(slab(rectangle).filled(0.0), slab(rectangle), area, 0, 0, least).area(), 0.0)
+      << "the slide has left";
 }
 
-TEST(CoveredArea, OfWhatThinsOutEvenlyCountsAllCells) {
-  // A cone of 1 in 10: each cell at its edge is thicker than the least.
+TEST(CoveredArea, OfASlideThatThinsOutEvenlyCountsAllCells) {
+  // A cone of 1 in 10: each cell at its edge is thicker than the minimum.
   const Raster cone = cells_of(14, [](double x, double y) { return std::max(0.0, 10.0 - 0.1 * std::hypot(x, y)); });
   const double area = covered_cells(cone, cone.filled(0.0), {}, 0, 0, least).area();
-  const double exact = 3.14159265358979323846 * 99.0 * 99.0;  // 0.1 m thick and more
+  const double exact = 3.14159265358979323846 * 99.0 * 99.0;  // at least 0.1 m thick
   EXPECT_GT(area, 0.97 * exact);
   EXPECT_LT(area, 1.05 * exact);
   EXPECT_EQ(covered_cells(cone.filled(std::nan("")), cone.filled(0.0), {}, 0, 0, least).area(), 0.0);
 }
 
-// A low place amid the slide is no edge of it.
-TEST(CoveredArea, CellsWithinTheSlideCountAsAWhole) {
+// A thin area within the slide is not an edge.
+TEST(CoveredArea, CellsWithinTheSlideCountCompletely) {
   Raster h = cells_of(6, [](double, double) { return 10.0; });
   h.values[h.index(6, 6)] = 0.5;
-  EXPECT_EQ(covered_share(h, 6, 6, least), 1.0);
+  EXPECT_EQ(covered_fraction(h, 6, 6, least), 1.0);
   h.values[h.index(7, 6)] = 0.0;
-  EXPECT_NEAR(covered_share(h, 6, 6, least), 0.05, 1e-12);
-  EXPECT_EQ(covered_share(h, 7, 6, least), 0.0);
+  EXPECT_NEAR(covered_fraction(h, 6, 6, least), 0.05, 1e-12);
+  EXPECT_EQ(covered_fraction(h, 7, 6, least), 0.0);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Results do not depend on the direction in which anything was drawn: mirrored and reversed cases.
+// Results do not depend on the direction in which lines are given: mirrored and reversed cases.
 #include "sim/direction.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using config::Polyline2;
 
 Polyline2 reversed(const Polyline2& line) { return {line.rbegin(), line.rend()}; }
 
-// A release of 40 m by 40 m about a centre on a ground of 401 x 401 m about the origin.
+// A release of 40 m by 40 m around a centre, on a ground of 401 x 401 m around the origin.
 struct Slope {
   config::Case parameters;
   config::Site site;
@@ -39,18 +39,18 @@ Slope slope_with(const Height& height, const Place& centre) {
   return made;
 }
 
-// Of a path drawn either way: what becomes of it. Whether the first of the two stayed as it was.
+// Orients a path and its reverse. Returns whether the order of the path was kept.
 bool keeps(const Slope& slope, const Polyline2& path) {
-  Slope drawn = slope, otherwise = slope;
-  drawn.site.path = path;
-  otherwise.site.path = reversed(path);
-  const std::string warning = orient_lines(drawn.parameters, drawn.site);
-  const std::string other = orient_lines(otherwise.parameters, otherwise.site);
-  EXPECT_EQ(drawn.site.path, otherwise.site.path);
-  EXPECT_EQ(drawn.site.path == path, warning.empty());
-  EXPECT_EQ(drawn.site.path == path ? other : warning,
+  Slope forward = slope, backward = slope;
+  forward.site.path = path;
+  backward.site.path = reversed(path);
+  const std::string warning = orient_lines(forward.parameters, forward.site);
+  const std::string other = orient_lines(backward.parameters, backward.site);
+  EXPECT_EQ(forward.site.path, backward.site.path);
+  EXPECT_EQ(forward.site.path == path, warning.empty());
+  EXPECT_EQ(forward.site.path == path ? other : warning,
             "maps.path: path.gpkg was drawn against the direction of the slide; distances count from its last corner");
-  return drawn.site.path == path;
+  return forward.site.path == path;
 }
 
 TEST(Direction, OfAPathDownASlopeIsDownhillAtTheRelease) {
@@ -71,8 +71,8 @@ TEST(Direction, OfAPathDownASlopeIsDownhillAtTheRelease) {
   EXPECT_GT(kept, 50);
 }
 
-// Down a slope of 200 m and up the far one to above its start; and one that begins beyond the release.
-TEST(Direction, OfAPathThatRunsUpTheFarSlopeIsTheOneInWhichTheReleaseLeaves) {
+// Down a slope of 200 m and up the opposite one beyond the initial height; and a path that begins beyond the release.
+TEST(Direction, OfAPathUpTheOppositeSlopeIsThatOfTheLeavingRelease) {
   const Height valley = [](double x, double) { return x < 0.0 ? -0.5 * x : 0.9 * x; };
   const Slope slope = slope_with(valley, {-120.0, 0.0});
   EXPECT_TRUE(keeps(slope, {{-180.0, 0.0}, {180.0, 0.0}}));
@@ -81,13 +81,13 @@ TEST(Direction, OfAPathThatRunsUpTheFarSlopeIsTheOneInWhichTheReleaseLeaves) {
   EXPECT_FALSE(keeps(slope_with(valley, {120.0, 0.0}), {{-180.0, 0.0}, {180.0, 0.0}}));
 }
 
-TEST(Direction, OfAFastBodyIsThatOfItsVelocityAndOnLevelGroundTheEndNearbyComesFirst) {
+TEST(Direction, OfAFastBodyIsThatOfItsVelocityAndOnLevelGroundStartsAtTheNearEnd) {
   Slope slope = slope_with([](double x, double) { return -0.5 * x; }, {-100.0, 0.0});
   const Polyline2 path{{-180.0, 0.0}, {180.0, 0.0}};
-  // The release is 45 m long, with the cells about its points: 0.5 g cos 45 m = 197 m2/s2.
+  // The release is 45 m long, including the cells around its points: 0.5 g cos 45 m = 197 m2/s2.
   for (const double velocity : {-3.0, -13.9}) {
     slope.parameters.bodies.at("slide").velocity = {velocity, 0.0, 0.0};
-    EXPECT_TRUE(keeps(slope, path)) << "it comes back at once";
+    EXPECT_TRUE(keeps(slope, path)) << "it returns soon";
   }
   for (const double velocity : {-14.2, -40.0}) {
     slope.parameters.bodies.at("slide").velocity = {velocity, 0.0, 0.0};
@@ -105,7 +105,7 @@ TEST(Direction, OfAFastBodyIsThatOfItsVelocityAndOnLevelGroundTheEndNearbyComesF
   EXPECT_TRUE(keeps(bare, path));
 }
 
-// The line's right side is the one towards which its discharge counts.
+// Discharge to the right of the line is positive.
 double right_of(const Polyline2& line, double x, double y) {
   return x * (line[1][1] - line[0][1]) - y * (line[1][0] - line[0][0]);
 }
@@ -121,14 +121,14 @@ TEST(Direction, OfACrossSectionIsAlongThePathOrAwayFromTheRelease) {
     static_cast<void>(orient_lines(slope.parameters, slope.site));
     EXPECT_GT(right_of(slope.site.probes.at("across"), 1.0, 0.0), 0.0) << "away from the release";
     EXPECT_EQ(slope.site.probes.at("point").size(), 1U);
-    // A path that turns back and crosses the line towards the release's side.
+    // A path that turns back and crosses the line towards the release.
     with_path.site.path = {{-180.0, 0.0}, {-100.0, 0.0}, {0.0, 150.0}, {150.0, 150.0}, {150.0, 20.0}, {-10.0, 20.0}};
     static_cast<void>(orient_lines(with_path.parameters, with_path.site));
     EXPECT_LT(right_of(with_path.site.probes.at("across"), 1.0, 0.0), 0.0);
   }
 }
 
-// On a plane that falls towards +x or, mirrored, towards -x; or on flat ground below tilted gravity.
+// On a plane that falls towards +x or, mirrored, towards -x; or on flat ground with tilted gravity.
 constexpr double length = 400.0;
 
 std::string sliding(bool is_mirrored, bool by_tilt, double velocity) {
@@ -203,7 +203,7 @@ void expect_mirrored(const HistoryRow& row, const HistoryRow& mirrored) {
   EXPECT_NEAR(value_of(mirrored, "front_position_m"), length - value_of(row, "front_position_m"), 1e-6);
 }
 
-TEST(Direction, MirroredSlideComesAsFar) {
+TEST(Direction, MirroredSlideHasTheSameRunout) {
   for (const bool by_tilt : {false, true}) {
     for (const double velocity : {0.0, 4.0}) {
       SCOPED_TRACE(fmt::format("tilt {}, velocity {}", by_tilt, velocity));
@@ -215,7 +215,7 @@ TEST(Direction, MirroredSlideComesAsFar) {
   }
 }
 
-TEST(Direction, MirroredBlockComesAsFar) {
+TEST(Direction, MirroredBlockHasTheSameRunout) {
   for (const bool by_tilt : {false, true}) {
     for (const double velocity : {0.0, 4.0}) {
       SCOPED_TRACE(fmt::format("tilt {}, velocity {}", by_tilt, velocity));
@@ -230,8 +230,8 @@ TEST(Direction, MirroredBlockComesAsFar) {
   }
 }
 
-// Thrown uphill by 1 m/s it is back after 0.6 s; v^2 = 484 m2/s2 carries it on by more than half of its 40 m.
-TEST(Direction, StaysWhereASlideIsThrownGentlyUphill) {
+// With a velocity of 1 m/s uphill it returns after 0.6 s; with v^2 = 484 m2/s2 it moves by more than half of its 40 m.
+TEST(Direction, IsKeptForASlideWithASmallUphillVelocity) {
   for (const bool is_mirrored : {false, true}) {
     for (const bool by_tilt : {false, true}) {
       SCOPED_TRACE(fmt::format("mirrored {}, tilt {}", is_mirrored, by_tilt));

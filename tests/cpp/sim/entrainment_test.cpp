@@ -1,5 +1,5 @@
-// A slide that takes up an erodible bed, with every mechanism: balances, what is left of the bed, and bits on any
-// threads and after a stop.
+// Entrainment of an erodible bed, with every mechanism: balances, remaining bed, and bitwise identical results for any
+// number of threads and after a restart.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -32,21 +32,21 @@ config::Case slide_over_bed(std::vector<std::string> sets) {
   return two_bodies<Dim>(5e3, Dim == 2 ? 20.0 : 8.0, 5.0, 20.0, "type = \"flat\"\nelevation = 0.0", sets);
 }
 
-// The run as it ends, and what was noted on the way.
+// Final state of the run, and maxima recorded during the run.
 struct Seen {
   std::map<std::string, std::vector<double>> state;
   HistoryRow row;
-  double mass = 0.0, momentum = 0.0, heat = 0.0, work = 0.0, bed = 0.0;  // largest that accounts leave over, as shares
-  double smallest = 0.0;                                                 // of what was left below any column [kg]
+  double mass = 0.0, momentum = 0.0, heat = 0.0, work = 0.0, bed = 0.0;  // maximum relative residuals of the budgets
+  double smallest = 0.0;                                                 // remaining mass below any column [kg]
   std::size_t joined = 0;
 };
 
 template <int Dim>
-void note_accounts(const Simulation<Dim>& simulation, Seen& seen) {
+void record_residuals(const Simulation<Dim>& simulation, Seen& seen) {
   const HistoryRow row = history_row(simulation);
-  const double mass = simulation.ledger().initial_mass;
+  const double mass = simulation.budget().initial_mass;
   const auto value = [&](const std::string& name) { return value_of(row, name); };
-  const auto warning = [](double& largest, double share) { largest = std::max(largest, std::abs(share)); };
+  const auto warning = [](double& largest, double fraction) { largest = std::max(largest, std::abs(fraction)); };
   warning(seen.mass, value("mass_residual_kg") / mass);
   warning(seen.mass, (value("mass_kg") - mass - (value("entrained_mass_kg") - value("loose_mass_kg"))) / mass);
   for (const std::string axis : Dim == 2 ? std::vector{"x", "y"} : std::vector{"x", "y", "z"}) {
@@ -61,7 +61,7 @@ void note_accounts(const Simulation<Dim>& simulation, Seen& seen) {
   }
 }
 
-// stop: the step before which the run stops and goes on from its checkpoint; -1: none.
+// stop: time step before which the run stops and resumes from its checkpoint; -1: no stop.
 template <int Dim>
 Seen run(const std::vector<std::string>& sets, int threads, int interval, int stop) {
   const int threads_before = thread_count();
@@ -90,12 +90,12 @@ Seen run(const std::vector<std::string>& sets, int threads, int interval, int st
       }
     }
     simulation->step(simulation->next_step(1.0));
-    note_accounts(*simulation, seen);
+    record_residuals(*simulation, seen);
   }
   seen.joined = simulation->particles().size() - simulation->particles_at_start();
   seen.state = state_of(*simulation);
   if (simulation->band_columns() != nullptr) {
-    seen.state.erase("load_change");  // what a step of the band on particles notes and uses
+    seen.state.erase("load_change");  // used within a step of the band on particles only
   }
   seen.state["bed"] = simulation->bed()->state();
   seen.row = history_row(*simulation);
@@ -104,13 +104,13 @@ Seen run(const std::vector<std::string>& sets, int threads, int interval, int st
 }
 
 template <int Dim>
-void expect_sound_runs(const std::vector<std::string>& sets) {
+void expect_valid_runs(const std::vector<std::string>& sets) {
   const Seen first = run<Dim>(sets, 1, 0, -1);
   EXPECT_GT(first.joined, Dim == 2 ? 10U : 20U);
   EXPECT_LT(first.mass, 1e-13);
   EXPECT_LT(first.momentum, 1e-13);
   EXPECT_LT(first.heat, 1e-13);
-  EXPECT_LT(first.work, 2e-4);  // of first order in the step: MechanicalAccountClosesInFirstOrderOfTheStep
+  EXPECT_LT(first.work, 2e-4);  // of first order in the step: MechanicalBudgetClosesInFirstOrderOfTheStep
   EXPECT_LT(first.bed, 1e-13);
   EXPECT_EQ(first.smallest, 0.0);
   for (const auto& [threads, interval, stop] : {std::tuple(2, 7, -1), std::tuple(2, 3, steps<Dim> / 2)}) {
@@ -124,21 +124,22 @@ void expect_sound_runs(const std::vector<std::string>& sets) {
   }
 }
 
-TEST(Entrainment, BalancesCloseAndBitsStayInThePlane) {
-  expect_sound_runs<2>({"bed.law=momentum"});
-  expect_sound_runs<2>({"bed.law=strength"});
+TEST(Entrainment, BalancesCloseAndResultsAreReproducibleInThePlane) {
+  expect_valid_runs<2>({"bed.law=momentum"});
+  expect_valid_runs<2>({"bed.law=strength"});
 }
-TEST(Entrainment, BalancesCloseAndBitsStayInSpace) { expect_sound_runs<3>({"bed.law=strength"}); }
-TEST(Entrainment, BalancesCloseAndBitsStayWithOtherChoices) {
-  expect_sound_runs<2>({"bed.law=strength", "mechanics.transfer=apic", "time.stepping=adaptive"});
-  expect_sound_runs<2>({"bed.law=strength", "band.model=columns", "heat.advection_form=conservative",
+TEST(Entrainment, BalancesCloseAndResultsAreReproducibleInSpace) { expect_valid_runs<3>({"bed.law=strength"}); }
+TEST(Entrainment, BalancesCloseAndResultsAreReproducibleWithOtherChoices) {
+  expect_valid_runs<2>({"bed.law=strength", "mechanics.transfer=apic", "time.stepping=adaptive"});
+  expect_valid_runs<2>({"bed.law=strength", "band.model=columns", "heat.advection_form=conservative",
                         "band.thickness_change=conserving", "pressure.frozen=none", "pressure.frozen_rows=vented",
                         "pressure.melt_contraction=true", "body.right.material=frozen"});
-  expect_sound_runs<2>({"bed.law=momentum", "mechanics.effective_stress=true", "pressure.thickness_update=frozen"});
+  expect_valid_runs<2>({"bed.law=momentum", "mechanics.effective_stress=true", "pressure.thickness_update=frozen"});
 }
 
-// What taking up costs is in the account to round-off (bed_residual_J): what it leaves over is the time integration's.
-TEST(Entrainment, MechanicalAccountClosesInFirstOrderOfTheStep) {
+// The work of entrainment is in the budget to round-off (bed_residual_J). The remaining residual is that of time
+// integration.
+TEST(Entrainment, MechanicalBudgetClosesInFirstOrderOfTheStep) {
   for (const std::string law : {"momentum", "strength"}) {
     std::array<double, 3> left_over{};
     for (std::size_t k = 0; k < left_over.size(); ++k) {
@@ -147,7 +148,7 @@ TEST(Entrainment, MechanicalAccountClosesInFirstOrderOfTheStep) {
       Seen seen;
       for (int step = 0; step < steps<2> * finer; ++step) {
         simulation.step(simulation.next_step(1.0));
-        note_accounts(simulation, seen);
+        record_residuals(simulation, seen);
       }
       left_over[k] = seen.work;
     }
@@ -156,8 +157,8 @@ TEST(Entrainment, MechanicalAccountClosesInFirstOrderOfTheStep) {
   }
 }
 
-// What slides loses of its motion to what it takes up: that is warmer than the bed was.
-TEST(Entrainment, WhatIsTakenUpGetsTheHeatOfThePush) {
+// Entrained material is warmer than the bed was, by the kinetic energy that the slide loses to it.
+TEST(Entrainment, HeatsEntrainedMaterialByTheLostKineticEnergy) {
   const config::Case parameters = slide_over_bed<2>({"bed.law=strength", "bed.temperature=-20.0"});
   Simulation<2> simulation(parameters);
   for (int k = 0; k < steps<2>; ++k) {
@@ -166,7 +167,7 @@ TEST(Entrainment, WhatIsTakenUpGetsTheHeatOfThePush) {
   const HistoryRow row = history_row(simulation);
   const double joined = value_of(row, "entrained_mass_kg") - value_of(row, "loose_mass_kg");
   const double per_mass = value_of(row, "entrained_heat_J") / joined;
-  EXPECT_GT(per_mass, 0.4 * 18.0 * 18.0);  // about v2/2 of what moves at 20 m/s
+  EXPECT_GT(per_mass, 0.4 * 18.0 * 18.0);  // about v2/2 of material that moves at 20 m/s
   EXPECT_LT(per_mass, 0.6 * 21.0 * 21.0);
 }
 

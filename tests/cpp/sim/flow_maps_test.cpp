@@ -1,4 +1,4 @@
-// Maps of a slide in space: shares of boxes, sums, records, independence of threads and of places in memory.
+// Maps of a 3D slide: fractions of boxes, sums, peak values, independence of threads and of the order in memory.
 #include "sim/flow_maps.hpp"
 
 #include <gtest/gtest.h>
@@ -47,30 +47,30 @@ const MapKind& kind(const std::string& name) {
   throw std::logic_error("no map " + name);
 }
 
-// Of a box on an axis of ten cells.
+// Fractions of a box along an axis of ten cells.
 mpm::CellRange cells_below(double middle, double half) {
   return mpm::cell_spans(Simd<double>(middle), Simd<double>(half), Simd<double>(0.5 / half), 10).of_lane(0);
 }
 
-TEST(CellRange, SharesAreThoseOfTheBoxAndSumToOne) {
+TEST(CellRange, FractionsFollowFromTheBoxAndSumToOne) {
   const mpm::CellRange within = cells_below(2.5, 0.25);
   EXPECT_EQ(within.first, 2);
   EXPECT_EQ(within.last, 2);
-  EXPECT_EQ(within.share(2), 1.0);
+  EXPECT_EQ(within.fraction(2), 1.0);
   const mpm::CellRange across = cells_below(3.1, 0.5);
   EXPECT_EQ(across.first, 2);
   EXPECT_EQ(across.last, 3);
-  EXPECT_NEAR(across.share(2), 0.4, 1e-15);
-  EXPECT_NEAR(across.share(3), 0.6, 1e-15);
+  EXPECT_NEAR(across.fraction(2), 0.4, 1e-15);
+  EXPECT_NEAR(across.fraction(3), 0.6, 1e-15);
   const mpm::CellRange wide = cells_below(4.25, 1.5);
   EXPECT_EQ(wide.first, 2);
   EXPECT_EQ(wide.last, 5);
-  EXPECT_NEAR(wide.share(2), 0.25 / 3.0, 1e-15);
-  EXPECT_NEAR(wide.share(3), 1.0 / 3.0, 1e-15);
-  EXPECT_NEAR(wide.share(5), 0.75 / 3.0, 1e-15);
+  EXPECT_NEAR(wide.fraction(2), 0.25 / 3.0, 1e-15);
+  EXPECT_NEAR(wide.fraction(3), 1.0 / 3.0, 1e-15);
+  EXPECT_NEAR(wide.fraction(5), 0.75 / 3.0, 1e-15);
 }
 
-TEST(CellRange, ABoxThatEndsOnABorderStaysOnItsSide) {
+TEST(CellRange, ABoxThatEndsAtABorderDoesNotCrossIt) {
   for (const double off : {0.0, 1e-13, -1e-13}) {
     const mpm::CellRange span = cells_below(2.5 + off, 0.5);
     EXPECT_EQ(span.first, 2);
@@ -78,16 +78,16 @@ TEST(CellRange, ABoxThatEndsOnABorderStaysOnItsSide) {
   }
 }
 
-TEST(CellRange, WhatLiesBesideTheGridCountsToItsEdge) {
+TEST(CellRange, PartsOutsideTheGridAreAssignedToItsEdge) {
   const mpm::CellRange left = cells_below(0.2, 0.5);
   EXPECT_EQ(left.first, 0);
   EXPECT_EQ(left.last, 0);
-  EXPECT_EQ(left.share(0), 1.0);
+  EXPECT_EQ(left.fraction(0), 1.0);
   const mpm::CellRange right = cells_below(9.2, 1.0);
   EXPECT_EQ(right.first, 8);
   EXPECT_EQ(right.last, 9);
-  EXPECT_NEAR(right.share(8), 0.4, 1e-15);
-  EXPECT_NEAR(right.share(9), 0.6, 1e-15);
+  EXPECT_NEAR(right.fraction(8), 0.4, 1e-15);
+  EXPECT_NEAR(right.fraction(9), 0.6, 1e-15);
 }
 
 TEST(FlowMaps, MemoryFollowsTheSlideAndTheCells) {
@@ -97,13 +97,14 @@ TEST(FlowMaps, MemoryFollowsTheSlideAndTheCells) {
   EXPECT_EQ(wide.bytes(), 0U);
   wide.start(simulation.grid(), simulation.particles());
   narrow.start(simulation.grid(), simulation.particles());
-  EXPECT_LE(wide.bytes(), 5U * 16 * 16 * FlowMaps::bytes_of_cell());  // 60 x 20 cells are 4 x 2 tiles, not all near it
+  EXPECT_LE(wide.bytes(),
+            5U * 16 * 16 * FlowMaps::bytes_of_cell());  // 60 x 20 cells are 4 x 2 tiles, not all of them near the slide
   EXPECT_GT(narrow.bytes(), 10U * wide.bytes());
 }
 
 TEST(FlowMaps, ABoxGivesItsThicknessFromTheStart) {
   const Simulation<3> simulation(slide_in_space());
-  // Cells of 1.5 x 1 m from -5.25 m on: the box begins and ends in the middle of one along x.
+  // Cells of 1.5 x 1 m starting at -5.25 m: along x, the box begins and ends in the middle of one.
   FlowMaps maps = maps_of(simulation, {-4.5, -4.5, 1.5, 1.0, 60, 20, ""});
   maps.start(simulation.grid(), simulation.particles());
   int cells = 0;
@@ -126,9 +127,9 @@ TEST(FlowMaps, ABoxGivesItsThicknessFromTheStart) {
   EXPECT_NEAR(maps.affected_cells().area(), 24.0, 1e-12);
 }
 
-TEST(FlowMaps, SumsAreThoseOfTheParticlesOnAnyGrid) {
+TEST(FlowMaps, SumsEqualThoseOfTheParticlesOnAnyGrid) {
   Simulation<3> simulation(slide_in_space("velocity = [3.0, 2.0, 0.5]"));
-  // The last one ends within the outermost boxes: what pokes out of it counts to its edge.
+  // The last cell ends within the outermost boxes: the part outside is assigned to the edge.
   const std::vector<MapGrid> grids{{-4.0, -5.0, 0.4, 0.3, 180, 80, ""},
                                    {-3.5, -4.5, 1.0, 1.0, 70, 30, ""},
                                    {-10.0, -20.0, 23.0, 17.0, 9, 9, ""},
@@ -150,8 +151,8 @@ TEST(FlowMaps, SumsAreThoseOfTheParticlesOnAnyGrid) {
   }
 }
 
-// What each cell holds against the overlap of all boxes with it.
-TEST(FlowMaps, CellsHoldTheirSharesOfAllBoxes) {
+// Contents of each cell compared with the overlap of all boxes with it.
+TEST(FlowMaps, CellsContainTheirFractionsOfAllBoxes) {
   Simulation<3> simulation(slide_in_space("velocity = [6.0, 2.0, 0.5]", {"body.box.particles_per_axis=3"}));
   const double half = 0.5 / 3.0;
   for (const MapGrid& grid :
@@ -164,7 +165,7 @@ TEST(FlowMaps, CellsHoldTheirSharesOfAllBoxes) {
     }
     const auto& particles = simulation.particles();
     const auto& origin = simulation.model().origin;
-    const auto share = [&](double place, double point, double cell) {
+    const auto fraction = [&](double place, double point, double cell) {
       const double from = std::max(place - half, point - 0.5 * cell), to = std::min(place + half, point + 0.5 * cell);
       return std::max(0.0, to - from) / (2.0 * half);
     };
@@ -173,8 +174,8 @@ TEST(FlowMaps, CellsHoldTheirSharesOfAllBoxes) {
       double volume = 0.0, mass = 0.0;
       Vector<double, 3> momentum = Vector<double, 3>::Zero();
       for (std::size_t p = 0; p < particles.size(); ++p) {
-        const double part = share(particles.position(p, 0) + origin[0], grid.x + column * grid.cell_x, grid.cell_x) *
-                            share(particles.position(p, 1) + origin[1], grid.y + row * grid.cell_y, grid.cell_y);
+        const double part = fraction(particles.position(p, 0) + origin[0], grid.x + column * grid.cell_x, grid.cell_x) *
+                            fraction(particles.position(p, 1) + origin[1], grid.y + row * grid.cell_y, grid.cell_y);
         volume += part * particles.volume(p);
         mass += part * particles.mass(p);
         momentum += part * particles.mass(p) * particles.velocity.get<Vector<double, 3>>(p);
@@ -191,8 +192,8 @@ TEST(FlowMaps, CellsHoldTheirSharesOfAllBoxes) {
   }
 }
 
-// Each record against the particles above one cell so large that it holds them all.
-TEST(FlowMaps, RecordsAreTheLargestOfWhatTheColumnHeld) {
+// Each peak value compared with the particles above one cell so large that it contains all of them.
+TEST(FlowMaps, PeakValuesAreTheMaximaOfTheColumn) {
   Simulation<3> simulation(slide_in_space("velocity = [5.0, 0.0, 0.0]"));
   FlowMaps maps = maps_of(simulation, {28.0, 5.0, 64.0, 20.0, 1, 1, ""});
   FlowMaps of_thin = maps_of(simulation, maps.map_grid(), 0.05);  // the cell's thickness is 72/1280 m
@@ -249,7 +250,7 @@ TEST(FlowMaps, RecordsAreTheLargestOfWhatTheColumnHeld) {
   EXPECT_EQ(of_thin.covered_cells().area(), area);
 }
 
-TEST(FlowMaps, ASlideThatWentOnLeavesNothingWhereItWas) {
+TEST(FlowMaps, ASlideThatMovesAwayLeavesEmptyCells) {
   Simulation<3> simulation(slide_in_space("velocity = [40.0, 0.0, 0.0]", {"basal.friction_angle=0.0"}));
   FlowMaps maps = maps_of(simulation, {-3.75, -4.75, 0.5, 0.5, 128, 40, ""});
   maps.start(simulation.grid(), simulation.particles());
@@ -270,13 +271,13 @@ TEST(FlowMaps, ASlideThatWentOnLeavesNothingWhereItWas) {
   EXPECT_NEAR(left.thickness_at_start, 3.0, 1e-12);
   EXPECT_GE(left.max_thickness, 3.0);
   EXPECT_GT(left.max_speed, 40.0);
-  // The box begins at 6 m and comes to 16.25 m after 0.25 s, a little earlier as gravity speeds it up.
+  // The box begins at 6 m and reaches 16.25 m after 0.25 s, slightly earlier because gravity accelerates it.
   const double arrival = maps.cell(40, 20).arrival_time;
   EXPECT_GT(arrival, 0.23);
   EXPECT_LT(arrival, 0.256);
 }
 
-TEST(FlowMaps, RastersLieWhereTheCellsAre) {
+TEST(FlowMaps, RastersAreLocatedAtTheCells) {
   const Simulation<3> simulation(slide_in_space());
   FlowMaps maps = maps_of(simulation, {-3.5, -4.5, 1.0, 1.0, 64, 20, "a system"});
   EXPECT_TRUE(maps.raster(kind("max_thickness"), MapExtent::slide).empty());
@@ -326,7 +327,7 @@ std::vector<double> state_after(const MapGrid& map_grid, int threads, int sortin
   return maps.state();
 }
 
-TEST(FlowMaps, BitsDependNeitherOnThreadsNorOnPlacesInMemoryNorOnAStop) {
+TEST(FlowMaps, BitsDependNeitherOnThreadsNorOnMemoryOrderNorOnAStop) {
   // The coarse grid's cells are wider than the background grid's tiles.
   for (const MapGrid& grid :
        {MapGrid{-3.83, -4.83, 0.34, 0.34, 189, 59, ""}, MapGrid{-1.0, -2.0, 6.0, 6.0, 11, 4, ""}}) {

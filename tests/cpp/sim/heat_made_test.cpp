@@ -1,4 +1,4 @@
-// No heat out of nothing: a band whose thickness changes, and water that carries heat.
+// No spurious heat: a band whose thickness changes, and water that carries heat.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing_support;
 
-// A column that stands still; e from 0.05 m to 0.5 m and back.
+// A column at rest; e from 0.05 m to 0.5 m and back.
 const std::string column = R"(
 [case]
 gravity = 0.0
@@ -54,7 +54,7 @@ double heat_to(Simulation<2>& simulation, std::size_t p, double temperature) {
 struct Jump {
   HistoryRow before, thick, thin;
   double temperature_thick, temperature_thin, stirred;
-  double hot, cold;  // heat content at the temperature of the start, and of t = 0 [J/m3]
+  double hot, cold;  // heat content at the initial temperature, and at t = 0 [J/m3]
 };
 
 Jump jump(const std::string& change, double temperature) {
@@ -93,7 +93,7 @@ TEST(ThicknessChange, ConservingMixesInMaterialUnchanged) {
     });
     EXPECT_NEAR(found.temperature_thick, mixed, 1e-9);
     EXPECT_LT(mixed, temperature);
-    // Matter that a thinner band leaves behind takes its heat with it.
+    // Material left behind by a thinner band keeps its heat.
     EXPECT_NEAR(found.temperature_thin, mixed, 1e-9);
     EXPECT_NEAR(heat(found.thin), 0.1 * heat(found.thick), 1e-9 * std::abs(heat(found.thick)));
     for (const HistoryRow* row : {&found.before, &found.thick, &found.thin}) {
@@ -103,14 +103,14 @@ TEST(ThicknessChange, ConservingMixesInMaterialUnchanged) {
 }
 
 TEST(ThicknessChange, PublishedCreatesTheHeatInItsColumn) {
-  const Jump found = jump("as_printed", 30.0);
+  const Jump found = jump("as_published", 30.0);
   EXPECT_EQ(found.temperature_thick, 30.0);
   EXPECT_NEAR(value_of(found.thick, "band_rescale_J"), 4.5 * found.hot, 1e-9 * found.hot);
   EXPECT_NEAR(value_of(found.thin, "band_rescale_J"), 0.0, 1e-9 * found.hot);
   EXPECT_NEAR(value_of(found.thick, "thermal_residual_J") - found.stirred, 0.0, 1e-9 * found.stirred);
 }
 
-// Matter at 400 C and under pressure, without a void, after e grew to `thickness` [m]; rock does not expand.
+// Material at 400 C and under pressure, without a void, after e has grown to `thickness` [m]; rock does not expand.
 struct Mixture {
   double temperature, pressure, gas_void, void_of_melt;
 };
@@ -120,21 +120,21 @@ Mixture mixture(const std::string& melt_contraction, double thickness) {
                           "band.thickness_change=conserving", "phases.rock_expansion=0.0", "pressure.seepage=false",
                           "pressure.melt_contraction=" + melt_contraction}));
   auto& particles = simulation.particles();
-  const bool holds = particles.pore_void.is_kept();
-  const double all = holds ? particles.pore_void(3) : 0.0;
+  const bool is_kept = particles.pore_void.is_kept();
+  const double all = is_kept ? particles.pore_void(3) : 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     heat_to(simulation, p, 400.0);
     particles.liquid_pressure(p) = particles.pore_pressure(p) = 5e8;
-    if (holds) {
+    if (is_kept) {
       particles.pore_void(p) = 0.0;
     }
   }
   simulation.step(1.0);
   simulation.step(1.0);
-  return {particles.temperature(3), particles.pore_pressure(3), holds ? particles.pore_void(3) : 0.0, all};
+  return {particles.temperature(3), particles.pore_pressure(3), is_kept ? particles.pore_void(3) : 0.0, all};
 }
 
-// Water of both swells or contracts on its way to the mixture's temperature, and what both store is shared.
+// Water of both parts expands or contracts towards the temperature of the mixture, and the storage of both is shared.
 TEST(ThicknessChange, ConservingMixesTheWaterToo) {
   constexpr double porosity = 0.375, storage = porosity / 1e9, per_kelvin = porosity * 2.75e-4, kept = 1.0 / 1.2;
   const Mixture full = mixture("false", 0.06);
@@ -147,7 +147,8 @@ TEST(ThicknessChange, ConservingMixesTheWaterToo) {
   const double surplus = kept * own + (1.0 - kept) * (joins - contracted.void_of_melt);
   EXPECT_NEAR(contracted.pressure * storage, std::max(0.0, surplus), 1e-12);
   EXPECT_NEAR(contracted.gas_void, std::max(0.0, -surplus), 1e-12);
-  // Frozen by what joins: hot water contracts to the freezing point, and has all the void of what will melt.
+  // Frozen by the added material: hot water contracts to the freezing point and has the complete void of the future
+  // melt.
   const Mixture frozen = mixture("true", 0.5);
   ASSERT_LT(frozen.temperature, 0.0);
   const double open = std::max(0.0, 400.0 * per_kelvin - 5e8 * storage);
@@ -156,7 +157,7 @@ TEST(ThicknessChange, ConservingMixesTheWaterToo) {
 
 const std::vector<std::string> seeping{"body.column.temperature=25.0", "heat.advection_form=conservative"};
 
-// Temperature and pressure fall towards the top; returns the heat that was stirred in [J].
+// Temperature and pressure decrease towards the top; returns the heat that was mixed in [J].
 double stir(Simulation<2>& simulation, double swing) {
   auto& particles = simulation.particles();
   double stirred = 0.0;
@@ -168,7 +169,7 @@ double stir(Simulation<2>& simulation, double swing) {
   return stirred;
 }
 
-TEST(ConservativeAdvection, MakesNoHeat) {
+TEST(ConservativeAdvection, CreatesNoHeat) {
   Simulation<2> simulation(paper_case(column, seeping));
   const double before = heat(history_row(simulation)) + stir(simulation, 20.0);
   run_until(simulation, 4000.0);
@@ -197,16 +198,16 @@ TEST(ConservativeAdvection, CarriesTheHeatOfTheWater) {
   };
   const double before = moment();
   simulation.step(1.0);
-  // q_L = k/gamma_w 1e6 pi/5 sin(pi y/5); the integral of q_L (25 + 20 cos(pi y/5)) over 1 m by 5 m is 50/pi of its
-  // amplitude times 5.
+  // q_L = k/gamma_w 1e6 pi/5 sin(pi y/5); the integral of q_L (25 + 20 cos(pi y/5)) over 1 m by 5 m is 50/pi times 5
+  // times its amplitude.
   const double exact = 1000.0 * 4180.0 * 1e-9 / 9810.0 * 1e6 * pi / 5.0 * 25.0 * 10.0 / pi;
   const double top = 4.9375;  // of the particles that drain
   const double moved = moment() - before + value_of(history_row(simulation), "drained_heat_J") * top;
   EXPECT_NEAR(moved / exact, 1.0, 0.02);
 }
 
-// Water that leaves a body of one temperature leaves it so, at its drained top as well.
-TEST(ConservativeAdvection, LeavesOneTemperatureAlone) {
+// Water that leaves a body of uniform temperature keeps it uniform, also at its drained top.
+TEST(ConservativeAdvection, KeepsUniformTemperature) {
   Simulation<2> simulation(paper_case(column, seeping));
   stir(simulation, 0.0);
   run_until(simulation, 4000.0);

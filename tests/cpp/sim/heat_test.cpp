@@ -1,4 +1,4 @@
-// Heat and pore pressure on the grid, against what is exactly known.
+// Heat and pore pressure on the grid, compared with exact solutions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace testing_support;
 
-// A bar that does not move; cells and step come in by --set.
+// A bar at rest; cells and step are set by --set.
 const std::string bar = R"(
 [case]
 gravity = 0.0
@@ -71,7 +71,7 @@ TEST(Conduction, HalfSpaceConvergesAtSecondOrder) {
   EXPECT_GT(std::log2(middle / fine), 1.6);
 }
 
-TEST(Conduction, FluxBringsItsHeat) {
+TEST(Conduction, FluxAddsItsHeat) {
   std::string text = bar;
   text.replace(text.find("{ temperature = 8.0 }"), 21, "{ flux = 2.0 }");
   Simulation<2> simulation(paper_case(text));
@@ -82,8 +82,8 @@ TEST(Conduction, FluxBringsItsHeat) {
   EXPECT_NEAR(value_of(row, "thermal_residual_J"), 0.0, 1e-3);
 }
 
-TEST(Conduction, BandScalingMakesTheGridFiner) {
-  // With xi = 10, cells of 0.1 m conduct as cells of 0.01 m would: the same curve over x/xi, 100 times sooner.
+TEST(Conduction, BandScalingRefinesTheGrid) {
+  // With xi = 10, cells of 0.1 m conduct like cells of 0.01 m: the same curve over x/xi, 100 times earlier.
   const config::Case plain = paper_case(bar, {"time.step=1000.0"});
   const config::Case scaled = paper_case(bar, {"time.step=10.0", "time.end=4000.0", "band.thickness=0.01"});
   Simulation<2> slow(plain), fast(scaled);

@@ -1,4 +1,4 @@
-// A block on an incline: sticks, slides and heats as it must, in 2D and 3D, on turned gravity and on a tilted plane.
+// A block on an incline sticks, slides and heats correctly, in 2D and 3D, with tilted gravity and on a tilted plane.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -83,7 +83,7 @@ friction_angle = 15.0
 pressurization = false
 )";
 
-// What the block does over the run's second half, free of the first adjustment of its stress.
+// Motion of the block in the second half of the run, after the initial adjustment of its stress.
 struct Slide {
   double acceleration, velocity, heat, work, mass, distance;
 };
@@ -107,11 +107,11 @@ Slide slide(const std::string& text, const std::vector<std::string>& sets = {}) 
 
 void expect_slide(const std::string& title, const Slide& seen, double friction_angle, double tolerance) {
   Record record("Block on an incline: " + title, "A block slides down 30 degrees, friction angle 15 degrees.",
-                "a = g (sin - mu cos), work of friction = mu m g cos times the way", "Coulomb friction");
+                "a = g (sin - mu cos), work of friction = mu m g cos times the displacement", "Coulomb friction");
   const double mu = std::tan(radians(friction_angle));
   const double expected = gravity * (std::sin(radians(30.0)) - mu * std::cos(radians(30.0)));
   record.expect_near("acceleration over exact", seen.acceleration / expected, 1.0, tolerance);
-  // Heat = mu m g cos(theta) times the way.
+  // Heat = mu m g cos(theta) times the travel distance.
   const double work = mu * seen.mass * gravity * std::cos(radians(30.0)) * seen.distance;
   record.expect_near("work over exact", seen.work / work, 1.0, tolerance);
 }
@@ -136,7 +136,7 @@ TEST(Incline, SticksAboveTheAngle) {
 
 TEST(Incline, CohesionHoldsOrBrakes) {
   // Driving stress rho g H sin: 2750 x 0.625 + 917 x 0.375 = 2062.6 kg/m3, 20 m: 202 kPa; friction at 15 degrees
-  // takes 94.
+  // reduces it by 94.
   Record record("Block on an incline: with cohesion",
                 "The same block of 20 m with a cohesion of 0.04 MPa, which brakes it, and of 0.2 MPa, which holds it.",
                 "a = g (sin - mu cos) - c A/m; at rest where that is not above 0", "Coulomb friction with cohesion");
@@ -175,7 +175,7 @@ TEST(Incline, SlidesOnATiltedPlane) {
   EXPECT_LT(stuck.velocity, 0.05);
 }
 
-// In 3D bodies are boxes: one box of 2.5 m after the other, each lower than the one before, follows the plane.
+// In 3D, bodies are boxes: successive boxes of 2.5 m, each lower than the previous one, follow the plane.
 std::string stairs() {
   std::string text = turned_3d;
   for (int k = 1; k < 8; ++k) {
@@ -201,7 +201,7 @@ TEST(Incline, SticksOnATiltedPlaneInThreeDimensions) {
   EXPECT_LT(slide<3>(stairs(), rough).velocity, 0.05 * slide<3>(stairs(), plane_under_stairs).velocity);
 }
 
-// The ground of rigid points, as in the paper: the same on turned gravity; on a plane through the grid it is rough.
+// The ground of rigid points, as in the paper: the same with tilted gravity; on a plane across the grid it is rough.
 TEST(Incline, SlidesOnRigidPoints) {
   expect_slide("rigid points, 2D", slide<2>(turned_2d, {"terrain.representation=rigid_points"}), 15.0, 2e-3);
   expect_slide("rigid points, 3D", slide<3>(turned_3d, {"terrain.representation=rigid_points"}), 15.0, 5e-3);
@@ -242,8 +242,8 @@ initial_stress = "none"
                 "Newton's second law");
   record.expect_near("horizontal velocity [m/s]", vx / count, 3.0, 1e-10);
   record.expect_near("vertical velocity [m/s]", vy / count, -gravity, 1e-10);
-  // Every position is the parabola: the step's midpoint rule is exact for it.
-  record.expect_near("energy that the ledger misses, over the kinetic energy",
+  // Every position is on the parabola: the midpoint rule of the step is exact for it.
+  record.expect_near("residual of the energy budget, over the kinetic energy",
                      value_of(row, "mechanical_residual_J") / value_of(row, "kinetic_J"), 0.0, 1e-11);
 }
 

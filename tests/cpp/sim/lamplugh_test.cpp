@@ -1,4 +1,4 @@
-// The Lamplugh case, shortened: ledgers, bits for any number of threads, and runs that fail.
+// The Lamplugh case, shortened: budgets, bitwise identical results for any number of threads, and runs that fail.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,10 +22,10 @@ config::Case lamplugh(const std::vector<std::string>& sets = {}) {
   return config::read_case(std::string(THAWSLIDE_SOURCE_DIR) + "/cases/lamplugh", sets);
 }
 
-// Fast at once, so that a few seconds see sliding, melting, pressurisation and yield.
+// Fast from the start, such that a few seconds include sliding, melting, pressurization and yield.
 const std::vector<std::string> hasty = {"body.slide.velocity=[20.0,-22.0]", "basal.slip_distance=20.0"};
 
-TEST(Ledger, ClosesOnAShortLamplugh) {
+TEST(Budget, ClosesOnAShortLamplugh) {
   double residual[2];
   for (int k = 0; k < 2; ++k) {
     auto sets = hasty;
@@ -40,7 +40,7 @@ TEST(Ledger, ClosesOnAShortLamplugh) {
                     (value_of(start, "ice_kg") + value_of(start, "water_kg")),
                 1.0, 1e-12);
     EXPECT_GT(value_of(row, "water_kg"), value_of(start, "water_kg"));
-    // Water made is latent heat taken in, over L_f: both count the volume over xi = 200.
+    // Water produced equals the latent heat over L_f: both use the volume over xi = 200.
     const double melted = (value_of(row, "latent_J") - value_of(start, "latent_J")) / 333.5e3;
     EXPECT_NEAR((value_of(row, "water_kg") - value_of(start, "water_kg")) / melted, 1.0, 1e-4);
     const double work = value_of(row, "friction_work_J");
@@ -52,10 +52,10 @@ TEST(Ledger, ClosesOnAShortLamplugh) {
     EXPECT_GT(value_of(row, "latent_J"), 0.0);
   }
   EXPECT_LT(residual[0], 0.03);
-  EXPECT_LT(residual[1], 0.75 * residual[0]) << "what is left is the error of the time step";
+  EXPECT_LT(residual[1], 0.75 * residual[0]) << "the residual is the error of the time step";
 }
 
-TEST(Ledger, HeatOfAThickeningBandIsReported) {
+TEST(Budget, HeatOfAThickeningBandIsReported) {
   auto sets = hasty;
   sets.push_back("band.thickness={time=[0.0,1.0,1.0,2.0],value=[0.05,0.05,0.5,0.5]}");
   Simulation<2> simulation(lamplugh(sets));
@@ -71,7 +71,7 @@ TEST(Threads, GiveTheSameBits) {
   for (const int threads : {1, 2, 3}) {
     set_thread_count(threads);
     Simulation<2> simulation(lamplugh(hasty));
-    simulation.set_sorting_interval(7 * threads);  // nor may the storage order matter
+    simulation.set_sorting_interval(7 * threads);  // the storage order must not have an effect, either
     run_until(simulation, 2.0);
     auto fields = fields_by_id(simulation.particles());
     for (const auto& [name, value] : history_row(simulation)) {
@@ -115,8 +115,8 @@ TEST(Fault, ClosedPoresAreNamedAsTheCause) {
   simulation.step(0.01);
   for (const std::size_t p : {17, 18}) {
     simulation.particles().porosity(p) = physics::smallest_porosity;
-    simulation.particles().heat_content(p) = 3e10;   // some 10,000 C
-    simulation.particles().temperature(p) = 1000.0;  // heats on, so that pores stay closed
+    simulation.particles().heat_content(p) = 3e10;   // about 10,000 C
+    simulation.particles().temperature(p) = 1000.0;  // heating continues, such that the pores remain closed
   }
   simulation.particles().velocity(simulation.particles().size() - 1, 0) = std::numeric_limits<double>::quiet_NaN();
   const std::string message = failure_of(simulation, 2);
@@ -125,7 +125,7 @@ TEST(Fault, ClosedPoresAreNamedAsTheCause) {
   EXPECT_NE(message.find("basal.heat_fraction"), std::string::npos) << message;
 }
 
-TEST(Fault, PoresSqueezedShutAreNotLaidToHeat) {
+TEST(Fault, PoresClosedByPressureAreNotAttributedToHeat) {
   Simulation<2> simulation(lamplugh());
   simulation.particles().porosity(17) = physics::smallest_porosity;
   simulation.particles().velocity(simulation.particles().size() - 1, 0) = std::numeric_limits<double>::quiet_NaN();
@@ -159,14 +159,14 @@ std::string refusal_of(const std::string& set) {
   return "accepted";
 }
 
-TEST(TimeStep, AboveTheLimitIsAnErrorThatNamesIt) {
+TEST(TimeStep, AboveTheLimitIsAnErrorThatStatesIt) {
   const std::string message = refusal_of("time.step=0.05");
   EXPECT_NE(message.find("time.step is 0.05 s, above the limit of 0.0"), std::string::npos) << message;
   EXPECT_NE(message.find("elastic wave of material 'rock_ice'"), std::string::npos) << message;
   EXPECT_NE(message.find("adaptive"), std::string::npos) << message;
 }
 
-TEST(TimeStep, ViscosityIsNamedWhereItSetsTheLimit) {
+TEST(TimeStep, ViscosityIsNamedIfItSetsTheLimit) {
   const std::string message = refusal_of("material.rock_ice.viscosity_time=0.2");
   EXPECT_NE(message.find("set by the viscosity of material 'rock_ice' (viscosity_time 0.2 s, at a wave speed of "),
             std::string::npos)

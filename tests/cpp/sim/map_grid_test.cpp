@@ -1,4 +1,4 @@
-// The grid that maps are gathered on: where its cells lie, and how many there may be.
+// The grid of maps: location of its cells and their maximum number.
 #include "sim/map_grid.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ TEST(MapGrid, IsThatOfTheGroundAndCoversTheDomain) {
   EXPECT_EQ(own.rows, 8);
   site.crs = "a system";
   site.ground = std::make_shared<Raster>(Raster{101.0, 190.0, 5.0, 10.0, 9, 6, {}, ""});
-  const MapGrid grid = map_grid_of(parameters, site);  // the ground's cells reach from 98.5 to 143.5 m, 185 to 245 m
+  const MapGrid grid = map_grid_of(parameters, site);  // cells of the ground: 98.5 to 143.5 m, 185 to 245 m
   EXPECT_EQ(grid.x, 101.0);
   EXPECT_EQ(grid.cell_x, 5.0);
   EXPECT_EQ(grid.columns, 11);
@@ -31,15 +31,15 @@ TEST(MapGrid, IsThatOfTheGroundAndCoversTheDomain) {
   EXPECT_EQ(grid.crs, "a system");
   parameters.maps.cell = 2.5;
   parameters.grid.min[0] = 98.0;
-  const MapGrid asked = map_grid_of(parameters, site);
-  EXPECT_EQ(asked.x, 98.5 - 2.5 + 1.25);
-  EXPECT_EQ(asked.columns, 22);  // 96 to 151 m
-  EXPECT_EQ(asked.cell_y, 2.5);
-  EXPECT_EQ(asked.rows, 24);
+  const MapGrid requested = map_grid_of(parameters, site);
+  EXPECT_EQ(requested.x, 98.5 - 2.5 + 1.25);
+  EXPECT_EQ(requested.columns, 22);  // 96 to 151 m
+  EXPECT_EQ(requested.cell_y, 2.5);
+  EXPECT_EQ(requested.rows, 24);
 }
 
-// A DEM of 5 m and particles 5 m apart: cells of 5 m would each hold one column of them.
-TEST(MapGrid, CellsAreThreeParticleDistancesWideUnlessAskedFor) {
+// A DEM of 5 m and particles 5 m apart: each cell of 5 m would contain one column of particles.
+TEST(MapGrid, CellsAreThreeParticleDistancesWideByDefault) {
   config::Case parameters;
   parameters.grid.cell = 10.0;
   parameters.grid.min = {0.0, 0.0, 0.0};
@@ -64,15 +64,15 @@ TEST(MapGrid, CellsAreThreeParticleDistancesWideUnlessAskedFor) {
   EXPECT_EQ(map_grid_of(parameters, site).cell_x, 5.0);
   EXPECT_EQ(reason_for_map_cell(parameters, site), "as maps.cell asks");
   EXPECT_EQ(warning_of_map_cell(parameters, site),
-            "maps.cell is 5 m, and grid.cell 10 m: a cell of the maps holds few particles or one, and the largest "
-            "speeds and pressures are those of single particles. Without maps.cell they take cells of 20 x 15 m.");
+            "maps.cell is 5 m, and grid.cell 10 m: a map cell contains few particles or only one, and the maximum "
+            "speeds and pressures are those of single particles. Without maps.cell, maps have cells of 20 x 15 m.");
   parameters.maps.cell = 10.0;
   EXPECT_EQ(warning_of_map_cell(parameters, site), "");
 }
 
-// Where four particles an axis lie in a cell of the grid, that is wider than three of their distances; and a DEM that
-// is coarser than both keeps its cells.
-TEST(MapGrid, CellsAreNoNarrowerThanTheGridsAndTheDems) {
+// With four particles per cell and axis, a grid cell is wider than three particle distances. If a DEM is coarser than
+// both, its cells are kept.
+TEST(MapGrid, CellsAreAtLeastAsWideAsThoseOfGridAndDem) {
   config::Case parameters;
   parameters.grid.cell = 10.0;
   parameters.grid.max = {500.0, 300.0, 100.0};

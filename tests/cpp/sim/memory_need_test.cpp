@@ -1,4 +1,4 @@
-// Estimates of memory against sums by hand.
+// Estimates of memory compared with sums by hand.
 #include "sim/memory_need.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 using testing_support::case_from_text;
 
-// 40 m x 10 m, and a triangle of 20 m x 5 m beside it.
+// 40 m x 10 m, next to a triangle of 20 m x 5 m.
 const std::string two_bodies = R"(
 [time]
 end = 1.0
@@ -90,19 +90,19 @@ TEST(MemoryNeed, CountsGroundMapsAndReleaseInSpace) {
 
 TEST(MemoryNeed, OfParticlesAloneGivesTheCellThatFits) {
   MemoryNeed need;
-  need.particles = 8e9;  // eight times too much, in space: twice the cell
+  need.particles = 8e9;  // eight times too much, in 3D: twice the cell
   EXPECT_NEAR(smallest_cell<3>(need, 0.5, 1e9 + bytes_of_program), 1.0, 1e-9);
   EXPECT_NEAR(smallest_cell<2>(need, 0.5, 2e9 + bytes_of_program), 1.0, 1e-9) << "a quarter is left in the plane";
   EXPECT_NEAR(smallest_cell<3>(need, 0.3, 1e9 + bytes_of_program), 0.6, 1e-9);
   EXPECT_NEAR(smallest_cell<3>(need, 0.123, 1e9 + bytes_of_program), 0.25, 1e-9) << "two digits, rounded up";
 }
 
-TEST(MemoryNeed, KnowsWhereNoCellHelps) {
+TEST(MemoryNeed, DetectsThatNoCellHelps) {
   MemoryNeed need;
   need.particles = 1e9;
   need.ground = 3e9;
   EXPECT_EQ(smallest_cell<3>(need, 1.0, 3e9), 0.0);
-  need.columns = 1e9;  // fall with the square, particles with the cube
+  need.columns = 1e9;  // columns decrease with the square, particles with the cube
   const double cell = smallest_cell<3>(need, 1.0, 4e9 + bytes_of_program);
   EXPECT_LE(1e9 / (cell * cell * cell) + 1e9 / (cell * cell), 1e9);
   EXPECT_GT(1e9 / std::pow(cell - 0.1, 3) + 1e9 / std::pow(cell - 0.1, 2), 1e9);
@@ -119,7 +119,7 @@ std::string refusal_of(const config::Case& parameters, const AvailableMemory& av
 
 TEST(MemoryNeed, IsRefusedWithTheKeyAndACellThatFits) {
   const config::Case parameters = case_from_text(two_bodies, {"grid.cell=0.02"});
-  // 2500 cells in a square metre: 400 m2 at 4 particles in each, 50 m2 at 16.
+  // 2500 cells per square metre: 400 m2 with 4 particles in each, 50 m2 with 16.
   EXPECT_EQ(refusal_of(parameters, {4e9, "are free"}),
             "--set grid.cell=0.02: grid.cell is 0.02 m, which makes 6,000,000 particles: the run needs about 8.6 GB of "
             "memory (particles 3.8 GB, writing them 4.8 GB), and 4 GB are free. Make grid.cell 0.032 m or more, or "
@@ -128,8 +128,8 @@ TEST(MemoryNeed, IsRefusedWithTheKeyAndACellThatFits) {
   EXPECT_EQ(refusal_of(case_from_text(two_bodies), {60.9e6, "are free"}), "");
 }
 
-// Under a limit that even the program would not fit into no cell helps, and particles are what the memory is for.
-TEST(MemoryNeed, WhatTakesMostIsBlamedWhereNoCellHelps) {
+// The limit is below the size of the program: no cell size helps, and the message names the largest part.
+TEST(MemoryNeed, NamesTheLargestPartIfNoCellHelps) {
   EXPECT_EQ(refusal_of(case_from_text(two_bodies, {"grid.cell=0.02"}), {0.03e9, "are left by the bound of ulimit -v"}),
             "--set grid.cell=0.02: grid.cell is 0.02 m, which makes 6,000,000 particles: the run needs about 8.6 GB of "
             "memory (particles 3.8 GB, writing them 4.8 GB), and 0.03 GB are left by the bound of ulimit -v. Make "

@@ -1,4 +1,4 @@
-// The declared columns are those that a run writes.
+// The declared columns are those written by a run.
 #include "sim/output_columns.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using namespace testing_support;
 
 using Names = std::vector<std::string>;
 
-// Names of columns; for each axis where a name has a star.
+// Names of columns; for each axis if a name contains a star.
 Names declared(const std::vector<ColumnGroup>& groups, int dimension = 2, bool only_always = false) {
   Names names;
   for (const ColumnGroup& group : groups) {

@@ -1,4 +1,4 @@
-// Lines that a slide's way is measured along, and its front.
+// Lines along which the travel distance is measured, and the front.
 #include "sim/path_line.hpp"
 
 #include <gtest/gtest.h>
@@ -24,10 +24,10 @@ TEST(PathLine, MeasuresItsLength) {
 
 TEST(PathLine, ProjectsToTheNearestPoint) {
   const PathLine line = angled();
-  const auto expect = [&](const Place2& place, double along, double offset) {
-    const PlaceOnLine found = line.project(place);
-    EXPECT_NEAR(found.along, along, 1e-12) << place[0] << " " << place[1];
-    EXPECT_NEAR(found.offset, offset, 1e-12) << place[0] << " " << place[1];
+  const auto expect = [&](const Point2& position, double along, double offset) {
+    const LinePosition found = line.project(position);
+    EXPECT_NEAR(found.along, along, 1e-12) << position[0] << " " << position[1];
+    EXPECT_NEAR(found.offset, offset, 1e-12) << position[0] << " " << position[1];
   };
   expect({20.0, 8.0}, 10.0, 3.0);
   expect({20.0, 1.0}, 10.0, -4.0);
@@ -38,7 +38,7 @@ TEST(PathLine, ProjectsToTheNearestPoint) {
   expect({39.0, 60.0}, 85.0, 1.0);  // and beyond its end
 }
 
-TEST(PathLine, PointsProjectToWhereTheyAre) {
+TEST(PathLine, PointsOnTheLineProjectToThemselves) {
   const PathLine line = angled();
   for (const double along : {-7.0, 0.0, 12.5, 30.0, 55.0, 70.0, 100.0}) {
     EXPECT_NEAR(line.project(line.point_at(along)).along, along, 1e-12);
@@ -46,7 +46,7 @@ TEST(PathLine, PointsProjectToWhereTheyAre) {
   }
 }
 
-// Against the points of a long winding line, looked at one by one.
+// Compared with all points of a long winding line, one by one.
 TEST(PathLine, ProjectsOntoManySegments) {
   PathLine line;
   for (int k = 0; k < 100; ++k) {
@@ -57,46 +57,46 @@ TEST(PathLine, ProjectsOntoManySegments) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> east(0.0, 297.0), north(-80.0, 80.0);
   for (int n = 0; n < 200; ++n) {
-    const Place2 place{east(random), north(random)};
-    const PlaceOnLine found = line.project(place);
+    const Point2 position{east(random), north(random)};
+    const LinePosition found = line.project(position);
     const auto distance_at = [&](double along) {
-      const Place2 point = line.point_at(along);
-      return std::hypot(place[0] - point[0], place[1] - point[1]);
+      const Point2 point = line.point_at(along);
+      return std::hypot(position[0] - point[0], position[1] - point[1]);
     };
     EXPECT_NEAR(distance_at(found.along), std::abs(found.offset), 1e-9);
     for (double along = 0.0; along <= line.length(); along += 0.5) {
-      ASSERT_GE(distance_at(along), std::abs(found.offset) - 1e-9) << place[0] << " " << place[1];
+      ASSERT_GE(distance_at(along), std::abs(found.offset) - 1e-9) << position[0] << " " << position[1];
     }
   }
 }
 
-TEST(CentrePath, HasCornersASpacingApart) {
-  CentrePath way(2.0);
+TEST(CentrePath, HasCornersOneSpacingApart) {
+  CentrePath path(2.0);
   for (int k = 0; k <= 100; ++k) {
     const double wavering = 0.01 * (k % 2);
-    way.add_position({0.1 * k, wavering});
-    EXPECT_EQ(way.line().empty(), k == 0);
-    EXPECT_EQ(way.line().corners().size(), k == 0 ? 1u : k < 40 ? 2u : static_cast<std::size_t>(k / 20 + 1)) << k;
+    path.add_position({0.1 * k, wavering});
+    EXPECT_EQ(path.line().empty(), k == 0);
+    EXPECT_EQ(path.line().corners().size(), k == 0 ? 1u : k < 40 ? 2u : static_cast<std::size_t>(k / 20 + 1)) << k;
     if (k > 0 && k < 20) {
-      EXPECT_EQ(way.line().corners().back(), (Place2{0.1 * k, wavering}));
+      EXPECT_EQ(path.line().corners().back(), (Point2{0.1 * k, wavering}));
     }
   }
-  EXPECT_NEAR(way.line().length(), 10.0, 1e-3);
+  EXPECT_NEAR(path.line().length(), 10.0, 1e-3);
 }
 
 TEST(CentrePath, HasNoDirectionBeforeTheCentreMoves) {
-  CentrePath way(2.0);
-  way.add_position({5.0, 5.0});
-  way.add_position({5.0, 5.019});
-  EXPECT_TRUE(way.line().empty());
-  way.add_position({5.021, 5.0});
-  EXPECT_FALSE(way.line().empty());
-  EXPECT_NEAR(way.line().project({8.0, 4.0}).along, 3.0, 1e-12);
-  way.add_position({5.0, 5.0});
-  EXPECT_TRUE(way.line().empty());
+  CentrePath path(2.0);
+  path.add_position({5.0, 5.0});
+  path.add_position({5.0, 5.019});
+  EXPECT_TRUE(path.line().empty());
+  path.add_position({5.021, 5.0});
+  EXPECT_FALSE(path.line().empty());
+  EXPECT_NEAR(path.line().project({8.0, 4.0}).along, 3.0, 1e-12);
+  path.add_position({5.0, 5.0});
+  EXPECT_TRUE(path.line().empty());
 }
 
-TEST(CentrePath, GoesOnFromItsNumbers) {
+TEST(CentrePath, ContinuesFromItsState) {
   for (const int stop : {0, 1, 7, 19, 20, 21, 60}) {
     CentrePath whole(2.0), first(2.0);
     for (int k = 0; k <= stop; ++k) {
@@ -121,7 +121,7 @@ TEST(Front, LeavesHalfAPercentOfTheMassAhead) {
     masses.push_back({static_cast<double>(k), 2.0, k});
   }
   std::shuffle(masses.begin(), masses.end(), random);
-  // Ahead of and at particle 994 there are 6 of 1000: less than 99.5 % lie behind it.
+  // 6 of 1000 particles are at or ahead of particle 994: less than 99.5 % are behind it.
   EXPECT_EQ(front_of(masses, 2000.0).along, 994.0);
   masses.assign(1, {5.0, 1.0, 0});
   EXPECT_EQ(front_of(masses, 1.0).along, 5.0);
@@ -136,7 +136,7 @@ TEST(RunFigures, AngleOfReachIsTheSlopeFromTopToFront) {
   EXPECT_TRUE(std::isnan(angle_of_reach(10.0, 0.0)));
 }
 
-TEST(RunFigures, AreToldByNameAndUnit) {
+TEST(RunFigures, AreReportedByNameAndUnit) {
   const auto figures = named({1.0, 2.0, 7.0, 3.0, 4.0, 5.0, 6.0});
   const std::vector<std::pair<std::string, double>> expected{
       {"covered_volume_m3", 1.0}, {"covered_area_m2", 2.0}, {"affected_area_m2", 7.0},   {"front_distance_m", 3.0},

@@ -25,7 +25,7 @@ using testing_support::value_of;
 constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr double slope = 30.0, top = 1000.0, thickness = 30.0, bend_at = 450.0, turn = 60.0;
 
-// A body of 30 m (vertical) from x = 100 to 300 m; its base melts as it slides.
+// A body of 30 m (vertical) from x = 100 to 300 m; its base melts while it slides.
 const std::string on_plane = R"(
 [time]
 end = 16.0
@@ -54,7 +54,7 @@ friction_angle = 25.0
 thickness = 0.05
 )";
 
-// The same as a 2D case, on a profile of the slope along x up to a bend, and of another beyond it.
+// The same as a 2D case, on a profile with one slope along x up to a bend, and another beyond it.
 config::Case flat_case(double slope_beyond) {
   const double fall = std::tan(slope * degree), beyond = std::tan(slope_beyond * degree);
   const auto ground = [&](double x) { return top - fall * std::min(x, bend_at) - beyond * std::max(0.0, x - bend_at); };
@@ -85,8 +85,8 @@ struct InSpace {
   config::Site site;
 };
 
-// The case in space: a plane that falls towards an azimuth [degrees from +x], the release 80 m wide about the way
-// straight down, and a path that begins at the origin and turns at the bend.
+// The 3D case: a plane that falls towards an azimuth [degrees from +x], the release 80 m wide about the line of
+// steepest descent, and a path that begins at the origin and turns at the bend.
 InSpace case_on_dem(const config::Case& flat, double azimuth, double turned) {
   const double down_x = std::cos(azimuth * degree), down_y = std::sin(azimuth * degree);
   const double fall = std::tan(slope * degree), cell = 5.0;
@@ -148,8 +148,8 @@ TEST(PathSection, PlanarTerrainModelGivesTheMotionOfThePlane) {
   }
 }
 
-// The release's outline, which is no longer along the points, is known to half a cell of the DEM.
-TEST(PathSection, SoItDoesWhereThePointsAreOblique) {
+// The outline of the release, which is no longer aligned with the points, is resolved to half a cell of the DEM.
+TEST(PathSection, ObliquePointsGiveTheMotionOfThePlane) {
   const config::Case flat = flat_case(slope);
   const auto rows = run_along_path(case_on_dem(flat, 37.0, 0.0)), expected = run_block(flat);
   for (const char* column : {"velocity_m_s", "displacement_m", "front_position_m", "normal_pressure_Pa"}) {
@@ -157,7 +157,7 @@ TEST(PathSection, SoItDoesWhereThePointsAreOblique) {
   }
 }
 
-// Where the path turns away from the line of fall its slope is that of the plane along it.
+// If the path turns away from the line of fall, its slope is that of the plane along the path.
 TEST(PathSection, BentPathGivesTheMotionOnTheBentProfile) {
   const double slope_beyond = std::atan(std::tan(slope * degree) * std::cos(turn * degree)) / degree;
   const config::Case flat = flat_case(slope_beyond);
@@ -175,17 +175,17 @@ config::Substrate slippery() {
   return ice;
 }
 
-// The path goes over a polygon: the block slides as on the strip of the profile that this leaves.
+// The path crosses a polygon: the block slides as on the corresponding strip of the profile.
 TEST(PathSection, CrossesTheSubstratesOfTheMap) {
   config::Case flat = flat_case(slope);
-  const double from = 301.25, to = 411.25;  // between stations, which stand 2.5 m apart
+  const double from = 301.25, to = 411.25;  // between stations, which are 2.5 m apart
   flat.substrates["ice"] = slippery();
   flat.substrates["ice"].x_min = from;
   flat.substrates["ice"].x_max = to;
   const auto expected = run_block(flat);
   flat.substrates.clear();
   const double without = value_of(run_block(flat).back(), "displacement_m");
-  EXPECT_GT(std::abs(value_of(expected.back(), "displacement_m") - without), 5.0) << "it does not come to bear";
+  EXPECT_GT(std::abs(value_of(expected.back(), "displacement_m") - without), 5.0) << "the substrates have no effect";
   InSpace made = case_on_dem(flat, 90.0, 0.0);
   made.parameters.substrates["ice"] = slippery();
   made.parameters.substrates["ice"].outline = "ice.geojson";
@@ -238,7 +238,7 @@ TEST(PathSection, FieldsFromMapsBecomeTheirMeanOverTheVolume) {
   EXPECT_NEAR(flat.velocity[1], -2.0, 1e-12);
 }
 
-// A path drawn for maps may begin within the release and leave the DEM.
+// A path given for maps may begin within the release and leave the DEM.
 TEST(PathSection, PathNeedsGroundAtTheReleaseOnly) {
   InSpace made = case_on_dem(flat_case(slope), 0.0, 0.0);
   made.site.path = {{250.0, 0.0}, {5000.0, 0.0}};
@@ -256,31 +256,31 @@ std::string error_of(const InSpace& made) {
   return "no error";
 }
 
-TEST(PathSection, SaysWhatItNeeds) {
+TEST(PathSection, ReportsMissingRequirements) {
   const config::Case flat = flat_case(slope);
   InSpace made = case_on_dem(flat, 0.0, 0.0);
   made.parameters.file = "case.toml";
-  made.parameters.places = {{"maps.path", "case.toml:60:1"}};
-  const InSpace sound = made;
+  made.parameters.locations = {{"maps.path", "case.toml:60:1"}};
+  const InSpace valid = made;
   made.site.path = {{0.0, 400.0}, {1000.0, 400.0}};
   EXPECT_EQ(error_of(made),
             "case.toml:60:1: the path misses the release of body 'slide' by 362 m. Draw it through the release.");
-  made = sound;
+  made = valid;
   made.parameters.general.gravity_tilt = 5.0;
   EXPECT_EQ(error_of(made),
             "case.toml: case.gravity_tilt is 5 degrees towards +x, which a section along a path does not know. Set it "
             "to 0, or use `thawslide run`.");
-  made = sound;
+  made = valid;
   made.parameters.bodies.at("slide").shape = config::BodyShape::box;
   EXPECT_EQ(error_of(made),
             "case.toml: on a DEM the block model slides a body of the shape \"release\". Give body.slide polygons or a "
             "raster, or use `thawslide run`.");
-  made = sound;
+  made = valid;
   made.parameters.bodies["other"] = made.parameters.bodies.at("slide");
   EXPECT_EQ(error_of(made), "case.toml: the block model slides one body, and the case has 2. Use `thawslide run`.");
 }
 
-// Down a plane the way is straight, up to where half a width is left of the DEM.
+// Down a plane the path is straight, ending half a width before the edge of the DEM.
 TEST(SteepestDescent, OfAPlaneIsItsLineOfFall) {
   constexpr double width = 20.0;
   for (const double azimuth : {0.0, 37.0, 90.0, 203.0}) {
@@ -289,17 +289,17 @@ TEST(SteepestDescent, OfAPlaneIsItsLineOfFall) {
         raster(-400.0, -400.0, 5.0, 161, 161, [&](double x, double y) { return -0.4 * (x * down_x + y * down_y); });
     const Descent descent = steepest_descent(plane, {3.0, 7.0}, width);
     EXPECT_FALSE(descent.pit);
-    for (const Place2& corner : descent.line.corners()) {
+    for (const Point2& corner : descent.line.corners()) {
       EXPECT_NEAR((corner[0] - 3.0) * down_y - (corner[1] - 7.0) * down_x, 0.0, 1e-9) << azimuth;
     }
-    const Place2 end = descent.line.corners().back();
+    const Point2 end = descent.line.corners().back();
     const double left = 400.0 - std::max(std::abs(end[0]), std::abs(end[1]));
     EXPECT_NEAR(left, 0.5 * width, 0.1 * width);
   }
 }
 
-// Around a bowl's lowest point all ways rise.
-TEST(SteepestDescent, OfABowlEndsInItsLowestPoint) {
+// The ground rises in all directions around the lowest point of a bowl.
+TEST(SteepestDescent, OfABowlEndsAtItsLowestPoint) {
   constexpr double width = 20.0;
   const Raster bowl = raster(-400.0, -400.0, 5.0, 161, 161, [](double x, double y) { return 1e-3 * (x * x + y * y); });
   const Descent descent = steepest_descent(bowl, {180.0, 240.0}, width);
@@ -307,13 +307,13 @@ TEST(SteepestDescent, OfABowlEndsInItsLowestPoint) {
   EXPECT_EQ(*descent.pit, descent.line.corners().back());
   EXPECT_LT(std::hypot((*descent.pit)[0], (*descent.pit)[1]), 0.1 * width);
   EXPECT_NEAR(descent.line.length(), 300.0, 0.1 * width);
-  for (const Place2& corner : descent.line.corners()) {
+  for (const Point2& corner : descent.line.corners()) {
     EXPECT_NEAR(0.8 * corner[0] - 0.6 * corner[1], 0.0, 0.1 * width);
   }
   EXPECT_TRUE(steepest_descent(bowl, {0.0, 0.0}, width).line.empty());
 }
 
-TEST(PathSection, WithoutAPathItIsTheWayStraightDown) {
+TEST(PathSection, WithoutAPathFollowsTheSteepestDescent) {
   const config::Case flat = flat_case(slope);
   InSpace made = case_on_dem(flat, 90.0, 0.0);
   made.site.path.clear();
@@ -325,11 +325,11 @@ TEST(PathSection, WithoutAPathItIsTheWayStraightDown) {
   for (const char* column : {"velocity_m_s", "displacement_m", "normal_pressure_Pa", "band_saturation"}) {
     EXPECT_NEAR(value_of(rows.back(), column) / value_of(expected.back(), column), 1.0, 1e-6) << column;
   }
-  // The path begins at the release's centre, 200 m down the plane.
+  // The path begins at the centre of the release, 200 m down the plane.
   EXPECT_NEAR(value_of(rows.back(), "front_position_m") - value_of(expected.back(), "front_position_m"), -200.0, 1e-3);
 }
 
-TEST(PathSection, WithoutAWayDownItSaysWhatToGive) {
+TEST(PathSection, WithoutADescendingPathReportsTheNeededKey) {
   InSpace made = case_on_dem(flat_case(slope), 0.0, 0.0);
   made.parameters.file = "case.toml";
   made.site.path.clear();
@@ -360,7 +360,7 @@ TEST(PathSection, WithoutAWayDownItSaysWhatToGive) {
   ASSERT_TRUE(section.pit);
   // The floor between the lowest points of the DEM, at 897.5 and 902.5 m, is level.
   EXPECT_NEAR(section.pit->along, 700.0, 2.5 + 1e-9);
-  EXPECT_NEAR(section.pit->place[0], 900.0, 2.5 + 1e-9);
+  EXPECT_NEAR(section.pit->point[0], 900.0, 2.5 + 1e-9);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A run that ends when its slide has come to rest.
+// Runs that end when the slide has come to rest.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace testing_support;
 
-// A block that slides to a stop on friction: from 2 m/s by 0.2 g in about a second.
+// A block that friction stops: from 2 m/s by 0.2 g in about a second.
 const std::string block = R"(
 [time]
 end = 5.0
@@ -49,7 +49,7 @@ enabled = false
 enabled = false
 )";
 
-// Steps to rest, or to the end; then the time.
+// Advances until rest or until the end; returns the time.
 double end_of(Simulation<2>& simulation) {
   set_thread_count(1);
   while (!simulation.ends_at_rest() && simulation.time() < 5.0 - 1e-9) {
@@ -64,7 +64,7 @@ TEST(Rest, EndsARunAfterItsTime) {
   EXPECT_TRUE(simulation.ends_at_rest());
   EXPECT_TRUE(simulation.is_at_rest());
   EXPECT_GT(end, 1.02 - 0.05 / 2.0 + 0.4);
-  EXPECT_LT(end, 1.02 + 0.4 + 0.4) << "it rings for a while";
+  EXPECT_LT(end, 1.02 + 0.4 + 0.4) << "it oscillates for a while";
   const std::string text = simulation.rest_text();
   EXPECT_EQ(text.rfind("the slide is at rest: since t = ", 0), 0U) << text;
   EXPECT_NE(text.find(" s no more than 0.5 % of its mass has moved faster than 0.05 m/s (time.stop_at_rest)"),
@@ -72,8 +72,8 @@ TEST(Rest, EndsARunAfterItsTime) {
       << text;
 }
 
-// By the usual speed and the usual 10 s; the run goes on.
-TEST(Rest, IsKnownWithoutTheKeyToo) {
+// With the default speed and the default 10 s; the run continues.
+TEST(Rest, IsDetectedWithoutTheKey) {
   Simulation<2> simulation(
       paper_case(block.substr(0, block.find("stop_at_rest")) + block.substr(block.find("[grid]")), {"time.end=13"}));
   while (simulation.time() < 13.0 - 1e-9) {
@@ -103,7 +103,7 @@ TEST(Rest, IsPartOfTheEndStateWithAWarningBeforeIt) {
   EXPECT_EQ(when_text(moving), "at 0.5 s, not at rest");
   const std::vector<std::string> warnings = warnings_of(moving, true);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_EQ(warnings[0].rfind("The slide is not at rest at 0.5 s (mean velocity ", 0), 0U) << warnings[0];
+  EXPECT_EQ(warnings[0].rfind("the slide is not at rest at 0.5 s (mean velocity ", 0), 0U) << warnings[0];
   EXPECT_NE(
       warnings[0].find(
           " m/s; at rest: for 0.4 s, or 0.25 s from the start, no more than 0.5 % of the mass "
@@ -120,15 +120,15 @@ TEST(Rest, IsPartOfTheEndStateWithAWarningBeforeIt) {
   EXPECT_NE(when_text(still).find(" s, at rest"), std::string::npos);
 }
 
-TEST(Rest, NeverComesBeforeTheSlideHasMoved) {
+TEST(Rest, IsNotDetectedBeforeTheSlideHasMoved) {
   Simulation<2> simulation(paper_case(block, {"body.block.velocity=[0.0,0.0]"}));
   EXPECT_EQ(end_of(simulation), 5.0);
   EXPECT_FALSE(simulation.ends_at_rest());
   EXPECT_TRUE(simulation.is_at_rest());
 }
 
-// A run shorter than time.rest_time, 10 s: the block settles, and moves no more than that.
-TEST(Rest, IsSinceTheStartWhereNothingHasMoved) {
+// A run shorter than time.rest_time, 10 s: the block settles without further motion.
+TEST(Rest, IsSinceTheStartIfNothingHasMoved) {
   const std::string without = block.substr(0, block.find("stop_at_rest")) + block.substr(block.find("[grid]"));
   const auto state_at = [&](double end, const std::string& set) {
     Simulation<2> simulation(paper_case(without, {set}));
@@ -142,8 +142,8 @@ TEST(Rest, IsSinceTheStartWhereNothingHasMoved) {
   EXPECT_EQ(still.rest_since, 0.0);
   EXPECT_TRUE(warnings_of(still, true).empty());
   EXPECT_EQ(when_text(still), "at 0.5 s, at rest");
-  EXPECT_FALSE(state_at(0.2, "body.block.velocity=[0.0,0.0]").at_rest) << "too early to tell";
-  // It slows down to rest within 0.3 s, and is not at rest since the start.
+  EXPECT_FALSE(state_at(0.2, "body.block.velocity=[0.0,0.0]").at_rest) << "too early to decide";
+  // It comes to rest within 0.3 s, but has not been at rest since the start.
   EXPECT_FALSE(state_at(1.0, "body.block.velocity=[0.5,0.0]").at_rest);
   EXPECT_FALSE(state_at(0.5, "case.gravity_tilt=30.0").at_rest);
 }
@@ -165,7 +165,7 @@ velocity = [0.0, 6.0]
   EXPECT_GT(fastest, 5.0) << "the stray one still flies";
 }
 
-TEST(Rest, GoesOnFromACheckpointAmidTheRestToTheSameEnd) {
+TEST(Rest, ResumedDuringTheRestTimeEndsAtTheSameTime) {
   Simulation<2> whole(paper_case(block)), parted(paper_case(block));
   const double end = end_of(whole);
   EXPECT_LT(end, 2.0);

@@ -1,4 +1,4 @@
-// What a run in space gathers: probes against the maps and the particles, the front along a path, figures, resuming.
+// Records of a 3D run: probes compared with the maps and the particles, the front along a path, figures, resuming.
 #include "sim/run_records.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using testing_support::value_of;
 
 constexpr auto level_ground = [](double /*x*/, double /*y*/) { return 0.0; };
 
-TEST(Section, PartsAreTheLineCutAtCellBorders) {
+TEST(Section, PartsAreDividedAtCellBorders) {
   const MapGrid grid{0.5, 1.0, 1.0, 2.0, 10, 10, ""};  // borders at whole metres along x, at even ones along y
   const auto parts = parts_of_section({{0.5, 1.0}, {3.5, 1.0}, {3.5, 4.5}}, grid);
   ASSERT_EQ(parts.size(), 7u);
@@ -50,7 +50,7 @@ TEST(Section, ObliquePartsSumToItsLength) {
   EXPECT_NEAR(length, std::hypot(16.8, 33.6), 1e-12);
 }
 
-TEST(Section, OnTheLastBorderLiesInTheCellsBeforeIt) {
+TEST(Section, OnTheLastBorderBelongsToTheCellsBeforeIt) {
   const MapGrid grid{0.5, 0.5, 1.0, 1.0, 3, 2, ""};
   EXPECT_TRUE(grid.contains(3.0, 2.0));
   EXPECT_FALSE(grid.contains(3.001, 2.0));
@@ -61,8 +61,8 @@ TEST(Section, OnTheLastBorderLiesInTheCellsBeforeIt) {
   EXPECT_EQ(grid.cell_column(grid.column_of(3.0)), 2);
 }
 
-TEST(Probes, TellOfTheMovingBox) {
-  // A box that slides as one: what passes is its thickness, width and speed.
+TEST(Probes, MeasureTheMovingBox) {
+  // A box that slides as a rigid body: the discharge is the product of thickness, width and speed.
   const Simulation<3> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
   config::Site site;
   site.probes = {{"gauge", {{3.5, 4.5}}},
@@ -80,7 +80,7 @@ TEST(Probes, TellOfTheMovingBox) {
   EXPECT_EQ(value_of(row, "empty_thickness_m"), 0.0);
   EXPECT_EQ(value_of(row, "empty_speed_m_s"), 0.0);
   EXPECT_NEAR(value_of(row, "section_flow_area_m2"), 12.0, 1e-10);
-  EXPECT_NEAR(value_of(row, "section_discharge_m3_s"), -96.0, 1e-9);  // the line leads south, to whose right is west
+  EXPECT_NEAR(value_of(row, "section_discharge_m3_s"), -96.0, 1e-9);  // the line runs south, so west is to its right
   EXPECT_NEAR(value_of(row, "section_max_thickness_m"), 3.0, 1e-12);
   EXPECT_NEAR(value_of(row, "section_mean_speed_m_s"), 8.0, 1e-9);
   EXPECT_NEAR(value_of(row, "back_discharge_m3_s"), 96.0, 1e-9);
@@ -89,7 +89,7 @@ TEST(Probes, TellOfTheMovingBox) {
   EXPECT_EQ(value_of(row, "beyond_mean_speed_m_s"), 0.0);
 }
 
-TEST(Probes, BesideTheMapsAreRefused) {
+TEST(Probes, OutsideTheMapsAreRefused) {
   const Simulation<3> simulation(slide_in_space());
   config::Site site;
   site.probes = {{"gauge", {{3.5, 40.0}}}};
@@ -130,7 +130,7 @@ TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {
   const auto front = records.front(simulation);
   ASSERT_TRUE(front.has_value());
   EXPECT_NEAR(front->along, front_position(simulation) + 2.0, 1e-12);
-  EXPECT_NEAR(front->place[0], front_position(simulation), 1e-12);
+  EXPECT_NEAR(front->position[0], front_position(simulation), 1e-12);
   const HistoryRow row = records.history_row(simulation), along_x = history_row(simulation);
   ASSERT_EQ(row.size(), along_x.size());
   for (std::size_t k = 0; k < row.size(); ++k) {
@@ -146,17 +146,17 @@ TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {
   const auto figures = records.figures(simulation, level_ground);
   ASSERT_TRUE(figures.has_value());
   EXPECT_EQ(figures->front_distance, front->along);
-  EXPECT_NEAR(figures->travel_distance, front->place[0], 1e-12);
+  EXPECT_NEAR(figures->travel_distance, front->position[0], 1e-12);
   EXPECT_NEAR(figures->drop_height, 3.0, 1e-12);
   EXPECT_EQ(figures->reach_angle, angle_of_reach(figures->drop_height, figures->travel_distance));
   EXPECT_NEAR(figures->covered_volume, 72.0, 0.5);
   const auto on_slope = records.figures(simulation, [](double x, double y) { return 0.25 - 0.1 * x + 0.01 * y; });
-  EXPECT_NEAR(on_slope->drop_height, 2.75 + 0.1 * front->place[0] - 0.01 * front->place[1], 1e-12);
+  EXPECT_NEAR(on_slope->drop_height, 2.75 + 0.1 * front->position[0] - 0.01 * front->position[1], 1e-12);
   simulation.particles().resize(0);
   EXPECT_FALSE(records.front(simulation).has_value());
 }
 
-TEST(RunRecords, WithoutAPathTheWayOfTheCentreOfMassIsTaken) {
+TEST(RunRecords, UseThePathOfTheCentreOfMassByDefault) {
   Simulation<3> simulation(slide_in_space("velocity = [0.0, -16.0, 0.0]", {"case.gravity_tilt=0.0"}));
   RunRecords<3> records(simulation, {});
   records.start(simulation);
@@ -181,11 +181,11 @@ TEST(RunRecords, WithoutAPathTheWayOfTheCentreOfMassIsTaken) {
   EXPECT_NEAR(records.path().length(), 3.0, 0.3);
   const auto front = records.front(simulation);
   ASSERT_TRUE(front.has_value());
-  EXPECT_NEAR(front->along, 5.0 - front->place[1], 0.05);
-  EXPECT_NEAR(records.figures(simulation, level_ground)->travel_distance, 7.0 - front->place[1], 0.05);
+  EXPECT_NEAR(front->along, 5.0 - front->position[1], 0.05);
+  EXPECT_NEAR(records.figures(simulation, level_ground)->travel_distance, 7.0 - front->position[1], 0.05);
 }
 
-TEST(RunRecords, KeepWhatWasLargestWhenTheSlideHasLeft) {
+TEST(RunRecords, KeepPeakValuesAfterTheSlideHasLeft) {
   Simulation<3> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
   config::Site site;
   site.probes = {{"gauge", {{3.5, 4.5}}}};
@@ -201,7 +201,7 @@ TEST(RunRecords, KeepWhatWasLargestWhenTheSlideHasLeft) {
   EXPECT_NEAR(cell.thickness_at_start, 3.0, 1e-12);
 }
 
-TEST(RunRecords, AreTheSameBitsAfterAStopAndAResume) {
+TEST(RunRecords, AreBitwiseIdenticalAfterAStopAndAResume) {
   const config::Case parameters = slide_in_space("velocity = [8.0, 1.0, 0.0]");
   config::Site site;
   site.probes = {{"gauge", {{7.5, 5.5}}}, {"section", {{7.5, 0.0}, {8.5, 10.0}}}};

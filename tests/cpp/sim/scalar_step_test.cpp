@@ -1,4 +1,4 @@
-// The step in batches against the same step particle by particle (tests/cpp/support/scalar_step.hpp).
+// The time step in batches compared with the same step particle by particle (tests/cpp/support/scalar_step.hpp).
 #include "../support/scalar_step.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace testing_support;
 
-// The largest difference of `of` between particles, over its largest size.
+// Maximum difference of `of` between particles, relative to its maximum.
 template <int Dim, class Of>
 double difference(const std::vector<Point<Dim>>& batched, const std::vector<Point<Dim>>& scalar, const Of& of) {
   double largest = 0.0, size = 0.0;
@@ -28,7 +28,7 @@ double difference(const std::vector<Point<Dim>>& batched, const std::vector<Poin
   return size > 0.0 ? largest / size : largest;
 }
 
-// Components `first` ... of the records of the nodes that filled(block, node) names.
+// Components `first` ... of the records of the nodes selected by filled(block, node).
 template <class Records, int Dim, class Filled>
 void expect_same_sums(const Records& records, const ScalarStep<Dim>& scalar, const typename ScalarStep<Dim>::Sums& sums,
                       std::size_t first, const Filled& filled) {
@@ -52,14 +52,14 @@ void expect_same_sums(const Records& records, const ScalarStep<Dim>& scalar, con
   }
 }
 
-// The motion of nodes and what contact leaves there. hovers: part of the base keeps a distance from the ground.
+// Motion of nodes and result of contact. hovers: part of the base keeps a distance from the ground.
 template <int Dim>
 void expect_same_nodes(const Simulation<Dim>& simulation, const ScalarStep<Dim>& scalar, bool hovers) {
   using mpm::Contact;
   const auto& nodes = simulation.nodes();
   int touching = 0, moving = 0;
   double largest_clearance = 0.0;
-  std::map<std::string, std::pair<double, double>> found;  // largest difference and size
+  std::map<std::string, std::pair<double, double>> found;  // maximum difference and magnitude
   const auto compare = [&](const char* name, double batched, double plain) {
     EXPECT_TRUE(std::isfinite(batched)) << name;
     auto& [largest, size] = found[name];
@@ -68,7 +68,7 @@ void expect_same_nodes(const Simulation<Dim>& simulation, const ScalarStep<Dim>&
   };
   for (const auto& [node, clearance] : scalar.contact().clearance()) {
     const auto [b, k] = scalar.at(node);
-    // Gaps are differences of places: their round-off is that of lengths.
+    // Gaps are differences of positions: their round-off is that of lengths.
     compare("clearance", 1.0 + nodes.near_ground(b, k)[mpm::NearGround::clearance], 1.0 + clearance);
     largest_clearance = std::max(largest_clearance, clearance);
   }
@@ -79,7 +79,7 @@ void expect_same_nodes(const Simulation<Dim>& simulation, const ScalarStep<Dim>&
     touching += motion.touching ? 1 : 0;
     compare("slip speed", contact[Contact::slip_speed], motion.slip_speed);
     compare("friction heat", contact[Contact::friction_heat], motion.friction_heat);
-    // Times the mass: nodes that see next to none have the accelerations of round-off.
+    // Times the mass: nodes with almost no mass have accelerations at round-off level.
     const auto& record = nodes.momentum(b, k);
     const double mass = record[mpm::MomentumLayout<Dim>::mass];
     const auto mapped = Eigen::Map<const Vector<double, Dim>>(scalar.mapped().at(node).data());
@@ -161,10 +161,11 @@ void expect_the_scalar_step(const config::Case& parameters, bool yields, bool ho
     in_band += now[p].in_band ? 1 : 0;
     at_pressure_of_air += now[p].pore_pressure == 0.0 ? 1 : 0;
   }
-  EXPECT_EQ(yielding > now.size() / 20, yields) << yielding << " of " << now.size();  // some are torn in either case
+  EXPECT_EQ(yielding > now.size() / 20, yields)
+      << yielding << " of " << now.size();  // some are separated in either case
   EXPECT_GT(warmed, now.size() / 20);
   EXPECT_GT(std::min(in_band, at_pressure_of_air), now.size() / 30);
-  // Tiles whose temperatures change and tiles whose do not, which spare themselves the secant capacity.
+  // Tiles with changing temperatures, and tiles without, which skip the secant capacity.
   const auto& changing = simulation.nodes().marks.changing_tiles;
   const auto count = std::count(changing.begin(), changing.end(), 1);
   EXPECT_GT(count, 0);
@@ -173,26 +174,28 @@ void expect_the_scalar_step(const config::Case& parameters, bool yields, bool ho
 
 constexpr double elastic = 1e7, yielding = 5e3;  // cohesion [Pa]
 
-TEST(ScalarStep, IsThatOfTheBatchesInThePlaneElastic) {
+TEST(ScalarStep, AgreesWithTheBatchesInThePlaneElastic) {
   expect_the_scalar_step<2>(two_bodies<2>(elastic), false, true);
 }
-TEST(ScalarStep, IsThatOfTheBatchesInThePlaneYielding) {
+TEST(ScalarStep, AgreesWithTheBatchesInThePlaneYielding) {
   expect_the_scalar_step<2>(two_bodies<2>(yielding), true, false);
 }
-TEST(ScalarStep, IsThatOfTheBatchesInSpaceElastic) { expect_the_scalar_step<3>(two_bodies<3>(elastic), false, true); }
-TEST(ScalarStep, IsThatOfTheBatchesInSpaceYielding) { expect_the_scalar_step<3>(two_bodies<3>(yielding), true, false); }
+TEST(ScalarStep, AgreesWithTheBatchesInSpaceElastic) { expect_the_scalar_step<3>(two_bodies<3>(elastic), false, true); }
+TEST(ScalarStep, AgreesWithTheBatchesInSpaceYielding) {
+  expect_the_scalar_step<3>(two_bodies<3>(yielding), true, false);
+}
 
-// Ground that cuts through the cells, under a base that partly hovers above it until it yields.
+// Ground oblique to the cells, under a base that partly hovers above it until it yields.
 template <int Dim>
 void expect_the_scalar_step_on_a_plane(double cohesion, bool yields) {
   const auto plane = "type = \"plane\"\nslope = 0.5\nelevation = -0.01";
   expect_the_scalar_step<Dim>(two_bodies<Dim>(cohesion, 7.0, 5.0, 0.0, plane), yields, !yields);
 }
-TEST(ScalarStep, IsThatOfTheBatchesOnAPlane) { expect_the_scalar_step_on_a_plane<2>(elastic, false); }
-TEST(ScalarStep, IsThatOfTheBatchesInSpaceOnAPlane) { expect_the_scalar_step_on_a_plane<3>(yielding, true); }
+TEST(ScalarStep, AgreesWithTheBatchesOnAPlane) { expect_the_scalar_step_on_a_plane<2>(elastic, false); }
+TEST(ScalarStep, AgreesWithTheBatchesInSpaceOnAPlane) { expect_the_scalar_step_on_a_plane<3>(yielding, true); }
 
-// Every choice that the step particle by particle knows, too.
-TEST(ScalarStep, IsThatOfTheBatchesWithOtherChoices) {
+// With all options that the step particle by particle supports.
+TEST(ScalarStep, AgreesWithTheBatchesWithOtherOptions) {
   const auto of = [](const std::vector<std::string>& sets) {
     SCOPED_TRACE(sets[0]);
     const auto flat = "type = \"flat\"\nelevation = 0.0";

@@ -27,12 +27,12 @@ TEST(Section, StationsKeepTheCornersAndAreCloseEnough) {
                   {0.0, 2.5, 5.0, 7.5, 10.0, 10.0 + 7.0 / 3.0, 10.0 + 14.0 / 3.0, 17.0});
 }
 
-TEST(Section, StationsGoOnBeyondTheEnds) {
+TEST(Section, StationsAreExtrapolatedBeyondTheEnds) {
   expect_stations(stations_along(bent, -4.0, 19.0, 4.0), {-4.0, 0.0, 10.0 / 3.0, 20.0 / 3.0, 10.0, 13.5, 17.0, 19.0});
 }
 
-TEST(Section, GroundIsThatOfTheTriangles) {
-  // One raised corner of a cell of 4 m: the centre is the mean of the four, a fourth of it.
+TEST(Section, GroundFollowsTheTriangles) {
+  // One raised corner of a cell of 4 m: the centre is the mean of the four corners, a fourth of the raised one.
   const Raster ground =
       raster(0.0, 0.0, 4.0, 3, 3, [](double x, double y) { return x == 4.0 && y == 4.0 ? 8.0 : 0.0; });
   const PathLine diagonal({{0.0, 0.0}, {4.0, 4.0}});
@@ -44,7 +44,7 @@ TEST(Section, GroundIsThatOfTheTriangles) {
   }
 }
 
-// Cut out of it or put on it: what one loses the other has.
+// Cut out of the ground or placed on it: the loss of one equals the gain of the other.
 TEST(Section, GroundAndThicknessSumToTheTriangulatedSum) {
   const Raster ground = testing_support::rough_raster();
   const Raster thickness = raster(0.0, 0.0, 5.0, 5, 5, [](double x, double y) {
@@ -80,7 +80,7 @@ std::string error_of(const PathLine& line, double to, const Raster& ground) {
   return "no error";
 }
 
-TEST(Section, SaysWhereTheGroundEnds) {
+TEST(Section, ReportsWhereTheGroundEnds) {
   Raster ground = raster(0.0, 0.0, 2.0, 6, 6, [](double x, double) { return x; });
   const PathLine line({{1.0, 3.0}, {14.0, 3.0}});
   EXPECT_EQ(error_of(line, 13.0, ground),

@@ -35,7 +35,7 @@ TEST(SectionWidth, IsLinearBetweenPlacesAndConstantBeyond) {
   EXPECT_EQ(mpm::SectionWidth().at(7.0), 1.0);
 }
 
-// A table that says the same everywhere takes every step of a varying one, with factors of 1.
+// A uniform table uses every step of a varying one, with factors of 1.
 void expect_bits_of_one_width(const std::string& text, const std::vector<std::string>& sets) {
   const auto run = [&](const char* width) {
     std::vector<std::string> all = sets;
@@ -55,14 +55,14 @@ void expect_bits_of_one_width(const std::string& text, const std::vector<std::st
   EXPECT_GT(std::abs(value_of(row, "friction_work_J")), 1e6) << "it slides";
 }
 
-TEST(SectionWidth, OfOneNumberGivesItsBits) {
+TEST(SectionWidth, OfAUniformTableIsBitwiseIdenticalToANumber) {
   const std::vector<std::string> scaled = {"band.model=scaled", "pressure.frozen_rows=vented"};
   expect_bits_of_one_width(column_slab(), {});
   expect_bits_of_one_width(column_slab(), scaled);
   expect_bits_of_one_width(column_slab(), {"mechanics.transfer=apic", "terrain.representation=rigid_points"});
 }
 
-// Elastic material under its own weight between sides of the domain, in a section that opens, narrows and opens again.
+// Elastic material under its weight between sides of the domain, in a section that widens, narrows and widens again.
 const std::string basin = R"(
 [case]
 width = { x = [20.0, 60.0, 80.0, 90.0], value = [10.0, 50.0, 20.0, 25.0] }
@@ -109,7 +109,7 @@ TEST(SectionWidth, LeavesHydrostaticStressInEquilibrium) {
   EXPECT_GT(std::abs(value_of(row, "ground_impulse_x_N_s")), 1e6) << "of the walls";
 }
 
-TEST(SectionWidth, HasTheVolumeOfTheSectionSoWide) {
+TEST(SectionWidth, ScalesTheVolumeOfTheSection) {
   Simulation<2> simulation(case_from_text(basin));
   const double density = simulation.particles().mass(0) / simulation.particles().volume(0);
   // 20 m high; trapezoids of the table, over the first width of 10 m.
@@ -126,7 +126,7 @@ TEST(SectionWidth, HasTheVolumeOfTheSectionSoWide) {
 
 // Nodal velocities u = a (x, 0) in a section b = x: with r = x the expansion of a cylinder, whose two strains are
 // equal.
-TEST(SectionWidth, StrainsAcrossAsACylinderExpands) {
+TEST(SectionWidth, StrainsLikeAnExpandingCylinder) {
   constexpr double a = 2.0, dt = 0.001;
   Simulation<2> simulation(
       case_from_text(basin, {"case.width={ x = [10.0, 1000.0], value = [10.0, 1000.0] }", "body.block.min=[20.0, 0.0]",
@@ -161,8 +161,8 @@ TEST(SectionWidth, StrainsAcrossAsACylinderExpands) {
   }
 }
 
-// Sand that runs through a section which opens and narrows: momentum closes to round-off, mass exactly, energy as it
-// does where the width is the same everywhere.
+// Sand moving through a section that widens and narrows: momentum closes to round-off, mass exactly, and energy as well
+// as with a constant width.
 const std::string channel = dry_sand(2e7) + R"(
 [case]
 width = { x = [60.0, 110.0, 140.0, 170.0], value = [20.0, 60.0, 60.0, 40.0] }
@@ -215,8 +215,8 @@ TEST(SectionWidth, ClosesTheBalances) {
   }
 }
 
-// Columns of a slab are as thick as it is, wherever the section is wider.
-TEST(SectionWidth, LeavesTheFlowDepth) {
+// Columns of a slab have its thickness, regardless of the width of the section.
+TEST(SectionWidth, DoesNotChangeTheFlowDepth) {
   const std::vector<std::string> scaled = {"band.model=scaled", "case.gravity_tilt=0.0"};
   std::vector<std::string> varying = scaled;
   varying.push_back("case.width={ x = [20.0, 180.0], value = [10.0, 50.0] }");
@@ -227,8 +227,8 @@ TEST(SectionWidth, LeavesTheFlowDepth) {
   }
 }
 
-// The ground under a resting slab has the area of the section so wide, and carries its weight.
-TEST(SectionWidth, LeavesLoadPerArea) {
+// The ground under a resting slab has the area of the section with its width, and carries the weight.
+TEST(SectionWidth, DoesNotChangeTheLoadPerArea) {
   const std::vector<std::string> rests = {"case.width={ x = [20.0, 180.0], value = [10.0, 50.0] }",
                                           "case.gravity_tilt=0.0", "body.slab.velocity=[0.0, 0.0]",
                                           "material.rock.viscosity_time=0.1"};
@@ -244,7 +244,7 @@ TEST(SectionWidth, LeavesLoadPerArea) {
   EXPECT_NEAR(value_of(row, "seismic_force_x_N"), 0.0, 1e-3 * weight);
 }
 
-TEST(SectionWidth, KeepsHeatAndWaterOfBandColumns) {
+TEST(SectionWidth, ConservesHeatAndWaterOfBandColumns) {
   Simulation<2> simulation(case_from_text(
       column_slab(),
       {"case.width={ x = [100.0, 300.0, 400.0], value = [10.0, 50.0, 20.0] }", "body.slab.velocity=[30.0, 0.0]",

@@ -1,5 +1,5 @@
-// Seepage in a melted column: what nodes see diffuses, what they do not see falls by subgrid diffusion, and nothing is
-// made or lost.
+// Seepage in a melted column: pressure resolved by the nodes diffuses, unresolved pressure decreases by subgrid
+// diffusion, and water is conserved.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,8 +38,8 @@ enabled = false
 enabled = false
 )";
 
-// Pressures that alternate from row to row within each cell: each node sees their mean alone.
-TEST(Seepage, LevelsWhatNodesDoNotSee) {
+// Pressures that alternate from row to row within each cell: each node resolves their mean only.
+TEST(Seepage, LevelsPressureUnresolvedByNodes) {
   Simulation<2> simulation(paper_case(column));
   auto& particles = simulation.particles();
   constexpr double mean = 5e5, swing = 4e5;
@@ -62,7 +62,7 @@ TEST(Seepage, LevelsWhatNodesDoNotSee) {
   EXPECT_EQ(inside, 96);
 }
 
-// A bump far from the drained top spreads as the variance 2 D t, and its sum stays.
+// A bump far from the drained top spreads with the variance 2 D t, and its sum is constant.
 TEST(Seepage, SpreadsABumpAndKeepsItsSum) {
   Simulation<2> simulation(paper_case(column));
   auto& particles = simulation.particles();
@@ -88,8 +88,8 @@ TEST(Seepage, SpreadsABumpAndKeepsItsSum) {
   EXPECT_NEAR((spread_after - spread) / (2.0 * 0.025484 * 5.0), 1.0, 0.02);
 }
 
-// Melted matter without hydraulic conductivity keeps its water, beside matter that seeps and at the surface alike.
-TEST(Seepage, LeavesTheImpermeableAlone) {
+// Melted material without hydraulic conductivity keeps its water, next to permeable material and at the surface.
+TEST(Seepage, DoesNotAffectImpermeableMaterial) {
   const std::string tight = R"(
 [material.tight]
 law = "elastic"

@@ -1,4 +1,4 @@
-// Particles that start displaced at random.
+// Random initial displacement of particles.
 #include <gtest/gtest.h>
 
 #include "../support/fields.hpp"
@@ -15,7 +15,7 @@ using Fields = std::map<std::string, std::vector<double>>;
 
 constexpr double spacing = 5.0;  // of particles [m]
 
-// A wedge on flat ground, whose slanting side cuts through the lattice, and a block beside it.
+// A wedge on flat ground, whose oblique side cuts through the lattice, next to a block.
 const std::string wedge_and_block = R"(
 [time]
 end = 1.0
@@ -71,8 +71,8 @@ friction_angle = 20.0
 enabled = false
 )";
 
-Sets noise(double share, int seed) {
-  return {fmt::format("initial.noise={}", share), fmt::format("initial.seed={}", seed)};
+Sets noise(double fraction, int seed) {
+  return {fmt::format("initial.noise={}", fraction), fmt::format("initial.seed={}", seed)};
 }
 
 template <int Dim>
@@ -98,7 +98,7 @@ Simulation<3> on_slope(const Sets& sets) {
                                thickness_between(Place(-80.0, -80.0), Place(80.0, 80.0), 2.0, thickness)));
 }
 
-// What `displaced` has more than `regular`, component after component [m].
+// Displacement of `displaced` relative to `regular`, component after component [m].
 std::vector<double> displacements(const Fields& displaced, const Fields& regular) {
   std::vector<double> differences = displaced.at("position");
   EXPECT_EQ(differences.size(), regular.at("position").size());
@@ -108,7 +108,7 @@ std::vector<double> displacements(const Fields& displaced, const Fields& regular
   return differences;
 }
 
-TEST(StartingNoise, IsNoneUnlessAskedFor) {
+TEST(StartingNoise, IsZeroByDefault) {
   const Fields fields = on_flat_ground({});
   const auto& positions = fields.at("position");
   for (std::size_t k = 0; k < positions.size(); ++k) {
@@ -140,7 +140,7 @@ TEST(StartingNoise, DisplacesWithinItsBoundEvenlyAndChangesNothingElse) {
   }
 }
 
-TEST(StartingNoise, FollowsFromTheSeedAndThePlaceInTheBody) {
+TEST(StartingNoise, DependsOnTheSeedAndThePositionInTheBody) {
   const Fields first = on_flat_ground(noise(0.2, 3));
   EXPECT_EQ(on_flat_ground(noise(0.2, 3)).at("position"), first.at("position"));
   const Fields other = on_flat_ground(noise(0.2, 4));
@@ -149,7 +149,7 @@ TEST(StartingNoise, FollowsFromTheSeedAndThePlaceInTheBody) {
     alike += other.at("position")[k] == first.at("position")[k] ? 1 : 0;
   }
   EXPECT_LT(alike, first.at("position").size() / 50) << "but for particles that may not leave the wedge";
-  // A wider domain and another body, later in the alphabet, are no part of it.
+  // A wider domain and another body, later in the alphabet, have no effect.
   Sets wider = noise(0.2, 3);
   wider.emplace_back("grid.min=[-150.0,-70.0]");
   const Fields in_wider =
@@ -189,9 +189,9 @@ TEST(StartingNoise, KeepsAReleaseBetweenTheGroundAndItsTop) {
   for (std::size_t p = 0; p < count; ++p) {
     const auto& at = displaced.at("position");
     const Position place(at[3 * p], at[3 * p + 1], at[3 * p + 2]),
-        way(found[3 * p], found[3 * p + 1], found[3 * p + 2]);
-    EXPECT_LE(way.lpNorm<Eigen::Infinity>(), 0.49 * spacing * (1.0 + 1e-12));
-    if (way.norm() == 0.0) {
+        displacement(found[3 * p], found[3 * p + 1], found[3 * p + 2]);
+    EXPECT_LE(displacement.lpNorm<Eigen::Infinity>(), 0.49 * spacing * (1.0 + 1e-12));
+    if (displacement.norm() == 0.0) {
       ++kept;
     } else {
       EXPECT_TRUE(body.contains(place)) << place.transpose();
@@ -202,7 +202,7 @@ TEST(StartingNoise, KeepsAReleaseBetweenTheGroundAndItsTop) {
   EXPECT_EQ(displaced.at("mass"), regular.at("mass"));
 }
 
-TEST(StartingNoise, RunsToTheSameBitsOnAnyThreads) {
+TEST(StartingNoise, GivesBitwiseIdenticalRunsOnAnyThreads) {
   const int threads_before = thread_count();
   std::vector<Fields> ends;
   for (const int threads : {1, 2}) {

@@ -1,4 +1,4 @@
-// Switches of the model, each by what it does to a run.
+// Options of the model, each tested by its effect on a run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +48,7 @@ using Sets = std::vector<std::string>;
 TEST(Switch, ClapeyronSign) {
   for (const double sign : {1.0, -1.0}) {
     const Simulation<2> simulation(
-        paper_case(block, {sign > 0.0 ? "pressure.clapeyron=usual" : "pressure.clapeyron=printed"}));
+        paper_case(block, {sign > 0.0 ? "pressure.clapeyron=usual" : "pressure.clapeyron=published"}));
     const auto& particles = simulation.particles();
     const double logarithm = 1000.0 * 333.5e3 * std::log((273.15 - 0.2) / 273.15);
     for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -106,7 +106,7 @@ TEST(Switch, BandScalingOfAllParticlesOrOfTheFirstLayer) {
   }
 }
 
-// Traction along the base over its length, at a pore pressure far above the overburden.
+// Traction along the base over its length, with a pore pressure far above the overburden.
 double traction_under_pressure(const Sets& more) {
   Sets sets{"body.block.temperature=5.0", "body.block.velocity=[5.0,0.0]",
             "basal.cohesion=5e4",         "basal.cohesion_law=constant",
@@ -124,7 +124,7 @@ double traction_under_pressure(const Sets& more) {
   return force / 100.0;
 }
 
-TEST(Switch, WhereThePressureIsClamped) {
+TEST(Switch, LocationOfThePressureClamp) {
   EXPECT_NEAR(traction_under_pressure({}) / 5e4, 1.0, 0.02);
   EXPECT_NEAR(traction_under_pressure({"basal.clamp=joint"}), 0.0, 1.0);
   EXPECT_NEAR(traction_under_pressure({"basal.clamp=joint", "basal.cap_pressure=true"}) / 5e4, 1.0, 0.02);
@@ -133,7 +133,7 @@ TEST(Switch, WhereThePressureIsClamped) {
               1.0, 0.02);
 }
 
-// A band that thickens drains slower, with heat on or off.
+// A thickening band drains more slowly, with heat on or off.
 TEST(Switch, TheBandFollowsItsTableWithoutHeat) {
   Simulation<2> simulation(paper_case(
       block, {"heat.enabled=false", "band.thickness={ time = [0.0, 0.5, 0.5, 1.0], value = [0.05, 0.05, 0.5, 0.5] }"}));

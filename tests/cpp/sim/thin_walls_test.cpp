@@ -1,4 +1,4 @@
-// Walls of the terrain that are thinner than a cell are told of; other ground is not.
+// A warning is given for walls of the terrain that are thinner than a cell, and not for other ground.
 #include "sim/thin_walls.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ config::Case case_of(config::TerrainKind kind, int dimension, double cell) {
   return parameters;
 }
 
-// A dyke about x = 0 with upright faces.
+// A dyke at x = 0 with vertical faces.
 std::string of_dyke(double width, double height, double cell) {
   config::Site site;
   site.profile.distance = {-200.0, -0.5 * width - 0.01, -0.5 * width, 0.5 * width, 0.5 * width + 0.01, 200.0};
@@ -50,7 +50,7 @@ TEST(ThinWalls, OfProfiles) {
   EXPECT_EQ(of_dyke(4.5, 4.9, 5.0), "") << "lower than a cell";
   EXPECT_EQ(of_dyke(5.1, 40.0, 5.0), "") << "a cell thick";
   EXPECT_EQ(of_dyke(2.0, 40.0, 1.9), "");
-  config::Site site;  // a cliff and a sharp crest are no walls
+  config::Site site;  // cliffs and sharp crests are not walls
   site.profile.distance = {-200.0, -50.0, -49.9, 0.0, 60.0, 200.0};
   site.profile.terrain = {0.0, 0.0, 80.0, 150.0, 60.0, 0.0};
   EXPECT_EQ(warning_of_thin_walls(case_of(config::TerrainKind::profile, 2, 5.0), site), "");

@@ -45,7 +45,7 @@ TEST(TimeStep, TheLastFixedStepEndsWithTheRun) {
   EXPECT_DOUBLE_EQ(simulation.time(), 0.01);
 }
 
-// Two blocks of the same stiffness and density, of materials that tension can tear apart.
+// Two blocks of the same stiffness and density, with materials that tension can tear apart.
 const std::string two_blocks = R"(
 [time]
 end = 1.0
@@ -87,7 +87,7 @@ enabled = false
 
 constexpr double opening = 3.0;  // volume over that of the closed gap
 
-// The limit after a particle of the material, 17 or 117, has been torn apart.
+// Step limit after a particle of the material, 17 or 117, has been torn apart.
 StepLimit limit_with_gap(Simulation<2>& simulation, const std::string& material) {
   auto& particles = simulation.particles();
   const std::int64_t id = material == "free" ? 17 : 117;
@@ -101,7 +101,7 @@ StepLimit limit_with_gap(Simulation<2>& simulation, const std::string& material)
   return simulation.step_limit();
 }
 
-TEST(TimeStep, AnOpenGapThatBearsNothingDoesNotShortenIt) {
+TEST(TimeStep, AnOpenGapWithoutStressDoesNotShortenIt) {
   Simulation<2> simulation(paper_case(two_blocks));
   const double before = simulation.step_limit().step;
   const StepLimit after = limit_with_gap(simulation, "free");
@@ -109,7 +109,7 @@ TEST(TimeStep, AnOpenGapThatBearsNothingDoesNotShortenIt) {
   EXPECT_NEAR(simulation.next_step(1e6 * before), before, 1e-5 * before);
 }
 
-TEST(TimeStep, GoesByTheVolumeOfMaterialThatBearsAtOnce) {
+TEST(TimeStep, UsesTheVolumeOfMaterialThatBearsStressImmediately) {
   Simulation<2> simulation(paper_case(two_blocks));
   const double before = simulation.step_limit().step;
   const StepLimit after = limit_with_gap(simulation, "loose");
@@ -117,7 +117,7 @@ TEST(TimeStep, GoesByTheVolumeOfMaterialThatBearsAtOnce) {
   EXPECT_EQ(after.particle, 117);
 }
 
-TEST(TimeStep, GoesByTheVolumeOfMaterialThatDilationOrACutoffLetsBear) {
+TEST(TimeStep, UsesTheVolumeIfDilationOrACutoffLetsMaterialBearStress) {
   for (const char* change : {"material.free.dilation_angle=5", "material.free.tension_cutoff=1e4"}) {
     Simulation<2> simulation(paper_case(two_blocks, {change}));
     const double before = simulation.step_limit().step;
@@ -157,9 +157,9 @@ double widest_gap(const Simulation<2>& simulation) {
   return widest;
 }
 
-// Two halves that fly apart tear a gap open between them. With their velocities reversed they close it, collide and
-// rebound. Steps that are too long for closed material create energy there: at most 2.5, 4.2, 6.7 and 8.9 % with steps
-// of 0.25, 1, 1.4 and 1.7 times the limit.
+// Two halves that fly apart open a gap between them. With reversed velocities they close it, collide and rebound. Time
+// steps that are too long for closed material create energy there: at most 2.5, 4.2, 6.7 and 8.9 % with steps of 0.25,
+// 1, 1.4 and 1.7 times the limit.
 TEST(TimeStep, IsShortEnoughWhenATornGapCloses) {
   Simulation<2> simulation(paper_case(
       two_blocks,

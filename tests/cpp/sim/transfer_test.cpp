@@ -1,4 +1,4 @@
-// What each shape function and transfer keeps: free fall, rotation, momentum and the energy account.
+// Quantities conserved by each shape function and transfer: free fall, rotation, momentum and the energy budget.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 using namespace testing_support;
 using Plane = Vector<double, 2>;
 
-// A free elastic block, askew to the grid.
+// A free elastic block, oblique to the grid.
 const std::string block = R"(
 [case]
 gravity = 0.0
@@ -49,7 +49,7 @@ struct Transfer {
   std::vector<std::string> sets;
 };
 const std::vector<Transfer> transfers{{"flip", {}},
-                                      {"blend", {"mechanics.transfer=blend", "mechanics.pic_share=0.1"}},
+                                      {"blend", {"mechanics.transfer=blend", "mechanics.pic_fraction=0.1"}},
                                       {"apic", {"mechanics.transfer=apic"}},
                                       {"fmpm", {"mechanics.transfer=fmpm", "mechanics.fmpm_interval=0.02"}}};
 
@@ -71,7 +71,7 @@ void for_each_choice(const Work& work) {
   }
 }
 
-// Velocities random about a spin, with stresses; the affine velocities are the spin's.
+// Random velocities added to a spin, with stresses; the affine velocities are those of the spin.
 void stir(Simulation<2>& simulation, double spin, double velocity, double stress) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
@@ -79,7 +79,7 @@ void stir(Simulation<2>& simulation, double spin, double velocity, double stress
   const bool affine = simulation.model().motion.transfer == mpm::TransferKind::apic;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Plane arm = particles.position.get<Plane>(p) - Plane(19.8, 20.1);
-    const double up = velocity * number(random), along = velocity * number(random);  // in this order by any compiler
+    const double up = velocity * number(random), along = velocity * number(random);  // in this order for any compiler
     particles.velocity.set(p, Plane(-spin * arm[1] + along, spin * arm[0] + up));
     if (affine) {
       particles.affine_velocity(p, 1) = spin;
@@ -91,8 +91,8 @@ void stir(Simulation<2>& simulation, double spin, double velocity, double stress
   }
 }
 
-// About the block's centre [N m s], with particles at `positions`. The affine part counts with the second moment
-// cell^2/4 of the quadratic spline.
+// Angular momentum about the block's centre [N m s], with particles at `positions`. The affine part contributes with
+// the second moment cell^2/4 of the quadratic spline.
 double angular_momentum(const Simulation<2>& simulation, const std::vector<Plane>& positions, bool affine) {
   const auto& particles = simulation.particles();
   double sum = 0.0;
@@ -136,9 +136,9 @@ TEST(Transfer, FreeFallThroughCellsIsExact) {
   });
 }
 
-// Through one step, the particles where they stood: APIC keeps the angular momentum of any motion under any stress,
-// FLIP does not where there is stress, PIC not even that of a rigid spin.
-TEST(Transfer, OnlyApicKeepsAngularMomentum) {
+// Through one step, with particles at their initial positions: APIC conserves the angular momentum of any motion under
+// any stress. FLIP does not if there is stress, and PIC does not even for a rigid spin.
+TEST(Transfer, OnlyApicConservesAngularMomentum) {
   const auto change = [](std::vector<std::string> sets, bool affine, double velocity, double stress) {
     Simulation<2> simulation(block_with("quadratic", std::move(sets)));
     stir(simulation, 2.0, velocity, stress);
@@ -147,19 +147,20 @@ TEST(Transfer, OnlyApicKeepsAngularMomentum) {
     simulation.step(0.002);
     return angular_momentum(simulation, positions, affine) / before - 1.0;
   };
-  const std::vector<std::string> pic{"mechanics.transfer=blend", "mechanics.pic_share=1"};
+  const std::vector<std::string> pic{"mechanics.transfer=blend", "mechanics.pic_fraction=1"};
   EXPECT_NEAR(change({"mechanics.transfer=apic"}, true, 0.0, 0.0), 0.0, 1e-13);
   EXPECT_NEAR(change({"mechanics.transfer=apic"}, true, 1.0, 1e6), 0.0, 1e-13);
   EXPECT_NEAR(change({}, false, 0.0, 0.0), 0.0, 1e-13);
   EXPECT_GT(std::abs(change({}, false, 1.0, 1e6)), 1e-5);
-  // Well inside, PIC takes 2 D = cell^2/2 from the mean square arm, here 2 (5^2 - 1/4)/12 m^2; at the edges less.
+  // In the interior, PIC subtracts 2 D = cell^2/2 from the mean square arm, here 2 (5^2 - 1/4)/12 m^2; at the edges
+  // less.
   EXPECT_NEAR(change(pic, false, 0.0, 0.0), -0.5 / (2.0 * 24.75 / 12.0), 0.03);
 }
 
-// A turn by one radian, 5 cells a side. Eq. 14 moves particles by mid-step velocities, which makes dt spin^2 t/2 of
-// angular momentum in any transfer. FLIP and PIC lose much: at the free edges their nodes take velocities from one
-// side.
-TEST(Transfer, RigidSpinGoesOnWithApic) {
+// A turn by one radian, 5 cells per side. Eq. 14 moves particles by mid-step velocities, which creates dt spin^2 t/2 of
+// angular momentum with any transfer. FLIP and PIC lose much: at the free edges their nodes receive velocities from one
+// side only.
+TEST(Transfer, RigidSpinIsConservedByApic) {
   const auto run = [](const std::string& shape, std::vector<std::string> sets) {
     Simulation<2> simulation(block_with(shape, std::move(sets)));
     stir(simulation, 1.0, 0.0, 0.0);
@@ -167,19 +168,19 @@ TEST(Transfer, RigidSpinGoesOnWithApic) {
     run_until(simulation, 1.0);
     return angular_momentum(simulation, positions_by_id(simulation), false) / before - 1.0;
   };
-  const double printed = 0.002 / 2.0;
+  const double published = 0.002 / 2.0;
   for (const char* shape : {"ugimp", "quadratic"}) {
     SCOPED_TRACE(shape);
-    EXPECT_NEAR(run(shape, {"mechanics.transfer=apic"}) / printed, 1.0, 0.02);
+    EXPECT_NEAR(run(shape, {"mechanics.transfer=apic"}) / published, 1.0, 0.02);
     const double flip = run(shape, {});
     EXPECT_LT(flip, -0.2);
-    EXPECT_LT(run(shape, {"mechanics.transfer=blend", "mechanics.pic_share=0.1"}), 2.0 * flip);
+    EXPECT_LT(run(shape, {"mechanics.transfer=blend", "mechanics.pic_fraction=0.1"}), 2.0 * flip);
   }
 }
 
-// Of noise in every mode of the grid, which is the worst there is: what the account leaves over falls with the step in
-// first order at least.
-TEST(Transfer, MomentumIsKeptAndEnergyIsAccountedFor) {
+// Noise in every mode of the grid, the worst case: the residual of the budget decreases with the step in at least first
+// order.
+TEST(Transfer, MomentumIsConservedAndTheEnergyBudgetCloses) {
   for_each_choice([](const std::string& shape, const Transfer& transfer) {
     double residual[2], made = 0.0;
     for (int k = 0; k < 2; ++k) {
@@ -201,15 +202,15 @@ TEST(Transfer, MomentumIsKeptAndEnergyIsAccountedFor) {
     EXPECT_LT(std::abs(residual[1]), 0.02);
     EXPECT_GT(residual[0] / residual[1], 1.9);
     if (transfer.name != "flip") {
-      EXPECT_LT(made, -0.1) << "what the transfer takes is in the account";
+      EXPECT_LT(made, -0.1) << "the budget includes the loss of the transfer";
       EXPECT_LT(std::abs(residual[1] / made), 0.05);
     }
   });
 }
 
-TEST(Transfer, BlendWithoutPicIsFlipInEveryBit) {
+TEST(Transfer, BlendWithoutPicIsBitwiseIdenticalToFlip) {
   Simulation<2> flip(block_with("ugimp", {}));
-  Simulation<2> blend(block_with("ugimp", {"mechanics.transfer=blend", "mechanics.pic_share=0"}));
+  Simulation<2> blend(block_with("ugimp", {"mechanics.transfer=blend", "mechanics.pic_fraction=0"}));
   for (Simulation<2>* simulation : {&flip, &blend}) {
     stir(*simulation, 0.5, 0.5, 1e5);
     run_until(*simulation, 0.1);
@@ -219,7 +220,7 @@ TEST(Transfer, BlendWithoutPicIsFlipInEveryBit) {
   }
 }
 
-TEST(Transfer, ApicDoesNotDependOnWhereParticlesStand) {
+TEST(Transfer, ApicDoesNotDependOnParticlePositions) {
   Simulation<2> seldom(block_with("quadratic", {"mechanics.transfer=apic"}));
   Simulation<2> often(block_with("quadratic", {"mechanics.transfer=apic"}));
   often.set_sorting_interval(1);

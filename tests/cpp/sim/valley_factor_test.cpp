@@ -1,4 +1,4 @@
-// The base of a block in a valley: channels whose factors are known, planes and ridges that have none.
+// Base of a block in a valley: channels with known factors; planes and ridges with a factor of 1.
 #include "sim/valley_factor.hpp"
 
 #include <gtest/gtest.h>
@@ -17,10 +17,11 @@ using namespace testing_support;
 
 constexpr double degree = 3.14159265358979323846 / 180.0, slope = 35.0, friction = 15.0, cell = 5.0;
 
-// The slope across a V channel, of this opening normal to its thalweg.
+// Slope of the walls of a V-shaped channel with this opening angle normal to its thalweg.
 double side_of(double opening) { return 1.0 / std::tan(0.5 * opening * degree) / std::cos(slope * degree); }
 
-// Falls by the slope towards an azimuth; `across`: height over the distance from the line of fall through the origin.
+// Ground that falls by the slope towards an azimuth; `across`: height as a function of the distance from the line of
+// fall through the origin.
 Height channel(double azimuth, const std::function<double(double)>& across) {
   const double x = std::cos(azimuth * degree), y = std::sin(azimuth * degree), fall = std::tan(slope * degree);
   return
@@ -47,7 +48,7 @@ TEST(ValleyFactor, OfAVChannelIsOneOverTheSineOfHalfItsOpening) {
         SCOPED_TRACE(fmt::format("opening {}, width {}, fill {}", opening, width, fill));
         const CrossSection section{width, fill * 0.25 * m * width * width, 0.5 * cell};
         EXPECT_NEAR(factor_in(channel(0.0, v), 0.0, section, cell), exact, 1e-9) << "thalweg on the points";
-        if (width >= 8.0 * cell && fill >= 0.5) {  // the triangles between the points cut an oblique thalweg off
+        if (width >= 8.0 * cell && fill >= 0.5) {  // the triangles between the points truncate an oblique thalweg
           EXPECT_NEAR(factor_in(channel(22.5, v), 22.5, section, 0.25 * cell), exact, 0.06 * exact);
           EXPECT_NEAR(factor_in(channel(45.0, v), 45.0, section, 0.25 * cell), exact, 0.06 * exact);
         }
@@ -56,8 +57,8 @@ TEST(ValleyFactor, OfAVChannelIsOneOverTheSineOfHalfItsOpening) {
   }
 }
 
-// A circular trough on level ground, filled to a level: int h dA / int h dx, by arc and by chord.
-TEST(ValleyFactor, OfATroughWeighsTheGroundByTheDepthAboveIt) {
+// A circular trough on level ground, filled to a given level: int h dA / int h dx, by arc and by chord.
+TEST(ValleyFactor, OfATroughWeightsTheGroundByTheDepthAboveIt) {
   const double radius = 40.0;
   for (const double half : {10.0, 20.0, 30.0}) {  // of the surface
     const double bed = radius - std::sqrt(radius * radius - half * half);
@@ -77,7 +78,7 @@ TEST(ValleyFactor, OfATroughWeighsTheGroundByTheDepthAboveIt) {
   }
 }
 
-TEST(ValleyFactor, OfAPlaneAlsoAnObliqueOneAndOfARidgeIsOne) {
+TEST(ValleyFactor, OfStraightAndObliquePlanesAndOfARidgeIsOne) {
   const CrossSection section{60.0, 600.0, 2.5};
   for (const double across : {0.0, 0.3, -1.2}) {
     EXPECT_NEAR(factor_in(channel(0.0, [across](double y) { return across * y; }), 0.0, section, cell), 1.0, 1e-9);

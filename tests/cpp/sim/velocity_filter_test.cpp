@@ -1,4 +1,4 @@
-// The filter of velocities (FMPM): what it keeps, what it takes, and when.
+// The filter of velocities (FMPM): conserved components, damped components, and filter times.
 #include "mpm/velocity_filter.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 
 using namespace testing_support;
 
-// A free block with particles out of their places, askew to the grid, in whose first step velocities are filtered.
+// A free block with displaced particles, oblique to the grid. Velocities are filtered in its first step.
 template <int Dim>
 std::string block() {
   const auto point = [](double x, double z) {
@@ -59,7 +59,7 @@ enabled = false
                      point(17.3, 17.6), point(20.3, 19.6));
 }
 
-// Velocities of all particles by id, one below the other.
+// Velocities of all particles by id, in rows.
 using Velocities = Eigen::VectorXd;
 template <int Dim>
 Velocities velocities_of(const Simulation<Dim>& simulation) {
@@ -89,7 +89,7 @@ Velocities random_velocities(Eigen::Index count) {
   return all;
 }
 
-// What the sweeps are made of, as matrices: by node the local least squares of a rigid motion, weighed by S m.
+// Components of the sweeps as matrices: per node, the local least squares of a rigid motion, weighted by S m.
 template <int Dim>
 struct Dense {
   Eigen::MatrixXd transfer;  // B
@@ -151,7 +151,7 @@ void expect_the_filter_of_matrices(int order) {
     rest -= dense.transfer * rest;
   }
   EXPECT_LT((after - (before - rest)).cwiseAbs().maxCoeff(), 1e-11);
-  // Momentum and angular momentum, which the rigid motions tell; energy.
+  // Momentum and angular momentum, expressed by the rigid motions; energy.
   const Eigen::VectorXd momenta = dense.rigid.transpose() * dense.mass.cwiseProduct(before);
   const Eigen::VectorXd change = dense.rigid.transpose() * dense.mass.cwiseProduct(after - before);
   EXPECT_LT(change.cwiseAbs().maxCoeff(), 1e-12 * dense.mass.sum());
@@ -161,15 +161,15 @@ void expect_the_filter_of_matrices(int order) {
   EXPECT_NEAR(value_of(history_row(simulation), "numerical_J"), -lost, 1e-12 * lost) << "and is booked";
 }
 
-TEST(VelocityFilter, IsThatOfMatrices) {
+TEST(VelocityFilter, IsEqualToItsMatrixForm) {
   for (const int order : {2, 3, 4}) {
     expect_the_filter_of_matrices<2>(order);
     expect_the_filter_of_matrices<3>(order);
   }
 }
 
-// B is symmetric about the masses, with eigenvalues from 0 to 1, and leaves rigid motions: so kinetic energy can only
-// fall, and whatever is filtered out has neither momentum nor angular momentum.
+// B is symmetric with respect to the masses, with eigenvalues from 0 to 1, and preserves rigid motions. Kinetic energy
+// can therefore only decrease, and the filtered part has neither momentum nor angular momentum.
 template <int Dim>
 void expect_a_contraction_that_keeps_rigid_motions() {
   const Simulation<Dim> simulation(paper_case(block<Dim>()));
@@ -183,13 +183,13 @@ void expect_a_contraction_that_keeps_rigid_motions() {
   EXPECT_GT(modes.eigenvalues().minCoeff(), -1e-13);
   EXPECT_LT(modes.eigenvalues().maxCoeff(), 1.0 + 1e-13);
 }
-TEST(VelocityFilter, IsAContractionThatKeepsRigidMotions) {
+TEST(VelocityFilter, IsAContractionThatPreservesRigidMotions) {
   expect_a_contraction_that_keeps_rigid_motions<2>();
   expect_a_contraction_that_keeps_rigid_motions<3>();
 }
 
-// A spin passes as it is with all shape functions, where PIC would take some of it.
-TEST(VelocityFilter, LetsASpinPass) {
+// A spin passes unchanged with all shape functions; PIC would damp it.
+TEST(VelocityFilter, PreservesASpin) {
   for (const char* shape : {"ugimp", "linear", "quadratic"}) {
     SCOPED_TRACE(shape);
     Simulation<2> simulation(paper_case(block<2>(), {std::string("mechanics.shape_function=") + shape}));
@@ -207,8 +207,8 @@ std::string without_filter() {
   return text.erase(text.find(lines), lines.size());
 }
 
-// Between filters it is FLIP in every bit; fixed steps and adaptive ones reach each multiple of the interval once.
-TEST(VelocityFilter, ActsOnceAnInterval) {
+// Between filters it is bitwise identical to FLIP; fixed and adaptive steps reach each multiple of the interval once.
+TEST(VelocityFilter, ActsOncePerInterval) {
   for (const std::string stepping : {"fixed", "adaptive"}) {
     SCOPED_TRACE(stepping);
     const std::vector<std::string> sets{"time.stepping=" + stepping, "mechanics.fmpm_interval=0.02"};
@@ -231,14 +231,14 @@ TEST(VelocityFilter, ActsOnceAnInterval) {
   }
 }
 
-// A bar free at both ends, in its first mode: node velocities u cos(k x_i), four cells a half wave. The sums over
-// particles a quarter of a cell from nodes, for uGIMP with two of them a cell and an axis, make of such a mode
+// A bar free at both ends, in its first mode: node velocities u cos(k x_i), four cells per half wave. For uGIMP with
+// two particles per cell and axis, a quarter of a cell from nodes, the sums over particles transform such a mode by
 //   S+ S cos(k x_i) = l cos(k x_i),  l = 5/8 + 3/8 cos(k h)
-// so that a filter of order m leaves the share f = 1 - (1 - l)^m of a velocity that the grid has given. Between filters
-// the mode swings by the angle a = w tau. Displacement (times w) and velocity follow from those an interval before by
-// the matrix (cos a, sin a; -f sin a, f cos a), so that by its characteristic equation
+// A filter of order m therefore leaves the fraction f = 1 - (1 - l)^m of a velocity that the grid has given. Between
+// filters the phase of the mode advances by a = w tau. Displacement (times w) and velocity follow from those of the
+// previous interval by the matrix (cos a, sin a; -f sin a, f cos a). By its characteristic equation
 //   v_n+1 = (1 + f) cos(a) v_n - f v_n-1
-// the amplitude falls by sqrt(f) an interval. FLIP has f = 1.
+// the amplitude decreases by sqrt(f) per interval. FLIP has f = 1.
 // Its frequency is w = (2 c/h) sin(k h/2) sqrt(l): strains follow from velocities mapped back, forces act on lumped
 // masses.
 constexpr int bar_cells = 4, interval_in_steps = 43;
@@ -274,7 +274,7 @@ enabled = false
 )",
                                     bar_step, 1.0 / bar_cells, 2.0 / bar_cells, 2.0 / bar_cells);
 
-// Determinant and trace of the matrix that takes the mode's velocity over an interval, by least squares.
+// Determinant and trace of the matrix that advances the mode's velocity over an interval, by least squares.
 struct Swing {
   double determinant, trace;
 };
@@ -291,7 +291,7 @@ Swing swing(const std::vector<std::string>& sets) {
   }
   set_velocities(simulation, Velocities(1e-3 * form));
   std::vector<double> velocity;
-  const SingleThreadScope alone;  // waking others for so short a bar takes longer than a step
+  const SingleThreadScope alone;  // for so short a bar, starting other threads takes longer than a step
   for (int k = 1; k <= 40 * interval_in_steps; ++k) {
     simulation.step(bar_step);
     if (k % interval_in_steps == 0) {
@@ -306,7 +306,7 @@ Swing swing(const std::vector<std::string>& sets) {
   return {found[1], found[0]};
 }
 
-TEST(VelocityFilter, TakesOfAWaveWhatItsEigenvalueSays) {
+TEST(VelocityFilter, DampsAWaveByItsEigenvalue) {
   verification::Record record(
       "A bar whose velocities are filtered",
       "The first mode of an elastic bar free at both ends, four cells long, its velocities filtered 6 times a period "
@@ -321,10 +321,10 @@ TEST(VelocityFilter, TakesOfAWaveWhatItsEigenvalueSays) {
   for (const int order : {2, 3, 4}) {
     const Swing found = swing({"mechanics.transfer=fmpm", fmt::format("mechanics.fmpm_order={}", order),
                                fmt::format("mechanics.fmpm_interval={:.17g}", interval_in_steps * bar_step)});
-    const double share = 1.0 - std::pow(1.0 - eigenvalue, order);
+    const double fraction = 1.0 - std::pow(1.0 - eigenvalue, order);
     record.expect_near(fmt::format("what an interval takes of the determinant over exact, order {}", order),
-                       (1.0 - found.determinant) / (1.0 - share), 1.0, 1e-3);
-    record.expect_near(fmt::format("trace over exact, order {}", order), found.trace / ((1.0 + share) * cosine), 1.0,
+                       (1.0 - found.determinant) / (1.0 - fraction), 1.0, 1e-3);
+    record.expect_near(fmt::format("trace over exact, order {}", order), found.trace / ((1.0 + fraction) * cosine), 1.0,
                        1e-3);
   }
 }

@@ -61,7 +61,7 @@ struct Mode {
   double stroke;     // of the displacement, over the exact one
 };
 
-// Three periods of mode 1. Zeros of the modal velocity tell the frequency.
+// Three periods of mode 1. The frequency follows from zeros of the modal velocity.
 Mode vibrate(int cells, const std::vector<std::string>& sets) {
   Simulation<2> simulation(bar(cells, sets));
   auto& particles = simulation.particles();
@@ -109,10 +109,10 @@ Mode vibrate_with(const std::string& shape, const std::string& transfer, int cel
   return vibrate(cells, {"mechanics.shape_function=" + shape, "mechanics.transfer=" + transfer});
 }
 
-// The order at which an error falls from `coarse` to `fine` with half the cell.
+// Order of convergence of an error from `coarse` to `fine` with half the cell.
 double order(double coarse, double fine) { return std::log2(coarse / fine); }
 
-// Frequency in second order of the cell, whatever carries the momentum; the amplitude faster still.
+// The frequency converges in second order of the cell, for all transfers; the amplitude converges faster.
 void expect_second_order(const std::string& shape, const std::string& transfer, double error) {
   SCOPED_TRACE(shape + " " + transfer);
   verification::Record record("Vibration of a bar, " + shape + ", " + transfer,
@@ -135,9 +135,9 @@ TEST(Bar, LinearFlip) { expect_second_order("linear", "flip", 1.5e-3); }
 TEST(Bar, QuadraticFlip) { expect_second_order("quadratic", "flip", 2.7e-3); }
 TEST(Bar, QuadraticApic) { expect_second_order("quadratic", "apic", 1.4e-3); }
 
-// PIC damps by its share in each step: here some 1 % of 960 steps.
+// PIC damps by its fraction in each step: here about 1 % in each of 960 steps.
 TEST(Bar, PicDamps) {
-  const Mode mode = vibrate(16, {"mechanics.transfer=blend", "mechanics.pic_share=0.01"});
+  const Mode mode = vibrate(16, {"mechanics.transfer=blend", "mechanics.pic_fraction=0.01"});
   EXPECT_LT(mode.amplitude, 0.96);
   EXPECT_GT(mode.amplitude, 0.94);
 }

@@ -1,4 +1,4 @@
-// The water of melted pores: what frozen matter takes, the void that melt leaves, what load and heat press out of it.
+// Water of melted pores: uptake by frozen material, voids left by melting, water driven out by load and heat.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing_support;
 
-// A column of two cells by twenty whose particles stand still.
+// A column of two cells by twenty whose particles are at rest.
 const std::string column = R"(
 [time]
 end = 100.0
@@ -45,7 +45,7 @@ std::vector<std::string> both(std::vector<std::string> sets, const std::vector<s
   return sets;
 }
 
-// Gives particles another temperature, as if it had been theirs from the start.
+// Assigns another temperature to particles as their initial temperature.
 void set_temperature(Simulation<2>& simulation, std::size_t p, double temperature) {
   auto& particles = simulation.particles();
   particles.temperature(p) = particles.previous_temperature(p) = temperature;
@@ -53,7 +53,7 @@ void set_temperature(Simulation<2>& simulation, std::size_t p, double temperatur
       [&](const auto& content) { return content.curve.saturation(temperature); });
 }
 
-// Sum of n V/K_L P of melted matter [m3]: what seepage may only move.
+// Sum of n V/K_L P of melted material [m3], which seepage conserves.
 double stored(const Simulation<2>& simulation) {
   const auto& particles = simulation.particles();
   double sum = 0.0;
@@ -65,23 +65,24 @@ double stored(const Simulation<2>& simulation) {
   return sum;
 }
 
-// Patches of frozen and melted matter under any pressures, with a frozen top; the melted ones' largest and smallest.
+// Patches of frozen and melted material at random pressures, with a frozen top; minimum and maximum pressure of the
+// melted ones.
 void fill_with_patches(Simulation<2>& simulation) {
   auto& particles = simulation.particles();
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> share(0.0, 1.0);
+  std::uniform_real_distribution<double> fraction(0.0, 1.0);
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const bool frozen = share(random) < 0.5 || particles.position(p, 1) > 9.0;
+    const bool frozen = fraction(random) < 0.5 || particles.position(p, 1) > 9.0;
     set_temperature(simulation, p, frozen ? -2.0 : 5.0);
-    particles.liquid_pressure(p) = particles.pore_pressure(p) = frozen ? 0.0 : 2e6 * share(random);
-    for (int a = 0; a < 2; ++a) {  // wherever particles stand in their cells
-      particles.position(p, a) += 0.1 * (share(random) - 0.5);
+    particles.liquid_pressure(p) = particles.pore_pressure(p) = frozen ? 0.0 : 2e6 * fraction(random);
+    for (int a = 0; a < 2; ++a) {  // for different positions of particles in their cells
+      particles.position(p, a) += 0.1 * (fraction(random) - 0.5);
     }
   }
 }
 
-// The limit of the step is 2.3 s.
-TEST(FrozenRows, SealedOnesKeepTheWaterInAndItsPressureWithinBounds) {
+// The step limit is 2.3 s.
+TEST(FrozenRows, SealedOnesKeepTheWaterAndBoundItsPressure) {
   for (const double step : {0.05, 2.2}) {
     Simulation<2> simulation(paper_case(
         column, both(still, {"pressure.frozen_rows=sealed", "time.end=1000", fmt::format("time.step={}", step)})));
@@ -104,8 +105,8 @@ TEST(FrozenRows, SealedOnesKeepTheWaterInAndItsPressureWithinBounds) {
   }
 }
 
-TEST(FrozenRows, SealedOnesDoNotPressOnTheWaterBesideThem) {
-  // Below 5 m melted at 1 MPa, above frozen, with ice at any pressure: nothing flows.
+TEST(FrozenRows, SealedOnesExertNoPressureOnAdjacentWater) {
+  // Melted at 1 MPa below 5 m, frozen above, with ice at any pressure: nothing flows.
   Simulation<2> simulation(paper_case(column, both(still, {"pressure.frozen_rows=sealed"})));
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -121,9 +122,10 @@ TEST(FrozenRows, SealedOnesDoNotPressOnTheWaterBesideThem) {
   }
 }
 
-// What frozen rows take is what the melted matter lacks; vented rows take more than those whose ice presses back.
-TEST(FrozenRows, WhatTheyTakeIsCounted) {
-  const auto taken = [&](const std::string& rows) {
+// The uptake of frozen rows equals the loss of the melted material; vented rows absorb more than those with ice
+// pressure.
+TEST(FrozenRows, TheirUptakeIsCounted) {
+  const auto entrained = [&](const std::string& rows) {
     Simulation<2> simulation(paper_case(column, both(still, {"pressure.frozen_rows=" + rows})));
     fill_with_patches(simulation);
     const double before = stored(simulation);
@@ -135,12 +137,12 @@ TEST(FrozenRows, WhatTheyTakeIsCounted) {
     EXPECT_NEAR((value_of(row, "pore_water_kg") - value_of(row, "water_kg")) / -vented, 1.0, 1e-11) << rows;
     return vented / (1000.0 * before);
   };
-  EXPECT_GT(taken("draining"), 0.05);
-  EXPECT_GT(taken("vented"), taken("draining"));
-  EXPECT_LT(taken("vented"), 1.0);
+  EXPECT_GT(entrained("draining"), 0.05);
+  EXPECT_GT(entrained("vented"), entrained("draining"));
+  EXPECT_LT(entrained("vented"), 1.0);
 }
 
-// A melted column under 1 MPa drains at its top: what it loses leaves there.
+// A melted column under 1 MPa drains at its top, where all lost water leaves.
 TEST(Drainage, IsCountedAtTheSurface) {
   Simulation<2> simulation(paper_case(column, still));
   auto& particles = simulation.particles();
@@ -156,7 +158,7 @@ TEST(Drainage, IsCountedAtTheSurface) {
   EXPECT_NEAR(value_of(row, "seepage_residual_kg") / (1000.0 * before), 0.0, 1e-12);
 }
 
-// Warms or cools all matter to a temperature [C] within a step; what heat this takes is not asked for.
+// Warms or cools all material to a temperature [C] within a step; the heat for this is not counted.
 void bring_to(Simulation<2>& simulation, double temperature) {
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -186,20 +188,20 @@ TEST(MeltContraction, ExpansionFillsTheVoidBeforePressureRises) {
     (surplus < 0.0 ? open : full) += 1;
   };
   EXPECT_EQ(value_of(history_row(simulation), "pore_void_m3"), 0.0);
-  bring_to(simulation, -0.5);  // most of the pore's water
+  bring_to(simulation, -0.5);  // most of the pore water
   const double melted = std::pow(1.5, -5.0) - std::pow(11.0, -5.0);
   EXPECT_NEAR(value_of(history_row(simulation), "pore_void_m3"), porosity * 0.083 * melted * 10.0, 1e-12);
   for (const double temperature : {0.1, 3.0, 80.0, 250.0, 301.0, 302.0, 350.0, 400.0, 310.0, 200.0, 1.0}) {
     expect_at(temperature);
   }
-  bring_to(simulation, -3.0);  // frozen and thawed once more
+  bring_to(simulation, -3.0);  // frozen and thawed again
   expect_at(2.0);
   expect_at(330.0);
   EXPECT_GT(open, 5);
   EXPECT_GT(full, 4);
 }
 
-TEST(MeltContraction, WithoutItMeltIsPressedFromTheFirstKelvinOn) {
+TEST(MeltContraction, WithoutItMeltIsPressurizedFromTheFirstKelvin) {
   Simulation<2> simulation(
       paper_case(column, both(weightless, {"body.column.temperature=-10.0", "pressure.skeleton_compressibility=0"})));
   bring_to(simulation, 2.0);
@@ -207,8 +209,8 @@ TEST(MeltContraction, WithoutItMeltIsPressedFromTheFirstKelvinOn) {
   EXPECT_FALSE(simulation.particles().pore_void.is_kept());
 }
 
-// The integral of water's expansion from 0 C: below 0 down to 10 C, where it is as dense as at 0 C.
-TEST(WaterExpansion, ByTemperatureContractsFirst) {
+// Integral of the expansion of water from 0 C: below 0 up to 10 C, where it is as dense as at 0 C.
+TEST(WaterExpansion, DependingOnTemperatureContractsFirst) {
   for (const double compressibility : {0.0, 2e-9}) {
     Simulation<2> simulation(paper_case(
         column, both(weightless, {"phases.water_expansion_law=by_temperature", "body.column.temperature=1e-9",
@@ -228,7 +230,7 @@ TEST(WaterExpansion, ByTemperatureContractsFirst) {
   }
 }
 
-TEST(FrozenPressure, NoneLeavesThawedWaterTheLoadLessTheResidualStress) {
+TEST(FrozenPressure, NoneGivesThawedWaterTheLoadMinusTheResidualStress) {
   const std::vector<std::string> none{"heat.enabled=false", "pressure.seepage=false", "pressure.frozen=none",
                                       "body.column.temperature=-1.0"};
   const double density = 0.625 * 2750.0 + porosity * (1000.0 / 32.0 + 917.0 * 31.0 / 32.0);
@@ -258,7 +260,7 @@ TEST(FrozenPressure, NoneLeavesThawedWaterTheLoadLessTheResidualStress) {
       all);
 }
 
-// Half of the matter's weight goes, and comes back.
+// Half of the weight of the material is removed and restored.
 TEST(SkeletonCompressibility, PressureFollowsTheLoad) {
   Simulation<2> simulation(
       paper_case(column, {"heat.enabled=false", "pressure.seepage=false", "pressure.skeleton_compressibility=2e-9"}));
@@ -271,10 +273,10 @@ TEST(SkeletonCompressibility, PressureFollowsTheLoad) {
     particles.mass(p) *= 0.5;
   }
   simulation.step(0.05);
-  constexpr double share = 2e-9 / (storage + 2e-9);
+  constexpr double fraction = 2e-9 / (storage + 2e-9);
   int voids = 0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const double now = pressure[p] - share * 0.5 * load[p];
+    const double now = pressure[p] - fraction * 0.5 * load[p];
     EXPECT_NEAR(particles.pore_pressure(p), std::max(0.0, now), 1e-8);
     EXPECT_NEAR(particles.pore_void(p), std::max(0.0, -now * (storage + 2e-9)), 1e-16);
     voids += now < 0.0 ? 1 : 0;
@@ -287,7 +289,7 @@ TEST(SkeletonCompressibility, PressureFollowsTheLoad) {
   }
 }
 
-// With m_v pores store more: heating presses less, and pressure diffuses the slower by as much.
+// With m_v, pores store more: heating raises pressure less, and pressure diffuses more slowly by the same factor.
 TEST(SkeletonCompressibility, SlowsDiffusionByTheStorage) {
   const auto bump_after = [&](double compressibility, double time) {
     Simulation<2> simulation(

@@ -58,8 +58,8 @@ inline double friction_in_channel(
   const double sine = std::sin(channel_slope * degree), cosine = std::cos(channel_slope * degree);
   const Place along(std::cos(channel.azimuth * degree), std::sin(channel.azimuth * degree)), aside(-along[1], along[0]);
   const auto across = [&](double x, double y) { return Place(x, y).dot(aside) - channel.aside; };
-  const auto way = [&](double x, double y) { return Place(x, y).dot(along); };
-  const auto on_slope = [&](double x, double y, double above) { return (above - way(x, y) * sine) / cosine; };
+  const auto downstream = [&](double x, double y) { return Place(x, y).dot(along); };
+  const auto on_slope = [&](double x, double y, double above) { return (above - downstream(x, y) * sine) / cosine; };
   const Raster ground =
       raster_between(Place(-130.0, -130.0), Place(130.0, 130.0), channel.spacing,
                      [&](double x, double y) { return on_slope(x, y, channel.ground(across(x, y))); });
@@ -67,7 +67,7 @@ inline double friction_in_channel(
   const Place half(120.0, 120.0);
   const Raster thickness = thickness_between(-half, half, 0.625, [&](double x, double y) {
     const double depth = (channel.surface - channel.ground(across(x, y))) / cosine;
-    const bool is_in = std::abs(way(x, y) + 40.0) < 0.5 * length && std::abs(across(x, y)) < channel.half_width;
+    const bool is_in = std::abs(downstream(x, y) + 40.0) < 0.5 * length && std::abs(across(x, y)) < channel.half_width;
     return is_in ? std::max(0.0, depth) : 0.0;
   });
   const std::string text = release_on_dem({to, 0.002, channel_cell, {-120.0, -120.0, -150.0}, {120.0, 120.0, 250.0}},
@@ -84,7 +84,7 @@ inline double friction_in_channel(
 
 // Broken rock without cohesion.
 inline const std::string loose_rock = R"(
-[material.matter]
+[material.debris]
 law = "mohr_coulomb"
 youngs_modulus = 1e8
 poisson_ratio = 0.2

@@ -14,10 +14,10 @@ class ScalarColumns {
   template <class Cosine>
   ScalarColumns(const std::vector<Point<Dim>>& points, double cell, const Cosine& slope_cosine) : cell_(cell) {
     for (const Point<Dim>& p : points) {
-      for_columns(p, [&](const Column& column, double share, const Extent& from, const Extent& to) {
+      for_columns(p, [&](const Column& column, double fraction, const Extent& from, const Extent& to) {
         Held& held = held_[column];
-        held.volume += share * p.volume;
-        held.mass += share * p.mass;
+        held.volume += fraction * p.volume;
+        held.mass += fraction * p.mass;
         held.top = std::max(held.top, p.position[Dim - 1] + p.half * cell_);
         for (std::size_t a = 0; a + 1 < Dim; ++a) {
           held.from[a] = std::min(held.from[a], from[a]);
@@ -40,7 +40,7 @@ class ScalarColumns {
     return over_columns(p, [&](const Held& held) { return held.mass / held.volume * normal_gravity; });
   }
 
-  // Of the particle's centre [m].
+  // Position of the particle's centre [m].
   [[nodiscard]] double below_top(const Point<Dim>& p) const {
     Column column;
     for (std::size_t a = 0; a + 1 < Dim; ++a) {
@@ -66,9 +66,9 @@ class ScalarColumns {
   template <class Factor>
   [[nodiscard]] double over_columns(const Point<Dim>& p, const Factor& factor) const {
     double sum = 0.0;
-    for_columns(p, [&](const Column& column, double share, const Extent& /*from*/, const Extent& /*to*/) {
+    for_columns(p, [&](const Column& column, double fraction, const Extent& /*from*/, const Extent& /*to*/) {
       const Held& held = held_.at(column);
-      sum += share * factor(held) * (p.in_band ? held.thickness : std::max(0.0, held.top - p.position[Dim - 1]));
+      sum += fraction * factor(held) * (p.in_band ? held.thickness : std::max(0.0, held.top - p.position[Dim - 1]));
     });
     return sum;
   }
@@ -80,17 +80,17 @@ class ScalarColumns {
     for (int corner = 0; corner < 1 << (Dim - 1); ++corner) {
       Column column;
       Extent from, to;
-      double share = 1.0;
+      double fraction = 1.0;
       for (std::size_t a = 0; a + 1 < Dim; ++a) {
         const double half = p.half * cell_, middle = p.position[static_cast<int>(a)];
         const double begin = middle - half, end = middle + half;
         column[a] = static_cast<int>(std::floor((begin + sliver * half) / cell_)) + (corner >> a & 1);
         from[a] = std::max(begin, column[a] * cell_);
         to[a] = std::min(end, (column[a] + 1) * cell_);
-        share *= to[a] - from[a] > sliver * half ? (to[a] - from[a]) / (2.0 * half) : 0.0;
+        fraction *= to[a] - from[a] > sliver * half ? (to[a] - from[a]) / (2.0 * half) : 0.0;
       }
-      if (share > 0.0) {
-        visit(column, share, from, to);
+      if (fraction > 0.0) {
+        visit(column, fraction, from, to);
       }
     }
   }

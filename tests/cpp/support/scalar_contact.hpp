@@ -38,7 +38,7 @@ class ScalarContact {
     find_clearance(transfer, points);
     for (const auto& [node, known] : ground_) {
       if (known.candidate) {
-        covered_[node] = known.area * covered_share(node, known.normal);
+        covered_[node] = known.area * covered_fraction(node, known.normal);
         const double into_ground = mass(node) > 0.0 ? trial(node).dot(known.normal) : 0.0;
         load_[node] = mass(node) > 0.0 ? known.bend * approach(node, into_ground) : 0.0;
       }
@@ -69,7 +69,7 @@ class ScalarContact {
   using NearGround = mpm::NearGround;
   static constexpr std::size_t solid_fraction_by_linear =
       NearGround::solid_fraction_by_linear - NearGround::saturation_by_linear;  // in the reference sums
-  static constexpr double smallest_share = 1e-6;  // fraction of a cell's face: keeps N finite without covered ground
+  static constexpr double smallest_fraction = 1e-6;  // fraction of a cell's face: keeps N finite without covered ground
 
   static Place vector_of(const std::vector<double>& sum, std::size_t first) {
     return Eigen::Map<const Place>(sum.data() + first);
@@ -104,7 +104,7 @@ class ScalarContact {
     return std::max(0.0, model_.distance_check ? inward - mass(node) * left / dt_ : inward);
   }
 
-  [[nodiscard]] double filled_share(const Index& node) const {
+  [[nodiscard]] double filled_fraction(const Index& node) const {
     const auto known = ground_.find(node);
     const auto sum = sums_.momentum.find(node);
     const bool near_ground = known != ground_.end() && known->second.candidate;
@@ -112,15 +112,15 @@ class ScalarContact {
     return sum != sums_.momentum.end() ? std::min(1.0, sum->second[Momentum::volume] / space) : 0.0;
   }
   // Maximum filled fraction of the node and the two nodes farther from the ground.
-  [[nodiscard]] double covered_share(const Index& node, const Place& normal) const {
+  [[nodiscard]] double covered_fraction(const Index& node, const Place& normal) const {
     const int axis = terrain::main_axis<Dim>(normal);
-    double share = 0.0;
+    double fraction = 0.0;
     Index at = node;
     for (int step = 0; step <= 2; ++step) {
-      share = std::max(share, filled_share(at));
+      fraction = std::max(fraction, filled_fraction(at));
       at[static_cast<std::size_t>(axis)] += normal[axis] > 0.0 ? -1 : 1;
     }
-    return share;
+    return fraction;
   }
 
   // N [Pa]: load over covered ground, both smoothed along it.
@@ -142,7 +142,7 @@ class ScalarContact {
         covered += weight * covered_.at(adjacent);
       }
     }
-    return load / (dt_ * std::max(covered, smallest_share * std::pow(cell_, Dim - 1)));
+    return load / (dt_ * std::max(covered, smallest_fraction * std::pow(cell_, Dim - 1)));
   }
 
   // Average at a node with the linear shape functions, or by mass if its linear weight is zero.

@@ -243,7 +243,7 @@ class ScalarStep {
         p.capacity = content.apparent_capacity(p.temperature, p.initial_porosity);
         const double conductivity = physics::conductivity(phases(), p.porosity, p.saturation);
         p.conduction_in_cell = (seen(p, mpm::Averages::temperature).value - p.temperature) *
-                               physics::share_of_subgrid_diffusion(conductivity / p.capacity,
+                               physics::subgrid_diffusion_fraction(conductivity / p.capacity,
                                                                    transfer_.inverse_cell * p.scaling, Dim, dt_);
       }
       const auto first = rates(flows, stored());
@@ -334,7 +334,7 @@ class ScalarStep {
             physics::storing_porosity(phases(), p.porosity, simulation_.model().band.skeleton_compressibility), 1.0,
             simulation_.model().band.hydraulic_conductivity[p.material]);
     return (level - p.pore_pressure) *
-           physics::share_of_subgrid_diffusion(diffusivity, transfer_.inverse_cell, Dim, dt_);
+           physics::subgrid_diffusion_fraction(diffusivity, transfer_.inverse_cell, Dim, dt_);
   }
 
   std::vector<Point<Dim>> points_;

@@ -27,7 +27,7 @@ struct Frame {
   Position least, greatest;
 };
 
-// Text of a case in which a release of the material "matter" slides with Coulomb friction [degrees] alone; `material`:
+// Text of a case in which a release of the material "debris" slides with Coulomb friction [degrees] alone; `material`:
 // tables of the material and others.
 inline std::string release_on_dem(const Frame& frame, const std::string& material, double friction_angle) {
   const auto list = [](const Position& p) { return fmt::format("[{}, {}, {}]", p[0], p[1], p[2]); };
@@ -46,13 +46,13 @@ type = "dem"
 file = "dem.tif"
 )",
                      frame.end, frame.step, frame.cell, list(frame.least), list(frame.greatest)) +
-         material + release_table + "material = \"matter\"\n" + friction_alone(friction_angle);
+         material + release_table + "material = \"debris\"\n" + friction_alone(friction_angle);
 }
 
 // Rock that barely deforms, under the stress of a slab on a slope; viscosity divided by stiffness [s].
 inline std::string elastic_rock(double viscosity_time) {
   return fmt::format(R"(
-[material.matter]
+[material.debris]
 law = "elastic"
 youngs_modulus = 5e8
 poisson_ratio = 0.2

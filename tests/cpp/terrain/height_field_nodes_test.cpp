@@ -1,4 +1,4 @@
-// What nodes take of the triangulated surface of a DEM: area, space, normal and distance.
+// Nodal quantities of the triangulated surface of a DEM: area, space, normal and distance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace testing_support;
 
-// What all nodes above a place of the grid take together, from a level below the ground upwards.
+// Sum over all nodes above a grid position, from a level below the ground upwards.
 struct Column {
   double area = 0.0, space = 0.0;
 };
@@ -31,7 +31,7 @@ std::vector<Column> columns_at(const HeightField& ground, const Position& lowest
   return columns;
 }
 
-// The shape functions of a column of nodes sum to 1 up to the highest node and fall to 0 within a cell.
+// The shape functions of a column of nodes sum to 1 up to the highest node and decrease to 0 within a cell.
 TEST(HeightField, OfAPlaneIsExact) {
   constexpr double h = 3.3;
   for (const double tilt : {0.0, 0.2, 0.7, 1.2}) {
@@ -72,7 +72,7 @@ TEST(HeightField, OfAPlaneIsExact) {
   }
 }
 
-TEST(HeightField, ThatDoesNotChangeAlongYIsThePolyline) {
+TEST(HeightField, UniformAlongYIsThePolyline) {
   constexpr double h = 4.1;
   const std::vector<double> heights{100.0, 22.0, 21.0, 20.0, 14.0, 15.5, 9.0, 3.0, 4.0, 4.0, 1.0};
   std::vector<double> x;
@@ -87,9 +87,9 @@ TEST(HeightField, ThatDoesNotChangeAlongYIsThePolyline) {
     for (int k = 0; k < edge * edge * edge; ++k) {
       const Position place = lowest + h * Position(k % edge, k / edge % edge, k / edge / edge);
       const Node& node = nodes[static_cast<std::size_t>(k)];
-      const auto share = line.linear_share(place[0], place[2], h);
-      EXPECT_NEAR(node.area, h * share.length, 1e-11);
-      EXPECT_NEAR(node.space, h * share.above, 1e-11);
+      const auto fraction = line.linear_fraction(place[0], place[2], h);
+      EXPECT_NEAR(node.area, h * fraction.length, 1e-11);
+      EXPECT_NEAR(node.space, h * fraction.above, 1e-11);
       EXPECT_EQ(node.candidate, line.highest(place[0] - h, place[0] + h) > place[2] - h * (1.0 - 1e-9));
       const auto nearest = line.nearest(place[0], place[2]);
       EXPECT_NEAR(node.distance, std::clamp(nearest.distance, -4.0 * h, 4.0 * h), 1e-12);
@@ -97,18 +97,18 @@ TEST(HeightField, ThatDoesNotChangeAlongYIsThePolyline) {
         EXPECT_NEAR((node.normal - Position(nearest.normal[0], 0.0, nearest.normal[1])).norm(), 0.0, 1e-9);
       }
       if (node.area > 1e-9 * h * h) {
-        const double resultant = share.resultant.norm();
-        EXPECT_NEAR(node.bend, share.length / resultant, 1e-9);
-        const Vector<double, 2> normal = share.resultant / resultant;
+        const double resultant = fraction.resultant.norm();
+        EXPECT_NEAR(node.bend, fraction.length / resultant, 1e-9);
+        const Vector<double, 2> normal = fraction.resultant / resultant;
         EXPECT_NEAR((node.normal - Position(normal[0], 0.0, normal[1])).norm(), 0.0, 1e-9);
-        const Vector<double, 2> centre = Vector<double, 2>(place[0], place[2]) + share.moment / share.length;
+        const Vector<double, 2> centre = Vector<double, 2>(place[0], place[2]) + fraction.moment / fraction.length;
         EXPECT_NEAR(node.plane, normal.dot(centre), 1e-9 * h);
       }
     }
   }
 }
 
-// One value at the centre of each of parts^2 small triangles, for each triangle.
+// Values at the centres of parts^2 small triangles, for each triangle.
 Node by_quadrature(const Raster& points, const Position& position, double cell, int parts) {
   Node node;
   node.normal.setZero();
@@ -119,7 +119,7 @@ Node by_quadrature(const Raster& points, const Position& position, double cell, 
     return q > 0.0 ? 0.5 * (1.0 - q) * (1.0 - q) : 1.0 - 0.5 * (1.0 + q) * (1.0 + q);
   };
   for (const auto& [first, second, third] : triangles(points)) {
-    const Position a = first, b = second, c = third;  // clang 14 takes no names of a binding into a function
+    const Position a = first, b = second, c = third;  // clang 14 cannot capture structured bindings
     const Position across = 0.5 * (b - a).cross(c - a) / (parts * parts);
     const auto add = [&](double i, double j) {
       const Position q = (a + i / parts * (b - a) + j / parts * (c - a) - position) / cell;
@@ -174,7 +174,7 @@ TEST(HeightField, NumbersBlocksFromTheLowerCorner) {
   }
 }
 
-TEST(HeightField, KnowsTheSameOfANodeInEveryBlock) {
+TEST(HeightField, GivesTheSameNodeInEveryBlock) {
   const HeightField ground(rough_raster());
   const Position position(13.0, 21.2, 7.0);
   const Node node = node_at(ground, position, 3.3);
@@ -188,9 +188,9 @@ TEST(HeightField, KnowsTheSameOfANodeInEveryBlock) {
   }
 }
 
-// Over a patch of blocks the shape functions sum to 1, and fall to 0 within the cells about it. Where the terrain
-// model's lines are among the grid's, that sum is a polynomial over each triangle.
-TEST(HeightField, SharesSumToTheSurfaceAndToTheSpaceAboveIt) {
+// Over a patch of blocks the shape functions sum to 1, and decrease to 0 within the cells around it. If the lines of
+// the terrain model are grid lines, that sum is a polynomial over each triangle.
+TEST(HeightField, FractionsSumToTheSurfaceAndToTheSpaceAboveIt) {
   constexpr double h = 10.0;
   constexpr int blocks = 2;
   const Raster points = rough_raster();
@@ -214,11 +214,11 @@ TEST(HeightField, SharesSumToTheSurfaceAndToTheSpaceAboveIt) {
   double expected_area = 0.0, expected_space = 0.0;
   for (const auto& [a, b, c] : triangles(points)) {
     const Position across = 0.5 * (b - a).cross(c - a);
-    const auto add = [&](double share, const Position& place) {
-      expected_area += share * across.norm() * weight(place);
-      expected_space += share * across[2] * weight(place) * (highest[2] + 0.5 * h - place[2]);
+    const auto add = [&](double fraction, const Position& place) {
+      expected_area += fraction * across.norm() * weight(place);
+      expected_space += fraction * across[2] * weight(place) * (highest[2] + 0.5 * h - place[2]);
     };
-    // Exact to the third degree.
+    // Exact up to the third degree.
     add(-27.0 / 48.0, (a + b + c) / 3.0);
     for (const Position* corner : {&a, &b, &c}) {
       add(25.0 / 48.0, 0.2 * (a + b + c) + 0.4 * *corner);
@@ -228,9 +228,9 @@ TEST(HeightField, SharesSumToTheSurfaceAndToTheSpaceAboveIt) {
   EXPECT_NEAR(space / expected_space, 1.0, 1e-12);
 }
 
-// By the divergence theorem the integral of S n dA is that of the gradient of S over the space above the ground: the
-// change of that space's share when the node moves the other way.
-TEST(HeightField, NormalIsTheWayInWhichANodesSpaceShrinks) {
+// By the divergence theorem, the integral of S n dA equals that of the gradient of S over the space above the ground,
+// which is the change of the node's open space when the node moves in the opposite direction.
+TEST(HeightField, NormalIsTheDirectionOfDecreasingOpenSpace) {
   const HeightField ground(rough_raster());
   constexpr double h = 6.0, step = 1e-4;
   for (const Position& position : {Position(13.0, 21.2, 7.0), Position(22.4, 9.1, 3.0), Position(40.0, 30.0, 10.0)}) {
@@ -285,7 +285,7 @@ TEST(HeightField, OfMirroredAndTurnedPointsIsMirroredAndTurned) {
   EXPECT_NEAR(ground.height({4.3, 7.7}), turn.height({-7.7, 4.3}), 1e-13);
 }
 
-// Against a model of the same smooth surface with points 0.625 m apart, and the surface itself.
+// Compared with a model of the same smooth surface with points 0.625 m apart, and with the surface itself.
 TEST(HeightField, ErrorsFallWithTheSquareOfTheSpacing) {
   const auto surface = [](double x, double y) {
     return 60.0 + 25.0 * std::cos(0.021 * x + 0.3) * std::cos(0.017 * y) + 6.0 * std::cos(0.04 * y - 0.02 * x);
@@ -304,9 +304,9 @@ TEST(HeightField, ErrorsFallWithTheSquareOfTheSpacing) {
     return nodes;
   };
   verification::Record record("DEMs of a smooth surface",
-                              "Hills of 25 m and 6 m are DEMs with points each 20 m, 10 m and 5 m. The test evaluates "
+                              "Hills of 25 m and 6 m are DEMs with points 20 m, 10 m and 5 m apart. The test evaluates "
                               "the ground's area at nodes of cells of 20 m, and its height.",
-                              "a model of the same surface with points each 0.625 m; of heights, the surface itself",
+                              "a model of the same surface with points 0.625 m apart; of heights, the surface itself",
                               "linear interpolation errs by the square of the distance of points");
   const auto reference = nodes_of(ground(0.625));
   const std::vector<double> spacings{20.0, 10.0, 5.0};

@@ -1,4 +1,4 @@
-// The ground from a DEM: heights, distances, what is known, and what goes in the place of missing points.
+// The ground from a DEM: heights, distances, known areas, and replacement of missing points.
 #include "terrain/height_field.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(HeightField, DistanceIsThatOfTheNearestTriangle) {
       for (int k = 0; k < edge * edge * edge; ++k) {
         const Position place = lowest + h * Position(k % edge, k / edge % edge, k / edge / edge);
         if (std::max(std::abs(place[0] - 30.0), std::abs(place[1] - 25.0)) > 25.0) {
-          continue;  // nearer to the edge of the points than to the ground
+          continue;  // closer to the edge of the points than to the ground
         }
         double least = HUGE_VAL;
         for (const auto& triangle : all) {
@@ -46,7 +46,7 @@ TEST(HeightField, DistanceIsThatOfTheNearestTriangle) {
   }
 }
 
-TEST(NearestOnTriangle, IsNoFartherThanAnyOfItsPoints) {
+TEST(NearestOnTriangle, IsAtMostAsFarAsAnyOfItsPoints) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   const auto position = [&] { return Position(number(random), number(random), number(random)); };
@@ -90,7 +90,7 @@ TEST(HeightField, HighestIsTheTopOfTheRectangle) {
             *std::max_element(points.values.begin(), points.values.end()));
 }
 
-TEST(HeightField, GoesOnWithTheHeightOfItsEdge) {
+TEST(HeightField, IsExtrapolatedWithTheHeightOfItsEdge) {
   const Raster points = rough_raster();
   const HeightField ground(points);
   EXPECT_DOUBLE_EQ(ground.height({-500.0, 3.0}), ground.height({-20.0, 3.0}));
@@ -105,7 +105,7 @@ TEST(HeightField, GoesOnWithTheHeightOfItsEdge) {
   EXPECT_NEAR((node.normal - Position(0.0, slope, -1.0).normalized()).norm(), 0.0, 1e-12);
 }
 
-// By the divergence theorem it is what the height gains from side to side, over the width.
+// By the divergence theorem, the mean gradient is the height difference between opposite sides over the width.
 TEST(HeightField, GradientOverAWidthIsTheMean) {
   const HeightField ground(rough_raster());
   for (const double width : {0.3, 4.0, 17.0}) {
@@ -122,7 +122,7 @@ TEST(HeightField, GradientOverAWidthIsTheMean) {
   }
 }
 
-TEST(HeightField, FarFromABlockIsToldAtOnce) {
+TEST(HeightField, BlocksFarFromTheSurfaceAreOpenOrSolid) {
   const HeightField ground(rough_raster());
   for (const Node& node : block_at(ground, {10.0, 10.0, 500.0}, 5.0)) {
     EXPECT_FALSE(node.candidate);
@@ -139,7 +139,7 @@ TEST(HeightField, FarFromABlockIsToldAtOnce) {
   }
 }
 
-TEST(HeightField, IsKnownWhereAllPointsOfACellHaveData) {
+TEST(HeightField, IsKnownIfAllPointsOfACellHaveData) {
   Raster points = rough_raster();
   points.values[points.index(10, 8)] = no_data;
   const HeightField ground(points);

@@ -1,4 +1,4 @@
-// Which substrate a place lies on, and what its laws make of a contact node.
+// The substrate at a position, and the result of its laws at a contact node.
 #include "terrain/substrates.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ Ring box(double min_x, double min_y, double max_x, double max_y) {
   return {{min_x, min_y}, {max_x, min_y}, {max_x, max_y}, {min_x, max_y}, {min_x, min_y}};
 }
 
-TEST(SubstratesOnGround, LieAlongX) {
+TEST(SubstratesOnGround, AreStripsAlongX) {
   Substrates substrates({100.0, 0.0});
   substrates.add_strip(2, -HUGE_VAL, 110.0);
   substrates.add_strip(1, 120.0, 130.0);
@@ -26,7 +26,7 @@ TEST(SubstratesOnGround, LieAlongX) {
   }
 }
 
-TEST(SubstratesOnGround, LieWithinOutlinesAndNotInHoles) {
+TEST(SubstratesOnGround, ExcludeHolesOfOutlines) {
   Substrates substrates({1000.0, 500.0});
   substrates.add_rings(3, {box(1000.0, 500.0, 1010.0, 510.0), box(1004.0, 504.0, 1006.0, 506.0)});
   for (int i = -2; i < 12; ++i) {
@@ -39,8 +39,8 @@ TEST(SubstratesOnGround, LieWithinOutlinesAndNotInHoles) {
   }
 }
 
-// Neighbours with a crooked border share no place and leave none out, on the border's corners too.
-TEST(SubstratesOnGround, OfNeighboursEachPlaceIsInOne) {
+// Neighbours with an irregular border neither overlap nor leave gaps, also at the corners of the border.
+TEST(SubstratesOnGround, AssignEachPositionToOneNeighbour) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> crooked(4.0, 6.0), anywhere(0.0, 10.0);
   Ring border;
@@ -72,7 +72,7 @@ TEST(SubstratesOnGround, OfNeighboursEachPlaceIsInOne) {
   }
 }
 
-TEST(SubstratesOnGround, LieWhereARasterHasTheirCode) {
+TEST(SubstratesOnGround, FollowTheirCodeInARaster) {
   Raster codes;
   codes.x = 105.0;
   codes.y = 205.0;
@@ -94,8 +94,8 @@ TEST(SubstratesOnGround, LieWhereARasterHasTheirCode) {
   EXPECT_EQ(substrates.at(5.0, 20.0), 0);
 }
 
-// Nodes of a block side by side, each by the laws below it.
-TEST(BasalLaw, HoldsByTheSubstrateOfEachNode) {
+// Adjacent nodes of a block, each with the laws of the substrate below it.
+TEST(BasalLaw, DependsOnTheSubstrateOfEachNode) {
   using namespace physics::basal;
   BasalLaw law;
   law.grounds = {{ConstantFriction{0.5}, ConstantCohesion{10.0}},
@@ -112,7 +112,7 @@ TEST(BasalLaw, HoldsByTheSubstrateOfEachNode) {
   nodes.speed.fill(10.0);
   nodes.unit_weight.fill(20.0);
   evaluate_basal_law(law, 0.0, nodes);
-  EXPECT_DOUBLE_EQ(nodes.strength[0], 100.0) << "0.1 N, whatever P";
+  EXPECT_DOUBLE_EQ(nodes.strength[0], 100.0) << "0.1 N, independent of P";
   EXPECT_DOUBLE_EQ(nodes.strength[1], 310.0);
   EXPECT_DOUBLE_EQ(nodes.strength[2], 600.0 + 75.0 * std::exp(-1.0));
   EXPECT_DOUBLE_EQ(nodes.strength[3], 100.0);

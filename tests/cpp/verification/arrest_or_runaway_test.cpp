@@ -1,5 +1,5 @@
-// A block on a band that drains arrests or runs away by the hydraulic conductivity k of the band, as in Goren and
-// Aharonov (2009); their numbers are not compared.
+// A block on a draining band arrests or runs away depending on the hydraulic conductivity k of the band, as in Goren
+// and Aharonov (2009); their numbers are not compared.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,10 +19,10 @@ using physics::exact::DrainedBand;
 constexpr double slope = 10.0, friction = 0.3, heat_fraction = 0.9, porosity = 0.375;
 constexpr double water_expansion = 2.1e-4, rock_expansion = 1e-5;
 
-// The band melts at once (0.1 K, without latent heat; melt as heavy as ice leaves no void) and stands under matter that
-// stays frozen and leads to air: P = 0 at its top. Nothing conducts, ground lets no water through. Its pressure follows
-// friction within some hundredths of a second, the block's speed within seconds: no time is given to the band to come
-// to its balance.
+// The band melts immediately (0.1 K, without latent heat; melt as dense as ice leaves no void). It is below material
+// that remains frozen and leads to air: P = 0 at its top. There is no conduction, and the ground is impermeable. The
+// pressure follows friction within several hundredths of a second, the block's speed within seconds; the band has no
+// additional time to reach equilibrium.
 const std::string block = R"(
 [case]
 gravity_tilt = 10.0
@@ -77,10 +77,10 @@ skeleton_compressibility = 0.0
 )";
 
 struct Start {
-  double speed, thickness;  // of the block at the start [m/s], of the band [m]
+  double speed, thickness;  // initial speed of the block [m/s], thickness of the band [m]
 };
 
-// Whether a block of this speed at the start is twice as fast before it stands.
+// Whether a block of this initial speed doubles its speed before it stops.
 bool runs_away(const Start& start, double conductivity) {
   const auto rows = sim::run_block(case_from_text(
       block,
@@ -122,8 +122,8 @@ DrainedBand band_of(double thickness) {
 
 TEST(ArrestOrRunaway, IsDecidedByConductivity) {
   Record record("Arrest or runaway by permeability",
-                "rigid block on 10 degrees, friction 0.3, on a band column that drains through its top, with an "
-                "initial speed; k by bisection",
+                "Rigid block on a slope of 10 degrees, friction 0.3, on a band column that drains through its top, "
+                "with an initial speed; k by bisection",
                 "k = A v/(mu/tan a - 1) of the steady drained band, with A = mu beta_m gamma_w eta e/(3 C). With a "
                 "smaller k it runs away, with a larger k it arrests",
                 "closed form; after Goren and Aharonov (2009), not compared with their numbers");
@@ -141,7 +141,7 @@ TEST(ArrestOrRunaway, IsDecidedByConductivity) {
       curve.exact.push_back(exact);
     }
   }
-  record.explain("The block loses speed until the band has come to its pressure: the boundary lies a little lower.");
+  record.explain("The block loses speed until the band has reached its pressure: the boundary lies a little lower.");
   record.draw(curve);
 }
 

@@ -112,11 +112,11 @@ class Collapse {
     const double spacing = 0.5 * cell_;
     std::vector<double> sum(static_cast<std::size_t>(std::lround(0.1 / spacing))), count(sum.size());
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      const auto way = particles.displacement.get<Vector<double, 2>>(p);
-      const Vector<double, 2> start = particles.position.get<Vector<double, 2>>(p) - way;
+      const auto displacement = particles.displacement.get<Vector<double, 2>>(p);
+      const Vector<double, 2> start = particles.position.get<Vector<double, 2>>(p) - displacement;
       if (std::abs(start[0] - x) <= 0.5 * window) {
         const auto row = static_cast<std::size_t>((start[1] - ground()) / spacing);
-        sum.at(row) += way.norm();
+        sum.at(row) += displacement.norm();
         count.at(row) += 1.0;
       }
     }

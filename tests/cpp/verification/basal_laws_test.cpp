@@ -1,4 +1,4 @@
-// A block that slides on laws of the base with an exact end: in the material point method, and as a rigid block.
+// A block that slides on basal laws with an exact solution: with the material point method, and as a rigid block.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ using namespace testing_support;
 
 constexpr double length = 40.0, height = 20.0;  // [m]
 
-// A frozen block of 40 m x 20 m on level ground, thrown along it.
+// A frozen block of 40 m x 20 m on level ground, with a horizontal initial velocity.
 const std::string thrown = R"(
 [time]
 end = 4.0
@@ -53,7 +53,7 @@ enabled = false
 [basal]
 )";
 
-// The work of friction per area of base, of the material point method and of the rigid block [J/m2].
+// Work of friction per area of base, with the material point method and for the rigid block [J/m2].
 struct Work {
   double mpm, block;
 };
@@ -68,10 +68,10 @@ Work work_on(const std::string& text) {
 
 TEST(Bonds, CostTheirEnergyOnce) {
   constexpr double initial = 1e5, distance = 4.0;
-  Record record("Bonds of ice: what breaking them costs",
-                "A frozen block is thrown along level ground, on which nothing holds it but bonds of 0.1 MPa, which "
-                "slip breaks over 4 m.",
-                "energy lost per area = c_0 d_c, however fast", "integral of c_0 exp(-s/d_c) over the slip");
+  Record record(
+      "Bonds of ice: energy of breaking",
+      "A frozen block is thrown along level ground. Only bonds of 0.1 MPa hold it, which slip breaks over 4 m.",
+      "energy lost per area = c_0 d_c, at any speed", "integral of c_0 exp(-s/d_c) over the slip");
   const Work found = work_on(thrown + fmt::format("friction = \"constant\"\nfriction_angle = 0.0\ncohesion = {}\n"
                                                   "cohesion_law = \"bonds\"\nslip_distance = {}\n",
                                                   initial, distance));
@@ -95,9 +95,9 @@ Distance distance_on(const std::string& text, const std::vector<std::string>& se
   return {value_of(row, "mean_displacement_m"), last.at("displacement_m")};
 }
 
-// From rock onto a glacier: while a rigid block crosses the border, friction falls in proportion to what is across.
-// Friction acts at its base, below its centre of mass. Its load is therefore shifted forward, by mu h/2 on average
-// (from the balance of moments), and reaches the border earlier by the same distance.
+// From rock onto a glacier: while a rigid block crosses the border, friction decreases in proportion to the part that
+// has crossed. Friction acts at its base, below its centre of mass. Its load is therefore shifted forward, by mu h/2 on
+// average (from the balance of moments), and reaches the border earlier by the same distance.
 TEST(Substrates, SlidingDistanceOverTwo) {
   constexpr double on_rock = 0.3, on_ice = 0.15, start = 20.0, border = 52.5, gravity = 9.81;
   const double to_border = border - length, mean = 0.5 * (on_rock + on_ice);

@@ -1,4 +1,4 @@
-// How a slide presses on a ground that bends: as much more as it takes to turn it.
+// Pressure of a slide on curved ground: the additional pressure is the centripetal force.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,8 @@ constexpr double degree = pi / 180.0;
 constexpr double gravity = 9.81, density = 0.625 * 2750.0 + 0.375 * 917.0;  // frozen, porosity 0.375
 constexpr double radius = 300.0, thickness = 10.0;
 
-// A circular arc, its lowest point at x = 0, that goes on as a slope of 40 degrees on the left and level on the right.
+// A circular arc with its lowest point at x = 0, continued by a slope of 40 degrees on the left and level ground on the
+// right.
 struct Ground {
   static constexpr double steepest = 40.0 * degree;
 
@@ -32,7 +33,7 @@ struct Ground {
   }
 };
 
-// Points each metre, and a body between two places with ends cut across the ground.
+// Points every metre, and a body between two positions with ends normal to the ground.
 std::string case_of_profile(const std::function<double(double)>& ground, double from, double to,
                             const std::function<double(double)>& surface) {
   std::ofstream csv(folder_of_this_test() / "bend.csv");
@@ -76,7 +77,7 @@ enabled = false
 )";
 }
 
-// A body of even thickness across the slope above the bend.
+// A body of uniform thickness across the slope above the bend.
 std::string slide_into_bend() {
   return case_of_profile(Ground::height, -400.0, -330.0,
                          [](double x) { return Ground::height(x) + thickness / std::cos(Ground::steepest); });
@@ -93,24 +94,24 @@ TEST(BendPressure, OfTheBlockIsThatOfTheArc) {
   const auto rows = sim::run_block(parameters);
   const double length = 70.0 / std::cos(Ground::steepest), half = 0.5 * length / radius;
   const double middle_before_arc = (365.0 - radius * std::sin(Ground::steepest)) / std::cos(Ground::steepest);
-  double largest = 0.0, largest_share = 0.0;
+  double largest = 0.0, largest_fraction = 0.0;
   Curve curve{"angle [degrees]", "normal pressure [kPa]", {}, {}, {}};
   for (const auto& row : rows) {
     const double angle = Ground::steepest - (value_of(row, "displacement_m") - middle_before_arc) / radius;
     if (angle + half > Ground::steepest - 0.03 || angle - half < 0.03) {
-      continue;  // not yet or no longer in the arc as a whole, the span of a slice's curvature counted
+      continue;  // not completely within the arc, including the extent of a slice's curvature
     }
     const double speed = value_of(row, "velocity_m_s");
     const double weight = gravity * mean_cosine(angle, half), turning = speed * speed / radius;
     const double expected = density * thickness * (weight + turning);
     largest = std::max(largest, std::abs(value_of(row, "normal_pressure_Pa") / expected - 1.0));
-    largest_share = std::max(largest_share, turning / weight);
+    largest_fraction = std::max(largest_fraction, turning / weight);
     curve.x.push_back(angle / degree);
     curve.computed.push_back(value_of(row, "normal_pressure_Pa") / 1e3);
     curve.exact.push_back(expected / 1e3);
   }
   EXPECT_GT(curve.x.size(), 20U);
-  EXPECT_GT(largest_share, 0.3) << "the bend is felt";
+  EXPECT_GT(largest_fraction, 0.3) << "the bend is felt";
   record.expect_near("largest relative difference", largest, 0.0, 0.05);
   record.draw(curve);
 }
@@ -131,7 +132,7 @@ TEST(BendPressure, OfTheBlockIsLeftOutUnlessAskedFor) {
   EXPECT_GT(*std::max_element(with_bends.begin(), with_bends.end()), 1.3);
 }
 
-// Over a crest: what would fly presses on nothing, and never pulls.
+// Over a crest, detached material exerts no pressure, and the pressure is never negative.
 TEST(BendPressure, IsNeverBelowZero) {
   EXPECT_EQ(physics::load_in_bend(2.0, 9.0, 30.0, -1.0 / 100.0), 0.0);
   EXPECT_DOUBLE_EQ(physics::load_in_bend(2.0, 9.0, 30.0, -1.0 / 200.0), 9.0);
@@ -148,7 +149,7 @@ TEST(BendPressure, IsNeverBelowZero) {
   EXPECT_EQ(lowest, 0.0);
 }
 
-// What the particles' weight across the ground and their turning come to, with the ground of the arc below each.
+// Sum of the particles' weight normal to the ground and their centripetal force, with the ground of the arc below each.
 double load_of_particles(const Simulation<2>& simulation) {
   const auto& particles = simulation.particles();
   double load = 0.0;
@@ -169,7 +170,7 @@ double load_of_nodes(const Simulation<2>& simulation) {
   const auto& base = simulation.nodes().base;
   double load = 0.0;
   for (std::size_t b = 0; b < simulation.grid().blocks().size(); ++b) {
-    for (std::size_t k = 0; base.holds(b) && k < static_cast<std::size_t>(mpm::Tile<2>::nodes); ++k) {
+    for (std::size_t k = 0; base.contains(b) && k < static_cast<std::size_t>(mpm::Tile<2>::nodes); ++k) {
       load += base(b, k)[mpm::BaseLayout::load] / simulation.last_step();
     }
   }

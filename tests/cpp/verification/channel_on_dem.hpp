@@ -1,4 +1,4 @@
-// V channels on DEMs, for the tests of some and of all.
+// V-shaped channels on DEMs: shared by the short and the complete tests.
 #pragma once
 
 #include <gtest/gtest.h>

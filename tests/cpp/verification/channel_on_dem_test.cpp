@@ -1,4 +1,4 @@
-// Channels of straight thalweg: the walls of a bend of the ground carry more than the weight of what lies in it.
+// Channels with a straight thalweg: the walls of a bend carry more than the weight of the material in it.
 #include "channel_on_dem.hpp"
 
 namespace thawslide::verification {

@@ -16,7 +16,7 @@ namespace {
 using namespace testing_support;
 using sim::Simulation;
 
-// A bar of 4 m that does not move, melted, of two porosities; sides insulated but where --set says otherwise.
+// A melted bar of 4 m at rest, of two porosities; the sides are insulated unless --set specifies otherwise.
 const std::string bar = R"(
 [case]
 gravity = 0.0
@@ -42,7 +42,7 @@ enabled = false
 enabled = false
 )";
 
-// Gives particles temperatures, and the heat content and saturation that go with them.
+// Assigns temperatures to particles, with the corresponding heat content and saturation.
 template <class Temperature>
 void set_temperatures(Simulation<2>& simulation, const Temperature& temperature) {
   auto& particles = simulation.particles();
@@ -55,14 +55,15 @@ void set_temperatures(Simulation<2>& simulation, const Temperature& temperature)
   });
 }
 
-// Errors of temperature over a bar [K], root mean square.
+// Root mean square errors of temperature over a bar [K].
 struct Errors {
   double all;
-  double away;  // 0.4 m and more from the middle
+  double away;  // at least 0.4 m from the middle
 };
 
-// The bar at its end, on cells of a size, with steps in proportion to the cell's area. The run begins with the exact
-// temperatures of a time `start` after t = 0 of the exact solution, or as the case says if that is 0.
+// Final state of the bar, on cells of a given size, with time steps proportional to the square of the cell size. The
+// run begins with the exact temperatures at a time `start` after t = 0 of the exact solution, or as in the case if
+// `start` is 0.
 template <class Exact>
 Errors errors_on(double cell, double start, std::vector<std::string> sets, const Exact& exact, Curve* curve) {
   sets.push_back(fmt::format("grid.cell={}", cell));
@@ -111,7 +112,7 @@ TEST(Conduction, HalfSpace) {
   record.expect_order("cell [m]", cells, "rms error of temperature [K]", errors, 2.0, 0.1);
 }
 
-// Two half spaces in touch at x = 2 m, where cells meet.
+// Two half spaces in contact at x = 2 m, at a cell border.
 double two_layers(const Simulation<2>& simulation, double x, double t) {
   const auto& phases = simulation.model().motion.phases;
   const auto side = [&](double porosity, double temperature) {
@@ -155,14 +156,13 @@ TEST(Conduction, TwoLayers) {
                       plain_away, 2.0, 0.1);
   record.explain(
       "The interface's node averages over a kink of the temperature, so the particles of two cells are off in first "
-      "order: 1.5 in the rms over all. Away from it conduction alone is of order 2. Subgrid diffusion takes the "
-      "kink for a difference that nodes do not see, and moves heat across an interface of unequal capacities: order "
-      "1.");
+      "order: 1.5 in the rms over all. Away from it conduction alone is of order 2. Subgrid diffusion treats the kink "
+      "as a difference that nodes do not resolve, and moves heat across an interface of unequal capacities: order 1.");
 }
 
-// T = mean + amplitude cos(pi x/L) cos(pi y/L) exp(-t/tau) in an insulated square, all of it below freezing, so that
-// capacity (with latent heat) and conductivity follow the temperature. The source that makes it exact is added to the
-// particles' heat content between steps.
+// T = mean + amplitude cos(pi x/L) cos(pi y/L) exp(-t/tau) in an insulated square below freezing. Capacity (with latent
+// heat) and conductivity depend on temperature. The source that makes the solution exact is added to the heat content
+// of particles between steps.
 struct Manufactured {
   static constexpr double side = 2.0, mean = -2.0, amplitude = 1.5, decay = 4e5, end = 8e4;
 
@@ -205,7 +205,7 @@ double manufactured_error(double cell) {
       const double dt = simulation.next_step(Manufactured::end);
       const double middle = simulation.time() + 0.5 * dt;
       simulation.step(dt);
-      auto& particles = simulation.particles();  // asked for anew, as a device may have had them
+      auto& particles = simulation.particles();  // reread: a device may have modified them
       for (std::size_t p = 0; p < particles.size(); ++p) {
         const double power = Manufactured::source(content, particles.initial_porosity(p), particles.position(p, 0),
                                                   particles.position(p, 1), middle);

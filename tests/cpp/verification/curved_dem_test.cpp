@@ -19,13 +19,13 @@ constexpr double gravity = 9.81;
 const std::string block =
     release_on_dem({100.0, 0.0018, 2.5, {-350.0, -350.0, -250.0}, {350.0, 350.0, 450.0}}, elastic_rock(0.01), 10.0);
 
-// 10 m square in the map about a place, and 5 m high.
+// A block 10 m square in the map around a position, and 5 m high.
 Raster small_block(const Place& centre) {
   const Place half = Place::Constant(5.0);
   return thickness_between(centre - half, centre + half, 1.25 / 16.0, [](double, double) { return 5.0; });
 }
 
-// The other reference against the closed form of the next test.
+// Verifies the point mass used as reference with the closed form of the next test.
 TEST(PointOnSurface, SwingsInTheBowl) {
   constexpr double radius = 100.0, friction = 0.2;
   const auto bowl = [](double x, double y) { return radius - std::sqrt(radius * radius - x * x - y * y); };
@@ -46,7 +46,8 @@ TEST(PointOnSurface, SwingsInTheBowl) {
 // This is linear in v^2: with v = 0 at phi_0,
 //   v^2 = A sin phi + B cos phi - (A sin phi_0 + B cos phi_0) exp(2 mu (phi - phi_0)),
 //   A = 6 mu r g/(1 + 4 mu^2),  B = 2 r g (1 - 2 mu^2)/(1 + 4 mu^2)
-// The block has an extent: it is compared with a point as far from the centre of the sphere as its centre of mass is.
+// The block has an extent: it is compared with a point at the same distance from the centre of the sphere as its centre
+// of mass.
 double speed_on_circle(double radius, double friction, double phi, double start) {
   const double denominator = 1.0 + 4.0 * friction * friction;
   const double sine = 6.0 * friction * radius * gravity / denominator;
@@ -59,7 +60,7 @@ TEST(Bowl, BlockSwingsLikeAPointWithFriction) {
   constexpr double radius = 200.0, start = 40.0 * degree, azimuth = 205.0 * degree;
   Record record("A small block in a bowl",
                 "A block, 10 m square and 5 m high, slides from rest at 40 degrees down a spherical bowl of 200 m "
-                "radius. The bowl is a DEM with points each 2.5 m; the friction angle is 10 degrees.",
+                "radius. The bowl is a DEM with points 2.5 m apart; the friction angle is 10 degrees.",
                 "d(v^2)/dphi = -2 r g sin phi + 2 mu (r g cos phi + v^2), r that of the block's centre of mass",
                 "point on a circle with Coulomb friction");
   const Raster ground = raster_between(Place(-190.0, -190.0), Place(190.0, 190.0), 2.5, [](double x, double y) {
@@ -90,15 +91,16 @@ TEST(Bowl, BlockSwingsLikeAPointWithFriction) {
     largest_aside = std::max(largest_aside, std::abs(along[0] * now.position[1] - along[1] * now.position[0]));
   }
   record.expect_near("speed at the lowest point over exact", curve.computed.back() / curve.exact.back(), 1.0, 0.02);
-  record.expect_near("way aside [m]", largest_aside, 0.0, 0.25);
+  record.expect_near("lateral displacement [m]", largest_aside, 0.0, 0.25);
   record.draw(curve);
 }
 
-// Circles of radius `section` about a helix that falls by `pitch` a turn from x > 0 on; where they are steep, planes.
+// Circles of radius `section` about a helix that falls by `pitch` per turn from x > 0 on; their steep parts are
+// replaced by planes.
 struct Helix {
   double radius = 150.0, pitch = 160.0, section = 60.0;  // m
 
-  // Of the ground, or of the surface `above` it.
+  // Height of the ground, or of the surface `above` it.
   [[nodiscard]] double height(double x, double y, double above = 0.0) const {
     const double r = section - above, steep = 0.9 * r;
     const double across = std::abs(std::hypot(x, y) - radius);
@@ -111,15 +113,15 @@ struct Helix {
     const double angle = std::atan2(y, x) / (2.0 * pi);
     return angle < 0.0 ? angle + 1.0 : angle;
   }
-  // Of a position from the line of the circles' centres.
+  // Distance of a position from the line of the circles' centres.
   [[nodiscard]] double off_centres(const Position& position) const {
     return std::hypot(std::hypot(position[0], position[1]) - radius,
                       position[2] - section + pitch * turns(position[0], position[1]));
   }
 };
 
-// How far a block has come along the channel when it is at the point that the equation of motion tells, over the way of
-// that point: at each quarter of a turn. The points of the DEM are `spacing` [m] apart.
+// Ratio of the distance of a block along the channel to that of the point from the equation of motion, at each quarter
+// of a turn. The points of the DEM are `spacing` [m] apart.
 std::vector<double> run_along(double spacing, double turns, Curve& curve) {
   const Helix helix;
   const Raster ground = raster_between(Place(-230.0, -230.0), Place(230.0, 230.0), spacing,
@@ -132,11 +134,11 @@ std::vector<double> run_along(double spacing, double turns, Curve& curve) {
   PointOnSurface exact([&](double x, double y) { return helix.height(x, y, above); }, now.position.head<2>(),
                        std::tan(6.0 * degree), gravity);
   const double first = helix.turns(now.position[0], now.position[1]);
-  const auto way = [&](const Place& place) { return helix.turns(place[0], place[1]) - first; };
+  const auto progress = [&](const Place& place) { return helix.turns(place[0], place[1]) - first; };
   std::vector<double> ratios;
   curve = {"time [s]", "turns", {}, {}, {}};
   double next = 0.25;
-  while (first + way(now.position.head<2>()) < turns && simulation.time() < 100.0) {
+  while (first + progress(now.position.head<2>()) < turns && simulation.time() < 100.0) {
     for (int k = 0; k < 25; ++k) {
       const double dt = simulation.next_step(100.0);
       simulation.step(dt);
@@ -144,8 +146,8 @@ std::vector<double> run_along(double spacing, double turns, Curve& curve) {
     }
     now = CentreOfMass(simulation);
     curve.x.push_back(simulation.time());
-    curve.computed.push_back(way(now.position.head<2>()));
-    curve.exact.push_back(way(exact.place()));
+    curve.computed.push_back(progress(now.position.head<2>()));
+    curve.exact.push_back(progress(exact.place()));
     if (curve.exact.back() > next) {
       ratios.push_back(curve.computed.back() / curve.exact.back());
       next += 0.25;
@@ -172,8 +174,8 @@ TEST(HelicalChannel, BlockRunsLikeAPointOnTheSurface) {
                        whole[k], 1.0, 0.03);
   }
   record.draw(curve);
-  // At the edges of the triangles the ground turns by an angle that falls with their size, and each takes its part of
-  // the motion. A block far wider than they are would not feel them, so that the order may be higher than the first.
+  // At the edges of the triangles the ground turns by an angle that decreases with their size, and each edge removes a
+  // part of the motion. A block far wider than the triangles is not affected, so the order may be higher than one.
   Curve other;
   const std::vector<double> spacings{5.0, 2.5, 1.25};
   std::vector<double> errors;

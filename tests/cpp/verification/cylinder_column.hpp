@@ -41,23 +41,23 @@ file = "dem.tif"
 // Axisymmetric collapses of granular columns, J. Fluid Mech. 508, 175-199.
 inline double runout_of_lube(double aspect) { return aspect < 1.7 ? 1.24 * aspect : 1.6 * std::sqrt(aspect); }
 
-// r_inf - r_0 over r_0, r_inf being the radius within which 99.5 % of the mass lies.
+// (r_inf - r_0)/r_0, with r_inf the radius that contains 99.5 % of the mass.
 inline double runout(const sim::Simulation<3>& simulation) {
   const auto& particles = simulation.particles();
   std::vector<sim::MassOnPath> by_radius;
   double mass = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Position place = particles.position.get<Position>(p) + simulation.model().origin;
-    by_radius.push_back({place.head<2>().norm(), particles.mass(p), p});
+    const Position position = particles.position.get<Position>(p) + simulation.model().origin;
+    by_radius.push_back({position.head<2>().norm(), particles.mass(p), p});
     mass += particles.mass(p);
   }
   return sim::front_of(by_radius, mass).along / radius - 1.0;
 }
 
-// The final runout of a quarter of the column, between smooth walls. aspect: height over radius; cell [m].
+// Final runout of a quarter of the column, between smooth walls. aspect: height over radius; cell [m].
 inline double collapse(double aspect, double cell = 0.625, const std::string& transfer = "flip") {
   const double end = aspect < 1.0 ? 4.0 : 5.0 * std::sqrt(aspect);
-  // Points so close that no column of particles stands beyond the walls.
+  // Points so close that no column of particles is beyond the walls.
   const Raster thickness =
       thickness_between(Place::Zero(), Place::Constant(radius + 1.0), 0.01,
                         [&](double x, double y) { return std::hypot(x, y) < radius ? aspect * radius : 0.0; });

@@ -1,4 +1,4 @@
-// A cylindrical granular column falls apart.
+// A cylindrical granular column collapses.
 #include "cylinder_column.hpp"
 
 namespace thawslide::verification {

@@ -28,7 +28,7 @@ min = [0.0, 0.0]
 max = [10.0, 10.0]
 )";
 
-// (r - r_0)/r_0 of a column of aspect ratio 1 after 5 s, r being the radius within which 99.5 % of the mass lies.
+// (r - r_0)/r_0 of a column of aspect ratio 1 after 5 s, with r the radius that contains 99.5 % of the mass.
 inline double runout_of_section(int cells, const std::string& transfer) {  // across the radius
   const double cell = radius / cells;
   sim::Simulation<2> simulation(

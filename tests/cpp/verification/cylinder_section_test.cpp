@@ -6,8 +6,8 @@ namespace {
 
 using namespace cylinder_column;
 
-// The front is thinner than a cell. The runout is therefore shorter than that of the experiments by Lube et al., in 3D
-// and in a section alike (docs/laboratory.md).
+// The front is thinner than a cell. The runout is therefore shorter than that of the experiments by Lube et al., both
+// in 3D and in a section (docs/laboratory.md).
 TEST(CylinderSection, ApproachesTheExperimentsOnFinerCells) {
   Record record = make_section_record("Collapse of a cylindrical granular column on finer cells");
   expect_approach(record, {8, 16, 32}, {0.55, 0.40, 0.15});

@@ -1,4 +1,4 @@
-// Elastic bodies in free motion: impact on the ground, and turning under stress.
+// Elastic bodies in free motion: impact on the ground, and rotation under stress.
 #include "../exact/elastic_body.hpp"
 
 #include <gtest/gtest.h>
@@ -51,19 +51,20 @@ pressurization = false
 enabled = false
 )";
 
-// The bar on cells of a size, its lower end at a height; steps are a fifth of what a wave needs to cross one.
+// The bar on cells of a given size, its lower end at a given height; steps are a fifth of the time in which a wave
+// crosses a cell.
 Simulation<2> falling_bar(double cell, double height, bool distance_check = true) {
   return Simulation<2>(paper_case(
       falling,
       {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 2.5e-4 * cell),
        fmt::format("body.bar.min=[0.0,{}]", height), fmt::format("body.bar.max=[{},{}]", 2.0 * cell, 20.0 + height),
        fmt::format("basal.distance_check={}", distance_check),
-       "guards.energy_growth=inf"}));  // without the check it leaves with more than it came with
+       "guards.energy_growth=inf"}));  // without the check it gains energy
 }
 
 TEST(ElasticImpact, GivesTheEnergyBack) {
   Record record("Impact of an elastic bar",
-                "A bar of 20 m that touches the ground end on at t = 0 moves into it at 1 m/s.",
+                "A bar of 20 m, whose lower end touches the ground at t = 0, moves into it at 1 m/s.",
                 "it leaves with the speed it came with after 2 H/c; pressure rho c v until then",
                 "Timoshenko and Goodier 1951, ch. 15");
   const std::vector<double> cells{2.0, 1.0, 0.5, 0.25};
@@ -93,7 +94,7 @@ TEST(ElasticImpact, GivesTheEnergyBack) {
     const auto after = simulation.sum_over_body();
     speed_error.push_back(1.0 - after.momentum[1] / before.mass);
     energy_error.push_back(1.0 - after.kinetic / before.kinetic);
-    contact_loss.push_back(simulation.ledger().contact_loss / before.kinetic);
+    contact_loss.push_back(simulation.budget().contact_loss / before.kinetic);
     pressure_error.push_back(std::abs(mean / samples / pressure - 1.0));
   }
   record.draw(curve);
@@ -102,17 +103,17 @@ TEST(ElasticImpact, GivesTheEnergyBack) {
   record.explain(
       "A scheme of second order without dissipation spreads a jump over a width that grows as cell^(2/3) t^(1/3); the "
       "waves behind the front keep their energy. A chain of point masses that hits the ground shows the same order, "
-      "0.67 on 2560 masses. Contact stops the lowest node at once: its share of the mass is lost, in first order.");
+      "0.67 on 2560 masses. Contact stops the lowest node at once: the energy of its mass is lost, in first order.");
   record.expect_near("kinetic energy lost, over that before, cells of 0.25 m", energy_error.back(), 0.0, 0.025);
   record.expect_near("mean pressure over exact, less 1, cells of 0.25 m", pressure_error.back(), 0.0, 0.002);
 }
 
 struct Landing {
   double height = 0.0;  // of the lower end at the first force [m]
-  double energy = 0.0;  // kinetic, after the impact over before
+  double energy = 0.0;  // kinetic energy after the impact, relative to that before
 };
 
-// The bar comes from two cells above the ground; its energy is taken when it has left again.
+// The bar starts two cells above the ground; its energy is measured after it has rebounded.
 Landing land(double cell, bool distance_check) {
   Simulation<2> simulation = falling_bar(cell, 2.0 * cell, distance_check);
   const auto before = simulation.sum_over_body();
@@ -188,7 +189,7 @@ std::string circle(double radius) {
   return "[" + corners + "]";
 }
 
-// Error of the stress within 0.7 of the radius after a time, rms over the largest stress.
+// Error of the stress within 0.7 of the radius after a time, rms relative to the maximum stress.
 double stress_error(const Simulation<2>& simulation, const physics::exact::TurningCylinder& exact) {
   const auto& particles = simulation.particles();
   std::vector<double> errors;
@@ -237,7 +238,7 @@ TEST(Turning, CarriesItsStressRound) {
     }
     errors.push_back(worst);
     double spin = 0.0, inertia = 0.0;
-    const auto& turned = std::as_const(simulation).particles();  // anew, as a device may have had them
+    const auto& turned = std::as_const(simulation).particles();  // reread: a device may have modified them
     for (std::size_t p = 0; p < turned.size(); ++p) {
       const double x = turned.position(p, 0) - 15.0, y = turned.position(p, 1) - 15.0;
       spin += x * turned.velocity(p, 1) - y * turned.velocity(p, 0);

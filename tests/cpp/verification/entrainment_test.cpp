@@ -1,4 +1,4 @@
-// A block that takes up the bed it slides over: momentum and energy by closed form, for both laws, in 2D and 3D.
+// A block that entrains the bed below it: momentum and energy in closed form, for both laws, in 2D and 3D.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,8 @@ using namespace testing_support;
 constexpr double speed = 20.0, front = 40.0, width = 20.0;  // [m/s], [m]: x of the block's front, its width in 3D
 constexpr double gravity = 9.81;
 
-// A frozen elastic block 40 m long on level ground, thrown along it; [basal] and [bed] are to come.
+// A frozen elastic block 40 m long on level ground, with a horizontal initial velocity; [basal] and [bed] are added
+// later.
 template <int Dim>
 std::string thrown(double height, double end) {
   const auto at = [](double x, double y, double z) {
@@ -59,9 +60,9 @@ enabled = false
                      at(front, width, height), at(speed, 0.0, 0.0));
 }
 
-// What the run has come to.
+// State of the run.
 struct State {
-  double mass, velocity, kinetic, front, taken, residual;  // [kg], [m/s], [J], [m], [kg], share of the momentum
+  double mass, velocity, kinetic, front, taken, residual;  // [kg], [m/s], [J], [m], [kg], fraction of the momentum
 };
 
 template <int Dim>
@@ -80,13 +81,13 @@ State state_of(const sim::Simulation<Dim>& simulation) {
           value("entrained_mass_kg"), std::abs(value("momentum_residual_x_N_s")) / (value("mass_kg") * speed)};
 }
 
-// What is swept up without friction: m = m0 + rho_b d w (x - x0), m v = m0 v0, kinetic energy (m0 v0)^2/(2 m).
+// Entrainment without friction: m = m0 + rho_b d w (x - x0), m v = m0 v0, kinetic energy (m0 v0)^2/(2 m).
 template <int Dim>
 void sweep_up(const std::string& where) {
   constexpr double depth = 2.0;
   Record record("Entrainment: a block that sweeps up a layer, " + where,
-                "A block slides without friction over level ground on which, from its front on, a bed 2 m deep lies "
-                "that withstands nothing.",
+                "A block slides without friction over level ground. From its front on, a bed 2 m deep without strength "
+                "lies on the ground.",
                 "m = m_0 + rho_b d w (x - x_0), m v = m_0 v_0, kinetic energy (m_0 v_0)^2/(2 m)",
                 "inelastic collision with material at rest: momentum is kept");
   sim::Simulation<Dim> simulation(
@@ -108,7 +109,7 @@ void sweep_up(const std::string& where) {
     most_residual = std::max(most_residual, now.residual);
   }
   const double mass = start + per_metre * (now.front - front);
-  record.explain("the mass swept up differs by what the foremost cells still hold, a cell of 140 m");
+  record.explain("The entrained mass differs by the bed that remains in the foremost cells, a cell of 140 m");
   record.expect_near("mass over m(x)", (start + now.taken) / mass, 1.0, 1e-2);
   record.expect_near("velocity over m_0 v_0/m(x)", now.velocity / curve.exact.back(), 1.0, 1e-2);
   record.expect_near("kinetic energy over (m_0 v_0)^2/(2 m)",
@@ -120,13 +121,13 @@ void sweep_up(const std::string& where) {
 TEST(Entrainment, SweepsUpALayerInThePlane) { sweep_up<2>("2D"); }
 TEST(Entrainment, SweepsUpALayerInSpace) { sweep_up<3>("3D"); }
 
-// With Coulomb friction mu on a bed of mu_b, by the law of momentum: the drag on the slide is mu m g whatever it takes
-// up, so v = v0 - mu g t, and dm v = (mu - mu_b) m g dt.
+// With Coulomb friction mu on a bed of mu_b, by the law of momentum: the drag on the slide is mu m g for any
+// entrainment, and therefore v = v0 - mu g t, and dm v = (mu - mu_b) m g dt.
 template <int Dim>
 void entrain_by_friction(const std::string& where) {
   constexpr double angle = 17.0, bed_angle = 14.0;  // degrees
   const double mu = std::tan(angle * pi / 180.0), mu_bed = std::tan(bed_angle * pi / 180.0);
-  Record record("Entrainment: a block whose friction outdoes the bed's, " + where,
+  Record record("Entrainment: a block whose friction exceeds that of the bed, " + where,
                 "A block slides with friction over a bed of less friction, which is deep enough everywhere.",
                 "v = v_0 - mu g t, m = m_0 (v/v_0)^-(1 - mu_b/mu)",
                 "integral of v dm/dt = (mu - mu_b) m g, the law of momentum under the block's weight");
@@ -149,7 +150,7 @@ void entrain_by_friction(const std::string& where) {
 TEST(Entrainment, FrictionTakesUpWhatItHasImpulseForInThePlane) { entrain_by_friction<2>("2D"); }
 TEST(Entrainment, FrictionTakesUpWhatItHasImpulseForInSpace) { entrain_by_friction<3>("3D"); }
 
-// A bed that withstands more than friction brings stays where it is, and the slide moves as if it were not there.
+// A bed stronger than the friction remains in place and has no effect on the slide.
 TEST(Entrainment, ABedThatWithstandsTheShearStays) {
   for (const std::string law : {"strength", "momentum"}) {
     const auto text = [&](double strength) {

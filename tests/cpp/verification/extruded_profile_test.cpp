@@ -1,4 +1,4 @@
-// A profile as a DEM that does not vary across, between smooth walls: what runs over it runs as in 2D.
+// A profile as a DEM that is uniform across, between smooth walls: a slide moves on it as in 2D.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing_support;
 
-// A level shelf that bends into a slope of 35 degrees, and that into a plain. Points each 2.5 m.
+// A level shelf followed by a slope of 35 degrees and a plain. Points every 2.5 m.
 double elevation(double x) {
   const auto bend = [](double from, double to, double x) {  // integral of a slope that rises from 0 to 1
     const double length = to - from, t = std::clamp((x - from) / length, 0.0, 1.0);
@@ -24,7 +24,7 @@ double elevation(double x) {
 
 constexpr double first_point = -30.0, last_point = 300.0, spacing = 2.5;
 
-// The body stands on the shelf, where both cases fill the same lattice: it starts with a push.
+// The body is on the shelf, where both cases fill the same lattice. It starts with an initial velocity.
 std::string text_of(int dimension) {
   const bool flat = dimension == 2;
   const auto corner = [&](double x, double y, double z) {
@@ -83,10 +83,11 @@ sim::Simulation<3> in_space() {
 }
 
 TEST(ExtrudedProfile, RunsAsInTwoDimensions) {
-  Record record("A profile extruded to a DEM",
-                "Debris, 40 m long and 7.5 m thick, is pushed over the edge of a shelf, down 35 degrees and out on a "
-                "plain. It moves along a profile in 2D, and in 3D on a DEM of it, 2.5 m wide between smooth walls.",
-                "mean velocity of the 2D run", "symmetry");
+  Record record(
+      "A profile extruded to a DEM",
+      "Debris, 40 m long and 7.5 m thick, is pushed over the edge of a shelf, down a slope of 35 degrees and onto a "
+      "plain. It moves along a profile in 2D, and in 3D on a DEM of it, 2.5 m wide between smooth walls.",
+      "mean velocity of the 2D run", "symmetry");
   auto profile = in_profile();
   auto space = in_space();
   Curve curve{"time [s]", "mean velocity [m/s]", {}, {}, {}};

@@ -1,5 +1,5 @@
-// Freezing of a half space whose conductivity and capacity follow the saturation: no closed form, but a similarity
-// solution in eta = x/sqrt(t),  -(eta/2) C_eff(T) T' = (k(T) T')',  found by shooting from the cooled face.
+// Freezing of a half space with saturation-dependent conductivity and capacity. There is no closed form, but a
+// similarity solution in eta = x/sqrt(t), -(eta/2) C_eff(T) T' = (k(T) T')', found by shooting from the cooled face.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +29,8 @@ class FreezingSimilarity {
   [[nodiscard]] double temperature(double x, double t) const {
     const double place = x / std::sqrt(t) / step_;
     const auto k = std::min(static_cast<std::size_t>(place), temperature_.size() - 2);
-    const double share = std::min(1.0, place - static_cast<double>(k));
-    return temperature_[k] + share * (temperature_[k + 1] - temperature_[k]);
+    const double fraction = std::min(1.0, place - static_cast<double>(k));
+    return temperature_[k] + fraction * (temperature_[k + 1] - temperature_[k]);
   }
 
  private:

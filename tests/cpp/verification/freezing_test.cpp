@@ -62,22 +62,22 @@ FreezingProblem interfrost(double frozen) {
   return {4.0, -6.0, 0.0, frozen, {k_frozen, k_between, k_thawed}, {capacity, capacity, capacity}, latent_heat};
 }
 
-// Root mean square error over the first two metres and over days 5 to 10, in which fronts cross some cells: how far off
-// they are depends on where in its cell a front stands.
+// Root mean square error over the first two metres and over days 5 to 10, in which fronts cross several cells: the
+// error depends on the position of a front in its cell.
 template <class Exact>
 double error_on(double cell, double frozen, double k_ice, double k_water, const Exact& exact, Curve* curve) {
-  const double share = 0.3;
+  const double fraction = 0.3;
   Simulation<2> simulation(
       paper_case(bar, {fmt::format("grid.cell={}", cell), fmt::format("body.bar.max=[6.0,{}]", cell),
                        fmt::format("time.step={}", 540.0 * cell * cell / 0.01),
-                       fmt::format("phases.latent_heat={}", latent_heat / (1000.0 * share)),
-                       fmt::format("phases.ice_conductivity={}", (k_ice - (1.0 - share) * 2.0) / share),
-                       fmt::format("phases.water_conductivity={}", (k_water - (1.0 - share) * 2.0) / share),
+                       fmt::format("phases.latent_heat={}", latent_heat / (1000.0 * fraction)),
+                       fmt::format("phases.ice_conductivity={}", (k_ice - (1.0 - fraction) * 2.0) / fraction),
+                       fmt::format("phases.water_conductivity={}", (k_water - (1.0 - fraction) * 2.0) / fraction),
                        fmt::format("freezing.slope={}", -1.0 / frozen)}));
   std::vector<double> errors;
   for (int sample = 20; sample <= 40; ++sample) {
     run_until(simulation, 8.64e5 * sample / 40.0);
-    const auto& particles = std::as_const(simulation).particles();  // anew, as a device may have had them
+    const auto& particles = std::as_const(simulation).particles();  // reread: a device may have modified them
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const double x = particles.position(p, 0);
       if (x < 2.0) {
@@ -95,7 +95,7 @@ double error_on(double cell, double frozen, double k_ice, double k_water, const 
 
 const std::vector<double> cells{0.2, 0.1, 0.05};
 
-// The errors on these cells; draws the middle one.
+// Errors on these cells; plots the middle one.
 template <class Exact>
 std::vector<double> errors_on_cells(Record& record, double frozen, double k_ice, double k_water, const Exact& exact) {
   Curve curve{"x [m]", "temperature [C]", {}, {}, {}};
@@ -133,7 +133,7 @@ TEST(Freezing, FrontsOfLunardini) {
 TEST(Freezing, ThreeZonesOfLunardini) {
   for (const double frozen : {-1.0, -4.0}) {
     Record record(fmt::format("Freezing in three zones, wholly frozen at {} C", frozen),
-                  "InterFrost T1 with one conductivity in all zones, which the closed form needs where the model's "
+                  "InterFrost T1 with one conductivity in all zones, as the closed form requires; that of the model "
                   "follows the saturation.",
                   "erf in three zones with two moving boundaries", "Lunardini 1985");
     FreezingProblem problem = interfrost(frozen);
@@ -172,9 +172,9 @@ TEST(Freezing, SharpFrontOfNeumann) {
   record.expect_order_at_least("cell [m]", cells, "rms error of temperature [K]",
                                errors_on_cells(record, -0.01, k_frozen, k_thawed, exact), 1.0, 0.1);
   record.explain(
-      "The front stands anywhere in its cell, which bounds the error by the cell's size. How much of that cancels over "
-      "the front's many places is chance: round-off alone moves the order between 1.4 and 1.6. On cells of 0.2 m the "
-      "front is lost.");
+      "The front may be anywhere in its cell, which bounds the error by the cell's size. How much of that cancels over "
+      "the many positions of the front is chance: round-off alone moves the order between 1.4 and 1.6. On cells of 0.2 "
+      "m the front is not resolved.");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Collapse of granular columns: how far they run and what height is left, against the laws fitted to experiments. And
-// the dry dam break, whose thin flow is known exactly.
+// Collapse of granular columns: runout and remaining height, compared with laws fitted to experiments. Also the dry dam
+// break, for which thin flow has an exact solution.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -86,13 +86,13 @@ TEST(GranularColumn, RunsOutAsExperimentsDo) {
   record.draw(curve);
 }
 
-// Early contact throws grains up, and matter torn open that bears at once swells.
+// Early contact ejects grains, and separated material that bears stress immediately expands.
 TEST(GranularColumn, NeedsTheDistanceCheckAndGapsThatClose) {
   const double both = collapse(1.0).runout;
   const double neither = collapse(1.0, {"material.sand.gaps_close_first=false", "basal.distance_check=false"}).runout;
   EXPECT_GT(neither, 1.5 * both);
   const double affine = collapse(1.0, {"mechanics.transfer=\"apic\""}).runout;
-  EXPECT_NEAR(both, affine, 0.15 * affine) << "with both, the transfer matters little";
+  EXPECT_NEAR(both, affine, 0.15 * affine) << "with both, the transfer has little effect";
 }
 
 // Ritter (1892), on a slope Mangeney et al. (2000): behind the front at x = L + a t^2/2 + 2 c t, c = sqrt(g cos h), the
@@ -111,23 +111,24 @@ void expect_thin_flow_of_a_dam_break(Record& record, double slope) {
   for (const double time : {2.0, 4.0}) {
     run_until(simulation, time);
     const auto& particles = simulation.particles();
-    std::vector<double> places;
+    std::vector<double> positions;
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      places.push_back(particles.position(p, 0));
+      positions.push_back(particles.position(p, 0));
     }
-    std::sort(places.begin(), places.end());
+    std::sort(positions.begin(), positions.end());
     const double front = length + 0.5 * acceleration * time * time + 2.0 * std::sqrt(gravity * depth) * time;
-    for (const double share : {0.005, 0.02, 0.05, 0.1}) {
-      const double behind = std::cbrt(27.0 * gravity * time * time * share * length * depth);
-      const double place = places[static_cast<std::size_t>((1.0 - share) * static_cast<double>(places.size()))];
+    for (const double fraction : {0.005, 0.02, 0.05, 0.1}) {
+      const double behind = std::cbrt(27.0 * gravity * time * time * fraction * length * depth);
+      const double position =
+          positions[static_cast<std::size_t>((1.0 - fraction) * static_cast<double>(positions.size()))];
       if (time > 3.0) {
-        curve.x.push_back(share);
-        curve.computed.push_back(place);
+        curve.x.push_back(fraction);
+        curve.computed.push_back(position);
         curve.exact.push_back(front - behind);
       }
       record.expect_near(
-          fmt::format("place with {} of the volume beyond, less the dam's, {} degrees, {} s", share, slope, time),
-          place - length, front - behind - length, 0.06 * (front - length));
+          fmt::format("place with {} of the volume beyond, less the dam's, {} degrees, {} s", fraction, slope, time),
+          position - length, front - behind - length, 0.06 * (front - length));
     }
   }
   record.draw(curve);

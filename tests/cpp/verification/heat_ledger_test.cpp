@@ -1,4 +1,4 @@
-// Heat is neither lost nor made: while ice melts in an insulated body, and where friction makes it.
+// Heat is conserved, while ice melts in an insulated body and with heat from friction.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ enabled = false
 )";
 
 TEST(HeatLedger, ClosesThroughMelting) {
-  Record record("Heat of an insulated body that melts", "Half a body at 30 C melts the other half, at -3 C.",
+  Record record("Heat of an insulated body that melts", "One half of a body, at 30 C, melts the other half, at -3 C.",
                 "the heat content does not change", "energy balance");
   for (const std::string curve : {"power_law", "linear"}) {
     Simulation<2> simulation(paper_case(melting, {"freezing.curve=" + curve}));
@@ -52,7 +52,7 @@ TEST(HeatLedger, ClosesThroughMelting) {
       ice += 1.0 - at_start.liquid_saturation(p);
     }
     run_until(simulation, 2e7);
-    const auto& particles = std::as_const(simulation).particles();  // anew, as a device may have had them
+    const auto& particles = std::as_const(simulation).particles();  // reread: a device may have modified them
     double moved = 0.0, left = 0.0;
     for (std::size_t p = 0; p < particles.size(); ++p) {
       moved += 0.5 * particles.initial_volume(p) *
@@ -65,7 +65,7 @@ TEST(HeatLedger, ClosesThroughMelting) {
   }
 }
 
-// A melted column whose temperature and pore pressure fall towards the top alike.
+// A melted column whose temperature and pore pressure both decrease towards the top.
 const std::string seeping = R"(
 [case]
 gravity = 0.0
@@ -92,8 +92,8 @@ TEST(HeatLedger, ShowsWhatAdvectionMakes) {
   Record record("Heat of a melted column through which water seeps",
                 "Water seeps up an insulated, melted column as its pressure drains; the advection term of Eq. 9 is not "
                 "in conservation form.",
-                "the heat content changes by what the term makes, at first rho_L C_L (k_L/gamma_w) grad P . grad T "
-                "over the volume; not at all without it",
+                "the heat content changes by the heat created, at first rho_L C_L (k_L/gamma_w) grad P . grad T over "
+                "the volume; not at all without the term",
                 "energy balance");
   for (const bool on : {true, false}) {
     Simulation<2> simulation(paper_case(seeping, {on ? "heat.advection=true" : "heat.advection=false"}));
@@ -118,7 +118,7 @@ TEST(HeatLedger, ShowsWhatAdvectionMakes) {
     const double first = value_of(history_row(simulation), "advection_J");
     run_until(simulation, 4000.0);
     const auto row = history_row(simulation);
-    const auto& after = std::as_const(simulation).particles();  // anew, as a device may have had them
+    const auto& after = std::as_const(simulation).particles();  // reread: a device may have modified them
     double moved = 0.0;
     for (std::size_t p = 0; p < after.size(); ++p) {
       moved += 0.5 * after.initial_volume(p) *

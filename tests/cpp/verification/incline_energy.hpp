@@ -1,4 +1,4 @@
-// The mechanical account of the paper's four cases on the incline of 40 degrees (Sec. 3.3): what it leaves over.
+// Residual of the mechanical energy budget of the paper's four cases on the incline of 40 degrees (Sec. 3.3).
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace thawslide::verification {
 
-// mechanical_residual_J at `end` over the work of gravity and |friction work|.
+// mechanical_residual_J at `end` relative to the work of gravity and |friction work|.
 inline double incline_residual(const std::string& name, double step, double end) {
   using testing_support::value_of;
   const std::string file = std::string(THAWSLIDE_SOURCE_DIR) + "/cases/incline/" + name + ".toml";
@@ -26,7 +26,7 @@ inline double incline_residual(const std::string& name, double step, double end)
 }
 
 // Runs D, DL, DLP and PL with three steps each; asserts a residual below 1 % that falls in first order of the step.
-inline void expect_closed_account(Record& record, double end, double allowed) {
+inline void expect_closed_budget(Record& record, double end, double allowed) {
   const std::vector<double> steps{0.0035, 0.00175, 0.000875};
   for (const std::string name : {"D", "DL", "DLP", "PL"}) {
     std::vector<double> residuals;

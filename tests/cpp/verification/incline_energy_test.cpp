@@ -1,4 +1,4 @@
-// The first seconds on the incline: the mechanical account closes. tests/cpp/long has the whole 25 s.
+// The first seconds on the incline: the mechanical energy budget closes. The complete 25 s are in tests/cpp/long.
 #include "incline_energy.hpp"
 
 #include <gtest/gtest.h>
@@ -8,11 +8,11 @@ namespace {
 
 TEST(InclineEnergy, ClosesInFirstOrderOfTheStep) {
   Record record(
-      "Mechanical account on the incline, the first 2 s",
+      "Mechanical energy budget on the incline, the first 2 s",
       "Cases D, D-L, D-L-P and P-L of Sec. 3.3: mechanical_residual_J over the work of gravity and the size of "
       "the friction work; asserted below 1 % with each step.",
-      "no energy is left over but the error of time integration", "energy balance");
-  expect_closed_account(record, 2.0, 0.15);
+      "no energy remains except the error of time integration", "energy balance");
+  expect_closed_budget(record, 2.0, 0.15);
 }
 
 }  // namespace

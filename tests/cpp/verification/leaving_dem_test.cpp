@@ -1,5 +1,5 @@
-// A slide with every mechanism on a DEM, part of which leaves it: accounts, threads, messages; and that none
-// gets below the ground.
+// A slide with every mechanism on a DEM, part of which leaves it: budgets, threads, messages. No particle gets below
+// the ground.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ friction_angle = 15.0
 thickness = 0.1
 )";
 
-// Falls by 31 degrees along x, with a gully and bumps; it ends at x = 40.
+// Slope of 31 degrees along x, with a gully and bumps; it ends at x = 40.
 double slope(double x, double y) {
   return -0.6 * x + 0.01 * y * y + 0.8 * std::sin(0.2 * x + 0.1) * std::cos(0.15 * y);
 }
@@ -74,29 +74,29 @@ Simulation<3> run_onto(double end_of_dem, const std::vector<std::string>& sets,
 struct Seen {
   std::map<std::string, std::vector<double>> fields;
   sim::HistoryRow row;
-  double mass = 0.0, momentum = 0.0, heat = 0.0, energy = 0.0;  // largest that the accounts leave over, as shares
+  double mass = 0.0, momentum = 0.0, heat = 0.0, energy = 0.0;  // maximum relative residuals of the budgets
 };
 
-// Until about half of the slide has left; looks at all accounts at each half second.
+// Runs until about half of the slide has left; records the residuals of all budgets every half second.
 Seen leave(int threads) {
   const int threads_before = thread_count();
   set_thread_count(threads);
   auto simulation = run_onto(42.0, {"grid.leaving=remove"});
   const double mass = value_of(history_row(simulation), "mass_kg");
   Seen seen;
-  const auto warning = [](double& largest, double share) { largest = std::max(largest, std::abs(share)); };
+  const auto update = [](double& largest, double fraction) { largest = std::max(largest, std::abs(fraction)); };
   for (double time = 0.5; time < 4.1; time += 0.5) {
     run_until(simulation, time);
     seen.row = history_row(simulation);
     const auto value = [&](const std::string& column) { return value_of(seen.row, column); };
-    warning(seen.mass, value("mass_residual_kg") / mass);
-    warning(seen.mass, (value("mass_kg") + value("left_mass_kg")) / mass - 1.0);
-    warning(seen.mass, (value("rock_kg") + value("ice_kg") + value("water_kg")) / value("mass_kg") - 1.0);
+    update(seen.mass, value("mass_residual_kg") / mass);
+    update(seen.mass, (value("mass_kg") + value("left_mass_kg")) / mass - 1.0);
+    update(seen.mass, (value("rock_kg") + value("ice_kg") + value("water_kg")) / value("mass_kg") - 1.0);
     for (const std::string axis : {"x", "y", "z"}) {
-      warning(seen.momentum, value("momentum_residual_" + axis + "_N_s") / (mass * 9.81 * time));
+      update(seen.momentum, value("momentum_residual_" + axis + "_N_s") / (mass * 9.81 * time));
     }
-    warning(seen.heat, value("thermal_residual_J") / value("friction_heat_J"));
-    warning(seen.energy, value("mechanical_residual_J") / value("kinetic_J"));
+    update(seen.heat, value("thermal_residual_J") / value("friction_heat_J"));
+    update(seen.energy, value("mechanical_residual_J") / value("kinetic_J"));
   }
   set_thread_count(threads_before);
   seen.fields = fields_by_id(simulation.particles());
@@ -106,7 +106,7 @@ Seen leave(int threads) {
 TEST(LeavingDem, AccountsCloseForAnyNumberOfThreads) {
   Record record("A slide that leaves the DEM",
                 "Debris with heat and pore pressure runs 4 s down a gully; particles beyond the edge of the DEM are "
-                "removed and counted. Maximum residual of the budgets, each half second.",
+                "removed and counted. Maximum residual of the budgets, every half second.",
                 "budgets close; results of one and two threads are bitwise identical", "conservation");
   const Seen one = leave(1), two = leave(2);
   record.expect_near("mass, over the slide's", one.mass, 0.0, 1e-12);
@@ -123,7 +123,7 @@ TEST(LeavingDem, AccountsCloseForAnyNumberOfThreads) {
   }
 }
 
-// Runs until the run ends with an error, whose text must name the place; returns that place's x and y [m].
+// Runs until the run ends with an error, whose text must state the position; returns its x and y [m].
 Place expect_error(Simulation<3> simulation) {
   std::string text = "it ran to its end";
   try {
@@ -134,7 +134,7 @@ Place expect_error(Simulation<3> simulation) {
   const std::regex expected(
       "the run failed at t = ([0-9.]+) s \\(step [0-9]+\\): particle [0-9]+ of body 'slide' at \\((-?[0-9.]+), "
       "(-?[0-9.]+), (-?[0-9.]+)\\) m: the terrain below it is not known: the DEM ends or has a hole there\\. .*Give a "
-      "DEM that .*, or set grid\\.leaving = \"remove\" to let such particles go\\. `thawslide new` crops the DEM to "
+      "DEM that .*, or set grid\\.leaving = \"remove\" to remove such particles\\. `thawslide new` crops the DEM to "
       "the domain: create the case again with a smaller --reach-angle, which uses more of the DEM, or from a larger "
       "DEM\\.");
   std::smatch found;
@@ -143,28 +143,28 @@ Place expect_error(Simulation<3> simulation) {
 }
 
 TEST(LeavingDem, StopsAtTheEdge) {
-  const Place place = expect_error(run_onto(42.0, {}));
-  EXPECT_GT(place[0], 42.0);
-  EXPECT_LT(place[0], 42.2) << "as soon as the first particle is beyond";
+  const Place position = expect_error(run_onto(42.0, {}));
+  EXPECT_GT(position[0], 42.0);
+  EXPECT_LT(position[0], 42.2) << "as soon as the first particle is beyond";
 }
 
 TEST(LeavingDem, StopsAtAHole) {
   const auto hole = [](double x, double y) { return x > 25.0 && x < 35.0 && std::abs(y) < 10.0; };
   // The ground is known up to the last points with data, at x = 22 m.
-  const Place place = expect_error(run_onto(130.0, {}, hole));
-  EXPECT_GT(place[0], 22.0);
-  EXPECT_LT(place[0], 22.2);
-  EXPECT_LT(std::abs(place[1]), 10.0 + 4.0);
+  const Place position = expect_error(run_onto(130.0, {}, hole));
+  EXPECT_GT(position[0], 22.0);
+  EXPECT_LT(position[0], 22.2);
+  EXPECT_LT(std::abs(position[1]), 10.0 + 4.0);
 }
 
-// Ridges and a gully across and along the way, then a cliff of 15 m.
+// Ridges and a gully across and along the path, then a cliff of 15 m.
 double rugged(double x, double y) {
   const double ridges = 2.5 * std::pow(std::sin(0.12 * x), 2.0);
   const double gully = -4.0 * std::exp(-y * y / 60.0);
   return -0.6 * x + 0.008 * y * y + ridges + gully - 15.0 / (1.0 + std::exp(-2.0 * (x - 35.0)));
 }
 
-// Ridges, a gully, and a cliff of 67 degrees over two cells that runs oblique to the grid.
+// Ridges, a gully, and a cliff of 67 degrees over two cells, oblique to the grid.
 double oblique_cliff(double x, double y) {
   const double ridges = 2.5 * std::pow(std::sin(0.12 * x), 2.0);
   const double gully = -4.0 * std::exp(-y * y / 60.0);
@@ -172,7 +172,7 @@ double oblique_cliff(double x, double y) {
   return -0.5 * x + 0.008 * y * y + ridges + gully - 12.0 * down_the_cliff;
 }
 
-// How deep the centre of any particle came below the ground in any step [m]: the distance from the nearest place of
+// Maximum depth of the centre of any particle below the ground in any step [m]: the distance from the nearest point of
 // the ground.
 double deepest_in_any_step(const Height& height, double end, double& centre_x) {
   const Raster ground = raster_between(Place(-70.0, -50.0), Place(130.0, 50.0), 2.5, height);
@@ -184,11 +184,11 @@ double deepest_in_any_step(const Height& height, double end, double& centre_x) {
     simulation.step(simulation.next_step(end));
     const auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      const Position place = particles.position.get<Position>(p) + origin;
-      const double below = surface.height(place.head<2>()) - place[2];
+      const Position position = particles.position.get<Position>(p) + origin;
+      const double below = surface.height(position.head<2>()) - position[2];
       if (below > 0.0) {
-        const auto foot = surface.nearest(place, below);
-        deepest = std::max(deepest, foot ? (*foot - place).norm() : below);
+        const auto foot = surface.nearest(position, below);
+        deepest = std::max(deepest, foot ? (*foot - position).norm() : below);
       }
     }
   }
@@ -199,8 +199,7 @@ double deepest_in_any_step(const Height& height, double end, double& centre_x) {
 TEST(RuggedDem, NoParticleGetsBelowTheGround) {
   Record record(
       "A slide over rugged ground",
-      "Debris 6 m thick runs over ridges, along a gully and down a cliff, on cells of 2.5 m; looked at in every "
-      "step.",
+      "Debris 6 m thick runs over ridges, along a gully and down a cliff, on cells of 2.5 m; checked in every step.",
       "no particle below the ground", "");
   double centre_x = 0.0;
   const double straight = deepest_in_any_step(rugged, 5.0, centre_x);

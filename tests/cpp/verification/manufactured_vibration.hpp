@@ -1,4 +1,4 @@
-// A square that vibrates with large displacements along its axes (Wallstedt and Guilkey 2008), with the body force that
+// A square that vibrates along its axes with large displacements (Wallstedt and Guilkey 2008), with the body force that
 // makes the motion exact for log-strain elasticity.
 //   u1 = A sin(2 pi X) sin(c pi t),  u2 = -A sin(2 pi Y) sin(c pi t),  c^2 = E/rho0
 //   F11 = 1 + du1/dX,  F22 = 1 + du2/dY;  sigma11 = M ln F11 + lambda ln F22,  M = lambda + 2 mu;  P11 = F22 sigma11
@@ -21,13 +21,13 @@ class ManufacturedVibration {
   using Plane = Vector<double, 2>;
   static constexpr double density = 1000.0, youngs_modulus = 1e7, poisson_ratio = 0.3;
 
-  // cells: along a side; 4 particles a cell.
+  // cells: along a side; 4 particles per cell.
   ManufacturedVibration(int cells, double amplitude, mpm::ShapeFunction shape, mpm::TransferKind transfer,
-                        double pic_share)
+                        double pic_fraction)
       : amplitude_(amplitude), grid_(1.0 / cells) {
     model_.shape = shape;
     model_.transfer = transfer;
-    model_.pic_share = pic_share;
+    model_.pic_fraction = pic_fraction;
     model_.gravity.setZero();
     model_.sizes = {0.25};
     elastic_ = physics::Elastic::from_young_poisson(youngs_modulus, poisson_ratio);
@@ -46,7 +46,7 @@ class ManufacturedVibration {
     }
   }
 
-  // Root mean square over particles of the displacement's error [m].
+  // Root mean square displacement error over the particles [m].
   [[nodiscard]] double error() const {
     double sum = 0.0;
     for (std::size_t p = 0; p < particles_.size(); ++p) {
@@ -57,21 +57,22 @@ class ManufacturedVibration {
   }
 
   [[nodiscard]] static double period() { return 2.0 / speed(); }
-  // The step at which an elastic wave crosses a cell.
+  // Time in which an elastic wave crosses a cell.
   [[nodiscard]] double wave_step() const { return grid_.cell() * std::sqrt(density / elastic_.p_wave_modulus()); }
 
  private:
   static double speed() { return std::sqrt(youngs_modulus / density); }
 
-  [[nodiscard]] Plane exact(const Plane& place) const {
+  [[nodiscard]] Plane exact(const Plane& position) const {
     const double now = amplitude_ * std::sin(speed() * pi * time_);
-    return {now * std::sin(2.0 * pi * place[0]), -now * std::sin(2.0 * pi * place[1])};
+    return {now * std::sin(2.0 * pi * position[0]), -now * std::sin(2.0 * pi * position[1])};
   }
 
-  [[nodiscard]] Plane body_force(const Plane& place) const {
-    const Plane displacement = exact(place);
+  [[nodiscard]] Plane body_force(const Plane& position) const {
+    const Plane displacement = exact(position);
     const double now = 2.0 * pi * amplitude_ * std::sin(speed() * pi * time_);
-    const double stretch[2] = {1.0 + now * std::cos(2.0 * pi * place[0]), 1.0 - now * std::cos(2.0 * pi * place[1])};
+    const double stretch[2] = {1.0 + now * std::cos(2.0 * pi * position[0]),
+                               1.0 - now * std::cos(2.0 * pi * position[1])};
     const double stiffness = 4.0 * pi * pi * elastic_.p_wave_modulus() / density;
     const double inertia = speed() * speed() * pi * pi;
     return {displacement[0] * (stiffness * stretch[1] / stretch[0] - inertia),
@@ -83,15 +84,16 @@ class ManufacturedVibration {
     const double spacing = 1.0 / rows;
     for (std::size_t p = 0; p < particles_.size(); ++p) {
       const auto i = static_cast<int>(p) % rows, j = static_cast<int>(p) / rows;
-      const Plane place((i + 0.5) * spacing, (j + 0.5) * spacing);
+      const Plane position((i + 0.5) * spacing, (j + 0.5) * spacing);
       const double rate = amplitude_ * speed() * pi;
       particles_.id(p) = static_cast<std::int64_t>(p);
       particles_.volume(p) = spacing * spacing;
       particles_.mass(p) = density * particles_.volume(p);
-      particles_.position.set(p, place);
-      particles_.velocity.set(p, Plane(rate * std::sin(2.0 * pi * place[0]), -rate * std::sin(2.0 * pi * place[1])));
-      particles_.affine_velocity(p, 0) = 2.0 * pi * rate * std::cos(2.0 * pi * place[0]);
-      particles_.affine_velocity(p, 3) = -2.0 * pi * rate * std::cos(2.0 * pi * place[1]);
+      particles_.position.set(p, position);
+      particles_.velocity.set(p,
+                              Plane(rate * std::sin(2.0 * pi * position[0]), -rate * std::sin(2.0 * pi * position[1])));
+      particles_.affine_velocity(p, 0) = 2.0 * pi * rate * std::cos(2.0 * pi * position[0]);
+      particles_.affine_velocity(p, 3) = -2.0 * pi * rate * std::cos(2.0 * pi * position[1]);
       particles_.porosity(p) = 0.3;
     }
   }
@@ -108,9 +110,9 @@ class ManufacturedVibration {
         patches[t].clear();
         auto sums = mpm::cell_sums<mpm::no_flux, 2>(patches[t]);
         for (const auto& batch : grid_.batches(t)) {
-          const auto place = mpm::place_of(grid_, particles_, batch);
-          const auto stencil =
-              mpm::make_stencil<decltype(shape)>(grid_, batch, place, model_.sizes.of(particles_, batch), model_.sides);
+          const auto position = mpm::grid_position(grid_, particles_, batch);
+          const auto stencil = mpm::make_stencil<decltype(shape)>(grid_, batch, position,
+                                                                  model_.sizes.of(particles_, batch), model_.sides);
           mpm::Contribution<2, 2> force;
           for (std::size_t a = 0; a < 2; ++a) {
             force.value[a] = Simd<double>::of([&](std::size_t lane) {

@@ -17,7 +17,7 @@ using sim::Simulation;
 
 constexpr double height = 20.0, half_length = 200.0, gravity = 9.81, friction_angle = 35.0;
 
-// Friction opposes the motion down the slope, and none acts across it: here, the base has none.
+// Friction acts down the slope only, and not across it: here, the base is frictionless.
 const std::string column_mass = R"(
 [case]
 dimension = 2

@@ -1,5 +1,5 @@
-// Patch tests: what is uniform stays uniform wherever the grid's lines cut the body; what is linear is reproduced, by
-// FLIP where particles lie as they are seeded, by APIC anywhere.
+// Patch tests: uniform fields remain uniform for any position of the grid lines in the body. Linear fields are
+// reproduced by FLIP if particles are at their initial positions, by APIC at any positions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ config::Case patch_case(const std::string& shape, const std::string& transfer) {
   return paper_case(patch, {"mechanics.shape_function=" + shape, "mechanics.transfer=" + transfer});
 }
 
-// Moves the body by a share of a cell along both axes.
+// Moves the body by a fraction of a cell along both axes.
 void shift_body(Simulation<2>& simulation, double shift) {
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -54,7 +54,7 @@ void shift_body(Simulation<2>& simulation, double shift) {
   }
 }
 
-// Far enough from the body's edges for its nodes to see matter all around.
+// So far from the body's edges that its nodes are surrounded by material.
 template <class Visit>
 void for_inner_particles(const Simulation<2>& simulation, const Visit& visit) {
   for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
@@ -83,7 +83,7 @@ TEST(Patch, UniformStressMovesNothing) {
         particles.stress(p, 3) = 5e5;
       }
       simulation.step(1e-4);
-      const double free = 3e6 / 2062.0 * 1e-4;  // what a node with the stress on one side would gain, stress/(rho h) dt
+      const double free = 3e6 / 2062.0 * 1e-4;  // velocity gain of a node with one-sided stress, stress/(rho h) dt
       for_inner_particles(simulation, [&](std::size_t p) {
         largest = std::max(largest, particles.velocity.template get<Vector<double, 2>>(p).norm() / free);
       });
@@ -92,7 +92,7 @@ TEST(Patch, UniformStressMovesNothing) {
   }
 }
 
-// Largest error of the first step's stress, over the stress, where the velocity is linear.
+// Maximum error of the first step's stress, relative to the stress, in a linear velocity field.
 double linear_field_error(const std::string& shape, const std::string& transfer, double shift) {
   Simulation<2> simulation(patch_case(shape, transfer));
   shift_body(simulation, shift);
@@ -108,7 +108,7 @@ double linear_field_error(const std::string& shape, const std::string& transfer,
       }
     }
   }
-  const double dt = 1e-8;  // so short that strain is gradient times time to round-off
+  const double dt = 1e-8;  // so short that strain equals gradient times time to round-off
   simulation.step(dt);
   const auto elastic = physics::Elastic::from_young_poisson(5e8, 0.2);
   SymmetricTensor<double> strain = SymmetricTensor<double>::Zero();
@@ -126,7 +126,7 @@ double linear_field_error(const std::string& shape, const std::string& transfer,
 
 TEST(Patch, LinearVelocityStrainsUniformly) {
   Record record("Patch test: linear velocity",
-                "The same body in a motion v = A x; one step must strain all of its inside alike.",
+                "The same body in a motion v = A x; one step must strain all of its interior equally.",
                 "strain = sym(A) dt", "kinematics");
   for (const std::string shape : {"ugimp", "linear", "quadratic"}) {
     record.expect_near("error of the stress over it, FLIP, " + shape + ", particles as seeded",
@@ -140,8 +140,8 @@ TEST(Patch, LinearVelocityStrainsUniformly) {
     record.expect_near("the same, APIC, " + shape + ", cut anywhere", largest, 0.0, 1e-7);
   }
   record.explain(
-      "FLIP carries velocities, not their gradients, to the nodes: it reproduces a linear field where the particles "
-      "lie evenly about the nodes, as they are seeded. APIC does anywhere.");
+      "FLIP carries velocities, not their gradients, to the nodes: it reproduces a linear field if the particles are "
+      "distributed evenly about the nodes, as at the start. APIC does so everywhere.");
 }
 
 }  // namespace

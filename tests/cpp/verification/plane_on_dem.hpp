@@ -1,4 +1,4 @@
-// A block on a planar DEM, for the tests of some slopes and of all.
+// A block on a planar DEM: shared by the short and the complete tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -36,16 +36,16 @@ struct Plane {
   [[nodiscard]] double base_area() const { return width * width / std::cos(slope * degree); }  // of the block [m2]
 };
 
-// What the block does over the run's second half, free of the first adjustment of its stress.
+// Motion of the block in the second half of the run, after the initial adjustment of its stress.
 struct Slide {
-  double acceleration, aside;  // down the plane [m/s2]; speed across the fall line at the end [m/s]
-  double way, velocity;        // [m]; at the end [m/s]
+  double acceleration, aside;     // down the plane [m/s2]; speed across the fall line at the end [m/s]
+  double displacement, velocity;  // [m]; at the end [m/s]
   double work, heat, mass;
   double area;  // of contact, mean [m2]
 };
 
-// The points of the DEM, 7 m apart, are nowhere in step with the grid. Those of the thickness are 16 to a
-// particle's spacing, so that the block ends where it should.
+// The points of the DEM, 7 m apart, are not aligned with the grid. There are 16 points of the thickness per particle
+// spacing, which resolve the ends of the block.
 inline Slide slide(const Plane& plane, const std::vector<std::string>& sets) {
   const Position down = plane.down();
   const Raster ground = raster_between(Place(-105.0, -105.0), Place(105.0, 105.0), 7.0, [&](double x, double y) {
@@ -69,7 +69,7 @@ inline Slide slide(const Plane& plane, const std::vector<std::string>& sets) {
   const auto gain = [&](const char* column) { return value_of(after, column) - value_of(before, column); };
   return {.acceleration = (last.velocity - middle.velocity).dot(down) / (0.5 * end),
           .aside = (last.velocity - last.velocity.dot(down) * down).norm(),
-          .way = (last.position - middle.position).dot(down),
+          .displacement = (last.position - middle.position).dot(down),
           .velocity = last.velocity.norm(),
           .work = gain("friction_work_J"),
           .heat = gain("friction_heat_J"),
@@ -82,11 +82,11 @@ inline std::vector<std::string> rubbing(double friction_angle, double cohesion =
           fmt::format("basal.cohesion={}", cohesion), "heat.enabled=true"};
 }
 
-// The nodes share the base by the load that they carry. On slopes they together count some hundredths too much, which
-// cohesion feels and friction does not.
+// Nodes divide the base by the load that they carry. On slopes their sum is several hundredths too large, which affects
+// cohesion and not friction.
 inline double allowed_of_area(const Plane& plane) { return 0.005 + 0.0015 * plane.slope; }
 
-// a = g (sin - mu cos) - c A/m; work = mu m g cos times the way, and that of the cohesion.
+// a = g (sin - mu cos) - c A/m; work = mu m g cos times the displacement, plus that of the cohesion.
 inline Slide expect_slide(Record& record, const Plane& plane, double friction_angle, double cohesion = 0.0,
                           const std::vector<std::string>& sets = {}) {
   std::vector<std::string> all = rubbing(friction_angle, cohesion);
@@ -98,7 +98,7 @@ inline Slide expect_slide(Record& record, const Plane& plane, double friction_an
   const double acceleration = gravity * std::sin(plane.slope * degree) - resistance / seen.mass;
   record.expect_near("acceleration over exact, " + plane.text(), seen.acceleration / acceleration, 1.0,
                      cohesion > 0.0 ? 0.02 : 2e-3);
-  record.expect_near("heat over exact, " + plane.text(), seen.heat / (resistance * seen.way), 1.0,
+  record.expect_near("heat over exact, " + plane.text(), seen.heat / (resistance * seen.displacement), 1.0,
                      cohesion > 0.0 ? 0.02 : 2e-3);
   record.expect_near("heat over work of friction, " + plane.text(), seen.heat / seen.work, 1.0, 1e-12);
   record.expect_near("speed across the fall line [m/s], " + plane.text(), seen.aside, 0.0, 5e-3);
@@ -110,7 +110,7 @@ inline Slide expect_slide(Record& record, const Plane& plane, double friction_an
 inline void expect_rest(Record& record, const Plane& plane, double friction_angle) {
   const Slide seen = slide(plane, rubbing(friction_angle));
   record.expect_near("speed below the friction angle [m/s], " + plane.text(), seen.velocity, 0.0, 2e-3);
-  record.expect_near("creep below the friction angle [m], " + plane.text(), seen.way, 0.0, 2e-3);
+  record.expect_near("creep below the friction angle [m], " + plane.text(), seen.displacement, 0.0, 2e-3);
   record.expect_near("area of contact over exact, " + plane.text(), seen.area / plane.base_area(), 1.0,
                      allowed_of_area(plane));
 }

@@ -1,4 +1,4 @@
-// Diffusion of pore pressure, manufactured: a source makes a given field exact, with porosities that vary in space.
+// Manufactured diffusion of pore pressure: a source makes a given field exact, with spatially variable porosity.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 using namespace testing_support;
 using sim::Simulation;
 
-// A melted square without weight, sealed but at its top, of one temperature.
+// A melted square without weight, sealed except at its top, of uniform temperature.
 const std::string square = R"(
 [case]
 gravity = 0.0
@@ -41,8 +41,8 @@ enabled = false
 enabled = false
 )";
 
-// P = A (2 + cos pi x) cos^2(pi y/2) exp(-t/tau): no flow through x = 0, x = 1 and y = 0; at the drained top y = 1 it
-// vanishes with its slope, since there P = 0 acts on the whole upper half of a cell.
+// P = A (2 + cos pi x) cos^2(pi y/2) exp(-t/tau): no flow through x = 0, x = 1 and y = 0. At the drained top y = 1, P
+// and its gradient vanish, because P = 0 acts on the whole upper half of a cell.
 //   n dP/dt = div(K_L k_L/gamma_w grad P) + n source                                         Eqs. 8 and 23
 struct Manufactured {
   static constexpr double scale = 1e6, decay = 500.0;
@@ -78,7 +78,7 @@ double error_on(double cell, Curve* curve) {
     const double dt = simulation.next_step(400.0);
     const double middle = simulation.time() + 0.5 * dt;
     simulation.step(dt);
-    auto& particles = simulation.particles();  // anew, as a device may have had them
+    auto& particles = simulation.particles();  // reread: a device may have modified them
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const double source =
           exact.source(particles.position(p, 0), particles.position(p, 1), middle, particles.porosity(p));
@@ -102,8 +102,8 @@ double error_on(double cell, Curve* curve) {
 
 TEST(PorePressure, Manufactured) {
   Record record("Diffusion of pore pressure, manufactured",
-                "A melted square, sealed but at its top, whose porosity rises from 0.2 to 0.6 along x, with a source "
-                "that makes a given pressure field exact.",
+                "A melted square, sealed except at its top, whose porosity rises from 0.2 to 0.6 along x, with a "
+                "source that makes a given pressure field exact.",
                 "P = A (2 + cos pi x) cos^2(pi y/2) exp(-t/500)", "method of manufactured solutions, Roache 2002");
   const std::vector<double> cells{0.1, 0.05, 0.025};
   Curve curve{"y [m]", "pressure at x = 0 [MPa]", {}, {}, {}};

@@ -1,4 +1,4 @@
-// Pore pressure of melted matter: undrained heating, diffusion to a drained top, and slip on a plane.
+// Pore pressure of melted material: undrained heating, diffusion to a drained top, and slip on a plane.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 using namespace testing_support;
 using sim::Simulation;
 
-// A column one cell wide and 1 m high, melted, without weight.
+// A melted column one cell wide and 1 m high, without weight.
 const std::string column = R"(
 [case]
 gravity = 0.0
@@ -86,7 +86,7 @@ TEST(Consolidation, OfAMeltedColumn) {
       at_start.liquid_pressure(p) = at_start.pore_pressure(p) = 1e6;
     }
     run_until(simulation, 700.0);
-    const auto& particles = std::as_const(simulation).particles();  // anew, as a device may have had them
+    const auto& particles = std::as_const(simulation).particles();  // reread: a device may have modified them
     const double diffusivity = physics::hydraulic_diffusivity(simulation.model().motion.phases, 0.375, 1.0, 1e-9);
     std::vector<double> differences;
     for (std::size_t p = 0; p < particles.size(); ++p) {

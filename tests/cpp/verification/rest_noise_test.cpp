@@ -1,4 +1,4 @@
-// What moves in a body that lies still: velocities from particle to particle that the grid cannot see, and nothing
+// Motion in a body at rest: velocity differences between particles that the grid does not resolve, and that nothing
 // damps.
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using sim::Simulation;
 
 const std::vector<std::string> filtered{"mechanics.transfer=fmpm", "mechanics.fmpm_interval=0.1"};
 
-// Root of the mean square speed of particles [m/s].
+// Root mean square speed of particles [m/s].
 double speed_of(const Simulation<2>& simulation) {
   const auto row = history_row(simulation);
   return std::sqrt(2.0 * value_of(row, "kinetic_J") / value_of(row, "mass_kg"));
@@ -53,7 +53,7 @@ max = [20.0, 8.0]
 slope_shear = true
 )" + friction_alone(40.0);
 
-// The speed that is left of 1 m/s at random, a component and particle.
+// Remaining fraction of a random velocity of 1 m/s per component and particle.
 double left_of_noise(double tilt, const std::vector<std::string>& sets) {
   std::string text = block;
   text.replace(text.find("TILT"), 4, fmt::format("{}", tilt));
@@ -109,11 +109,10 @@ Deposit collapse(const std::vector<std::string>& sets) {
 }
 
 TEST(RestNoise, OfADepositIsFilteredOut) {
-  Record record(
-      "A deposit at rest",
-      "A column of dry sand, 10 m square, that has fallen apart, 8 s after the start; velocities filtered each "
-      "0.1 s. With FLIP sand that lies still has 0.4 m/s, by which it spreads on a little.",
-      "nothing moves; runout over width 1.2", "a body at rest; fit to experiments, Lube et al. 2005");
+  Record record("A deposit at rest",
+                "A column of dry sand, 10 m square, that has fallen apart, 8 s after the start; velocities filtered "
+                "every 0.1 s. With FLIP, resting sand has 0.4 m/s, by which it continues to spread slightly.",
+                "nothing moves; runout over width 1.2", "a body at rest; fit to experiments, Lube et al. 2005");
   const Deposit flip = collapse({});
   EXPECT_GT(flip.speed, 0.3);
   const Deposit still = collapse(filtered);

@@ -1,4 +1,4 @@
-// What a block presses on the ground at rest, and at which angle it starts to slide.
+// Pressure of a block at rest on the ground, and the angle at which it starts to slide.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,8 +49,8 @@ enabled = false
 )";
 
 struct Pressing {
-  double unevenness = 0.0;  // largest difference of the pressure at the base's nodes from weight over area, over it
-  double ringing = 0.0;     // largest difference of the total force from the weight, over it
+  double unevenness = 0.0;  // maximum relative difference of nodal pressure from weight over area
+  double ringing = 0.0;     // maximum relative difference of the total force from the weight
 };
 
 Pressing press(const std::vector<std::string>& sets) {
@@ -129,13 +129,13 @@ enabled = false
 )";
 
 TEST(AngleSweep, SticksBelowAndSlidesAboveTheFrictionAngle) {
-  Record record("Slopes about the friction angle", "A block at rest on slopes about its friction angle of 20 degrees.",
+  Record record("Slopes near the friction angle", "A block at rest on slopes near its friction angle of 20 degrees.",
                 "a = g (sin - mu cos) above it, none below", "Coulomb friction");
   const double degree = pi / 180.0;
   Curve curve{"slope [degrees]", "acceleration [m/s2]", {}, {}, {}};
   for (const double slope : {15.0, 18.0, 19.0, 19.9, 20.1, 21.0, 22.0, 25.0, 30.0}) {
     Simulation<2> simulation(paper_case(sweep, {fmt::format("case.gravity_tilt={}", slope)}));
-    run_until(simulation, 1.0);  // by then the block's elastic start is over
+    run_until(simulation, 1.0);  // after the elastic transient at the start
     const double before = value_of(history_row(simulation), "mean_velocity_m_s");
     run_until(simulation, 2.0);
     const double acceleration = value_of(history_row(simulation), "mean_velocity_m_s") - before;

@@ -1,4 +1,4 @@
-// Slides on DEMs with noise on their points, filtered by default: for the tests of some and of all.
+// Slides on DEMs with noise on their points, filtered by default: shared by the short and the complete tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace rough_dem {
 
 using namespace testing_support;
 
-// White noise of an rms [m] on the points, and the filter that terrain.smooth = "auto" chooses.
+// White noise of a given rms [m] on the points, and the filter chosen by terrain.smooth = "auto".
 inline Treatment noise_and_filter(double rms, unsigned seed) {
   return [=](Raster ground) {
     std::mt19937 random(seed);
@@ -37,10 +37,10 @@ inline Record make_record(const std::string& title) {
       "Loose rock, 60 m long, slides on a slope of 35 degrees with a friction angle of 15 degrees, on cells of 5 m. "
       "The points of the DEM have white noise, filtered by terrain.smooth = \"auto\". Mean from 1 to 3 s.",
       "that of the clean ground: 1 on the plane, 1/sin(a) in a V of half an opening angle a",
-      "noise of the DEM is no friction");
+      "noise of the DEM is not friction");
 }
 
-// A slab of 40 m x 10 m across the slope; noise and distance of points in cells.
+// A slab of 40 m x 10 m across the slope; noise and point spacing in cells.
 inline void expect_no_friction_on_plane(Record& record, double noise, double spacing, double allowed,
                                         unsigned seed = 3) {
   Channel plane = plane_channel(40.0, 10.0);

@@ -1,4 +1,4 @@
-// Thermal pressurization of a slipping plane with matter on one side: friction, heat, pore pressure and both
+// Thermal pressurization of a slipping plane with material on one side: friction, heat, pore pressure and both
 // diffusions together, on a slab driven over sealed ground.
 #include <gtest/gtest.h>
 
@@ -17,9 +17,9 @@ namespace {
 using namespace testing_support;
 using sim::Simulation;
 
-// Poisson's ratio 0 keeps the slab one-dimensional. Cells are 1e4 times what heat and pressure see, so that it slips by
-// a small part of a cell. The frame moves all nodes but those of the base; weak gravity keeps temperatures and elastic
-// shear small.
+// Poisson's ratio 0 keeps the slab one-dimensional. Mechanical cells are 1e4 times those of heat and pressure, so that
+// the slab slips by a small part of a cell. The frame moves all nodes except those of the base; weak gravity keeps
+// temperatures and elastic shear small.
 const std::string slab = R"(
 [case]
 gravity = 1e-4
@@ -59,7 +59,8 @@ friction_angle = 11.30993247402  # mu 0.2
 advection = false
 )";
 
-// Slips by a metre on cells of a size; returns the rms error of the strength from 0.5 to 1 m, over that at the start.
+// Slips by a metre on cells of a given size; returns the rms error of the strength from 0.5 to 1 m, relative to the
+// initial strength.
 double error_on(double cell, std::vector<std::string> sets, Curve* curve) {
   sets.insert(sets.end(),
               {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 4e-7 * cell * cell),
@@ -111,7 +112,8 @@ TEST(SlipOnPlane, LosesStrengthAsRiceSays) {
   record.draw(curve);
   record.expect_order("cell over 1e4 [mm]", sizes, "rms error of tau/tau0, 0.5 to 1 m", errors, 1.0, 0.1);
   record.explain(
-      "The heat lies a share of a cell away from the plane, and the node reads the pressure over its cell: order 1.");
+      "The heat is a fraction of a cell away from the plane, and the node averages the pressure over its cell: order "
+      "1.");
 }
 
 TEST(SlipOnPlane, WithConduction) {

@@ -1,4 +1,4 @@
-// A slab that breaks along its lowest cells and softens over a slip, against the motion of a block on that surface.
+// A slab that breaks along its lowest cells and softens with slip, compared with the motion of a block on that surface.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -57,7 +57,7 @@ enabled = false
 enabled = false
 )";
 
-// Slip [m] at the end of a slab of thickness `above` [m] on a surface of the strength
+// Final slip [m] of a slab of thickness `above` [m] on a surface of the strength
 //   c = c_f + (c_0 - c_f) exp(-s/s_c),     rho above s'' = rho g above sin(tilt) - c
 double slip_of_block(double density, double above) {
   constexpr int steps = 6000;
@@ -71,8 +71,8 @@ double slip_of_block(double density, double above) {
   return slip;
 }
 
-// Slip of the middle of the slab, above the cells that break, over that of the block. These cells stick to the ground
-// at their lower face. The surface of rupture is taken at their mid-height.
+// Slip of the middle of the slab, above the breaking cells, relative to that of the block. These cells stick to the
+// ground at their lower face. The surface of rupture is assumed at their mid-height.
 double slip_over_exact(double cell, const std::string& softening) {
   Simulation<2> simulation(testing_support::case_from_text(
       slab, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 6e-4 * cell), softening}));
@@ -106,7 +106,7 @@ TEST(SofteningSlab, SlipsAsABlockOnASurfaceThatSoftensOverASlip) {
   record.expect_near("slip over exact, cells of 10 m", coarse, 1.0, 0.08);
   record.expect_near("slip over exact, cells of 5 m", fine, 1.0, 0.04);
   EXPECT_LT(1.0 - fine, 0.6 * (1.0 - coarse)) << "the error decreases in first order of the cell";
-  // The strain that belongs to this slip on cells of 10 m.
+  // Softening strain equivalent to this slip on cells of 10 m.
   const double of_strain = slip_over_exact(5.0, "material.rock.softening_strain=0.057735");
   EXPECT_GT(of_strain, 1.04) << "half of the slip breaks cells of half the size";
 }

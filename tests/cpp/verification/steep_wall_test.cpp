@@ -1,4 +1,4 @@
-// A block that slides without friction into a wall: it keeps its velocity until it gets there.
+// A block that slides without friction into a wall keeps its velocity until it reaches the wall.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,8 +55,8 @@ enabled = false
 )");
 }
 
-// How far before the foot of the wall the block's front is, in cells, when the block has lost a share of its speed.
-double distance_of_loss(double wall_angle, double foot, double share) {
+// Distance of the block's front from the foot of the wall, in cells, when the block has lost a fraction of its speed.
+double distance_of_loss(double wall_angle, double foot, double fraction) {
   sim::Simulation<2> simulation(block_before_wall(wall_angle, foot));
   const auto mean_velocity = [&] {
     const auto& particles = simulation.particles();
@@ -68,7 +68,7 @@ double distance_of_loss(double wall_angle, double foot, double share) {
     return momentum / mass;
   };
   double edge = front;
-  while (mean_velocity() > (1.0 - share) * speed && simulation.time() < 1.0 - 1e-9) {
+  while (mean_velocity() > (1.0 - fraction) * speed && simulation.time() < 1.0 - 1e-9) {
     simulation.step(simulation.next_step(1.0));
     edge = front + speed * simulation.time();
   }

@@ -1,4 +1,4 @@
-// Slopes that cut through the grid, straight and curved.
+// Slopes oblique to the grid, straight and curved.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,8 @@ using namespace testing_support;
 using sim::Simulation;
 constexpr double degree = pi / 180.0;
 
-// A slab 60 m long and 20 m thick on a plane of 35 degrees; the grid is turned against it, and gravity with the grid.
+// A slab 60 m long and 20 m thick on a plane of 35 degrees; the grid is rotated relative to it, and gravity with the
+// grid.
 std::string slab_on_plane(double ground) {
   const double c = std::cos(ground * degree), s = std::sin(ground * degree);
   const auto corner = [&](double along, double up) {
@@ -62,7 +63,7 @@ TEST(TiltedTerrain, SlidesAlikeAtAnyAngleToTheGrid) {
   Record record("One incline at four angles to the grid",
                 "A slab slides down 35 degrees with a friction angle of 20 degrees; the grid lies along the slope or "
                 "cuts through it.",
-                "v = g (sin - mu cos) t, heat = mu m g cos times the way", "Coulomb friction");
+                "v = g (sin - mu cos) t, heat = mu m g cos times the displacement", "Coulomb friction");
   const double friction = std::tan(20.0 * degree);
   const double acceleration = physics::exact::acceleration_on_plane(35.0 * degree, friction, 9.81);
   for (const double ground : {0.0, 10.0, 26.565051177, 45.0}) {
@@ -123,7 +124,7 @@ pressurization = false
 enabled = false
 )";
 
-// Mass, place and motion of the slide about the centre of the arc.
+// Mass, position and motion of the slide about the centre of the arc.
 struct Turning {
   double mass = 0.0, inertia = 0.0, speed = 0.0;
   Vector<double, 2> centre = Vector<double, 2>::Zero();  // of mass, from the arc's centre
@@ -132,11 +133,11 @@ struct Turning {
     const auto& particles = simulation.particles();
     Vector<double, 2> momentum = Vector<double, 2>::Zero();
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      const Vector<double, 2> place(particles.position(p, 0) + simulation.model().origin[0],
-                                    particles.position(p, 1) + simulation.model().origin[1] - radius);
+      const Vector<double, 2> position(particles.position(p, 0) + simulation.model().origin[0],
+                                       particles.position(p, 1) + simulation.model().origin[1] - radius);
       mass += particles.mass(p);
-      centre += particles.mass(p) * place;
-      inertia += particles.mass(p) * place.squaredNorm();
+      centre += particles.mass(p) * position;
+      inertia += particles.mass(p) * position.squaredNorm();
       momentum += particles.mass(p) * Vector<double, 2>(particles.velocity(p, 0), particles.velocity(p, 1));
     }
     centre /= mass;

@@ -1,4 +1,4 @@
-// Slides on DEMs that are turned and shifted against the grid, or are their own mirror image.
+// Slides on DEMs that are rotated and shifted relative to the grid, or mirror-symmetric.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ constexpr double cell = 2.5;
 constexpr double seconds = 14.0;  // until a slide is at rest
 
 const std::string debris = release_on_dem({seconds, 0.003, cell, {-50.0, -50.0, -120.0}, {150.0, 50.0, 60.0}}, R"(
-[material.matter]
+[material.debris]
 law = "mohr_coulomb"
 youngs_modulus = 2e7
 poisson_ratio = 0.3
@@ -27,26 +27,26 @@ gaps_close_first = true
 )",
                                           18.0);
 
-// Of particles: mass-weighted place along a direction behind which 99.5 % of the mass lies [m, absolute].
+// Mass-weighted position along a direction behind which 99.5 % of the mass of particles is located [m, absolute].
 double front_along(const Simulation<3>& simulation, const Place& direction) {
   const auto& particles = simulation.particles();
-  std::vector<sim::MassOnPath> on_way;
+  std::vector<sim::MassOnPath> on_path;
   double mass = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Position place = particles.position.get<Position>(p) + simulation.model().origin;
-    on_way.push_back({direction.dot(place.head<2>()), particles.mass(p), p});
+    const Position position = particles.position.get<Position>(p) + simulation.model().origin;
+    on_path.push_back({direction.dot(position.head<2>()), particles.mass(p), p});
     mass += particles.mass(p);
   }
-  return sim::front_of(on_way, mass).along;
+  return sim::front_of(on_path, mass).along;
 }
 
-// A slope of 31 degrees that from x = 30 m on bends into a plain, level from 70 m on.
+// A slope of 31 degrees with a bend from x = 30 m to a plain, level from 70 m on.
 double slope(double x) {
   const double bent = std::clamp(x - 30.0, 0.0, 40.0);
   return -0.6 * (std::min(x, 70.0) - bent * bent / 80.0);
 }
 
-// A valley down it, with bumps that nothing repeats.
+// A valley down the slope, with bumps without any symmetry.
 double rough_valley(double x, double y) {
   return slope(x) + 0.012 * y * y + 1.2 * std::sin(0.19 * x + 0.11 * y) * std::cos(0.17 * y - 0.05 * x) +
          0.5 * std::sin(0.27 * x - 0.31 * y + 1.0);
@@ -54,18 +54,18 @@ double rough_valley(double x, double y) {
 
 double heap(double x, double y) { return std::hypot(x, y - 3.0) < 14.0 ? 6.0 : 0.0; }
 
-// Positions in a valley turned by quarter turns.
+// Positions in a valley rotated by quarter turns.
 struct Turn {
   int quarters;
-  [[nodiscard]] Place operator()(Place place) const {
+  [[nodiscard]] Place operator()(Place position) const {
     for (int k = 0; k < quarters; ++k) {
-      place = Place(-place[1], place[0]);
+      position = Place(-position[1], position[0]);
     }
-    return place;
+    return position;
   }
 };
 
-// Runs to the end, when the slide must be at rest; returns the place of its front along a direction [m].
+// Runs until the end, when the slide must be at rest; returns the position of its front along a direction [m].
 double front_at_rest(Simulation<3>& simulation, const Place& direction) {
   run_until(simulation, 0.9 * seconds);
   const double before = front_along(simulation, direction);
@@ -75,13 +75,13 @@ double front_at_rest(Simulation<3>& simulation, const Place& direction) {
   return front;
 }
 
-// The end of the slide in the valley turned by quarter turns, its grid shifted [m]: the front along the valley.
+// Final state of the slide in the valley rotated by quarter turns, with a shifted grid [m]: the front along the valley.
 double front_in_valley(int quarters, double shift) {
   const Turn turn{quarters}, back{(4 - quarters) % 4};
   const auto turned = [&](double (*value)(double, double)) -> Height {
     return [=](double x, double y) {
-      const Place place = back(Place(x, y));
-      return value(place[0], place[1]);
+      const Place position = back(Place(x, y));
+      return value(position[0], position[1]);
     };
   };
   const auto between = [&](const auto& make, Place a, Place b, double distance, const Height& value) {
@@ -101,11 +101,11 @@ double front_in_valley(int quarters, double shift) {
 }
 
 TEST(TurnedTerrain, SlideEndsAtTheSamePlace) {
-  Record record("A slide turned and shifted against the grid",
-                "Debris slides from rest to rest down a rough valley of a DEM and out on a plain. The run is repeated "
-                "with valley, release and domain turned by a quarter, and with the grid shifted by half a cell of 2.5 "
-                "m along each axis.",
-                "the same front", "symmetry");
+  Record record(
+      "A slide turned and shifted against the grid",
+      "Debris slides from rest to rest down a rough valley of a DEM and onto a plain. The run is repeated with valley, "
+      "release and domain rotated by 90 degrees, and with the grid shifted by half a cell of 2.5 m along each axis.",
+      "the same front", "symmetry");
   const double front = front_in_valley(0, 0.0);
   EXPECT_GT(front, 60.0) << "the slide has gone far";
   record.expect_near("front in the turned valley, less that in the first [m]", front_in_valley(1, 0.0) - front, 0.0,
@@ -114,7 +114,7 @@ TEST(TurnedTerrain, SlideEndsAtTheSamePlace) {
                      0.0, cell);
 }
 
-// A valley and a release that are their own mirror images across y = 0.
+// A valley and a release that are mirror-symmetric about y = 0.
 Simulation<3> mirrored(const std::vector<std::string>& sets) {
   const Raster ground = raster_between(Place(-60.0, -60.0), Place(160.0, 60.0), 4.0, [](double x, double y) {
     return slope(x) + 0.3 * std::abs(y) + 1.2 * std::sin(0.23 * x) * std::cos(0.4 * y);
@@ -125,18 +125,19 @@ Simulation<3> mirrored(const std::vector<std::string>& sets) {
   return Simulation<3>(case_on_dem(debris, sets), site_of(ground, thickness));
 }
 
-Position place_of(const Simulation<3>& simulation, std::size_t p) {
+Position position_of(const Simulation<3>& simulation, std::size_t p) {
   return simulation.particles().position.get<Position>(p) + simulation.model().origin;
 }
 
-// Pairs of particles, by number, that are mirror images at the start.
+// Pairs of particles, by index, that are initially mirror images.
 std::vector<std::pair<std::int64_t, std::int64_t>> mirror_pairs(const Simulation<3>& simulation) {
   std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
   const auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     for (std::size_t q = 0; q < particles.size(); ++q) {
-      const Position place = place_of(simulation, p);
-      if (place[1] > 0.0 && (place_of(simulation, q) - Position(place[0], -place[1], place[2])).norm() < 1e-6) {
+      const Position position = position_of(simulation, p);
+      if (position[1] > 0.0 &&
+          (position_of(simulation, q) - Position(position[0], -position[1], position[2])).norm() < 1e-6) {
         pairs.emplace_back(particles.id(p), particles.id(q));
       }
     }
@@ -144,12 +145,12 @@ std::vector<std::pair<std::int64_t, std::int64_t>> mirror_pairs(const Simulation
   return pairs;
 }
 
-// Largest distance of a particle from its mirror image's mirror image [m].
+// Maximum distance of a particle from the mirror image of its counterpart [m].
 double largest_asymmetry(const Simulation<3>& simulation,
                          const std::vector<std::pair<std::int64_t, std::int64_t>>& pairs) {
   std::vector<Position> by_id(simulation.particles().size());
   for (std::size_t p = 0; p < by_id.size(); ++p) {
-    by_id[static_cast<std::size_t>(simulation.particles().id(p))] = place_of(simulation, p);
+    by_id[static_cast<std::size_t>(simulation.particles().id(p))] = position_of(simulation, p);
   }
   double largest = 0.0;
   for (const auto& [left, right] : pairs) {
@@ -162,15 +163,15 @@ double largest_asymmetry(const Simulation<3>& simulation,
 TEST(MirroredTerrain, SlideStaysSymmetric) {
   Record record("A symmetric slide", "A heap runs down a valley and comes to rest; both are their own mirror image.",
                 "the slide stays its own mirror image", "symmetry");
-  auto elastic = mirrored({"material.matter.law=elastic", "material.matter.gaps_close_first=false"});
+  auto elastic = mirrored({"material.debris.law=elastic", "material.debris.gaps_close_first=false"});
   const auto pairs = mirror_pairs(elastic);
   EXPECT_EQ(2 * pairs.size(), elastic.particles().size());
   const double start = CentreOfMass(elastic).position[0];
   run_until(elastic, 1.0);
-  const double way = CentreOfMass(elastic).position[0] - start;
-  EXPECT_GT(way, 0.5);
-  record.expect_near("elastic, 1 s: largest asymmetry over the way", largest_asymmetry(elastic, pairs) / way, 0.0,
-                     1e-9);
+  const double displacement = CentreOfMass(elastic).position[0] - start;
+  EXPECT_GT(displacement, 0.5);
+  record.expect_near("elastic, 1 s: largest asymmetry over the displacement",
+                     largest_asymmetry(elastic, pairs) / displacement, 0.0, 1e-9);
   auto yielding = mirrored({});
   EXPECT_GT(front_at_rest(yielding, Place(1.0, 0.0)), 60.0) << "the slide has gone far";
   record.expect_near("yielding, at the end: front to the left, less that to the right [m]",
@@ -178,8 +179,8 @@ TEST(MirroredTerrain, SlideStaysSymmetric) {
   const auto half_front = [&](double side) {
     double front = -HUGE_VAL;
     for (std::size_t p = 0; p < yielding.particles().size(); ++p) {
-      const Position place = place_of(yielding, p);
-      front = side * place[1] > 0.0 ? std::max(front, place[0]) : front;
+      const Position position = position_of(yielding, p);
+      front = side * position[1] > 0.0 ? std::max(front, position[0]) : front;
     }
     return front;
   };

@@ -1,4 +1,4 @@
-// The shape functions and transfers that the manufactured vibration is run with.
+// Shape functions and transfers of the manufactured vibration.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ const Choice linear_flip{"linear, FLIP", mpm::ShapeFunction::linear, mpm::Transf
 const Choice quadratic_flip{"quadratic, FLIP", mpm::ShapeFunction::quadratic, mpm::TransferKind::flip_pic};
 const Choice quadratic_apic{"quadratic, APIC", mpm::ShapeFunction::quadratic, mpm::TransferKind::apic};
 
-// Errors of the largest displacements, at a quarter of the period, where u = A; over A. Eq. 14 leaves dt (v(0) - v)/2
-// in them, so the step falls with the square of the cell.
+// Errors of the maximum displacements, at a quarter of the period, where u = A; relative to A. They contain dt (v(0) -
+// v)/2 from Eq. 14, and the step is therefore reduced with the square of the cell.
 inline std::vector<double> errors_of(const Choice& choice, double amplitude, const std::vector<int>& cells_per_side) {
   std::vector<double> errors;
   for (const int cells : cells_per_side) {
@@ -31,7 +31,7 @@ inline std::vector<double> errors_of(const Choice& choice, double amplitude, con
   return errors;
 }
 
-const std::string problem = "A unit square between rollers vibrates along its axes, 4 particles to a cell, ";
+const std::string problem = "A unit square between rollers vibrates along its axes, 4 particles per cell, ";
 const std::string solution = "u1 = A sin(2 pi X) sin(c pi t), u2 = -A sin(2 pi Y) sin(c pi t), body force to match";
 const std::string source = "Wallstedt and Guilkey 2008, for log-strain elasticity";
 

@@ -1,4 +1,4 @@
-// Momentum, manufactured: a square that vibrates along its axes, with each shape function and transfer.
+// Manufactured momentum balance: a square that vibrates along its axes, with each shape function and transfer.
 #include <gtest/gtest.h>
 
 #include "../support/record.hpp"
@@ -18,9 +18,8 @@ TEST(Vibration, ManufacturedWhereNothingCrossesCells) {
                         errors_of(choice, 1e-4, cells), 2.0, 0.15);
   }
   record.explain(
-      "All are of order 2. The spline hands over to linear shape functions at the rollers; with a node held at 0 "
-      "beyond them, the order was 1. APIC with linear shape functions is refused: their second moment vanishes at "
-      "nodes.");
+      "All are of order 2. The spline changes to linear shape functions at the rollers; with a node held at 0 beyond "
+      "them, the order was 1. APIC with linear shape functions is refused: their second moment vanishes at nodes.");
 }
 
 TEST(Vibration, ManufacturedWithLargeDisplacements) {
@@ -40,8 +39,8 @@ TEST(Vibration, ManufacturedWithLargeDisplacements) {
       "Linear shape functions, whose slopes jump, cause an error at each crossing that does not fall with the cell "
       "size. They do not converge (Steffen, Kirby and Berzins 2008). uGIMP's undeformed squares overlap or leave gaps "
       "in proportion to the stretch: order 1. Splines are of order 2 until the particles' uneven spacing, an error of "
-      "quadrature in first order (Steffen et al. 2010), is what is left. The next refinement, which ./test --full "
-      "runs, is nearer to 1.");
+      "quadrature in first order (Steffen et al. 2010), dominates. The next refinement, which ./test --full runs, is "
+      "nearer to 1.");
 }
 
 }  // namespace

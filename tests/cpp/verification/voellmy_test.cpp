@@ -1,5 +1,5 @@
-// A block that slides on Voellmy friction, from rest down a slope and to rest on level ground: in the material point
-// method, and as a rigid block. With h the thickness along the normal, since rho h carries the block's mass:
+// A block that slides with Voellmy friction, from rest down a slope and to rest on level ground: with the material
+// point method, and as a rigid block. With h the thickness along the normal, since rho h carries the block's mass:
 //   dv/dt = a - g v^2/(xi h),  a = g (sin(theta) - mu cos(theta))
 #include <gtest/gtest.h>
 
@@ -143,7 +143,7 @@ TEST(Voellmy, ThrownBlockComesToRest) {
   const double exact = turbulence * height / (2.0 * gravity) * std::log1p(start * start / (mu * turbulence * height));
   Record record("Voellmy friction to rest",
                 "A frozen block of 40 m x 10 m is thrown along level ground at 25 m/s; mu = 0.2, xi = 400 m/s2.",
-                "s = xi h/(2 g) log(1 + v_0^2/(mu xi h)); friction takes rho h v_0^2/2 of each m2",
+                "s = xi h/(2 g) log(1 + v_0^2/(mu xi h)); friction dissipates rho h v_0^2/2 per m2",
                 "dv/dt = -mu g - g v^2/(xi h)");
   const std::vector<std::string> sets{"basal.friction_coefficient=0.2", "basal.turbulent_friction=400",
                                       "body.block.velocity=[25.0,0.0]", "time.end=12.0"};
@@ -156,7 +156,7 @@ TEST(Voellmy, ThrownBlockComesToRest) {
                      plane.friction_work / rigid.friction_work, 1.0, 2e-3);
 }
 
-// At 60 m/s with xi = 1 m/s2 a step of the drag would take more than the momentum of a node.
+// At 60 m/s with xi = 1 m/s2, a step of the drag would remove more than the momentum of a node.
 TEST(Voellmy, StrongDragStopsTheBaseAndReversesNothing) {
   sim::Simulation<2> simulation(paper_case(block(2), {"basal.friction_coefficient=0.1", "basal.turbulent_friction=1",
                                                       "body.block.velocity=[60.0,0.0]", "time.end=1.0"}));

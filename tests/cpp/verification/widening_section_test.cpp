@@ -1,4 +1,4 @@
-// Flow without strength and friction through sections of varying width, where thin flow is known exactly.
+// Flow without strength and friction through sections of varying width, for which thin flow has an exact solution.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ std::vector<std::string> with(std::vector<std::string> more) {
   return more;
 }
 
-// A body that runs from a channel into one twice as wide. Its ends do not affect its middle: it flows steadily, with
+// A body that flows from a channel into one twice as wide. Its ends do not affect its middle, where the flow is steady:
 //   h u b = const,  u^2/2 + g h = const
 TEST(WideningSection, HalvesTheDepthWhereTheWidthDoubles) {
   constexpr double depth = 2.5, speed = 40.0, time = 4.0;
@@ -71,9 +71,9 @@ TEST(WideningSection, HalvesTheDepthWhereTheWidthDoubles) {
   record.expect_near("speed over exact", momentum / mass / (0.5 * depth * speed / exact), 1.0, 0.002);
 }
 
-// A paraboloid of thin flow stays one as it spreads (Thacker 1981): its radius grows as R0 s(t), with
+// A paraboloid of thin flow remains a paraboloid while it spreads (Thacker 1981): its radius grows as R0 s(t), with
 //   s'' = 2 g h0/(R0^2 s^(n + 1)),  s(0) = 1,  s'(0) = 0
-// n = 1 in the plane; n = 2 about an axis, where s^2 = 1 + 2 g h0 t^2/R0^2, and in a section b = x.
+// n = 1 in the plane; n = 2 for axial symmetry, where s^2 = 1 + 2 g h0 t^2/R0^2, and in a section b = x.
 double spread(int n, double rate, double time) {
   double s = 1.0, growth = 0.0;
   constexpr int steps = 10000;
@@ -111,7 +111,7 @@ TEST(WideningSection, SpreadsAsAParaboloidAboutItsAxis) {
       return moment / mass;
     };
     const double before = mean_x();
-    // Of (1 - r^2) r^(n-1) over (0, 1): 3/8, 8/15.
+    // Mean of r over (0, 1) with the weight (1 - r^2) r^(n-1): 3/8, 8/15.
     EXPECT_NEAR(before / radius, n == 1 ? 3.0 / 8.0 : 8.0 / 15.0, 0.005);
     run_until(simulation, time);
     const double exact = spread(n, rate, time) - 1.0;

@@ -62,8 +62,8 @@ Comparison compare(const ParticleMemory<Dim>& a, const ParticleMemory<Dim>& b) {
                        }
                        ++all.fields;
                        all.fields_of_same_bits += same ? 1 : 0;
-                       const double share = difference == 0 ? 0 : difference / scale;
-                       all.largest = share <= all.largest ? all.largest : share;
+                       const double fraction = difference == 0 ? 0 : difference / scale;
+                       all.largest = fraction <= all.largest ? all.largest : fraction;
                      });
   return all;
 }
@@ -133,9 +133,9 @@ std::vector<double> looks(Steps<Dim>& steps, const device::StepSums<Dim>& sums) 
   numbers.insert(numbers.end(), {body.mass, body.kinetic, body.sensible, body.latent, body.water, body.gas,
                                  body.momentum[0], body.displacement, body.band_temperature});
   const sim::PathLine line = bent_line();
-  for (const LineView& way : {LineView{}, line.view()}) {
-    const mpm::PathSample front = steps.front({way, {5.0, 7.0}}, body.mass);
-    numbers.insert(numbers.end(), {front.along, front.mass, front.place[0], front.place[1]});
+  for (const LineView& path : {LineView{}, line.view()}) {
+    const mpm::PathSample front = steps.front({path, {5.0, 7.0}}, body.mass);
+    numbers.insert(numbers.end(), {front.along, front.mass, front.position[0], front.position[1]});
   }
   std::vector<std::array<Real, 2>> escapes;  // their order is that of device memory
   for (const Vector<Real, Dim>& place : steps.escaped_positions()) {

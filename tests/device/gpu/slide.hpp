@@ -22,7 +22,7 @@ template <int Dim>
 class ParticleMemory {
  public:
   explicit ParticleMemory(std::size_t count) : count_(count) {
-    mpm::for_fields_of(view_, view_, [&](auto& field, const auto& /*same*/) { take_room(field); });
+    mpm::for_fields_of(view_, view_, [&](auto& field, const auto& /*same*/) { allocate(field); });
   }
   ParticleMemory(const ParticleMemory&) = delete;
   ParticleMemory& operator=(const ParticleMemory&) = delete;
@@ -32,7 +32,7 @@ class ParticleMemory {
 
  private:
   template <class T, int Components>
-  void take_room(mpm::FieldView<T, Components>& field) {
+  void allocate(mpm::FieldView<T, Components>& field) {
     constexpr std::size_t block = mpm::particles_of_block;
     const std::size_t numbers = (count_ + block - 1) / block * block * Components;
     memory_.emplace_back(numbers * sizeof(T), std::byte{0});
@@ -129,7 +129,7 @@ device::StepModel<Dim> model_of_slide() {
   model.gravity.setZero();
   model.gravity[0] = 9.81 * std::sin(slope * pi / 180.0);
   model.gravity[Dim - 1] = -9.81 * std::cos(slope * pi / 180.0);
-  model.pic_share = 0.01;
+  model.pic_fraction = 0.01;
   mpm::MaterialModel material;
   material.elastic = physics::Elastic::from_young_poisson(1e8, 0.3);
   const Real friction_angle = 30.0 * pi / 180.0;

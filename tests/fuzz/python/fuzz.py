@@ -15,7 +15,7 @@ with atheris.instrument_imports(include=["thawslide", "tomllib"]):
 
 
 def main() -> None:
-    """Start libFuzzer on the reader that the first word names."""
+    """Start libFuzzer on the reader named by the first argument."""
     if len(sys.argv) < 2 or sys.argv[1] not in READERS:
         sys.exit(f"name a reader: {', '.join(READERS)}")
     warnings.simplefilter("ignore")  # of numbers that overflow

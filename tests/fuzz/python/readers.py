@@ -1,4 +1,4 @@
-"""Files of users that the Python package reads: each reader gives a value or a ReportError, whatever the bytes.
+"""Files of users that the Python package reads: each reader returns a value or raises a ReportError for any bytes.
 
 `check` is called by fuzz.py with bytes of the fuzzer, and by tests/python/hostile_files_test.py with those in corpus/.
 """
@@ -14,7 +14,7 @@ from pathlib import Path
 from thawslide.errors import ReportError
 from thawslide.figures.force_record import caption, compared
 from thawslide.key_numbers import found_for
-from thawslide.run import Run
+from thawslide.run_folder import Run
 
 CORPUS = Path(__file__).resolve().parent / "corpus"
 SEED = ".seed"  # how the names of files in it end
@@ -68,7 +68,7 @@ READERS = {
 
 
 def write_run(folder: Path) -> None:
-    """Write the text files of a small sound run."""
+    """Write the text files of a small valid run."""
     (folder / "inputs").mkdir()
     (folder / "case.toml").write_text(_CASE)
     (folder / "history.csv").write_text(_HISTORY)
@@ -81,7 +81,7 @@ class Folder:
     """A run folder in which one file is written again for each input."""
 
     def __init__(self, reader: Reader) -> None:
-        """Make the folder, in memory where the system has such a place."""
+        """Create the folder, in memory if the system has a memory file system."""
         self.reader = reader
         memory = Path("/dev/shm")
         self._made = tempfile.TemporaryDirectory(prefix="thawslide-", dir=memory if memory.is_dir() else None)
@@ -89,7 +89,7 @@ class Folder:
         write_run(self.path)
 
     def check(self, data: bytes) -> str:
-        """Read what these bytes make; return the text of the error, "" for none. What is no ReportError comes out."""
+        """Read a file with these bytes; return the text of the ReportError, "" for none. Raise other exceptions."""
         (self.path / self.reader.file).write_bytes(data)
         try:
             self.reader.read(self.path)

@@ -1,0 +1,101 @@
+#include "app/terminal.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+
+#include "app/print.hpp"
+#include "app/process.hpp"
+#include "base/rounding.hpp"
+
+namespace thawslide::app {
+
+namespace {
+
+constexpr double seconds_between_bars = 0.2;
+constexpr double seconds_between_lines = 10.0;
+constexpr double fraction_between_lines = 0.1;
+constexpr int bar_width = 24;
+
+// CPU time of this thread: the cost of a line, independent of the load of the machine.
+double thread_seconds() {
+  timespec spent{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
+  return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+Terminal::Terminal() : is_terminal_(isatty(STDOUT_FILENO) != 0), start_(Clock::now()), last_(start_) {}
+
+void Terminal::start(double time) {
+  catch_signals();
+  begin_ = time;
+  last_fraction_ = 0.0;
+  start_ = last_ = Clock::now();
+}
+
+std::string Terminal::interruption() {
+  const int signal = caught_signal();
+  return signal == 0 ? std::string() : fmt::format("signal {}", signal);
+}
+
+bool Terminal::wants_progress(double time, double end) {
+  constexpr double least_work_between = 20.0;  // in multiples of the cost of the last line
+  const double fraction = (time - begin_) / (end - begin_), passed = seconds_since(last_);
+  const bool is_due = is_terminal_
+                          ? passed >= seconds_between_bars
+                          : fraction - last_fraction_ >= fraction_between_lines || passed >= seconds_between_lines;
+  begun_ = thread_seconds();
+  return is_due && passed >= least_work_between * work_;
+}
+
+void Terminal::progress(const run::ProgressState& state) {
+  const double elapsed = seconds_since(start_);
+  const double fraction = (state.time - begin_) / (state.end - begin_);
+  const double left = fraction > 0.0 ? elapsed * (1.0 - fraction) / fraction : 0.0;
+  std::string text = fmt::format("{:.1f} of {:g} s | {:.0f} steps/s | {} left", state.time, state.end,
+                                 static_cast<double>(state.steps) / elapsed, duration_text(left));
+  if (std::isfinite(state.front_position)) {  // in 3D it is undefined before the slide has moved
+    text += fmt::format(" | front {:.0f} m", state.front_position);
+  }
+  if (std::isfinite(state.front_speed)) {  // it is undefined before the second position of the front
+    text += fmt::format(" at {:.1f} m/s", state.front_speed);
+  }
+  if (is_terminal_) {
+    const auto filled = static_cast<std::size_t>(fraction * bar_width);
+    print_text("\r\033[K[{:<{}}] {:3.0f} % | {}", std::string(filled, '='), bar_width, 100.0 * fraction, text);
+    is_drawn_ = true;
+  } else {
+    print_text("{:3.0f} % | {}\n", 100.0 * fraction, text);
+  }
+  last_ = Clock::now();
+  work_ = thread_seconds() - begun_;
+  last_fraction_ = fraction;
+}
+
+void Terminal::text(const std::string& line) {
+  print_text("{}{}\n", is_drawn_ ? "\r\033[K" : "", line);
+  is_drawn_ = false;
+}
+
+void Terminal::error(const std::string& line) {
+  end_progress();
+  print_error("{}\n", line);
+}
+
+void Terminal::end_progress() {
+  if (is_drawn_) {
+    print_text("\n");
+    is_drawn_ = false;
+  }
+}
+
+}  // namespace thawslide::app

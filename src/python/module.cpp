@@ -1,0 +1,399 @@
+// Extension module thawslide._core: cases, live runs and runs in folders. The Python package gives them their public
+// form (python/thawslide/case.py, simulation.py).
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/unique_ptr.h>
+#include <nanobind/stl/vector.h>
+#include <nanobind/trampoline.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <initializer_list>
+#include <memory>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "config/describe.hpp"
+#include "config/read_case.hpp"
+#include "run/block_model.hpp"
+#include "run/live_run.hpp"
+#include "run/run_loop.hpp"
+#include "run/start.hpp"
+#include "terrain/strength_law.hpp"
+#include "version.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace thawslide::python {
+
+namespace {
+
+// Observer implemented in Python. The steps run without the GIL; each call acquires it. An exception of a call or of a
+// signal handler interrupts the run after its present step, as Ctrl-C does, and is rethrown at the end (result_of).
+class PythonObserver : public run::Observer {
+ public:
+  NB_TRAMPOLINE(run::Observer);
+
+  void text(const std::string& line) override {
+    call([&] { NB_OVERRIDE_PURE(text, line); });
+  }
+  void error(const std::string& line) override {
+    call([&] { NB_OVERRIDE_PURE(error, line); });
+  }
+  bool wants_progress(double /*time*/, double /*end*/) override { return is_due(last_progress_, progress_interval); }
+  void progress(const run::ProgressState& state) override {
+    call([&] { NB_OVERRIDE(progress, state); });
+  }
+  void end_progress() override {
+    call([&] { NB_OVERRIDE(end_progress); });
+  }
+  std::string interruption() override {
+    if (!exception_ && is_due(last_check_, check_interval)) {
+      call([] {
+        if (PyErr_CheckSignals() != 0) {
+          throw nb::python_error();
+        }
+      });
+    }
+    return interruption_;
+  }
+
+  [[nodiscard]] bool has_exception() const { return exception_ != nullptr; }
+
+  // Returns the result of work(), or rethrows an exception of the observer. Such an exception replaces an error of the
+  // run, which may follow from it; RunError is then its context.
+  template <class Work>
+  auto result_of(const Work& work) {
+    try {
+      if constexpr (std::is_void_v<decltype(work())>) {
+        work();
+        rethrow_exception();
+      } else {
+        auto result = work();
+        rethrow_exception();
+        return result;
+      }
+    } catch (const RunError& error) {
+      if (exception_) {
+        set_context(error);
+      }
+      rethrow_exception();
+      throw;
+    } catch (const UserError&) {
+      rethrow_exception();
+      throw;
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr double progress_interval = 0.2, check_interval = 0.05;  // wall-clock time [s]
+
+  void rethrow_exception() {
+    if (exception_) {
+      std::rethrow_exception(std::exchange(exception_, nullptr));
+    }
+  }
+  void set_context(const RunError& error) {
+    const nb::gil_scoped_acquire gil;
+    try {
+      std::rethrow_exception(exception_);
+    } catch (const nb::python_error& raised) {
+      nb::object context = nb::module_::import_("thawslide._core").attr("RunError")(error.what());
+      PyException_SetContext(raised.value().ptr(), context.release().ptr());
+    }
+  }
+
+  template <class Work>
+  void call(const Work& work) {
+    const nb::gil_scoped_acquire gil;
+    try {
+      work();
+    } catch (const nb::python_error& error) {
+      if (!exception_) {
+        interruption_ = nb::cast<std::string>(error.type().attr("__name__"));
+        exception_ = std::current_exception();
+      }
+    }
+  }
+  static bool is_due(Clock::time_point& last, double interval) {
+    const Clock::time_point now = Clock::now();
+    if (std::chrono::duration<double>(now - last).count() < interval) {
+      return false;
+    }
+    last = now;
+    return true;
+  }
+
+  Clock::time_point last_progress_ = Clock::now(), last_check_ = Clock::now();
+  std::string interruption_;
+  std::exception_ptr exception_;
+};
+
+template <class T>
+nb::object copied(const std::vector<T>& values, std::initializer_list<std::size_t> shape) {
+  auto* copy = new T[values.size()];
+  const nb::capsule owner(copy, [](void* memory) noexcept { delete[] static_cast<T*>(memory); });
+  std::copy(values.begin(), values.end(), copy);
+  return nb::cast(nb::ndarray<nb::numpy, T>(copy, shape, owner));
+}
+
+// Calls a law with copies of the arrays of the nodes, and replaces their strengths by the array that it returns. The
+// caller does not hold the GIL. Exceptions of the law pass through the step.
+void replace_strengths(const nb::object& law, terrain::LoadedNodes& nodes) {
+  const nb::gil_scoped_acquire gil;
+  const std::size_t count = nodes.strength.size();
+  if (count == 0) {
+    return;
+  }
+  nb::dict of;
+  of["time"] = nodes.time;
+  of["dt"] = nodes.dt;
+  of["position"] = copied(nodes.position, {count, nodes.position.size() / count});
+  of["area"] = copied(nodes.area, {count});
+  of["substrate"] = copied(nodes.substrate, {count});
+  of["normal_pressure"] = copied(nodes.normal_pressure, {count});
+  of["pore_pressure"] = copied(nodes.pore_pressure, {count});
+  of["temperature"] = copied(nodes.temperature, {count});
+  of["saturation"] = copied(nodes.saturation, {count});
+  of["solid_fraction"] = copied(nodes.solid_fraction, {count});
+  of["slip"] = copied(nodes.slip, {count});
+  of["speed"] = copied(nodes.speed, {count});
+  of["unit_weight"] = copied(nodes.unit_weight, {count});
+  of["strength"] = copied(nodes.strength, {count});
+  const auto strength = nb::cast<nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>>(law(of));
+  if (strength.shape(0) != count) {
+    throw std::logic_error("a basal law returned another number of strengths");  // checked in simulation.py
+  }
+  std::copy_n(strength.data(), count, nodes.strength.begin());
+}
+
+// Sets the number of threads of the calls of this thread during its lifetime.
+class ThreadScope {
+ public:
+  explicit ThreadScope(int threads) : before_(thread_count()) { run::use_threads(threads); }
+  ~ThreadScope() { set_thread_count(before_); }
+  ThreadScope(const ThreadScope&) = delete;
+  ThreadScope& operator=(const ThreadScope&) = delete;
+
+ private:
+  int before_;
+};
+
+// Live run for Python, which one thread at a time uses: its methods release the GIL.
+class Live {
+ public:
+  Live(std::unique_ptr<run::LiveRun> live, PythonObserver& observer) : live_(std::move(live)), observer_(observer) {}
+
+  // Calls work(live run) without the GIL. Throws UserError if another thread uses it.
+  template <class Work>
+  auto use(int threads, const Work& work) {
+    if (is_in_use_.exchange(true)) {
+      throw UserError("another thread uses this simulation. Wait until it has finished.");
+    }
+    struct Release {
+      std::atomic<bool>& is_in_use;
+      ~Release() { is_in_use = false; }
+    } const release{is_in_use_};
+    const nb::gil_scoped_release released;
+    const ThreadScope scope(threads);
+    return observer_.result_of([&] { return work(*live_); });
+  }
+
+  // Advances until a simulated time, for a number of steps, or for a wall-clock time, whichever comes first. law: None,
+  // or a function that returns the basal strengths of a dictionary of arrays.
+  void advance(double until, std::int64_t steps, double seconds, int threads, const nb::object& law) {
+    const terrain::StrengthLaw strength = [&law](terrain::LoadedNodes& nodes) { replace_strengths(law, nodes); };
+    const terrain::StrengthLaw* replacing = law.is_none() ? nullptr : &strength;
+    use(threads, [&](run::LiveRun& live) {
+      const auto begin = std::chrono::steady_clock::now();
+      for (std::int64_t k = 0; k < steps && live.time() < until && !live.is_done() && !observer_.has_exception(); ++k) {
+        live.step(replacing);
+        if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() >= seconds) {
+          return;
+        }
+      }
+    });
+  }
+
+  [[nodiscard]] const run::LiveRun& get() const { return *live_; }
+
+ private:
+  std::unique_ptr<run::LiveRun> live_;
+  PythonObserver& observer_;
+  std::atomic<bool> is_in_use_{false};
+};
+
+// Read-only array of a field: (particles) for scalars, otherwise (blocks, lanes, components); a view of its memory
+// without a copy, unless a step may move the memory.
+nb::object field_view(Live& self, const std::string& name) {
+  const run::FieldMemory memory = self.use(1, [&](run::LiveRun& live) { return live.field(name); });
+  const auto view = [&]<class T>(T /*type*/) -> nb::object {
+    const std::size_t numbers = memory.blocks * memory.lanes * memory.components;
+    const auto* data = static_cast<const T*>(memory.data);
+    std::unique_ptr<std::shared_ptr<const void>> owner;
+    if (memory.may_move) {
+      auto copy = std::make_shared<std::vector<T>>(data, data + numbers);
+      data = copy->data();
+      owner = std::make_unique<std::shared_ptr<const void>>(copy);
+    } else {
+      owner = std::make_unique<std::shared_ptr<const void>>(memory.owner);
+    }
+    const nb::capsule base(owner.release(),
+                           [](void* held) noexcept { delete static_cast<std::shared_ptr<const void>*>(held); });
+    if (memory.components == 1) {
+      const std::size_t shape[] = {memory.particles};
+      return nb::cast(nb::ndarray<nb::numpy, const T>(data, 1, shape, base));
+    }
+    const std::size_t shape[] = {memory.blocks, memory.lanes, memory.components};
+    const auto lanes = static_cast<std::int64_t>(memory.lanes);
+    const std::int64_t strides[] = {lanes * static_cast<std::int64_t>(memory.components), 1, lanes};
+    return nb::cast(nb::ndarray<nb::numpy, const T>(data, 3, shape, base, strides));
+  };
+  if (!memory.is_integer) {
+    return view(double{});
+  }
+  return memory.bytes == sizeof(std::int64_t) ? view(std::int64_t{}) : view(std::int32_t{});
+}
+
+nb::dict columns_of(const std::vector<sim::HistoryRow>& rows) {
+  nb::dict columns;
+  for (std::size_t c = 0; !rows.empty() && c < rows.front().size(); ++c) {
+    auto* values = new double[rows.size()];
+    const nb::capsule owner(values, [](void* memory) noexcept { delete[] static_cast<double*>(memory); });
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      values[k] = rows[k][c].second;
+    }
+    const std::size_t shape[] = {rows.size()};
+    columns[rows.front()[c].first.c_str()] = nb::ndarray<nb::numpy, double>(values, 1, shape, owner);
+  }
+  return columns;
+}
+
+}  // namespace
+
+}  // namespace thawslide::python
+
+NB_MODULE(_core, module) {
+  using namespace thawslide;
+  using namespace thawslide::python;
+
+  module.attr("version") = version;
+
+  nb::exception<UserError> user_error(module, "UserError", PyExc_ValueError);
+  nb::exception<WriteError>(module, "WriteError", user_error.ptr());
+  nb::exception<RunError>(module, "RunError", PyExc_RuntimeError);
+  nb::exception<DeviceError>(module, "DeviceError", PyExc_RuntimeError);
+
+  nb::class_<config::Case>(module, "Case")
+      .def_ro("name", &config::Case::name)
+      .def_ro("file", &config::Case::file)
+      .def_prop_ro("title", [](const config::Case& self) { return self.general.title; })
+      .def_prop_ro("dimension", [](const config::Case& self) { return self.general.dimension; })
+      .def_prop_ro("end", [](const config::Case& self) { return self.time.end; });
+  nb::enum_<ExitCode>(module, "ExitCode")
+      .value("DONE", ExitCode::done)
+      .value("USER_MISTAKE", ExitCode::user_mistake)
+      .value("RUN_FAILED", ExitCode::run_failed)
+      .value("STOPPED", ExitCode::stopped_by_signal)
+      .value("NOT_WRITTEN", ExitCode::not_written)
+      .value("DEVICE_FAILED", ExitCode::device_failed);
+
+  module.def("read_case", [](const std::string& file, const std::vector<std::string>& sets) {
+    return config::read_case(file, sets);
+  });
+  module.def("resolved_toml", [](const config::Case& parameters) { return config::resolved_toml(parameters, ""); });
+
+  nb::class_<run::ProgressState>(module, "ProgressState")
+      .def_ro("time", &run::ProgressState::time)
+      .def_ro("end", &run::ProgressState::end)
+      .def_ro("steps", &run::ProgressState::steps)
+      .def_ro("front_position", &run::ProgressState::front_position)
+      .def_ro("front_speed", &run::ProgressState::front_speed);
+  nb::class_<run::Observer>(module, "AnyObserver");
+  nb::class_<PythonObserver, run::Observer>(module, "Observer")
+      .def(nb::init<>())
+      .def("progress",
+           [](PythonObserver& self, const run::ProgressState& state) { self.run::Observer::progress(state); })
+      .def("end_progress", [](PythonObserver& self) { self.run::Observer::end_progress(); });
+
+  nb::class_<run::FieldDescription>(module, "FieldDescription")
+      .def_ro("name", &run::FieldDescription::name)
+      .def_ro("unit", &run::FieldDescription::unit)
+      .def_ro("text", &run::FieldDescription::text)
+      .def_ro("components", &run::FieldDescription::components);
+  nb::class_<Live>(module, "LiveRun")
+      .def_prop_ro("time", [](const Live& self) { return self.get().time(); })
+      .def_prop_ro("step_number", [](const Live& self) { return self.get().step_number(); })
+      .def_prop_ro("particle_count", [](const Live& self) { return self.get().particle_count(); })
+      .def_prop_ro("is_done", [](const Live& self) { return self.get().is_done(); })
+      .def_prop_ro("end_text", [](const Live& self) { return self.get().end_text(); })
+      .def_prop_ro("has_basal_law", [](const Live& self) { return self.get().has_basal_law(); })
+      .def_prop_ro("origin", [](const Live& self) { return self.get().origin(); })
+      .def_prop_ro("fields", [](const Live& self) { return self.get().fields(); })
+      .def("field", &field_view, nb::sig("def field(self, name: str, /) -> object"))
+      .def(
+          "history",
+          [](Live& self) { return columns_of(self.use(1, [](run::LiveRun& live) { return live.history(); })); },
+          nb::sig("def history(self) -> dict[str, object]"))
+      .def("advance", &Live::advance, "until"_a, "steps"_a, "seconds"_a, "threads"_a, "law"_a.none())
+      .def("checkpoint",
+           [](Live& self, int threads) {
+             const std::string bytes = self.use(threads, [](run::LiveRun& live) { return live.checkpoint(); });
+             return nb::bytes(bytes.data(), bytes.size());
+           })
+      .def("restore",
+           [](Live& self, const nb::bytes& bytes, int threads) {
+             const std::string checkpoint(bytes.c_str(), bytes.size());
+             self.use(threads, [&](run::LiveRun& live) { live.restore(checkpoint); });
+           })
+      .def("change", [](Live& self, const config::Case& next, const std::vector<std::string>& sets, int threads) {
+        self.use(threads, [&](run::LiveRun& live) { live.change(next, sets); });
+      });
+  module.def(
+      "make_live_run",
+      [](const config::Case& parameters, PythonObserver& observer, int threads) {
+        std::unique_ptr<run::LiveRun> live = observer.result_of([&] {
+          const nb::gil_scoped_release released;
+          const ThreadScope scope(threads);
+          return run::make_live_run(parameters, observer);
+        });
+        return std::make_unique<Live>(std::move(live), observer);
+      },
+      nb::keep_alive<0, 2>());
+  // Both return the exit code of the command line, and rethrow an exception that interrupted the run.
+  module.def("start_run", [](const config::Case& parameters, const std::string& folder, bool overwrite,
+                             const std::string& device, int threads, PythonObserver& observer) {
+    return observer.result_of([&] {
+      const nb::gil_scoped_release released;
+      const ThreadScope scope(threads);
+      return run::start_run(parameters, {folder, overwrite, device}, observer);
+    });
+  });
+  module.def("resume_run", [](const std::string& folder, const std::vector<std::string>& sets,
+                              const std::string& device, int threads, PythonObserver& observer) {
+    return observer.result_of([&] {
+      const nb::gil_scoped_release released;
+      const ThreadScope scope(threads);
+      return run::resume_run({folder, sets, device}, observer);
+    });
+  });
+  module.def("run_folder", [](const config::Case& parameters) { return run::usual_run_folder(parameters).string(); });
+  module.def(
+      "block",
+      [](const config::Case& parameters, PythonObserver& observer, int threads) {
+        return columns_of(observer.result_of([&] {
+          const nb::gil_scoped_release released;
+          const ThreadScope scope(threads);
+          return run::block_rows(parameters, observer);
+        }));
+      },
+      nb::sig("def block(parameters: Case, observer: Observer, threads: int, /) -> dict[str, object]"));
+}

@@ -1,0 +1,123 @@
+#include "run/block_model.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/rounding.hpp"
+#include "config/notices.hpp"
+#include "config/profile_csv.hpp"
+#include "run/map_files.hpp"
+#include "run/warnings.hpp"
+#include "sim/block.hpp"
+#include "sim/path_section.hpp"
+
+namespace thawslide::run {
+
+namespace {
+
+// Valley factor above which the effect of the cross-slope ground on friction is reported.
+constexpr double least_valley_factor = 1.03;
+
+void report_valley_factor(const std::vector<sim::HistoryRow>& rows, Observer& observer) {
+  const auto narrower = [](const sim::HistoryRow& a, const sim::HistoryRow& b) {
+    return value_of(a, "valley_factor") < value_of(b, "valley_factor");
+  };
+  const sim::HistoryRow& narrowest = *std::max_element(rows.begin(), rows.end(), narrower);
+  const double factor = value_of(narrowest, "valley_factor");
+  if (factor > least_valley_factor) {
+    observer.line(
+        "note: the path follows a valley, whose sides raise friction by a factor of {:.3g} at the start and {:.3g} at "
+        "most, at {} s (valley_factor)",
+        value_of(rows.front(), "valley_factor"), factor, rounded_text(value_of(narrowest, "time_s"), 3));
+  }
+}
+
+// Runs a 3D case as a section along its path.
+std::vector<sim::HistoryRow> block_along_path(const config::Case& parameters, Warnings& warnings, Observer& observer) {
+  const sim::PathSection section = sim::section_along_path(parameters, read_map_files(parameters, warnings));
+  std::vector<sim::HistoryRow> rows = sim::run_block(section.parameters, section.site, section.valley_factor);
+  observer.line(
+      "a section along {}, with the mean thickness of the release across the path; front positions are distances along "
+      "it",
+      section.path_given ? "maps.path"
+                         : "the line of steepest descent from the centre of the release, because maps.path is not set");
+  constexpr double most_off = 45.0;
+  if (section.off_steepest > most_off) {
+    observer.line(
+        "warning: maps.path is at {:.0f} degrees to the steepest descent at the middle of the release. Only the slope "
+        "along the path drives the block",
+        section.off_steepest);
+  }
+  const auto first_beyond = [&](double end) {
+    return std::find_if(rows.begin(), rows.end(),
+                        [&](const sim::HistoryRow& row) { return value_of(row, "front_position_m") > end; });
+  };
+  if (section.pit) {
+    const auto beyond = first_beyond(section.pit->along);
+    observer.line("warning: the flow path ends in a closed depression after {} m, at x = {}, y = {}{}",
+                  rounded_text(section.pit->along, 3), coordinate_text(section.pit->point[0]),
+                  coordinate_text(section.pit->point[1]),
+                  beyond == rows.end() ? ", which the front does not reach"
+                                       : fmt::format(". The front reaches it at {} s, and the block stops there. Set "
+                                                     "maps.path to a longer line to follow the slide further",
+                                                     rounded_text(value_of(*beyond, "time_s"), 3)));
+    rows.erase(beyond == rows.end() ? beyond : beyond + 1, rows.end());
+    report_valley_factor(rows, observer);
+    return rows;
+  }
+  const double end = section.site.profile.distance.back();
+  const auto beyond = first_beyond(end);
+  if (beyond != rows.end()) {
+    observer.line(
+        "warning: maps.path: the front leaves the DEM after {} m, at {} s, and the table ends there. Use {} to follow "
+        "it further",
+        with_commas(end, 3), rounded_text(value_of(*beyond, "time_s"), 3),
+        section.path_given ? "a longer maps.path, or a larger DEM," : "a larger DEM");
+    // The first row is kept: the ground is known below the whole release.
+    rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
+  }
+  report_valley_factor(rows, observer);
+  return rows;
+}
+
+// On a profile without extrapolation, the results end with it.
+std::vector<sim::HistoryRow> block_on_profile(const config::Case& parameters, Observer& observer) {
+  std::vector<sim::HistoryRow> rows = sim::run_block(parameters);
+  if (parameters.terrain.kind != config::TerrainKind::profile || parameters.terrain.extend) {
+    return rows;
+  }
+  const config::ProfileTable profile = config::read_profile(parameters.terrain.file);
+  const double first = profile.distance.front(), last = profile.distance.back();
+  const auto beyond = std::find_if(rows.begin(), rows.end(), [&](const sim::HistoryRow& row) {
+    const double front = value_of(row, "front_position_m");
+    return front < first || front > last;
+  });
+  if (beyond != rows.end()) {
+    observer.line(
+        "warning: the profile is known from {} to {} m; the front leaves it at {} s, and the rows end before. Give a "
+        "longer profile, or set terrain.extend = true, to follow it further",
+        coordinate_text(first), coordinate_text(last), rounded_text(value_of(*beyond, "time_s"), 3));
+    rows.erase(std::max(beyond, rows.begin() + 1), rows.end());
+  }
+  return rows;
+}
+
+}  // namespace
+
+double value_of(const sim::HistoryRow& row, const std::string& name) {
+  for (const auto& [key, number] : row) {
+    if (key == name) {
+      return number;
+    }
+  }
+  throw InternalError("the block model has no column " + name);
+}
+
+std::vector<sim::HistoryRow> block_rows(const config::Case& parameters, Observer& observer) {
+  Warnings warnings(&observer);
+  warnings.add(config::notices(parameters));
+  return parameters.terrain.kind == config::TerrainKind::dem ? block_along_path(parameters, warnings, observer)
+                                                             : block_on_profile(parameters, observer);
+}
+
+}  // namespace thawslide::run

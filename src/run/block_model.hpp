@@ -1,0 +1,20 @@
+// Block model of a case: a rigid block on its profile, or on the section along its path.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/case.hpp"
+#include "run/observer.hpp"
+#include "sim/history.hpp"
+
+namespace thawslide::run {
+
+// Value of a column of a row.
+[[nodiscard]] double value_of(const sim::HistoryRow& row, const std::string& name);
+
+// Rows of the block's motion up to the end of the run or of the known terrain. Reports warnings of the case, and where
+// the terrain ends the motion. Throws UserError.
+[[nodiscard]] std::vector<sim::HistoryRow> block_rows(const config::Case& parameters, Observer& observer);
+
+}  // namespace thawslide::run

@@ -1,0 +1,140 @@
+#include "run/disk_need.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/rounding.hpp"
+#include "config/input_files.hpp"
+#include "io/checkpoint.hpp"
+#include "io/run_folder.hpp"
+#include "io/snapshot.hpp"
+#include "run/map_output.hpp"
+#include "sim/history.hpp"
+#include "sim/memory_need.hpp"
+
+namespace thawslide::run {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double bytes_of_number = 19.0;      // in history.csv, including the comma: 16 digits, a point, an exponent
+constexpr double columns_of_probe = 4.0;      // in probes.csv, for a section; a point has fewer
+constexpr double generations = 3.0;           // of checkpoints: two, and the one being written
+constexpr double ground_map_count = 2.0;      // terrain and release, on the DEM's points
+constexpr double bytes_besides_points = 1e4;  // of a snapshot, and of a checkpoint, which contains the case
+constexpr double most_of_free = 0.9;          // fraction of the free disk that a run may use without a warning
+constexpr double gigabyte = 1e9;
+
+// Number of whole intervals until the end, plus one for the start. It is limited to the number of steps, unless steps
+// are cut to the intervals. The last fixed step may end before the end of the run.
+double count_of(const config::Time& time, double interval, double steps, bool cuts_steps) {
+  const bool is_fixed = time.stepping == config::Stepping::fixed;
+  const double last = is_fixed ? std::min(time.end, steps * time.step) : time.end;
+  const double intervals = std::ceil(last / interval * (1.0 - 1e-12));
+  return (cuts_steps ? intervals : std::min(intervals, steps)) + 1.0;
+}
+
+double bytes_of_files(const config::Case& parameters) {
+  double bytes = 0.0;
+  for (const fs::path& file : config::input_files(parameters)) {
+    std::error_code unknown;
+    const auto size = fs::file_size(file, unknown);
+    bytes += unknown ? 0.0 : static_cast<double>(size);
+  }
+  return bytes;
+}
+
+// Size of a visited map cell in a checkpoint: its number, and its state.
+constexpr double bytes_of_map_cell = (1.0 + sim::map_cell_numbers) * sizeof(double);
+
+double bytes_of_maps(const sim::FlowMaps& maps) {
+  double cells = 0.0;
+  maps.for_cells([&cells](int, int, const sim::MapCell&) { ++cells; });
+  return cells * bytes_of_map_cell;
+}
+
+double bytes_of_all_maps(const sim::MapGrid& grid) {
+  return static_cast<double>(grid.columns) * grid.rows * bytes_of_map_cell;
+}
+
+double bytes_of(const std::vector<double>& numbers) { return static_cast<double>(numbers.size() * sizeof(double)); }
+
+// Sets the size of checkpoints. The numbers of bed columns and particles are constant.
+template <int Dim>
+void count_checkpoint(const sim::Simulation<Dim>& simulation, const sim::FlowMaps* maps, DiskNeed& need) {
+  const double lasting = bytes_besides_points +
+                         static_cast<double>(simulation.particles().size()) *
+                             static_cast<double>(io::checkpoint_bytes_of_particle<Dim>()) +
+                         (simulation.bed() == nullptr ? 0.0 : bytes_of(simulation.bed()->state()));
+  // The first step creates columns: assume the maximum number, and the same size as in memory.
+  const sim::BodiesAtStart bodies = sim::bodies_at_start<Dim>(simulation.parameters(), simulation.site());
+  const double columns = sim::memory_need<Dim>(simulation.parameters(), simulation.site(), bodies).columns;
+  const double of_maps = maps == nullptr ? 0.0 : bytes_of_maps(*maps);
+  const double most_of_maps = maps == nullptr ? 0.0 : bytes_of_all_maps(maps->map_grid());
+  need.checkpoints = generations;
+  need.checkpoint_at_start = lasting + columns / sim::usual_spread + of_maps;
+  need.checkpoint = lasting + columns + std::min(sim::usual_spread * of_maps, most_of_maps);
+}
+
+}  // namespace
+
+template <int Dim>
+DiskNeed disk_need(const sim::Simulation<Dim>& simulation, const sim::FlowMaps* maps, double steps) {
+  const config::Case& parameters = simulation.parameters();
+  const config::Time& time = parameters.time;
+  const auto particles = static_cast<double>(simulation.particles().size());
+  DiskNeed need;
+  need.snapshots = count_of(time, time.output_interval, steps, time.stepping == config::Stepping::adaptive);
+  need.snapshot = particles * static_cast<double>(io::snapshot_bytes_of_particle<Dim>()) + bytes_besides_points;
+  count_checkpoint(simulation, maps, need);
+  need.history_rows = time.history_interval > 0.0 ? count_of(time, time.history_interval, steps, false) : steps + 1.0;
+  const double columns = static_cast<double>(sim::history_row(simulation).size()) +
+                         columns_of_probe * static_cast<double>(parameters.probes.size());
+  need.history = need.history_rows * columns * bytes_of_number;
+  need.inputs = bytes_of_files(parameters);
+  if (maps != nullptr && can_write_maps()) {
+    const sim::MapGrid& grid = maps->map_grid();
+    need.maps = static_cast<double>(sim::map_kinds().size());
+    need.map = static_cast<double>(grid.columns) * grid.rows * sizeof(double);
+    if (const Raster* ground = simulation.site().ground.get()) {
+      need.ground_maps = ground_map_count;
+      need.ground_map = static_cast<double>(ground->values.size() * sizeof(double));
+    }
+  }
+  return need;
+}
+
+double free_on_disk(const fs::path& folder) {
+  std::error_code unknown;
+  const fs::space_info space = fs::space(io::existing_part(folder), unknown);
+  return unknown ? HUGE_VAL : static_cast<double>(space.available);
+}
+
+std::string warning_of_disk(const config::Case& parameters, const DiskNeed& need, double free, const fs::path& folder) {
+  if (!(need.total() > most_of_free * free)) {
+    return "";
+  }
+  const double of_snapshots = need.snapshots * need.snapshot;
+  const bool is_history = need.history > of_snapshots;
+  const std::string key = is_history ? "time.history_interval" : "time.output_interval";
+  const double interval = is_history ? parameters.time.history_interval : parameters.time.output_interval;
+  const std::string what = is_history
+                               ? fmt::format("{} rows of history.csv, {} GB", rounded_text(need.history_rows),
+                                             rounded_text(need.history / gigabyte))
+                               : fmt::format("{} snapshots of {} MB, {} GB", count_text(need.snapshots),
+                                             rounded_text(need.snapshot / 1e6), rounded_text(of_snapshots / gigabyte));
+  return fmt::format(
+      "{}: {} is {:g} s: that is {}; with all else {} GB, and {} GB are free where {} is. Make it larger, or "
+      "write to another disk (--output).",
+      config::location_of(parameters, key), key, interval, what, rounded_text(need.total() / gigabyte),
+      rounded_text(free / gigabyte), folder.string());
+}
+
+template DiskNeed disk_need<2>(const sim::Simulation<2>&, const sim::FlowMaps*, double);
+template DiskNeed disk_need<3>(const sim::Simulation<3>&, const sim::FlowMaps*, double);
+
+}  // namespace thawslide::run

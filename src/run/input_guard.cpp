@@ -1,0 +1,46 @@
+#include "run/input_guard.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "base/error.hpp"
+#include "config/input_files.hpp"
+
+namespace thawslide::run {
+
+namespace fs = std::filesystem;
+
+void require_readable_inputs(const config::Case& parameters) {
+  for (const fs::path& input : config::input_files(parameters)) {
+    if (access(input.c_str(), R_OK) != 0) {
+      throw UserError(
+          fmt::format("{} cannot be read: {}. A run keeps a copy of it.", input.string(), std::strerror(errno)));
+    }
+  }
+}
+
+void require_no_input_in(const fs::path& folder, const config::Case& parameters) {
+  const fs::path runs_folder = fs::weakly_canonical(folder);
+  for (const fs::path& input : config::input_files(parameters)) {
+    const fs::path relative = fs::weakly_canonical(input).lexically_relative(runs_folder);
+    if (!relative.empty() && *relative.begin() != "..") {
+      throw UserError(fmt::format("{} lies in the output folder {}. Give another --output{}.", input.string(),
+                                  folder.string(),
+                                  fs::exists(folder / "run.json") ? ", or continue that run: thawslide resume" : ""));
+    }
+  }
+}
+
+void require_no_input_at(const fs::path& file, const std::string& option, const config::Case& parameters) {
+  for (const fs::path& input : config::input_files(parameters)) {
+    std::error_code not_there;
+    if (fs::equivalent(file, input, not_there)) {
+      throw UserError(fmt::format("{} {} is an input of the case, which it would replace. Give another file.", option,
+                                  file.string()));
+    }
+  }
+}
+
+}  // namespace thawslide::run

@@ -1,0 +1,235 @@
+#include "run/live_run.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "base/error.hpp"
+#include "config/case_changes.hpp"
+#include "config/describe.hpp"
+#include "config/notices.hpp"
+#include "io/checkpoint.hpp"
+#include "run/map_files.hpp"
+#include "run/resume_checks.hpp"
+#include "run/run_loop.hpp"
+#include "run/schedule.hpp"
+#include "run/setup_warnings.hpp"
+#include "run/state.hpp"
+#include "run/step_warnings.hpp"
+#include "sim/body_figures.hpp"
+#include "sim/run_records.hpp"
+
+namespace thawslide::run {
+
+namespace {
+
+template <int Dim>
+class LiveRunOf final : public LiveRun {
+ public:
+  using Simulation = sim::Simulation<Dim>;
+
+  LiveRunOf(const config::Case& parameters, const config::Site& site, Warnings& warnings, Observer& observer)
+      : observer_(observer),
+        simulation_(std::make_shared<Simulation>(parameters, site)),
+        records_(*simulation_, simulation_->site()),
+        history_schedule_(history_schedule(parameters.time, 0.0, 0.0)),
+        snapshot_schedule_(snapshot_schedule(parameters.time, 0.0, 0.0)),
+        warnings_(simulation_->removed()) {
+    add_setup_warnings(*simulation_, sim::body_figures(*simulation_), warnings);
+    if (simulation_->needs_settling()) {
+      observer.line("settling under gravity for {:g} s", parameters.mechanics.settle_time);
+      if (!simulation_->settle([&] { return observer.interruption().empty(); })) {
+        throw UserError(fmt::format("interrupted by {} while the body settled", observer.interruption()));
+      }
+    }
+    records_.start(*simulation_);
+    add_row();
+  }
+
+  [[nodiscard]] const config::Case& parameters() const override { return simulation_->parameters(); }
+  [[nodiscard]] double time() const override { return simulation_->time(); }
+  [[nodiscard]] std::int64_t step_number() const override { return simulation_->step_number(); }
+  [[nodiscard]] std::size_t particle_count() const override { return simulation_->particle_count(); }
+  [[nodiscard]] bool is_done() const override {
+    return !end_text_.empty() || simulation_->ends_at_rest() ||
+           has_reached_end(simulation_->time(), simulation_->last_step(), parameters().time.end);
+  }
+  [[nodiscard]] std::string end_text() const override {
+    return !end_text_.empty() || !simulation_->ends_at_rest() ? end_text_ : simulation_->rest_text();
+  }
+  [[nodiscard]] bool has_basal_law() const override {
+    return simulation_->ground() != nullptr && parameters().mechanics.enabled;
+  }
+  [[nodiscard]] std::vector<double> origin() const override {
+    const auto& origin = simulation_->model().origin;
+    return {origin.data(), origin.data() + Dim};
+  }
+
+  void step(const terrain::StrengthLaw* strength) override {
+    if (is_done()) {
+      return;
+    }
+    try {
+      simulation_->step(simulation_->next_step(std::min(snapshot_schedule_.next(), parameters().time.end)), strength);
+      records_.after_step(*simulation_);
+    } catch (const sim::SlideLeft& end) {
+      end_text_ = end.what();
+      records_.slide_left();
+      add_row();
+      return;
+    } catch (const RunError&) {
+      add_row();
+      throw;
+    }
+    report(warnings_.after_step(*simulation_));
+    const double time = simulation_->time(), dt = simulation_->last_step();
+    const bool rests = simulation_->ends_at_rest();
+    if (history_schedule_.reached(time, dt) || parameters().time.history_interval <= 0.0 || rests) {
+      add_row();
+    }
+    if (snapshot_schedule_.reached(time, dt) || rests) {
+      report(warnings_.after_snapshot(*simulation_));
+    }
+  }
+
+  [[nodiscard]] const std::vector<sim::HistoryRow>& history() const override { return history_; }
+
+  [[nodiscard]] std::vector<FieldDescription> fields() const override {
+    std::vector<FieldDescription> all;
+    for (const mpm::FieldBase* field : std::as_const(*simulation_).particles().fields.all()) {
+      if (is_public(*field)) {
+        const char* meaning = field->info().meaning;
+        all.push_back({field->info().name, field->info().unit,
+                       meaning != nullptr ? meaning : "position relative to the domain's lower corner",
+                       field->components()});
+      }
+    }
+    return all;
+  }
+
+  [[nodiscard]] FieldMemory field(const std::string& name) override {
+    const mpm::Particles<Dim>& particles = std::as_const(*simulation_).particles();
+    for (const mpm::FieldBase* field : particles.fields.all()) {
+      if (name == field->info().name && is_public(*field)) {
+        constexpr std::size_t lanes = mpm::particles_of_block;
+        return {simulation_,
+                field->memory(),
+                particles.size(),
+                (particles.size() + lanes - 1) / lanes,
+                field->components(),
+                lanes,
+                field->is_integer(),
+                field->number_bytes(),
+                simulation_->bed() != nullptr};
+      }
+    }
+    std::vector<std::string> names;
+    for (const FieldDescription& each : fields()) {
+      names.push_back(each.name);
+    }
+    throw UserError(fmt::format("there is no particle field '{}'; allowed: {}.", name, fmt::join(names, ", ")));
+  }
+
+  void change(const config::Case& next, const std::vector<std::string>& sets) override {
+    config::require_changeable(sets);
+    require_same_guards(parameters(), next);
+    require_end_ahead(next.time.end, simulation_->time(), simulation_->last_step());
+    replace(std::make_shared<Simulation>(next, simulation_->site()), checkpoint());
+    if (simulation_->ends_at_rest() && config::keys_of(sets) != std::set<std::string>{"time.end"}) {
+      simulation_->restart_rest_time();
+    }
+    Warnings(&observer_).add(config::notices(next));
+  }
+
+  [[nodiscard]] std::string checkpoint() const override {
+    if (!end_text_.empty()) {
+      throw UserError("no particles are left to continue with: " + end_text_);
+    }
+    NamedNumbers blocks = records_.state();
+    add_state<Dim>(*simulation_, blocks);
+    for (std::size_t c = 0; c < history_.front().size(); ++c) {
+      std::vector<double>& column = blocks[history_block + history_.front()[c].first];
+      for (const sim::HistoryRow& row : history_) {
+        column.push_back(row[c].second);
+      }
+    }
+    return io::checkpoint_bytes<Dim>(std::as_const(*simulation_).particles(), simulation_->particles_at_start(),
+                                     simulation_->scalars(), blocks, config::resolved_toml(parameters(), ""));
+  }
+
+  void restore(const std::string& checkpoint) override {
+    const std::string of_checkpoint = io::case_of(io::intact_checkpoint(checkpoint_title, checkpoint));
+    const std::vector<std::string> other = config::differences(config::resolved_toml(parameters(), ""), of_checkpoint);
+    if (!other.empty()) {
+      throw UserError(fmt::format("the checkpoint is of another case: {}. Restore it in a simulation of its case.",
+                                  fmt::join(other, "; ")));
+    }
+    replace(std::make_shared<Simulation>(parameters(), simulation_->site()), checkpoint);
+  }
+
+ private:
+  static constexpr const char* history_block = "history/";
+  static constexpr const char* checkpoint_title = "the checkpoint";
+
+  // Continues with another simulation, initialized at t = 0, from a checkpoint.
+  void replace(std::shared_ptr<Simulation> next, const std::string& checkpoint) {
+    const io::WholeCheckpoint state = io::intact_checkpoint(checkpoint_title, checkpoint);
+    std::vector<double> scalars;
+    const NamedNumbers blocks = io::read_checkpoint<Dim>(state, next->particles(), scalars);
+    restore_state<Dim>(*next, scalars, blocks);
+    sim::RunRecords<Dim> records(*next, next->site());
+    records.restore(blocks);
+    std::vector<sim::HistoryRow> rows = rows_of(records.history_row(*next), blocks);
+    simulation_ = std::move(next);
+    records_ = std::move(records);
+    history_ = std::move(rows);
+    end_text_.clear();
+    const double time = simulation_->time(), last_step = simulation_->last_step();
+    history_schedule_ = history_schedule(parameters().time, time, last_step);
+    snapshot_schedule_ = snapshot_schedule(parameters().time, time, last_step);
+  }
+
+  // Rows of a checkpoint, with columns in the order of those of a row.
+  static std::vector<sim::HistoryRow> rows_of(const sim::HistoryRow& row, const NamedNumbers& blocks) {
+    std::vector<sim::HistoryRow> rows;
+    for (const auto& [name, value] : row) {
+      const std::vector<double>& column = block_of(blocks, (history_block + name).c_str());
+      rows.resize(column.size());
+      for (std::size_t k = 0; k < column.size(); ++k) {
+        rows[k].emplace_back(name, column[k]);
+      }
+    }
+    return rows;
+  }
+
+  static bool is_public(const mpm::FieldBase& field) {
+    return field.memory() != nullptr && (field.info().in_snapshot() || std::string("position") == field.info().name);
+  }
+  void report(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) {
+      observer_.text(warning);
+    }
+  }
+  void add_row() { history_.push_back(records_.history_row(*simulation_)); }
+
+  Observer& observer_;
+  std::shared_ptr<Simulation> simulation_;  // shared with views of its fields
+  sim::RunRecords<Dim> records_;
+  Schedule history_schedule_, snapshot_schedule_;
+  StepWarnings warnings_;
+  std::vector<sim::HistoryRow> history_;
+  std::string end_text_;  // of a slide that has left
+};
+
+}  // namespace
+
+std::unique_ptr<LiveRun> make_live_run(const config::Case& parameters, Observer& observer) {
+  Warnings warnings(&observer);
+  const config::Site site = read_map_files(parameters, warnings);
+  return with_dimension(parameters.general.dimension,
+                        [&]<int Dim>(std::integral_constant<int, Dim> /*dimension*/) -> std::unique_ptr<LiveRun> {
+                          auto live = std::make_unique<LiveRunOf<Dim>>(parameters, site, warnings, observer);
+                          return live;
+                        });
+}
+
+}  // namespace thawslide::run

@@ -1,0 +1,45 @@
+// maps/ of a 3D run: GeoTIFF maps, a GeoPackage of areas and lines, and their QGIS styles.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/run_records.hpp"
+
+namespace thawslide::run {
+
+// Position of the front at a time [s].
+struct FrontAt {
+  double time;
+  Point2 position;
+};
+
+// True if this build can write maps, which requires GDAL.
+[[nodiscard]] bool can_write_maps();
+
+// A map on the points of the DEM, written at the start.
+struct GroundMap {
+  const char* name;
+  const char* unit;
+  const char* description;
+};
+inline constexpr GroundMap terrain_map{"terrain", "m", "elevation of the terrain on which the material slides"};
+inline constexpr GroundMap release_map{"release", "m", "vertical thickness of the release"};
+
+// Writes both of these; nothing without a ground raster.
+void write_ground_maps(const std::filesystem::path& folder, const config::Site& site);
+
+// Attributes of the maps.
+struct MapTexts {
+  std::string run;    // name of its folder
+  std::string state;  // label of the last state (sim/end_state.hpp)
+  double time;        // of the last state [s]
+};
+
+// Writes the current maps and replaces earlier ones. Each file is replaced atomically.
+void write_maps(const std::filesystem::path& folder, const sim::RunRecords<3>& records, const config::Site& site,
+                const std::vector<FrontAt>& fronts, const MapTexts& texts);
+
+}  // namespace thawslide::run

@@ -1,0 +1,50 @@
+// Checks of a run's folder before `thawslide resume` continues it. All functions throw UserError on failure.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "config/case.hpp"
+#include "io/provenance.hpp"
+#include "run/observer.hpp"
+
+namespace thawslide::run {
+
+[[nodiscard]] std::string sha256_of_text(const std::string& text);
+
+// Advice on changes of case.toml; `otherwise`: advice for changes other than a later end.
+[[nodiscard]] std::string advice_on(const std::filesystem::path& folder, const io::Provenance& facts,
+                                    const std::vector<std::string>& changes, const std::string& otherwise);
+
+// Requires that the copies of the inputs are unchanged. Those of [report] may change, because they are used only for
+// comparison in figures.
+void require_same_inputs(const std::filesystem::path& folder, const std::vector<io::InputFile>& inputs,
+                         const config::Report& compared);
+
+// Notes on original input files that have changed. A run continues with its copies regardless.
+[[nodiscard]] std::vector<std::string> changed_originals(const std::vector<io::InputFile>& inputs);
+
+// Called on an error of reading the case: if the file is a changed copy, reports that change instead.
+void report_changed_copy(const std::filesystem::path& folder, const std::vector<io::InputFile>& inputs,
+                         const std::string& error);
+
+// Requires that case.toml is the one of the run's checkpoint (`before`), or the result of later resumes; keys replaced
+// by `sets` may have any value. Changes by interrupted resumes must be among `sets`.
+void require_same_case(const std::filesystem::path& folder, const io::Provenance& facts, const std::string& before,
+                       const std::vector<std::string>& sets, Observer& observer);
+
+// The same before the first checkpoint, when the case is known only by its SHA-256.
+void require_case_of_start(const std::filesystem::path& folder, const io::Provenance& facts,
+                           const std::vector<std::string>& sets);
+
+// Requires that a changed case of a run removes particles by [guards] as before.
+void require_same_guards(const config::Case& before, const config::Case& now);
+
+// Requires an end [s] that is not before the time that the run has reached, up to half of a step.
+void require_end_ahead(double end, double reached, double step);
+
+// A run without checkpoints starts again, which is allowed only if it was interrupted before the first.
+void require_no_more_than_a_start(const std::filesystem::path& folder, const io::Provenance& facts);
+
+}  // namespace thawslide::run

@@ -1,0 +1,277 @@
+#include "run/run_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "base/shell_quote.hpp"
+#include "base/thread_choice.hpp"
+#include "io/checkpoint.hpp"
+#include "run/schedule.hpp"
+#include "run/step_warnings.hpp"
+#include "run/summary.hpp"
+#include "sim/direction.hpp"
+#include "sim/history.hpp"
+
+namespace thawslide::run {
+
+namespace {
+
+// Position and speed of the front for the progress line.
+class FrontWatch {
+ public:
+  // front: distance travelled [m].
+  template <int Dim>
+  ProgressState state(const sim::Simulation<Dim>& simulation, double front, std::int64_t steps) {
+    const double elapsed = simulation.time() - time_;
+    const double speed = elapsed > 0.0 ? sim::direction_along_x(simulation) * (front - front_) / elapsed : std::nan("");
+    front_ = front;
+    time_ = simulation.time();
+    return {simulation.time(), simulation.parameters().time.end, steps, front, speed};
+  }
+
+ private:
+  double front_ = std::nan(""), time_ = 0.0;
+};
+
+// Settles the body if the case requires it. If this fails, files are written as for any other failed run. Returns false
+// if it was interrupted.
+template <int Dim>
+bool settle(sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, Observer& observer) {
+  if (!simulation.needs_settling()) {
+    return true;
+  }
+  observer.line("settling under gravity for {:g} s", simulation.parameters().mechanics.settle_time);
+  try {
+    return simulation.settle([&] { return observer.interruption().empty(); });
+  } catch (const RunError& error) {
+    output.write_first_state(simulation);
+    output.write_index();
+    output.write_provenance(simulation, "failed", error.what(), 0.0);
+    throw;
+  }
+}
+
+// Ends a run after a failed write or a GPU error: all files are intact, and the run can resume from its last
+// checkpoint.
+template <int Dim>
+ExitCode end_at_once(const sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, const std::exception& error,
+                     ExitCode code, const std::filesystem::path& folder, Observer& observer) {
+  try {
+    output.require_own_folder();
+  } catch (const WriteError& lost) {
+    observer.error_line("error: {}\nstopped at t = {:g} s", lost.what(), simulation.time());
+    return code;
+  }
+  try {
+    output.write_provenance(simulation, "stopped", error.what(), output.wall_seconds());
+  } catch (const WriteError&) {  // NOLINT(bugprone-empty-catch): the first error is reported below
+  }
+  observer.error_line("error: {}\nstopped at t = {:g} s. All files are intact: `thawslide resume {}` {}", error.what(),
+                      simulation.time(), shell_quote(folder.string()),
+                      io::has_checkpoint(folder) ? "continues from the last checkpoint" : "starts it again");
+  return code;
+}
+
+UserError out_of_memory() {
+  return UserError("the memory of this machine, or its limit (ulimit -v), was exhausted during the run");
+}
+
+// Time loop of one process, with its output.
+template <int Dim>
+class Loop {
+ public:
+  using Simulation = sim::Simulation<Dim>;
+
+  Loop(Simulation& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder, Observer& observer)
+      : simulation_(simulation),
+        output_(output),
+        folder_(folder),
+        observer_(observer),
+        times_(simulation.parameters().time),
+        first_step_(simulation.step_number()),
+        history_(history_schedule(times_, simulation.time(), simulation.last_step())),
+        snapshots_(snapshot_schedule(times_, simulation.time(), simulation.last_step())),
+        checkpoints_(simulation.parameters().checkpoint.interval > 0.0 ? simulation.parameters().checkpoint.interval
+                                                                       : times_.end,
+                     simulation.time(), simulation.last_step(), times_.end),
+        warnings_(simulation.removed()),
+        most_threads_(thread_count()),
+        threads_(most_threads_, 0.0) {
+    output_.start_clock();
+  }
+
+  // Throws RunError if the run failed. All results so far have been written then, too.
+  ExitCode run() {
+    observer_.start(simulation_.time());
+    try {
+      while (must_continue()) {
+        step();
+        write_due_output();
+        if (observer_.wants_progress(simulation_.time(), times_.end)) {
+          observer_.progress(front_.state(simulation_, output_.front_position(simulation_), steps()));
+        }
+      }
+    } catch (const sim::SlideLeft& end) {
+      output_.slide_left();
+      write_last_state();
+      close("done", end.what());
+      observer_.text(end.what());
+      return ExitCode::done;
+    } catch (const RunError& error) {
+      write_last_state();
+      close("failed", error.what());
+      throw;
+    }
+    const std::string interruption = observer_.interruption();
+    return interruption.empty() ? end_in_time() : end_interrupted(interruption);
+  }
+
+ private:
+  [[nodiscard]] std::int64_t steps() const { return simulation_.step_number() - first_step_; }
+  [[nodiscard]] bool must_continue() const {
+    return !has_reached_end(simulation_.time(), simulation_.last_step(), times_.end) && !simulation_.ends_at_rest() &&
+           observer_.interruption().empty();
+  }
+
+  void step() {
+    const double before = output_.wall_seconds();
+    output_.before_step(simulation_);
+    // Rows and checkpoints follow a step near their time and change no step.
+    simulation_.step(simulation_.next_step(std::min(snapshots_.next(), times_.end)));
+    seconds_in_steps_ += output_.wall_seconds() - before;
+    set_thread_count(threads_.after_step(seconds_in_steps_));
+    report_line(warnings_.after_step(simulation_));
+    output_.after_step(simulation_);
+  }
+
+  // A run at rest ends. Its last row and snapshot are written before a checkpoint records that.
+  void write_due_output() {
+    const double time = simulation_.time(), dt = simulation_.last_step();
+    const bool rests = simulation_.ends_at_rest();
+    if (rests || times_.history_interval <= 0.0 || history_.reached(time, dt)) {
+      output_.write_history(simulation_);
+    }
+    if (rests || snapshots_.reached(time, dt)) {
+      output_.write_snapshot(simulation_);
+      report_line(warnings_.after_snapshot(simulation_));
+    }
+    const double wall_interval = simulation_.parameters().checkpoint.wall_interval;
+    const bool is_old = wall_interval > 0.0 && output_.wall_seconds() - wall_of_checkpoint_ > wall_interval;
+    if (checkpoints_.reached(time, dt) || is_old) {
+      output_.write_checkpoint(simulation_);
+      wall_of_checkpoint_ = output_.wall_seconds();
+      output_.write_provenance(simulation_, "running", "", wall_of_checkpoint_);
+    }
+  }
+
+  void report_line(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) {
+      observer_.text(warning);
+    }
+  }
+
+  // Writes the last state of a run that ends early and cannot be continued.
+  void write_last_state() {
+    output_.write_history(simulation_);
+    output_.write_snapshot(simulation_);
+    output_.write_maps(simulation_);
+  }
+
+  void close(const std::string& status, const std::string& message) {
+    set_thread_count(most_threads_);
+    output_.write_index();
+    const double wall = output_.wall_seconds();
+    output_.write_provenance(simulation_, status, message, wall);
+    observer_.end_progress();
+    report_summary(simulation_, output_, steps(), wall, folder_, observer_);
+  }
+
+  ExitCode end_interrupted(const std::string& interruption) {
+    // The checkpoint stores this state. A row or a snapshot is omitted, because an uninterrupted run would not have
+    // written it.
+    output_.write_checkpoint(simulation_);
+    close("stopped", interruption);
+    observer_.error_line("interrupted by {} at t = {:g} s. To continue: thawslide resume {}", interruption,
+                         simulation_.time(), shell_quote(folder_.string()));
+    return ExitCode::stopped_by_signal;
+  }
+
+  ExitCode end_in_time() {
+    const std::string rest = simulation_.ends_at_rest() ? simulation_.rest_text() : "";
+    output_.write_checkpoint(simulation_);
+    close("done", rest);
+    if (!rest.empty()) {
+      observer_.text(rest);
+    }
+    return ExitCode::done;
+  }
+
+  Simulation& simulation_;
+  RunOutput<Dim>& output_;
+  const std::filesystem::path& folder_;
+  Observer& observer_;
+  const config::Time& times_;
+  std::int64_t first_step_;
+  Schedule history_, snapshots_, checkpoints_;
+  FrontWatch front_;
+  StepWarnings warnings_;
+  int most_threads_;
+  ThreadChoice threads_;
+  double seconds_in_steps_ = 0.0, wall_of_checkpoint_ = 0.0;
+};
+
+}  // namespace
+
+std::filesystem::path usual_run_folder(const config::Case& parameters) {
+  return std::filesystem::path("runs") / parameters.name;
+}
+
+void use_threads(int threads) { set_thread_count(threads > 0 ? threads : available_cores()); }
+
+template <int Dim>
+ExitCode start_and_run(sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder,
+                       Observer& observer) {
+  output.start_clock();
+  observer.start(simulation.time());
+  try {
+    if (!settle<Dim>(simulation, output, observer)) {
+      const std::string interruption = observer.interruption();
+      output.write_provenance(simulation, "stopped", interruption, 0.0);
+      observer.error_line("interrupted by {} while the body settled. To start again: thawslide resume {}", interruption,
+                          shell_quote(folder.string()));
+      return ExitCode::stopped_by_signal;
+    }
+    output.begin(simulation);
+  } catch (const WriteError& error) {
+    return end_at_once<Dim>(simulation, output, error, ExitCode::not_written, folder, observer);
+  } catch (const DeviceError& error) {
+    return end_at_once<Dim>(simulation, output, error, ExitCode::device_failed, folder, observer);
+  } catch (const std::bad_alloc&) {
+    return end_at_once<Dim>(simulation, output, out_of_memory(), ExitCode::user_mistake, folder, observer);
+  }
+  return run_to_end<Dim>(simulation, output, folder, observer);
+}
+
+template <int Dim>
+ExitCode run_to_end(sim::Simulation<Dim>& simulation, RunOutput<Dim>& output, const std::filesystem::path& folder,
+                    Observer& observer) {
+  try {
+    return Loop<Dim>(simulation, output, folder, observer).run();
+  } catch (const WriteError& error) {
+    return end_at_once<Dim>(simulation, output, error, ExitCode::not_written, folder, observer);
+  } catch (const DeviceError& error) {
+    return end_at_once<Dim>(simulation, output, error, ExitCode::device_failed, folder, observer);
+  } catch (const std::bad_alloc&) {
+    return end_at_once<Dim>(simulation, output, out_of_memory(), ExitCode::user_mistake, folder, observer);
+  }
+}
+
+template ExitCode start_and_run<2>(sim::Simulation<2>&, RunOutput<2>&, const std::filesystem::path&, Observer&);
+template ExitCode start_and_run<3>(sim::Simulation<3>&, RunOutput<3>&, const std::filesystem::path&, Observer&);
+template ExitCode run_to_end<2>(sim::Simulation<2>&, RunOutput<2>&, const std::filesystem::path&, Observer&);
+template ExitCode run_to_end<3>(sim::Simulation<3>&, RunOutput<3>&, const std::filesystem::path&, Observer&);
+
+}  // namespace thawslide::run

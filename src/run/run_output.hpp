@@ -1,0 +1,112 @@
+// Output files of a run, written during the run (docs/reference/outputs.md lists them).
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/stopwatch.hpp"
+#include "io/history_writer.hpp"
+#include "io/provenance.hpp"
+#include "io/run_lock.hpp"
+#include "io/snapshot_series.hpp"
+#include "run/map_output.hpp"
+#include "sim/end_state.hpp"
+#include "sim/run_records.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::run {
+
+template <int Dim>
+class RunOutput {
+ public:
+  using Simulation = sim::Simulation<Dim>;
+
+  // Starts a new run in an existing empty folder whose lock the process holds: writes the inputs, the resolved case,
+  // run.json and the ground. All writing functions throw WriteError if the folder no longer belongs to this run.
+  RunOutput(const std::filesystem::path& folder, const Simulation& simulation);
+  // Restarts a run that was interrupted before its first checkpoint: inputs and case exist; earlier: contents of
+  // run.json, with the part that begins; case_text: resolved.
+  RunOutput(const std::filesystem::path& folder, const Simulation& simulation, io::Provenance earlier,
+            std::string case_text);
+  // Writes row and snapshot of the state before the first step.
+  void write_first_state(const Simulation& simulation);
+  // Writes the checkpoint before the first step; work is counted from here.
+  void begin(const Simulation& simulation);
+  // Resumes a run at the simulation's time; blocks: contents of its checkpoint other than the particles; the other
+  // arguments as above. Records damaged files in run.json (warnings_of_part).
+  static RunOutput resume(const std::filesystem::path& folder, const Simulation& simulation, const NamedNumbers& blocks,
+                          io::Provenance earlier, std::string case_text);
+
+  // Wall-clock time [s] since start_clock.
+  void start_clock() { clock_start_ = std::chrono::steady_clock::now(); }
+  [[nodiscard]] double wall_seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_start_).count();
+  }
+  // Counts the work; call before every step.
+  void before_step(const Simulation& simulation);
+  // Samples maps and probes; call after every step.
+  void after_step(const Simulation& simulation);
+  // Replaces after_step after a step that removed the last of the slide (SlideLeft).
+  void slide_left();
+  // End state in run.json, as of the last call of write_provenance.
+  [[nodiscard]] const sim::EndState& end_state() const { return end_state_; }
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return provenance_.warnings; }
+  // Those of this part of the run: changed inputs and damaged files.
+  [[nodiscard]] const std::vector<std::string>& warnings_of_part() const { return provenance_.parts.back().warnings; }
+  // Throws WriteError if the run's folder was replaced by another one.
+  void require_own_folder() const { own_.require(); }
+  // Writes one row of history.csv, and of probes.csv if there are probes.
+  void write_history(const Simulation& simulation);
+  [[nodiscard]] sim::HistoryRow history_row(const Simulation& simulation) const {
+    return records_.history_row(simulation);
+  }
+  // Writes maps/ in 3D, as recorded so far.
+  void write_maps(const Simulation& simulation);
+  // Position of the front [m]: along x in 2D, along the path in 3D, NaN while there is none.
+  [[nodiscard]] double front_position(const Simulation& simulation) const;
+  void write_snapshot(const Simulation& simulation);
+  // Writes particles.vtkhdf over all snapshots so far.
+  void write_index() {
+    own_.require();
+    stopwatch_.time("write_snapshot", [&] { snapshots_.write_index(); });
+  }
+  // Writes the state for `resume`, and the maps so far.
+  void write_checkpoint(const Simulation& simulation);
+  // Writes run.json; status: running, done, stopped or failed; wall_seconds: of this process.
+  void write_provenance(const Simulation& simulation, const std::string& status, const std::string& message,
+                        double wall_seconds);
+  // Key figures by name as in run.json, in 3D.
+  [[nodiscard]] const std::vector<std::pair<std::string, double>>& figures() const { return provenance_.figures; }
+  // Amount of work as in run.json: particles at the start, and the sum of particles over this process's steps.
+  [[nodiscard]] std::size_t particles_at_start() const { return provenance_.particles; }
+  [[nodiscard]] double particle_steps() const { return provenance_.parts.back().particle_steps; }
+  // Wall-clock time [s] of the step's stages and of writing.
+  [[nodiscard]] Stopwatch::Seconds seconds_per_stage(const Simulation& simulation) const;
+
+ private:
+  RunOutput(const std::filesystem::path& folder, sim::RunRecords<Dim> records, io::HistoryWriter history,
+            io::SnapshotSeries snapshots);
+  void add_figures(const Simulation& simulation);
+  void write_state(const Simulation& simulation);
+
+  std::filesystem::path folder_;
+  io::OwnFolder own_;
+  io::HistoryWriter history_;
+  io::SnapshotSeries snapshots_;
+  sim::RunRecords<Dim> records_;
+  std::vector<FrontAt> fronts_;              // at the times of snapshots
+  std::optional<io::HistoryWriter> probes_;  // none without probes
+  io::Provenance provenance_;
+  sim::EndState end_state_;
+  bool slide_left_ = false;
+  std::string case_text_;  // resolved, as in case.toml
+  Stopwatch stopwatch_;
+  std::chrono::steady_clock::time_point clock_start_;
+  std::int64_t history_step_ = -1, snapshot_step_ = -1, checkpoint_step_ = -1;
+};
+
+}  // namespace thawslide::run

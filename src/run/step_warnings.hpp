@@ -1,0 +1,61 @@
+// Warnings during a run: a base too hot to be physically credible, removed particles, and energy without a cause.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/simulation.hpp"
+
+namespace thawslide::run {
+
+// Reports that water would boil but does not, that band columns are hot or have boiled dry, and each time that the base
+// passes a higher limit of temperature.
+class BoilingWatch {
+ public:
+  // Returns a new warning; empty if there is none.
+  template <int Dim>
+  std::string warning(const sim::Simulation<Dim>& simulation);
+
+ private:
+  bool is_dry_ = false;        // already reported
+  double passed_limit_ = 0.0;  // highest limit already reported [C]
+};
+
+// All warnings during a run, as lines.
+class StepWarnings {
+ public:
+  // before: particles removed before this part of the run.
+  explicit StepWarnings(const sim::Removed& before) : has_reported_removal_(before.by_guards() > 0) {}
+
+  // New warnings after a step.
+  template <int Dim>
+  [[nodiscard]] std::vector<std::string> after_step(const sim::Simulation<Dim>& simulation) {
+    std::vector<std::string> found;
+    if (!has_reported_removal_ && simulation.removed().by_guards() > 0) {
+      has_reported_removal_ = true;
+      found.push_back(warning_of_removal(simulation.time(), simulation.removed()));
+    }
+    if (!has_reported_energy_) {
+      const std::string warning = simulation.energy_warning();
+      has_reported_energy_ = !warning.empty();
+      if (has_reported_energy_) {
+        found.push_back(warning);
+      }
+    }
+    return found;
+  }
+  // New warnings at the time of a snapshot.
+  template <int Dim>
+  [[nodiscard]] std::vector<std::string> after_snapshot(const sim::Simulation<Dim>& simulation) {
+    const std::string warning = boiling_.warning<Dim>(simulation);
+    return warning.empty() ? std::vector<std::string>() : std::vector<std::string>{warning};
+  }
+
+ private:
+  static std::string warning_of_removal(double time, const sim::Removed& removed);
+
+  BoilingWatch boiling_;
+  bool has_reported_removal_, has_reported_energy_ = false;
+};
+
+}  // namespace thawslide::run

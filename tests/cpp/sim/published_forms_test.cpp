@@ -1,0 +1,349 @@
+// The published formulation and the terms that it omits, each compared with the expected effect.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../support/case_from_text.hpp"
+#include "../support/record.hpp"
+#include "base/portability.hpp"
+#include "physics/pressurization.hpp"
+#include "sim/history.hpp"
+#include "sim/simulation.hpp"
+
+namespace thawslide::sim {
+namespace {
+
+using namespace testing_support;
+
+// A bar without gravity.
+const std::string bar = R"(
+[case]
+gravity = 0.0
+[time]
+end = 1000.0
+step = 10.0
+[grid]
+cell = 0.1
+min = [0.0, 0.0]
+max = [2.0, 0.4]
+[material.bar]
+law = "elastic"
+youngs_modulus = 1e9
+poisson_ratio = 0.3
+hydraulic_conductivity = 1e-9
+[body.bar]
+material = "bar"
+shape = "box"
+min = [0.0, 0.0]
+max = [2.0, 0.4]
+temperature = 1.0
+)";
+
+std::vector<double> by_id(Simulation<2>& simulation, mpm::Field<double, 1> mpm::Particles<2>::*field) {
+  auto& particles = simulation.particles();
+  std::vector<double> values(particles.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    values[static_cast<std::size_t>(particles.id(p))] = (particles.*field)(p);
+  }
+  return values;
+}
+
+TEST(SeepageScaling, PublishedIsSlowerByXi) {
+  const std::vector<std::string> still = {"mechanics.enabled=false", "heat.enabled=false", "band.thickness=0.0125"};
+  const auto seep = [&](const std::string& scaling, double step, double end) {
+    auto sets = still;
+    sets.insert(sets.end(), {"pressure.seepage_scaling=" + scaling, fmt::format("time.step={}", step),
+                             fmt::format("time.end={}", end)});
+    Simulation<2> simulation(paper_case(bar, sets));
+    auto& particles = simulation.particles();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e5 * std::cos(pi * particles.position(p, 0));
+    }
+    run_until(simulation, end);
+    return by_id(simulation, &mpm::Particles<2>::pore_pressure);
+  };
+  const auto published = seep("published", 0.8, 40.0);
+  const auto consistent = seep("consistent", 0.1, 5.0);
+  const auto same_time = seep("consistent", 0.1, 40.0);
+  double largest = 0.0, difference = 0.0;
+  for (std::size_t p = 0; p < published.size(); ++p) {
+    EXPECT_NEAR(published[p], consistent[p], 1e-9 * 1e5);
+    largest = std::max(largest, std::abs(published[p]));
+    difference = std::max(difference, std::abs(published[p] - same_time[p]));
+  }
+  EXPECT_GT(largest, 1e4);
+  EXPECT_GT(difference, 0.1 * largest);
+}
+
+// Frequency of the first mode of a bar between rollers, from the time at which its velocity vanishes.
+double frequency(const std::vector<std::string>& sets, double* residual = nullptr) {
+  auto all = sets;
+  all.insert(all.end(), {"heat.enabled=false", "pressure.seepage=false", "time.step=4e-6", "time.end=1e-3",
+                         "grid.boundary={x_min=\"roller\",x_max=\"roller\",y_min=\"roller\",y_max=\"roller\"}"});
+  Simulation<2> simulation(paper_case(bar, all));
+  auto& particles = simulation.particles();
+  const auto mode = [&](std::size_t p) { return std::sin(pi * particles.position(p, 0) / 2.0); };
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    particles.velocity(p, 0) = 0.01 * mode(p);
+  }
+  const double kinetic = value_of(history_row(simulation), "kinetic_J");
+  double before = 1.0, now = 1.0;
+  while (now > 0.0) {
+    simulation.step(4e-6);
+    before = now;
+    now = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      now += particles.mass(p) * particles.velocity(p, 0) * mode(p);
+    }
+  }
+  if (residual != nullptr) {  // the budget began without the velocities given here
+    *residual = (value_of(history_row(simulation), "mechanical_residual_J") - kinetic) / kinetic;
+  }
+  const double quarter = simulation.time() - 4e-6 * now / (now - before);
+  return pi / 2.0 / quarter;
+}
+
+TEST(EffectiveStress, WaterStiffensAnUndrainedBar) {
+  const physics::Elastic elastic = physics::Elastic::from_young_poisson(1e9, 0.3);
+  const double density = 0.625 * 2750.0 + 0.375 * 1000.0;
+  const double drained = pi / 2.0 * std::sqrt(elastic.p_wave_modulus() / density);
+  const double undrained = pi / 2.0 * std::sqrt((elastic.p_wave_modulus() + 1e9 / 0.375) / density);
+  const double total = frequency({});
+  double residual = 1.0;
+  const double with_water = frequency({"mechanics.effective_stress=true", "pressure.volumetric_term=true"}, &residual);
+  EXPECT_NEAR(total / drained, 1.0, 0.006) << "20 cells a half wave";
+  EXPECT_NEAR(frequency({"mechanics.effective_stress=true"}) / total, 1.0, 1e-12) << "P does not change by itself";
+  EXPECT_NEAR(frequency({"pressure.volumetric_term=true"}) / total, 1.0, 1e-12) << "P does not act";
+  EXPECT_NEAR(with_water / total, undrained / drained, 0.002 * undrained / drained);
+  EXPECT_GT(undrained / drained, 1.5);
+  EXPECT_NEAR(residual, 0.0, 0.01) << "the budget includes the work of the pore pressure";
+}
+
+// A melted slab at rest under its weight.
+const std::string slab = R"(
+[time]
+end = 0.01
+step = 0.001
+[grid]
+cell = 10.0
+min = [-50.0, -10.0]
+max = [250.0, 80.0]
+[terrain]
+type = "flat"
+elevation = 0.0
+[material.rock]
+law = "mohr_coulomb"
+youngs_modulus = 5e8
+poisson_ratio = 0.2
+friction_angle = 30.0
+cohesion = 0.0
+hydraulic_conductivity = 1e-9
+[body.slab]
+material = "rock"
+shape = "box"
+min = [0.0, 0.0]
+max = [200.0, 50.0]
+temperature = 1.0
+[mechanics]
+k0 = 0.5
+[basal]
+friction_angle = 30.0
+)";
+
+TEST(EffectiveStress, CarriesTheSameLoadWithLessStrength) {
+  Simulation<2> total(paper_case(slab));
+  Simulation<2> effective(paper_case(slab, {"mechanics.effective_stress=true"}));
+  for (std::size_t p = 0; p < total.particles().size(); ++p) {
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(effective.particles().stress(p, c),
+                  total.particles().stress(p, c) + total.particles().pore_pressure(p), 1e-6);
+    }
+  }
+  total.step(0.001);
+  effective.step(0.001);
+  for (std::size_t p = 0; p < total.particles().size(); ++p) {
+    for (int a = 0; a < 2; ++a) {
+      EXPECT_NEAR(effective.particles().velocity(p, a), total.particles().velocity(p, a), 1e-12);
+    }
+  }
+  // s1 = -N/2, s3 = -N is within the surface; after subtracting P near N/2, it is not.
+  EXPECT_EQ(value_of(history_row(total), "mean_plastic_strain"), 0.0);
+  EXPECT_GT(value_of(history_row(effective), "mean_plastic_strain"), 0.0);
+}
+
+// Softening of cohesion and friction reduces the strength in terms of effective stress.
+TEST(EffectiveStress, SoftensLikeTotalStress) {
+  Simulation<2> simulation(paper_case(
+      slab, {"mechanics.effective_stress=true", "material.rock.cohesion=2e4", "material.rock.residual_cohesion=0.0",
+             "material.rock.residual_friction_angle=20.0", "material.rock.softening_strain=1e-5"}));
+  auto& particles = simulation.particles();
+  std::size_t yielded = 0, softened = 0, beyond_by_total_stress = 0;
+  for (int step = 0; step < 10; ++step) {
+    const std::vector<double> before = by_id(simulation, &mpm::Particles<2>::plastic_strain);
+    simulation.step(0.001);
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const double plastic_strain = before[static_cast<std::size_t>(particles.id(p))];
+      if (!(particles.plastic_strain(p) > plastic_strain)) {
+        continue;
+      }
+      const double fraction = std::exp(-plastic_strain / 1e-5), low = std::sin(pi / 9.0);
+      const double sine = low + (0.5 - low) * fraction, cohesion = 2e4 * fraction;
+      const auto values = physics::principal(mpm::full_tensor<2>(particles.stress, p)).values;
+      const auto excess = [&](double pressure) {  // Eq. 11 for a stress with this pressure added
+        return 0.5 * (values[0] - values[2]) + (0.5 * (values[0] + values[2]) + pressure) * sine -
+               cohesion * std::sqrt(1.0 - sine * sine);
+      };
+      EXPECT_NEAR(excess(0.0), 0.0, 1e-9 * std::abs(values[2]) + 1e-6);
+      ++yielded;
+      softened += fraction < 0.5 ? 1 : 0;
+      beyond_by_total_stress += excess(-particles.pore_pressure(p)) > -1e-3 * std::abs(values[2]) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(yielded, 100u);
+  EXPECT_GT(softened, 20u);
+  EXPECT_LT(beyond_by_total_stress, yielded / 10) << "the total stress is not what yields";
+}
+
+const std::vector<std::string> cooled = {"mechanics.enabled=false", "pressure.enabled=false",
+                                         "body.bar.temperature=-0.05", "heat.boundary.x_min={flux=-100.0}"};
+
+HistoryRow after_cooling(const std::string& update, double step) {
+  auto sets = cooled;
+  sets.insert(sets.end(), {"heat.update=" + update, fmt::format("time.step={}", step), "time.end=400000"});
+  const config::Case parameters = paper_case(bar, sets);
+  Simulation<2> simulation(parameters);
+  run_until(simulation, parameters.time.end);
+  return history_row(simulation);
+}
+
+TEST(HeatUpdate, ApparentCapacityCreatesTheHeatOfItsColumn) {
+  const HistoryRow enthalpy = after_cooling("enthalpy", 2000.0);
+  const HistoryRow published = after_cooling("apparent_capacity", 2000.0);
+  const HistoryRow finer = after_cooling("apparent_capacity", 1000.0);
+  const double moved = 100.0 * 0.4 * 4e5;
+  EXPECT_NEAR(value_of(enthalpy, "boundary_heat_J"), -moved, 1e-9 * moved);
+  EXPECT_EQ(value_of(enthalpy, "capacity_heat_J"), 0.0);
+  EXPECT_GT(std::abs(value_of(published, "capacity_heat_J")), 1e-3 * moved);
+  // The error of the published capacity is of first order in the step.
+  EXPECT_NEAR(value_of(published, "capacity_heat_J") / value_of(finer, "capacity_heat_J"), 2.0, 0.3);
+  for (const HistoryRow* row : {&enthalpy, &published, &finer}) {
+    EXPECT_NEAR(value_of(*row, "thermal_residual_J"), 0.0, 1e-9 * moved);
+  }
+}
+
+// A bar at -1 C expanded by a tenth in volume, with its grains according to Eq. 6, one time step later.
+HistoryRow after_swelling(const std::string& masses, double& made_by_hand, double& pore_mass_by_hand) {
+  Simulation<2> simulation(paper_case(bar, {"mechanics.enabled=false", "pressure.enabled=false",
+                                            "body.bar.temperature=-1.0", "heat.masses=" + masses}));
+  auto& particles = simulation.particles();
+  const auto& band = simulation.model().band;
+  made_by_hand = pore_mass_by_hand = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double before = particles.volume(p), saturation = particles.liquid_saturation(p);
+    particles.volume(p) = 1.1 * before;
+    particles.porosity(p) = physics::updated_porosity(band.phases, 0.375, std::log(1.1), 0.0);
+    const auto heat = [&](double porosity) {
+      return band.with_heat_content([&](const auto& content) { return content.content(-1.0, porosity); });
+    };
+    made_by_hand += 1.1 * before * heat(particles.porosity(p)) - before * heat(0.375);
+    pore_mass_by_hand +=
+        particles.volume(p) * particles.porosity(p) * (saturation * 1000.0 + (1.0 - saturation) * 917.0);
+  }
+  simulation.step(10.0);
+  return history_row(simulation);
+}
+
+TEST(HeatMasses, CurrentOnesCreateHeatAndIceThatTheBudgetReports) {
+  double heat = 0.0, pore_mass = 0.0;
+  const HistoryRow initial = after_swelling("initial", heat, pore_mass);
+  const HistoryRow current = after_swelling("current", heat, pore_mass);
+  EXPECT_EQ(value_of(initial, "porosity_heat_J"), 0.0);
+  EXPECT_NEAR(value_of(current, "porosity_heat_J") / heat, 1.0, 1e-12);
+  const auto water_and_ice = [](const HistoryRow& row) { return value_of(row, "ice_kg") + value_of(row, "water_kg"); };
+  EXPECT_NEAR(water_and_ice(current) / pore_mass, 1.0, 1e-12);
+  EXPECT_GT(water_and_ice(current), 1.2 * water_and_ice(initial));
+  EXPECT_NEAR(value_of(current, "rock_kg") / value_of(initial, "rock_kg"), 1.0, 1e-12);
+  EXPECT_NEAR(value_of(initial, "rock_kg") + water_and_ice(initial), value_of(initial, "mass_kg"), 1e-9);
+  for (const HistoryRow* row : {&initial, &current}) {
+    EXPECT_NEAR(value_of(*row, "thermal_residual_J"), 0.0, 1e-9 * std::abs(heat));
+  }
+}
+
+// A melted slab of 300 m that slides down a plane oblique to the grid; friction is the only source of heat.
+std::string tilted_slab(double slope, double elevation) {
+  const double fall = std::tan(slope * pi / 180.0);
+  const double height = 40.0 / std::cos(slope * pi / 180.0);
+  const double length = 300.0 * std::cos(slope * pi / 180.0);
+  return fmt::format(R"(
+[time]
+end = 0.2
+step = 0.004
+[grid]
+cell = 5.0
+min = [-20.0, -320.0]
+max = [340.0, 80.0]
+[terrain]
+type = "plane"
+slope = {}
+elevation = {}
+[material.rock]
+law = "elastic"
+youngs_modulus = 1e8
+poisson_ratio = 0.2
+viscosity_time = 0.02
+[body.slab]
+material = "rock"
+shape = "polygon"
+vertices = [[0.0, {}], [{}, {}], [{}, {}], [0.0, {}]]
+temperature = 1.0
+velocity = [{}, {}]
+[mechanics]
+slope_shear = true
+[basal]
+friction = "constant"
+friction_angle = {}
+[band]
+thickness = 0.1
+[heat]
+conduction = false
+[pressure]
+enabled = false
+)",
+                     slope, elevation, elevation, length, elevation - fall * length, length,
+                     elevation - fall * length + height, elevation + height, std::cos(slope * pi / 180.0),
+                     -std::sin(slope * pi / 180.0), slope);
+}
+
+// Heat input per area over the capacity and the mean temperature rise of the band, in units of e.
+double effective_thickness(const std::string& text, const std::string& cut_cells) {
+  Simulation<2> simulation(paper_case(text, {"band.cut_cells=" + cut_cells}));
+  run_until(simulation, 0.2);
+  const HistoryRow row = history_row(simulation);
+  const double heat = value_of(row, "friction_heat_J");
+  EXPECT_NEAR(value_of(row, "thermal_residual_J"), 0.0, 1e-9 * heat);
+  EXPECT_NEAR(value_of(row, "band_rescale_J"), 0.0, 1e-3 * (value_of(row, "sensible_J") + value_of(row, "latent_J")));
+  const double capacity = physics::heat_capacity(simulation.model().motion.phases, 0.375, 1.0);
+  return heat / 300.0 / (capacity * (value_of(row, "band_temperature_C") - 1.0)) / 0.1;
+}
+
+TEST(CutCells, BandIsAsThickAsAskedOnASlopeThroughTheGrid) {
+  verification::Record record(
+      "Thickness of the band on slopes through the grid",
+      "A melted slab of 300 m slides down a plane that cuts the grid, with band.cut_cells \"equal_thickness\" and "
+      "\"as_they_are\"; only friction heats it.",
+      "heat per area over C and the mean rise of the band is e", "docs/theory/band.md");
+  for (const double slope : {10.0, 26.565051177, 45.0}) {
+    for (const double elevation : {0.0, 1.85}) {
+      const std::string text = tilted_slab(slope, elevation);
+      const double remedied = effective_thickness(text, "equal_thickness");
+      const double as_they_are = effective_thickness(text, "as_they_are");
+      const std::string where = fmt::format("{:.1f} degrees, ground at {} m", slope, elevation);
+      record.expect_near("thickness over e, equal_thickness, " + where, remedied, 1.0, 0.05);
+      EXPECT_GT(as_they_are, 1.5) << where;
+    }
+  }
+  record.explain("As they are, cells that the ground cuts make the band 1.7 to 2.3 e thick.");
+}
+
+}  // namespace
+}  // namespace thawslide::sim
