@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reproduction.mixture import TABLE_1, HeatTable, Mixture, power_saturation
-from thawslide.run import Numbers
+from thawslide.run_folder import Numbers
 
 Flags = NDArray[np.bool_]
 

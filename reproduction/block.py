@@ -12,7 +12,7 @@ from reproduction.band_model import BandHistory, Drive, solve
 from reproduction.mixture import TABLE_1
 from reproduction.runs import BLOCKS, NO_LATENT
 from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, PURPLE, RED, styled, title_panels
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 
 COLUMNS = (
     ("band_temperature_C", "temperature", "temperature (°C)", 1.0),

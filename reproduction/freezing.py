@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from reproduction.mixture import FREEZING_BAR, HeatTable, Mixture, linear_saturation
 from reproduction.runs import BARS, PRINTED
 from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, ORANGE, RED, styled, title_panels
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 
 COLD_END = -3.0  # C
 LENGTH = 2.0  # m

@@ -9,7 +9,7 @@ from reproduction.block import at, first_time, mark
 from reproduction.mixture import TABLE_1
 from reproduction.runs import INCLINES
 from thawslide.figures.style import BLUE, COLUMN_WIDTH, GREEN, NOTE, ORANGE, RED, styled, time_line, title_panels
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 
 GRAVITY, SLOPE, HEIGHT = 9.81, np.radians(40.0), 50.0
 NAMES = {"D": "D", "DL": "D-L", "DLP": "D-L-P", "PL": "P-L"}

@@ -29,7 +29,7 @@ from thawslide.figures.style import (
 )
 from thawslide.history import History, read_history
 from thawslide.key_numbers import STOPPED_FRACTION, stop_time
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 from thawslide.targets import Band
 from thawslide.time_reference import time_of_speed
 
@@ -284,7 +284,7 @@ def figure_blocks(runs: dict[str, Run]) -> Figure:
     """Plot velocity and displacement of the deforming body and of the rigid blocks, with the reported values."""
     run = runs["lamplugh"]
     time = run.history["time_s"]
-    figure = Figure(figsize=(COLUMN_WIDTH, 3.4), layout="constrained")
+    figure = Figure(figsize=(COLUMN_WIDTH, 4.2), layout="constrained")
     speed, distance = figure.subplots(1, 2)
     time_line(speed, time, run.history["mean_velocity_m_s"], color=BLUE, label="deforming (MPM)")
     time_line(distance, time, run.history["mean_displacement_m"] / 1e3, color=BLUE, label="deforming (MPM)")
@@ -300,6 +300,7 @@ def figure_blocks(runs: dict[str, Run]) -> Figure:
     for axes in (speed, distance):
         time_axis(axes, time, run.time_reference.label)
         axes.set_ylim(bottom=0.0)
-        axes.legend(loc="best")
+        # Legends below the panels do not cover reported values.
+        axes.legend(loc="upper left", bbox_to_anchor=(-0.14, -0.2), handlelength=1.5)
     title_panels((speed, distance), ("velocity", "displacement"))
     return figure

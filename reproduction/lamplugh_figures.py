@@ -14,7 +14,7 @@ from thawslide.figures.load import load_on_band
 from thawslide.figures.snapshots import Zone as SnapshotZone
 from thawslide.figures.snapshots import plastic_strain, velocity
 from thawslide.figures.style import BLUE, COLUMN_WIDTH, NOTE, RED, styled, time_axis, time_line, title_panels, warn
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 from thawslide.unphysical import too_hot, too_much_for_overburden
 
 INVERTED = 0.28  # TN: maximum force inverted from seismic waves

@@ -12,7 +12,7 @@ from matplotlib.patches import Rectangle
 from reproduction.members import MODEL, QUANTITIES, SET_TIME
 from thawslide.figures.motion import plot_targets
 from thawslide.figures.style import BLUE, COLUMN_WIDTH, GREEN, NOTE, styled, title_panels
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 
 STEP = 0.1  # s, of the median's curve
 MEMBER = "#B5B5B5"

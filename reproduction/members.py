@@ -1,4 +1,4 @@
-"""Numbers of the Lamplugh case on band columns, over members of starting noise and one at a time."""
+"""Numbers of the Lamplugh case on band columns, over members of initial noise and one at a time."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from thawslide.errors import ReportError
 from thawslide.figures.force import force_in_band
 from thawslide.figures.force_record import compared
 from thawslide.key_numbers import stop_time
-from thawslide.run import Run
+from thawslide.run_folder import Run
 from thawslide.time_reference import time_of_speed
 
 NOISE = 0.1  # of the distance of particles

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from thawslide.run import Numbers
+from thawslide.run_folder import Numbers
 
 
 @dataclass(frozen=True)

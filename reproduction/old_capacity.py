@@ -15,7 +15,7 @@ import numpy as np
 
 from reproduction.freezing import COLD_END, COMPARED, LENGTH, reference
 from reproduction.mixture import FREEZING_BAR, HeatTable, linear_saturation
-from thawslide.run import Numbers
+from thawslide.run_folder import Numbers
 
 CELL, DAY, STEP = 0.01, 86400.0, 21.6  # m, s, s
 COLDEST = -400.0  # C: lower end of the table of heat content

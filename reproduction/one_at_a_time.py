@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from thawslide.key_numbers import stop_time
-from thawslide.run import Run
+from thawslide.run_folder import Run
 from thawslide.time_reference import time_of_speed
 
 Report = Callable[[str], None]

@@ -15,8 +15,8 @@ from thawslide.errors import NotInRunError, ReportError
 from thawslide.figures.motion import motion
 from thawslide.figures.snapshots import pore_pressure, temperature
 from thawslide.figures.style import without_title
-from thawslide.report import page_frame
-from thawslide.run import Run
+from thawslide.pages.markup import page_frame
+from thawslide.run_folder import Run
 
 Runs = dict[str, Run]
 _DPI = 150

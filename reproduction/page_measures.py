@@ -17,7 +17,7 @@ from thawslide.figures.force_record import Comparison, compared, filtered
 from thawslide.force_record import PARTS
 from thawslide.history import History
 from thawslide.key_numbers import stop_time
-from thawslide.run import Run
+from thawslide.run_folder import Run
 from thawslide.targets import Band
 from thawslide.time_reference import time_of_speed
 
@@ -35,6 +35,10 @@ class Curve:
     def maximum(self, column: str) -> float:
         """Return the maximum."""
         return float(np.nanmax(self.history[column]))
+
+    def minimum(self, column: str) -> float:
+        """Return the minimum."""
+        return float(np.nanmin(self.history[column]))
 
     def time_of_maximum(self, column: str) -> float:
         """Return the time [s] of the maximum."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from thawslide.errors import ReportError
-from thawslide.run import Run
+from thawslide.run_folder import Run
 
 NOTHING_COMPUTED = 2  # exit code for an error of the user
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from reproduction.block import at
 from reproduction.mixture import TABLE_1, HeatTable, power_saturation
-from thawslide.run import Numbers, Run, Snapshot
+from thawslide.run_folder import Numbers, Run, Snapshot
 
 START, PEAK, END = 40.0, 75.0, 200.0  # s: the stages of the text
 JUMPED = 76.0  # s: the first whole second with the band of 0.5 m

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from thawslide.errors import ReportError
 from thawslide.maps import Grid, Map
-from thawslide.run import Numbers, Snapshot
+from thawslide.run_folder import Numbers, Snapshot
 
 Indices = NDArray[np.intp]
 
@@ -35,6 +35,7 @@ class Columns:
     thickness: Map  # m, vertical; 0 in empty cells
     speed: Map  # m/s, mass-weighted mean over the column; nan in empty cells
     temperature: Map  # C, mass-weighted mean over the particles next to the terrain; nan without any
+    pore_pressure: Map | None  # Pa, the same mean; None if the snapshot was read without it
 
 
 def fractions(place: Numbers, start: float, cell: float, count: int, width: float) -> Iterator[tuple[Indices, Numbers]]:
@@ -85,15 +86,17 @@ def gather(grid: Grid, snapshot: Snapshot, width: float) -> Columns:
     speed = np.linalg.norm(np.asarray(snapshot["velocity"], dtype=np.float64), axis=1)
     base = mass * (np.asarray(snapshot["in_band"]) != 0)
     warm = base * np.asarray(snapshot["temperature"], dtype=np.float64)
+    pressure = [base * np.asarray(snapshot["pore_pressure"], dtype=np.float64)] if "pore_pressure" in snapshot else []
     x, y = snapshot.points[:, 0], snapshot.points[:, 1]
     valid = np.isfinite(x) & np.isfinite(y) & np.isfinite(volume)
-    amounts = [amount[valid] for amount in (volume, mass, mass * speed, base, warm)]
-    volumes, masses, momenta, bases, warmth = spread(grid, x[valid], y[valid], width, amounts)
+    amounts = [amount[valid] for amount in (volume, mass, mass * speed, base, warm, *pressure)]
+    volumes, masses, momenta, bases, warmth, *pressures = spread(grid, x[valid], y[valid], width, amounts)
     return Columns(
         snapshot.time,
         Map(grid, volumes / grid.cell_area, "m", "thickness"),
         Map(grid, _ratio(momenta, masses), "m/s", "speed"),
         Map(grid, _ratio(warmth, bases), "C", "basal temperature"),
+        Map(grid, _ratio(pressures[0], bases), "Pa", "basal pore pressure") if pressures else None,
     )
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from thawslide.run import Numbers
+from thawslide.run_folder import Numbers
 
 ATMOSPHERE = 101325.0  # Pa
 GAS_CONSTANT = 461.5  # J/kg/K, of steam

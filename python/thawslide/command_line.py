@@ -3,41 +3,55 @@
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TextIO
 
-from thawslide.errors import ReportError, nearest, printable, quoted
+from thawslide.contours import write_contours
+from thawslide.errors import ReportError, printable, quoted
 from thawslide.figures import FIGURES
-from thawslide.report import make_report
-from thawslide.run import Run
+from thawslide.reports import LEAST_DPI, MOST_DPI, figure_names, write_pages
+from thawslide.run_folder import Run
 from thawslide.setup_picture import plot_setup_file
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; return its exit code."""
-    parser = _parser()
-    given = parser.parse_args(arguments)
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if words[:1] == ["contours"]:
+        return _run_safely(lambda: _contours(_contours_parser().parse_args(words[1:])))
+    return _run_safely(lambda: _plots(_parser().parse_args(words)))
+
+
+def _run_safely(work: Callable[[], int]) -> int:
     try:
-        if given.setup is not None or given.picture is not None:
-            if given.run is not None or given.setup is None or given.picture is None:
-                raise ReportError(
-                    "--setup: requires --picture, and no RUN. Specify --setup SETUP.json --picture OUT.png."
-                )
-            plot_setup_file(given.setup, given.picture, given.dpi)
-        elif given.run is None:
-            raise ReportError("RUN: not specified. Specify a run folder, e.g. thawslide-report runs/lamplugh.")
-        else:
-            with warnings.catch_warnings():
-                # Numbers of an unstable run can overflow; its figures and its page report the failure.
-                warnings.simplefilter("ignore", RuntimeWarning)
-                return _report(given.run, given.output, _names(given.only), given.dpi)
+        return work()
     except ReportError as error:
         _print(f"thawslide-report: error: {error}", sys.stderr)
         return 2
+
+
+def _plots(given: argparse.Namespace) -> int:
+    if given.setup is not None or given.picture is not None:
+        if given.run or given.setup is None or given.picture is None:
+            raise ReportError("--setup: requires --picture, and no RUN. Specify --setup SETUP.json --picture OUT.png.")
+        plot_setup_file(given.setup, given.picture, given.dpi)
+        return 0
+    if not given.run:
+        raise ReportError("RUN: not specified. Specify a run folder, e.g. thawslide-report runs/lamplugh.")
+    with warnings.catch_warnings():
+        # Numbers of an unstable run can overflow; its figures and its page report the failure.
+        warnings.simplefilter("ignore", RuntimeWarning)
+        return _pages(given)
+
+
+def _contours(given: argparse.Namespace) -> int:
+    path = write_contours(Run(given.run, skip_damaged=True), given.map, given.threshold, given.below, given.output)
+    _print(f"contours: {path}")
     return 0
 
 
@@ -58,50 +72,92 @@ def _print(line: str, stream: TextIO | None = None) -> None:
         os.close(nowhere)
 
 
-def _report(folder: Path, output: Path | None, names: list[str] | None, dpi: int) -> int:
+def _pages(given: argparse.Namespace) -> int:
+    """Write the page that the arguments select; return the exit code."""
+    names = figure_names(given.only)
+    runs = [_opened(folder) for folder in given.run]
+    pages = write_pages(runs, given.output, names, given.brief, given.dpi, progress=_print)
+    for run in runs:
+        _print_warnings(run)
+    for name, reason in pages.faults.items():
+        _print(f"thawslide-report: error: {name}: not plotted: {reason}", sys.stderr)
+    for kind, path in pages.files:
+        _print(f"{kind}: {path}")
+    return 2 if pages.faults else 0
+
+
+def _opened(folder: Path) -> Run:
     run = Run(folder, skip_damaged=True)
     _print(f"{run.title}: {run.history.rows} rows of history, {len(run.snapshot_files)} snapshots")
-    report = make_report(run, output, names, dpi, progress=_print)
+    return run
+
+
+def _print_warnings(run: Run) -> None:
     for warning in run.warnings:
         _print(f"thawslide-report: warning: {warning}", sys.stderr)
-    for name in report.faults:
-        _print(f"thawslide-report: error: {name}: not plotted: {report.missing[name]}", sys.stderr)
-    _print(f"report: {report.page}")
-    return 2 if report.faults else 0
-
-
-def _names(texts: list[str] | None) -> list[str] | None:
-    """Return the figure names of --only, in the order of the page; ReportError for an unknown one."""
-    if not texts:
-        return None
-    asked = [name.strip() for text in texts for name in text.split(",") if name.strip()]
-    for name in asked:
-        if name not in FIGURES:
-            raise ReportError(
-                f"--only: no figure {quoted(name)}{nearest(name, FIGURES)} Allowed: {', '.join(FIGURES)}."
-            )
-    if not asked:
-        raise ReportError(f"--only: no name. Allowed: {', '.join(FIGURES)}.")
-    return [name for name in FIGURES if name in asked]
 
 
 def _dpi(text: str) -> int:
-    if not text.isdigit() or not 30 <= int(text) <= 1200:
+    if not text.isdigit() or not LEAST_DPI <= int(text) <= MOST_DPI:
         raise argparse.ArgumentTypeError(
-            f"not a valid resolution (found {quoted(text)}; allowed whole numbers from 30 to 1200)"
+            f"not a valid resolution (found {quoted(text)}; allowed whole numbers from {LEAST_DPI} to {MOST_DPI})"
         )
     return int(text)
+
+
+def _threshold(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = float("nan")
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"not a number (found {quoted(text)})")
+    return value
+
+
+def _contours_parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="thawslide-report contours",
+        description="Write the areas in which a map of a 3D run exceeds thresholds, as polygons for a GIS.",
+    )
+    parser.add_argument("run", metavar="RUN", type=Path, help="folder of a run")
+    parser.add_argument("--map", metavar="NAME", required=True, help="map of the run, e.g. max_thickness")
+    parser.add_argument(
+        "--threshold",
+        metavar="VALUE",
+        type=_threshold,
+        required=True,
+        action="append",
+        help="lower limit of the values, in the unit of the map (may be repeated)",
+    )
+    parser.add_argument("--below", action="store_true", help="the threshold is the upper limit, as for arrival_time")
+    parser.add_argument(
+        "--output",
+        metavar="FILE",
+        type=Path,
+        help="GeoPackage (.gpkg) or GeoJSON (.geojson) file (default: contours-NAME.gpkg in the run folder)",
+    )
+    return parser
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="thawslide-report",
-        description="Plot the figures of a run and write report.html, or plot the setup of a case.",
+        description="Write the page of one run (report.html) or of several (comparison.html), or plot a setup.",
+        epilog="thawslide report contours RUN --map NAME --threshold VALUE writes polygons of a map (contours --help).",
     )
-    parser.add_argument("run", metavar="RUN", nargs="?", type=Path, help="folder of a run, e.g. runs/lamplugh")
-    parser.add_argument("--output", metavar="DIR", type=Path, help="output folder (default: the run folder)")
+    parser.add_argument("run", metavar="RUN", nargs="*", type=Path, help="folder of a run; several are compared")
     parser.add_argument(
-        "--only", metavar="NAMES", action="append", help=f"figures to plot, separated by commas: {', '.join(FIGURES)}"
+        "--output", metavar="DIR", type=Path, help="output folder (default: the folder of the first run)"
+    )
+    parser.add_argument(
+        "--only",
+        metavar="NAMES",
+        action="append",
+        help=f"figures to plot, separated by commas: {', '.join(FIGURES)}",
+    )
+    parser.add_argument(
+        "--brief", action="store_true", help="two-page summary of a 3D run for non-experts: summary.html, summary.pdf"
     )
     parser.add_argument(
         "--dpi", type=_dpi, default=150, help="resolution of the figures in dots per inch (default: 150)"

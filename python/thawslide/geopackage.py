@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from thawslide.errors import NotInRunError, ReportError
-from thawslide.run import Numbers
+from thawslide.run_folder import Numbers
 from thawslide.text_files import is_file
 
 _ENVELOPE_BYTES = {0: 0, 1: 32, 2: 48, 3: 48, 4: 64}

@@ -7,13 +7,16 @@ import math
 from array import array
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
 from thawslide.arrays import Numbers
 from thawslide.errors import NotInRunError, ReportError, quoted
 from thawslide.text_files import number
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 _MOST_BYTES = 4 * 1024**3
 _LONGEST_LINE = 1024 * 1024  # bytes
@@ -44,6 +47,12 @@ class History(Mapping[str, Numbers]):
 
     def __len__(self) -> int:
         return len(self._columns)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return the columns as a pandas.DataFrame with one row per time."""
+        import pandas as pd  # at first use: the report starts faster without it
+
+        return pd.DataFrame(self._columns)
 
 
 def read_history(path: Path, warnings: list[str]) -> History:

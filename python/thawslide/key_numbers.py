@@ -2,28 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from thawslide.figures.energy import relative_residual
 from thawslide.figures.force import force_in_band, reported_bands, reported_forces, seismic_force
-from thawslide.number_text import area_text, number_text, quantity_text, volume_text
-from thawslide.run import Run
+from thawslide.main_numbers import KeyNumber, main_numbers, metres
+from thawslide.mobility import release_volume
+from thawslide.number_text import number_text, quantity_text, volume_text
+from thawslide.run_folder import Run
 from thawslide.targets import REFERENCE, SOURCE_VOLUME, Target, band_of, quantity_of
 from thawslide.time_reference import has_time_reference, time_of_speed
 
 STOPPED_FRACTION = 0.01  # of the peak mean velocity
 BOILING = 100.0  # C, at one atmosphere
-
-
-@dataclass(frozen=True)
-class KeyNumber:
-    """One row of the table: label, value as text with its unit, and a remark (can be empty)."""
-
-    words: str
-    value: str
-    remark: str = ""
 
 
 def stop_time(run: Run, below: float | None = None) -> float | None:
@@ -46,43 +36,31 @@ def key_numbers(run: Run) -> list[KeyNumber]:
     history = run.history
     time = run.shown_time
     first, last = (number_text(float(time[end])) for end in (0, -1))
-    span = f"{first} s to {last} s in the times below" if run.time_reference.shift else ""
-    rows = [KeyNumber("Simulated time", quantity_text(float(history["time_s"][-1]), "s"), span)]
+    span = f"{first} s to {last} s in the times of this page" if run.time_reference.shift else ""
+    rows = main_numbers(run)
+    end = float(history["time_s"][-1])
+    rows.append(KeyNumber("Simulated time", quantity_text(end, "s"), span, "simulated_time_s", end))
     if "mean_velocity_m_s" in history:
         speed = history["mean_velocity_m_s"]
         if np.isfinite(speed).any():
             at = int(np.nanargmax(speed))
-            rows.append(
-                KeyNumber(
-                    "Peak mean velocity",
-                    quantity_text(float(speed[at]), "m/s"),
-                    f"at {quantity_text(float(time[at]), 's')}",
-                )
-            )
+            peak, when = float(speed[at]), f"at {quantity_text(float(time[at]), 's')}"
+            value = quantity_text(peak, "m/s")
+            rows.append(KeyNumber("Peak mean velocity", value, when, "peak_mean_velocity_m_s", peak))
             rows.append(_stop_number(run))
-    rows += _front_numbers(run)
     if "mean_displacement_m" in history:
-        rows.append(
-            KeyNumber(
-                "Mean displacement", _metres(history["mean_displacement_m"][-1]), "path length, mass-weighted mean"
-            )
-        )
+        moved, remark = float(history["mean_displacement_m"][-1]), "path length, mass-weighted mean"
+        rows.append(KeyNumber("Mean displacement", metres(moved), remark, "mean_displacement_m", moved))
     if "entrained_volume_m3" in history:
         per = "/m of width" if run.per_metre else ""
         fraction = 100.0 * float(history["entrained_mass_kg"][-1] / history["mass_kg"][0])
-        volume = f"{volume_text(float(history['entrained_volume_m3'][-1]))}{per}"
-        rows.append(KeyNumber("Entrained bed volume", volume, f"{number_text(fraction)} % of the initial mass"))
+        volume = float(history["entrained_volume_m3"][-1])
+        value, remark = f"{volume_text(volume)}{per}", f"{number_text(fraction)} % of the initial mass"
+        rows.append(KeyNumber("Entrained bed volume", value, remark, "entrained_volume_m3", volume))
     rows += _volume_numbers(run)
-    rows += _map_numbers(run)
     rows += _band_numbers(run)
     if "seismic_force_x_N" in history:
         rows += _force_numbers(run)
-    for words, column in (("Mechanical", "mechanical_residual_J"), ("Thermal", "thermal_residual_J")):
-        if column in history:
-            residual = relative_residual(run, column)
-            value = number_text(float(np.nanmax(residual))) if residual is not None else "no change"
-            remark = "maximum, relative to the maximum change of any term"
-            rows.append(KeyNumber(f"{words} energy residual", value, remark))
     return rows
 
 
@@ -126,20 +104,12 @@ def _found(run: Run, target: Target) -> float | None:
         fact = run.facts.get(quantity.fact)
         return None if fact is None else float(fact)
     if target.quantity == SOURCE_VOLUME:
-        return _source_volume(run)
+        return release_volume(run)
     if target in reported_forces(run) and "seismic_force_x_N" in history and not run.per_metre:
         band = band_of(target)
         magnitude = seismic_force(run)[1] if band is None else force_in_band(run, band)
         return float(np.nanmax(magnitude)) if np.isfinite(magnitude).any() else None
     return None
-
-
-def _source_volume(run: Run) -> float | None:
-    """Return the volume [m3] of the sliding mass at t = 0, None without a snapshot of it or a width."""
-    if run.per_metre or not run.times.size or run.times[0] > 0.0:
-        return None
-    volume = float(np.sum(run.snapshot(0, fields=["volume"])["volume"]))
-    return volume * run.width if run.dimension == 2 else volume
 
 
 def boiling_note(run: Run) -> str:
@@ -160,130 +130,74 @@ def boiling_note(run: Run) -> str:
 
 def _stop_number(run: Run) -> KeyNumber:
     """Return the time of rest, or without it in run.json the time from which on the mean velocity is low."""
-    last = quantity_text(float(run.history["mean_velocity_m_s"][-1]), "m/s")
+    key, last = "stop_time_s", quantity_text(float(run.history["mean_velocity_m_s"][-1]), "m/s")
     since = run.facts.get("rest_since_s")
-    if since is not None:
-        return KeyNumber("Stop time", quantity_text(float(since) + run.time_reference.shift, "s"), "at rest afterwards")
-    stopped = None if run.is_moving_at_end else stop_time(run)
+    remark = "mean velocity below 1 % of its peak afterwards" if since is None else "at rest afterwards"
+    stopped = since if since is not None else None if run.is_moving_at_end else stop_time(run)
     if stopped is None:
-        return KeyNumber("Stop time", "not reached", f"mean velocity at {run.last_state}: {last}")
-    return KeyNumber(
-        "Stop time",
-        quantity_text(stopped + run.time_reference.shift, "s"),
-        "mean velocity below 1 % of its peak afterwards",
-    )
+        return KeyNumber("Stop time", "not reached", f"mean velocity at {run.last_state}: {last}", key)
+    value = quantity_text(float(stopped) + run.time_reference.shift, "s")
+    return KeyNumber("Stop time", value, remark, key, float(stopped))
 
 
 def _volume_numbers(run: Run) -> list[KeyNumber]:
     """Return the volume change by dilation, and the removed mass."""
     rows, history, per = [], run.history, "/m of width" if run.per_metre else ""
     if "dilation_volume_m3" in history:
-        change = f"{100.0 * float(history['dilation_fraction'][-1]):+.1f} %".replace("-", "−")
-        volume = volume_text(abs(float(history["dilation_volume_m3"][-1])))
-        rows.append(KeyNumber("Volume change by dilation", change, f"{volume}{per}; without entrained bed material"))
+        fraction, volume = (float(history[f"dilation_{each}"][-1]) for each in ("fraction", "volume_m3"))
+        change = f"{100.0 * fraction:+.1f} %".replace("-", "−")
+        remark = f"{volume_text(abs(volume))}{per}; without entrained bed material"
+        rows.append(KeyNumber("Volume change by dilation", change, remark, "dilation_fraction", fraction))
     if "left_mass_kg" in history and history["left_mass_kg"][-1] > 0.0:
         mass = float(history["left_mass_kg"][-1])
         fraction = mass / (mass + float(history["mass_kg"][-1]))
         remark = f"{number_text(100.0 * fraction)} % of the mass: left the domain or the DEM, or removed by guards"
-        rows.append(KeyNumber("Mass removed", quantity_text(mass / 1e3, f"t{per}"), remark))
+        rows.append(KeyNumber("Mass removed", quantity_text(mass / 1e3, f"t{per}"), remark, "left_mass_kg", mass))
     return rows
-
-
-def _metres(value: float) -> str:
-    return quantity_text(float(value), "m")
-
-
-def _front_numbers(run: Run) -> list[KeyNumber]:
-    """Return runout distance and front travel distance; without maps.path a 3D run has neither before it moves.
-
-    If run.json has the travel distance, which equals the runout distance, _map_numbers returns it instead.
-    """
-    rows = []
-    if "runout_m" in run.history:
-        runout = run.history["runout_m"]
-        initial = f"; initial length {_metres(runout[0])}" if np.isfinite(runout[0]) else ""
-        remark = f"front at {run.last_state} minus initial rear{initial}"
-        if run.facts.get("travel_distance_m") is None:
-            rows.append(_along_path("Runout distance", runout[-1], remark))
-        first = int(np.argmax(np.isfinite(runout)))  # 0 if all are unknown
-        since = "the start" if first == 0 else f"{quantity_text(float(run.shown_time[first]), 's')}, the first known"
-        remark = f"front at {run.last_state} minus front at {since}"
-        rows.append(_along_path("Front travel distance", runout[-1] - runout[first], remark))
-    return rows
-
-
-def _along_path(words: str, value: float, remark: str) -> KeyNumber:
-    if np.isfinite(value):
-        return KeyNumber(words, _metres(value), remark)
-    return KeyNumber(words, "not available", "no flow path: maps.path is not specified, and the mass has barely moved")
 
 
 def _force_numbers(run: Run) -> list[KeyNumber]:
     """Return the maximum force on the terrain, unfiltered and in the bands of reported inversions."""
     unit = "N/m of width" if run.per_metre else "N"
-    forces = {"": seismic_force(run)[1]}
-    forces |= {f", band-pass {band.words}": force_in_band(run, band) for band in reported_bands(run)}
+    forces = {"": ("peak_seismic_force_N", seismic_force(run)[1])}
+    forces |= {f", band-pass {band.words}": ("", force_in_band(run, band)) for band in reported_bands(run)}
     rows = []
-    for words, magnitude in forces.items():
+    for words, (key, magnitude) in forces.items():
         if np.isfinite(magnitude).any():
             at = int(np.nanargmax(magnitude))
             when = f"at {quantity_text(float(run.shown_time[at]), 's')}"
-            rows.append(KeyNumber(f"Maximum seismic force{words}", quantity_text(float(magnitude[at]), unit), when))
-    return rows
-
-
-def _map_numbers(run: Run) -> list[KeyNumber]:
-    """Return the results of a 3D run in run.json."""
-    rows = []
-    what, when = ("Deposit", "") if run.facts.get("at_rest") else ("Covered", f" at {run.last_state}")
-    for words, key, text, remark in (
-        (f"{what} volume{when}", "covered_volume_m3", volume_text, "cells thicker than maps.arrival_thickness"),
-        (f"{what} area{when}", "covered_area_m2", area_text, "horizontal, of the same cells"),
-        ("Affected area", "affected_area_m2", area_text, "horizontal, cells ever thicker than maps.arrival_thickness"),
-        (
-            "Travel distance",
-            "travel_distance_m",
-            _metres,
-            f"along the flow path: front at {run.last_state} minus initial rear",
-        ),
-        ("Drop height", "drop_height_m", _metres, "from the highest point of the release to the terrain at the front"),
-        (
-            "Reach angle",
-            "reach_angle_degrees",
-            lambda value: f"{value:.1f}°",
-            "arctan(drop height / travel distance)",
-        ),
-    ):
-        value = run.facts.get(key)
-        if isinstance(value, int | float):
-            rows.append(KeyNumber(words, text(float(value)), remark))
+            peak = float(magnitude[at])
+            rows.append(KeyNumber(f"Maximum seismic force{words}", quantity_text(peak, unit), when, key, peak))
     return rows
 
 
 def _band_numbers(run: Run) -> list[KeyNumber]:
     rows = []
-    for words, column, unit in (
-        ("Maximum mean band temperature", "band_temperature_C", "°C"),
-        ("Maximum temperature of all columns", "band_max_temperature_C", "°C"),
-        ("Maximum mean band pore pressure", "band_pore_pressure_Pa", "Pa"),
-        ("Maximum pore pressure ratio P/N", "band_max_pressure_ratio", ""),
+    for words, column, unit, key in (
+        ("Maximum mean band temperature", "band_temperature_C", "°C", "peak_band_temperature_C"),
+        ("Maximum temperature of all columns", "band_max_temperature_C", "°C", "band_max_temperature_C"),
+        ("Maximum mean band pore pressure", "band_pore_pressure_Pa", "Pa", "peak_band_pore_pressure_Pa"),
+        ("Maximum pore pressure ratio P/N", "band_max_pressure_ratio", "", "band_max_pressure_ratio"),
     ):
         if column in run.history:
             values = run.history[column]
             if np.isfinite(values).any():
                 at = int(np.nanargmax(values))
-                when = f"at {quantity_text(float(run.shown_time[at]), 's')}"
-                rows.append(KeyNumber(words, quantity_text(float(values[at]), unit), when))
+                peak, when = float(values[at]), f"at {quantity_text(float(run.shown_time[at]), 's')}"
+                rows.append(KeyNumber(words, quantity_text(peak, unit), when, key, peak))
             else:
-                rows.append(KeyNumber(words, "none", "no particles in the band"))
+                rows.append(KeyNumber(words, "none", "no particles in the band", key))
     return rows + _water_numbers(run)
 
 
 def _water_numbers(run: Run) -> list[KeyNumber]:
     """Return the water lost by band columns."""
     rows = []
-    for words, column in (("Water vented by the band", "column_vented_kg"), ("Water lost as steam", "column_steam_kg")):
+    for words, column in (
+        ("Water drained from the band", "column_drained_kg"),
+        ("Water lost as steam", "column_steam_kg"),
+    ):
         if column in run.history:
-            unit = "t/m of width" if run.per_metre else "t"
-            rows.append(KeyNumber(words, quantity_text(float(run.history[column][-1]) / 1e3, unit), "until the end"))
+            unit, lost = "t/m of width" if run.per_metre else "t", float(run.history[column][-1])
+            rows.append(KeyNumber(words, quantity_text(lost / 1e3, unit), "until the end", column, lost))
     return rows

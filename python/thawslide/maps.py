@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
+from importlib import import_module
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal, cast
 
 import numpy as np
 import rasterio
 from rasterio.errors import NotGeoreferencedWarning, RasterioError
 
 from thawslide.errors import NotInRunError, ReportError
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 from thawslide.text_files import is_file
+
+if TYPE_CHECKING:
+    import xarray
 
 Box = tuple[float, float, float, float]  # west, east, south, north [m]
 
@@ -104,6 +109,7 @@ class Map:
     unit: str = ""
     description: str = ""
     crs: str = ""  # name of the coordinate reference system, "" if unknown
+    wkt: str = ""  # the same as well-known text
 
     def cropped(self, box: Box) -> Map:
         """Return the part whose cells overlap a box."""
@@ -145,13 +151,36 @@ class Map:
                 total += np.where(wr * wc == 0.0, 0.0, wr * wc * value)
         return np.where(inside, total, np.nan)
 
+    def to_xarray(self) -> xarray.DataArray:
+        """Return the map as an xarray.DataArray with the dimensions y and x [m], rows from south to north.
+
+        Attributes: `units` and `long_name`. If the package rioxarray is installed, its accessor `rio` has the
+        coordinate reference system. ImportError without the package xarray.
+        """
+        import xarray  # an optional package
+
+        array = xarray.DataArray(
+            self.values,
+            coords={"y": self.grid.y, "x": self.grid.x},
+            dims=("y", "x"),
+            attrs={"units": self.unit, "long_name": self.description},
+        )
+        if self.wkt:
+            with suppress(ImportError):
+                import_module("rioxarray")  # adds the accessor
+                return cast("xarray.DataArray", array.rio.write_crs(self.wkt))
+        return array
+
     def volume(self) -> float:
         """Return the volume [m3] under a map of thickness [m]."""
         return float(np.nansum(self.values)) * self.grid.cell_area
 
 
-class Maps:
-    """Maps of a run by name; each is read at every access, because keeping all would need much memory."""
+class Maps(Mapping[str, Map]):
+    """Maps of a run by name; each is read at every access, because keeping all would need much memory.
+
+    An unknown name raises NotInRunError, a damaged file ReportError.
+    """
 
     def __init__(self, run: Run) -> None:
         """Find the maps; NotInRunError for a run without any."""
@@ -166,6 +195,12 @@ class Maps:
 
     def __contains__(self, name: object) -> bool:
         return name in self.names
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def __len__(self) -> int:
+        return len(self.names)
 
     def __getitem__(self, name: str) -> Map:
         if name not in self.names:
@@ -183,7 +218,7 @@ def read_map(path: Path) -> Map:
     try:
         with _open(path) as file:
             _check_size(file, path)
-            transform, crs = file.transform, _crs_words(file.crs)
+            transform, crs = file.transform, file.crs
             band = file.read(1, masked=True, out_dtype="float64")
             unit, description = file.units[0] or "", file.descriptions[0] or ""
     except (RasterioError, OSError, ValueError, MemoryError) as error:
@@ -202,7 +237,7 @@ def read_map(path: Path) -> Map:
         rows,
     )
     values = np.ma.filled(band, np.nan)[::-1]
-    return Map(grid, values, unit, description, crs)
+    return Map(grid, values, unit, description, _crs_words(crs), crs.to_wkt() if crs else "")
 
 
 def on_map(run: Run) -> bool:

@@ -27,6 +27,11 @@ def exact_text(value: float) -> str:
     return _power_text(value, 10) if _LARGEST <= abs(value) < np.inf else text
 
 
+def plain_text(value: float, digits: int = 3) -> str:
+    """Return a number with so many significant digits and commas in ASCII, e.g. 20,000,000."""
+    return f"{float(f'{value:.{digits}g}'):,.15g}"
+
+
 def _power_text(value: float, digits: int) -> str:
     """Return a number with a power of ten, e.g. 1.1e11."""
     mantissa, power = f"{value:.{digits - 1}e}".split("e")

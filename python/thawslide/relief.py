@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from thawslide.run import Numbers
+from thawslide.run_folder import Numbers
 
 NORTH_WEST = 315.0  # degrees, the conventional azimuth of the light on maps
 ALTITUDE = 45.0  # degrees above the horizon

@@ -5,6 +5,8 @@ from __future__ import annotations
 import fcntl
 import math
 import os
+import re
+import socket
 import time
 from contextlib import suppress
 from enum import Enum
@@ -16,6 +18,7 @@ from thawslide.text_files import MEGABYTE, is_number, read_json
 
 _REPEAT = "Repeat the run."
 LOCK = "run.lock"  # held with flock by the running process
+_LONGEST_LINE = 512  # characters of a lock
 STATUSES = ("running", "done", "stopped", "failed")
 NUMBERS = (
     "simulated_time_s",
@@ -88,6 +91,31 @@ def last_write_age(folder: Path) -> float:
             if file.is_file():
                 ages.append(time.time() - file.stat().st_mtime)
     return min(ages, default=math.nan)
+
+
+def process_named_in(lock: Path) -> str:
+    """Return the process that can be working in a run folder, by the text of its lock; "" if there is none.
+
+    On a file system without locks, the simulator decides in the same way (src/io/run_lock.cpp): a process of this
+    machine is tested, and one of another machine counts as running.
+    """
+    try:
+        with lock.open(encoding="utf-8", errors="replace") as file:
+            line = file.read(_LONGEST_LINE).rstrip("\n")
+    except OSError:
+        return ""
+    named = re.fullmatch(r"process (\d{1,9}) on (.*)", line)
+    if not named or named[2] != socket.gethostname():
+        return line
+    if int(named[1]) == os.getpid():  # left by an earlier process
+        return ""
+    try:
+        os.kill(int(named[1]), 0)
+    except ProcessLookupError:
+        return ""
+    except PermissionError:
+        pass
+    return line
 
 
 def is_held(lock: Path) -> bool | None:

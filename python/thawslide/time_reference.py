@@ -11,7 +11,7 @@ from thawslide.number_text import exact_text, number_text
 from thawslide.targets import REFERENCE, Target
 
 if TYPE_CHECKING:
-    from thawslide.run import Run
+    from thawslide.run_folder import Run
 
 
 @dataclass(frozen=True)

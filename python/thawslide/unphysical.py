@@ -9,7 +9,7 @@ import numpy as np
 
 from thawslide.boiling import boiling_temperature
 from thawslide.number_text import number_text
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 
 ROCK_MELTING_POINT = 1000.0  # C: about the temperature at which granite is completely molten
 ROUND_OFF = 1e-3  # of N, and of temperatures

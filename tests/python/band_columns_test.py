@@ -16,7 +16,7 @@ from thawslide.figures import FIGURES
 from thawslide.figures.energy import relative_residual
 from thawslide.figures.water import relative_water_residual
 from thawslide.key_numbers import key_numbers, stop_time
-from thawslide.report import figures_of, make_report
+from thawslide.report_page import figures_of, make_report
 
 STEAM = "\n[heat]\nsteam = {}\n"
 
@@ -35,12 +35,12 @@ def column_history(rows: int = 101) -> dict[str, np.ndarray]:
         "base_area_m2": np.full(rows, 1.0e6),
         "column_heat_J": -3e12 + 0.1e12 * t,
         "column_intake_J": -3e12 - 0.1e12 * t,
-        "column_vented_J": 0.05e12 * t,
+        "column_drained_J": 0.05e12 * t,
         "column_steam_J": 0.15e12 * t,
         "column_left_J": np.zeros(rows),
         "column_water_kg": 3e9 + 1e7 * t,
         "column_intake_kg": 3e9 + 4e7 * t,
-        "column_vented_kg": 2e7 * t,
+        "column_drained_kg": 2e7 * t,
         "column_steam_kg": 1e7 * t,
         "column_left_kg": np.zeros(rows),
         "column_water_residual_kg": 1e-3 * t,

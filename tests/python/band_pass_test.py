@@ -13,8 +13,8 @@ from thawslide.band_pass import band_passed, response
 from thawslide.errors import ReportError
 from thawslide.figures.force import force_in_band, reported_bands, seismic_force
 from thawslide.key_numbers import found_for, key_numbers, quantity_text
-from thawslide.report import make_report
-from thawslide.run import Run
+from thawslide.report_page import make_report
+from thawslide.run_folder import Run
 from thawslide.targets import Band, Target, band_of
 
 TIME = np.arange(0.0, 2000.0, 0.1)

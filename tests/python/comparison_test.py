@@ -76,7 +76,7 @@ def square(x: float) -> list[list[float]]:
 def test_point_mass_on_a_straight_slope_up_and_down_follows_the_energy_line() -> None:
     x = 5.0 * np.arange(400)
     friction = 0.3
-    # On a V of slopes 0.5 its one bend takes energy too: from there on only the share exp(-2 friction turn) is left.
+    # On a V of slopes 0.5, its single bend dissipates energy too: the fraction exp(-2 friction turn) remains.
     found = results.point_mass(dem(0.5 * np.abs(x - 1_000.0)), square(500.0), friction)
     head = (0.5 - friction) * 500.0
     assert found.max_speed == pytest.approx(math.sqrt(2.0 * 9.81 * head), rel=0.02)
@@ -96,7 +96,7 @@ def test_numbers_of_a_known_outcome_are_exact() -> None:
     thickness, final = np.full(terrain.values.shape, np.nan), np.full(terrain.values.shape, np.nan)
     speed = np.full(terrain.values.shape, np.nan)
     thickness[18:23, 96:201] = 2.0
-    thickness[20, 201:210] = 0.4  # thinner than what counts as reached
+    thickness[20, 201:210] = 0.4  # thinner than the threshold of the area reached
     speed[18:23, 96:201] = 10.0
     speed[20, 150], speed[20, 205] = 30.0, 99.0
     final[18:23, 190:201] = 3.0
@@ -108,7 +108,7 @@ def test_numbers_of_a_known_outcome_are_exact() -> None:
     assert found.max_speed == 30.0
     assert found.usual_speed == 10.0
     assert found.max_thickness == 2.0
-    # From the top of the release, x = 485, its first row at y = 85, to the farthest corner of what was reached.
+    # From the top of the release, x = 485, its first row at y = 85, to the farthest corner of the area reached.
     assert found.travel == pytest.approx(math.hypot(1_000.0 - 485.0, 110.0 - 85.0))
     assert found.reach_angle == pytest.approx(math.degrees(math.atan2(0.5 * (1_000.0 - 485.0), found.travel)))
     assert found.centre_displacement == pytest.approx(975.0 - 502.5, abs=1e-9)

@@ -14,7 +14,7 @@ from thawslide import NotInRunError, Run
 from thawslide.figures import FIGURES
 from thawslide.figures.entrainment import entrained_depth
 from thawslide.key_numbers import key_numbers
-from thawslide.report import figures_of, make_report
+from thawslide.report_page import figures_of, make_report
 
 BED_DENSITY, JOINED = 900.0, 8  # kg/m3; particles of the bed in the last snapshot
 

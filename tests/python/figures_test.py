@@ -18,7 +18,7 @@ from reproduction.bars import bars
 from thawslide import NotInRunError, Run
 from thawslide.band_pass import band_passed
 from thawslide.figures import FIGURES
-from thawslide.figures.colours import TEMPERATURE, colour_range, label_bar, normalisation
+from thawslide.figures.colours import TEMPERATURE, colour_range, label_bar, normalization
 from thawslide.figures.energy import relative_residual
 from thawslide.figures.moments import chosen_snapshots
 from thawslide.figures.snapshots import Zone, velocity
@@ -175,7 +175,7 @@ def test_times_with_a_common_snapshot_have_one_panel(make_run: MakeRun) -> None:
 
 def test_ticks_of_a_bar_with_two_scales_are_round() -> None:
     figure = Figure()
-    norm, _ = normalisation(np.linspace(-9.45, 35.8, 1000), TEMPERATURE)
+    norm, _ = normalization(np.linspace(-9.45, 35.8, 1000), TEMPERATURE)
     bar = figure.colorbar(ScalarMappable(norm), cax=figure.add_subplot(), orientation="horizontal")
     label_bar(bar, norm)
     assert [label.get_text() for label in bar.ax.get_xticklabels()] == ["−5", "0", "10", "20", "30"]
@@ -402,7 +402,7 @@ def test_prefixes_give_numbers_below_1000() -> None:
 
 def test_scale_of_high_temperatures_is_logarithmic_up_to_the_maximum(make_run: MakeRun) -> None:
     values = np.concatenate([np.full(600, -10.0), np.linspace(0.0, 900.0, 400), [5000.0]])
-    norm, extend = normalisation(values, TEMPERATURE)
+    norm, extend = normalization(values, TEMPERATURE)
     assert (norm.vmin, norm.vmax, extend) == (-10.0, 5000.0, "neither")
     # Decades have equal and sufficient lengths.
     ends = np.asarray(norm(np.array([10.0, 100.0, 1000.0])))

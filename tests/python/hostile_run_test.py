@@ -16,7 +16,7 @@ from thawslide import Run
 from thawslide.atomic_file import atomic_file
 from thawslide.command_line import main
 from thawslide.figures import FIGURES
-from thawslide.report import make_report
+from thawslide.report_page import make_report
 
 
 def report(folder: Path, capsys: pytest.CaptureFixture[str], *only: str) -> tuple[int, str, str]:
@@ -77,7 +77,7 @@ def test_damaged_field_affects_only_its_figures(make_run: MakeRun, capsys: pytes
     assert code == 2
     assert "error: velocity: not plotted: " in errors
     assert "000004.vtkhdf: damaged (found the shape (3,) of 'VTKHDF/PointData/velocity')" in errors
-    assert "Not plotted: velocity. Section &#x27;Missing figures&#x27; has the reasons." in page
+    assert "Not plotted: velocity, interactive view. Section &#x27;Missing figures&#x27; has the reasons." in page
     assert (folder / "figures" / "motion.png").is_file()
 
 

@@ -16,7 +16,7 @@ from conftest import MakeRun, history_columns, write_history
 from reproduction.lamplugh import FRONT, base_traction, block_measures, near_ground, read_block, zone_fractions, zones
 from reproduction.one_at_a_time import Outcome, Row, at_rest, end_of, is_current, outcome, run_rows, table, table_row
 from reproduction.runs import LAMPLUGH_BLOCKS
-from thawslide.run import Run
+from thawslide.run_folder import Run
 
 
 def write_ground(folder: Path) -> None:

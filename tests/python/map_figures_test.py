@@ -31,7 +31,7 @@ from thawslide.figures.site import make_site
 from thawslide.key_numbers import key_numbers
 from thawslide.maps import Grid, Map
 from thawslide.number_text import number_text
-from thawslide.report import figures_of, make_report
+from thawslide.report_page import figures_of, make_report
 
 ON_MAP = [
     "extent_maps", "animation", "slide_speed", "slide_thickness", "slide_temperature", "cross_sections", "impact_maps",
@@ -181,7 +181,7 @@ def test_report_has_figures_animation_and_maps(map_run: Path) -> None:
     assert list(report.figures) == ON_MAP
     assert lines[0] == f"[1/12] extent_maps: {map_run / 'figures' / 'extent_maps.png'}"
     page = report.page.read_text(encoding="utf-8")
-    assert '<video controls loop muted src="figures/animation.mp4"' in page
+    assert '<video controls loop muted src="data:video/mp4;base64,' in page
     assert '<th scope="row">max_pressure.tif</th><td>max pressure</td><td>Pa</td>' in page
     assert '<p>Folder: <a href="maps">maps</a></p>' in page
     assert "Missing figures" not in page
@@ -191,9 +191,9 @@ def test_key_numbers_of_the_deposit_are_those_of_run_json(map_run: Path) -> None
     found = {row.words: row.value for row in key_numbers(Run(map_run))}
     assert found["Deposit volume"] == "28,800 m³"
     assert found["Deposit area"] == "4,800 m²"
-    assert found["Travel distance"] == "280 m"
-    assert "Runout distance" not in found
-    assert found["Reach angle"] == "21.8°"
+    assert found["Travel distance L"] == "280 m"
+    assert "Runout distance L" not in found
+    assert found["H/L"] == "0.4"
     assert found["Affected area"] == "16,800 m²"
     assert found["Stop time"] == "8.5 s"
 
@@ -201,7 +201,7 @@ def test_key_numbers_of_the_deposit_are_those_of_run_json(map_run: Path) -> None
 def test_mass_that_is_not_at_rest_has_no_deposit(map_run: Path) -> None:
     """Rows, titles, notes and the page have the time and no word of a deposit."""
     facts = json.loads((map_run / "run.json").read_text())
-    warning = "The slide is not at rest at 10 s (mean velocity 20 m/s)."
+    warning = "the slide is not at rest at 10 s (mean velocity 20 m/s)."
     facts |= {"at_rest": False, "rest_since_s": None, "simulated_time_s": 10.0, "warnings": [warning]}
     (map_run / "run.json").write_text(json.dumps(facts))
     run = Run(map_run)
@@ -210,7 +210,7 @@ def test_mass_that_is_not_at_rest_has_no_deposit(map_run: Path) -> None:
     assert found["Covered volume at 10 s (not at rest)"].value == "28,800 m³"
     assert found["Covered area at 10 s (not at rest)"].value == "4,800 m²"
     assert found["Stop time"].value == "not reached"
-    assert "at 10 s (not at rest)" in found["Travel distance"].remark
+    assert "at 10 s (not at rest)" in found["Travel distance L"].remark
     assert not any("eposit" in row.words for row in found.values())
     figure = plotted("extent_maps", map_run)
     assert figure._suptitle.get_text() == "Slab on a plane: extent, up to 10 s (not at rest)"
@@ -300,8 +300,11 @@ def test_narrow_maps_use_the_width_of_the_page() -> None:
     assert found.columns * (found.width + 0.62) > 0.7 * WIDTH
 
 
-@pytest.mark.parametrize("inches", [0.6, 0.9, 1.2, 2.0, 3.5, 6.8])
-@pytest.mark.parametrize(("low", "high"), [(5_199_140.0, 5_199_690.0), (380_000.0, 389_000.0), (-210.0, 130.0)])
+@pytest.mark.parametrize("inches", [0.6, 0.9, 1.0, 1.2, 2.0, 3.5, 6.8])
+@pytest.mark.parametrize(
+    ("low", "high"),
+    [(5_199_140.0, 5_199_690.0), (380_000.0, 389_000.0), (6_500_000.0, 6_504_400.0), (-210.0, 130.0)],
+)
 def test_labels_of_coordinates_do_not_overlap(low: float, high: float, inches: float) -> None:
     found = coordinates(low, high, inches)
     assert 1 <= len(found) <= 5

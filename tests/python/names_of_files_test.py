@@ -14,7 +14,7 @@ from thawslide.atomic_file import atomic_file
 from thawslide.errors import ReportError
 from thawslide.figures import FIGURES
 from thawslide.maps import read_map
-from thawslide.report import make_report
+from thawslide.report_page import make_report
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -21,7 +21,7 @@ from reproduction.page import NAMES
 from reproduction.runs import all_runs
 from reproduction.sentences import claims, filled, holds, table, verdict
 from reproduction.stages import balance, balance_cohesion, basal_resistance
-from thawslide.run import Run
+from thawslide.run_folder import Run
 
 
 def test_heat_table_has_the_closed_form_and_its_inverse() -> None:

@@ -17,7 +17,7 @@ from reproduction import lamplugh
 from thawslide import Run
 from thawslide.figures import FIGURES
 from thawslide.figures.style import COLUMN_WIDTH, without_title
-from thawslide.report import make_report
+from thawslide.report_page import make_report
 
 SMALLEST = 6.0  # points
 

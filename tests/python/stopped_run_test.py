@@ -13,7 +13,8 @@ import pytest
 from map_figure_parts import maps_of, notes, plotted
 
 from thawslide import Run
-from thawslide.report import ending_note, make_report
+from thawslide.pages.notes import ending_note
+from thawslide.report_page import make_report
 from thawslide.run_facts import LOCK, Ending, is_held
 
 

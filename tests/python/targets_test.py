@@ -11,7 +11,7 @@ from conftest import MakeRun
 from thawslide import ReportError, Run
 from thawslide.figures import FIGURES
 from thawslide.key_numbers import found_for
-from thawslide.report import make_report
+from thawslide.report_page import make_report
 from thawslide.targets import QUANTITIES, Target, read_targets
 
 HEADER = "quantity,time_s,value,unit,source\n"

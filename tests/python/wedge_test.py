@@ -70,7 +70,7 @@ def test_curved_terrain_adds_the_centrifugal_force() -> None:
 
 
 def test_bumps_cancel_in_the_load() -> None:
-    # Bumps along the motion, a whole number of waves below particles that lie evenly.
+    # Bumps along the motion, an integer number of waves below evenly spaced particles.
     length = 40.0
     ground = wedge.derivatives(Map(GRID, 0.2 * np.sin(2.0 * math.pi * X / length)))
     x = np.arange(-80.0, 80.0, 5.0)

@@ -9,7 +9,7 @@ from conftest import MakeRun
 from reproduction.lamplugh import deposit
 from thawslide.figures.snapshots import particle_size
 from thawslide.key_numbers import found_for
-from thawslide.run import Run
+from thawslide.run_folder import Run
 from thawslide.targets import Target
 
 WIDENING = "{ x = [20.0, 40.0], value = [10.0, 40.0] }"

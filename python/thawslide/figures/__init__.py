@@ -23,7 +23,7 @@ from thawslide.figures.slide_on_map import slide_speed, slide_temperature, slide
 from thawslide.figures.snapshots import plastic_strain, pore_pressure, temperature, velocity
 from thawslide.figures.water import water
 from thawslide.maps import on_map
-from thawslide.run import Run
+from thawslide.run_folder import Run
 
 
 @dataclass(frozen=True)
@@ -150,7 +150,7 @@ FIGURES: dict[str, FigureKind] = {
         columns_caption="Area-weighted means over the base. Shear traction: resistance by cohesion and friction per "
         "contact area. Friction depends on the effective normal stress N − P, or on N alone for substrates with the "
         'law "coefficient". Parts of a column that contain water are limited by the boiling temperature at its own N, '
-        "dry parts are not; the dashed line is for the mean N. N is averaged over band.load_time for P/N.",
+        "dry parts are not. The dashed line is for the mean N. N is averaged over band.load_time for P/N.",
     ),
     "base_along": FigureKind(
         "Basal stresses and temperatures",

@@ -26,7 +26,7 @@ from thawslide.figures.site import Site, make_site
 from thawslide.figures.slide_on_map import DEPTH_AVERAGED_SPEED, columns_on, where_thick
 from thawslide.figures.style import BLUE, RED, STYLE, disable_formulas, time_axis, time_line
 from thawslide.maps import Map
-from thawslide.run import Run
+from thawslide.run_folder import Run
 
 MOST_FRAMES = 240
 _SECONDS = 12.0  # duration, within the limits of the frame rate

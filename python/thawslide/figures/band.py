@@ -34,7 +34,7 @@ from thawslide.figures.style import (
     warn,
 )
 from thawslide.number_text import prefixed
-from thawslide.run import Run
+from thawslide.run_folder import Run
 from thawslide.unphysical import too_hot, too_much_for_overburden, too_much_pressure
 
 _ABOVE_AXIS = 3.0  # order of lines that can be zero throughout

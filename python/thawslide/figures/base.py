@@ -27,7 +27,7 @@ from thawslide.figures.style import (
     warn,
 )
 from thawslide.number_text import prefixed
-from thawslide.run import Run, Snapshot
+from thawslide.run_folder import Run, Snapshot
 from thawslide.unphysical import too_hot, too_much_pressure
 
 _RATIO = Painting("pore_pressure", "pore pressure ratio P/N", "1", "viridis")

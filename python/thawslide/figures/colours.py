@@ -12,7 +12,7 @@ from matplotlib.ticker import FixedLocator, MaxNLocator
 
 from thawslide.number_text import exact_text, number_text
 from thawslide.relief import round_number
-from thawslide.run import Numbers, Snapshot
+from thawslide.run_folder import Numbers, Snapshot
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ def colour_range(values: Numbers, from_zero: bool) -> tuple[float, float, str]:
     return low, high, {(0, 0): "neither", (0, 1): "max", (1, 0): "min", (1, 1): "both"}[(int(below), int(above))]
 
 
-def normalisation(values: Numbers, painting: Painting) -> tuple[Normalize, str]:
+def normalization(values: Numbers, painting: Painting) -> tuple[Normalize, str]:
     """Return the scale of colours, and the open ends of the colour bar.
 
     The scale of temperatures has a break at 0 °C. If they exceed 100 °C it is logarithmic, up to the maximum.

@@ -29,7 +29,7 @@ from thawslide.figures.window import Window, fill_terrain, fit
 from thawslide.maps import Map
 from thawslide.number_text import length_unit, number_text
 from thawslide.relief import round_number
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 
 _MOST_STEPS = 500  # of the extension of the path over the covered area
 _MOST_RANGES = 4  # outside the covered area, in a note

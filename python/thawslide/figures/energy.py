@@ -26,7 +26,7 @@ from thawslide.figures.style import (
     title_panels,
 )
 from thawslide.number_text import prefixed
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 
 MECHANICAL = {
     "potential_J": ("potential", BLACK),
@@ -57,7 +57,7 @@ THERMAL = {
 COLUMNS = {
     "column_heat_J": ("heat in band columns", "#8C564B"),
     "column_intake_J": ("gained from the body", SKY),
-    "column_vented_J": ("lost with vented water", "#17BECF"),
+    "column_drained_J": ("lost with drained water", "#17BECF"),
     "column_steam_J": ("lost with steam", "#E377C2"),
     "column_left_J": ("removed with segments", "#7F7F7F"),
 }

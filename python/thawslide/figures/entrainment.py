@@ -23,7 +23,7 @@ from thawslide.figures.style import (
 )
 from thawslide.figures.water import MASSES, scaled
 from thawslide.number_text import prefixed
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 
 
 def entrained_depth(run: Run) -> tuple[Numbers, Numbers]:

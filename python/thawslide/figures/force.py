@@ -25,7 +25,7 @@ from thawslide.figures.style import (
 )
 from thawslide.maps import on_map
 from thawslide.number_text import number_text, prefixed
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 from thawslide.targets import FORCE, Band, Target, band_of
 
 _LEGEND_ROW = 0.16  # inches

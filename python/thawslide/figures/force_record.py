@@ -32,7 +32,7 @@ from thawslide.force_record import (
     travel_azimuth,
 )
 from thawslide.number_text import number_text, prefixed
-from thawslide.run import Run
+from thawslide.run_folder import Run
 from thawslide.targets import Band, band_of
 
 
@@ -165,14 +165,21 @@ def inversion_words(run: Run) -> list[str]:
         values = {"reported": target.value}
         if record.band.shortest <= band.shortest and band.longest <= record.band.longest:
             parts = [filtered(record.time, record.best[part], record.time, band) for part in PARTS]
-            values["in the record"] = float(np.max(np.sqrt(sum(part * part for part in parts))))
-        values["in the run"] = float(np.max(force_in_band(run, band)))
+            values["record"] = float(np.max(np.sqrt(sum(part * part for part in parts))))
+        values["run"] = float(np.max(force_in_band(run, band)))
         divisor, unit = prefixed(list(values.values()), "N")
-        numbers = ", ".join(f"{number_text(value / divisor)} {unit} {words}" for words, value in values.items())
+        shown = {name: f"{number_text(value / divisor)} {unit}" for name, value in values.items()}
+        of_run = (
+            f"The record has {shown['record']}, the run {shown['run']}"
+            if "record" in shown
+            else f"The run has {shown['run']}"
+        )
         periods = f"in {band.words}" if stated else f"without a specified band, compared in {band.words}"
-        ratio = target.value / values["in the record"] if values.get("in the record") else 0.0
+        ratio = target.value / values["record"] if values.get("record") else 0.0
         differ = f" The two inversions differ by a factor of {max(ratio, 1.0 / ratio):.2g}." if ratio else ""
-        sentences.append(f"Maximum force {periods} ({target.source or 'no source'}): {numbers}.{differ}")
+        sentences.append(
+            f"Maximum force {periods} ({target.source or 'no source'}): {shown['reported']} reported. {of_run}.{differ}"
+        )
     return sentences
 
 

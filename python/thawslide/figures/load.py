@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from thawslide.errors import ReportError
-from thawslide.run import Numbers, Run, Snapshot
+from thawslide.run_folder import Numbers, Run, Snapshot
 
 _MOST_SNAPSHOTS = 60  # used for a curve of the load
 
@@ -30,7 +30,7 @@ def load_on_band(run: Run) -> tuple[Numbers, Numbers]:
     N = w cos2(a), with the overburden w and the slope a of the terrain, without centrifugal and impact terms. Both
     are empty in 3D, and if snapshots lack fields or are damaged.
     """
-    if run.dimension != 2 or run.terrain is None or run.section("case").get("gravity_tilt", 0.0) or not len(run.times):
+    if run.dimension != 2 or run.terrain is None or run.gravity_tilt or not len(run.times):
         return np.empty(0), np.empty(0)
     chosen = np.unique(np.linspace(0, len(run.times) - 1, _MOST_SNAPSHOTS).round().astype(int))
     slope = np.gradient(run.terrain[1], run.terrain[0])

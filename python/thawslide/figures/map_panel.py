@@ -23,7 +23,7 @@ from thawslide.figures.style import BLACK
 from thawslide.maps import Box, Map
 from thawslide.number_text import exact_text, number_text
 from thawslide.relief import contour_levels, hillshade, round_number
-from thawslide.run import Numbers
+from thawslide.run_folder import Numbers
 
 MOST_CELLS = 800  # per side: the resolution of a page
 COVER = 0.82  # opacity of a field over the terrain, whose relief remains visible
@@ -31,10 +31,10 @@ ASPECTS = (0.45, 2.4)  # width over height of a map, narrowest and widest
 _MOST_CONTOURS = 24
 _MOST_INTERVALS = 4  # between coordinates on a side of a map
 _DIGIT, _BETWEEN_LABELS, _OVERHANG = 0.071, 0.12, 0.14  # inches, of a coordinate's label
-_TO_BORDER, _TO_OTHERS = 0.17, 0.3  # inches, least distances of elevations of contour lines
+_TO_BORDER, _TO_OTHERS = 0.17, 0.3  # inches, least distances of labels of contour lines
 _MARGIN = 0.12  # of the longer side of the mapped boxes, on each side
 _VERTICAL_LIGHT = 0.35  # fraction of the light from above, which gives contrast to steep slopes in the shadow
-_SHADES = LinearSegmentedColormap.from_list("shades", ["#8B867D", "#B5B0A7", "#DFDBD3", "#FAF9F6"])
+SHADES = LinearSegmentedColormap.from_list("shades", ["#8B867D", "#B5B0A7", "#DFDBD3", "#FAF9F6"])
 CONTOUR = "#5B4B37"
 HALO: list[patheffects.AbstractPathEffect] = [patheffects.withStroke(linewidth=2.2, foreground="white")]
 
@@ -125,15 +125,13 @@ def covered_box(field: Map, threshold: float = 0.0) -> Box | None:
 def draw_scene(axes: Axes, scene: Scene, labels: bool = True, lines: bool = True) -> None:
     """Draw the hillshade, contour lines (with elevations if `labels`) and coordinates in km."""
     axes.imshow(
-        scene.shade, cmap=_SHADES, vmin=0.0, vmax=1.0, extent=scene.terrain.grid.box, origin="lower",
+        scene.shade, cmap=SHADES, vmin=0.0, vmax=1.0, extent=scene.terrain.grid.box, origin="lower",
         interpolation="bilinear", zorder=1,
     )  # fmt: skip
     west, east, south, north = scene.box
     axes.set_xlim(west, east)
     axes.set_ylim(south, north)
     axes.set_aspect("equal")
-    assert isinstance(axes.figure, Figure)
-    inches = axes.figure.get_size_inches() * axes.get_position().size
     levels = contour_levels(scene.terrain.values, _MOST_CONTOURS)
     if lines and len(levels):
         grid = scene.terrain.grid
@@ -145,7 +143,8 @@ def draw_scene(axes: Axes, scene: Scene, labels: bool = True, lines: bool = True
         )  # fmt: skip
         if labels:
             texts = axes.clabel(drawn, levels=levels[::2], fontsize=6, fmt=exact_text, inline=False)
-            _thin_labels(texts, scene.box, inches)
+            thin_labels(axes, texts, 4.5)
+    inches = _inches(axes)
     for axis, low, high, length in ((axes.xaxis, west, east, inches[0]), (axes.yaxis, south, north, inches[1])):
         axis.set_major_locator(FixedLocator(coordinates(low, high, float(length))))
         axis.set_major_formatter(FuncFormatter(lambda value, _: coordinate_text(value)))
@@ -156,9 +155,16 @@ def draw_scene(axes: Axes, scene: Scene, labels: bool = True, lines: bool = True
         side.set_visible(True)
 
 
-def _thin_labels(texts: Sequence[Text], box: Box, inches: Numbers) -> None:
-    """Remove elevations of contour lines that the border would cut, and those next to another one."""
-    corner, size = np.array([box[0], box[2]]), np.array([box[1] - box[0], box[3] - box[2]])
+def _inches(axes: Axes) -> Numbers:
+    """Return width and height of a map."""
+    assert isinstance(axes.figure, Figure)
+    return axes.figure.get_size_inches() * axes.get_position().size
+
+
+def thin_labels(axes: Axes, texts: Sequence[Text], zorder: float) -> None:
+    """Remove labels of contour lines that the border of a map would cut, and those next to another one."""
+    (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
+    corner, size, inches = np.array([west, south]), np.array([east - west, north - south]), _inches(axes)
     kept: list[Numbers] = []
     for text in texts:
         place = (np.array(text.get_position()) - corner) / size * inches
@@ -168,7 +174,7 @@ def _thin_labels(texts: Sequence[Text], box: Box, inches: Numbers) -> None:
             text.remove()
             continue
         kept.append(place)
-        text.set_zorder(4.5)
+        text.set_zorder(zorder)
         text.set_path_effects(HALO)
 
 
@@ -189,7 +195,12 @@ def coordinates(low: float, high: float, inches: float) -> list[float]:
         over = max(0.0, half - _OVERHANG) * inch
         if places[1] - places[0] >= (2.0 * half + _BETWEEN_LABELS) * inch or intervals == 1:
             break
-    return [float(place) for place in places if low + over <= place <= high - over]
+    if found := [float(place) for place in places if low + over <= place <= high - over]:
+        return found
+    # No two labels fit: the middle one of finer coordinates.
+    places = np.array(MaxNLocator(_MOST_INTERVALS, steps=[1, 2, 5, 10], min_n_ticks=1).tick_values(low, high))
+    places = places[(low <= places) & (places <= high)]
+    return [float(place) for place in places[np.abs(places - 0.5 * (low + high)).argsort()[:1]]]
 
 
 def paint(axes: Axes, field: Map, painter: ScalarMappable) -> AxesImage:

@@ -14,13 +14,13 @@ from matplotlib.figure import Figure
 from thawslide.errors import NotInRunError
 from thawslide.figures.colours import colour_range, label_bar, thickness_norm, thickness_words
 from thawslide.figures.map_page import MapPage
-from thawslide.figures.map_panel import HALO, colour_map, paint, quiet_corner, scale_bar
+from thawslide.figures.map_panel import colour_map, paint, quiet_corner, scale_bar, thin_labels
 from thawslide.figures.site import Site, make_site
 from thawslide.figures.style import styled
 from thawslide.maps import Map
 from thawslide.number_text import exact_text, number_text, prefixed
 from thawslide.relief import contour_levels
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 
 
 @dataclass(frozen=True)
@@ -150,7 +150,7 @@ def _norm(values: Numbers, kind: MapKind) -> tuple[Normalize, str]:
 
 def _isochrones(axes: Axes, field: Map) -> None:
     """Draw and label lines of equal arrival time."""
-    levels = contour_levels(field.values, 7)
+    levels = contour_levels(field.values, 10)
     levels = levels[levels > np.nanmin(field.values)]
     if len(levels) < 2:
         return
@@ -158,6 +158,4 @@ def _isochrones(axes: Axes, field: Map) -> None:
     drawn = axes.contour(
         grid.x, grid.y, np.ma.masked_invalid(field.values), levels=levels, colors="white", linewidths=0.8, zorder=5
     )
-    for text in axes.clabel(drawn, fontsize=6.5, fmt="%g s", colors="black"):
-        text.set_path_effects(HALO)
-        text.set_zorder(7)
+    thin_labels(axes, axes.clabel(drawn, fontsize=6.5, fmt="%g s", colors="black", inline=False), 7)

@@ -8,7 +8,7 @@ import numpy as np
 
 from thawslide.errors import NotInRunError
 from thawslide.number_text import exact_text, number_text
-from thawslide.run import Numbers, Run, Snapshot
+from thawslide.run_folder import Numbers, Run, Snapshot
 
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
 FRACTIONS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)  # of the final mean displacement

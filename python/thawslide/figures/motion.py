@@ -20,7 +20,7 @@ from thawslide.figures.style import (
     title_panels,
 )
 from thawslide.number_text import prefixed
-from thawslide.run import Run
+from thawslide.run_folder import Run
 from thawslide.targets import KINDS
 from thawslide.time_reference import has_time_reference
 

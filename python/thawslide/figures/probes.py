@@ -24,7 +24,7 @@ from thawslide.figures.style import (
     title_panels,
 )
 from thawslide.number_text import exact_text
-from thawslide.run import Run
+from thawslide.run_folder import Run
 
 _COLOURS = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY, BLACK)
 _OF_SECTION = {"_max": "maximum", "_mean": "mean"}  # before the ending: statistics over a cross section

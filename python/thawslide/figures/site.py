@@ -21,9 +21,8 @@ from thawslide.figures.map_panel import (
     outline,
 )
 from thawslide.figures.style import BLACK, BLUE, PURPLE
-from thawslide.geopackage import read_layer
 from thawslide.maps import Grid, Map, Maps
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 
 RELEASE, PATH = BLACK, BLUE
 
@@ -75,7 +74,7 @@ class Site:
     def path(self) -> Numbers | None:
         """The flow path, shape (n, 2) [m]; None without one."""
         try:
-            features = read_layer(self.maps.folder / "results.gpkg", "path")
+            features = self.run.features("path")
         except NotInRunError:
             return None
         parts = [part for feature in features for part in feature.parts]
@@ -85,7 +84,7 @@ class Site:
     def affected(self) -> list[Numbers] | None:
         """The outlines of the affected area, each of shape (n, 2) [m]; None if the run has not written them."""
         try:
-            features = read_layer(self.maps.folder / "results.gpkg", "affected_area")
+            features = self.run.features("affected_area")
         except NotInRunError:
             return None
         return [part for feature in features for part in feature.parts]
@@ -149,7 +148,7 @@ class Site:
 
 def make_site(run: Run) -> Site:
     """Return the site of a run; NotInRunError for a run that has no maps."""
-    site = Site(run, Maps(run))
+    site = Site(run, run.maps)
     for name in ("terrain", "max_thickness"):
         if name not in site.maps:
             raise NotInRunError(f"{site.maps.folder / name}.tif: no such map. Repeat the run.")

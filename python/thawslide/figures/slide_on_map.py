@@ -17,7 +17,7 @@ from thawslide.figures.colours import (
     THICKNESS,
     Painting,
     label_bar,
-    normalisation,
+    normalization,
     scale_words,
     thickness_words,
 )
@@ -29,7 +29,7 @@ from thawslide.figures.snapshots import time_text
 from thawslide.figures.style import styled
 from thawslide.maps import Grid, Map
 from thawslide.number_text import number_text
-from thawslide.run import Run, Snapshot
+from thawslide.run_folder import Run, Snapshot
 
 DEPTH_AVERAGED_SPEED = replace(SPEED, words="depth-averaged speed")
 BASE_TEMPERATURE = replace(TEMPERATURE, words="basal temperature")
@@ -87,7 +87,7 @@ def plot_on_map(run: Run, painting: Painting, field_of: Callable[[Grid, Snapshot
     values = np.concatenate([field.values.ravel() for field in fields])
     if not np.isfinite(values).any():
         raise NotInRunError(f"{run.folder}: no {painting.words} in any snapshot.")
-    norm, extend = normalisation(values, painting)
+    norm, extend = normalization(values, painting)
     painter = ScalarMappable(norm, colour_map(painting.colours))
     lines = f"Dashed: release. Cells below {site.threshold:g} m are not shown."
     note = f"{run.end_note}{lines} Time: {run.time_reference.words}. {site.scene.note()}"

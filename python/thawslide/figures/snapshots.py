@@ -18,7 +18,7 @@ from thawslide.figures.colours import (
     TEMPERATURE,
     Painting,
     label_bar,
-    normalisation,
+    normalization,
     painted_values,
     scale_words,
 )
@@ -36,7 +36,7 @@ from thawslide.figures.style import (
 )
 from thawslide.figures.window import Window, extent, fill_terrain, fit, squares
 from thawslide.number_text import number_text, prefixed
-from thawslide.run import Numbers, Run, Snapshot
+from thawslide.run_folder import Numbers, Run, Snapshot
 from thawslide.unphysical import EDGES, too_hot, too_much_for_overburden
 
 
@@ -98,7 +98,7 @@ def plot_field(run: Run, painting: Painting, zones: Sequence[Zone] = ()) -> Figu
     divisor, unit = prefixed(np.concatenate(values), "Pa") if painting.unit == "Pa" else (1.0, painting.unit)
     values = [value / divisor for value in values]
     unit = "" if unit == "1" else unit
-    norm, extend = normalisation(np.concatenate(values), painting)
+    norm, extend = normalization(np.concatenate(values), painting)
     painter = ScalarMappable(norm, painting.colours)
 
     page = _Page(run, shots, painting.words)
@@ -266,7 +266,7 @@ def _strip_window(run: Run, shot: Snapshot, window: Window, highest: float) -> W
 
 def _apply(axes: Axes, run: Run, window: Window) -> None:
     """Apply a window to a panel. With tilted gravity, the vertical axis is normal to the slope."""
-    if run.section("case").get("gravity_tilt", 0.0):
+    if run.gravity_tilt:
         window.apply(axes, "height above\nslope")
         axes.yaxis.label.set_fontsize(7.5)
     else:

@@ -18,7 +18,7 @@ from matplotlib.text import Text
 from matplotlib.ticker import ScalarFormatter
 from numpy.typing import ArrayLike
 
-from thawslide.run import Numbers
+from thawslide.run_folder import Numbers
 
 Arguments = ParamSpec("Arguments")
 

@@ -23,11 +23,11 @@ from thawslide.figures.style import (
     title_figure,
     title_panels,
 )
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 
 CONTENT = {"column_water_kg": ("ice and water in columns", BLUE), "column_intake_kg": ("gained from the body", BLACK)}
 LOSSES = {
-    "column_vented_kg": ("vented", GREEN),
+    "column_drained_kg": ("drained", GREEN),
     "column_steam_kg": ("steam", RED),
     "column_left_kg": ("removed with segments", PURPLE),
 }

@@ -12,7 +12,7 @@ from matplotlib.collections import PolyCollection
 
 from thawslide.figures.style import GROUND, GROUND_LINE
 from thawslide.number_text import exact_text, length_unit
-from thawslide.run import Numbers
+from thawslide.run_folder import Numbers
 
 _EXAGGERATIONS = (1, 2, 3, 5, 10, 20, 50, 100)
 _SMALLEST_DRAWN = 0.8 / 72.0  # inches: smaller particles would vanish between pixels

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +20,10 @@ from thawslide.snapshot import Snapshot, snapshot_time
 from thawslide.targets import Band, Target, read_targets
 from thawslide.text_files import finite_number, is_file, read_table
 from thawslide.time_reference import TimeReference, time_reference_of
+
+if TYPE_CHECKING:
+    from thawslide.geopackage import Feature
+    from thawslide.maps import Maps
 
 __all__ = ["History", "Numbers", "Run", "Snapshot", "Target"]
 
@@ -38,7 +42,7 @@ class Run:
     def __init__(self, folder: Path | str, skip_damaged: bool = False) -> None:
         """Open a run folder; ReportError if it is none.
 
-        A damaged snapshot is an error, or skipped with a warning.
+        skip_damaged: damaged snapshots are listed in `warnings` and skipped; otherwise they raise ReportError.
         """
         self.folder = Path(folder)
         if not self.folder.is_dir():
@@ -70,6 +74,11 @@ class Run:
     def vertical(self) -> int:
         """The vertical axis of points: 1 (y) in 2D, 2 (z) in 3D."""
         return 1 if self.dimension == 2 else 2
+
+    @property
+    def gravity_tilt(self) -> float:
+        """The angle [degrees] by which gravity is rotated from the vertical axis towards +x."""
+        return float(self.section("case").get("gravity_tilt", 0.0))
 
     @property
     def per_metre(self) -> bool:
@@ -105,7 +114,7 @@ class Run:
 
     @cached_property
     def history(self) -> History:
-        """The history; an incomplete last row is skipped with a warning."""
+        """The history: columns of history.csv by name; an incomplete last row is skipped with a warning."""
         return read_history(self.folder / "history.csv", self.warnings)
 
     @cached_property
@@ -125,11 +134,37 @@ class Run:
 
     @cached_property
     def probes(self) -> History | None:
-        """Values of probes over time, None for a run without probes."""
+        """Thickness, speed and discharge at probes over time, None for a run without probes."""
         path = self.folder / "probes.csv"
         if not is_file(path):
             return None
         return read_history(path, self.warnings)
+
+    @cached_property
+    def maps(self) -> Maps:
+        """The maps by name, for example `run.maps["max_thickness"]`; NotInRunError unless a 3D run on a DEM."""
+        from thawslide.maps import Maps  # which imports this module
+
+        return Maps(self)
+
+    def features(self, layer: str) -> list[Feature]:
+        """Return the features of a layer of maps/results.gpkg, for example "affected_area" or "path".
+
+        NotInRunError without the layer, ReportError for a damaged file.
+        """
+        from thawslide.geopackage import read_layer  # which imports this module
+
+        return read_layer(self.folder / "maps" / "results.gpkg", layer)
+
+    @property
+    def key_numbers(self) -> dict[str, float]:
+        """The key numbers of the report by name, each in the unit its name ends with; nan if one is not attained.
+
+        Times are those of the run. In a 2D case without a width, volumes, masses and forces are per metre of width.
+        """
+        from thawslide.key_numbers import key_numbers  # which imports this module, and matplotlib
+
+        return {row.key: row.number for row in key_numbers(self) if row.key}
 
     @cached_property
     def terrain(self) -> tuple[Numbers, Numbers] | None:

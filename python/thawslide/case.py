@@ -1,0 +1,130 @@
+"""Cases: a case file with changed keys, checked as by the command line."""
+
+from __future__ import annotations
+
+import json
+import math
+import tempfile
+import tomllib
+from collections.abc import Mapping
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any
+
+from thawslide import _core
+
+__all__ = ["Case"]
+
+
+def toml_text(value: object) -> str:
+    """Return a value as TOML: a number, text, path, list or table; TypeError for anything else."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        return str(value) if math.isfinite(value) else ("nan" if math.isnan(value) else "inf" if value > 0 else "-inf")
+    if isinstance(value, str | PathLike):
+        return json.dumps(fspath(value), ensure_ascii=False)
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{json.dumps(key)} = {toml_text(item)}" for key, item in value.items()) + " }"
+    if hasattr(value, "tolist"):  # arrays and numbers of numpy
+        return toml_text(value.tolist())
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(toml_text(item) for item in value) + "]"
+    raise TypeError(
+        f"a case has no value of type {type(value).__name__}: {value!r}. Give a number, text, list or table."
+    )
+
+
+class Case:
+    """A valid case: the keys of a case file, some of them replaced.
+
+    `case["band.thickness"]` reads a key with its default, and `case["band.thickness"] = 0.3` replaces it. A key or
+    value that a case file may not have raises UserError with the message of the command line, and changes nothing.
+    """
+
+    def __init__(self, file: str | PathLike[str], changes: Mapping[str, object] | None = None) -> None:
+        """Read a case file, or the case.toml of a folder. `changes` replaces keys; paths in it may lie anywhere."""
+        self._file = fspath(file)
+        self._sets: dict[str, str] = {key: toml_text(value) for key, value in (changes or {}).items()}
+        self._folder: tempfile.TemporaryDirectory[str] | None = None
+        self._read()
+
+    @classmethod
+    def from_text(cls, text: str, changes: Mapping[str, object] | None = None) -> Case:
+        """Read a case from the text of a case file. Its files must be given in `changes`, with paths."""
+        folder = tempfile.TemporaryDirectory(prefix="thawslide-")
+        (Path(folder.name) / "case.toml").write_text(text, encoding="utf-8")
+        case = cls(folder.name, changes)
+        case._folder = folder
+        return case
+
+    def _read(self) -> None:
+        self._core = _core.read_case(self._file, [f"{key}={text}" for key, text in self._sets.items()])
+        self._values: dict[str, Any] | None = None
+
+    def __getitem__(self, key: str) -> Any:
+        """Return the value of a key such as "band.thickness", or a table such as "band"; KeyError if it has none."""
+        if self._values is None:
+            self._values = tomllib.loads(_core.resolved_toml(self._core))
+        value: Any = self._values
+        for part in key.split("."):
+            if not isinstance(value, dict) or part not in value:
+                raise KeyError(key)
+            value = value[part]
+        return value
+
+    def __setitem__(self, key: str, value: object) -> None:
+        """Replace the value of a key; UserError if the case would not be valid."""
+        self.change({key: value})
+
+    def change(self, changes: Mapping[str, object]) -> None:
+        """Replace several keys at once; UserError if the case would not be valid."""
+        before = dict(self._sets)
+        self._sets.update({key: toml_text(value) for key, value in changes.items()})
+        try:
+            self._read()
+        except Exception:
+            self._sets = before
+            raise
+
+    def copy(self) -> Case:
+        """Return an independent copy."""
+        other = object.__new__(Case)
+        other.__dict__.update(self.__dict__)
+        other._sets = dict(self._sets)
+        return other
+
+    @property
+    def changes(self) -> dict[str, str]:
+        """The replaced keys, with their values as TOML."""
+        return dict(self._sets)
+
+    @property
+    def name(self) -> str:
+        """The name of the case, from its folder and file."""
+        return self._core.name
+
+    @property
+    def title(self) -> str:
+        """The key case.title; empty by default."""
+        return self._core.title
+
+    @property
+    def dimension(self) -> int:
+        """2 or 3."""
+        return self._core.dimension
+
+    @property
+    def end(self) -> float:
+        """The key time.end [s]."""
+        return self._core.end
+
+    def to_toml(self) -> str:
+        """Return the case file with all defaults."""
+        return _core.resolved_toml(self._core)
+
+    def __repr__(self) -> str:
+        changes = ", ".join(f"{key}={text}" for key, text in self._sets.items())
+        return f"Case({self._file!r}{', ' if changes else ''}{changes})"

@@ -1,0 +1,62 @@
+"""New cases from a DEM and a release area, by the program `thawslide`."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Callable
+from os import PathLike, fspath
+
+from thawslide import _core
+from thawslide.case import Case
+from thawslide.program import find_program
+from thawslide.simulation import print_message
+
+__all__ = ["new_case"]
+
+
+def new_case(
+    dem: str | PathLike[str],
+    release: str | PathLike[str],
+    folder: str | PathLike[str],
+    *,
+    thickness: float | None = None,
+    cut: bool = False,
+    crs: str | None = None,
+    reach_angle: float | None = None,
+    cell: float | None = None,
+    resolution: str | None = None,
+    largest_volume: float | None = None,
+    on_message: Callable[[str], None] = print_message,
+) -> Case:
+    """Create a case folder from a DEM and a release area, as `thawslide new`, and return the case.
+
+    dem: GeoTIFF or ESRI ASCII file, in projected metres. release: polygons (Shapefile, GeoPackage, GeoJSON), or a
+    raster of the thickness. folder: the folder to create. thickness: vertical thickness of the polygons [m], by default
+    their attribute `thickness`. cut: cut the release out of the DEM, which is then the surface before the slide; by
+    default, the release is put on top of the DEM. crs: coordinate reference system of a DEM whose file has none, for
+    example "EPSG:31287". reach_angle: the domain includes all terrain below a line that descends at this angle from the
+    top of the release, 1 to 45 degrees, by default 8. cell: size of the grid cells [m], by default that of
+    `resolution`: "quick", "standard" or "fine". largest_volume: confirms a release above the usual limit of
+    `body.slide.largest_volume` [m3]. on_message: receives the lines of the command. Raises UserError with the message
+    of the command line, which names the options.
+    """
+    options = {
+        "--thickness": thickness,
+        "--crs": crs,
+        "--reach-angle": reach_angle,
+        "--cell": cell,
+        "--resolution": resolution,
+        "--largest-volume": largest_volume,
+    }
+    program = find_program()
+    if program is None:
+        raise _core.UserError("the program thawslide is not found. Install the package again, or add it to PATH.")
+    command = [program, "new", f"--dem={fspath(dem)}", f"--release={fspath(release)}"]
+    command += [f"{option}={value}" for option, value in options.items() if value is not None]
+    command += ["--cut"] if cut else []
+    done = subprocess.run([*command, "--", fspath(folder)], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise _core.UserError(done.stderr.strip().removeprefix("error: "))
+    for line in (*done.stderr.splitlines(), *done.stdout.splitlines()):
+        on_message(line)
+    return Case(folder)

@@ -1,0 +1,87 @@
+"""Pages of runs, as `thawslide report` writes them: the report of one run, its summary, or a comparison."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from os import PathLike
+from pathlib import Path
+
+from thawslide.errors import ReportError, nearest, quoted
+from thawslide.figures import FIGURES
+from thawslide.pages.comparison import make_comparison
+from thawslide.pages.summary import make_summary
+from thawslide.report_page import make_report
+from thawslide.run_folder import Run
+
+__all__ = ["Pages", "figure_names", "report", "write_pages"]
+
+LEAST_DPI, MOST_DPI = 30, 1200
+
+
+@dataclass
+class Pages:
+    """Written pages with their kinds, and the reasons for figures that are missing because of damaged files."""
+
+    files: list[tuple[str, Path]]
+    faults: dict[str, str] = field(default_factory=dict)
+
+
+def figure_names(only: str | Sequence[str] | None) -> list[str] | None:
+    """Return the figure names of --only, in the order of the page; ReportError for an unknown one."""
+    if not only:
+        return None
+    texts = [only] if isinstance(only, str) else only
+    asked = [name.strip() for text in texts for name in text.split(",") if name.strip()]
+    for name in asked:
+        if name not in FIGURES:
+            raise ReportError(
+                f"--only: no figure {quoted(name)}{nearest(name, FIGURES)} Allowed: {', '.join(FIGURES)}."
+            )
+    if not asked:
+        raise ReportError(f"--only: no figure name. Allowed: {', '.join(FIGURES)}.")
+    return [name for name in FIGURES if name in asked]
+
+
+def write_pages(
+    runs: Sequence[Run],
+    output: Path | None,
+    names: list[str] | None,
+    brief: bool,
+    dpi: int,
+    progress: Callable[[str], None] = lambda line: None,
+) -> Pages:
+    """Write the page of one run, its summary if `brief`, or the comparison of several runs."""
+    if len(runs) > 1:
+        for option, value in (("--only", names), ("--brief", brief)):
+            if value:
+                raise ReportError(f"{option}: allowed with one RUN only (found {len(runs)}). Remove the option.")
+        return Pages([("comparison", make_comparison(list(runs), output, dpi, progress=progress))])
+    if brief:
+        if names:
+            raise ReportError("--only: not allowed with --brief. Remove one of the options.")
+        return Pages([("summary", path) for path in make_summary(runs[0], output, dpi)])
+    made = make_report(runs[0], output, names, dpi, progress=progress)
+    return Pages([("report", made.page)], {name: made.missing[name] for name in made.faults})
+
+
+def report(
+    run: Run | str | PathLike[str],
+    *others: Run | str | PathLike[str],
+    output: str | PathLike[str] | None = None,
+    only: str | Sequence[str] | None = None,
+    brief: bool = False,
+    dpi: int = 150,
+) -> Path:
+    """Write the page of a run with its figures, as `thawslide report`, and return its path.
+
+    With other runs, the page compares them. output: the folder of the page, by default that of the first run. only:
+    names of figures to plot again; the page keeps the others. brief: write a two-page summary for non-experts of a 3D
+    run, as a page and a PDF file. dpi: resolution of the figures, 30 to 1200 dots per inch. Damaged files are named on
+    the page, and `Run.warnings` lists them. Raises ReportError.
+    """
+    if not LEAST_DPI <= dpi <= MOST_DPI:
+        raise ReportError(f"dpi: not a valid resolution (found {dpi}; allowed {LEAST_DPI} to {MOST_DPI}). Correct it.")
+    names = figure_names(only)
+    runs = [each if isinstance(each, Run) else Run(Path(each), skip_damaged=True) for each in (run, *others)]
+    return write_pages(runs, None if output is None else Path(output), names, brief, dpi).files[0][1]

@@ -1,0 +1,223 @@
+"""Simulations in memory: the steps of `thawslide run`, driven from Python."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable, Mapping
+from os import PathLike
+from typing import Any, cast
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from thawslide import _core
+from thawslide.basal_law import BasalLaw, CheckedLaw
+from thawslide.case import Case, toml_text
+
+__all__ = ["Field", "Simulation"]
+
+_CHUNK = 0.1  # wall-clock time between two looks at signals [s]
+
+
+class Field:
+    """A particle field: name, unit, meaning and number of components."""
+
+    def __init__(self, core: _core.FieldDescription) -> None:
+        self.name, self.unit, self.text, self.components = core.name, core.unit, core.text, core.components
+
+    def __repr__(self) -> str:
+        return f"Field({self.name!r}, unit={self.unit!r}, components={self.components}, {self.text!r})"
+
+
+class _Messages(_core.Observer):
+    """Passes warnings and notes to a function."""
+
+    def __init__(self, on_message: Callable[[str], None]) -> None:
+        super().__init__()
+        self._on_message = on_message
+
+    def text(self, line: str) -> None:
+        self._on_message(line)
+
+    def error(self, line: str) -> None:
+        self._on_message(line)
+
+
+def require_threads(threads: int) -> None:
+    """Require a valid number of threads; UserError otherwise."""
+    if threads < 0:
+        raise _core.UserError(f"threads is {threads}; allowed: at least 0, where 0 means all cores.")
+
+
+def print_message(line: str) -> None:
+    """Print a warning or note to the standard error."""
+    print(line, file=sys.stderr)
+
+
+class Simulation:
+    """A simulation in memory. Steps and history are those of `thawslide run` for the same case, bit for bit.
+
+    The steps run without the GIL. Ctrl-C stops them between two steps with KeyboardInterrupt; the simulation remains
+    usable. A failed step raises RunError, after which no step is possible.
+    """
+
+    def __init__(
+        self,
+        case: Case | str | PathLike[str],
+        *,
+        threads: int = 0,
+        on_message: Callable[[str], None] = print_message,
+        basal_law: BasalLaw | None = None,
+    ) -> None:
+        """Set up the particles of a case at t = 0, and settle them if the case requests it.
+
+        threads: those to use at most; 0: the cores that this process may use. on_message: receives warnings and notes
+        as lines. basal_law: a function that replaces the basal strength of the case, for studies. It is called once in
+        each step with the contact nodes, and returns their shear strengths [Pa]. The simulation is then slower, and it
+        is reproducible if the function is. A checkpoint does not contain the function. If the function raises an
+        exception, the simulation remains at the end of the previous step. Raises UserError, also for a basal law in a
+        case without terrain or mechanics.
+        """
+        require_threads(threads)
+        self.case = case.copy() if isinstance(case, Case) else Case(case)
+        self.threads = threads
+        self._core = _core.make_live_run(self.case._core, _Messages(on_message), threads)
+        self._failed = False
+        if basal_law is not None and not self._core.has_basal_law:
+            raise _core.UserError(
+                "basal_law: the case has no basal friction (found no terrain, or mechanics.enabled = false). "
+                "Remove the function."
+            )
+        self._law = None if basal_law is None else CheckedLaw(basal_law, self.origin)
+
+    @property
+    def time(self) -> float:
+        """The simulated time [s]."""
+        return self._core.time
+
+    @property
+    def step_number(self) -> int:
+        """The number of steps so far."""
+        return self._core.step_number
+
+    @property
+    def particle_count(self) -> int:
+        """The present number of particles."""
+        return self._core.particle_count
+
+    @property
+    def is_done(self) -> bool:
+        """Whether the run has ended: at time.end, at rest, or because the whole slide has left the domain."""
+        return self._core.is_done
+
+    @property
+    def end_text(self) -> str:
+        """The reason of an end at rest or without particles; empty otherwise."""
+        return self._core.end_text
+
+    @property
+    def origin(self) -> NDArray[np.float64]:
+        """The lower corner of the domain [m], to which the field `position` is relative."""
+        return np.array(self._core.origin)
+
+    @property
+    def history(self) -> pd.DataFrame:
+        """The history so far, with the columns of history.csv."""
+        return pd.DataFrame(self._core.history())
+
+    @property
+    def fields(self) -> dict[str, Field]:
+        """The particle fields by name."""
+        return {each.name: Field(each) for each in self._core.fields}
+
+    def blocks(self, name: str) -> NDArray[Any]:
+        """Return a read-only view of a field without a copy.
+
+        Shape (particles) for a scalar. Vectors and tensors are stored in blocks of 8 particles: shape (blocks, 8,
+        components), whose last block may have unused rows. The view shows the field until the next step, change or
+        restoration; later, its content is undefined. With an erodible bed it is a copy. Particles are in the order of
+        memory, which changes when the simulation sorts them; the field `id` identifies them. Raises UserError for an
+        unknown name.
+        """
+        return cast(NDArray[Any], self._core.field(name))
+
+    def field(self, name: str) -> NDArray[Any]:
+        """Return a field by particle, in the order of memory: shape (particles) or (particles, components).
+
+        A scalar is that of `blocks`. A vector or tensor is a copy.
+        """
+        view = self.blocks(name)
+        return view if view.ndim == 1 else view.reshape(-1, view.shape[2])[: self.particle_count].copy()
+
+    def step(self, steps: int = 1) -> None:
+        """Perform a number of time steps, fewer if the run ends."""
+        if steps < 0:
+            raise _core.UserError(f"steps is {steps}; allowed: at least 0.")
+        self._advance(math.inf, steps)
+
+    def run(
+        self,
+        until: float | None = None,
+        *,
+        callback: Callable[[Simulation], object] | None = None,
+        every: float | None = None,
+        every_steps: int | None = None,
+    ) -> None:
+        """Advance to the first step that ends at or after a time [s], by default to the end of the run.
+
+        callback: called with this simulation after every interval `every` of simulated time [s], or after every number
+        of steps `every_steps`, and at the end; it ends the call early by returning a true value.
+        """
+        target = math.inf if until is None else until
+        if math.isnan(target):
+            raise _core.UserError("until is not a number. Specify a time [s].")
+        if callback is None:
+            self._advance(target, sys.maxsize)
+            return
+        if (every is None) == (every_steps is None):
+            raise _core.UserError("a callback needs one of `every` [s] and `every_steps`.")
+        if (every is not None and not every > 0.0) or (every_steps is not None and every_steps < 1):
+            raise _core.UserError("`every` must be above 0 s, and `every_steps` at least 1.")
+        next_call = self.time
+        while self.time < target and not self.is_done:
+            if every is not None:
+                next_call = max(next_call + every, self.time)
+                self._advance(min(target, next_call), sys.maxsize)
+            else:
+                self._advance(target, every_steps or 1)
+            if callback(self):
+                return
+
+    def change(self, changes: Mapping[str, object]) -> None:
+        """Replace keys that may change during a run (those of `thawslide resume --set`); UserError otherwise."""
+        case = self.case.copy()
+        case.change(changes)
+        self._require_intact()
+        self._core.change(case._core, [f"{key}={toml_text(value)}" for key, value in changes.items()], self.threads)
+        self.case = case
+
+    def checkpoint(self) -> bytes:
+        """Return the complete state, for `restore`; UserError if the simulation has failed or no particle is left."""
+        self._require_intact()
+        return self._core.checkpoint(self.threads)
+
+    def restore(self, checkpoint: bytes) -> None:
+        """Return to a state of this case, of this process or another one; UserError for any other state."""
+        self._core.restore(checkpoint, self.threads)
+        self._failed = False
+
+    def _require_intact(self) -> None:
+        if self._failed:
+            raise _core.UserError("the simulation has failed. Restore a checkpoint, or make a new simulation.")
+
+    def _advance(self, until: float, steps: int) -> None:
+        self._require_intact()
+        last = self.step_number + steps
+        while self.time < until and self.step_number < last and not self.is_done:
+            try:
+                self._core.advance(until, last - self.step_number, _CHUNK, self.threads, self._law)
+            except (RuntimeError, MemoryError):
+                self._failed = self._law is None or self._law.is_evaluated
+                raise

@@ -1,0 +1,114 @@
+"""Basal laws written in Python."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from simulation_test import assert_identical, silent
+
+from thawslide import Case, ContactNodes, Simulation, UserError
+from thawslide.basal_law import BasalLaw
+
+
+def simulated(case: Case | Path, law: BasalLaw | None = None, threads: int = 1) -> Simulation:
+    """Return a simulation at its end."""
+    simulation = Simulation(case, threads=threads, on_message=silent, basal_law=law)
+    simulation.run()
+    return simulation
+
+
+def coulomb(nodes: ContactNodes) -> np.ndarray:
+    """Return the strength by Coulomb's law with 10 degrees, as the case `slope`."""
+    return math.tan(10.0 * math.pi / 180.0) * np.maximum(nodes.normal_pressure - nodes.pore_pressure, 0.0)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_a_law_like_that_of_the_case_gives_bitwise_the_same_run(slope: Path, threads: int) -> None:
+    assert_identical(simulated(slope, coulomb, threads).history, simulated(slope).history)
+
+
+def test_the_strength_of_the_case_gives_bitwise_the_same_run_with_particles_in_the_band(slope: Path) -> None:
+    case = Case(slope, {"band.model": "scaled", "basal.cohesion": 1.0e3, "basal.slip_distance": 5.0})
+    assert_identical(simulated(case, lambda nodes: nodes.strength).history, simulated(case).history)
+
+
+def test_contact_nodes_have_the_state_of_the_base(slope: Path) -> None:
+    seen: list[ContactNodes] = []
+
+    def law(nodes: ContactNodes) -> np.ndarray:
+        seen.append(nodes)
+        return nodes.strength
+
+    simulation = Simulation(slope, threads=1, on_message=silent, basal_law=law)
+    simulation.run()
+    assert 150 < len(seen) <= simulation.step_number  # none without loaded nodes
+    first, last = seen[0], seen[-1]
+    count = len(last.strength)
+    assert last.position.shape == (count, 2) and last.substrate.dtype == np.int32
+    assert last.time <= simulation.time and last.dt == pytest.approx(0.005)
+    for values in vars(last).values():
+        assert isinstance(values, float) or len(values) == count
+    assert (first.slip == 0.0).all() and (last.slip >= 0.0).all() and last.slip.max() > 0.0
+    heights = 100.0 - 0.5 * last.position[:, 0]
+    assert np.abs(last.position[:, 1] - heights).max() < 10.0  # within reach of the slope
+    weight = np.sum(simulation.field("mass")) * 9.81 * math.cos(math.atan(0.5))
+    assert np.mean([np.sum(each.normal_pressure * each.area) for each in seen]) == pytest.approx(weight, rel=0.25)
+    np.testing.assert_array_equal(last.strength, coulomb(last))
+
+
+def test_one_number_is_the_strength_of_all_nodes(slope: Path) -> None:
+    stuck, free = simulated(slope, lambda nodes: 1.0e9), simulated(slope, lambda nodes: 0)
+    slow, fast, of_case = (each.history["mean_velocity_m_s"].iloc[-1] for each in (stuck, free, simulated(slope)))
+    assert slow < 0.25 * fast and of_case < fast
+
+
+def test_a_law_remains_after_a_change(slope: Path) -> None:
+    simulation = Simulation(slope, threads=1, on_message=silent, basal_law=lambda nodes: 0.0)
+    simulation.run(until=0.5)
+    simulation.change({"basal.friction_angle": 45.0})
+    simulation.run()
+    of_law = "band_friction_coefficient"  # that of the case, whose law does not act
+    expected = simulated(slope, lambda nodes: 0.0).history
+    assert_identical(simulation.history.drop(columns=of_law), expected.drop(columns=of_law))
+
+
+def test_an_exception_of_a_law_leaves_the_simulation_before_the_step(slope: Path) -> None:
+    times: list[float] = []
+
+    def law(nodes: ContactNodes) -> np.ndarray:
+        if not times and nodes.time > 0.25:
+            times.append(nodes.time)
+            raise RuntimeError("no strength")
+        return coulomb(nodes)
+
+    simulation = Simulation(slope, threads=1, on_message=silent, basal_law=law)
+    with pytest.raises(RuntimeError, match="no strength"):
+        simulation.run()
+    assert simulation.time == times[0]
+    simulation.run()
+    assert_identical(simulation.history, simulated(slope).history)
+
+
+@pytest.mark.parametrize(
+    ("strength", "words"),
+    [
+        (np.nan, r"invalid strength \(found nan Pa; allowed: finite, at least 0\)"),
+        (-5.0, "found -5 Pa"),
+        (np.zeros(3000), r"found an array of shape \(3000,\)"),
+        (None, "found a NoneType"),
+        ("much", "found a str"),
+    ],
+)
+def test_invalid_strengths_are_refused(slope: Path, strength: Any, words: str) -> None:
+    simulation = Simulation(slope, threads=1, on_message=silent, basal_law=lambda nodes: strength)
+    with pytest.raises(UserError, match=words):
+        simulation.step()
+
+
+def test_a_case_without_basal_friction_is_refused(slope: Path) -> None:
+    with pytest.raises(UserError, match="the case has no basal friction"):
+        Simulation(Case(slope, {"mechanics.enabled": False}), on_message=silent, basal_law=lambda nodes: 0.0)

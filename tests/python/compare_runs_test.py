@@ -1,0 +1,106 @@
+"""Page that compares runs, and its command."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import MakeRun, history_columns, write_history
+from map_runs import write_map_run
+
+from thawslide import ReportError, Run
+from thawslide.command_line import main
+from thawslide.figures.run_histories import run_histories
+from thawslide.figures.run_maps import run_maps
+from thawslide.pages.comparison import case_rows, make_comparison, names_of, number_rows
+
+
+@pytest.fixture
+def two_runs(make_run: MakeRun) -> list[Run]:
+    """Return two 2D runs; the second has twice the displacement and another cell."""
+    first, second = make_run(name="first"), make_run(name="second")
+    columns = history_columns(101, 2)
+    columns["mean_displacement_m"] *= 2.0
+    write_history(second / "history.csv", columns)
+    case = (second / "case.toml").read_text().replace("cell = 2.0", "cell = 4.0")
+    (second / "case.toml").write_text(case)
+    return [Run(first), Run(second)]
+
+
+def test_key_numbers_are_next_to_each_other(two_runs: list[Run]) -> None:
+    rows = {words: values for words, *values in number_rows(names_of(two_runs))}
+    assert rows["Mean displacement"] == ["80 m", "160 m"]
+    assert rows["Peak mean velocity"] == ["12 m/s (at 5 s)"] * 2
+    assert rows["Thermal energy balance"] == ["closes (limit 1 %): below 0.0001 %"] * 2
+
+
+def test_only_different_keys_of_the_cases_are_rows(two_runs: list[Run]) -> None:
+    assert case_rows(names_of(two_runs)) == [["grid.cell", "2.0", "4.0"]]
+
+
+def test_different_input_files_are_rows(two_runs: list[Run]) -> None:
+    for run, digit in zip(two_runs, "ab", strict=True):
+        facts = json.loads((run.folder / "run.json").read_text())
+        facts["inputs"] = [{"path": "x/dem.tif", "sha256": digit * 64}, {"path": "x/case.toml", "sha256": digit * 64}]
+        (run.folder / "run.json").write_text(json.dumps(facts))
+    rows = case_rows(names_of([Run(run.folder) for run in two_runs]))
+    assert rows[-1] == ["SHA-256 of dem.tif", f"{'a' * 16}...", f"{'b' * 16}..."]
+
+
+def test_histories_of_all_runs_are_in_each_panel(two_runs: list[Run]) -> None:
+    figure = run_histories(names_of(two_runs))
+    assert [len(axes.lines) for axes in figure.axes] == [2] * 6
+    displacement = figure.axes[1]
+    assert [float(np.asarray(line.get_ydata())[-1]) for line in displacement.lines] == [80.0, 160.0]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["first", "second"]
+
+
+def test_maps_have_one_scale(map_run: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other"
+    write_map_run(other, 2)
+    figure = run_maps({"one": Run(map_run), "two": Run(other)})
+    maps = [axes for axes in figure.axes if axes.get_title(loc="left").startswith("(")]
+    assert [axes.get_title(loc="left") for axes in maps] == ["(a) one", "(b) two"]
+    norms = [axes.images[-1].norm for axes in maps]
+    assert (norms[0].vmin, norms[0].vmax) == (norms[1].vmin, norms[1].vmax)
+    assert maps[0].get_xlim() == maps[1].get_xlim()
+
+
+def test_command_writes_the_page_into_the_first_run(
+    two_runs: list[Run], capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    folders = [str(run.folder) for run in two_runs]
+    assert main([*folders, "--dpi", "50"]) == 0
+    path = two_runs[0].folder / "comparison.html"
+    assert capsys.readouterr().out.rstrip().endswith(f"comparison: {path}")
+    assert main([*folders, "--dpi", "50", "--output", str(tmp_path / "elsewhere")]) == 0
+    page = (tmp_path / "elsewhere" / "comparison.html").read_text(encoding="utf-8")
+    assert page == path.read_text(encoding="utf-8")
+    visible = re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
+    assert not re.search(r"https?://", visible)
+    assert all(source.startswith("data:") for source in re.findall(r'src="([^"]*)"', visible))
+    assert '<tr><th scope="row">grid.cell</th><td>2.0</td><td>4.0</td></tr>' in page
+
+
+def test_runs_of_the_same_name_have_their_paths(make_run: MakeRun) -> None:
+    runs = [Run(make_run(name="a/run")), Run(make_run(name="b/run"))]
+    assert list(names_of(runs)) == [str(run.folder.resolve()) for run in runs]
+    with pytest.raises(ReportError, match="RUN: the same run twice"):
+        names_of([runs[0], runs[0]])
+
+
+def test_2d_and_3d_runs_are_compared(make_run: MakeRun, map_run: Path, tmp_path: Path) -> None:
+    page = make_comparison([Run(make_run()), Run(map_run)], tmp_path, 50).read_text(encoding="utf-8")
+    assert "2D and 3D runs: areas and volumes are comparable only if the 2D case has a width." in page
+    assert "The runs have different time references." not in page
+
+
+@pytest.mark.parametrize(("option", "name"), [(["--only", "motion"], "--only"), (["--brief"], "--brief")])
+def test_options_of_one_run_are_errors_for_two(
+    two_runs: list[Run], option: list[str], name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*(str(run.folder) for run in two_runs), *option]) == 2
+    assert f"{name}: allowed with one RUN only (found 2). Remove the option." in capsys.readouterr().err

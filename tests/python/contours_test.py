@@ -1,0 +1,119 @@
+"""Polygons of a map above a threshold, and their files."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+import subprocess
+from contextlib import closing
+from pathlib import Path
+
+import numpy as np
+import pytest
+from map_runs import CELL, SOUTH, WEST, write_map
+
+from thawslide.command_line import main
+from thawslide.contours import areas_beyond
+from thawslide.geopackage import read_layer
+from thawslide.maps import read_map
+
+RADIUS, TOP = 100.0, 8.0  # of a cone [m]
+MIDDLE = np.array([WEST + 200.0, SOUTH + 150.0])
+
+
+def cone(folder: Path, hole: float = 0.0, crs: str | None = "EPSG:31287") -> Path:
+    """Write a map of a cone of thickness, and return its file; the cells within `hole` [m] of the axis are empty."""
+    x, y = np.meshgrid(WEST + CELL * (np.arange(40) + 0.5), SOUTH + CELL * (np.arange(30) + 0.5))
+    distance = np.hypot(x - MIDDLE[0], y - MIDDLE[1])
+    values = np.where(distance < RADIUS, TOP * (1.0 - distance / RADIUS), np.nan)
+    write_map(folder / "cone.tif", np.where(distance < hole, 0.0, values), "m", "maximum thickness", crs=crs)
+    return folder / "cone.tif"
+
+
+def test_area_of_a_cone_is_that_of_its_section(tmp_path: Path) -> None:
+    half, quarter = areas_beyond(read_map(cone(tmp_path)), [4.0, 6.0])
+    assert half.size == pytest.approx(np.pi * 50.0**2, rel=0.01)
+    assert quarter.size == pytest.approx(np.pi * 25.0**2, rel=0.04)
+    ((ring,),) = half.polygons
+    np.testing.assert_allclose(np.hypot(*(ring - MIDDLE).T), 50.0, atol=0.5)
+    assert (ring[0] == ring[-1]).all()
+
+
+def test_holes_are_rings_of_their_polygon(tmp_path: Path) -> None:
+    (area,) = areas_beyond(read_map(cone(tmp_path, hole=30.0)), [2.0])
+    ((outline, hole),) = area.polygons
+    assert area.size == pytest.approx(np.pi * (75.0**2 - 30.0**2), rel=0.02)
+    assert np.hypot(*(outline - MIDDLE).T).min() > np.hypot(*(hole - MIDDLE).T).max()
+
+
+def test_area_reached_before_a_time_has_no_zero_around_it(tmp_path: Path) -> None:
+    """Cells without data belong to no area."""
+    x = WEST + CELL * (np.arange(20) + 0.5)
+    times = np.tile((x - x[0]) / 10.0, (10, 1))  # 1 s per cell
+    times[:2] = np.nan
+    write_map(tmp_path / "arrival_time.tif", times, "s")
+    (early,) = areas_beyond(read_map(tmp_path / "arrival_time.tif"), [5.0], below=True, zero=False)
+    assert early.size == pytest.approx(5.0 * CELL * 7.0 * CELL)
+
+
+def test_geopackage_is_read_back_with_its_attributes(map_run: Path) -> None:
+    words = ["contours", str(map_run), "--map", "max_thickness", "--threshold", "0.5", "--threshold", "3"]
+    assert main(words) == 0
+    file = map_run / "contours-max_thickness.gpkg"
+    low, high = read_layer(file, "max_thickness_contours")
+    assert (low.attributes["threshold"], high.attributes["threshold"]) == (0.5, 3.0)
+    assert low.attributes["unit"] == "m" and low.attributes["run"] == map_run.name
+    assert low.attributes["area_m2"] > high.attributes["area_m2"] > 0.0
+    before = file.read_bytes()
+    assert main(words) == 0
+    assert file.read_bytes() == before
+    with closing(sqlite3.connect(file)) as database:
+        assert database.execute("SELECT srs_id FROM gpkg_contents").fetchall() == [(31287,)]
+        assert database.execute("PRAGMA integrity_check").fetchone() == ("ok",)
+
+
+def test_geojson_coordinates_are_in_degrees(map_run: Path, tmp_path: Path) -> None:
+    file = tmp_path / "areas.geojson"
+    assert main(["contours", str(map_run), "--map", "max_speed", "--threshold", "1", "--output", str(file)]) == 0
+    ((feature),) = json.loads(file.read_text())["features"]
+    corners = np.concatenate([np.array(ring) for rings in feature["geometry"]["coordinates"] for ring in rings])
+    assert (corners[:, 0] > 9.0).all() and (corners[:, 0] < 18.0).all()  # Austria
+    assert (corners[:, 1] > 46.0).all() and (corners[:, 1] < 49.5).all()
+
+
+def test_gdal_reads_the_geopackage(map_run: Path) -> None:
+    assert main(["contours", str(map_run), "--map", "max_thickness", "--threshold", "1"]) == 0
+    try:
+        command = ["ogrinfo", "-so", "-al", str(map_run / "contours-max_thickness.gpkg")]
+        text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    except FileNotFoundError:
+        pytest.skip("ogrinfo not found. Install gdal-bin.")
+    assert "Geometry: Multi Polygon" in text and "Feature Count: 1" in text
+    assert "MGI / Austria Lambert" in text and "threshold: Real" in text
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--map", "max_thicknes", "--threshold", "1"], "--map: no map 'max_thicknes'; did you mean max_thickness?"),
+        (["--map", "max_thickness", "--threshold", "0"], "Use thresholds above 0, or --below."),
+        (["--map", "elevation_change", "--threshold", "1", "--below"], "Use negative thresholds with --below."),
+        (["--map", "max_thickness", "--threshold", "99"], "no value above 99 m. Change --threshold."),
+        (["--map", "max_speed", "--threshold", "1", "--output", "a.shp"], "a.shp: unknown format (allowed: .gpkg, "),
+    ],
+)
+def test_invalid_options_are_refused(
+    map_run: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str
+) -> None:
+    assert main(["contours", str(map_run), *words]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_a_map_without_a_coordinate_system_needs_a_geopackage(
+    map_run: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    cone(map_run / "maps", crs=None)
+    words = ["contours", str(map_run), "--map", "cone", "--threshold", "1"]
+    assert main([*words, "--output", str(map_run / "a.geojson")]) == 2
+    assert "no coordinate system, which GeoJSON requires" in capsys.readouterr().err
+    assert main(words) == 0

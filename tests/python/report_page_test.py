@@ -1,0 +1,305 @@
+"""Self-contained page of a run: balances, inputs, kept figures, data of the interactive view, published events."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import MakeRun, history_columns, write_history
+
+from thawslide import Run
+from thawslide.balance import balance_note, balances
+from thawslide.figures.moments import shown_snapshot
+from thawslide.main_numbers import main_numbers
+from thawslide.mobility import mobility_of
+from thawslide.pages.events import events_part, published_events
+from thawslide.pages.packing import Packing, unpacked
+from thawslide.pages.section_view import MOST_PARTICLES, chosen_particles, section_view
+from thawslide.pages.view import MOST_SNAPSHOTS
+from thawslide.report_page import make_report
+from thawslide.section_thickness import particle_thickness, spaced
+
+MEGABYTE = 1_000_000
+
+
+def page_of(folder: Path, *names: str) -> str:
+    """Return the page of a run with one figure or those named."""
+    return make_report(Run(folder), names=names or ["motion"], dpi=50).page.read_text(encoding="utf-8")
+
+
+def element(page: str, name: str) -> str:
+    """Return the text of an element of data."""
+    found = re.search(rf'<script type="[^"]+" id="{name}">(.*?)</script>', page, re.DOTALL)
+    assert found, name
+    return found[1]
+
+
+def view_of(folder: Path) -> tuple[dict[str, Any], str]:
+    """Return parts and packed arrays of the interactive view of a run."""
+    page = page_of(folder)
+    return json.loads(element(page, "view-parts")), element(page, "view-data")
+
+
+def field_of(parts: dict[str, Any], words: str) -> dict[str, Any]:
+    (found,) = [field for field in parts["fields"] if field["words"] == words]
+    return found
+
+
+def without_scripts(page: str) -> str:
+    """Return a page without its scripts, which contain addresses that they do not load."""
+    return re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
+
+
+@pytest.fixture(params=["2D", "3D"])
+def any_run(request: pytest.FixtureRequest, make_run: MakeRun) -> Path:
+    """Return the folder of a 2D run, then that of a 3D run."""
+    if request.param == "2D":
+        return make_run()
+    folder: Path = request.getfixturevalue("map_run")
+    return folder
+
+
+def test_page_loads_nothing(any_run: Path) -> None:
+    page = page_of(any_run)
+    visible = without_scripts(page)
+    assert not re.search(r"https?://", visible)
+    sources = re.findall(r'\b(?:src|srcset|data|poster)="([^"]*)"', visible)
+    assert sources
+    assert all(source.startswith("data:") for source in sources)
+    assert all(not link.startswith(("http", "//")) for link in re.findall(r'href="([^"]*)"', visible))
+    assert "<link" not in visible
+    assert "Content-Security-Policy\" content=\"default-src 'none';" in page
+    assert page.count('id="plotly"') == 1
+    assert not re.search(r"<script[^>]*\bsrc=", page)
+    assert len(page) < 15 * MEGABYTE
+
+
+def test_page_with_selected_figures_keeps_the_others(make_run: MakeRun) -> None:
+    folder = make_run()
+    make_report(Run(folder), names=["motion", "band"], dpi=50)
+    report = make_report(Run(folder), names=["force"], dpi=50)
+    assert list(report.figures) == ["force"]
+    assert list(report.kept) == ["motion", "band"]
+    page = report.page.read_text(encoding="utf-8")
+    headings = re.findall(r'<h2 id="(\w+)">', page)
+    assert [name for name in headings if name != "interactive"] == ["motion", "force", "band"], "order of the page"
+    assert "Plotted before the last change of history.csv." not in page
+    earlier = (folder / "history.csv").stat().st_mtime - 10.0
+    for name in ("force", "band"):
+        os.utime(folder / "figures" / f"{name}.png", (earlier, earlier))
+    page = page_of(folder, "motion")
+    assert page.count("Plotted before the last change of history.csv.") == 2
+
+
+def test_linked_figures_are_not_kept(make_run: MakeRun, tmp_path: Path) -> None:
+    folder = make_run()
+    make_report(Run(folder), names=["motion"], dpi=50)
+    (tmp_path / "secret.png").write_bytes(b"private")
+    (folder / "figures" / "band.png").symlink_to(tmp_path / "secret.png")
+    assert not make_report(Run(folder), names=["motion"], dpi=50).kept
+
+
+def test_inputs_have_their_hashes(make_run: MakeRun) -> None:
+    folder = make_run()
+    facts = json.loads((folder / "run.json").read_text())
+    facts["inputs"] = [{"path": "/cases/x/slope.csv", "sha256": "ab12" * 16, "bytes": 1234}, {"path": 5}, "text"]
+    (folder / "run.json").write_text(json.dumps(facts))
+    page = page_of(folder)
+    assert f'<th scope="row">slope.csv</th><td>1,234 bytes</td><td>{"ab12" * 16}</td>' in page
+    assert '<th scope="row">5</th><td>not known</td><td>not known</td>' in page
+
+
+def test_balances_have_a_verdict(make_run: MakeRun) -> None:
+    folder = make_run()
+    columns = history_columns(11, 2)
+    columns["mass_residual_kg"] = np.linspace(0.0, 50.0, 11)  # of 1e6 kg
+    write_history(folder / "history.csv", columns)
+    assert [(each.words, each.closes) for each in balances(Run(folder))] == [
+        ("Mass", True), ("Mechanical energy", True), ("Thermal energy", True),
+    ]  # fmt: skip
+    assert balances(Run(folder))[0].percentage == "0.005 % of the initial and entrained mass"
+    assert balances(Run(folder))[1].percentage == "below 0.0001 % of the maximum change of any term"
+    assert balance_note(Run(folder)) == ""
+    columns["mechanical_residual_J"] = np.linspace(0.0, 2e11, 11)  # of 1e13 J
+    write_history(folder / "history.csv", columns)
+    page = page_of(folder)
+    assert (
+        '<th scope="row">Mechanical energy</th><td>does not close (limit 1 %)</td>'
+        "<td>maximum residual 2 % of the maximum change of any term</td>" in page
+    )
+    assert "The balance of mechanical energy does not close." in page
+
+
+def test_mobility_of_a_section_is_that_of_profile_and_history(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    found = mobility_of(run)
+    # 80 particles of 1 m3 per metre of width, 10 m wide; the highest is 3.5 m above the slope 1/2 at x = 20.5 m.
+    assert found.volume == pytest.approx(800.0)
+    assert found.length == pytest.approx(160.0)
+    assert found.height == pytest.approx(0.5 * (160.0 - 20.5) + 3.5)
+    rows = {row.words: row.value for row in main_numbers(run)}
+    assert rows["Release volume"] == "800 m³"
+    assert rows["H/L"] == "0.46"
+    assert rows["Peak flow thickness"] == "4 m"
+    assert rows["Arrival time"] == "9.9 s"  # of 40 + 12 t >= 0.99 * 160
+
+
+@pytest.mark.parametrize("tilt", [40.0, -20.0])
+def test_mobility_with_tilted_gravity_is_that_of_the_rotated_slope(make_run: MakeRun, tilt: float) -> None:
+    folder = make_run()
+    case = folder / "case.toml"
+    case.write_text(case.read_text().replace("[case]\n", f"[case]\ngravity_tilt = {tilt}\n"))
+    found = mobility_of(Run(folder))
+    # Independently: turn rear (0, 100), front (160, 20) and the particles until gravity points down.
+    turn = np.exp(-1j * np.radians(tilt))
+    rear, front = turn * (0 + 100j), turn * (160 + 20j)
+    along, above = np.meshgrid(np.arange(0.5, 20.0), np.arange(0.5, 4.0))
+    particles = turn * (20.0 + along + 1j * (90.0 - 0.5 * along + above))
+    assert found.length == pytest.approx(abs((front - rear).real))
+    assert found.height == pytest.approx(particles.imag.max() - front.imag)
+    rows = {row.words: row for row in main_numbers(Run(folder))}
+    assert rows["Travel distance L"].number == pytest.approx(found.length)
+    assert rows["Runout distance"].number == pytest.approx(160.0)
+    assert "drop height over travel distance" in rows["H/L"].remark
+
+
+def test_view_shows_the_terrain_near_the_slide_with_axes_of_the_frame(make_run: MakeRun) -> None:
+    folder = make_run(snapshots=3)  # from x = 20.5 m to 63.5 m
+    view = section_view(Run(folder)).parts
+    assert view["axes"] == ["distance", "elevation"]
+    assert view["terrain"][0][2:] == pytest.approx([20.5 - 0.15 * 43.0, 63.5 + 0.15 * 43.0])
+    assert view["terrain"][1][2:] == pytest.approx([100.0 - 0.5 * 69.95, 100.0 - 0.5 * 14.05])
+    case = folder / "case.toml"
+    case.write_text(case.read_text().replace("[case]\n", "[case]\ngravity_tilt = 30.0\n"))
+    assert section_view(Run(folder)).parts["axes"] == ["distance along x", "height normal to x"]
+
+
+def test_mobility_with_tilted_gravity_of_a_run_towards_minus_x(make_run: MakeRun) -> None:
+    folder = make_run()
+    case = folder / "case.toml"
+    case.write_text(case.read_text().replace("[case]\n", "[case]\ngravity_tilt = -40.0\n"))
+    (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n-200,0\n200,0\n")
+    columns = history_columns(11, 2)
+    columns["front_position_m"] = 20.0 - columns["time_s"]
+    columns["runout_m"] = 20.0 + columns["time_s"]
+    write_history(folder / "history.csv", columns)
+    angle = np.radians(40.0)
+    assert mobility_of(Run(folder)).length == pytest.approx(30.0 * np.cos(angle))  # from x = 40 m to 10 m
+
+
+def test_main_numbers_of_a_map_run_are_those_of_its_maps(map_run: Path) -> None:
+    rows = {row.words: row.value for row in main_numbers(Run(map_run))}
+    assert rows["Release volume"] == "28,800 m³"
+    assert rows["Peak speed"] == "20 m/s"
+    assert rows["Peak flow thickness"] == "6 m"
+    assert rows["H/L"] == "0.4"
+    assert rows["Latest arrival time"] == "9.8 s"
+    assert rows["Arrival time at probe gate"] == "5 s"
+
+
+def test_thickness_of_a_level_block_is_its_height(make_run: MakeRun) -> None:
+    run = Run(make_run())
+    shot = run.snapshot(0)
+    thickness = particle_thickness(run, shot)
+    inner = (shot.points[:, 0] > 23.0) & (shot.points[:, 0] < 37.0)
+    assert thickness[inner] == pytest.approx(np.full(int(inner.sum()), 4.0))
+
+
+def test_packed_arrays_return_with_16_bits() -> None:
+    packing = Packing()
+    values = np.array([[1.5, np.nan], [-3.0, 1e4]])
+    constant = np.full(3, 7.25)
+    places = [packing.add(values), packing.add(constant), packing.add(np.full(2, np.nan)), packing.add(np.zeros(0))]
+    text = packing.text()
+    assert unpacked(text, places[0]) == pytest.approx(values.ravel(), abs=10_003.0 / 131_068, nan_ok=True)
+    assert unpacked(text, places[1]).tolist() == [7.25] * 3
+    assert np.isnan(unpacked(text, places[2])).all()
+    assert unpacked(text, places[3]).size == 0
+
+
+def test_section_view_has_the_particles_of_each_snapshot(make_run: MakeRun) -> None:
+    folder = make_run()
+    parts, data = view_of(folder)
+    run = Run(folder)
+    assert (parts["kind"], len(parts["times"])) == ("section", 11)
+    assert {field["words"] for field in parts["fields"]} == {
+        "speed", "flow thickness", "equivalent plastic strain", "temperature", "pore pressure", "liquid saturation",
+    }  # fmt: skip
+    speed, pressure = field_of(parts, "speed"), field_of(parts, "pore pressure")
+    assert (speed["unit"], pressure["unit"]) == ("m/s", "MPa")
+    for index in range(11):
+        shot = shown_snapshot(run, index)
+        places = parts["points"]["particles"]
+        assert unpacked(data, places["x"][index]) == pytest.approx(shot.points[:, 0], abs=1e-3)
+        assert unpacked(data, places["y"][index]) == pytest.approx(shot.points[:, 1], abs=1e-3)
+        expected = np.linalg.norm(shot["velocity"], axis=1)
+        assert unpacked(data, speed["values"][index]) == pytest.approx(expected, abs=1e-3)
+        assert unpacked(data, pressure["values"][index]) == pytest.approx(shot["pore_pressure"] / 1e6, abs=1e-3)
+
+
+def test_map_view_has_the_volume_of_the_mass(map_run: Path) -> None:
+    parts, data = view_of(map_run)
+    thickness, speed = field_of(parts, "flow thickness"), field_of(parts, "depth-averaged speed")
+    area = parts["grid"]["dx"] * parts["grid"]["dy"]
+    for index in range(6):
+        values = unpacked(data, thickness["values"][index])
+        assert np.nansum(values) * area == pytest.approx(28_800.0, rel=2e-3), "without cells below 0.1 m"
+        expected = 20.0 if index == 0 else 20.0 * np.sqrt(1.16)  # from the file, and from displacement on the slope
+        assert np.nanmax(unpacked(data, speed["values"][index])) == pytest.approx(expected, rel=1e-3)
+    reached = unpacked(data, field_of(parts, "maximum flow thickness")["values"][0])
+    assert np.count_nonzero(reached > 0.1) * area == pytest.approx(16_800.0)
+    elevation = unpacked(data, parts["elevation"])
+    assert len(elevation) == len(reached)
+    assert {line["words"] for line in parts["lines"]} == {"release", "affected area", "flow path"}
+    assert list(parts["probes"]) == ["gate"]
+
+
+def test_amount_of_data_is_limited() -> None:
+    assert len(spaced(1000, MOST_SNAPSHOTS)) == MOST_SNAPSHOTS
+    assert spaced(1000, MOST_SNAPSHOTS)[-1] == 999
+    assert spaced(3, MOST_SNAPSHOTS) == [0, 1, 2]
+    assert spaced(0, MOST_SNAPSHOTS) == []
+    ids = np.arange(1_000_000)
+    rows = chosen_particles(ids, len(ids))
+    assert len(rows) == pytest.approx(MOST_PARTICLES, rel=0.05)
+    counts, _ = np.histogram(rows, bins=10, range=(0, len(ids)))
+    assert counts.min() > 0.8 * MOST_PARTICLES / 10, "distributed over the body"
+    later = chosen_particles(ids[500_000:], len(ids))
+    assert np.array_equal(ids[500_000:][later], rows[rows >= 500_000]), "the same particles"
+
+
+def test_damaged_snapshot_leaves_the_page_without_a_view(map_run: Path) -> None:
+    (map_run / "maps" / "terrain.tif").write_bytes(b"II*\0 damaged")
+    page = page_of(map_run)
+    assert 'id="view-parts"' not in page
+    assert '<th scope="row">Interactive view</th>' in page
+
+
+def test_published_events_are_plausible_and_named() -> None:
+    events = published_events()
+    assert len({event.name for event in events}) == len(events) > 30
+    for event in events:
+        assert 0.05 < event.ratio < 0.7, event
+        assert 1e4 < event.volume < 1e9, event
+        assert re.search(r"\(\d{4}\)$", event.source), event
+
+
+def test_map_run_is_among_the_published_events(map_run: Path) -> None:
+    parts = json.loads(element(page_of(map_run), "events-parts"))
+    *published, run = parts["traces"]
+    assert sum(len(trace["x"]) for trace in published) == len(published_events())
+    assert run["name"] == "this run"
+    assert (run["x"], run["y"]) == ([pytest.approx(0.0288)], [pytest.approx(112.0 / 280.0)])
+    assert parts["layout"]["xaxis"]["type"] == "log"
+
+
+def test_run_without_a_distance_is_not_among_the_events(map_run: Path) -> None:
+    facts = json.loads((map_run / "run.json").read_text())
+    for travelled in (None, 0.0, -5.0):
+        (map_run / "run.json").write_text(json.dumps(facts | {"travel_distance_m": travelled}))
+        assert events_part({"x": mobility_of(Run(map_run))}) == ""
