@@ -1,4 +1,4 @@
-"""Prose of pages, messages and labels, and what the rules of scripts/prose_rules.toml find in it."""
+"""Prose of pages, messages and labels, and its hits by the rules of scripts/prose_rules.toml."""
 
 import ast
 import re
@@ -249,9 +249,10 @@ def texts_of_python(file, content, rules):
 def all_texts(root, rules, only=()):
     """Return the texts of the repository, or those of some of its files."""
     root = Path(root)
-    pages = {*root.glob("*.md"), *(root / "docs").rglob("*.md"), *(root / "cases").rglob("*.md")}
+    folders = ("docs", "cases", "benchmarks")
+    pages = {*root.glob("*.md"), *(path for folder in folders for path in (root / folder).rglob("*.md"))}
     sources = {*(root / "src").rglob("*.[ch]pp")}
-    sources |= {path for folder in ("python/thawslide", "reproduction") for path in (root / folder).rglob("*.py")}
+    sources |= {path for folder in ("python/thawslide", "qgis", "reproduction") for path in (root / folder).rglob("*.py")}
     texts = []
     for path in sorted(pages | sources):
         file = path.relative_to(root).as_posix()
@@ -300,7 +301,7 @@ def _reason(text, span, rule, justified, used):
 
 
 def findings(texts, rules, justified=()):
-    """Return what the rules find in texts."""
+    """Return the hits and the long sentences in texts."""
     found, used = Findings(), set()
     for text in texts:
         for pattern in rules.patterns:

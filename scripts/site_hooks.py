@@ -1,9 +1,10 @@
-"""Hooks of mkdocs for pages at their paths in the repository: files of the site, lists as on GitHub, formulas.
+"""Hooks of mkdocs for pages at their paths in the repository: files, notebooks, lists as on GitHub, formulas.
 
 mkdocs.yml names this file. The site has the folders of the repository, and the same relative links work in both.
 """
 
 import html
+import json
 import re
 import subprocess
 import unicodedata
@@ -16,6 +17,8 @@ from mkdocs.structure.files import File, Files
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = re.compile(r"[^/]+\.md|(docs|benchmarks)/.+\.md|cases/[^/]+/[^/]+\.md")
+NOTEBOOKS = "docs/notebooks/*.ipynb"
+NOTEBOOK_LINK = re.compile(r"(\]\([^)\s]+)\.ipynb(?=[)#])")
 LINK = re.compile(r"\]\(([^)\s#]+)")
 FENCED = re.compile(r"^ *```.*?^ *```", re.MULTILINE | re.DOTALL)
 ASSETS = {
@@ -52,15 +55,43 @@ def files_of_site():
     return sorted(pages | (linked & known))
 
 
+def markdown_of(notebook):
+    """Return a notebook as a page: its texts, its code, and the outputs stored in it."""
+    parts = []
+    for cell in json.loads(notebook.read_text(encoding="utf-8"))["cells"]:
+        source = "".join(cell["source"])
+        if cell["cell_type"] == "markdown":
+            parts.append(source)
+            continue
+        parts.append(f"```python\n{source}\n```")
+        for output in cell["outputs"]:
+            data = output.get("data", {"text/plain": output.get("text", "")})
+            if "image/png" in data:
+                parts.append(f"![Output](data:image/png;base64,{''.join(data['image/png']).strip()})")
+            else:
+                parts.append(f"```text\n{''.join(data['text/plain']).rstrip()}\n```")
+    return "\n\n".join(parts) + "\n"
+
+
 def on_files(files, config):
-    """Replace the files of docs_dir by those of the repository."""
+    """Replace the files of docs_dir by those of the repository, and notebooks by pages."""
     theme = [file for file in files if file.src_dir != config.docs_dir]
-    own = {path: ROOT / path for path in files_of_site()} | ASSETS
-    return Files(theme + [File.generated(config, path, abs_src_path=str(file)) for path, file in own.items()])
+    own = {path: ROOT / path for path in files_of_site() if not path.endswith(".ipynb")} | ASSETS
+    pages = {str(path.relative_to(ROOT).with_suffix(".md")): markdown_of(path) for path in ROOT.glob(NOTEBOOKS)}
+    return Files(
+        theme
+        + [File.generated(config, path, abs_src_path=str(file)) for path, file in own.items()]
+        + [File.generated(config, path, content=text) for path, text in pages.items()]
+    )
 
 
 def on_page_markdown(markdown, **_):
-    """Indent the contents of list items by four columns per level, as Python-Markdown requires."""
+    """Indent the contents of list items by four columns per level, as Python-Markdown requires; link to pages.
+
+    "[x, y] [m]" in a table is no reference.
+    """
+    markdown = NOTEBOOK_LINK.sub(r"\1.md", markdown)
+    markdown = re.sub(r"^\|.*", lambda row: row[0].replace("] [", "] \\["), markdown, flags=re.MULTILINE)
     depths = []  # columns at which the text of the open items begins
     fence = False
     lines = []

@@ -9,7 +9,7 @@ from jobs import Job
 from results import without_gaps
 from thawslide.maps import Grid, Map, read_map
 from thawslide.relief import slopes
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 
 HERE = Path(__file__).resolve().parent
 ANGLES = (10, 15, 20, 25)  # degrees, of SHALTOP's runs

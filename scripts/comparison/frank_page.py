@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from thawslide.figures.map_panel import coordinate_text, outline, scale_bar
 from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, RED, styled
 from thawslide.maps import Map
-from thawslide.run import Run
+from thawslide.run_folder import Run
 
 HERE = Path(__file__).resolve().parent
 SHALTOP, THAWSLIDE = "SHALTOP", "Thawslide"

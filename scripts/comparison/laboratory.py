@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from jobs import Job
 from thawslide.arrays import Numbers
-from thawslide.run import Run
+from thawslide.run_folder import Run
 from thawslide.snapshot import Snapshot
 
 HERE = Path(__file__).resolve().parent

@@ -10,7 +10,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from results import AFFECTED, Numbered, Outcome, PointMass, numbers, point_mass
-from thawslide.figures.colours import SPEED, THICKNESS, label_bar, normalisation, thickness_words
+from thawslide.figures.colours import SPEED, THICKNESS, label_bar, normalization, thickness_words
 from thawslide.figures.map_page import MapPage
 from thawslide.figures.map_panel import box_about, colour_map, covered_box, make_scene, outline, paint, scale_bar
 from thawslide.figures.style import styled
@@ -96,11 +96,11 @@ def comparison_figure(
     """Plot a field of each program over the terrain, and the differences from the first."""
     places = [covered_box(outcome.thickness, AFFECTED) for outcome in outcomes]
     scene = make_scene(terrain, box_about([place for place in places if place is not None]))
-    note = f"Reached: at least {AFFECTED} m thick. Blue line: the release. Differences count 0 where a program has not "
-    note += f"reached. {scene.note()}"
+    note = f"Outline: maximum thickness of at least {AFFECTED} m. Blue line: release. Differences: 0 for a program "
+    note += f"without material in a cell. {scene.note()}"
     page = MapPage(f"{ground.title}: {words}", scene, 2 * len(outcomes) - 1, note=note, foot=0.0, bar=0.62)
     shown = [np.where(each.thickness.values >= AFFECTED, getattr(each, field).values, np.nan) for each in outcomes]
-    norm, extend = normalisation(np.concatenate([values.ravel() for values in shown]), PAINTINGS[field])
+    norm, extend = normalization(np.concatenate([values.ravel() for values in shown]), PAINTINGS[field])
     painter = ScalarMappable(norm, colour_map(PAINTINGS[field].colours))
     changes = [differences(shown[0], values) for values in shown[1:]]
     most = float(np.nanquantile(np.abs(np.concatenate([change.ravel() for change in changes])), 0.998))

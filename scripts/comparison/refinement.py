@@ -9,7 +9,7 @@ import numpy as np
 from grounds import ALR, PLANE, Variant, write_ground
 from jobs import Job, processor_time
 from thawslide.maps import read_map
-from thawslide.run import Run
+from thawslide.run_folder import Run
 
 HERE = Path(__file__).resolve().parent
 PLANE_CELLS = (40.0, 20.0, 10.0, 5.0, 10.0 / 3.0)  # m
@@ -17,7 +17,7 @@ PLANE_THICKNESS = 40.0  # m, of the release, along the normal
 ALR_CELLS = (10.0, 6.6, 5.0, 3.3)  # m
 STUDIED = 6.6  # m: the cell of the runs that isolate causes
 FILTERED = Variant("alr", "default filter")
-ROUGH = Variant("alr-rough", "DEM as it is", ("terrain.smooth=0",))
+ROUGH = Variant("alr-rough", "unfiltered DEM", ("terrain.smooth=0",))
 WIDE = Variant("alr-width10", "filter of 10 m", ("terrain.smooth=10",))
 CAUSES = (
     WIDE,

@@ -25,7 +25,7 @@ from refinement import (
 )
 from thawslide.figures.style import BLACK, BLUE, COLUMN_WIDTH, GREEN, ORANGE, RED, styled
 from thawslide.maps import Map, read_map
-from thawslide.run import Run
+from thawslide.run_folder import Run
 from wedge import Interval, intervals
 
 LENGTH = 10.0  # s, of the intervals of apparent friction
@@ -211,7 +211,7 @@ def write(jobs: list[Job], runs: Path, folder: Path) -> None:
         'The DEM filtered by default (`terrain.smooth = "auto"`), which is 5.5 m on all of these cells:',
         cells_table(alr),
         spread_words(alr),
-        "The DEM as it is (`terrain.smooth = 0`):",
+        "The unfiltered DEM (`terrain.smooth = 0`):",
         cells_table(rough),
         (HERE / "refinement-alr.md").read_text().strip(),
         f"Single causes, on cells of {STUDIED:g} m:",

@@ -10,7 +10,7 @@ from jobs import processor_time
 from matplotlib.path import Path as Outline
 from thawslide.maps import Map, read_map
 from thawslide.relief import slopes
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 
 GRAVITY = 9.81  # m/s2
 AFFECTED = 0.5  # m, vertical: minimum thickness of the area reached

@@ -20,7 +20,7 @@ from itertools import pairwise
 
 import numpy as np
 from thawslide.maps import Map
-from thawslide.run import Numbers, Run
+from thawslide.run_folder import Numbers, Run
 
 GRAVITY = 9.81  # m/s2
 

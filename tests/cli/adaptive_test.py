@@ -11,7 +11,7 @@ from conftest import (
     LAMPLUGH,
     Interrupted,
     Program,
-    assert_same_bits,
+    assert_bitwise_identical,
     datasets,
     history,
     run_facts,
@@ -31,15 +31,15 @@ def whole(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return run
 
 
-def test_a_row_follows_the_first_step_that_reaches_its_moment(thawslide: Program, whole: Path, tmp_path: Path) -> None:
+def test_each_row_follows_the_first_step_that_reaches_its_time(thawslide: Program, whole: Path, tmp_path: Path) -> None:
     every = tmp_path / "every"
     words = [*WORDS, *sets(time__history_interval=0)]
     assert thawslide("run", LAMPLUGH, "--output", every, *words).returncode == 0
     steps, rows = history(every)["time_s"], history(whole)["time_s"]
-    moments = [*np.arange(0.0, END, ROWS), END]
+    due = [*np.arange(0.0, END, ROWS), END]
     round_off = 1e-9
-    assert rows.tolist() == [steps[np.argmax(steps > moment - round_off)] for moment in moments]
-    assert np.any(rows > np.array(moments) + 1e-4), "no row is late: the test has no effect"
+    assert rows.tolist() == [steps[np.argmax(steps > due_time - round_off)] for due_time in due]
+    assert np.any(rows > np.array(due) + 1e-4), "no row is late: the test has no effect"
 
 
 def test_rows_change_no_step_and_snapshots_are_on_time(thawslide: Program, whole: Path, tmp_path: Path) -> None:
@@ -51,12 +51,12 @@ def test_rows_change_no_step_and_snapshots_are_on_time(thawslide: Program, whole
         first, second = datasets(one), datasets(other)
         assert all(values.tobytes() == second[key].tobytes() for key, values in first.items()), one.name
     rows = history(whole)["time_s"]
-    late = [float(np.min(np.abs(rows - moment))) for moment in np.arange(0.0, END, SNAPSHOTS)]
+    late = [float(np.min(np.abs(rows - due_time))) for due_time in np.arange(0.0, END, SNAPSHOTS)]
     assert late == pytest.approx(np.zeros(len(late)), abs=1e-9), "each snapshot has a row of its time"
 
 
 @pytest.mark.parametrize("percent", [10, 40])
-def test_a_stopped_run_continues_to_the_same_bits(
+def test_a_stopped_run_ends_bitwise_identical(
     thawslide: Program, interrupted: Interrupted, whole: Path, tmp_path: Path, percent: int
 ) -> None:
     run = tmp_path / "run"
@@ -64,5 +64,5 @@ def test_a_stopped_run_continues_to_the_same_bits(
     assert 0.0 < run_facts(run)["simulated_time_s"] < END
     outcome = thawslide("resume", run, "--threads", 1)
     assert outcome.returncode == 0, outcome.stderr
-    assert_same_bits(whole, run)
+    assert_bitwise_identical(whole, run)
     assert run_facts(run)["steps"] == run_facts(whole)["steps"]

@@ -1,4 +1,4 @@
-"""thawslide block leaves in the direction in which a run of the same case leaves, and warns of odd paths."""
+"""thawslide block moves in the direction of a run of the same case, and warns of unusual paths."""
 
 from __future__ import annotations
 
@@ -54,12 +54,12 @@ def block_rows(thawslide: Program, case: Path, output: Path, *words: str) -> dic
     return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
 
 
-def test_a_block_that_turns_back_leaves_downhill_as_the_run_does(thawslide: Program, tmp_path: Path) -> None:
+def test_a_block_that_turns_back_moves_downhill_as_the_run_does(thawslide: Program, tmp_path: Path) -> None:
     case = tmp_path / "case.toml"
     case.write_text(PLANE_2D)
     rows = block_rows(thawslide, case, tmp_path / "block.csv")
     assert rows["velocity_m_s"][0] == pytest.approx(-np.hypot(5.0, 2.5), rel=1e-3)
-    # Up with sin + mu cos, then down with sin - mu cos.
+    # Upward with sin + mu cos, then downward with sin - mu cos.
     sine, cosine, friction = np.sin(np.radians(26.565)), np.cos(np.radians(26.565)), np.tan(np.radians(15.0))
     up, down = 9.81 * (sine + friction * cosine), 9.81 * (sine - friction * cosine)
     speed = np.hypot(5.0, 2.5)
@@ -84,7 +84,7 @@ def slope(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def test_a_path_along_the_contour_is_warned_of(thawslide: Program, slope: Path) -> None:
+def test_a_path_along_the_contour_has_a_warning(thawslide: Program, slope: Path) -> None:
     assert "steepest descent" not in thawslide("block", slope).stdout
     write_line(slope / "path.geojson", [(150.0, 10.0), (150.0, 195.0)])
     done = thawslide("block", slope)
@@ -101,12 +101,12 @@ def test_a_path_of_no_length_is_refused(thawslide: Program, slope: Path) -> None
 
 
 def test_a_path_next_to_the_release_is_reported(thawslide: Program, slope: Path) -> None:
-    assert "passes the release by" not in thawslide("check", slope).stdout
+    assert "misses the release by" not in thawslide("check", slope).stdout
     write_line(slope / "path.geojson", [(50.0, 190.0), (790.0, 190.0)])
     done = thawslide("check", slope)
     assert done.returncode == 0, done.stderr
     # From the release's edge at y = 122.5 m, whose points reach half a cell further.
-    assert "warning: maps.path: path.geojson passes the release by, 6" in done.stdout
+    assert "warning: maps.path: path.geojson misses the release by 6" in done.stdout
 
 
 def test_a_probe_without_terrain_is_reported(thawslide: Program, slope: Path) -> None:

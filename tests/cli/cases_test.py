@@ -13,9 +13,9 @@ CASES = sorted((ROOT / "cases").glob("*/*.toml"))
 STEPS = 40
 ADAPTIVE_STEP = 0.01  # s
 
-# Cases whose terrain and release the user brings, and where tests look for both: beside the checkout.
+# Cases that need terrain and release of the user, and their folder next to the checkout.
 DATA = ROOT.parent / "shared" / "data"
-BROUGHT = {
+USER_DATA = {
     "alr": ("alr/alr.tif", "alr/release.shp"),
     "fluchthorn": ("fluchthorn/fluchthorn.tif", "fluchthorn/POLYGONS/scarpFluchthorn_perimeter.shp"),
 }
@@ -23,25 +23,25 @@ BROUGHT = {
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.parent.name}/{case.stem}")
 def test_case_runs_shortened(thawslide: Program, tmp_path: Path, case: Path) -> None:
-    """The run is whole, nothing in it is not a number, and its ledgers of mass, momentum and heat close."""
-    brought = what_the_user_brings(case)
-    checked = thawslide("check", case, *brought)
+    """The run is complete, all its values are numbers, and its budgets of mass, momentum and heat close."""
+    data_options = options_of_user_data(case)
+    checked = thawslide("check", case, *data_options)
     assert checked.returncode == 0, checked.stderr
     step = step_of(case)
     run = tmp_path / "run"
     shortened = ["--set", f"time.end={STEPS * step:.12g}", "--output", run, "--overwrite"]
-    done = thawslide("run", case, *brought, *shortened)
+    done = thawslide("run", case, *data_options, *shortened)
     assert done.returncode == 0, done.stderr
     assert run_facts(run)["status"] == "done"
     columns = history(run)
     last = {name: values[-1] for name, values in columns.items()}
     assert last["step"] == STEPS or is_adaptive(case)
     for name, values in columns.items():
-        empty = name.startswith(("band_", "basal_", "seismic_"))  # no band, no contact, no force before the first step
-        # Without a path the front is told along the way of the centre of mass, which is none before it moves.
-        known = values[-1:] if brought and name in ("front_position_m", "runout_m") else values
+        empty = name.startswith("band_")  # no band, or no contact before the first step
+        # Without a path, the front follows the track of the centre of mass, which does not exist before motion.
+        known = values[-1:] if data_options and name in ("front_position_m", "runout_m") else values
         assert empty or np.isfinite(known).all(), name
-    # Particles of a release differ in mass, and so do sums in another order, by round-off.
+    # Particles of a release differ in mass: sums in another order differ by round-off.
     assert abs(last["mass_residual_kg"]) <= (
         1e-13 * last["mass_kg"] if (run / "maps" / "release.tif").is_file() else 0.0
     )
@@ -54,14 +54,14 @@ def test_case_runs_shortened(thawslide: Program, tmp_path: Path, case: Path) -> 
     assert abs(last["thermal_residual_J"]) <= 1e-12 * start + 1e-9 * heat
 
 
-def what_the_user_brings(case: Path) -> list[str]:
-    """Return the options that name terrain and release of a case without its own, an eighth of its particles.
+def options_of_user_data(case: Path) -> list[str]:
+    """Return the options with terrain and release of a case without its own, and an eighth of its particles.
 
-    Passes the test over where they are not there.
+    Skips the test if the data are absent.
     """
-    if case.parent.name not in BROUGHT:
+    if case.parent.name not in USER_DATA:
         return []
-    terrain, release = (DATA / name for name in BROUGHT[case.parent.name])
+    terrain, release = (DATA / name for name in USER_DATA[case.parent.name])
     absent = [str(path.relative_to(DATA)) for path in (terrain, release) if not path.is_file()]
     if absent:
         pytest.skip(f"the case needs data that are not in the repository: {', '.join(absent)} in ../shared/data")
@@ -70,7 +70,7 @@ def what_the_user_brings(case: Path) -> list[str]:
 
 
 def step_of(case: Path) -> float:
-    """Return the time step of a case [s]; of an adaptive one, about the largest that it takes."""
+    """Return the time step of a case [s]; for adaptive steps, about the maximum."""
     return ADAPTIVE_STEP if is_adaptive(case) else float(time_of(case)["step"])
 
 
@@ -79,7 +79,7 @@ def is_adaptive(case: Path) -> bool:
 
 
 def time_of(case: Path) -> dict[str, object]:
-    """Return the table `time` of a case file, over that of the one it is based on."""
+    """Return the table `time` of a case file, merged with that of its base case."""
     tables = tomllib.loads(case.read_text())
     base = tables["case"].get("based_on")
     return {**(time_of(case.parent / base) if base else {}), **tables.get("time", {})}

@@ -1,4 +1,4 @@
-"""What `check` and `run` find before anything is computed: in files, in intervals, in the first steps."""
+"""Errors that `check` and `run` report before a computation: in files, in intervals, in the first steps."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ COLUMNS = "quantity,time_s,value,unit,source\n"
 
 
 def with_two_files_of_one_name(case: Path) -> str:
-    """Give a case a profile and targets of one name; return what it is told."""
+    """Give a case a profile and targets of one name, and return the error message."""
     (case / "data.csv").write_text(PROFILE)
     (case / "reports").mkdir()
     (case / "reports" / "data.csv").write_text(COLUMNS)
@@ -29,23 +29,21 @@ def with_two_files_of_one_name(case: Path) -> str:
     )
 
 
-def test_a_run_that_is_to_be_replaced_stays_until_the_new_case_is_accepted(
+def test_a_run_is_kept_until_the_case_that_replaces_it_is_accepted(
     thawslide: Program, small_case: Path, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0
     before = {file: file.read_bytes() for file in run.rglob("*") if file.is_file()}
-    said = with_two_files_of_one_name(small_case)
+    message = with_two_files_of_one_name(small_case)
     for words in (["check", small_case], ["run", small_case, "--output", run, "--overwrite"]):
         outcome = thawslide(*words)
-        assert (outcome.returncode, outcome.stdout, outcome.stderr) == (2, "", said)
+        assert (outcome.returncode, outcome.stdout, outcome.stderr) == (2, "", message)
     assert {file: file.read_bytes() for file in run.rglob("*") if file.is_file()} == before
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
-def test_an_input_that_cannot_be_read_leaves_the_run_that_was_to_be_replaced(
-    thawslide: Program, small_case: Path, tmp_path: Path
-) -> None:
+def test_an_unreadable_input_does_not_replace_a_run(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0
     (small_case / "base.toml").write_text((small_case / "case.toml").read_text())
@@ -62,12 +60,12 @@ def test_an_interval_that_would_hang_the_run_is_refused(thawslide: Program, smal
         assert outcome.returncode == 2 and outcome.stdout == ""
         assert outcome.stderr.startswith(
             f"error: --set {key}=1e-300: {key} is 1e-300 s, and the run of 0.2 s has 2e+299 times as much; allowed: "
-            "2e-10 s and more, 1e+09 of them in the run"
+            "2e-10 s and more, 1,000,000,000 of them in the run"
         )
     assert not (small_case / "runs").exists()
 
 
-def test_what_is_written_is_counted_by_the_steps_there_are(thawslide: Program, small_case: Path) -> None:
+def test_rows_and_snapshots_are_at_most_one_per_step(thawslide: Program, small_case: Path) -> None:
     words = sets(time__end=0.02, time__output_interval=1e-7, time__history_interval=1e-9, checkpoint__interval=1e-10)
     disk = json.loads(thawslide("check", small_case, "--json", *words).stdout)["disk"]
     assert (disk["snapshots"], disk["history_rows"]) == (21, 21)
@@ -78,16 +76,16 @@ def test_what_is_written_is_counted_by_the_steps_there_are(thawslide: Program, s
     assert run_facts(run)["steps"] == 20
 
 
-def test_numbers_of_steps_stay_short(thawslide: Program, small_case: Path) -> None:
+def test_large_numbers_of_steps_are_printed_briefly(thawslide: Program, small_case: Path) -> None:
     words = sets(time__end=1e300, time__output_interval=1e299, time__history_interval=1e299)
-    said = thawslide("check", small_case, *words).stdout
-    assert "  steps       1e+303\n" in said and " years on " in said
-    assert "time.step is 0.001 s: that is 1e+303 steps" in said
-    assert max(map(len, said.splitlines())) < 400
+    message = thawslide("check", small_case, *words).stdout
+    assert "  steps       1e+303\n" in message and " years on " in message
+    assert "time.step is 0.001 s: that is 1e+303 steps" in message
+    assert max(map(len, message.splitlines())) < 400
 
 
 @pytest.mark.parametrize("kind", ["a folder", "a pipe"])
-def test_what_is_no_file_is_called_what_it_is(thawslide: Program, small_case: Path, kind: str) -> None:
+def test_folders_and_pipes_are_named_as_such(thawslide: Program, small_case: Path, kind: str) -> None:
     place = small_case / "prof.csv"
     place.mkdir() if kind == "a folder" else os.mkfifo(place)
     words = sets(terrain__type="profile", terrain__file=place)
@@ -102,7 +100,7 @@ def test_what_is_no_file_is_called_what_it_is(thawslide: Program, small_case: Pa
     )
 
 
-def test_no_output_goes_over_an_input(thawslide: Program, small_case: Path) -> None:
+def test_no_output_replaces_an_input(thawslide: Program, small_case: Path) -> None:
     file = small_case / "case.toml"
     profile = small_case / "profile.csv"
     profile.write_text(PROFILE)
@@ -120,7 +118,7 @@ def test_no_output_goes_over_an_input(thawslide: Program, small_case: Path) -> N
     assert thawslide("block", small_case, "--output", small_case / "rows.csv").returncode == 0
 
 
-def test_facts_are_reported_of_a_case_that_goes_bad_in_its_first_steps(thawslide: Program, small_case: Path) -> None:
+def test_check_reports_facts_of_a_case_that_fails_in_its_first_steps(thawslide: Program, small_case: Path) -> None:
     words = [
         *sets(time__step=0.004, case__gravity=1e5, mechanics__initial_stress='"none"'),
         *sets(body__block__min="[10,4]", body__block__max="[14,8]"),
@@ -130,16 +128,18 @@ def test_facts_are_reported_of_a_case_that_goes_bad_in_its_first_steps(thawslide
     facts = json.loads(reported.stdout)
     assert facts["particles"] == 64 and facts["wall_s"] is None and len(facts["warnings"]) > 1 and facts["gpu"] is None
     assert reported.stderr == f"error: {facts['error']}\n" and "the run failed at t = " in facts["error"]
-    said = thawslide("check", small_case, *words)
-    assert said.returncode == 3
-    assert "case.toml: the run fails in its first steps\n" in said.stdout and "  particles   64\n" in said.stdout
-    sound = json.loads(thawslide("check", small_case, "--json").stdout)
-    gpu = sound["gpu"]
-    assert sound["error"] is None and (gpu["unavailable_reason"] is None) == (gpu["wall_s"] is not None)
+    outcome = thawslide("check", small_case, *words)
+    assert outcome.returncode == 3
+    assert "case.toml: the run fails in its first steps\n" in outcome.stdout and "  particles   64\n" in outcome.stdout
+    valid = json.loads(thawslide("check", small_case, "--json").stdout)
+    gpu = valid["gpu"]
+    assert valid["error"] is None and (gpu["unavailable_reason"] is None) == (gpu["wall_s"] is not None)
 
 
-def test_drainage_is_doubted_in_the_folder_of_a_run_too(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    """Its case has every default written out; what is at its default there was not meant."""
+def test_zero_drainage_by_default_has_a_warning_in_a_run_folder_too(
+    thawslide: Program, small_case: Path, tmp_path: Path
+) -> None:
+    """The case there lists every default; the warning applies only if the user has not set the value."""
     file, run = small_case / "case.toml", tmp_path / "run"
     file.write_text(file.read_text() + '\n[band]\nmodel = "columns"\nthickness = 0.2\n')
     note = "material.rock.hydraulic_conductivity is 0 m/s, its default: pore water cannot drain"
@@ -155,12 +155,12 @@ def test_drainage_is_doubted_in_the_folder_of_a_run_too(thawslide: Program, smal
     assert note not in thawslide("check", run).stdout
 
 
-def test_a_cell_that_is_proposed_fits_the_domain(thawslide: Program, small_case: Path) -> None:
+def test_the_proposed_cell_fits_the_domain(thawslide: Program, small_case: Path) -> None:
     words = sets(body__block__max="[14.0,0.9]", time__step=0.0001)
-    said = thawslide("check", small_case, *words).stdout
+    message = thawslide("check", small_case, *words).stdout
     line = (small_case / "case.toml").read_text().splitlines().index("cell = 1.0") + 1
     place = f"warning: {small_case / 'case.toml'}:{line}:8: grid.cell: across the median thickness of body block, "
-    (note,) = (each for each in said.splitlines() if each.startswith(place))
+    (note,) = (each for each in message.splitlines() if each.startswith(place))
     assert note.endswith(" Set grid.cell to 0.25 m, at about 64 times the run time.")
     finer = thawslide("check", small_case, *words, *sets(grid__cell=0.25))
     assert finer.returncode == 0 and "too few particles" not in finer.stdout
@@ -170,9 +170,9 @@ def test_a_cell_that_is_proposed_fits_the_domain(thawslide: Program, small_case:
 def test_an_error_during_reading_is_reported_with_file_and_reason(thawslide: Program, small_case: Path) -> None:
     broken = small_case / "broken.csv"
     broken.symlink_to("/proc/self/mem")
-    said = f"{broken}: cannot be read: Input/output error. Check that the file is whole and may be read.\n"
+    message = f"{broken}: cannot be read: Input/output error. Check that the file is whole and may be read.\n"
     outcome = thawslide("check", small_case, *sets(report__targets=broken))
     assert outcome.returncode == 2
-    assert outcome.stderr == f"error: --set report.targets={broken}: report.targets: {said}"
+    assert outcome.stderr == f"error: --set report.targets={broken}: report.targets: {message}"
     outcome = thawslide("check", broken)
-    assert (outcome.returncode, outcome.stderr) == (2, f"error: {said}")
+    assert (outcome.returncode, outcome.stderr) == (2, f"error: {message}")

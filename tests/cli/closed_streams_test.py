@@ -1,4 +1,4 @@
-"""Streams that whoever started the program has closed, and limits that it meets amid its work."""
+"""Streams that the parent process has closed, and limits that the program reaches during a run."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ def by_shell(binary: Path, environment: dict[str, str], script: str, *words: obj
 
 
 @pytest.mark.parametrize("closed", ["<&- >&-", "<&- >&- 2>&-", ">&-", ">&- 2>&-", "<&-", "2>&-"])
-def test_nothing_that_is_reported_goes_into_files(
+def test_output_to_closed_streams_is_not_written_into_files(
     binary: Path, plain_environment: dict[str, str], thawslide: Program, small_case: Path, tmp_path: Path, closed: str
 ) -> None:
-    """The files of a run took the places of closed streams, and its progress was written into them."""
+    """Otherwise files of the run get the numbers of closed streams, and progress is written into them."""
     known, run = tmp_path / "known", tmp_path / "run"
     assert thawslide("run", small_case, "--output", known).returncode == 0
     assert by_shell(binary, plain_environment, f'"$@" {closed}', "run", small_case, "--output", run).returncode == 0
@@ -58,12 +58,12 @@ def test_a_file_above_its_size_limit_is_reported(
     binary: Path, plain_environment: dict[str, str], small_case: Path, tmp_path: Path, words: list[str]
 ) -> None:
     command = [*words, small_case] if words[0] == "check" else words
-    done = by_shell(binary, plain_environment, f'ulimit -f 1; "$@" > {tmp_path / "told"}', *command)
+    done = by_shell(binary, plain_environment, f'ulimit -f 1; "$@" > {tmp_path / "output"}', *command)
     assert done.returncode == 5, done.stderr
     assert "error: the output cannot be written: File too large." in done.stderr
 
 
-def test_memory_that_runs_out_during_a_run(
+def test_memory_exhausted_during_a_run_stops_it_resumably(
     binary: Path, plain_environment: dict[str, str], thawslide: Program, small_case: Path, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"
@@ -91,7 +91,7 @@ def test_memory_that_runs_out_during_a_run(
     assert thawslide("resume", run, "--end", round(end, 3)).returncode == 0
 
 
-def test_files_from_the_future(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_files_with_future_times_are_reported(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0
     (run / "run.json").write_text(json.dumps(run_facts(run) | {"status": "running"}))
@@ -118,7 +118,7 @@ def test_a_report_needs_no_terminal(
     assert (run / "report.html").exists()
 
 
-def test_titles_that_would_steer_a_terminal(
+def test_control_characters_in_titles_are_replaced(
     thawslide: Program, report_environment: dict[str, str], small_case: Path, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"

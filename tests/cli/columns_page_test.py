@@ -1,4 +1,4 @@
-"""The script of the page on band columns, on a second of three members and two variants."""
+"""The script of the page on band columns, shortened: one second of three members and two variants."""
 
 from __future__ import annotations
 

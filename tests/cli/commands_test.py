@@ -1,14 +1,16 @@
-"""version, describe, check, block, report, and words that are no command."""
+"""Commands version, describe, check, block and report, and invalid commands."""
 
 from __future__ import annotations
 
 import json
 import re
+import shutil
+import subprocess
 import tomllib
 from pathlib import Path
 
 import pytest
-from conftest import LAMPLUGH, Program, sets
+from conftest import LAMPLUGH, Outcome, Program, sets
 
 PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -17,18 +19,19 @@ def test_version_names_version_commit_and_compiler(thawslide: Program) -> None:
     outcome = thawslide("version")
     assert outcome.returncode == 0
     assert re.fullmatch(r"thawslide \d+\.\d+\.\d+ \(commit \S+, (g\+\+|clang) \d.*\)\n", outcome.stdout)
+    assert thawslide("--version").stdout == outcome.stdout
 
 
 @pytest.mark.parametrize(
     "words", [[], ["slide"], ["run"], ["check", LAMPLUGH, "--colour"], ["run", "x", "--threads", 0]]
 )
-def test_wrong_words_exit_2_and_point_to_help(thawslide: Program, words: list[object]) -> None:
+def test_invalid_arguments_exit_with_2_and_refer_to_help(thawslide: Program, words: list[object]) -> None:
     outcome = thawslide(*words)
     assert outcome.returncode == 2
     assert "Run with --help for more information." in outcome.stderr
 
 
-def test_a_misspelt_command_names_its_neighbour(thawslide: Program) -> None:
+def test_a_misspelt_command_has_a_suggestion(thawslide: Program) -> None:
     outcome = thawslide("rum")
     assert outcome.returncode == 2
     assert "there is no command 'rum'; did you mean 'run'?" in outcome.stderr
@@ -38,7 +41,7 @@ def test_a_misspelt_command_names_its_neighbour(thawslide: Program) -> None:
 def test_help_lists_the_commands(thawslide: Program) -> None:
     outcome = thawslide("--help")
     assert outcome.returncode == 0
-    for command in ("run", "resume", "check", "block", "new", "section", "describe", "report", "version"):
+    for command in ("run", "resume", "check", "block", "new", "section", "describe", "report", "sweep", "version"):
         assert re.search(rf"^\s+{command}\s+\S", outcome.stdout, re.MULTILINE), command
 
 
@@ -46,10 +49,10 @@ def test_describe_names_each_key_with_unit_and_default(thawslide: Program) -> No
     outcome = thawslide("describe")
     assert outcome.returncode == 0
     assert "[time]" in outcome.stdout and "[material.NAME]" in outcome.stdout
-    assert re.search(r"gravity +gravity \[m/s2\]\n.*default: 9\.81", outcome.stdout)
+    assert re.search(r"gravity +gravitational acceleration \[m/s2\]\n.*default: 9\.81", outcome.stdout)
 
 
-def test_describe_json_holds_every_key_of_lamplugh(thawslide: Program) -> None:
+def test_describe_json_contains_every_key_of_lamplugh(thawslide: Program) -> None:
     outcome = thawslide("describe", "--json")
     assert outcome.returncode == 0
     known = {table["table"]: {key["key"]: key for key in table["keys"]} for table in json.loads(outcome.stdout)}
@@ -78,34 +81,34 @@ def test_describe_schema_is_a_schema(thawslide: Program) -> None:
     assert schema["properties"]["time"]["properties"]["end"]["type"] == "number"
 
 
-def test_describe_takes_one_form(thawslide: Program) -> None:
+def test_describe_accepts_one_form_only(thawslide: Program) -> None:
     assert thawslide("describe", "--json", "--md").returncode == 2
 
 
-def test_check_says_what_a_run_will_take(thawslide: Program) -> None:
+def test_check_estimates_the_resources_of_a_run(thawslide: Program) -> None:
     outcome = thawslide("check", LAMPLUGH)
     assert outcome.returncode == 0, outcome.stderr
-    said = dict(re.findall(r"^  (\w+) +(\S.*)$", outcome.stdout, re.MULTILINE))
-    assert int(said["particles"]) > 3000
-    assert said["cells"].startswith(f"{1220 * 220} in the domain")
-    assert re.match(r"0\.01 s; the limit is 0\.0\d+ s, set by the elastic wave of material 'rock_ice'", said["step"])
-    assert said["steps"] == "20000"
-    assert re.fullmatch(r"about [1-9]\d{0,2} MB; \S+ [MG]B are (free|left by .*)", said["memory"])
+    facts = dict(re.findall(r"^  (\w+) +(\S.*)$", outcome.stdout, re.MULTILINE))
+    assert int(facts["particles"].replace(",", "")) > 3000
+    assert facts["cells"].startswith(f"{1220 * 220:,} in the domain")
+    assert re.match(r"0\.01 s; the limit is 0\.0\d+ s, set by the elastic wave of material 'rock_ice'", facts["step"])
+    assert facts["steps"] == "20,000"
+    assert re.fullmatch(r"about [1-9]\d{0,2} MB; \S+ [MG]B are (free|left by .*)", facts["memory"])
     without = r"not used: (this program was built without CUDA|no NVIDIA (driver|GPU) found|the .*)"
-    assert re.fullmatch(without + r"|about .* \(measured on the first steps\) and .* free, on .*", said["GPU"])
+    assert re.fullmatch(without + r"|about .* \(measured on the first steps\) and .* free, on .*", facts["GPU"])
     assert re.match(
-        r"slide: 84,280 m3 and 1\.738e\+08 kg per metre of width, along 1,055 m; 79\.9 m thick on average, 90 m "
+        r"slide: 84,300 m3 and 174,000 t per metre of width, along 1,060 m; 79\.9 m thick on average, 90 m "
         r"in the median and 90 m at most \(vertical\)",
-        said["body"],
+        facts["body"],
     )
-    assert "              3371 particles 5 m apart; 18 across in the median and 18 at most; -10 C\n" in outcome.stdout
+    assert "              3,371 particles 5 m apart; 18 across in the median and 18 at most; -10 C\n" in outcome.stdout
     assert re.fullmatch(
         r"about 180 MB: 201 snapshots of \d\d0 kB, 3 checkpoints of 1\.2 MB, history 2\.5 MB, inputs \d+ kB; \S+ [MG]B "
         r"are free",
-        said["disk"],
+        facts["disk"],
     )
-    assert re.match(r"about \S+ (s|min|h) on \d+ threads?", said["time"])
-    assert "picture" not in said
+    assert re.match(r"about \S+ (s|min|h) on \d+ threads?", facts["time"])
+    assert "picture" not in facts
 
 
 def test_check_writes_nothing(thawslide: Program, small_case: Path) -> None:
@@ -113,13 +116,13 @@ def test_check_writes_nothing(thawslide: Program, small_case: Path) -> None:
     assert [file.name for file in small_case.iterdir()] == ["case.toml"]
 
 
-def test_check_draws_a_picture(
+def test_check_plots_the_setup(
     thawslide: Program,
     report_environment: dict[str, str],
     small_case: Path,
     tmp_path: Path,
 ) -> None:
-    """To the named file, seen from where the command is given; without a name beside the case file."""
+    """The path is relative to the working directory; by default the figure is next to the case file."""
     (small_case / "stiff.toml").write_text('[case]\nbased_on = "case.toml"\n')
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
@@ -142,12 +145,54 @@ def test_check_draws_a_picture(
     assert [file.name for file in elsewhere.iterdir()] == ["out.png"]
 
 
-def test_check_says_what_the_picture_needs(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    outcome = thawslide("check", small_case, "--picture", tmp_path / "out.png")
+@pytest.fixture
+def lone_binary(binary: Path, tmp_path: Path) -> Path:
+    """Return a copy of the program without thawslide-report next to it or in the .venv of a checkout."""
+    (tmp_path / "bin").mkdir()
+    return shutil.copy(binary, tmp_path / "bin" / "thawslide")
+
+
+def run_lone(lone_binary: Path, environment: dict[str, str], *words: object) -> Outcome:
+    return subprocess.run(
+        [lone_binary, *map(str, words)], env=environment, capture_output=True, text=True, timeout=60, check=False
+    )
+
+
+def test_check_without_thawslide_report_prints_the_facts_and_names_the_remedy(
+    lone_binary: Path, plain_environment: dict[str, str], small_case: Path, tmp_path: Path
+) -> None:
+    outcome = run_lone(lone_binary, plain_environment, "check", small_case, "--picture", tmp_path / "out.png")
     assert outcome.returncode == 2
+    assert re.search(r"^  particles +48$", outcome.stdout, re.MULTILINE)
     assert "the picture was not drawn: thawslide-report is not on PATH." in outcome.stderr
     assert "`./run --setup` installs it" in outcome.stderr
     assert not (tmp_path / "out.png").exists()
+
+
+@pytest.mark.parametrize("place", ["bin", ".venv/bin"])
+def test_thawslide_report_is_found_next_to_the_program_and_in_a_checkout(
+    binary: Path, plain_environment: dict[str, str], tmp_path: Path, place: str
+) -> None:
+    """The program is in bin of an installed package, or in build/PRESET of a checkout."""
+    for folder in {place, "bin" if place == "bin" else "build/release"}:
+        (tmp_path / folder).mkdir(parents=True)
+    program = tmp_path / ("bin" if place == "bin" else "build/release") / "thawslide"
+    shutil.copy(binary, program)
+    report = tmp_path / place / "thawslide-report"
+    report.write_text('#!/bin/sh\necho "found $*"\n')
+    report.chmod(0o755)
+    outcome = run_lone(program, plain_environment, "report", "--help")
+    assert outcome.returncode == 0, outcome.stderr
+    assert outcome.stdout == "found --help\n"
+
+
+def test_run_with_an_end_is_short_for_set(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    outcome = thawslide("run", small_case, "--end", 0.05, "--output", tmp_path / "run")
+    assert outcome.returncode == 0, outcome.stderr
+    assert tomllib.loads((tmp_path / "run" / "case.toml").read_text())["time"]["end"] == 0.05
+    both = thawslide("run", small_case, "--end", 0.05, *sets(time__end=0.1))
+    assert both.returncode == 2
+    assert "--end is short for --set time.end: give one of the two." in both.stderr
 
 
 def test_block_prints_a_table(thawslide: Program) -> None:
@@ -161,7 +206,7 @@ def test_block_prints_a_table(thawslide: Program) -> None:
     assert re.match(r"safety factor at the start: \d\.\d{3} ", last)
 
 
-def test_block_writes_a_csv_and_obeys_set(thawslide: Program, tmp_path: Path) -> None:
+def test_block_writes_a_csv_and_applies_set(thawslide: Program, tmp_path: Path) -> None:
     file = tmp_path / "x.csv"
     outcome = thawslide(
         "block", LAMPLUGH, "--output", file, *sets(time__end=10, basal__cohesion=0, basal__residual_cohesion=0)
@@ -172,12 +217,12 @@ def test_block_writes_a_csv_and_obeys_set(thawslide: Program, tmp_path: Path) ->
     numbers = [[float(field) for field in row.split(",")] for row in rows]
     assert columns[0] == "time_s" and numbers[0][0] == 0.0 and numbers[-1][0] == pytest.approx(10.0, abs=0.02)
     assert f"{len(rows)} rows in {file}" in outcome.stdout
-    # Without cohesion the slope is far from stable: the block accelerates all the way.
+    # Without cohesion the slope is far from stable: the block accelerates throughout.
     speeds = [row[columns.index("velocity_m_s")] for row in numbers]
     assert speeds == sorted(speeds) and speeds[-1] > 10.0
 
 
-def test_report_draws_the_figures_of_a_run(
+def test_report_plots_the_figures_of_a_run(
     thawslide: Program, report_environment: dict[str, str], small_case: Path, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"
@@ -196,8 +241,8 @@ def test_report_passes_on_the_exit_code(thawslide: Program, report_environment: 
     assert "thawslide-report: error:" in outcome.stderr
 
 
-def test_report_says_what_it_needs(thawslide: Program) -> None:
-    outcome = thawslide("report", "x")
+def test_report_without_thawslide_report_names_the_remedy(lone_binary: Path, plain_environment: dict[str, str]) -> None:
+    outcome = run_lone(lone_binary, plain_environment, "report", "x")
     assert outcome.returncode == 2
     assert "thawslide-report cannot be started (No such file or directory)." in outcome.stderr
     assert "put .venv/bin on PATH" in outcome.stderr
@@ -207,11 +252,11 @@ def test_case_may_be_a_folder_or_its_file(thawslide: Program) -> None:
     assert thawslide("block", LAMPLUGH / "case.toml", *sets(time__end=1)).returncode == 0
 
 
-def test_check_notes_what_is_unusual_of_broken_matter(thawslide: Program) -> None:
+def test_check_warns_of_unusual_values_of_broken_material(thawslide: Program) -> None:
     found = thawslide("check", LAMPLUGH, *sets(material__rock_ice__softening_strain=0.5))
     assert found.returncode == 0, found.stderr
     assert (
         "warning: --set material.rock_ice.softening_strain=0.5: material.rock_ice.softening_strain is 0.5, outside the "
-        "usual 0.005 to 0.05 of broken rock and ice (not checked)\n" in found.stdout
+        "usual 0.005 to 0.05 for broken rock and ice (not checked)\n" in found.stdout
     )
     assert "softening_strain" not in thawslide("check", LAMPLUGH).stdout, "the paper's own softening"

@@ -1,4 +1,4 @@
-"""Cases of the comparisons with other codes and of cells are sound; a short run keeps the volume of the pile."""
+"""Cases of the comparisons with other codes and of cells are valid; a short run conserves the volume of the pile."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from conftest import ROOT, Program
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "comparison"))
 
 import frank
+import joffre
 import refinement
 from jobs import Job
 
@@ -23,13 +24,13 @@ def options(job: Job) -> list[str]:
 
 
 def needs(*names: str) -> None:
-    """Pass the test over where the data of a user are not there."""
+    """Skip the test if the user's data are absent."""
     absent = [name for name in names if not (DATA / name).exists()]
     if absent:
         pytest.skip(f"the comparison needs data that are not in the repository: {', '.join(absent)} in ../shared/data")
 
 
-def test_each_run_of_the_frank_slide_is_a_sound_case(thawslide: Program, tmp_path: Path) -> None:
+def test_each_run_of_the_frank_slide_is_a_valid_case(thawslide: Program, tmp_path: Path) -> None:
     needs("frank")
     for job in frank.jobs(DATA / "frank", tmp_path):
         checked = thawslide("check", job.case, *options(job))
@@ -37,12 +38,21 @@ def test_each_run_of_the_frank_slide_is_a_sound_case(thawslide: Program, tmp_pat
         assert "36,000,000 m3" in checked.stdout
 
 
-def test_each_run_on_refined_cells_is_a_sound_case(thawslide: Program, tmp_path: Path) -> None:
+def test_each_run_on_refined_cells_is_a_valid_case(thawslide: Program, tmp_path: Path) -> None:
     needs("alr/alr.tif", "alr/release.shp")
     refinement.write_inputs(tmp_path, DATA / "alr")
     for job in refinement.jobs(tmp_path):
         checked = thawslide("check", job.case, *options(job))
         assert checked.returncode == 0, checked.stderr
+
+
+def test_each_case_of_the_blind_forecast_is_valid_and_releases_its_volume(thawslide: Program, tmp_path: Path) -> None:
+    needs("joffre")
+    joffre.prepare(DATA / "joffre", tmp_path)
+    for case in [tmp_path / release / f"{law}.toml" for release in joffre.RELEASES for law in joffre.LAWS]:
+        checked = thawslide("check", case)
+        assert checked.returncode == 0, checked.stderr
+        assert "2,500,000 m3" in checked.stdout
 
 
 def test_short_run_of_the_frank_slide_has_the_pile_on_the_grid_of_shaltop(thawslide: Program, tmp_path: Path) -> None:

@@ -211,7 +211,7 @@ def datasets(file: Path) -> dict[str, np.ndarray]:
     return found
 
 
-def assert_same_bits(one: Path, other: Path) -> None:
+def assert_bitwise_identical(one: Path, other: Path) -> None:
     """Fail unless histories and snapshots of two runs are bitwise identical."""
     assert (one / "history.csv").read_bytes() == (other / "history.csv").read_bytes()
     names = [file.name for file in snapshot_files(one)]

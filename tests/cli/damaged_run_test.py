@@ -1,4 +1,4 @@
-"""Files of a run that were damaged or lost: what `resume` does about them, and that it says so."""
+"""Damaged and missing files of a run: `resume` repairs them or continues without them, and reports it."""
 
 from __future__ import annotations
 
@@ -7,17 +7,16 @@ from pathlib import Path
 
 import h5py
 import pytest
-from conftest import Program, assert_same_bits, history, run_facts, sets, snapshot_files
-from faults import as_killed
+from conftest import Program, assert_bitwise_identical, history, run_facts, sets, snapshot_files
+from faults import mark_killed
 
 WORDS = sets(checkpoint__interval=0.15)  # checkpoints at 0, 0.15 and 0.2 s; rows each 0.01 s, snapshots each 0.05 s
-GOES_ON = "continuing from t = 0.15 s; it had reached "
 
 
 @pytest.fixture
-def whole(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
-    """Return the folder of the run that nothing disturbed."""
-    run = tmp_path / "whole"
+def uninterrupted(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
+    """Return the folder of an uninterrupted run."""
+    run = tmp_path / "uninterrupted"
     assert thawslide("run", small_case, "--output", run, *WORDS).returncode == 0
     return run
 
@@ -27,19 +26,19 @@ def killed(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
     """Return the folder of a run that was killed after its checkpoint at 0.15 s and before the one at its end."""
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run, *WORDS).returncode == 0
-    as_killed(run)
+    mark_killed(run)
     (run / "checkpoint.previous.bin").rename(run / "checkpoint.bin")
     return run
 
 
 def resumed(thawslide: Program, run: Path) -> list[str]:
-    """Go on with a run to its end; return its notes of damage, which run.json has too."""
+    """Resume a run to its end; return its warnings of damage, which run.json also contains."""
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
     assert outcome.stderr == ""
     lines = outcome.stdout.splitlines()
     begins = next(k for k, line in enumerate(lines) if line.startswith("continuing from t = 0.15 s"))
-    notes = [line.removeprefix("warning: ") for line in lines[:begins]]  # those of the case come behind
+    notes = [line.removeprefix("warning: ") for line in lines[:begins]]  # warnings of the case follow
     assert run_facts(run)["status"] == "done" and run_facts(run)["parts"][-1]["warnings"] == notes
     return notes
 
@@ -48,7 +47,7 @@ def hundredths(run: Path) -> list[int]:
     return [round(100 * time) for time in history(run)["time_s"]]
 
 
-def cut(rows: list[str]) -> list[str]:
+def truncate(rows: list[str]) -> list[str]:
     return rows[:6]
 
 
@@ -56,26 +55,26 @@ def garble(rows: list[str]) -> list[str]:
     return [*rows[:7], "0.0x" + rows[7], *rows[8:]]
 
 
-def take_out(rows: list[str]) -> list[str]:
+def remove_rows(rows: list[str]) -> list[str]:
     return rows[:7] + rows[9:]
 
 
-def lose_the_header(rows: list[str]) -> list[str]:
+def overwrite_the_header(rows: list[str]) -> list[str]:
     return ["\0" * 20 + "\n", *rows[1:]]
 
 
 @pytest.mark.parametrize(
     ("damage", "left", "reported"),
     [
-        (cut, [*range(5), *range(16, 21)], "lacks 11 of the 16 rows {upto}; {kept}"),
+        (truncate, [*range(5), *range(16, 21)], "lacks 11 of the 16 rows {upto}; {kept}"),
         (garble, [*range(6), *range(7, 21)], "lacks 1 of the 16 rows {upto}; {kept}"),
-        (take_out, [*range(6), *range(8, 21)], "lacks 2 of the 16 rows {upto}; {kept}"),
-        (lose_the_header, list(range(21)), "is not as the run wrote it; its rows are whole and stay"),
+        (remove_rows, [*range(6), *range(8, 21)], "lacks 2 of the 16 rows {upto}; {kept}"),
+        (overwrite_the_header, list(range(21)), "is not as the run wrote it; its rows are complete and are kept"),
     ],
 )
-def test_rows_that_are_lost_are_reported(
+def test_lost_rows_are_reported(
     thawslide: Program,
-    whole: Path,
+    uninterrupted: Path,
     killed: Path,
     damage: Callable[[list[str]], list[str]],
     left: list[int],
@@ -90,15 +89,15 @@ def test_rows_that_are_lost_are_reported(
     assert resumed(thawslide, killed) == [f"history.csv {words}"]
     assert hundredths(killed) == [round(100 * k / 100) for k in left]
     assert kept.exists() == ("kept as" in words) and (not kept.exists() or kept.read_bytes() == found)
-    rows = (whole / "history.csv").read_text().splitlines()
+    rows = (uninterrupted / "history.csv").read_text().splitlines()
     assert (killed / "history.csv").read_text().splitlines() == [rows[0], *(rows[1 + k] for k in left)]
-    # Once it has been told the run goes on as any other.
-    as_killed(killed)
+    # After the report, the run continues like any other.
+    mark_killed(killed)
     outcome = thawslide("resume", killed)
     assert outcome.returncode == 0 and "history.csv" not in outcome.stdout
 
 
-def test_a_lost_history_begins_again(thawslide: Program, killed: Path) -> None:
+def test_a_lost_history_starts_again(thawslide: Program, killed: Path) -> None:
     (killed / "history.csv").unlink()
     assert resumed(thawslide, killed) == [
         "history.csv was missing: it starts again, without the 16 rows up to t = 0.15 s"
@@ -106,7 +105,7 @@ def test_a_lost_history_begins_again(thawslide: Program, killed: Path) -> None:
     assert hundredths(killed) == list(range(16, 21))
 
 
-def test_what_was_damaged_goes_with_the_run(thawslide: Program, small_case: Path, killed: Path) -> None:
+def test_damaged_copies_are_removed_with_the_run(thawslide: Program, small_case: Path, killed: Path) -> None:
     (killed / "history.damaged.csv").write_text("an earlier one\n")
     (killed / "history.csv").write_text("")
     resumed(thawslide, killed)
@@ -121,11 +120,13 @@ def index_times(run: Path) -> list[float]:
         return [round(float(time), 9) for time in file["VTKHDF/Steps/Values"][()]]
 
 
-def test_a_snapshot_after_the_checkpoint_is_written_again(thawslide: Program, whole: Path, killed: Path) -> None:
+def test_a_damaged_snapshot_after_the_checkpoint_is_written_again(
+    thawslide: Program, uninterrupted: Path, killed: Path
+) -> None:
     last = snapshot_files(killed)[-1]
     last.write_bytes(b"")
     assert resumed(thawslide, killed) == []
-    assert_same_bits(whole, killed)
+    assert_bitwise_identical(uninterrupted, killed)
     assert index_times(killed) == [0, 0.05, 0.1, 0.15, 0.2]
 
 
@@ -138,8 +139,14 @@ def test_a_snapshot_after_the_checkpoint_is_written_again(thawslide: Program, wh
     ],
 )
 @pytest.mark.parametrize("is_there", [True, False])
-def test_earlier_snapshots_that_are_lost_are_reported(
-    thawslide: Program, whole: Path, killed: Path, numbers: list[int], words: str, times: list[float], is_there: bool
+def test_lost_earlier_snapshots_are_reported(
+    thawslide: Program,
+    uninterrupted: Path,
+    killed: Path,
+    numbers: list[int],
+    words: str,
+    times: list[float],
+    is_there: bool,
 ) -> None:
     for number in numbers:
         file = killed / "snapshots" / f"{number:06d}.vtkhdf"
@@ -148,20 +155,18 @@ def test_earlier_snapshots_that_are_lost_are_reported(
         else:
             file.unlink()
     assert resumed(thawslide, killed) == [
-        f"of the 4 snapshots up to here these are missing or cannot be read: {words}; particles.vtkhdf leaves them out"
+        f"of the 4 snapshots up to here these are missing or cannot be read: {words}; particles.vtkhdf omits them"
     ]
     assert index_times(killed) == times
     names = [f"{number:06d}.vtkhdf" for number in range(5) if is_there or number not in numbers]
     assert [file.name for file in snapshot_files(killed)] == names
-    assert (killed / "history.csv").read_bytes() == (whole / "history.csv").read_bytes()
+    assert (killed / "history.csv").read_bytes() == (uninterrupted / "history.csv").read_bytes()
 
 
-def test_a_run_that_has_lost_all_snapshots_at_its_end_is_closed(
-    thawslide: Program, small_case: Path, tmp_path: Path
-) -> None:
+def test_a_run_without_snapshots_is_completed(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0
-    as_killed(run)
+    mark_killed(run)
     for file in snapshot_files(run):
         file.unlink()
     outcome = thawslide("resume", run)
@@ -171,9 +176,9 @@ def test_a_run_that_has_lost_all_snapshots_at_its_end_is_closed(
 
 @pytest.mark.parametrize(
     ("text", "found"),
-    [("", "it is empty"), ("{\n", "it is no JSON from byte 3 on"), ("{}", "key 'parts' not found")],
+    [("", "it is empty"), ("{\n", "it is not JSON from byte 3 on"), ("{}", "key 'parts' not found")],
 )
-def test_a_damaged_run_json_is_reported_with_what_to_do(
+def test_a_damaged_run_json_is_reported_with_the_remedy(
     thawslide: Program, killed: Path, text: str, found: str
 ) -> None:
     (killed / "run.json").write_text(text)
@@ -187,9 +192,7 @@ def test_a_damaged_run_json_is_reported_with_what_to_do(
         )
 
 
-def test_resume_removes_what_a_run_left_half_written_and_nothing_else(
-    thawslide: Program, killed: Path, tmp_path: Path
-) -> None:
+def test_resume_removes_only_temporary_files_of_the_run(thawslide: Program, killed: Path, tmp_path: Path) -> None:
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
     foreign = elsewhere / ".data.12.thawslide-part"

@@ -1,4 +1,4 @@
-"""Where the steps of a run are taken: --device."""
+"""Selection of the device of a run: --device."""
 
 from __future__ import annotations
 
@@ -9,19 +9,21 @@ import pytest
 from conftest import Program
 
 
-def test_no_card_is_reported_before_anything_is_written(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_a_missing_gpu_is_reported_before_anything_is_written(
+    thawslide: Program, small_case: Path, tmp_path: Path
+) -> None:
     run = tmp_path / "run"
     outcome = thawslide("run", small_case, "--output", run, "--device", "gpu")
     if outcome.returncode == 0:
         assert json.loads((run / "run.json").read_text())["parts"][0]["device"]
-        pytest.skip("there is a card here, and the run went on it")
+        pytest.skip("a GPU is available, and the run used it")
     assert outcome.returncode == 2
     assert outcome.stderr.startswith("error: --device gpu: ")
     assert outcome.stderr.endswith("un the case on the CPU: --device cpu\n")
     assert not run.exists()
 
 
-def test_auto_takes_the_processor_where_nothing_else_is(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_auto_and_cpu_run_and_resume(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     for device in ("auto", "cpu"):
         run = tmp_path / device
         assert thawslide("run", small_case, "--output", run, "--device", device).returncode == 0

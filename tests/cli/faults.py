@@ -1,4 +1,4 @@
-"""Runs that are killed, or whose writing fails, and what becomes of them: for the tests and for scripts/reliability."""
+"""Runs that are killed or whose writing fails, and their results: for the tests and for scripts/reliability."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from conftest import LAMPLUGH, datasets, sets
 
 ROOT = Path(__file__).resolve().parents[2]
 FAILING_WRITES = ROOT / "build" / "release" / "tests" / "failing_writes.so"
-LEFT_OUT = ("run.json", "run.lock")  # what tells of processes, not of the slide
+LEFT_OUT = ("run.json", "run.lock")  # files about processes, not about the slide
 LONG = sets(time__end=150, time__history_interval=0.05, time__output_interval=50)
 NOT_BEGUN = "is not a run folder"
 
 
 @dataclass(frozen=True)
 class Subject:
-    """A case that is tried: words of `run` after the case, without --output."""
+    """A case to be tested, and the arguments of `run` after the case, without --output."""
 
     name: str
     case: Path
@@ -35,7 +35,7 @@ class Subject:
 
 @dataclass
 class Trial:
-    """What became of one run that was disturbed."""
+    """The result of one disturbed run."""
 
     subject: str
     disturbance: str
@@ -46,7 +46,7 @@ class Trial:
 
     @property
     def passed(self) -> bool:
-        """Whether nothing was lost and nothing went wrong on the way."""
+        """Whether nothing was lost and no error occurred."""
         return self.same and not self.remarks
 
 
@@ -58,7 +58,7 @@ def content(file: Path) -> bytes:
 
 
 def digest(run: Path) -> dict[str, str]:
-    """Return SHA-256 of every file of a run but those that tell of processes."""
+    """Return SHA-256 of every file of a run, except files about processes."""
     return {
         str(file.relative_to(run)): hashlib.sha256(content(file)).hexdigest()
         for file in sorted(run.rglob("*"))
@@ -66,16 +66,16 @@ def digest(run: Path) -> dict[str, str]:
     }
 
 
-def as_killed(run: Path) -> None:
-    """Make run.json that of a run whose process is gone."""
+def mark_killed(run: Path) -> None:
+    """Set run.json to that of a run whose process was killed."""
     text = (run / "run.json").read_text()
     assert text.count('"status": "done"') == 1
     (run / "run.json").write_text(text.replace('"status": "done"', '"status": "running"'))
 
 
 def before_its_first_checkpoint(run: Path) -> None:
-    """Make a finished run one that was killed when all but its first checkpoint had been written."""
-    as_killed(run)
+    """Change a finished run to one that was killed just before its first checkpoint."""
+    mark_killed(run)
     facts = json.loads((run / "run.json").read_text())
     facts.update(steps=0, simulated_time_s=0.0)
     (run / "run.json").write_text(json.dumps(facts))
@@ -86,8 +86,8 @@ def before_its_first_checkpoint(run: Path) -> None:
 
 
 @contextmanager
-def at_work_in(run: Path, program: Path, environment: dict[str, str]) -> Iterator[subprocess.Popen[str]]:
-    """Have a run at work in a folder, which has taken some steps and has far to go."""
+def running_in(run: Path, program: Path, environment: dict[str, str]) -> Iterator[subprocess.Popen[str]]:
+    """Yield the process of a long run into a folder after its first steps."""
     pipe = subprocess.PIPE
     command = [str(program), "run", str(LAMPLUGH), "--output", str(run), *LONG]
     with subprocess.Popen(command, env=environment, stdout=pipe, stderr=pipe, text=True) as process:
@@ -100,12 +100,12 @@ def at_work_in(run: Path, program: Path, environment: dict[str, str]) -> Iterato
 
 
 def command_of(program: Path, subject: Subject, run: Path) -> list[str]:
-    """Return the words that run the subject into a folder."""
+    """Return the command that runs the subject into a folder."""
     return [str(program), "run", str(subject.case), "--output", str(run), "--threads", "1", *subject.words]
 
 
 def undisturbed(program: Path, subject: Subject, run: Path) -> tuple[dict[str, str], float]:
-    """Run the subject; return the digest of its files and how long it took [s]."""
+    """Run the subject; return the digest of its files and its duration [s]."""
     begin = time.monotonic()
     done = subprocess.run(command_of(program, subject, run), capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -113,7 +113,7 @@ def undisturbed(program: Path, subject: Subject, run: Path) -> tuple[dict[str, s
 
 
 def unreadable(run: Path) -> list[str]:
-    """Return what of a run's folder, as a kill has left it, cannot be read."""
+    """Return the files in the folder of a killed run that cannot be read."""
     found = []
     for file in [*(run / "snapshots").glob("[0-9]*.vtkhdf"), *run.glob("particles.vtkhdf")]:
         try:
@@ -127,18 +127,18 @@ def unreadable(run: Path) -> list[str]:
     return found
 
 
-def go_on(program: Path, subject: Subject, run: Path) -> list[str]:
-    """Resume a run, or run it again where it had not begun, as a user would; return what went wrong."""
+def resume_or_restart(program: Path, subject: Subject, run: Path) -> list[str]:
+    """Resume a run, or restart it if it had not begun; return errors."""
     outcome = subprocess.run(
         [str(program), "resume", str(run), "--threads", "1"], capture_output=True, text=True, check=False
     )
     if outcome.returncode == 2 and NOT_BEGUN in outcome.stderr:
         outcome = subprocess.run(command_of(program, subject, run), capture_output=True, text=True, check=False)
-    return [] if outcome.returncode == 0 else [f"going on ended with {outcome.returncode}: {outcome.stderr.strip()}"]
+    return [] if outcome.returncode == 0 else [f"resuming ended with {outcome.returncode}: {outcome.stderr.strip()}"]
 
 
 def changed_files(expected: dict[str, str], found: dict[str, str]) -> list[str]:
-    """Return the names of files that differ, but for the checkpoint before the last, whose moment is the clock's."""
+    """Return the names of files that differ, except the previous checkpoint, whose time depends on wall-clock time."""
     names = (expected.keys() | found.keys()) - {"checkpoint.previous.bin"}
     return sorted(name for name in names if expected.get(name) != found.get(name))
 
@@ -146,7 +146,7 @@ def changed_files(expected: dict[str, str], found: dict[str, str]) -> list[str]:
 def killed(
     program: Path, subject: Subject, run: Path, expected: dict[str, str], span: float, chance: random.Random
 ) -> Trial:
-    """Kill a run at a random moment of `span` seconds, go on with it and compare; one that had ended is run again."""
+    """Kill a run at a random time within `span` seconds, resume it and compare; repeat if it ended before."""
     quiet = subprocess.DEVNULL
     code = 0
     while code == 0:
@@ -158,7 +158,7 @@ def killed(
             except subprocess.TimeoutExpired:
                 process.kill()
             code = process.wait()
-    remarks = unreadable(run) + go_on(program, subject, run)
+    remarks = unreadable(run) + resume_or_restart(program, subject, run)
     changed = changed_files(expected, digest(run))
     return Trial(subject.name, f"killed after {delay:.3f} s", code, "", not changed, remarks + changed)
 
@@ -188,7 +188,7 @@ def calls_that_write(program: Path, subject: Subject, run: Path, count: Path) ->
 def failing(
     program: Path, subject: Subject, run: Path, expected: dict[str, str], at: int, kind: str, reason: str
 ) -> Trial:
-    """Let the writing call number `at` fail, go on with the run once there is room and compare."""
+    """Let the writing call number `at` fail, resume the run without failures and compare."""
     environment = environment_of_fault(run, at, kind, reason)
     outcome = subprocess.run(
         command_of(program, subject, run), env=environment, capture_output=True, text=True, check=False
@@ -200,7 +200,7 @@ def failing(
         remarks.append(f"ended with {outcome.returncode}: {outcome.stderr.strip()}")
     if outcome.returncode != 0 and str(run) not in reported:
         remarks.append(f"the error names no file of the run: {reported}")
-    remarks += go_on(program, subject, run)
+    remarks += resume_or_restart(program, subject, run)
     changed = changed_files(expected, digest(run))
     return Trial(
         subject.name, f"{kind}, {reason}, call {at}", outcome.returncode, reported, not changed, remarks + changed
@@ -208,7 +208,7 @@ def failing(
 
 
 def limited(program: Path, subject: Subject, run: Path, expected: dict[str, str], size: int) -> Trial:
-    """Run under a limit of the size of a file [bytes], go on with the run without it and compare."""
+    """Run under a limit of the size of a file [bytes], resume without it and compare."""
 
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, resource.RLIM_INFINITY))
@@ -217,7 +217,7 @@ def limited(program: Path, subject: Subject, run: Path, expected: dict[str, str]
         command_of(program, subject, run), preexec_fn=limit, capture_output=True, text=True, check=False
     )
     remarks = [] if outcome.returncode in (2, 5) and "File too large" in outcome.stderr else [outcome.stderr]
-    remarks += go_on(program, subject, run)
+    remarks += resume_or_restart(program, subject, run)
     changed = changed_files(expected, digest(run))
     reported = outcome.stderr.splitlines()[0] if outcome.stderr else ""
     return Trial(
@@ -228,7 +228,7 @@ def limited(program: Path, subject: Subject, run: Path, expected: dict[str, str]
 def on_small_disk(
     program: Path, subject: Subject, disk: Path, expected: dict[str, str], sizes: tuple[int, int]
 ) -> Trial | None:
-    """Run on a disk of sizes[0] kB, go on with the run once it has sizes[1], compare; None where none can be made."""
+    """Run on a disk of sizes[0] kB, resume with sizes[1] and compare; None if no disk can be mounted."""
     disk.mkdir()
     made = subprocess.run(
         ["mount", "-t", "tmpfs", "-o", f"size={sizes[0]}k", "tmpfs", str(disk)], capture_output=True, check=False
@@ -238,10 +238,10 @@ def on_small_disk(
     try:
         run = disk / "run"
         outcome = subprocess.run(command_of(program, subject, run), capture_output=True, text=True, check=False)
-        is_told = "No space left" in outcome.stderr or "The disk may be full" in outcome.stderr
-        remarks = [] if outcome.returncode in (2, 5) and is_told else [outcome.stderr]
+        is_reported = "No space left" in outcome.stderr or "The disk may be full" in outcome.stderr
+        remarks = [] if outcome.returncode in (2, 5) and is_reported else [outcome.stderr]
         subprocess.run(["mount", "-o", f"remount,size={sizes[1]}k", str(disk)], check=True)
-        remarks += go_on(program, subject, run)
+        remarks += resume_or_restart(program, subject, run)
         changed = changed_files(expected, digest(run))
         reported = outcome.stderr.splitlines()[0] if outcome.stderr else ""
         return Trial(

@@ -1,4 +1,4 @@
-"""A force record is read before a run as the report reads it after it."""
+"""The program, before a run, and the report, after it, read a force record by the same rules."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def case(small_case: Path) -> Path:
         RANGE + "0,0,0,0,-1,1,1,2,-1,1\n1,0,0,0,-1,1,-1,1,-1,1\n",
     ],
 )
-def test_both_say_the_same(thawslide: Program, case: Path, text: str) -> None:
+def test_program_and_report_have_the_same_messages(thawslide: Program, case: Path, text: str) -> None:
     file = case / "force.csv"
     file.write_text(text)
     checked = thawslide("check", case)
@@ -54,15 +54,15 @@ def test_both_say_the_same(thawslide: Program, case: Path, text: str) -> None:
     assert str(error.value) == found
 
 
-def test_the_records_of_the_cases_are_understood_by_both(thawslide: Program) -> None:
+def test_program_and_report_read_the_records_of_the_cases(thawslide: Program) -> None:
     for name in ("lamplugh", "lamplugh-columns"):
         assert thawslide("check", ROOT / "cases" / name).returncode == 0
         record = read_force_record(ROOT / "cases" / name / "lamplugh_force.csv", Band(10.0, 200.0), "")
         assert len(record.time) == 171 and record.low and record.high
 
 
-def test_a_changed_record_does_not_hinder_a_resume(thawslide: Program, case: Path, tmp_path: Path) -> None:
-    """Figures alone compare with it, so that a corrected copy needs no new run."""
+def test_a_run_with_a_changed_record_can_be_resumed(thawslide: Program, case: Path, tmp_path: Path) -> None:
+    """Only figures use it: a corrected copy needs no new run."""
     (case / "force.csv").write_text(HEADER + "0,0,0,0\n1,0,0,0\n")
     run = tmp_path / "run"
     assert thawslide("run", case, "--output", run).returncode == 0

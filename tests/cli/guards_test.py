@@ -1,4 +1,4 @@
-"""Guards and rest: what ends a run before its time, what is taken out of it, and what is told of that."""
+"""Guards and rest: early ends of a run, removed particles, and their messages."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from conftest import (
     LAMPLUGH,
     Interrupted,
     Program,
-    assert_same_bits,
+    assert_bitwise_identical,
     content_of,
     history,
     run_facts,
@@ -25,7 +25,7 @@ RESTS = [*SLIDES, *sets(time__stop_at_rest=0.1, time__rest_time=0.4)]
 
 
 def test_a_run_ends_at_rest(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    run, whole = tmp_path / "run", tmp_path / "whole"
+    run, complete = tmp_path / "run", tmp_path / "complete"
     outcome = thawslide("run", small_case, "--output", run, *RESTS)
     assert outcome.returncode == 0, outcome.stderr
     facts = run_facts(run)
@@ -39,14 +39,14 @@ def test_a_run_ends_at_rest(thawslide: Program, small_case: Path, tmp_path: Path
     assert facts["status"] == "done"
     end = facts["simulated_time_s"]
     assert end == pytest.approx(float(reported[1]) + 0.4, abs=0.0101) and 1.0 < end < 2.0
-    # All outputs are of that moment; up to there the run is the one without the key.
+    # All outputs have that time; until then the run equals the one without the key.
     columns = history(run)
     assert columns["time_s"][-1] == end
-    assert thawslide("run", small_case, "--output", whole, *SLIDES, *sets(time__end=end)).returncode == 0
-    assert_same_bits(run, whole)
+    assert thawslide("run", small_case, "--output", complete, *SLIDES, *sets(time__end=end)).returncode == 0
+    assert_bitwise_identical(run, complete)
 
 
-def test_a_run_at_rest_is_left_as_it_is(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_resume_does_not_change_a_run_at_rest(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run, *RESTS).returncode == 0
     before = content_of(run)
@@ -60,10 +60,10 @@ def test_a_run_at_rest_is_left_as_it_is(thawslide: Program, small_case: Path, tm
 
 
 @pytest.mark.parametrize("slides", [True, False])
-def test_a_run_that_lies_still_already_ends_when_it_is_reported_to(
+def test_a_mass_already_at_rest_ends_the_resumed_run_only_if_it_has_moved(
     thawslide: Program, small_case: Path, tmp_path: Path, slides: bool
 ) -> None:
-    """What has gone further than a cell counts as having moved, and what never moved does not."""
+    """A mass has moved if its displacement exceeds a cell."""
     run = tmp_path / "run"
     words = [*SLIDES, *sets(time__end=2.5, body__block__velocity="[2,0]" if slides else "[0,0]")]
     assert thawslide("run", small_case, "--output", run, *words).returncode == 0
@@ -74,27 +74,27 @@ def test_a_run_that_lies_still_already_ends_when_it_is_reported_to(
     assert end == pytest.approx(2.91, abs=0.02) if slides else end == pytest.approx(4)
 
 
-def test_a_stop_during_the_rest_changes_no_end(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    run, whole = tmp_path / "run", tmp_path / "whole"
-    assert thawslide("run", small_case, "--output", whole, *RESTS).returncode == 0
-    end = run_facts(whole)["simulated_time_s"]
+def test_a_stop_during_rest_does_not_change_the_end(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    run, complete = tmp_path / "run", tmp_path / "complete"
+    assert thawslide("run", small_case, "--output", complete, *RESTS).returncode == 0
+    end = run_facts(complete)["simulated_time_s"]
     stop = round(end - 0.2, 2)
     words = sets(time__output_interval=10, time__history_interval=0.1)
-    assert thawslide("run", small_case, "--output", whole, "--overwrite", *RESTS, *words).returncode == 0
+    assert thawslide("run", small_case, "--output", complete, "--overwrite", *RESTS, *words).returncode == 0
     assert thawslide("run", small_case, "--output", run, *RESTS, *words, *sets(time__end=stop)).returncode == 0
     assert run_facts(run)["simulated_time_s"] == pytest.approx(stop)
     outcome = thawslide("resume", run, "--end", 5)
     assert outcome.returncode == 0, outcome.stderr
     assert run_facts(run)["simulated_time_s"] == end
-    assert run_facts(run)["message"] == run_facts(whole)["message"]
-    assert history(run)["kinetic_J"][-1] == history(whole)["kinetic_J"][-1]
-    # The run that stopped has a row and a snapshot of its first end: 7 numbers of files, before the checksum.
+    assert run_facts(run)["message"] == run_facts(complete)["message"]
+    assert history(run)["kinetic_J"][-1] == history(complete)["kinetic_J"][-1]
+    # The stopped run has a row and a snapshot of its first end: 7 numbers about files, before the checksum.
     state = slice(None, -(7 * 8 + 32))
-    assert (run / "checkpoint.bin").read_bytes()[state] == (whole / "checkpoint.bin").read_bytes()[state]
+    assert (run / "checkpoint.bin").read_bytes()[state] == (complete / "checkpoint.bin").read_bytes()[state]
 
 
-def test_an_explosion_is_not_reported_to_widen_the_domain(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    """Felt a cell early, the ground throws the falling block back with more energy than it had."""
+def test_an_instability_does_not_advise_a_wider_domain(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    """With contact one cell too early, the ground rebounds the falling block with more energy than it had."""
     run = tmp_path / "run"
     fall = sets(
         time__end=2,
@@ -111,7 +111,7 @@ def test_an_explosion_is_not_reported_to_widen_the_domain(thawslide: Program, sm
     assert len(snapshot_files(run)) > 1
 
 
-def test_what_guards_remove_is_counted(thawslide: Program, tmp_path: Path) -> None:
+def test_removed_particles_are_counted(thawslide: Program, tmp_path: Path) -> None:
     run = tmp_path / "run"
     words = sets(
         time__end=20,
@@ -126,7 +126,7 @@ def test_what_guards_remove_is_counted(thawslide: Program, tmp_path: Path) -> No
         r"(\d+) by their volume, (\S+) % of all mass, where guards\.removed_mass allows 5 %; among the last: particle "
         r"\d+ of body 'slide' at \(\S+, \S+\) m: its volume is 0\.2\d+ of that at t = 0, where guards\.smallest_volume "
         r"allows 0\.25\. Likely cause: material 'rock_ice' is too soft \(youngs_modulus 0\.5 Pa\) and collapses "
-        r"under its own weight\. Broken rock and ice have 1e7 Pa and more\.\n",
+        r"under its own weight\. Typical values for broken rock and ice are 1e7 Pa or more\.\n",
         outcome.stderr,
     )
     assert reported, outcome.stderr
@@ -149,19 +149,19 @@ def test_what_guards_remove_is_counted(thawslide: Program, tmp_path: Path) -> No
     assert 0.0 < columns["removed_mass_kg"][-1] == pytest.approx(columns["left_mass_kg"][-1], rel=1e-12)
 
 
-def test_a_run_with_particles_removed_continues_to_the_same_bits(
+def test_a_resumed_run_with_removed_particles_is_bitwise_identical(
     thawslide: Program, interrupted: Interrupted, tmp_path: Path
 ) -> None:
-    run, whole = tmp_path / "run", tmp_path / "whole"
+    run, complete = tmp_path / "run", tmp_path / "complete"
     words = sets(
         time__end=4.5, time__output_interval=0.7, material__rock_ice__youngs_modulus=0.5, guards__volume='"remove"',
         guards__removed_mass=1, guards__smallest_volume=0.5,
     )  # fmt: skip
-    assert thawslide("run", LAMPLUGH, "--output", whole, *words).returncode == 0
+    assert thawslide("run", LAMPLUGH, "--output", complete, *words).returncode == 0
     assert interrupted(LAMPLUGH, run, words, signal.SIGTERM, 60) == 4
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
-    assert_same_bits(run, whole)
-    removed = run_facts(whole)["removed_particles"]
+    assert_bitwise_identical(run, complete)
+    removed = run_facts(complete)["removed_particles"]
     assert run_facts(run)["removed_particles"] == removed and removed["volume"] > 0
-    assert (run / "checkpoint.bin").read_bytes() == (whole / "checkpoint.bin").read_bytes()
+    assert (run / "checkpoint.bin").read_bytes() == (complete / "checkpoint.bin").read_bytes()

@@ -1,4 +1,4 @@
-"""Inputs that are too large, too deep, or links: refused, or handled as docs/reference/limits.md states."""
+"""Inputs that are too large, too deep, or links: refused, or treated as docs/reference/limits.md states."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 import pytest
-from conftest import Program, assert_same_bits, run_facts, sets
+from conftest import Program, assert_bitwise_identical, run_facts, sets
 from slope_files import CELL, SOUTH, WEST, Slope, made, write_release
 
 PROFILE = "distance_m,terrain_elevation_m\n0,0\n20,0\n"
@@ -20,7 +20,7 @@ def refusal(thawslide: Program, *words: object) -> str:
 
 
 def with_profile(case: Path, profile: str = PROFILE) -> Path:
-    """Give the case a profile; return its file."""
+    """Add a profile to the case; return its file."""
     file = case / "case.toml"
     text = file.read_text()
     file.write_text(text.replace('type = "flat"\nelevation = 0.0', 'type = "profile"\nfile = "profile.csv"'))
@@ -28,23 +28,22 @@ def with_profile(case: Path, profile: str = PROFILE) -> Path:
     return case / "profile.csv"
 
 
-def test_large_case_file(thawslide: Program, small_case: Path) -> None:
+def test_a_large_case_file_is_refused(thawslide: Program, small_case: Path) -> None:
     file = small_case / "case.toml"
     file.write_text(file.read_text() + "#" * 10_000_000 + "\n")
     assert refusal(thawslide, "check", file) == (
-        f"error: {file}: the file has 10 MB; allowed: 10 MB. Profiles, polygons and rasters are separate "
-        "files.\n"
+        f"error: {file}: the file has 10 MB; allowed: 10 MB. Profiles, polygons and rasters are separate files.\n"
     )
 
 
-def test_large_profile(thawslide: Program, small_case: Path) -> None:
+def test_a_large_profile_is_refused(thawslide: Program, small_case: Path) -> None:
     profile = with_profile(small_case)
     os.truncate(profile, 200_000_000)
-    said = refusal(thawslide, "check", small_case)
-    assert f'{profile}: the file has 200 MB; allowed: 100 MB. A DEM is read with terrain.type = "dem".' in said
+    message = refusal(thawslide, "check", small_case)
+    assert f'{profile}: the file has 200 MB; allowed: 100 MB. A DEM is read with terrain.type = "dem".' in message
 
 
-def test_long_profile(thawslide: Program, small_case: Path) -> None:
+def test_a_profile_of_many_rows_is_refused(thawslide: Program, small_case: Path) -> None:
     rows = "".join(f"{k},0\n" for k in range(1_000_001))
     profile = with_profile(small_case, "distance_m,terrain_elevation_m\n" + rows)
     assert f"{profile}:1000002: the profile has more than 1000000 rows; allowed: as many." in refusal(
@@ -53,47 +52,47 @@ def test_long_profile(thawslide: Program, small_case: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["a{} = 1\n", "[a{}]\nb = 1\n", "[time]\nend = {{ b{} = 1 }}\n", "a {} = 1\n"])
-def test_key_of_many_parts(thawslide: Program, tmp_path: Path, text: str) -> None:
+def test_a_key_of_many_parts_is_refused(thawslide: Program, tmp_path: Path, text: str) -> None:
     """The parser would exhaust the stack."""
     file = tmp_path / "deep.toml"
     file.write_text(text.format((" . a" if text.startswith("a {") else ".a") * 200_000))
     line = 2 if "time" in text else 1
     assert refusal(thawslide, "check", file) == (
-        f"error: {file}:{line}: this is no case: a key of more than 50 parts; allowed: TABLE.NAME.KEY. Is it the right "
-        "file?\n"
+        f"error: {file}:{line}: this is not a case: a key of more than 50 parts; allowed: TABLE.NAME.KEY. Is it the "
+        "right file?\n"
     )
 
 
 def test_many_problems_are_not_all_reported(thawslide: Program, small_case: Path) -> None:
     file = small_case / "case.toml"
     file.write_text(file.read_text() + "".join(f"wrong{k} = 1\n" for k in range(80)))
-    said = refusal(thawslide, "check", file).splitlines()
-    assert len(said) == 51 and said[-1] == "and 30 more problems."
+    message = refusal(thawslide, "check", file).splitlines()
+    assert len(message) == 51 and message[-1] == "and 30 more problems."
 
 
-def test_long_texts_and_signs_of_terminals_are_not_repeated(thawslide: Program, small_case: Path) -> None:
-    said = refusal(thawslide, "check", small_case, "--set", 'time.end="\\u001b[2J' + "x" * 100_000 + '"')
-    assert "\x1b" not in said and 'time.end is the text "?[2J' in said and 'xxx..."; allowed: a number' in said
+def test_long_texts_and_control_characters_are_not_repeated(thawslide: Program, small_case: Path) -> None:
+    message = refusal(thawslide, "check", small_case, "--set", 'time.end="\\u001b[2J' + "x" * 100_000 + '"')
+    assert "\x1b" not in message and 'time.end is the text "?[2J' in message and 'xxx..."; allowed: a number' in message
 
 
-def test_chain_of_case_files(thawslide: Program, small_case: Path) -> None:
+def test_the_chain_of_base_cases_is_limited(thawslide: Program, small_case: Path) -> None:
     for k in range(20):
         base = "case.toml" if k == 0 else f"v{k - 1}.toml"
         (small_case / f"v{k}.toml").write_text(f'[case]\nbased_on = "{base}"\n')
     assert thawslide("check", small_case / "v14.toml").returncode == 0
-    said = refusal(thawslide, "check", small_case / "v19.toml")
-    assert ": a chain of 16 files precedes it; allowed: 16. Combine some of them." in said
+    message = refusal(thawslide, "check", small_case / "v19.toml")
+    assert ": a chain of 16 files precedes it; allowed: 16. Combine some of them." in message
 
 
-def test_a_variant_by_its_bare_name(thawslide: Program, small_case: Path) -> None:
+def test_a_variant_can_be_named_without_a_folder(thawslide: Program, small_case: Path) -> None:
     (small_case / "variant.toml").write_text('[case]\nbased_on = "case.toml"\n')
     for words in (("check", "variant.toml"), ("run", "variant.toml", "--output", "run", *sets(time__end=0.01))):
         outcome = thawslide(*words, folder=small_case)
         assert outcome.returncode == 0, outcome.stderr
 
 
-def test_links_to_inputs_lead_nowhere_else(thawslide: Program, small_case: Path) -> None:
-    """A link in the folder may lead to a file in it, and not out of it; what --set names may lead anywhere."""
+def test_links_to_inputs_outside_the_folder_are_refused(thawslide: Program, small_case: Path) -> None:
+    """Links in the folder can lead to files in it, not outside; paths given by --set can lead anywhere."""
     outside = small_case.parent / "elsewhere.csv"
     outside.write_text(PROFILE)
     profile = with_profile(small_case)
@@ -112,7 +111,7 @@ def test_links_to_inputs_lead_nowhere_else(thawslide: Program, small_case: Path)
 
 
 def test_the_copy_of_a_large_input_is_a_copy(thawslide: Program, small_case: Path) -> None:
-    """What becomes of the original is nothing to the run, which goes on with what it began with."""
+    """A changed original does not affect the run, which continues with its copy."""
     profile = with_profile(small_case, PROFILE + ("#" * 99 + "\n") * 510_000)
     original = profile.rename(small_case / "real.csv")
     profile.symlink_to("real.csv")
@@ -130,8 +129,8 @@ def test_the_copy_of_a_large_input_is_a_copy(thawslide: Program, small_case: Pat
     assert run_facts(run)["parts"][1]["warnings"] == [note]
 
 
-def test_links_to_case_files(thawslide: Program, small_case: Path) -> None:
-    """A case file that is a link is read, with the files beside the link; what it is based on stays in the folder."""
+def test_a_linked_case_file_is_read_and_a_linked_base_is_refused(thawslide: Program, small_case: Path) -> None:
+    """A linked case file is read with the files next to the link; its base case must be in the folder."""
     outside = small_case.parent / "other.toml"
     (small_case / "case.toml").rename(outside)
     (small_case / "case.toml").symlink_to(outside)
@@ -144,8 +143,8 @@ def test_links_to_case_files(thawslide: Program, small_case: Path) -> None:
     )
 
 
-def test_output_folder_that_is_a_link(thawslide: Program, small_case: Path) -> None:
-    """Results go to where it leads, the link stays, and nothing beside it is touched when a run is replaced."""
+def test_a_linked_output_folder_is_written_and_kept(thawslide: Program, small_case: Path) -> None:
+    """Results are written to its target, the link is kept, and replacing a run changes nothing next to the link."""
     disk, run, plain = (small_case.parent / name for name in ("disk", "run", "plain"))
     disk.mkdir()
     run.symlink_to(disk)
@@ -153,8 +152,8 @@ def test_output_folder_that_is_a_link(thawslide: Program, small_case: Path) -> N
     assert thawslide("run", small_case, "--output", run, *words).returncode == 0
     assert run.is_symlink() and (disk / "run.json").is_file()
     assert thawslide("run", small_case, "--output", plain, *words).returncode == 0
-    assert_same_bits(run, plain)
-    # A link among the files of a run is replaced, and what it leads to stays.
+    assert_bitwise_identical(run, plain)
+    # A link among the files of a run is replaced; its target is kept.
     kept = small_case.parent / "kept"
     kept.mkdir()
     (kept / "000000.vtkhdf").write_text("of another")
@@ -167,11 +166,11 @@ def test_output_folder_that_is_a_link(thawslide: Program, small_case: Path) -> N
     assert run_facts(run)["status"] == "done"
 
 
-def test_output_folder_that_is_a_link_to_nothing(thawslide: Program, small_case: Path) -> None:
+def test_an_output_folder_linked_to_nothing_is_refused(thawslide: Program, small_case: Path) -> None:
     run = small_case.parent / "run"
     run.symlink_to(small_case.parent / "nowhere")
-    said = refusal(thawslide, "run", small_case, "--output", run)
-    assert said == (
+    message = refusal(thawslide, "run", small_case, "--output", run)
+    assert message == (
         f"error: the output folder {run} cannot be made: it is a link to a folder that is not there. Give another "
         "--output.\n"
     )
@@ -179,7 +178,7 @@ def test_output_folder_that_is_a_link_to_nothing(thawslide: Program, small_case:
 
 
 def test_rasters_of_other_formats_are_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    """A virtual raster names other files, which a case may not reach."""
+    """A virtual raster can name other files, which a case must not read."""
     dem = slope()
     virtual = tmp_path / "virtual.tif"
     virtual.write_text(
@@ -187,51 +186,51 @@ def test_rasters_of_other_formats_are_refused(thawslide: Program, tmp_path: Path
         f'-{CELL}</GeoTransform><VRTRasterBand dataType="Float64" band="1"><SimpleSource><SourceFilename>{dem}'
         "</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>"
     )
-    said = made(thawslide, tmp_path / "slide", virtual, release, "--thickness", 20)
-    assert said.returncode == 2 and not (tmp_path / "slide").exists()
-    assert "virtual.tif: the raster cannot be opened" in said.stderr
-    assert "Allowed: a GeoTIFF or an ESRI ASCII grid" in said.stderr
+    outcome = made(thawslide, tmp_path / "slide", virtual, release, "--thickness", 20)
+    assert outcome.returncode == 2 and not (tmp_path / "slide").exists()
+    assert "virtual.tif: the raster cannot be opened" in outcome.stderr
+    assert "Allowed: a GeoTIFF or an ESRI ASCII grid" in outcome.stderr
 
 
-def test_polygons_without_end(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+def test_too_many_polygons_are_refused(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     polygons = write_release(tmp_path / "many.geojson", WEST + 200.0, SOUTH + 250.0)
     text = polygons.read_text()
     start, end = text.index('{"type": "Feature",'), text.rindex("]")
     polygons.write_text(text[:start] + ",".join([text[start:end]] * 100_001) + text[end:])
-    said = made(thawslide, tmp_path / "slide", slope(), polygons, "--thickness", 20)
-    assert said.returncode == 2 and "the file has more than 100000 polygons; allowed: as many." in said.stderr
+    outcome = made(thawslide, tmp_path / "slide", slope(), polygons, "--thickness", 20)
+    assert outcome.returncode == 2 and "the file has more than 100000 polygons; allowed: as many." in outcome.stderr
 
 
-def test_raster_of_more_points_than_are_taken(thawslide: Program, tmp_path: Path, release: Path) -> None:
-    """Refused by its header alone: no memory is asked for."""
+def test_a_raster_of_too_many_points_is_refused(thawslide: Program, tmp_path: Path, release: Path) -> None:
+    """The header is sufficient: no memory is allocated."""
     dem = tmp_path / "large.asc"
     with dem.open("w") as file:
         file.write(f"ncols 30000\nnrows 30000\nxllcorner {WEST}\nyllcorner {SOUTH}\ncellsize 1\nNODATA_value -9999\n")
         file.write(" ".join(["1"] * 1000) + "\n")
-        file.truncate(2 * 30000**2)  # long enough for so many values; it takes no room on the disk
-    said = made(thawslide, tmp_path / "slide", dem, release, "--thickness", 20, "--crs", "EPSG:31287")
-    assert said.returncode == 2
-    assert "30000 x 30000 points of it are asked for; allowed: 4e+08 points. Crop it" in said.stderr
+        file.truncate(2 * 30000**2)  # long enough for so many values; a sparse file needs no disk space
+    outcome = made(thawslide, tmp_path / "slide", dem, release, "--thickness", 20, "--crs", "EPSG:31287")
+    assert outcome.returncode == 2
+    assert "30,000 x 30,000 points of it are needed; allowed: 400,000,000 points. Crop it" in outcome.stderr
 
 
-def test_terrain_taken_to_more_points_than_are_taken(
+def test_resampling_to_too_many_points_is_refused(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path
 ) -> None:
     assert made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 20).returncode == 0
-    said = refusal(thawslide, "check", tmp_path / "slide", "--set", "terrain.resample=0.01")
+    message = refusal(thawslide, "check", tmp_path / "slide", "--set", "terrain.resample=0.01")
     assert re.search(
-        r"--set terrain\.resample=0\.01: terrain\.resample: \S+dem\.tif: \d+ x \d+ points of it are asked for; "
-        r"allowed: 4e\+08 points\. Crop it",
-        said,
-    ), said
+        r"--set terrain\.resample=0\.01: terrain\.resample: \S+dem\.tif: [\d,]+ x [\d,]+ points of it are needed; "
+        r"allowed: 400,000,000 points\. Crop it",
+        message,
+    ), message
 
 
-def test_nothing_stays_where_new_fails_into_a_link(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    """The folder that the link leads to is empty again, and the link is there."""
+def test_a_failed_new_leaves_a_linked_folder_empty(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    """The target of the link is empty again, and the link is kept."""
     place, folder = tmp_path / "place", tmp_path / "slide"
     place.mkdir()
     folder.symlink_to(place)
     release = write_release(tmp_path / "release.geojson", WEST + 203.0, SOUTH + 252.0)
     outcome = made(thawslide, folder, slope(), release, "--thickness", 20, "--cell", 200)
-    assert outcome.returncode == 2 and "error: no case was made, as it would not run: " in outcome.stderr
+    assert outcome.returncode == 2 and "error: no case was created, because it would not run: " in outcome.stderr
     assert folder.is_symlink() and place.is_dir() and not list(place.iterdir())

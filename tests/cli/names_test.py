@@ -1,4 +1,4 @@
-"""Names of files and folders that hold what TOML, a comment or a shell would take for more than a name."""
+"""Names of files and folders with characters that have a meaning in TOML, in comments or in a shell."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ PROFILE = "distance_m,terrain_elevation_m\n0,0\n20,0\n"
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_name_is_a_text_of_the_case(thawslide: Program, tmp_path: Path, slope: Slope, name: str) -> None:
-    """Of the folder, the DEM and the release: all they become is the value of their keys."""
+def test_names_are_only_values_in_the_case_file(thawslide: Program, tmp_path: Path, slope: Slope, name: str) -> None:
+    """The names of folder, DEM and release appear only as values of their keys."""
     release = write_release(tmp_path / f"{name}.geojson", WEST + 200.0, SOUTH + 250.0)
     folder = tmp_path / name
     outcome = made(thawslide, folder, slope(f"{name}.tif"), release, "--thickness", THICKNESS)
@@ -56,8 +56,8 @@ def test_the_next_commands_can_be_pasted(
     folder = tmp_path / name
     outcome = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
     assert outcome.returncode == 0, outcome.stderr
-    look = next(line for line in outcome.stdout.splitlines() if line.startswith("preview:"))
-    command = look.removeprefix("preview:").removesuffix("--picture").strip()
+    preview = next(line for line in outcome.stdout.splitlines() if line.startswith("preview:"))
+    command = preview.removeprefix("preview:").removesuffix("--picture").strip()
     if "\n" not in name and "\t" not in name:
         assert shlex.split(command) == [str(binary), "check", str(folder)]
     pasted = subprocess.run(
@@ -72,7 +72,7 @@ def test_the_next_commands_can_be_pasted(
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_section_of_files_of_any_name_can_be_run(thawslide: Program, tmp_path: Path, name: str) -> None:
+def test_a_section_from_files_of_any_name_can_be_run(thawslide: Program, tmp_path: Path, name: str) -> None:
     dem = write_dem(tmp_path / f"{name}.tif", lambda x, _y: 1000.0 - 0.5 * x)
     release = write_release_on_plane(
         tmp_path / f"{name}.geojson",
@@ -92,7 +92,7 @@ def test_a_section_of_files_of_any_name_can_be_run(thawslide: Program, tmp_path:
     assert checked.returncode == 0, checked.stderr
 
 
-def test_a_name_that_is_no_utf8_is_refused_before_anything_is_made(
+def test_a_name_that_is_not_utf8_is_refused_before_anything_is_written(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path
 ) -> None:
     folder = os.fsdecode(os.fsencode(str(tmp_path)) + b"/sl\xffide")
@@ -113,11 +113,11 @@ def test_a_name_that_is_no_utf8_is_refused_before_anything_is_made(
         check=False,
     )
     assert outcome.returncode == 2
-    assert b"is not UTF-8, which a case file is written in" in outcome.stderr
+    assert b"is not UTF-8, as required for names in a case file" in outcome.stderr
     assert not Path(folder).exists()
 
 
-def test_no_place_in_a_file_that_was_not_made_is_reported(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+def test_no_location_in_a_removed_file_is_reported(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     release = write_release(tmp_path / "release.geojson", WEST + 203.0, SOUTH + 252.0)
     outcome = made(
         thawslide,
@@ -130,12 +130,12 @@ def test_no_place_in_a_file_that_was_not_made_is_reported(thawslide: Program, tm
         200,
     )
     assert outcome.returncode == 2 and not (tmp_path / "slide").exists()
-    assert outcome.stderr.startswith("error: no case was made, as it would not run: "), outcome.stderr
+    assert outcome.stderr.startswith("error: no case was created, because it would not run: "), outcome.stderr
     assert "case.toml" not in outcome.stderr
 
 
-def test_a_name_as_long_as_file_systems_take_is_checked_and_run(thawslide: Program, small_case: Path) -> None:
-    """Its copy has no longer name while it is written."""
+def test_a_name_of_maximum_length_is_checked_and_run(thawslide: Program, small_case: Path) -> None:
+    """The temporary file for its copy has no longer name."""
     profile = small_case / ("a" * 251 + ".csv")
     profile.write_text(PROFILE)
     words = sets(terrain__type="profile", terrain__file=profile, time__end=0.01)

@@ -1,4 +1,4 @@
-"""A release that `thawslide new --cut` and `thawslide section --cut` cut out of a DEM gets out of it."""
+"""Releases that `thawslide new --cut` and `thawslide section --cut` cut out of a DEM leave the cut."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from terrain_files import write_release as write_outline
 
 SIDE, THICK = 200.0, 20.0  # of the release [m]
 VOLUME = SIDE * SIDE * THICK
-# At 17 degrees of friction a slide on the slope of 30 goes; at 25 the level ramp holds it, whatever its width.
+# A slide on the slope of 30 degrees moves with friction of 17 degrees; with 25, the level ramp stops it at any width.
 COARSE = sets(grid__cell=12, time__end=8, basal__friction="constant", basal__friction_angle=17)
 
 
-def test_a_release_that_is_cut_out_gets_out(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    """It goes nearly as it does on top; between walls it would come to rest."""
+def test_a_release_that_is_cut_out_leaves_the_cut(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    """The motion is nearly that of a release on top; walls would stop it."""
     folder = tmp_path / "slide"
     release = write_release(tmp_path / "wide.geojson", WEST + 150.0, SOUTH + 200.0, SIDE, SIDE)
     outcome = made(thawslide, folder, slope(), release, "--thickness", THICK, "--cut")
     assert outcome.returncode == 0, outcome.stderr
-    # The cell follows where most of the volume is; most of the area is below ramps.
+    # The cell is that for most of the volume; most of the area is below ramps.
     assert [line for line in outcome.stdout.splitlines() if line.startswith("warning: --cell")] == [
         "warning: --cell: across the median thickness of body slide, 10 m, there are too few particles to resolve "
         "shear and thinning (found 3.3; needed 4). Set --cell to 3 m, at about 16 times the run time."
     ]
     assert (
         'placement = "cut"  # out of the DEM, which is the surface before the slide; "on_top": onto it\n'
-        "# The edges of the cut are ramps of this width, half of it beyond the outline, and the volume stays: a slide "
-        "does\n# not get out of a pit with walls. At their steepest they rise 29.7 degrees against the DEM, which "
+        "# The edges of the cut are ramps of this width, half of it beyond the outline, and the volume is preserved. "
+        "Vertical\n# edges would trap the slide. At their steepest, the ramps rise 29.7 degrees against the DEM, which "
         "falls 30.0\n# degrees here.\ntaper = 70.0  # m\n"
     ) in (folder / "case.toml").read_text()
     walls = sets(body__slide__taper=0)
@@ -48,8 +48,10 @@ def test_a_release_that_is_cut_out_gets_out(thawslide: Program, tmp_path: Path, 
     assert speeds["walls"] < 0.4 * speeds["top"]
 
 
-def test_a_cut_without_room_for_its_ramps(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    """Near the end of the DEM they are as wide as it allows, and the case runs."""
+def test_ramps_near_the_edge_of_the_dem_are_as_wide_as_possible(
+    thawslide: Program, tmp_path: Path, slope: Slope
+) -> None:
+    """Their width has a warning, and the case runs."""
     folder = tmp_path / "slide"
     release = write_release(tmp_path / "edge.geojson", WEST + 23.0, SOUTH + 200.0, SIDE, SIDE)
     outcome = made(thawslide, folder, slope(), release, "--thickness", THICK, "--cut")
@@ -60,7 +62,7 @@ def test_a_cut_without_room_for_its_ramps(thawslide: Program, tmp_path: Path, sl
         "degrees, and may stop the slide. Use --on-top, which has no such edges\n"
     ), outcome.stdout
     assert (
-        "they rise 45.0 degrees against the DEM, which falls 30.0\n"
+        "the ramps rise 45.0 degrees against the DEM, which falls 30.0\n"
         "# degrees here; 70.0 m is needed, but the release is too narrow.\ntaper = 40.0  # m\n"
     ) in (folder / "case.toml").read_text()
     done = thawslide("run", folder, "--output", tmp_path / "run", "--set", "time.end=0.01")
@@ -83,11 +85,11 @@ def test_a_section_has_the_ramps_too(thawslide: Program, tmp_path: Path) -> None
     assert outcome.returncode == 0, outcome.stderr
     lines = (tmp_path / "case" / "profile.csv").read_text().splitlines()
     assert lines[3] == (
-        "# The edges of the cut are ramps 80 m wide, half of it beyond the outline: a slide does not get out of a pit "
-        "with walls."
+        "# The edges of the cut are ramps 80 m wide, half of it beyond the outline: vertical edges would trap "
+        "the slide."
     )
     distance, terrain, surface = np.array([line.split(",") for line in lines[5:]], dtype=float).T
     assert np.trapezoid(surface - terrain, distance) == pytest.approx(SIDE * THICK, rel=1e-9)
     assert (surface - terrain).max() == pytest.approx(THICK, abs=1e-9)
     steepest = np.max(np.diff(terrain) / np.diff(distance))
-    assert -0.05 < steepest < 0.01, "the base falls, or is level, all the way"
+    assert -0.05 < steepest < 0.01, "the base falls or is level everywhere"

@@ -1,4 +1,4 @@
-"""The cases that `thawslide new` makes run: thin releases on coarse DEMs, and releases near their edge."""
+"""Cases by `thawslide new` run: thin releases on coarse DEMs, and releases near the edge of a DEM."""
 
 from __future__ import annotations
 
@@ -30,8 +30,10 @@ def assert_starts(thawslide: Program, folder: Path) -> None:
 
 @pytest.mark.parametrize("placement", ["--on-top", "--cut"])
 @pytest.mark.parametrize("thickness", [3.0, 1.0])
-def test_thin_release(thawslide: Program, tmp_path: Path, slope: Slope, thickness: float, placement: str) -> None:
-    """Of a release thinner than the slope falls across a cell of the DEM no particle is outside the domain."""
+def test_a_thin_release_is_inside_the_domain(
+    thawslide: Program, tmp_path: Path, slope: Slope, thickness: float, placement: str
+) -> None:
+    """The release is thinner than the fall of the slope across a cell of the DEM."""
     release = write_release(tmp_path / "thin.geojson", WEST + 203.0, SOUTH + 252.0, 31.0, 23.0)
     outcome = made(
         thawslide,
@@ -51,18 +53,18 @@ def test_thin_release(thawslide: Program, tmp_path: Path, slope: Slope, thicknes
     [(6.0, 7.0), ((COLUMNS - 1) * CELL - WIDTH - 6.0, (ROWS - 1) * CELL - DEPTH - 7.0)],
     ids=["low", "high"],
 )
-def test_release_at_the_edge_of_the_dem(
+def test_a_release_at_the_edge_of_the_dem_runs(
     thawslide: Program, tmp_path: Path, slope: Slope, corner: tuple[float, float]
 ) -> None:
-    """The domain reaches to the outermost points although these are no multiple of the grid's cell, 6 m."""
+    """The domain includes the outermost points, although their distance is no multiple of the grid's cell, 6 m."""
     release = write_release(tmp_path / "edge.geojson", WEST + corner[0], SOUTH + corner[1])
     outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 23)
     assert outcome.returncode == 0, outcome.stderr
     assert_starts(thawslide, tmp_path)
 
 
-def test_release_beyond_the_edge_of_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    """Within half a cell of the outermost points there is no ground for what stands on them."""
+def test_a_release_beyond_the_edge_of_the_dem_is_refused(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    """Bodies on the outermost points need terrain half a cell beyond them."""
     assert_refused(
         made(
             thawslide,
@@ -73,13 +75,15 @@ def test_release_beyond_the_edge_of_the_dem(thawslide: Program, tmp_path: Path, 
             24,
         ),
         tmp_path,
-        "--release: edge.geojson: the release reaches the outermost points of the DEM in the west; needed: "
-        "10 m of it, one of its cells, beyond the release, and beyond where the slide may go. Take a larger DEM.",
+        "--release: edge.geojson: the release reaches the outermost points of the DEM in the west "
+        "(needed: at least 10 m, one cell, beyond the release). Use a DEM that covers the flow path too.",
     )
 
 
-def test_more_particles_than_memory(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    """Refused before any is made, with a cell that fits; `new` leaves nothing behind."""
+def test_more_particles_than_memory_are_refused(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    """The message proposes a cell that fits, and `new` writes no files."""
     outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 0.02, "--cell", 0.02)
     assert outcome.returncode == 2 and not (tmp_path / "slide").exists()
     assert re.fullmatch(
@@ -97,8 +101,8 @@ def test_more_particles_than_memory(thawslide: Program, tmp_path: Path, slope: S
     ), refused.stderr
 
 
-def test_holes_in_the_way(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    """`check` and `run` say before the first step where the ground ends, and what becomes of a slide there."""
+def test_holes_in_the_flow_path_have_a_warning(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    """Before the first step, `check` and `run` report where the terrain ends, and the consequence for the slide."""
     made(thawslide, tmp_path / "slide", slope(hole=slice(40, 45)), release, "--thickness", 24)
     note = (
         r"warning: 50 of \d+ points of the DEM within the domain have no data, the nearest at "
@@ -111,7 +115,7 @@ def test_holes_in_the_way(thawslide: Program, tmp_path: Path, slope: Slope, rele
     assert re.search(note + r"is removed and counted\n", run.stdout), run.stdout
 
 
-def test_web_mercator(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_web_mercator_is_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(crs="EPSG:3857"), release, "--thickness", 24),
         tmp_path,
@@ -127,7 +131,9 @@ def test_web_mercator(thawslide: Program, tmp_path: Path, slope: Slope, release:
     )
 
 
-def test_feature_without_a_geometry(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_a_feature_without_a_geometry_is_refused(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
     content = json.loads(release.read_text())
     content["features"][0]["geometry"] = None
     release.write_text(json.dumps(content))
@@ -138,7 +144,9 @@ def test_feature_without_a_geometry(thawslide: Program, tmp_path: Path, slope: S
     )
 
 
-def test_options_that_exclude_each_other(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_options_that_exclude_each_other_are_refused(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24, "--cut", "--on-top"),
         tmp_path,
@@ -146,7 +154,9 @@ def test_options_that_exclude_each_other(thawslide: Program, tmp_path: Path, slo
     )
 
 
-def test_next_commands(thawslide: Program, binary: Path, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_new_prints_the_next_commands(
+    thawslide: Program, binary: Path, tmp_path: Path, slope: Slope, release: Path
+) -> None:
     folder = tmp_path / "a slide"
     outcome = made(thawslide, folder, slope(), release, "--thickness", 24)
     assert f"preview:  {binary} check '{folder}' --picture\nrun:      {binary} run '{folder}'\n" in outcome.stdout

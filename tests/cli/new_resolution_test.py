@@ -1,4 +1,4 @@
-"""The resolutions that `thawslide new` offers: their cells, the cost of a run, and that `check` agrees."""
+"""Resolutions offered by `thawslide new`: cells and cost of a run, in agreement with `check`."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def cell_of(folder: Path) -> float:
 
 
 @pytest.mark.parametrize("resolution", ["", "quick", "standard"])
-def test_the_cell_and_the_cost(
+def test_new_reports_the_cell_and_the_cost(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path, resolution: str
 ) -> None:
     folder = tmp_path / "slide"
@@ -50,7 +50,7 @@ def test_the_cell_and_the_cost(
     assert "warning: " not in outcome.stdout, "the text names the cells for maps"
 
 
-def test_a_cell_that_the_user_gives_is_of_no_resolution(
+def test_a_cell_given_by_the_user_has_no_resolution_name(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path
 ) -> None:
     outcome = made(thawslide, tmp_path / "own", slope(), release, "--thickness", THICKNESS, "--cell", 12)
@@ -68,7 +68,7 @@ def seconds_of(duration: str) -> float:
     return float(number) * {"s": 1.0, "min": 60.0, "h": 3600.0, "days": 86400.0}[unit]
 
 
-def test_the_times_of_the_others_follow_from_the_cells(
+def test_the_times_of_other_resolutions_follow_from_their_cells(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path
 ) -> None:
     """Cells half as large cost 16 times as much."""
@@ -77,7 +77,7 @@ def test_the_times_of_the_others_follow_from_the_cells(
     assert seconds_of(found["fine"]) == pytest.approx(16.0 * seconds_of(found["standard"]), rel=0.08)
 
 
-def test_an_unknown_resolution(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_an_unknown_resolution_is_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24, "--resolution", "coarse")
     assert outcome.returncode == 2 and "--resolution" in outcome.stderr and "quick" in outcome.stderr
     assert not (tmp_path / "slide").exists()

@@ -1,4 +1,4 @@
-"""From a DEM and a polygon to maps in two commands."""
+"""Maps from a DEM and a polygon with two commands."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import rasterio
-from conftest import Interrupted, Outcome, Program, assert_same_bits, history, run_facts, sets
+from conftest import Interrupted, Outcome, Program, assert_bitwise_identical, history, run_facts, sets
 from slope_files import CELL, DEPTH, SOUTH, THICKNESS, WEST, WIDTH, Slope, made, write_release, write_thickness
 
 
@@ -21,7 +21,7 @@ def refused(outcome: Outcome) -> str:
     return outcome.stderr
 
 
-def test_two_commands_to_maps(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_two_commands_produce_maps(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     folder, run = tmp_path / "slide", tmp_path / "run"
     outcome = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
     assert outcome.returncode == 0, outcome.stderr
@@ -40,7 +40,7 @@ def test_two_commands_to_maps(thawslide: Program, tmp_path: Path, slope: Slope, 
         assert file.res == (2.0 * CELL, 2.0 * CELL)
     facts, columns = run_facts(run), history(run)
     assert facts["crs"] == "EPSG:32632"
-    # Swelling and squeezing by elasticity in 1.5 s is far below one part in a hundred.
+    # Elastic volume changes in 1.5 s are far below 1 %.
     assert thickness.sum() * 4.0 * CELL**2 == pytest.approx(volume, rel=0.01)
     assert abs(columns["mass_residual_kg"][-1]) <= 1e-13 * columns["mass_kg"][0]
     with rasterio.open(run / "maps" / "release.tif") as file:
@@ -63,35 +63,33 @@ def test_two_commands_to_maps(thawslide: Program, tmp_path: Path, slope: Slope, 
     assert (run / "maps" / "results.gpkg").is_file()
 
 
-def test_a_run_ends_once_its_slide_has_come_to_rest(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
+def test_a_run_ends_at_rest_of_its_slide(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     """Without the key the run continues to time.end, with the same front and deposit."""
     folder = tmp_path / "slide"
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS, "--cell", 12).returncode == 0
     words = sets(time__end=40, time__rest_time=2, basal__friction="constant", basal__friction_angle=20)
     facts = {}
-    for name, more in (("rest", []), ("whole", sets(time__stop_at_rest=0))):
+    for name, more in (("rest", []), ("complete", sets(time__stop_at_rest=0))):
         run = tmp_path / name
         done = thawslide("run", folder, "--output", run, *words, *more)
         assert done.returncode == 0, done.stderr
         facts[name] = run_facts(run)
         assert facts[name]["at_rest"] is True and facts[name]["status"] == "done"
-    rest, whole = facts["rest"], facts["whole"]
-    assert whole["simulated_time_s"] == 40.0
+    rest, complete = facts["rest"], facts["complete"]
+    assert complete["simulated_time_s"] == 40.0
     assert 20.0 < rest["simulated_time_s"] < 35.0
     assert rest["simulated_time_s"] == pytest.approx(rest["rest_since_s"] + 2.0, abs=0.5)
-    assert rest["message"].startswith("the slide is at rest: since t = ") and whole["message"] == ""
+    assert rest["message"].startswith("the slide is at rest: since t = ") and complete["message"] == ""
     for key in ("travel_distance_m", "covered_area_m2", "affected_area_m2"):
-        assert rest[key] == pytest.approx(whole[key], rel=5e-3), key
-    ends = [history(tmp_path / name)["mean_displacement_m"][-1] for name in ("rest", "whole")]
+        assert rest[key] == pytest.approx(complete[key], rel=5e-3), key
+    ends = [history(tmp_path / name)["mean_displacement_m"][-1] for name in ("rest", "complete")]
     assert ends[0] > 200.0 and ends[0] == pytest.approx(ends[1], abs=0.1)
 
 
-def test_release_by_a_raster_of_its_thickness_alone(
+def test_a_thickness_raster_defines_the_release_without_polygons(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path
 ) -> None:
-    """Without polygons the raster tells where the body is; its thin rim keeps its place and its volume."""
+    """The thin rim of the body keeps its position and its volume."""
     folder, run = tmp_path / "slide", tmp_path / "run"
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
     with rasterio.open(folder / "dem.tif") as file:
@@ -117,8 +115,8 @@ def test_release_by_a_raster_of_its_thickness_alone(
     assert found[(near > 69.0) & (near < 71.0)].mean() == pytest.approx(1.5, rel=0.1)
 
 
-def test_release_cut_out_of_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    """With --cut and the attribute for the thickness the ground below the release is lower by it."""
+def test_cut_lowers_the_terrain_by_the_thickness(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    """The thickness is an attribute of the polygon."""
     release = write_release(tmp_path / "cut.geojson", WEST + 200.0, SOUTH + 250.0, thickness=THICKNESS)
     dem, folder, run = slope(), tmp_path / "cut", tmp_path / "run"
     assert made(thawslide, folder, dem, release, "--cut").returncode == 0
@@ -131,7 +129,7 @@ def test_release_cut_out_of_the_dem(thawslide: Program, tmp_path: Path, slope: S
 
 
 @pytest.mark.parametrize(("number", "percent"), [(signal.SIGTERM, 20), (signal.SIGINT, 50)])
-def test_a_run_stopped_by_a_signal_continues_to_the_same_bits(
+def test_a_run_stopped_by_a_signal_ends_bitwise_identical(
     thawslide: Program,
     interrupted: Interrupted,
     tmp_path: Path,
@@ -140,51 +138,53 @@ def test_a_run_stopped_by_a_signal_continues_to_the_same_bits(
     number: int,
     percent: int,
 ) -> None:
-    """Maps, probes, history, snapshots and checkpoint are those of the run that nothing stopped."""
-    folder, whole, parts = tmp_path / "slide", tmp_path / "whole", tmp_path / "parts"
+    """Maps, probes, history, snapshots and checkpoint are those of an uninterrupted run."""
+    folder, complete, parts = tmp_path / "slide", tmp_path / "complete", tmp_path / "parts"
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
     case = folder / "case.toml"
     text = case.read_text().replace("temperature = ", "velocity = [10.0, 0.0, -5.0]\ntemperature = ", 1)
     case.write_text(f"{text}\n[probe.gauge]\npoint = [{WEST + 330.0}, {SOUTH + 300.0}]\n")
-    # Neither rows nor snapshots nor checkpoints fall together.
+    # Rows, snapshots and checkpoints have different times.
     words = sets(time__end=2, time__history_interval=0.07, time__output_interval=0.45, checkpoint__interval=0.3)
-    assert thawslide("run", folder, *words, "--output", whole).returncode == 0
+    assert thawslide("run", folder, *words, "--output", complete).returncode == 0
     assert interrupted(folder, parts, words, number, percent) == 4
     facts = run_facts(parts)
     assert facts["status"] == "stopped" and percent / 50 <= facts["simulated_time_s"] < 2.0
     outcome = thawslide("resume", parts)
     assert outcome.returncode == 0, outcome.stderr
-    assert_same_bits(whole, parts)
-    after, complete = run_facts(parts), run_facts(whole)
+    assert_bitwise_identical(complete, parts)
+    after, expected = run_facts(parts), run_facts(complete)
     keys = ("steps", "covered_volume_m3", "covered_area_m2", "affected_area_m2")
     for key in (*keys, "travel_distance_m", "reach_angle_degrees"):
-        assert complete[key] is not None and after[key] == complete[key], key
+        assert expected[key] is not None and after[key] == expected[key], key
     for name in ("checkpoint.bin", "probes.csv"):
-        assert (whole / name).read_bytes() == (parts / name).read_bytes(), name
-    maps = sorted((whole / "maps").glob("*.tif"))
+        assert (complete / name).read_bytes() == (parts / name).read_bytes(), name
+    maps = sorted((complete / "maps").glob("*.tif"))
     assert len(maps) == 12
     for file in maps:
         with rasterio.open(file) as one, rasterio.open(parts / "maps" / file.name) as other:
             assert one.read(1).tobytes() == other.read(1).tobytes(), file.name
 
 
-def test_threads_do_not_change_a_bit(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_results_are_bitwise_identical_for_any_number_of_threads(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
     folder = tmp_path / "slide"
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
     runs = []
     for threads in (1, 2):
-        runs.append(tmp_path / f"threads-{threads}")
+        runs.append(tmp_path / f"threads-{threads}" / "run")
         words = ["--set", "time.end=0.4", "--threads", threads, "--output", runs[-1]]
         assert thawslide("run", folder, *words).returncode == 0
-    assert_same_bits(*runs)
+    assert_bitwise_identical(*runs)
     first, second = (sorted((run / "maps").iterdir()) for run in runs)
     assert [file.name for file in first] == [file.name for file in second]
     for one, other in zip(first, second, strict=True):
         assert one.read_bytes() == other.read_bytes(), one.name
 
 
-def test_release_by_a_raster(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    """`new` takes a raster of the thickness where it takes polygons, also one that is called like its own DEM."""
+def test_new_accepts_a_raster_of_the_thickness(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    """The raster replaces polygons, and can have the name of the DEM."""
     dem = slope()
     raster = write_thickness(tmp_path / "elsewhere" / "dem.tif", dem, THICKNESS)
     folder, run = tmp_path / "slide", tmp_path / "run"
@@ -207,33 +207,35 @@ def size_text(size: float) -> str:
     return f"{round(value, 1 - math.floor(math.log10(value))):g} {unit}"
 
 
-def test_check_says_what_maps_take(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    """How large their cells are and why, how many files there will be, and what it means to ask for small cells."""
+def test_check_reports_cells_and_memory_of_maps(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    """It reports the size of cells with its reason and the number of files, and warns of small cells."""
     folder = tmp_path / "slide"
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
     with rasterio.open(folder / "dem.tif") as file:
         of_ground = file.width * file.height * 8
     usual = "2 x 2 of the DEM's, to be at least 12 m wide: three particle distances"
     note = (
-        "warning: maps.cell is 5 m, and grid.cell 8 m: a cell of the maps holds few particles or one, and the largest "
-        "speeds and pressures are those of single particles. Without maps.cell they take cells of 20 m.\n"
+        "warning: maps.cell is 5 m, and grid.cell 8 m: a map cell contains few particles or only one, and the maximum "
+        "speeds and pressures are those of single particles. Without maps.cell, maps have cells of 20 m.\n"
     )
     for words, cell, reason in (([], 20, usual), (["--set", "maps.cell=5"], 5, "as maps.cell asks")):
         outcome = thawslide("check", folder, *words)
         assert outcome.returncode == 0, outcome.stderr
         assert (note in outcome.stdout) == (cell == 5)
-        said = dict(re.findall(r"^  (\w+) +(\S.*)$", outcome.stdout, re.MULTILINE))
+        facts = dict(re.findall(r"^  (\w+) +(\S.*)$", outcome.stdout, re.MULTILINE))
         reported = re.fullmatch(
             rf"(\d+) x (\d+) cells of {cell} x {cell} m \({re.escape(reason)}\); "
             r"memory (\S+) ([kM])B for the release, at most (\S+) ([kM])B",
-            said["maps"],
+            facts["maps"],
         )
-        assert reported, said["maps"]
+        assert reported, facts["maps"]
         units = {"k": 1e3, "M": 1e6}
         assert 0.0 < float(reported[3]) * units[reported[4]] < float(reported[5]) * units[reported[6]]
         one = int(reported[1]) * int(reported[2]) * 8
         assert (
             f", 12 maps (10 of {size_text(one)}, 2 of {size_text(of_ground)}) before they are compressed; "
-        ) in said["disk"]
+        ) in facts["disk"]
     refusal = refused(thawslide("check", folder, "--set", "maps.cell=0.01"))
     assert "--set maps.cell=0.01: maps of " in refusal and "GB of memory while it is written" in refusal

@@ -1,4 +1,4 @@
-"""Runs on a file system without locks, as some network disks are: the lock file says who is at work."""
+"""Runs on a file system without locks, like some network disks: the lock file names the running process."""
 
 from __future__ import annotations
 
@@ -10,29 +10,29 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from conftest import LAMPLUGH, LIMIT, Program, assert_same_bits, run_facts, sets
-from faults import FAILING_WRITES, as_killed, at_work_in
+from conftest import LAMPLUGH, LIMIT, Program, assert_bitwise_identical, run_facts, sets
+from faults import FAILING_WRITES, mark_killed, running_in
 
 
 @pytest.fixture
 def without_locks(plain_environment: dict[str, str]) -> dict[str, str]:
     if not FAILING_WRITES.exists():
-        pytest.skip(f"there is no {FAILING_WRITES}: build it")
+        pytest.skip(f"{FAILING_WRITES} is not built")
     return plain_environment | {"LD_PRELOAD": str(FAILING_WRITES), "FAULT_LOCKS": "absent"}
 
 
 @pytest.fixture
-def at_work(binary: Path, without_locks: dict[str, str], tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
+def running(binary: Path, without_locks: dict[str, str], tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
     """Yield the process of a run into tmp_path / run."""
-    with at_work_in(tmp_path / "run", binary, without_locks) as process:
+    with running_in(tmp_path / "run", binary, without_locks) as process:
         yield process
 
 
-def test_a_second_process_is_refused_while_the_first_lives(
-    thawslide: Program, at_work: subprocess.Popen[str], without_locks: dict[str, str], tmp_path: Path
+def test_a_second_process_is_refused_while_the_first_runs(
+    thawslide: Program, running: subprocess.Popen[str], without_locks: dict[str, str], tmp_path: Path
 ) -> None:
     run = tmp_path / "run"
-    process = f"process {at_work.pid} on {socket.gethostname()}"
+    process = f"process {running.pid} on {socket.gethostname()}"
     message = (
         f"error: {run} is being written by {process}. Wait until that has ended, or stop it. Its file system has no "
         f"locks: if that process is no run any more, remove {run / 'run.lock'}.\n"
@@ -42,11 +42,11 @@ def test_a_second_process_is_refused_while_the_first_lives(
         assert (outcome.returncode, outcome.stderr) == (2, message)
     outcome = thawslide("run", LAMPLUGH, "--output", run, environment=without_locks)
     assert outcome.returncode == 2 and f"{run} is being written by {process}. Specify another" in outcome.stderr
-    assert at_work.poll() is None and (run / "history.csv").exists()
+    assert running.poll() is None and (run / "history.csv").exists()
     assert thawslide("status", run, environment=without_locks).stdout.startswith(f"{run}: running, by {process}\n")
 
-    at_work.kill()
-    at_work.communicate(timeout=LIMIT)
+    running.kill()
+    running.communicate(timeout=LIMIT)
     reported = json.loads(thawslide("status", run, "--json", environment=without_locks).stdout)
     assert (reported["state"], reported["process"]) == ("killed", "")
     end = run_facts(run)["parts"][0]
@@ -57,22 +57,22 @@ def test_a_second_process_is_refused_while_the_first_lives(
     assert outcome.returncode == 0, outcome.stderr
 
 
-def test_a_run_that_is_stopped_takes_its_name_out(
-    thawslide: Program, at_work: subprocess.Popen[str], without_locks: dict[str, str], tmp_path: Path
+def test_a_stopped_run_removes_its_lock_file(
+    thawslide: Program, running: subprocess.Popen[str], without_locks: dict[str, str], tmp_path: Path
 ) -> None:
-    at_work.send_signal(signal.SIGTERM)
-    at_work.communicate(timeout=LIMIT)
-    assert at_work.returncode == 4
+    running.send_signal(signal.SIGTERM)
+    running.communicate(timeout=LIMIT)
+    assert running.returncode == 4
     assert not (tmp_path / "run" / "run.lock").exists()
     reported = json.loads(thawslide("status", tmp_path / "run", "--json", environment=without_locks).stdout)
     assert reported["state"] == "stopped"
 
 
-def test_a_process_of_another_machine_is_taken_to_live(
+def test_a_process_of_another_machine_counts_as_running(
     thawslide: Program, without_locks: dict[str, str], small_case: Path, done: Path, tmp_path: Path
 ) -> None:
-    """Until somebody who knows that it has ended removes the lock; where there are locks, they decide."""
-    as_killed(done)
+    """It counts until a user removes the lock file; on file systems with locks, these decide."""
+    mark_killed(done)
     lock = done / "run.lock"
     lock.write_text("process 12 on elsewhere\n")
     before = (done / "history.csv").read_bytes()
@@ -84,19 +84,19 @@ def test_a_process_of_another_machine_is_taken_to_live(
         outcome = thawslide(*words, environment=without_locks)
         assert (outcome.returncode, outcome.stderr) == (2, message)
     assert (done / "history.csv").read_bytes() == before
-    said = thawslide("status", done, environment=without_locks).stdout
-    assert said.startswith(
+    status = thawslide("status", done, environment=without_locks).stdout
+    assert status.startswith(
         f"{done}: it cannot be determined whether it runs, because its file system has no locks and process 12 on "
         f"elsewhere has "
         "begun to write it; its last file was written "
     )
-    assert said.endswith(f"  if that has surely ended: remove {lock}, then thawslide resume {done}\n")
+    assert status.endswith(f"  if that has surely ended: remove {lock}, then thawslide resume {done}\n")
     reported = json.loads(thawslide("status", done, "--json", environment=without_locks).stdout)
     assert (reported["state"], reported["process"]) == ("unknown", "process 12 on elsewhere")
     lock.unlink()
     outcome = thawslide("resume", done, environment=without_locks)
     assert outcome.returncode == 0, outcome.stderr
     assert not lock.exists()
-    whole = tmp_path / "whole"
-    assert thawslide("run", small_case, "--output", whole).returncode == 0
-    assert_same_bits(done, whole)
+    complete = tmp_path / "complete"
+    assert thawslide("run", small_case, "--output", complete).returncode == 0
+    assert_bitwise_identical(done, complete)

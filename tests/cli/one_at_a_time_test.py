@@ -1,4 +1,4 @@
-"""The script of the Lamplugh case that changes one assumption at a time, on half a second of a few of its rows."""
+"""The script of the Lamplugh case that changes one assumption at a time, shortened: half a second of a few rows."""
 
 from __future__ import annotations
 
@@ -35,4 +35,4 @@ def test_one_at_a_time_needs_the_program(tmp_path: Path) -> None:
     words = [sys.executable, str(LAMPLUGH / "one-at-a-time"), "--program", str(tmp_path / "none")]
     done = subprocess.run(words, capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 2
-    assert "./run --setup builds it" in done.stderr
+    assert "Build it with ./run --setup." in done.stderr

@@ -1,4 +1,4 @@
-"""Results that cannot be printed: told, with exit code 5, unless whoever read them has closed the pipe."""
+"""Output that cannot be written: reported with exit code 5, unless the reader has closed the pipe."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ LOST = "error: the output cannot be written: No space left on device. Redirect i
 pytestmark = pytest.mark.skipif(not FULL.exists(), reason="the system has no /dev/full")
 
 
-def printed_to_full_disk(binary: Path, environment: dict[str, str], *words: object) -> tuple[int, str]:
-    """Return code and standard error of a command whose results go to a disk without room."""
+def run_to_full_disk(binary: Path, environment: dict[str, str], *words: object) -> tuple[int, str]:
+    """Return exit code and standard error of a command whose output is written to a full disk."""
     with FULL.open("w") as full:
         done = subprocess.run(
             [str(binary), *map(str, words)],
@@ -33,31 +33,31 @@ def printed_to_full_disk(binary: Path, environment: dict[str, str], *words: obje
     "words",
     [["describe"], ["describe", "--md"], ["version"], ["--help"], ["check", "--help"]],
 )
-def test_results_that_are_lost_are_reported(binary: Path, plain_environment: dict[str, str], words: list[str]) -> None:
-    assert printed_to_full_disk(binary, plain_environment, *words) == (5, LOST)
+def test_lost_output_is_reported(binary: Path, plain_environment: dict[str, str], words: list[str]) -> None:
+    assert run_to_full_disk(binary, plain_environment, *words) == (5, LOST)
 
 
 @pytest.mark.parametrize("words", [["check"], ["check", "--json"], ["block"]])
-def test_results_of_a_case_that_are_lost_are_reported(
+def test_lost_output_about_a_case_is_reported(
     binary: Path, plain_environment: dict[str, str], small_case: Path, words: list[str]
 ) -> None:
     command, *more = words
-    assert printed_to_full_disk(binary, plain_environment, command, small_case, *more) == (5, LOST)
+    assert run_to_full_disk(binary, plain_environment, command, small_case, *more) == (5, LOST)
 
 
 def test_a_run_needs_no_terminal(
     binary: Path, plain_environment: dict[str, str], small_case: Path, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"
-    assert printed_to_full_disk(binary, plain_environment, "run", small_case, "--output", run) == (0, "")
+    assert run_to_full_disk(binary, plain_environment, "run", small_case, "--output", run) == (0, "")
     assert (run / "run.json").exists()
-    assert printed_to_full_disk(binary, plain_environment, "status", run) == (5, LOST)
-    assert printed_to_full_disk(binary, plain_environment, "resume", run, "--end", 0.21) == (0, "")
+    assert run_to_full_disk(binary, plain_environment, "status", run) == (5, LOST)
+    assert run_to_full_disk(binary, plain_environment, "resume", run, "--end", 0.21) == (0, "")
 
 
 @pytest.mark.parametrize("trap", ["", "trap '' PIPE; "])
-def test_a_reader_that_has_enough_is_no_error(binary: Path, plain_environment: dict[str, str], trap: str) -> None:
-    """Also where whoever started the program has it ignore the signal."""
+def test_a_pipe_closed_by_the_reader_is_no_error(binary: Path, plain_environment: dict[str, str], trap: str) -> None:
+    """The same applies if the parent process ignores SIGPIPE."""
     read, write = os.pipe()
     os.close(read)
     try:
@@ -76,7 +76,7 @@ def test_a_reader_that_has_enough_is_no_error(binary: Path, plain_environment: d
     assert done.returncode == (0 if trap else -13)
 
 
-def test_a_mistake_that_cannot_be_reported_keeps_its_code(binary: Path, plain_environment: dict[str, str]) -> None:
+def test_an_error_that_cannot_be_reported_keeps_its_exit_code(binary: Path, plain_environment: dict[str, str]) -> None:
     with FULL.open("w") as full:
         done = subprocess.run(
             [str(binary), "check", "nowhere"],

@@ -1,4 +1,4 @@
-"""A run writes into the folder that it began in, and into no other that has replaced it."""
+"""A run writes only into the folder in which it began, and not into a replacement."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Start = Callable[[Path], "subprocess.Popen[str]"]
 def wait_for(file: Path) -> None:
     end = time.monotonic() + LIMIT
     while not file.exists():
-        assert time.monotonic() < end, f"{file} does not come"
+        assert time.monotonic() < end, f"{file} does not appear"
         time.sleep(0.01)
 
 
@@ -40,14 +40,14 @@ def started(binary: Path, small_case: Path) -> Iterator[Start]:
         process.communicate()
 
 
-def assert_it_has_stopped(process: subprocess.Popen[str], run: Path) -> None:
-    _, said = process.communicate(timeout=LIMIT)
+def assert_stopped(process: subprocess.Popen[str], run: Path) -> None:
+    _, message = process.communicate(timeout=LIMIT)
     assert process.returncode == 5
-    assert said.startswith(f"error: {run} is not the folder any more that this run began in: ")
-    assert "continues from the last checkpoint.\nstopped at t = " in said and "resume " + str(run) not in said
+    assert message.startswith(f"error: {run} is no longer the folder in which this run began: ")
+    assert "continues from the last checkpoint.\nstopped at t = " in message and "resume " + str(run) not in message
 
 
-def test_a_run_whose_folder_is_moved_leaves_its_successor_alone(
+def test_a_run_whose_folder_was_moved_does_not_change_its_replacement(
     thawslide: Program, started: Start, small_case: Path, tmp_path: Path
 ) -> None:
     run, moved, alone = (tmp_path / name for name in ("run", "moved", "alone"))
@@ -55,25 +55,25 @@ def test_a_run_whose_folder_is_moved_leaves_its_successor_alone(
     run.rename(moved)
     for folder in (run, alone):
         assert thawslide("run", small_case, "--output", folder).returncode == 0
-    assert_it_has_stopped(process, run)
+    assert_stopped(process, run)
     assert {path.relative_to(run) for path in content_of(run)} == {
         path.relative_to(alone) for path in content_of(alone)
     }
     assert (run / "history.csv").read_bytes() == (alone / "history.csv").read_bytes()
     assert (run / "checkpoint.bin").read_bytes() == (alone / "checkpoint.bin").read_bytes()
     assert run_facts(run)["status"] == "done"
-    # What was moved goes on from there.
-    come_to = run_facts(moved)["simulated_time_s"]
-    outcome = thawslide("resume", moved, "--end", come_to + 1)
+    # The moved run can be resumed.
+    reached = run_facts(moved)["simulated_time_s"]
+    outcome = thawslide("resume", moved, "--end", reached + 1)
     assert outcome.returncode == 0, outcome.stderr
 
 
-def test_a_run_whose_folder_is_removed_does_not_make_it_again(started: Start, tmp_path: Path) -> None:
+def test_a_run_does_not_restore_its_removed_folder(started: Start, tmp_path: Path) -> None:
     run = tmp_path / "run"
     process = started(run)
     run.rename(tmp_path / "to be removed")
     shutil.rmtree(tmp_path / "to be removed")
-    assert_it_has_stopped(process, run)
+    assert_stopped(process, run)
     assert not run.exists()
 
 
@@ -81,6 +81,6 @@ def test_a_run_whose_lock_is_removed_stops(thawslide: Program, started: Start, t
     run = tmp_path / "run"
     process = started(run)
     (run / "run.lock").unlink()
-    assert_it_has_stopped(process, run)
+    assert_stopped(process, run)
     outcome = thawslide("resume", run, "--end", run_facts(run)["simulated_time_s"] + 1)
     assert outcome.returncode == 0, outcome.stderr

@@ -1,4 +1,4 @@
-"""`./run paper` as a whole, on the first moments of each case."""
+"""`./run paper`, with shortened cases."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ def test_paper_shortened(binary: Path, report_environment: dict[str, str], tmp_p
     assert "Shortened runs" in page
     assert len(re.findall(r"<td><b>(?:true|false|undetermined)</b></td>", page)) > 50
     rows = dict(line.split(",") for line in (output / "measures.csv").read_text().splitlines()[1:])
-    # After 864 s the fronts stand in the first cell, but without latent heat the cold has gone through several.
+    # After 864 s the fronts are in the first cell; without latent heat, cooling has passed through several cells.
     assert float(rows["freezing_m050_no_latent_rms_error"]) < 0.01
-    # The printed update makes heat out of nothing as soon as the bar freezes.
+    # The published update creates heat spuriously as soon as the bar freezes.
     assert float(rows["freezing_m100_printed_heat"]) > 1.0
-    # The block starts with its frozen band under the ice's pressure, rho_I g H.
+    # The block starts with its frozen band at the pressure of ice, rho_I g H.
     assert math.isclose(float(rows["block_e050_pressure_start"]), 917 * 9.81 * 50 / 1e3, rel_tol=1e-3)
 
 
-def test_paper_reports_of_a_program_that_computes_nothing(tmp_path: Path) -> None:
+def test_paper_reports_a_program_without_results(tmp_path: Path) -> None:
     words = [sys.executable, "-m", "reproduction", "--program", "false", "--cases", str(tmp_path), "--output"]
     environment = dict(os.environ) | {"PYTHONPATH": f"{ROOT}:{ROOT / 'python'}"}
     done = subprocess.run(

@@ -1,4 +1,4 @@
-"""What a run says while it runs and at its end: plain lines, a bar on a terminal, the summary."""
+"""Output of a run during the run and at its end: plain lines, a bar on a terminal, the summary."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ SPEED = r" at -?\d+\.\d m/s"
 
 
 @pytest.fixture(scope="module")
-def said(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> tuple[list[str], Path]:
-    """Return the lines of a run whose output is no terminal, and its folder."""
+def run_output(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> tuple[list[str], Path]:
+    """Return the lines of a run whose output is not a terminal, and its folder."""
     run = tmp_path_factory.mktemp("runs") / "run"
     outcome = thawslide("run", LAMPLUGH, "--output", run, "--threads", 1, *sets(time__end=2))
     assert outcome.returncode == 0, outcome.stderr
@@ -28,81 +28,88 @@ def said(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> tuple[
     return outcome.stdout.splitlines(), run
 
 
-def test_opening_line(said: tuple[list[str], Path]) -> None:
-    lines, run = said
+def test_the_first_line_has_title_particles_and_threads(run_output: tuple[list[str], Path]) -> None:
+    lines, run = run_output
     particles = run_facts(run)["particles"]
     assert "warning: " in lines[0] and "lamplugh_targets.csv: 7 of its values are later than the run" in lines[0]
     title = "Lamplugh rock-ice avalanche, 2016, reproduction of the paper"
-    assert lines[1] == f"{title}: {particles} particles, 2 s to simulate, on 1 thread"
+    assert lines[1] == f"{title}: {particles:,} particles, 2 s to simulate, on 1 thread"
 
 
-def test_plain_lines_tell_share_speed_time_left_and_front(said: tuple[list[str], Path]) -> None:
-    shares = []
-    for line in said[0][1:]:
+def test_plain_lines_report_percentage_speed_remaining_time_and_front(run_output: tuple[list[str], Path]) -> None:
+    percentages = []
+    for line in run_output[0][1:]:
         if "%" in line and "left" in line:
-            # Two places of the front make a speed.
-            reported = re.fullmatch(rf" *(\d+) % \| {STATE}{SPEED if shares else ''}", line)
+            # A speed requires two positions of the front.
+            reported = re.fullmatch(rf" *(\d+) % \| {STATE}{SPEED if percentages else ''}", line)
             assert reported, line
-            shares.append(int(reported[1]))
-    assert shares[0] == 10 and 8 <= len(shares) <= 10
-    assert shares == sorted(set(shares)) and shares[-1] <= 100
+            percentages.append(int(reported[1]))
+    assert percentages[0] == 10 and 8 <= len(percentages) <= 10
+    assert percentages == sorted(set(percentages)) and percentages[-1] <= 100
 
 
-def test_summary_reports_throughput_and_result(said: tuple[list[str], Path]) -> None:
-    lines, run = said
+def test_summary_reports_throughput_and_result(run_output: tuple[list[str], Path]) -> None:
+    lines, run = run_output
     facts = run_facts(run)
     first = next(k for k, line in enumerate(lines) if "particle-steps per second" in line)
     reported = re.fullmatch(
-        r"(\d+) particles, 200 steps in \d+ s: (\S+) million particle-steps per second on 1 thread", lines[first]
+        r"([\d,]+) particles, 200 steps in \d+ s: (\S+) million particle-steps per second on 1 thread", lines[first]
     )
-    assert reported and int(reported[1]) == facts["particles"]
+    assert reported and int(reported[1].replace(",", "")) == facts["particles"]
     assert reported[2] == f"{facts['particle_steps_per_second'] / 1e6:.3g}"
     assert re.fullmatch(
         r"at 2 s, not at rest: mean velocity \d+\.\d\d m/s, mean displacement \d+ m, front at \d+ m, runout \d+ m",
         lines[first + 1],
     )
-    shown = dict(line.split() for line in lines[first + 2 : -2])
-    assert set(shown) == {"mean_velocity_m_s", "dilation_volume_m3", "dilation_fraction", "left_mass_kg"}
-    assert all(float(value.replace(",", "")) == pytest.approx(facts[name], rel=5e-4) for name, value in shown.items())
+    shown = [re.fullmatch(r"  (\S.*?) {2,}(\S+) (.*)", line) for line in lines[first + 2 : -2]]
+    expected = {
+        ("volume change by dilation", "m3"): facts["dilation_volume_m3"],
+        ("relative volume change", "%"): 100.0 * facts["dilation_fraction"],
+        ("mass of removed particles", "kg"): facts["left_mass_kg"],
+    }
+    found = {(line[1], line[3]): float(line[2].replace(",", "")) for line in shown if line}
+    assert len(found) == len(shown) and found == pytest.approx(expected, rel=5e-3)
     assert facts["at_rest"] is False and len(facts["warnings"]) == 1
     assert lines[-2] == f"warning: {facts['warnings'][0]}"
-    assert lines[-2].startswith("warning: The slide is not at rest at 2 s (mean velocity ")
+    assert lines[-2].startswith("warning: the slide is not at rest at 2 s (mean velocity ")
     assert lines[-1] == f"results in {run}"
 
 
 def read_terminal(descriptor: int) -> bytes:
-    """Return all a terminal shows until its program closes it."""
+    """Return the output on a terminal until the program closes it."""
     shown = b""
     while True:
         try:
             part = os.read(descriptor, 65536)
-        except OSError:  # how Linux says that the other side has closed
+        except OSError:  # on Linux: the other side has closed
             return shown
         if not part:
             return shown
         shown += part
 
 
-def test_bar_on_a_terminal(binary: Path, plain_environment: dict[str, str], tmp_path: Path) -> None:
-    ours, theirs = pty.openpty()
-    of_some_seconds = sets(time__end=2, time__step=0.001)
-    command = [str(binary), "run", str(LAMPLUGH), "--output", str(tmp_path / "run"), *of_some_seconds]
-    with subprocess.Popen(command, env=plain_environment, stdout=theirs, stdin=subprocess.DEVNULL) as process:
-        os.close(theirs)
-        shown = read_terminal(ours).decode()
-        os.close(ours)
+def test_the_bar_on_a_terminal_is_redrawn_in_place(
+    binary: Path, plain_environment: dict[str, str], tmp_path: Path
+) -> None:
+    terminal, program_side = pty.openpty()
+    words = sets(time__end=2, time__step=0.001)
+    command = [str(binary), "run", str(LAMPLUGH), "--output", str(tmp_path / "run"), *words]
+    with subprocess.Popen(command, env=plain_environment, stdout=program_side, stdin=subprocess.DEVNULL) as process:
+        os.close(program_side)
+        shown = read_terminal(terminal).decode()
+        os.close(terminal)
         assert process.wait(timeout=LIMIT) == 0
     bars = re.findall(rf"\r\033\[K\[(=* *)\] +(\d+) % \| {STATE}({SPEED})?", shown)
     assert bars and not bars[0][3] and all(bar[3] for bar in bars[1:])
     for bar, share, *_ in bars:
         assert len(bar) == 24
         assert bar.count("=") == pytest.approx(int(share) * 24 / 100, abs=1.2)
-    shares = [int(share) for _, share, *_ in bars]
-    assert shares == sorted(shares)
-    # The bar is drawn over itself: no new line between the first and the last, and one before the summary.
+    percentages = [int(share) for _, share, *_ in bars]
+    assert percentages == sorted(percentages)
+    # The bar is redrawn in place: no new line between the first and the last, and one before the summary.
     first, last = shown.index("\r\033[K["), shown.rindex("\r\033[K[")
     assert "\n" not in shown[first:last]
-    assert re.search(r"m( at -?\d+\.\d m/s)?\r\n\d+ particles, 2000 steps in ", shown[last:])
+    assert re.search(r"m( at -?\d+\.\d m/s)?\r\n[\d,]+ particles, 2,000 steps in ", shown[last:])
 
 
 def test_a_slide_that_barely_moved_has_no_front(
@@ -120,7 +127,7 @@ def test_a_slide_that_barely_moved_has_no_front(
     )
 
 
-def test_a_run_whose_whole_slide_has_left_is_done(
+def test_a_run_ends_when_all_particles_have_left(
     thawslide: Program, slope: Slope, release: Path, tmp_path: Path
 ) -> None:
     made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24)
@@ -135,27 +142,27 @@ def test_a_run_whose_whole_slide_has_left_is_done(
     assert outcome.returncode == 0, outcome.stderr
     facts, columns = run_facts(run), history(run)
     reported = re.fullmatch(
-        r"the whole slide has left the domain or the known ground at t = (\S+) s \(step \d+\); the last (\S+) kg of "
-        r"it, which left in this step, are still included in mass_kg\. Use a larger domain \(\[grid\] min and "
-        r"max\) or a larger DEM to continue the simulation\.",
+        r"the whole slide has left the domain or the known terrain at t = (\S+) s \(step \d+\)\. mass_kg still "
+        r"includes the last (\S+) kg, which left in this step\. Specify a larger domain \(\[grid\] min and max\) or a "
+        r"larger DEM, and repeat the run\.",
         facts["message"],
     )
     assert reported and facts["status"] == "done"
     assert outcome.stdout.splitlines()[-1] == facts["message"]
     work = re.search(
-        r"^(\d+) particles, (\d+) of them at the end, \d+ steps in .*: (\S+) million particle-steps per second on 1 "
-        r"thread$",
+        r"^([\d,]+) particles, ([\d,]+) of them at the end, [\d,]+ steps in .*: (\S+) million particle-steps per "
+        r"second on 1 thread$",
         outcome.stdout,
         re.MULTILINE,
     )
-    assert work and int(work[1]) == facts["particles"] > int(work[2])
+    assert work and int(work[1].replace(",", "")) == facts["particles"] > int(work[2].replace(",", ""))
     assert work[3] == f"{facts['particle_steps_per_second'] / 1e6:.3g}"
     assert facts["particle_steps_per_second"] * facts["wall_s"] < facts["particles"] * facts["steps"]
     assert columns["time_s"][-1] == pytest.approx(float(reported[1]), rel=1e-5)
     assert columns["time_s"][-1] < 60.0
-    assert columns["mass_kg"][-1] == pytest.approx(float(reported[2]), rel=1e-3)
+    assert columns["mass_kg"][-1] == pytest.approx(float(reported[2].replace(",", "")), rel=6e-3)
     np.testing.assert_allclose(columns["mass_kg"] + columns["left_mass_kg"], columns["mass_kg"][0], rtol=1e-12)
-    # Nothing lies there at the end, and what was largest is kept.
+    # Final maps are empty; maximum values are kept.
     assert facts["covered_volume_m3"] == facts["covered_area_m2"] == 0.0
     assert facts["affected_area_m2"] > WIDTH * DEPTH
     assert facts["at_rest"] is None and facts["left_mass_kg"] == pytest.approx(columns["left_mass_kg"][-1])
@@ -163,7 +170,7 @@ def test_a_run_whose_whole_slide_has_left_is_done(
     assert len(left) == 1 and left[0].removeprefix("warning: ") == facts["warnings"][0]
     assert re.fullmatch(
         rf"{facts['removed_particles']['left']} particles have left the domain or the known terrain and were removed: "
-        r"\S+ kg, \d+\.?\d* % of the mass\. The results lack them\. Use a larger domain or DEM\.",
+        r"\S+ kg, \d+\.?\d* % of the mass\. The results do not include them\. Use a larger domain or DEM\.",
         facts["warnings"][0],
     )
     with (

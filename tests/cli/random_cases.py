@@ -1,7 +1,7 @@
-"""Valid cases drawn at random: ground, release, path, probes and domain anywhere. The program may refuse them by name.
+"""Random valid cases: any terrain, release, path, probes and domain. The program may refuse them with a message.
 
-`python tests/cli/random_cases.py PROGRAM SECONDS [FIRST_SEED]` draws case after case, and keeps the folders of those
-that end in an internal error or by a signal.
+`python tests/cli/random_cases.py PROGRAM SECONDS [FIRST_SEED]` tests random cases. It keeps the
+folders of those that end in an internal error or by a signal.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from terrain_files import CRS_NAME, EAST, NORTH, place, write_geojson
 
 Generator = np.random.Generator
 Corners = list[tuple[float, float]]
-SOUND = {0, 2, 3}  # done, refused, and a run that failed with a message
+EXPECTED_CODES = {0, 2, 3}  # done, refused, and a run that failed with a message
 LONGEST = 60.0  # s of one command, which is then ended
 CUT_OFF = -1
 FEW_THREADS = {"OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive"}
@@ -67,8 +67,8 @@ history_interval = 0.01
 
 
 @dataclass
-class Drawn:
-    """A case folder, and the commands that are tried on it."""
+class RandomCase:
+    """A case folder, and the commands to be tested on it."""
 
     folder: Path
     commands: list[list[str]] = field(default_factory=list)
@@ -84,7 +84,7 @@ def _chance(random: Generator, share: float) -> bool:
     return bool(random.random() < share)
 
 
-# What a column of the ground may do from its highest place on [m].
+# Elevations [m] of a slope from its highest point downward, with many variations.
 def _relief(random: Generator, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     length = max(np.ptp(x), np.ptp(y))
     azimuth = random.choice([0.0, 0.5, 1.0, 1.5, random.uniform(0.0, 2.0)]) * np.pi
@@ -110,13 +110,13 @@ def _write_raster(file: Path, values: np.ndarray, origin: tuple[float, float], c
 
 
 def _place_near(random: Generator, size: tuple[float, float], share: float) -> tuple[float, float]:
-    """Return a place of the DEM, or with this share one somewhat beyond it."""
+    """Return a position on the DEM, or with a probability `share` possibly one slightly outside."""
     margin = 0.3 if _chance(random, share) else -0.1
     return tuple(float(random.uniform(-margin * side, (1.0 + margin) * side)) for side in size)  # type: ignore[return-value]
 
 
 def _polygon(random: Generator, centre: tuple[float, float], radius: float, points_apart: float) -> Corners:
-    """Return a ring about a centre: star-shaped, or a rectangle along the points, drawn either way."""
+    """Return a ring around a centre: star-shaped, or a rectangle along the points, in either direction."""
     if _chance(random, 0.3):
         sides = [points_apart * max(1.0, round(random.uniform(0.5, 1.0) * radius / points_apart)) for _ in range(2)]
         x, y = (points_apart * round(c / points_apart) for c in centre)
@@ -130,11 +130,11 @@ def _polygon(random: Generator, centre: tuple[float, float], radius: float, poin
 
 
 def _line(random: Generator, size: tuple[float, float], centre: tuple[float, float], points_apart: float) -> Corners:
-    """Return a line: most go through the release, begin anywhere, and may turn back."""
+    """Return a line with any start, in most cases through the release; it may turn back."""
     corners = [_place_near(random, size, 0.2) for _ in range(random.integers(1, 5))]
     if _chance(random, 0.7):
         corners.insert(int(random.integers(0, len(corners) + 1)), centre)
-    if _chance(random, 0.4):  # along a row or column of the points, from one of them or from between two
+    if _chance(random, 0.4):  # along a row or column of points, or halfway between two
         step, axis = 0.5 * points_apart, int(random.integers(0, 2))
         first = [step * round(c / step + random.integers(-20, 21) * (a == axis)) for a, c in enumerate(centre)]
         last = list(first)
@@ -145,7 +145,7 @@ def _line(random: Generator, size: tuple[float, float], centre: tuple[float, flo
 
 
 def _degenerate(random: Generator, corners: Corners) -> Corners:
-    """Return a line of no length, one with a corner twice, or one that goes back the way it came."""
+    """Return a line of no length, one with a repeated corner, or one that returns along itself."""
     kind, at = int(random.integers(0, 3)), int(random.integers(0, len(corners)))
     if kind == 0:
         return [corners[0]] * 2
@@ -156,7 +156,7 @@ def _write_line(file: Path, corners: Corners) -> None:
     write_geojson(file, "LineString", [place(*corner) for corner in corners])
 
 
-def _in_space(random: Generator, drawn: Drawn) -> str:
+def _in_space(random: Generator, case: RandomCase) -> str:
     columns, rows = (int(n) for n in random.integers(12, 50, 2))
     points_apart = float(random.choice([1.0, 5.0, 10.0, random.uniform(1.0, 20.0)]))
     size = (columns * points_apart, rows * points_apart)
@@ -167,21 +167,21 @@ def _in_space(random: Generator, drawn: Drawn) -> str:
         heights[row : row + 3, column : column + 3] = -9999.0
     known = heights[heights > -9000.0]
     south_up = _chance(random, 0.3)
-    _write_raster(drawn.folder / "dem.tif", heights, (EAST, NORTH), points_apart, south_up)
+    _write_raster(case.folder / "dem.tif", heights, (EAST, NORTH), points_apart, south_up)
     radius = random.uniform(0.1, 0.3) * min(size)
     middle = 0.0 if _chance(random, 0.05) else 1.1 * radius + 2.5 * points_apart  # from the edge of the domain
     centre = tuple(float(random.uniform(middle, side - middle)) if side > 2.0 * middle else side / 2.0 for side in size)
-    _write_line(drawn.folder / "line.geojson", _line(random, size, centre, points_apart))
+    _write_line(case.folder / "line.geojson", _line(random, size, centre, points_apart))
     cell = radius / random.uniform(3.0, 9.0)
     thickness = random.uniform(0.9, 4.0) * cell
     ring = _polygon(random, centre, radius, points_apart)
-    write_geojson(drawn.folder / "release.geojson", "Polygon", [[place(*c) for c in [*ring, ring[0]]]])
+    write_geojson(case.folder / "release.geojson", "Polygon", [[place(*c) for c in [*ring, ring[0]]]])
     body = f'release = "release.geojson"\nthickness = {thickness:.6g}'
     if _chance(random, 0.3):
         x, y = np.meshgrid(*middles)
         inside = np.hypot(x - centre[0], y - centre[1]) < radius
         values = np.where(inside, thickness * random.uniform(0.2, 1.0, inside.shape), 0.0)
-        _write_raster(drawn.folder / "thickness.tif", values, (EAST, NORTH), points_apart, _chance(random, 0.3))
+        _write_raster(case.folder / "thickness.tif", values, (EAST, NORTH), points_apart, _chance(random, 0.3))
         body = 'thickness = { raster = "thickness.tif" }'
     inset = [random.uniform(0.5, 2.0 if _chance(random, 0.9) else 0.4 * min(columns, rows)) for _ in range(4)]
     lower = [EAST + inset[0] * points_apart, NORTH + inset[1] * points_apart, known.min() - 5.0 * cell]
@@ -215,24 +215,24 @@ temperature = -1.0
         corner = place(*_place_near(random, size, 0.1))
         name = f"across{number}.geojson"
         section = [_place_near(random, size, 0.1) for _ in range(random.integers(2, 4))]
-        _write_line(drawn.folder / name, _degenerate(random, section) if _chance(random, 0.15) else section)
+        _write_line(case.folder / name, _degenerate(random, section) if _chance(random, 0.15) else section)
         value = f'line = "{name}"' if _chance(random, 0.6) else f"point = [{corner[0]:.17g}, {corner[1]:.17g}]"
         text += f"[probe.p{number}]\n{value}\n"
-    folder = drawn.folder
+    folder = case.folder
     maps = ["--dem", f"{folder}/dem.tif", "--release", f"{folder}/release.geojson", "--thickness", f"{thickness:.6g}"]
     maps.append(str(random.choice(["--cut", "--on-top"])))
-    drawn.commands.append(["section", f"{folder}/section", *maps, "--line", f"{folder}/line.geojson"])
+    case.commands.append(["section", f"{folder}/section", *maps, "--line", f"{folder}/line.geojson"])
     if _chance(random, 0.3):
-        drawn.commands.append(["new", f"{folder}/new", *maps])
+        case.commands.append(["new", f"{folder}/new", *maps])
     return text
 
 
-def _in_plane(random: Generator, drawn: Drawn) -> str:
+def _in_plane(random: Generator, case: RandomCase) -> str:
     length = random.uniform(100.0, 1000.0)
     count = int(random.integers(2, 60))
     x = np.sort(random.uniform(0.0, length, count))
     x = np.unique(np.round(np.concatenate([[0.0, length], x]), 3))
-    if _chance(random, 0.1):  # two points that can hardly be told apart
+    if _chance(random, 0.1):  # two points that nearly coincide
         x = np.sort(np.append(x, x[-1] - 10.0 ** random.uniform(-13.0, -3.0)))
     heights = _relief(random, x, np.zeros_like(x))
     begin, end = np.sort(random.uniform(0.05 * length, 0.95 * length, 2))
@@ -240,7 +240,7 @@ def _in_plane(random: Generator, drawn: Drawn) -> str:
     surface = heights + np.where((x > begin) & (x < end), thickness, 0.0)
     rows = [f"{a:.17g},{b:.17g},{c:.17g}" for a, b, c in zip(x, heights, surface, strict=True)]
     header = "distance_m,terrain_elevation_m,surface_elevation_m"
-    (drawn.folder / "profile.csv").write_text("\n".join([header, *rows]) + "\n")
+    (case.folder / "profile.csv").write_text("\n".join([header, *rows]) + "\n")
     cell = max(thickness / random.uniform(1.0, 6.0), length / 200.0)
     lowest, cells = heights.min() - 5.0 * cell, np.floor(length / cell)
     up = np.ceil((np.ptp(heights) + thickness) / cell) + 12.0
@@ -273,34 +273,34 @@ velocity = [{random.choice([0.0, random.uniform(-10.0, 10.0)]):.4g}, 0.0]
 """
 
 
-def draw(seed: int, folder: Path) -> Drawn:
-    """Write the case of a seed, and return it with the commands to try."""
+def draw(seed: int, folder: Path) -> RandomCase:
+    """Write the case of a seed, and return it with the commands to be tested."""
     random = np.random.default_rng(seed)
     folder.mkdir(parents=True)
-    drawn = Drawn(folder)
+    case = RandomCase(folder)
     in_space = _chance(random, 0.7)
     tilt = 0.0 if _chance(random, 0.85) else random.uniform(-30.0, 30.0)
     times = TIMES.format(dimension=3 if in_space else 2, tilt=tilt, end=random.uniform(0.02, 0.2))
-    text = (_in_space if in_space else _in_plane)(random, drawn)
+    text = (_in_space if in_space else _in_plane)(random, case)
     (folder / "case.toml").write_text(times + text + _physics(random))
-    drawn.commands += [["check", f"{folder}"], ["block", f"{folder}"]]
-    drawn.commands.append(["block", f"{folder}", "--set", "time.end=20", "--output", f"{folder}/block.csv"])
-    drawn.commands.append(["run", f"{folder}", "--output", f"{folder}/run", "--threads", "1"])
-    return drawn
+    case.commands += [["check", f"{folder}"], ["block", f"{folder}"]]
+    case.commands.append(["block", f"{folder}", "--set", "time.end=20", "--output", f"{folder}/block.csv"])
+    case.commands.append(["run", f"{folder}", "--output", f"{folder}/run", "--threads", "1"])
+    return case
 
 
 @dataclass
-class Tried:
-    """What came of the commands of one case."""
+class TestedCase:
+    """Results of the commands on one case."""
 
     faults: list[str] = field(default_factory=list)
     codes: Counter[tuple[str, int]] = field(default_factory=Counter)
 
 
-def attempt(program: Path, drawn: Drawn) -> Tried:
-    """Start the program with each command, and return the faults: whatever is not done, refused or told."""
-    tried = Tried()
-    for words in drawn.commands:
+def attempt(program: Path, case: RandomCase) -> TestedCase:
+    """Run each command; return the failures: anything but success, a refusal, or a failure with a message."""
+    tested = TestedCase()
+    for words in case.commands:
         try:
             done = subprocess.run(
                 [str(program), *words],
@@ -312,30 +312,30 @@ def attempt(program: Path, drawn: Drawn) -> Tried:
                 check=False,
             )
         except subprocess.TimeoutExpired:
-            tried.codes[words[0], CUT_OFF] += 1
+            tested.codes[words[0], CUT_OFF] += 1
             continue
-        tried.codes[words[0], done.returncode] += 1
-        if done.returncode not in SOUND or "internal error" in done.stderr:
-            tried.faults.append(f"{' '.join(words)}: exit code {done.returncode}: {done.stderr.strip()[-2000:]}")
-    return tried
+        tested.codes[words[0], done.returncode] += 1
+        if done.returncode not in EXPECTED_CODES or "internal error" in done.stderr:
+            tested.faults.append(f"{' '.join(words)}: exit code {done.returncode}: {done.stderr.strip()[-2000:]}")
+    return tested
 
 
 def main() -> int:
-    """Try cases for some time, and print what came of them."""
+    """Test cases for some time, and print the results."""
     program, seconds = Path(sys.argv[1]), float(sys.argv[2])
     seed = int(sys.argv[3]) if len(sys.argv) > 3 else 0
     codes: Counter[tuple[str, int]] = Counter()
     kept, end, first = 0, time.monotonic() + seconds, seed
     home = Path(tempfile.mkdtemp(prefix="thawslide-random-"))
     while time.monotonic() < end:
-        drawn = draw(seed, home / f"seed-{seed}")
-        tried = attempt(program, drawn)
-        codes += tried.codes
-        for fault in tried.faults:
+        case = draw(seed, home / f"seed-{seed}")
+        tested = attempt(program, case)
+        codes += tested.codes
+        for fault in tested.faults:
             print(f"seed {seed}: {fault}", flush=True)
-        kept += bool(tried.faults)
-        if not tried.faults:
-            shutil.rmtree(drawn.folder)
+        kept += bool(tested.faults)
+        if not tested.faults:
+            shutil.rmtree(case.folder)
         seed += 1
     counts = ", ".join(f"{name} {code}: {count}" for (name, code), count in sorted(codes.items()))
     print(f"{seed - first} cases from seed {first} on, {kept} with faults in {home}; exit codes: {counts}")

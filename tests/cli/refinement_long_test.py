@@ -1,6 +1,6 @@
-"""Travel distance and friction of slides that differ by their cell: a plane that runs out, and a slope of the Alps.
+"""Travel distance and friction on cells of several sizes: a plane with a level runout, and a slope of the Alps.
 
-With the jobs of scripts/refinement, whose page has finer cells and the causes of what is found.
+The jobs are those of scripts/refinement, whose page has finer cells and explains the differences.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ def run(job: jobs.Job) -> refinement.Found:
     return refinement.read_found(job)
 
 
-def test_a_plane_that_runs_out(tmp_path: Path) -> None:
-    """The centre of mass and the velocity converge (orders 0.7 and 0.9 on 20, 10 and 5 m); the thin front goes on."""
+def test_travel_on_a_plane_converges(tmp_path: Path) -> None:
+    """The centre of mass and the velocity converge (orders 0.7 and 0.9 on 20, 10 and 5 m); the thin front does not."""
     refinement.write_ground(refinement.PLANE, tmp_path / "plane", None)
     for name in ("common.toml", "refined-plane.toml"):
         (tmp_path / "plane" / name).write_text((refinement.HERE / name).read_text())
@@ -40,13 +40,13 @@ def test_a_plane_that_runs_out(tmp_path: Path) -> None:
     # Deposits are too narrow on coarse cells (docs/theory/contact.md).
     widths = [refinement.read_deposit(refinement.plane_job(cell, tmp_path)).width for cell in (20.0, 10.0)]
     assert widths == pytest.approx([101.0, 116.0], rel=0.02)
-    # A point mass on this ground goes 1,007 m (docs/comparison.md).
+    # A point mass on this terrain travels 1,007 m (docs/comparison.md).
     assert found[-1].centre == pytest.approx(1007.0, rel=0.01)
 
 
-@pytest.mark.skipif(not ALR.is_dir(), reason=f"there is no {ALR}")
-def test_a_slope_of_the_alps_with_the_default_filter(tmp_path: Path) -> None:
-    """The travel distance does not depend on the cell, and friction on the ground is the wedge's within 10 %."""
+@pytest.mark.skipif(not ALR.is_dir(), reason=f"no folder {ALR}")
+def test_travel_on_a_slope_of_the_alps_does_not_depend_on_the_cell(tmp_path: Path) -> None:
+    """With the default filter, friction on the terrain is that of the wedge factor within 10 %."""
     refinement.write_inputs(tmp_path, ALR)
     found = []
     for cell in (10.0, 6.6):
@@ -60,4 +60,4 @@ def test_a_slope_of_the_alps_with_the_default_filter(tmp_path: Path) -> None:
             assert (each.ground + each.inside) / each.wedge < 1.45, (cell, each)
     assert refinement.spread([each.travel for each in found]) < 0.05
     assert refinement.spread([each.centre for each in found]) < 0.05
-    assert found[-1].travel > 2200.0  # the DEM as it is: 1,650 m
+    assert found[-1].travel > 2200.0  # without the filter: 1,650 m

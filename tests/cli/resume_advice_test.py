@@ -1,4 +1,4 @@
-"""What resume says of a run that failed, or whose results are gone, and of changes that do not fit the rest."""
+"""Messages of resume about failed runs, and about changes that contradict the rest of the case."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def failed(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
     return run
 
 
-def test_a_run_that_failed_may_end_before_that(thawslide: Program, failed: Path) -> None:
+def test_a_failed_run_can_end_before_its_failure(thawslide: Program, failed: Path) -> None:
     assert run_facts(failed)["simulated_time_s"] > 0.5
     outcome = thawslide("resume", failed, "--end", 0.5)
     assert outcome.returncode == 0, outcome.stderr
@@ -27,7 +27,7 @@ def test_a_run_that_failed_may_end_before_that(thawslide: Program, failed: Path)
     assert run_facts(failed)["status"] == "done"
 
 
-def test_a_run_that_failed_is_not_resumed_without_a_word(thawslide: Program, failed: Path) -> None:
+def test_resuming_a_failed_run_without_a_change_has_a_warning(thawslide: Program, failed: Path) -> None:
     assert (
         f"If the key may change during a run, continue: thawslide resume {failed} --set KEY=VALUE\n"
         in thawslide("status", failed).stdout
@@ -39,7 +39,7 @@ def test_a_run_that_failed_is_not_resumed_without_a_word(thawslide: Program, fai
     assert outcome.returncode == 0 and "the run failed" not in outcome.stdout, outcome.stderr
 
 
-def test_what_does_not_fit_a_change_is_changed_on_the_command_line(
+def test_a_contradiction_with_a_change_is_resolved_on_the_command_line(
     thawslide: Program, small_case: Path, tmp_path: Path
 ) -> None:
     run = tmp_path / "run"

@@ -1,4 +1,4 @@
-"""The case of a run that goes on, or is at its end: what may change, and what is said where it cannot."""
+"""Changes of the case of an interrupted or finished run: allowed ones, and errors about the others."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from conftest import Program, content_of, run_facts, sets
-from faults import as_killed, before_its_first_checkpoint
+from faults import before_its_first_checkpoint, mark_killed
 
 
 def edit(run: Path, old: str, new: str) -> Path:
@@ -35,7 +35,7 @@ def test_a_case_changed_before_the_first_checkpoint_is_refused(thawslide: Progra
     file.unlink()
     outcome = thawslide("resume", done)
     assert outcome.returncode == 2 and f"{file} is missing, and no checkpoint holds its content" in outcome.stderr
-    # What is told on the command line is taken.
+    # Changes on the command line are accepted.
     file.write_text(text)
     outcome = thawslide("resume", done, "--end", 0.3)
     assert outcome.returncode == 0, outcome.stderr
@@ -43,7 +43,7 @@ def test_a_case_changed_before_the_first_checkpoint_is_refused(thawslide: Progra
     assert run_facts(done)["simulated_time_s"] == pytest.approx(0.3)
 
 
-def test_a_change_cut_off_before_the_first_checkpoint_is_asked_for_again(thawslide: Program, done: Path) -> None:
+def test_a_change_interrupted_before_the_first_checkpoint_must_be_repeated(thawslide: Program, done: Path) -> None:
     text = (done / "case.toml").read_text()
     before_its_first_checkpoint(done)
     assert thawslide("resume", done, "--end", 0.3).returncode == 0
@@ -51,7 +51,7 @@ def test_a_change_cut_off_before_the_first_checkpoint_is_asked_for_again(thawsli
     (done / "case.toml").write_text(text)
     outcome = thawslide("resume", done)
     assert outcome.returncode == 2
-    assert f"Give it again: thawslide resume {done} --set time.end=0.3\n" in outcome.stderr
+    assert f"Specify it again: thawslide resume {done} --set time.end=0.3\n" in outcome.stderr
     assert thawslide("resume", done, "--end", 0.3).returncode == 0
 
 
@@ -60,7 +60,7 @@ def test_a_new_end_in_the_case_file_is_answered_with_the_command(
     thawslide: Program, done: Path, is_killed: bool
 ) -> None:
     if is_killed:
-        as_killed(done)
+        mark_killed(done)
     file = edit(done, "\nend = 0.2 ", "\nend = 0.4 ")
     outcome = thawslide("resume", done)
     assert outcome.returncode == 2
@@ -82,7 +82,7 @@ def test_a_new_end_in_the_case_file_is_answered_with_the_command(
     assert run_facts(done)["parts"][1]["changes"] == ["time.end=0.4"]
 
 
-def test_a_finished_run_without_checkpoints_gets_no_later_end(thawslide: Program, done: Path) -> None:
+def test_a_finished_run_without_checkpoints_cannot_be_extended(thawslide: Program, done: Path) -> None:
     for name in ("checkpoint.bin", "checkpoint.previous.bin", "history.csv"):
         (done / name).unlink()
     outcome = thawslide("resume", done)
@@ -97,15 +97,15 @@ def test_a_finished_run_without_checkpoints_gets_no_later_end(thawslide: Program
     assert "its SHA-256 is not that of run.json. There is no checkpoint to continue from" in outcome.stderr
 
 
-def test_a_finished_run_in_a_folder_that_is_read_only(thawslide: Program, done: Path) -> None:
+def test_a_finished_run_in_a_read_only_folder_needs_no_write_access(thawslide: Program, done: Path) -> None:
     if subprocess.run(["mount", "--bind", str(done), str(done)], capture_output=True, check=False).returncode != 0:
-        pytest.skip("no folder can be made read-only here: mount is not allowed")
+        pytest.skip("mount is not allowed: no read-only folder available")
     try:
         subprocess.run(["mount", "-o", "remount,bind,ro", str(done)], check=True)
         outcome = thawslide("resume", done)
         assert outcome.returncode == 0, outcome.stderr
         assert outcome.stdout == f"{done} has reached its end at 0.2 s; nothing to do\n"
-        # What would have to write cannot.
+        # Commands that need to write fail.
         outcome = thawslide("resume", done, "--end", 1)
         assert outcome.returncode == 5
         assert outcome.stderr == f"error: cannot write {done / 'run.lock'}: {os.strerror(30)}\n"
@@ -114,8 +114,8 @@ def test_a_finished_run_in_a_folder_that_is_read_only(thawslide: Program, done: 
 
 
 def test_an_end_that_was_passed_before_the_kill_is_refused(thawslide: Program, done: Path) -> None:
-    """The checkpoint is of an earlier moment, and what came after it would be cut away."""
-    as_killed(done)
+    """The checkpoint is older, and later results would be removed."""
+    mark_killed(done)
     (done / "checkpoint.previous.bin").rename(done / "checkpoint.bin")
     before = content_of(done)
     outcome = thawslide("resume", done, "--end", 0.1)
@@ -129,7 +129,7 @@ def test_an_end_that_was_passed_before_the_kill_is_refused(thawslide: Program, d
     )
 
 
-def test_guards_that_would_change_the_columns_of_the_history(thawslide: Program, done: Path) -> None:
+def test_guards_that_change_the_columns_of_the_history_are_refused(thawslide: Program, done: Path) -> None:
     outcome = thawslide("resume", done, "--end", 0.3, *sets(guards__volume="remove"))
     assert outcome.returncode == 2
     assert "a continued run cannot change this. Run the case again." in outcome.stderr

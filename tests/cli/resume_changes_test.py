@@ -1,4 +1,4 @@
-"""Changes told to a run that has ended, and files of a run that are not its own."""
+"""Changes of a run that has ended, and foreign files in the folder of a run."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from conftest import Program, content_of, run_facts, sets
-from faults import as_killed
+from faults import mark_killed
 
 RESTS = sets(
     time__end=5,
@@ -20,7 +20,7 @@ RESTS = sets(
 LEAVES = sets(time__end=4, body__block__velocity="[30,0]", grid__leaving="remove")
 
 
-def test_a_change_that_no_step_is_left_for_is_refused(thawslide: Program, done: Path) -> None:
+def test_a_change_without_remaining_steps_is_refused(thawslide: Program, done: Path) -> None:
     before = content_of(done)
     outcome = thawslide("resume", done, *sets(basal__friction_angle=5))
     assert outcome.returncode == 2
@@ -34,7 +34,7 @@ def test_a_change_that_no_step_is_left_for_is_refused(thawslide: Program, done: 
     assert run_facts(done)["parts"][-1]["changes"] == ["basal.friction_angle=5", "time.end=0.3"]
 
 
-def test_a_run_at_rest_continues_with_what_is_changed(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_a_run_at_rest_continues_with_a_changed_case(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run, *RESTS).returncode == 0
     rest = run_facts(run)["simulated_time_s"]
@@ -49,9 +49,7 @@ def test_a_run_at_rest_continues_with_what_is_changed(thawslide: Program, small_
     assert again["parts"][-1]["changes"] == ["basal.friction_angle=5"]
 
 
-def test_a_run_whose_slide_has_left_has_nothing_to_go_on_with(
-    thawslide: Program, small_case: Path, tmp_path: Path
-) -> None:
+def test_a_run_without_particles_cannot_continue(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     outcome = thawslide("run", small_case, "--output", run, *LEAVES)
     assert outcome.returncode == 0 and "the whole slide has left" in outcome.stdout
@@ -71,7 +69,7 @@ def test_the_checkpoint_of_another_run_is_refused(
 ) -> None:
     other = tmp_path / "other"
     assert thawslide("run", small_case, "--output", other, *sets(basal__friction_angle=5)).returncode == 0
-    as_killed(done)
+    mark_killed(done)
     before = content_of(done)
     for name in ("checkpoint.bin", "checkpoint.previous.bin"):
         shutil.copy(other / name, done / name)
@@ -104,7 +102,7 @@ def test_a_link_in_place_of_a_folder_of_a_run_is_refused(
     assert content_of(elsewhere) == before
 
 
-def test_run_json_may_not_name_copies_elsewhere(thawslide: Program, done: Path) -> None:
+def test_run_json_with_copies_outside_the_run_is_refused(thawslide: Program, done: Path) -> None:
     facts = run_facts(done)
     facts["inputs"] = [{"path": "/nowhere", "copy": "../../../etc/hostname", "sha256": "0" * 64, "bytes": 1}]
     (done / "run.json").write_text(json.dumps(facts))
@@ -116,6 +114,6 @@ def test_run_json_may_not_name_copies_elsewhere(thawslide: Program, done: Path) 
     )
 
 
-def test_no_folder_is_named_for_the_output(thawslide: Program, small_case: Path) -> None:
+def test_an_empty_name_of_the_output_folder_is_refused(thawslide: Program, small_case: Path) -> None:
     outcome = thawslide("run", small_case, "--output", "")
     assert outcome.returncode == 2 and "--output: name a folder" in outcome.stderr

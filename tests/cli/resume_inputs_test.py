@@ -1,11 +1,11 @@
-"""Inputs that have changed since a run began: its copies must be what they were, the originals need not."""
+"""Inputs that have changed since a run began: copies must be unchanged, originals need not."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 from conftest import Program
-from faults import as_killed
+from faults import mark_killed
 
 
 def require_refused(thawslide: Program, run: Path, copy: Path) -> None:
@@ -22,19 +22,19 @@ def test_a_changed_input_is_refused_and_a_changed_original_reported(
 ) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0
-    as_killed(run)
+    mark_killed(run)
     original, copy = small_case / "case.toml", run / "inputs" / "case.toml"
     original.write_text(original.read_text() + "# a remark\n")
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
     warning = f"{original} has changed since the run began. The run continues with its copy, inputs/case.toml\n"
     assert f"warning: {warning}" in outcome.stdout
-    as_killed(run)
+    mark_killed(run)
     copy.write_text("other")
     require_refused(thawslide, run, copy)
 
 
-def test_a_changed_input_that_is_no_profile_any_more_is_reported_as_changed(
+def test_a_changed_input_that_is_no_longer_valid_is_reported_as_changed(
     thawslide: Program, small_case: Path, tmp_path: Path
 ) -> None:
     file, run = small_case / "case.toml", tmp_path / "run"
@@ -42,7 +42,7 @@ def test_a_changed_input_that_is_no_profile_any_more_is_reported_as_changed(
     file.write_text(text.replace('type = "flat"\nelevation = 0.0', 'type = "profile"\nfile = "profile.csv"'))
     (small_case / "profile.csv").write_text("distance_m,terrain_elevation_m\n0,0\n20,0\n")
     assert thawslide("run", small_case, "--output", run).returncode == 0
-    as_killed(run)
+    mark_killed(run)
     copy = run / "inputs" / "profile.csv"
     copy.write_text("no profile")
     require_refused(thawslide, run, copy)

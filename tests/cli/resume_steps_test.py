@@ -1,4 +1,4 @@
-"""The simulated time of a run whose steps change when it goes on, and its last row where it ends at rest."""
+"""Simulated time of resumed runs with other steps, and the last row of a run that ends at rest."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import Program, assert_same_bits, history, run_facts, sets, snapshot_files
-from faults import as_killed
+from conftest import Program, assert_bitwise_identical, history, run_facts, sets, snapshot_files
+from faults import mark_killed
 
 RESTS = sets(
     time__end=2,
@@ -21,9 +21,7 @@ RESTS = sets(
 
 
 @pytest.mark.parametrize(("step", "steps"), [(0.002, 25), (0.0005, 100), (0.0007, 71)])
-def test_time_continues_from_where_it_is_with_other_steps(
-    thawslide: Program, done: Path, step: float, steps: int
-) -> None:
+def test_time_continues_from_the_end_with_other_steps(thawslide: Program, done: Path, step: float, steps: int) -> None:
     outcome = thawslide("resume", done, "--end", 0.25, *sets(time__step=step, time__history_interval=0))
     assert outcome.returncode == 0, outcome.stderr
     rows = history(done)
@@ -35,7 +33,7 @@ def test_time_continues_from_where_it_is_with_other_steps(
     assert np.diff(times) == pytest.approx(step, rel=1e-9)
 
 
-def test_time_continues_where_steps_become_adaptive_and_fixed_again(thawslide: Program, done: Path) -> None:
+def test_time_continues_when_steps_become_adaptive_and_fixed_again(thawslide: Program, done: Path) -> None:
     changes = sets(time__stepping="adaptive", time__history_interval=0)
     assert thawslide("resume", done, "--end", 0.25, *changes).returncode == 0
     assert run_facts(done)["simulated_time_s"] == 0.25
@@ -46,7 +44,7 @@ def test_time_continues_where_steps_become_adaptive_and_fixed_again(thawslide: P
     assert np.diff(rows["time_s"][rows["time_s"] >= 0.25]) == pytest.approx(0.001, rel=1e-6)
 
 
-def test_a_shorter_last_step_leaves_its_trace_in_the_time(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_later_times_include_a_shorter_last_step(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     assert (
         thawslide("run", small_case, "--output", run, *sets(time__end=0.2007, time__history_interval=0)).returncode == 0
@@ -58,17 +56,17 @@ def test_a_shorter_last_step_leaves_its_trace_in_the_time(thawslide: Program, sm
     assert times[202] - times[201] == pytest.approx(0.001, rel=1e-9)
 
 
-def test_other_steps_have_the_same_bits_after_a_kill(thawslide: Program, done: Path, tmp_path: Path) -> None:
+def test_other_steps_are_bitwise_identical_after_a_kill(thawslide: Program, done: Path, tmp_path: Path) -> None:
     words = ["--end", 0.3, *sets(time__step=0.0007, checkpoint__interval=0.03)]
     twice = tmp_path / "twice"
     shutil.copytree(done, twice)
     assert thawslide("resume", done, *words).returncode == 0
     assert thawslide("resume", twice, *words).returncode == 0
-    as_killed(twice)
+    mark_killed(twice)
     (twice / "checkpoint.previous.bin").rename(twice / "checkpoint.bin")
     outcome = thawslide("resume", twice)
     assert outcome.returncode == 0 and "continuing from t = 0.2" in outcome.stdout, outcome.stderr
-    assert_same_bits(done, twice)
+    assert_bitwise_identical(done, twice)
 
 
 def test_checkpoints_change_no_step(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
@@ -77,11 +75,11 @@ def test_checkpoints_change_no_step(thawslide: Program, small_case: Path, tmp_pa
     for run, interval in zip(runs, (0, 0.013), strict=True):
         outcome = thawslide("run", small_case, "--output", run, *words, *sets(checkpoint__interval=interval))
         assert outcome.returncode == 0, outcome.stderr
-    assert_same_bits(*runs)
+    assert_bitwise_identical(*runs)
 
 
-def test_the_guard_of_small_steps_holds_once_steps_are_adaptive(thawslide: Program, done: Path) -> None:
-    """The first adaptive step is kept from then on, so that a later one can be too small."""
+def test_the_guard_of_small_steps_acts_once_steps_are_adaptive(thawslide: Program, done: Path) -> None:
+    """Later steps are compared with the first adaptive step."""
     changes = sets(time__stepping="adaptive", time__step=1, guards__smallest_step=0.9)
     assert thawslide("resume", done, "--end", 0.25, *changes).returncode == 0
     outcome = thawslide("resume", done, "--end", 0.3, *sets(time__safety=0.4))
@@ -90,16 +88,16 @@ def test_the_guard_of_small_steps_holds_once_steps_are_adaptive(thawslide: Progr
 
 
 @pytest.mark.parametrize("interval", [0.001, 10.0])
-def test_the_last_row_and_snapshot_of_a_run_at_rest_stand_before_its_checkpoint(
+def test_the_last_row_and_snapshot_at_rest_precede_the_checkpoint(
     thawslide: Program, small_case: Path, tmp_path: Path, interval: float
 ) -> None:
-    """So that they are there whatever happens between: no part of the end is told by a checkpoint alone."""
+    """Therefore a kill between them loses no results."""
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run, *RESTS, *sets(checkpoint__interval=interval)).returncode == 0
     rest = run_facts(run)["simulated_time_s"]
     rows, names = (run / "history.csv").read_bytes(), [file.name for file in snapshot_files(run)]
     assert history(run)["time_s"][-1] == rest
-    as_killed(run)
+    mark_killed(run)
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
     assert (run / "history.csv").read_bytes() == rows

@@ -1,4 +1,4 @@
-"""Noise on a DEM: what check says of it, and that every command slides on the same ground."""
+"""Noise on a DEM: facts and warnings of check, and the same terrain for every command."""
 
 from __future__ import annotations
 
@@ -48,23 +48,23 @@ def rough_case(thawslide: Program, tmp_path: Path) -> Path:
     return make_case(thawslide, tmp_path, NOISE)
 
 
-def test_new_keeps_the_terrain_model_as_it_is(thawslide: Program, rough_case: Path) -> None:
+def test_new_does_not_change_the_dem(thawslide: Program, rough_case: Path) -> None:
     with (
         rasterio.open(rough_case / "dem.tif") as kept,
         rasterio.open(rough_case.parent / "dem.tif") as given,
     ):
         column, row = map(round, ~given.transform * (kept.transform.c, kept.transform.f))
-        whole = given.read(1)
-        assert np.array_equal(kept.read(1), whole[row : row + kept.height, column : column + kept.width])
+        complete = given.read(1)
+        assert np.array_equal(kept.read(1), complete[row : row + kept.height, column : column + kept.width])
 
 
-def test_check_reports_noise_filter_and_what_is_left(thawslide: Program, rough_case: Path) -> None:
+def test_check_reports_noise_filter_and_remaining_friction(thawslide: Program, rough_case: Path) -> None:
     checked = thawslide("check", rough_case)
     assert checked.returncode == 0, checked.stderr
     reported = f"smoothed with a standard deviation of {WIDTH:g} m; remaining friction by noise and bumps about "
     assert reported in checked.stdout
     assert (
-        f"In V valleys of 90 degrees filled less than {40 * WIDTH:g} m wide the filter takes more than 3 % of the "
+        f"In V valleys of 90 degrees filled less than {40 * WIDTH:g} m wide the filter removes more than 3 % of the "
         "friction of their sides" in checked.stdout
     )
     assert (
@@ -84,7 +84,7 @@ def test_check_reports_noise_filter_and_what_is_left(thawslide: Program, rough_c
     assert facts["apparent_friction"] < 0.03
 
 
-def test_noise_that_the_user_leaves_is_warned_of(thawslide: Program, rough_case: Path) -> None:
+def test_unfiltered_noise_has_a_warning(thawslide: Program, rough_case: Path) -> None:
     left = json.loads(thawslide("check", rough_case, "--json", *sets(terrain__smooth=0)).stdout)
     note = next(note for note in left["warnings"] if note.startswith("terrain.smooth: "))
     assert note.endswith('at most 0.06 is intended). Set terrain.smooth = "auto".')
@@ -100,7 +100,7 @@ def test_clean_ground_is_not_smoothed(thawslide: Program, tmp_path: Path) -> Non
     assert not [note for note in checked["warnings"] if "smooth" in note]
 
 
-def test_run_its_own_case_and_resume_slide_on_the_same_ground(
+def test_run_resolved_case_and_resume_have_the_same_terrain(
     thawslide: Program, rough_case: Path, tmp_path: Path
 ) -> None:
     run, again = tmp_path / "run", tmp_path / "again"
@@ -121,20 +121,18 @@ def test_run_its_own_case_and_resume_slide_on_the_same_ground(
     assert history(run)["time_s"][-1] == pytest.approx(1.0, abs=0.1)
 
 
-def test_section_is_cut_out_of_the_ground_that_a_run_in_space_has(
-    thawslide: Program, rough_case: Path, tmp_path: Path
-) -> None:
+def test_section_has_the_terrain_of_a_3d_run(thawslide: Program, rough_case: Path, tmp_path: Path) -> None:
     line = write_line(tmp_path / "line.geojson", [(15.0, 200.0), (1500.0, 200.0)])
     folder = tmp_path / "section"
     made = thawslide("section", folder, "--dem", rough_case.parent / "dem.tif", "--line", line)
     assert made.returncode == 0, made.stderr
-    said = (
+    note = (
         f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as for a 3D run on 10 m cells "
-        "whose domain is the whole DEM; it has noise of 1 m rms and bumps with an rms slope of "
+        "whose domain is the whole DEM. It has noise of 1 m rms and bumps with an rms slope of "
     )
-    assert f"note: {said}" in made.stdout
+    assert f"note: {note}" in made.stdout
     text = (folder / "profile.csv").read_text()
-    assert f"# {said}" in text
+    assert f"# {note}" in text
     rows = np.array(
         [row.split(",")[:2] for row in text.splitlines() if row[:1].isdigit()],
         dtype=float,

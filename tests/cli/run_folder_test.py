@@ -1,4 +1,4 @@
-"""What a run writes, that threads change no bit of it, and folders it refuses."""
+"""Files of a run, bitwise identical for any number of threads, and folders that it refuses."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from conftest import LAMPLUGH, Program, assert_same_bits, datasets, history, run_facts, sets, snapshot_files
+from conftest import LAMPLUGH, Program, assert_bitwise_identical, datasets, history, run_facts, sets, snapshot_files
 
 END = 1.0  # s, of the Lamplugh runs
 FIELDS = {
@@ -53,7 +53,7 @@ def lamplugh(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> Pa
     return run
 
 
-def test_folder_holds_the_files_of_a_run_and_no_others(lamplugh: Path) -> None:
+def test_the_folder_contains_the_files_of_a_run_and_no_others(lamplugh: Path) -> None:
     assert sorted(path.name for path in lamplugh.iterdir()) == sorted(
         [
             "case.toml",
@@ -73,7 +73,7 @@ def test_folder_holds_the_files_of_a_run_and_no_others(lamplugh: Path) -> None:
     assert (lamplugh / "checkpoint.bin").stat().st_size > 0
 
 
-def test_history_has_header_first_and_a_row_each_interval(lamplugh: Path) -> None:
+def test_history_has_a_header_and_a_row_per_interval(lamplugh: Path) -> None:
     columns = history(lamplugh)
     assert next(iter(columns)) == "time_s"
     assert columns.keys() >= COLUMNS
@@ -84,14 +84,22 @@ def test_history_has_header_first_and_a_row_each_interval(lamplugh: Path) -> Non
     assert text.endswith("\n") and "#" not in text
 
 
-def test_history_numbers_are_the_shortest_that_read_back(lamplugh: Path) -> None:
+def test_the_first_row_has_the_weight_as_the_force_on_the_ground(lamplugh: Path) -> None:
+    first = {name: values[0] for name, values in history(lamplugh).items()}
+    assert first["basal_force_y_N"] == pytest.approx(-9.81 * first["mass_kg"], rel=1e-12)
+    assert first["basal_force_x_N"] == first["seismic_force_x_N"] == first["seismic_force_y_N"] == 0.0
+    unknown = {name for name, value in first.items() if np.isnan(value)}
+    assert unknown == {"band_friction_coefficient"}, "no node is in contact before the first step"
+
+
+def test_history_numbers_have_the_shortest_exact_form(lamplugh: Path) -> None:
     for row in (lamplugh / "history.csv").read_text().splitlines()[1:]:
         for field in row.split(","):
             value = float(field)
             assert len(field) <= len(repr(value)) and (np.isnan(value) or float(repr(value)) == value)
 
 
-def test_snapshots_hold_the_fields_sorted_by_id(lamplugh: Path) -> None:
+def test_snapshots_contain_the_fields_sorted_by_id(lamplugh: Path) -> None:
     particles = run_facts(lamplugh)["particles"]
     for number, file in enumerate(snapshot_files(lamplugh)):
         with h5py.File(file) as opened:
@@ -107,7 +115,7 @@ def test_snapshots_hold_the_fields_sorted_by_id(lamplugh: Path) -> None:
             assert root["PointData/id"][:].tolist() == list(range(particles))
 
 
-def test_particles_file_shows_all_snapshots_as_one(lamplugh: Path) -> None:
+def test_the_particles_file_combines_all_snapshots(lamplugh: Path) -> None:
     particles = run_facts(lamplugh)["particles"]
     files = snapshot_files(lamplugh)
     with h5py.File(lamplugh / "particles.vtkhdf") as opened:
@@ -156,21 +164,23 @@ def test_terrain_is_the_profile_inside_the_domain(lamplugh: Path) -> None:
         assert elevation == pytest.approx(given[round(x, 6)], abs=1e-6)
 
 
-def test_resolved_case_runs_to_the_same_bits(thawslide: Program, lamplugh: Path, tmp_path: Path) -> None:
+def test_the_resolved_case_has_bitwise_identical_results(thawslide: Program, lamplugh: Path, tmp_path: Path) -> None:
     resolved = tomllib.loads((lamplugh / "case.toml").read_text())
     assert resolved["time"]["end"] == END and resolved["basal"]["lubrication_exponent"] == 2.0
     assert resolved["terrain"]["file"] == "inputs/lamplugh_profile.csv"
     assert thawslide("run", lamplugh, "--output", tmp_path / "again").returncode == 0
-    assert_same_bits(lamplugh, tmp_path / "again")
+    assert_bitwise_identical(lamplugh, tmp_path / "again")
 
 
 @pytest.mark.parametrize("threads", [2, 3])
-def test_threads_change_no_bit(thawslide: Program, lamplugh: Path, tmp_path: Path, threads: int) -> None:
+def test_results_are_bitwise_identical_for_any_number_of_threads(
+    thawslide: Program, lamplugh: Path, tmp_path: Path, threads: int
+) -> None:
     run = tmp_path / "run"
     words = sets(time__end=END, time__output_interval=0.25)
     assert thawslide("run", LAMPLUGH, "--threads", threads, "--output", run, *words).returncode == 0
     assert run_facts(run)["threads"] == threads
-    assert_same_bits(lamplugh, run)
+    assert_bitwise_identical(lamplugh, run)
 
 
 def test_folder_is_named_after_the_case(thawslide: Program, small_case: Path) -> None:
@@ -180,7 +190,7 @@ def test_folder_is_named_after_the_case(thawslide: Program, small_case: Path) ->
     assert sorted(path.name for path in (small_case.parent / "runs").iterdir()) == ["small", "small-steep"]
 
 
-def test_a_run_is_replaced_only_when_asked(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_a_run_is_replaced_only_on_request(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0
     before = (run / "history.csv").read_bytes()
@@ -228,7 +238,7 @@ def test_a_folder_without_permission_is_refused(thawslide: Program, small_case: 
     assert f"no permission for {closed}" in outcome.stderr
 
 
-def test_a_name_that_no_file_system_takes(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_a_name_too_long_for_the_file_system_is_refused(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     outcome = thawslide("run", small_case, "--output", tmp_path / ("a" * 260))
     assert outcome.returncode == 2
     assert "File name too long" in outcome.stderr

@@ -1,4 +1,4 @@
-"""thawslide section cuts a 2D case out of a DEM; thawslide block slides a 3D case along its path."""
+"""thawslide section cuts a 2D case out of a DEM; thawslide block computes a 3D case along its path."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ class Maps:
     line: Path
 
     def words(self, folder: Path, *more: object) -> list[object]:
-        """Return the words that ask for the section without a release."""
+        """Return the arguments for the section without a release."""
         return ["section", folder, "--dem", self.dem, "--line", self.line, *more]
 
     def words_with_release(self, folder: Path, *more: object) -> list[object]:
-        """Return those with it."""
+        """Return the arguments with the release."""
         return self.words(folder, "--release", self.release, *more)
 
 
@@ -52,7 +52,7 @@ def profile(folder: Path) -> tuple[list[str], dict[str, np.ndarray]]:
     return comments, dict(zip(header, np.array(rows, dtype=float).T, strict=True))
 
 
-def test_section_of_a_plane_runs_as_it_is(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+def test_section_of_a_plane_runs_unchanged(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     folder = tmp_path / "case"
     made = thawslide(*maps.words_with_release(folder))
     assert made.returncode == 0, made.stderr
@@ -101,7 +101,7 @@ def test_section_shares_its_physics_with_new(thawslide: Program, maps: Maps, tmp
         assert flat["body"]["slide"][key] == space["body"]["slide"][key]
 
 
-def test_cut_takes_the_body_out_of_the_ground(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+def test_cut_lowers_the_terrain_below_the_body(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     folders = [tmp_path / "on-top", tmp_path / "cut"]
     for folder, placement in zip(folders, ("--on-top", "--cut"), strict=True):
         made = thawslide(*maps.words_with_release(folder, "--thickness", 12, placement))
@@ -121,7 +121,7 @@ def test_cut_takes_the_body_out_of_the_ground(thawslide: Program, maps: Maps, tm
     assert thawslide("check", folders[1]).returncode == 0
 
 
-def test_without_a_release_the_profile_alone(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+def test_section_without_a_release_writes_the_profile_only(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     folder = tmp_path / "case"
     made = thawslide(*maps.words(folder))
     assert made.returncode == 0, made.stderr
@@ -130,7 +130,7 @@ def test_without_a_release_the_profile_alone(thawslide: Program, maps: Maps, tmp
     assert set(profile(folder)[1]) == {"distance_m", "terrain_elevation_m"}
 
 
-def test_corners_are_kept_and_a_line_uphill_is_turned_round(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+def test_corners_are_kept_and_a_line_uphill_is_reversed(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     write_line(maps.line, [(703.0, 351.0), (403.0, 200.0), (53.0, 200.0)])
     made = thawslide(*maps.words_with_release(tmp_path / "case"))
     assert made.returncode == 0, made.stderr
@@ -147,7 +147,7 @@ def test_corners_are_kept_and_a_line_uphill_is_turned_round(thawslide: Program, 
     assert terrain[-1] == pytest.approx(1000.0 - SLOPE * 703.0)
 
 
-def test_mistakes_are_reported(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+def test_invalid_lines_and_options_are_reported(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     folder = tmp_path / "case"
 
     def error(*words: object) -> str:
@@ -192,7 +192,7 @@ def test_mistakes_are_reported(thawslide: Program, maps: Maps, tmp_path: Path) -
     )
 
 
-def test_an_existing_folder_is_left_alone(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+def test_an_existing_folder_is_not_changed(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     folder = tmp_path / "case"
     folder.mkdir()
     (folder / "mine.txt").write_text("mine")
@@ -202,7 +202,7 @@ def test_an_existing_folder_is_left_alone(thawslide: Program, maps: Maps, tmp_pa
     assert [file.name for file in folder.iterdir()] == ["mine.txt"]
 
 
-def test_block_slides_a_case_in_space_along_its_path(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+def test_block_moves_a_3d_case_along_its_path(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     folder = tmp_path / "space"
     assert thawslide("new", folder, "--dem", maps.dem, "--release", maps.release).returncode == 0
     file = tmp_path / "block.csv"

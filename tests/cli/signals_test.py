@@ -1,4 +1,4 @@
-"""What signals do to a run, beside the first and the second that status_test.py and resume_test.py look at."""
+"""Signals during a run, in addition to the tests in status_test.py and resume_test.py."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ def started(binary: Path, run: Path, *words: object, ignored: signal.Signals | N
 def wait_for(file: Path) -> None:
     until = time.monotonic() + LIMIT
     while not file.exists():
-        assert time.monotonic() < until, f"there is no {file}"
+        assert time.monotonic() < until, f"{file} does not appear"
         time.sleep(0.02)
 
 
 @pytest.mark.parametrize("ignored", [signal.SIGHUP, signal.SIGINT])
-def test_a_signal_that_was_ignored_stays_ignored(
+def test_ignored_signals_remain_ignored(
     binary: Path, small_case: Path, tmp_path: Path, ignored: signal.Signals
 ) -> None:
     run = tmp_path / "run"
@@ -57,21 +57,21 @@ def test_a_signal_ends_the_settling(binary: Path, thawslide: Program, small_case
     wait_for(run / "run.json")
     time.sleep(0.3)
     process.send_signal(signal.SIGTERM)
-    said = process.communicate(timeout=LIMIT)[1]
+    message = process.communicate(timeout=LIMIT)[1]
     assert process.returncode == 4
-    assert said == f"interrupted by signal 15 while the body settled. To start again: thawslide resume {run}\n"
+    assert message == f"interrupted by signal 15 while the body settled. To start again: thawslide resume {run}\n"
     facts = json.loads((run / "run.json").read_text())
     assert (facts["status"], facts["message"], facts["simulated_time_s"]) == ("stopped", "signal 15", 0.0)
     assert thawslide("status", run).stdout.startswith(f"{run}: stopped")
 
 
-def test_energy_that_comes_slowly_is_reported_once(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_slow_energy_growth_is_reported_once(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     slow = sets(time__end=30, time__history_interval=1, time__output_interval=10, guards__energy_growth=0.02)
     outcome = thawslide("run", small_case, "--output", tmp_path / "run", *slow, "--set", "body.block.max=[15.0, 5.0]")
     assert outcome.returncode == 0, outcome.stderr
-    said = outcome.stdout + outcome.stderr
-    assert said.count("gradually and without a physical cause") == 1
-    assert "viscosity_time" in said
+    message = outcome.stdout + outcome.stderr
+    assert message.count("gradually and without a physical cause") == 1
+    assert "viscosity_time" in message
     damped = thawslide(
         *("run", small_case, "--output", tmp_path / "damped", *slow, "--set", "body.block.max=[15.0, 5.0]"),
         *sets(material__rock__viscosity_time=0.002),

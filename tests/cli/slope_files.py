@@ -1,4 +1,4 @@
-"""A slope as a DEM with a release area on it, what `thawslide new` makes of them and says of wrong ones."""
+"""A slope as a DEM with a release area, and functions that make cases from them with `thawslide new`."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def write_slope(
 ) -> Path:
     """Write a slope towards the east, level from its foot on, as far from the west [m].
 
-    `hole`: columns without data in ten rows across the way of the slide.
+    `hole`: columns without data in ten rows across the flow path.
     """
     x = CELL * np.arange(COLUMNS)
     heights = np.tile(1000.0 + np.tan(np.radians(degrees)) * np.maximum(0.0, foot - x), (ROWS, 1))
@@ -62,19 +62,19 @@ def write_release(
 
 
 def made(thawslide: Program, folder: Path, dem: Path, release: Path, *words: object) -> Outcome:
-    """Make a case folder."""
+    """Create a case folder."""
     return thawslide("new", folder, "--dem", dem, "--release", release, *words)
 
 
-def said(text: str, tmp_path: Path) -> str:
+def without_folder(text: str, tmp_path: Path) -> str:
     """Return a message without the folder of the test."""
     return text.replace(f"{tmp_path}/", "")
 
 
 def assert_refused(outcome: Outcome, tmp_path: Path, message: str) -> None:
-    """Fail unless the command says exactly this, and has made nothing."""
+    """Fail unless the command prints exactly this error and writes nothing."""
     assert outcome.returncode == 2, outcome.stderr
-    assert said(outcome.stderr, tmp_path) == f"error: {message}\n"
+    assert without_folder(outcome.stderr, tmp_path) == f"error: {message}\n"
     assert not (tmp_path / "slide").exists()
 
 

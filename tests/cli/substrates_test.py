@@ -1,4 +1,4 @@
-"""What the program says of the substrates of a case: what they cover, what is left, where there are gaps."""
+"""Substrates of a case: the covered parts of the domain, the rest, and gaps."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def test_check_lists_substrates_and_gaps(thawslide: Program, small_case: Path) -
     assert (
         '  substrate   glacier: from x = 12 m on, 8 m or 40 % of the domain; friction "coefficient", no cohesion\n'
         "  substrate   moraine: up to x = 5 m, 5 m or 25 % of the domain; "
-        'friction "constant", cohesion 1000 Pa, "bonds"\n'
+        'friction "constant", cohesion 1,000 Pa, "bonds"\n'
         '              elsewhere [basal], 35 % of the domain; friction "lubricated", no cohesion\n'
     ) in outcome.stdout
 
@@ -44,11 +44,12 @@ def test_gaps_are_reported_by_every_command_that_uses_the_base(
     for words in (["check", case], ["run", case, "--output", tmp_path / "run"], ["block", case]):
         outcome = thawslide(*words)
         assert outcome.returncode == 0, outcome.stderr
-        note = "between the substrates moraine and glacier, from x = 5 to 12 m, none lies: [basal] holds there\n"
+        place = "between the substrates moraine and glacier, from x = 5 to 12 m"
+        note = f"{place}, there is no substrate: [basal] applies there\n"
         assert outcome.stdout.count(f"warning: {note}") == 1, words
 
 
-def test_check_says_nothing_of_substrates_without_any(thawslide: Program, small_case: Path) -> None:
+def test_check_does_not_mention_absent_substrates(thawslide: Program, small_case: Path) -> None:
     assert "substrate" not in thawslide("check", small_case).stdout
 
 
@@ -60,8 +61,8 @@ def test_overlaps_are_refused(thawslide: Program, small_case: Path) -> None:
     assert "the substrates moraine and glacier overlap" in outcome.stderr
 
 
-def test_a_run_holds_by_its_substrate_and_keeps_it(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    """A block on a tilted plane stays on rock and slides on ice; the resolved case holds the substrate."""
+def test_a_run_has_the_friction_of_its_substrate(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    """A block on a tilted plane rests on rock and slides on ice; the resolved case contains the substrate."""
     words = [
         "--set",
         "case.gravity_tilt=15",

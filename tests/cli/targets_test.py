@@ -1,4 +1,4 @@
-"""Reported values are read before a run as the report reads them after it: by the same quantities, units and ranges."""
+"""The program and the report read reported values with the same quantities, units and ranges."""
 
 from __future__ import annotations
 
@@ -23,38 +23,40 @@ def case(small_case: Path) -> Path:
 
 
 def refusals(thawslide: Program, case: Path, text: str) -> list[str]:
-    """Return what `check` finds wrong with reported values, each behind its line."""
+    """Return the errors of `check` in reported values, each after its line."""
     file = case / "targets.csv"
     file.write_text(text)
-    printed = thawslide("check", case)
-    assert printed.returncode == (2 if printed.stderr else 0)
-    return re.findall(rf"report\.targets: {re.escape(str(file))}:(\d+: .*)$", printed.stderr, re.MULTILINE)
+    found = thawslide("check", case)
+    assert found.returncode == (2 if found.stderr else 0)
+    return re.findall(rf"report\.targets: {re.escape(str(file))}:(\d+: .*)$", found.stderr, re.MULTILINE)
 
 
-def test_both_know_the_same_quantities(thawslide: Program, case: Path) -> None:
-    (printed,) = refusals(thawslide, case, HEADER + "qqq,0,1,m,x\n")
+def test_program_and_report_have_the_same_quantities(thawslide: Program, case: Path) -> None:
+    (found,) = refusals(thawslide, case, HEADER + "qqq,0,1,m,x\n")
     with pytest.raises(ReportError) as error:
         read_targets(case / "targets.csv")
-    assert str(error.value) == f"{case / 'targets.csv'}:{printed}"
-    assert printed.split("There are: ")[1].split(";")[0].split(", ") == list(QUANTITIES)
+    assert str(error.value) == f"{case / 'targets.csv'}:{found}"
+    assert found.split("There are: ")[1].split(";")[0].split(", ") == list(QUANTITIES)
 
 
-def test_both_know_the_same_units(thawslide: Program, case: Path) -> None:
+def test_program_and_report_have_the_same_units(thawslide: Program, case: Path) -> None:
     rows = [f"{name},0,0.5,{unit},x{k}" for name, each in QUANTITIES.items() for k, unit in enumerate(each.units)]
-    rows = [row for row in rows if not row.startswith("start_velocity") or row.endswith("x0")]  # one sets the clock
+    rows = [
+        row for row in rows if not row.startswith("start_velocity") or row.endswith("x0")
+    ]  # one row sets the time reference
     assert refusals(thawslide, case, HEADER + "\n".join(rows) + "\n") == []
     assert len(read_targets(case / "targets.csv")) == len(rows)
-    for printed, name in zip(
+    for found, name in zip(
         refusals(thawslide, case, HEADER + "".join(f"{name},0,1,qq,x\n" for name in QUANTITIES)),
         QUANTITIES,
         strict=True,
     ):
         units = ", ".join(filter(None, QUANTITIES[name].units))
-        assert printed.endswith(f": the unit 'qq' for {name}; allowed: {units}")
+        assert found.endswith(f": the unit 'qq' for {name}; allowed: {units}")
 
 
-def test_both_convert_and_bound_alike(thawslide: Program, case: Path) -> None:
-    """Just within and just beyond each end of each range, in each unit; what both say is the same."""
+def test_program_and_report_convert_and_limit_alike(thawslide: Program, case: Path) -> None:
+    """Values are just inside and just outside each range, in each unit; messages are the same."""
     rows, expected = [], []
     for name, quantity in QUANTITIES.items():
         for unit, (factor, offset) in quantity.units.items():
@@ -69,9 +71,9 @@ def test_both_convert_and_bound_alike(thawslide: Program, case: Path) -> None:
                 inside = f"{name},0,{(end - offset - 1e-3 * out) / factor!r},{unit},x{len(rows)}"
                 assert refusals(thawslide, case, HEADER + inside + "\n") == []
     found: list[str] = []
-    for start in range(0, len(rows), 40):  # no more are told at once than 50
+    for start in range(0, len(rows), 40):  # at most 50 errors are reported at once
         found += refusals(thawslide, case, HEADER + "\n".join(rows[start : start + 40]) + "\n")
-    assert [printed.split(": ", 1)[1] for printed in found] == expected
+    assert [message.split(": ", 1)[1] for message in found] == expected
 
 
 @pytest.mark.parametrize(
@@ -101,11 +103,11 @@ def test_both_convert_and_bound_alike(thawslide: Program, case: Path) -> None:
         HEADER.rstrip() + ",kind\nmean_velocity,4,8,knots,x,guess\n",
     ],
 )
-def test_both_say_the_same(thawslide: Program, case: Path, text: str) -> None:
-    (printed,) = refusals(thawslide, case, text)
+def test_program_and_report_have_the_same_messages(thawslide: Program, case: Path, text: str) -> None:
+    (found,) = refusals(thawslide, case, text)
     with pytest.raises(ReportError) as error:
         read_targets(case / "targets.csv")
-    assert str(error.value) == f"{case / 'targets.csv'}:{printed}"
+    assert str(error.value) == f"{case / 'targets.csv'}:{found}"
 
 
 def test_values_beyond_the_run_are_reported_before_it(thawslide: Program, case: Path) -> None:
@@ -115,8 +117,8 @@ def test_values_beyond_the_run_are_reported_before_it(thawslide: Program, case: 
     ]
     assert refusals(thawslide, case, HEADER + "mean_velocity,0.1,8,m/s,x\nmean_velocity,1e9,8,m/s,x\n") == []
     note = (
-        "report.targets is targets.csv: 1 of its values is later than the run, which ends at 0.2 s, as mean_velocity "
-        "of 1000000000 s in line 3; nothing of the run is compared with it.\n"
+        "report.targets is targets.csv: 1 of its values is later than the run, which ends at 0.2 s: mean_velocity "
+        "of 1000000000 s in line 3. The run is not compared with it.\n"
     )
     run = case.parent / "run"
     assert note in thawslide("check", case).stdout

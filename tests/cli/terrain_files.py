@@ -1,4 +1,4 @@
-"""Small DEMs, release areas and lines, as the files a user has."""
+"""Small DEMs, release areas and lines, as files of a user."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def write_dem(
     rows: int = 40,
     cell: float = 10.0,
 ) -> Path:
-    """Write a GeoTIFF; heights are of x and y relative to the corner [m], and NaN where there is no data."""
+    """Write a GeoTIFF; heights are of x and y relative to the corner [m], and NaN for missing data."""
     x = (np.arange(columns) + 0.5) * cell
     y = (np.arange(rows)[::-1] + 0.5) * cell  # the file begins in the north
     shape = {"width": columns, "height": rows, "count": 1, "dtype": "float64"}
@@ -55,6 +55,6 @@ def write_line(file: Path, corners: Corners) -> Path:
 
 
 def write_release(file: Path, corners: Corners, **attributes: object) -> Path:
-    """Write a polygon with attributes; its corners likewise."""
+    """Write a polygon with attributes; its corners are relative to the models' corner [m]."""
     ring = [place(*corner) for corner in [*corners, corners[0]]]
     return write_geojson(file, "Polygon", [ring], **attributes)

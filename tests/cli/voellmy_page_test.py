@@ -1,4 +1,4 @@
-"""The case of the page for users of RAMMS and AvaFrame: it is checked, slides as a block and runs as printed there."""
+"""The case of the page for users of RAMMS and AvaFrame: it is valid, and runs as a block and as a simulation."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ PAGE = ROOT / "docs" / "coming-from-ramms-avaframe.md"
 
 @pytest.fixture
 def case(tmp_path: Path) -> Path:
-    """Write the page's case beside the files that it names: a slope of 30 degrees and a release on it."""
+    """Write the page's case next to the files that it names: a slope of 30 degrees and a release on it."""
     text, _ = re.findall(
         r"^```toml\n(.*?)^```$",
         PAGE.read_text(encoding="utf-8"),
@@ -29,14 +29,14 @@ def case(tmp_path: Path) -> Path:
     return path
 
 
-def test_page_case_is_sound(thawslide: Program, case: Path) -> None:
+def test_page_case_is_valid(thawslide: Program, case: Path) -> None:
     outcome = thawslide("check", case)
     assert outcome.returncode == 0, outcome.stderr
-    assert "friction_coefficient" not in outcome.stdout + outcome.stderr, "nothing to doubt in its friction"
+    assert "friction_coefficient" not in outcome.stdout + outcome.stderr, "no warning about its friction"
 
 
 def test_page_case_as_block_stays_below_its_terminal_velocity(thawslide: Program, case: Path, tmp_path: Path) -> None:
-    """On 30 degrees the release, 20 m along the normal, cannot pass sqrt(xi h (sin - mu cos))."""
+    """On 30 degrees the release, 20 m along the normal, cannot exceed sqrt(xi h (sin - mu cos))."""
     fastest = {}
     for turbulence in ("500", "100"):
         rows = tmp_path / f"block-{turbulence}.csv"

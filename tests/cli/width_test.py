@@ -1,4 +1,4 @@
-"""A section whose width varies along x, from the outside: what check says, and a resume that would change it."""
+"""Sections whose width varies along x: facts of check, and errors of resume and block."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ ROOT = Path(__file__).resolve().parents[2]
 WIDE = ROOT / "cases" / "lamplugh-columns" / "wide-valley.toml"
 
 
-def test_check_says_what_figures_are_per_metre_of(thawslide: Program) -> None:
+def test_check_states_the_reference_width_of_values_per_metre(thawslide: Program) -> None:
     outcome = thawslide("check", WIDE)
     assert outcome.returncode == 0, outcome.stderr
-    assert "slide: 84,280 m3 and 1.738e+08 kg per metre of the width at x = 2190 m, along 1,055 m; " in outcome.stdout
+    assert "slide: 84,300 m3 and 174,000 t per metre of the width at x = 2190 m, along 1,060 m; " in outcome.stdout
     assert "case.width" not in outcome.stdout, "1,883 m over 2 km is no reason to warn"
     steep = thawslide("check", WIDE, "--set", "case.width={ x = [2190.0, 3190.0], value = [617.0, 2500.0] }")
     assert steep.returncode == 0, steep.stderr
     assert (
-        "it changes by 1.88 m per m. The neglected lateral motion would have 0.3 of the kinetic energy there."
+        "it changes by 1.9 m per m. The neglected lateral motion would have 0.3 of the kinetic energy there."
         in steep.stdout
     )
 

@@ -1,7 +1,7 @@
-"""Case files that are wrong in one thing each, made from the declarations, and what must be said of each.
+"""Case files with one error each, generated from the declarations, and the expected message for each.
 
 `wrong_cases` yields them for tests and for the page of reliability: every parameter that `thawslide describe --json`
-knows with a value of the wrong type, one out of its range, a word that it does not take, and its key misspelt.
+knows with a value of the wrong type, one out of its range, an unknown keyword, and its key misspelt.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from typing import Any
 
 from conftest import Program
 
-# A sound case in the plane, and one in space: table, its keys.
-PLANE: dict[str, dict[str, str]] = {
+# A valid case in 2D, and one in 3D: tables and their keys.
+VALID_2D: dict[str, dict[str, str]] = {
     "time": {"end": "0.2", "step": "0.001"},
     "grid": {"cell": "1.0", "min": "[0.0, -2.0]", "max": "[20.0, 10.0]"},
     "terrain": {"type": '"flat"'},
@@ -28,12 +28,12 @@ PLANE: dict[str, dict[str, str]] = {
     "body.block": {"material": '"rock"', "min": "[10.0, 0.0]", "max": "[14.0, 3.0]", "porosity": "0.3"},
     "basal": {"friction_angle": "10.0"},
 }
-SPACE: dict[str, dict[str, str]] = PLANE | {
+VALID_3D: dict[str, dict[str, str]] = VALID_2D | {
     "case": {"dimension": "3"},
     "grid": {"cell": "1.0", "min": "[0.0, 0.0, -2.0]", "max": "[20.0, 10.0, 10.0]"},
     "body.block": {"material": '"rock"', "min": "[10.0, 2.0, 0.0]", "max": "[14.0, 6.0, 3.0]", "porosity": "0.3"},
 }
-# What the tables that these lack need, for the table to be sound.
+# Keys that further tables need to be valid.
 NEEDED: dict[str, dict[str, str]] = {
     "frame.lid": {"min": "[1.0, 5.0]", "max": "[2.0, 6.0]", "axis": '"x"', "velocity": "0.0"},
     "substrate.ice": {"x_min": "12.0", "friction": '"coefficient"', "friction_coefficient": "0.1"},
@@ -48,7 +48,7 @@ NEEDED: dict[str, dict[str, str]] = {
     "band": {"thickness": "0.2"},
     "probe.bridge": {"point": "[15.0, 4.0]"},
 }
-# The names that tables of the case have.
+# Names of tables of the case.
 NAMES = {
     "material": "rock",
     "body": "block",
@@ -66,27 +66,27 @@ FAULTS = (WRONG_TYPE, OUT_OF_RANGE, UNKNOWN_WORD, MISSPELT)
 
 @dataclass(frozen=True)
 class Fault:
-    """One wrong line of a case: its table, the line as written, and what must be said of it."""
+    """One wrong line of a case: its table, the line, and the expected message."""
 
     table: str
     key: str
     dimension: int  # of a case in which the key has a meaning
     kind: str
     line: str
-    said: str  # after FILE:LINE:COLUMN and a colon
+    message: str  # after FILE:LINE:COLUMN and a colon
 
 
 @dataclass(frozen=True)
 class WrongCase:
-    """A case file with faults, and by line number what must be said of each."""
+    """A case file with faults, and the expected message of each by line number."""
 
     name: str
     text: str
-    said: dict[int, str]
+    message: dict[int, str]
 
 
 def wrong_cases(tables: list[dict[str, Any]]) -> Iterator[WrongCase]:
-    """Yield every wrong case, each with one fault; `tables`: what `describe --json` tells."""
+    """Yield every wrong case, each with one fault; `tables`: the output of `describe --json`."""
     for fault in faults(tables):
         yield case_with([fault], f"{fault.table}.{fault.key}: {fault.kind}")
 
@@ -111,39 +111,39 @@ def faults(tables: list[dict[str, Any]]) -> Iterator[Fault]:
             dimension = key["dimension"] or 2
             yield from faults_of_value(table, key)
             wrong = misspelt(key["key"], keys)
-            said = f"key '{table}.{wrong}' is not known in [{table}]; did you mean '{key['key']}'? Allowed here: "
-            yield Fault(table, key["key"], dimension, MISSPELT, f"{wrong} = 1", said)
+            message = f"key '{table}.{wrong}' is not known in [{table}]; did you mean '{key['key']}'? Allowed here: "
+            yield Fault(table, key["key"], dimension, MISSPELT, f"{wrong} = 1", message)
 
 
 def faults_of_value(table: str, key: dict[str, Any]) -> Iterator[Fault]:
-    """Yield what can be wrong with the value of a key."""
+    """Yield the possible errors in the value of a key."""
     name, dotted, dimension = key["key"], f"{table}.{key['key']}", key["dimension"] or 2
     value, found = wrong_type(key["type"])
     yield Fault(table, name, dimension, WRONG_TYPE, f"{name} = {value}", f"{dotted} is {found}; allowed: {key['type']}")
     outside = out_of_range(key)
     if outside is not None:
         unit = f" {key['unit']}" if key["unit"] else ""
-        said = f"{dotted} is {outside}; allowed: {key['allowed']}{unit} ({key['text']})"
+        message = f"{dotted} is {outside}; allowed: {key['allowed']}{unit} ({key['text']})"
         written = f"[{outside}]" if key["type"].startswith("an array") else outside
-        yield Fault(table, name, dimension, OUT_OF_RANGE, f"{name} = {written}", said)
+        yield Fault(table, name, dimension, OUT_OF_RANGE, f"{name} = {written}", message)
     if key["keywords"]:
         words = [word["name"] for word in key["keywords"]]
         wrong = words[-1] + "s"
         listed = ", ".join(f'"{word}"' for word in words)
         hint = f"; did you mean '{words[-1]}'? Allowed" if len(words[-1]) > 1 else "; allowed"
-        said = f'{dotted} is "{wrong}"{hint}: {listed}'
-        yield Fault(table, name, dimension, UNKNOWN_WORD, f'{name} = "{wrong}"', said)
+        message = f'{dotted} is "{wrong}"{hint}: {listed}'
+        yield Fault(table, name, dimension, UNKNOWN_WORD, f'{name} = "{wrong}"', message)
 
 
 def wrong_type(declared: str) -> tuple[str, str]:
-    """Return a value that is of no type that a key takes, and how it is called."""
+    """Return a value of a wrong type for a key, and its name in the message."""
     if declared.startswith(("one of", "a text", "the path", '"')):
         return "7", "7"
     return '"so"', 'the text "so"'
 
 
 def out_of_range(key: dict[str, Any]) -> str | None:
-    """Return a number outside the range; nothing for a key that takes any."""
+    """Return a number outside the range; None for a key without a range."""
     allowed = key["allowed"]
     if not allowed:
         return None
@@ -155,34 +155,34 @@ def out_of_range(key: dict[str, Any]) -> str | None:
 
 
 def misspelt(key: str, keys: list[str]) -> str:
-    """Return the key with a slip of the pen, which no other key of the table has."""
+    """Return the key with a typing error, which is no other key of the table."""
     slips = [key[:k] + key[k] + key[k:] for k in range(len(key) - 1, 0, -1)]
     return next(slip for slip in slips if slip not in keys)
 
 
 def case_with(group: list[Fault], name: str) -> WrongCase:
-    """Write the sound case with wrong lines in one of its tables."""
+    """Write the valid case with wrong lines in one of its tables."""
     table = group[0].table
-    sound = SPACE if group[0].dimension == 3 else PLANE
-    tables = {title: dict(keys) for title, keys in sound.items()}
+    valid = VALID_3D if group[0].dimension == 3 else VALID_2D
+    tables = {title: dict(keys) for title, keys in valid.items()}
     tables.setdefault(table, dict(NEEDED.get(table, {})))
     if table == "contact_pair.touch":
         tables["body.other"] = dict(OTHER_BODY)
     lines: list[str] = []
-    said: dict[int, str] = {}
+    message: dict[int, str] = {}
     replaced = {fault.key for fault in group}
-    # [case] decides of what dimension the others are, and stands first.
+    # [case] comes first, because it sets the dimension of the others.
     for title, keys in sorted(tables.items(), key=lambda entry: entry[0] != "case"):
         lines.append(f"[{title}]")
         lines += [f"{key} = {value}" for key, value in keys.items() if title != table or key not in replaced]
         for fault in group if title == table else []:
             lines.append(fault.line)
-            said[len(lines)] = fault.said
-    return WrongCase(name, "\n".join(lines) + "\n", said)
+            message[len(lines)] = fault.message
+    return WrongCase(name, "\n".join(lines) + "\n", message)
 
 
-def faults_of_answer(thawslide: Program, folder: Path, case: WrongCase) -> list[str]:
-    """Return what is wrong with the program's answer to a wrong case."""
+def wrong_messages(thawslide: Program, folder: Path, case: WrongCase) -> list[str]:
+    """Return the errors in the program's message about a wrong case."""
     file = folder / "case.toml"
     file.write_text(case.text)
     outcome = thawslide("run", file, "--output", folder / "run")
@@ -191,7 +191,7 @@ def faults_of_answer(thawslide: Program, folder: Path, case: WrongCase) -> list[
         wrong.append(f"exit code {outcome.returncode}, output {outcome.stdout!r}")
     if sorted(each.name for each in folder.iterdir()) != ["case.toml"]:
         wrong.append("something was written")
-    for line, said in case.said.items():
-        if not re.search(rf"^(error: )?{re.escape(str(file))}:{line}:\d+: {re.escape(said)}", outcome.stderr, re.M):
-            wrong.append(f"line {line} ({case.text.splitlines()[line - 1]}) is not told as: {said}")
+    for line, message in case.message.items():
+        if not re.search(rf"^(error: )?{re.escape(str(file))}:{line}:\d+: {re.escape(message)}", outcome.stderr, re.M):
+            wrong.append(f"line {line} ({case.text.splitlines()[line - 1]}) is not reported as: {message}")
     return [f"{case.name}: {each}\n{outcome.stderr}" for each in wrong]

@@ -1,4 +1,4 @@
-"""Every parameter of a case, broken in turn: told with file, line, key, what was found and what is allowed."""
+"""Messages for a wrong value of every parameter: file, line, key, found and allowed values."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from conftest import Program
-from wrong_cases import FAULTS, case_with, faults, faults_of_answer, wrong_cases, wrong_cases_by_table
+from wrong_cases import FAULTS, case_with, faults, wrong_cases, wrong_cases_by_table, wrong_messages
 
 
 @pytest.fixture(scope="module")
@@ -18,7 +18,7 @@ def tables(thawslide: Program) -> list[dict[str, Any]]:
 
 
 def test_there_are_hundreds_of_wrong_cases(tables: list[dict[str, Any]]) -> None:
-    """Each kind of fault, for every parameter that can have it; none is left out."""
+    """Each kind of fault occurs for every parameter that can have it."""
     kinds = [fault.kind for fault in faults(tables)]
     parameters = sum(len(table["keys"]) for table in tables)
     counts = {kind: kinds.count(kind) for kind in FAULTS}
@@ -28,7 +28,7 @@ def test_there_are_hundreds_of_wrong_cases(tables: list[dict[str, Any]]) -> None
 
 
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_the_case_that_is_broken_is_sound(
+def test_the_case_before_its_changes_is_valid(
     thawslide: Program, tmp_path: Path, tables: list[dict[str, Any]], dimension: int
 ) -> None:
     first = next(fault for fault in faults(tables) if fault.dimension == dimension)
@@ -37,14 +37,18 @@ def test_the_case_that_is_broken_is_sound(
     assert checked.returncode == 0, checked.stderr
 
 
-def test_each_wrong_parameter_is_named(thawslide: Program, tmp_path: Path, tables: list[dict[str, Any]]) -> None:
-    """Those of a table and a kind in one file, all of which are told at once."""
-    wrong = [each for case in wrong_cases_by_table(tables) for each in faults_of_answer(thawslide, tmp_path, case)]
+def test_each_wrong_parameter_of_a_table_is_reported(
+    thawslide: Program, tmp_path: Path, tables: list[dict[str, Any]]
+) -> None:
+    """A file contains all faults of a table and a kind, which are reported at once."""
+    wrong = [each for case in wrong_cases_by_table(tables) for each in wrong_messages(thawslide, tmp_path, case)]
     assert not wrong, "\n".join(wrong)
 
 
 @pytest.mark.long
-def test_each_wrong_case_is_named(thawslide: Program, tmp_path: Path, tables: list[dict[str, Any]]) -> None:
-    """One fault a file."""
-    wrong = [each for case in wrong_cases(tables) for each in faults_of_answer(thawslide, tmp_path, case)]
+def test_each_wrong_parameter_alone_is_reported(
+    thawslide: Program, tmp_path: Path, tables: list[dict[str, Any]]
+) -> None:
+    """A file contains one fault."""
+    wrong = [each for case in wrong_cases(tables) for each in wrong_messages(thawslide, tmp_path, case)]
     assert not wrong, "\n".join(wrong)

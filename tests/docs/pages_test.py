@@ -1,4 +1,4 @@
-"""Commands and snippets of the pages run, and print what the pages show."""
+"""Commands and snippets of the pages run, with the output that the pages show."""
 
 from __future__ import annotations
 
@@ -9,11 +9,6 @@ from pathlib import Path
 import pytest
 from snippets import ROOT, Scratch, blocks_of, fault_of, page_failures
 
-# Pages whose blocks do not have the form yet.
-NOT_CONVERTED = {
-    "docs/theory/width.md",
-}
-
 
 def pages() -> list[str]:
     """Return the pages that have fenced blocks."""
@@ -21,13 +16,13 @@ def pages() -> list[str]:
     return sorted(str(path.relative_to(ROOT)) for path in found if blocks_of(path.read_text(encoding="utf-8")))
 
 
-PAGES = [page for page in pages() if page not in NOT_CONVERTED]
+PAGES = pages()
 LONG = [page for page in PAGES if any("long" in block.marks for block in blocks_of((ROOT / page).read_text()))]
 
 
 @pytest.fixture
 def scratch(tmp_path: Path) -> Iterator[Scratch]:
-    """Make the folder of a page, and remove it with all its runs."""
+    """Create the folder of a page, and remove it with all its runs afterwards."""
     yield Scratch(tmp_path / "clone")
     shutil.rmtree(tmp_path)
 
@@ -39,17 +34,13 @@ def test_blocks_have_the_form(page: str) -> None:
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_page_shows_what_is_printed(page: str, scratch: Scratch) -> None:
+def test_pages_show_the_output_of_commands(page: str, scratch: Scratch) -> None:
     failures = page_failures((ROOT / page).read_text(encoding="utf-8"), scratch, long=False)
     assert not failures, page + "\n\n" + "\n\n".join(failures)
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("page", LONG)
-def test_page_with_long_commands_shows_what_is_printed(page: str, scratch: Scratch) -> None:
+def test_pages_show_the_output_of_long_commands(page: str, scratch: Scratch) -> None:
     failures = page_failures((ROOT / page).read_text(encoding="utf-8"), scratch, long=True)
     assert not failures, page + "\n\n" + "\n\n".join(failures)
-
-
-def test_pages_without_the_form_exist() -> None:
-    assert {page for page in NOT_CONVERTED if not (ROOT / page).is_file()} == set()

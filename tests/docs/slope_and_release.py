@@ -1,4 +1,4 @@
-"""Writes the dem.tif and release.geojson that a page asks of the reader into a folder: a slope of 30 degrees.
+"""Writes the files dem.tif and release.geojson that a page requires into a folder: a slope of 30 degrees.
 
 python slope_and_release.py FOLDER
 """

@@ -1,8 +1,8 @@
-"""The fenced blocks of a page: how they are read, which form they have, and how their commands run.
+"""Fenced blocks of a page: reading them, checking their form, and running their commands.
 
-A comment in the line above a block says how it is tested:
+A comment in the line above a block specifies its test:
 
-    <!-- not run: REASON -->       it is not
+    <!-- not run: REASON -->       no test
     <!-- long: REASON -->          with ./test --full only
     <!-- exit code: N -->          each of its commands ends with N instead of 0
     <!-- setup: COMMAND -->        a command that runs before the block; $TESTS is the folder of the tests
@@ -75,8 +75,13 @@ def blocks_of(page: str) -> list[Block]:
     return found
 
 
+def only_dots(expected: list[str]) -> bool:
+    """Return whether an expected output consists of dots only, which match any output."""
+    return bool(expected) and all(line in {"", "...", "[..]"} for line in expected)
+
+
 def fault_of(block: Block) -> str:
-    """Return what is wrong with the form of a block, or nothing."""
+    """Return the error in the form of a block, or nothing."""
     if "not run" in block.marks:
         return ""
     if block.language in SHELLS:
@@ -89,11 +94,15 @@ def fault_of(block: Block) -> str:
         COMMAND.match(line) or PATHS.match(line) for line in block.text.split("\n")
     ):
         return "a block with a command needs the language console"
+    if block.language == "console":
+        unshown = next((each for each in commands_of(block) if only_dots(each.expected)), None)
+        if unshown:
+            return f"`$ {unshown.text}`: the expected output is only `...`. Show a line of it."
     return ""
 
 
 def commands_of(block: Block) -> list[Command]:
-    """Return the commands of a console block; one that ends with a backslash goes on in the next line."""
+    """Return the commands of a console block; one that ends with a backslash continues in the next line."""
     found: list[Command] = []
     continues = False
     for number, line in enumerate(block.text.splitlines(), block.line + 1):
@@ -115,7 +124,7 @@ def line_fits(expected: str, actual: str) -> bool:
 
 
 def missing_line(expected: list[str], actual: list[str]) -> str | None:
-    """Return the first expected line that does not come, if any; a line ... matches any lines."""
+    """Return the first missing expected line, if any; a line ... matches any lines."""
     after = {0}  # numbers of actual lines that the expected lines so far can cover
     for line in expected:
         if line == "...":
@@ -135,7 +144,7 @@ def difference(expected: list[str], actual: list[str]) -> str:
 
 
 class Scratch:
-    """A folder like a clone that is set up, in which the commands of one page run."""
+    """A folder like a clone after setup, in which the commands of one page run."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = self.current = folder
@@ -152,7 +161,7 @@ class Scratch:
         self.environment = os.environ | own
 
     def run(self, command: str, limit: float) -> tuple[int, list[str]]:
-        """Run a command where the one before it ended; return its exit code and what it printed."""
+        """Run a command in the folder of the previous one; return its exit code and its output."""
         kept = self.folder / ".current"
         script = f'{command}\ncode=$?; pwd > "{kept}"; exit $code'
         with subprocess.Popen(
@@ -170,7 +179,7 @@ class Scratch:
             try:
                 printed, _ = running.communicate(timeout=limit)
             except subprocess.TimeoutExpired:
-                os.killpg(running.pid, signal.SIGKILL)  # with what the shell has started
+                os.killpg(running.pid, signal.SIGKILL)  # with all processes of the shell
                 return -1, [f"(stopped after {limit:g} s)"]
         if kept.exists():
             self.current = Path(kept.read_text().strip())
@@ -185,7 +194,7 @@ class Scratch:
 
 
 def command_failures(command: Command, code_expected: int, scratch: Scratch, limit: float) -> list[str]:
-    """Run a command; return what differs from the page."""
+    """Run a command; return differences from the page."""
     code, output = scratch.run(command.text, limit)
     head = f"line {command.line}: $ {command.text}"
     if code != code_expected:
@@ -197,13 +206,13 @@ def command_failures(command: Command, code_expected: int, scratch: Scratch, lim
 
 
 def checked(command: list[str | Path], what: str, scratch: Scratch, limit: float) -> list[str]:
-    """Run a tool on a block; return what it printed if it fails."""
+    """Run a tool on a block; return its output if it fails."""
     code, output = scratch.run(" ".join(f"'{word}'" for word in command), limit)
     return [] if code == 0 else [f"{what}: exit code {code}:\n" + "\n".join(output)]
 
 
 def block_failures(block: Block, scratch: Scratch) -> list[str]:
-    """Run or check a block; return what fails."""
+    """Run or check a block; return its failures."""
     limit = LIMIT["long" in block.marks]
     what = f"line {block.line}"
     if setup := block.marks.get("setup"):
@@ -232,7 +241,7 @@ def block_failures(block: Block, scratch: Scratch) -> list[str]:
 
 
 def page_failures(page: str, scratch: Scratch, long: bool) -> list[str]:
-    """Run the blocks of a page in order; return what fails."""
+    """Run the blocks of a page in order; return their failures."""
     failures = []
     for block in blocks_of(page):
         if "not run" not in block.marks and (long or "long" not in block.marks):

@@ -1,4 +1,4 @@
-"""The reader of blocks and the comparison of outputs."""
+"""Reading of blocks, and comparison of outputs."""
 
 from __future__ import annotations
 
@@ -55,6 +55,8 @@ def test_commands_have_their_output() -> None:
         ("toml", "a = 1\n", {}, "needs a mark"),
         ("toml", "a = 1\n", {"merged into": "cases/incline/D.toml"}, ""),
         ("console", "ls\n", {}, "begins with"),
+        ("console", "$ ls\n...\n$ pwd\n/tmp\n", {}, "`$ ls`: the expected output is only `...`"),
+        ("console", "$ ls\n...\na.txt\n$ cd a\n", {}, ""),
     ],
 )
 def test_form_of_a_block(language: str, text: str, marks: dict[str, str], words: str) -> None:
@@ -62,7 +64,7 @@ def test_form_of_a_block(language: str, text: str, marks: dict[str, str], words:
     assert (words in fault) if words else not fault
 
 
-def test_dots_stand_for_lines_and_for_text() -> None:
+def test_dots_match_lines_and_text() -> None:
     output = ["particles: 10", "", "time 3.1 s", "done"]
     assert missing_line(output, output) is None
     assert missing_line(["...", "time [..] s", "..."], output) is None
@@ -74,7 +76,7 @@ def test_dots_stand_for_lines_and_for_text() -> None:
     assert missing_line([], ["unexpected"]) == "(end of the output)"
 
 
-def test_diff_shows_lines_that_differ_alone() -> None:
+def test_diff_shows_only_lines_that_differ() -> None:
     shown = difference(["a [..]", "b"], ["a 1", "c"])
     assert shown.splitlines()[3:] == [" a [..]", "-b", "+c"]
 
@@ -94,7 +96,7 @@ def test_commands_of_a_page_run_in_one_folder(tmp_path: Path) -> None:
     assert "-two\n+one" in failure
 
 
-def test_a_command_over_its_limit_is_stopped_with_what_it_started(tmp_path: Path) -> None:
+def test_a_command_over_its_limit_is_stopped_with_its_processes(tmp_path: Path) -> None:
     scratch = Scratch(tmp_path / "clone")
     code, output = scratch.run("(sleep 3; touch late) & sleep 30", 0.5)
     assert (code, output) == (-1, ["(stopped after 0.5 s)"])
@@ -102,7 +104,7 @@ def test_a_command_over_its_limit_is_stopped_with_what_it_started(tmp_path: Path
     assert not (scratch.folder / "late").exists()
 
 
-def test_snippets_are_checked_with_what_they_are_for(tmp_path: Path) -> None:
+def test_snippets_are_checked_with_their_tools(tmp_path: Path) -> None:
     scratch = Scratch(tmp_path / "clone")
     page = (
         "<!-- merged into: cases/incline/D.toml -->\n```toml\n[time]\nend = 1.0\n```\n"

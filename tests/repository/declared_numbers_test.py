@@ -15,20 +15,23 @@ from reproduction.page_numbers import misplaced, read_declarations, undeclared  
 
 DECLARED = read_declarations(ROOT / "scripts" / "page_numbers.toml")
 PAGES = {page.file: page for page in DECLARED.pages}
-WHOLE = [str(path.relative_to(ROOT)) for path in [ROOT / "README.md", *sorted(ROOT.glob("cases/*/README.md"))]]
+WHOLE = [
+    str(path.relative_to(ROOT))
+    for path in [ROOT / "README.md", *sorted(ROOT.glob("cases/*/README.md")), *sorted(ROOT.glob("docs/tutorials/*.md"))]
+]
 
 
 @pytest.mark.parametrize("file", PAGES)
-def test_declared_phrases_stand_in_their_page(file: str) -> None:
+def test_declared_phrases_occur_in_their_page(file: str) -> None:
     assert misplaced(PAGES[file], (ROOT / file).read_text(encoding="utf-8")) == []
 
 
 @pytest.mark.parametrize("file", WHOLE)
-def test_every_number_of_a_case_page_is_declared(file: str) -> None:
+def test_every_number_of_a_page_is_declared(file: str) -> None:
     assert undeclared(PAGES[file], (ROOT / file).read_text(encoding="utf-8")) == []
 
 
-def test_expressions_name_what_is_declared() -> None:
+def test_expressions_use_declared_names() -> None:
     known = DECLARED.runs.keys() | DECLARED.texts.keys() | vars(builtins).keys() | {"table", "row", "column"}
     used = set().union(*(n.names for page in DECLARED.pages for phrase in page.checked for n in phrase.numbers))
     assert used - known == set()
@@ -37,4 +40,4 @@ def test_expressions_name_what_is_declared() -> None:
 
 def test_declared_cases_exist() -> None:
     for name, words in DECLARED.runs.items():
-        assert (ROOT / words[words[0] == "block"]).exists(), name
+        assert (ROOT / words[words[0] in ("block", "new")]).exists(), name

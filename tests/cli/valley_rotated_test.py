@@ -1,4 +1,4 @@
-"""cases/valley3d turned by a quarter and shifted against the grid: it comes as far, within what chance makes of it."""
+"""cases/valley3d rotated by 90 degrees, and shifted relative to the grid: equal travel within the spread of noise."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ Turn = Callable[[Place], Place]
 
 @dataclass(frozen=True)
 class Valley:
-    """The case with its domain and probes, wherever they lie."""
+    """The case with its domain and probes at any position."""
 
     folder: Path
     lowest: Place  # corners of the domain [m]
@@ -44,7 +44,7 @@ class Valley:
     probes: dict[str, Place]
 
     def words(self) -> list[str]:
-        """Return the words that run it on coarse cells."""
+        """Return the arguments that run it on coarse cells."""
         points = {f"probe__{name}__point": point for name, point in self.probes.items()}
         coarse = {"grid__cell": CELL, "time__step": STEP, "time__output_interval": REST}
         return [str(self.folder), *sets(grid__min=self.lowest, grid__max=self.highest, **coarse, **points)]
@@ -58,9 +58,9 @@ def valley_as_it_is() -> Valley:
 
 def shifted(valley: Valley, shift: Place) -> Valley:
     """Return the valley in a domain that is shifted and a cell shorter, so that it still lies within the DEM."""
-    lowest = [low + way for low, way in zip(valley.lowest, shift, strict=True)]
-    shorter = [CELL if way > 0.0 else 0.0 for way in shift]
-    highest = [high + way - less for high, way, less in zip(valley.highest, shift, shorter, strict=True)]
+    lowest = [low + offset for low, offset in zip(valley.lowest, shift, strict=True)]
+    shorter = [CELL if offset > 0.0 else 0.0 for offset in shift]
+    highest = [high + offset - less for high, offset, less in zip(valley.highest, shift, shorter, strict=True)]
     return Valley(valley.folder, lowest, highest, valley.probes)
 
 
@@ -70,7 +70,7 @@ def turned_geometry(coordinates: list, turn: Turn) -> list:
 
 
 def turned(valley: Valley, folder: Path) -> Valley:
-    """Write the valley turned by a quarter, anticlockwise, and return it."""
+    """Write the valley rotated by 90 degrees anticlockwise, and return it."""
     folder.mkdir()
     with rasterio.open(VALLEY / "valley.tif") as file:
         heights, there, bounds = np.rot90(file.read(1)), file.profile, file.bounds
@@ -96,8 +96,8 @@ def turned(valley: Valley, folder: Path) -> Valley:
     return Valley(folder, lowest, highest, {name: turn(at) for name, at in valley.probes.items()})
 
 
-def test_turned_valley_begins_alike(thawslide: Program, tmp_path: Path) -> None:
-    """A quarter turn maps grid, particles and the DEM's triangles onto themselves: only round-off may differ."""
+def test_the_rotated_valley_starts_alike(thawslide: Program, tmp_path: Path) -> None:
+    """The rotation by 90 degrees maps grid, particles and triangles onto themselves: only round-off differs."""
     ends = []
     for name, valley in {"plain": valley_as_it_is(), "turned": turned(valley_as_it_is(), tmp_path / "case")}.items():
         done = thawslide("run", *valley.words(), *sets(time__end=2.0), "--output", tmp_path / name)
@@ -113,7 +113,7 @@ def test_turned_valley_begins_alike(thawslide: Program, tmp_path: Path) -> None:
 
 
 def at_rest(thawslide: Program, valley: Valley, run: Path, end: float = REST, **values: object) -> dict[str, float]:
-    """Return how far a run has come when it is at rest."""
+    """Return front and displacement of a run at rest."""
     words = [*valley.words(), *sets(time__end=end, time__history_interval=1.0, **values)]
     done = thawslide("run", *words, "--output", run, limit=LONGEST_RUN)
     assert done.returncode == 0, done.stderr
@@ -123,12 +123,15 @@ def at_rest(thawslide: Program, valley: Valley, run: Path, end: float = REST, **
 
 
 @pytest.mark.long
-def test_valley_turned_and_shifted_is_within_the_spread_of_starting_noise(thawslide: Program, tmp_path: Path) -> None:
-    """At rest they are no farther from the plain run than the farthest of five seeds of starting noise.
+def test_the_rotated_and_shifted_valley_is_within_the_spread_of_initial_noise(
+    thawslide: Program, tmp_path: Path
+) -> None:
+    """At rest, their distance from the plain run is at most that of five seeds of initial noise.
 
-    From the plain run, not from the middle of the five: all three share its regular lattice of particles. The shift is
-    along the map. Along the vertical it changes by some per cent the area that cohesion and pore pressure act on, while
-    the slide is one or two cells thick (docs/theory/contact.md, "Pressure and area"); it then travels 33 m further.
+    The reference is the plain run, not the mean of the five, because all three have its regular lattice of particles.
+    The shift is horizontal. A vertical shift changes by some per cent the area on which cohesion and pore pressure act,
+    while the slide is one or two cells thick (docs/theory/contact.md, "Pressure and area"); the travel distance is then
+    33 m larger.
     """
     plain = valley_as_it_is()
     by_plain = at_rest(thawslide, plain, tmp_path / "plain")
@@ -146,10 +149,8 @@ def test_valley_turned_and_shifted_is_within_the_spread_of_starting_noise(thawsl
 
 
 @pytest.mark.long
-def test_coulomb_slide_in_the_valley_comes_as_far_on_a_grid_shifted_along_all_axes(
-    thawslide: Program, tmp_path: Path
-) -> None:
-    """With half the step: with all of it, opened material keeps fluttering on the shifted grid, by 0.2 m/s on average.
+def test_a_coulomb_slide_travels_alike_on_a_grid_shifted_along_all_axes(thawslide: Program, tmp_path: Path) -> None:
+    """The step is halved: with the full step, opened material vibrates on the shifted grid, by 0.2 m/s on average.
 
     It also comes to rest with gaps_close_first, or with a viscosity_time of 0.05 s.
     """
@@ -159,5 +160,5 @@ def test_coulomb_slide_in_the_valley_comes_as_far_on_a_grid_shifted_along_all_ax
         for name, valley in {"plain": plain, "shifted": shifted(plain, [CELL / 2.0] * 3)}.items()
     }
     for column, value in both["plain"].items():
-        assert value > 2500.0, "it has gone far"
+        assert value > 2500.0, "the travel distance is large"
         assert both["shifted"][column] == pytest.approx(value, abs=CELL), column

@@ -1,4 +1,4 @@
-"""Two bodies that meet, and two that part: when they act on one another, and what they keep (issue data p09)."""
+"""Two bodies that meet, and two that separate: start of their contact, and conserved momentum."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from conftest import ROOT, Program, datasets, sets, snapshot_files
 
-FAULTS = ROOT.parent / "shared" / "data" / "faults" / "p09-two-bodies-meet"
+DATA = ROOT.parent / "shared" / "data" / "faults" / "p09-two-bodies-meet"
 CELL = 5.0  # m
 SPACING = CELL / 2.0  # m, of particles
 LONG = 600.0  # s of wall time
@@ -16,15 +16,15 @@ FRICTIONAL = {"contact__between_bodies": "frictional", "contact__friction_angle"
 
 
 @pytest.fixture
-def fault() -> Path:
-    """Return the folder of the data, where there is one."""
-    if not FAULTS.is_dir():
-        pytest.skip(f"there is no {FAULTS}")
-    return FAULTS
+def data_folder() -> Path:
+    """Return the folder of the data; skip if it is absent."""
+    if not DATA.is_dir():
+        pytest.skip(f"no folder {DATA}")
+    return DATA
 
 
 def motions(run: Path) -> list[tuple[float, np.ndarray, np.ndarray]]:
-    """Return of each snapshot the gap between the two bodies, their speeds along x and their masses."""
+    """Return for each snapshot the gap between the two bodies, their velocities along x and their masses."""
     found = []
     for file in snapshot_files(run):
         data = datasets(file)
@@ -39,7 +39,7 @@ def motions(run: Path) -> list[tuple[float, np.ndarray, np.ndarray]]:
     return found
 
 
-def run_fault(thawslide: Program, case: Path, run: Path, **words: object) -> list[tuple[float, np.ndarray, np.ndarray]]:
+def run_case(thawslide: Program, case: Path, run: Path, **words: object) -> list[tuple[float, np.ndarray, np.ndarray]]:
     """Run a case of the data and return its motions."""
     done = thawslide(
         "run",
@@ -54,9 +54,9 @@ def run_fault(thawslide: Program, case: Path, run: Path, **words: object) -> lis
 
 
 @pytest.mark.parametrize("name", ["case", "meet-mc"])
-def test_bodies_meet_once_the_gap_is_closed(thawslide: Program, fault: Path, tmp_path: Path, name: str) -> None:
-    """The second body rests until the gap is closed to a particle; momentum is kept."""
-    states = run_fault(thawslide, fault / f"{name}.toml", tmp_path / "run", **FRICTIONAL)
+def test_bodies_meet_once_the_gap_is_closed(thawslide: Program, data_folder: Path, tmp_path: Path, name: str) -> None:
+    """The second body rests until the gap is closed to a particle; momentum is conserved."""
+    states = run_case(thawslide, data_folder / f"{name}.toml", tmp_path / "run", **FRICTIONAL)
     momentum = (states[0][1] * states[0][2]).sum()
     have_met = False
     for gap, speeds, masses in states:
@@ -67,15 +67,15 @@ def test_bodies_meet_once_the_gap_is_closed(thawslide: Program, fault: Path, tmp
 
 
 @pytest.mark.parametrize("name", ["apart", "apart-mc"])
-def test_bodies_part_without_drag(thawslide: Program, fault: Path, tmp_path: Path, name: str) -> None:
-    """Neither body is dragged as they part."""
-    for _, speeds, _ in run_fault(thawslide, fault / f"{name}.toml", tmp_path / "run", **FRICTIONAL):
+def test_bodies_separate_without_drag(thawslide: Program, data_folder: Path, tmp_path: Path, name: str) -> None:
+    """Neither body is dragged when they separate."""
+    for _, speeds, _ in run_case(thawslide, data_folder / f"{name}.toml", tmp_path / "run", **FRICTIONAL):
         assert speeds == pytest.approx([0.0, 2.0], abs=1e-6)
 
 
-def test_a_case_that_does_not_say_is_warned_of(thawslide: Program, fault: Path, tmp_path: Path) -> None:
-    """Bodies that start apart and share one velocity field are told of, by check and by run."""
+def test_a_gap_between_bonded_bodies_has_a_warning(thawslide: Program, data_folder: Path, tmp_path: Path) -> None:
+    """Both check and run warn of bodies that start apart and have a common velocity field."""
     reported = "body.b stands apart from body.a, and contact.between_bodies is"
-    assert reported in thawslide("check", fault / "case.toml").stdout
-    short = thawslide("run", fault / "case.toml", "--output", tmp_path / "run", *sets(time__end=0.02))
+    assert reported in thawslide("check", data_folder / "case.toml").stdout
+    short = thawslide("run", data_folder / "case.toml", "--output", tmp_path / "run", *sets(time__end=0.02))
     assert reported in short.stdout

@@ -1,4 +1,4 @@
-"""Links, pipes, folders and files of others in the place of a run's: nothing outside is touched, nothing waits."""
+"""Links, pipes, folders and foreign files in place of a run's files: nothing outside changes, nothing blocks."""
 
 from __future__ import annotations
 
@@ -10,30 +10,30 @@ import h5py
 import numpy as np
 import pytest
 from conftest import Program, content_of, run_facts, sets, snapshot_files
-from faults import as_killed
+from faults import mark_killed
 from slope_files import SOUTH, THICKNESS, WEST, Slope, made
 
-SOON = 20.0  # s, in which is answered what would wait for ever
+SOON = 20.0  # s: limit for commands that could block forever
 NO_FILE = "a regular file is needed. Replace it by the file itself, or remove it.\n"
 
 
 @pytest.fixture
 def killed(done: Path) -> Path:
     """Return the folder of a run that was killed after its last checkpoint."""
-    as_killed(done)
+    mark_killed(done)
     return done
 
 
 @pytest.fixture
 def victim(tmp_path: Path) -> Path:
-    """Return a file that is no run's, and that links lead to."""
+    """Return a file outside any run, as a target of links."""
     path = tmp_path / "victim"
     path.write_text("mine\n")
     return path
 
 
-def begin_anew(run: Path) -> None:
-    """Leave of a run what a kill leaves that comes before the first checkpoint."""
+def reset_to_start(run: Path) -> None:
+    """Change a run to one that was killed before its first checkpoint."""
     facts = run_facts(run) | {"simulated_time_s": 0.0, "steps": 0}
     (run / "run.json").write_text(json.dumps(facts))
     for name in ("checkpoint.bin", "checkpoint.previous.bin", "history.csv", "probes.csv"):
@@ -43,37 +43,37 @@ def begin_anew(run: Path) -> None:
 def test_a_link_in_place_of_the_rows_is_replaced(
     thawslide: Program, small_case: Path, killed: Path, victim: Path
 ) -> None:
-    begin_anew(killed)
+    reset_to_start(killed)
     rows = killed / "history.csv"
     rows.symlink_to(victim)
     outcome = thawslide("resume", killed)
     assert outcome.returncode == 0, outcome.stderr
     assert "it starts again" in outcome.stdout
     assert victim.read_text() == "mine\n" and not rows.is_symlink() and rows.read_text().count("\n") > 10
-    whole = rows.read_bytes()
-    as_killed(killed)
+    complete = rows.read_bytes()
+    mark_killed(killed)
     rows.rename(victim)
     rows.symlink_to(victim)
     assert thawslide("resume", killed).returncode == 0
-    assert victim.read_bytes() == whole and not rows.is_symlink() and rows.read_bytes() == whole
+    assert victim.read_bytes() == complete and not rows.is_symlink() and rows.read_bytes() == complete
     rows.unlink()
     rows.symlink_to(victim)
     assert thawslide("run", small_case, "--output", killed, "--overwrite").returncode == 0
-    assert victim.read_bytes() == whole and not rows.is_symlink()
+    assert victim.read_bytes() == complete and not rows.is_symlink()
 
 
-def test_a_run_in_space_touches_no_files_of_others(
+def test_a_3d_run_changes_no_foreign_files(
     thawslide: Program, small_case: Path, tmp_path: Path, slope: Slope, release: Path, victim: Path
 ) -> None:
-    """A link in the place of probes is replaced; a run that is replaced takes all its maps with it, and no others."""
+    """A link in place of probes is replaced; a replaced run is removed with all its maps, and no others."""
     folder, run = tmp_path / "slide", tmp_path / "run"
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
     with (folder / "case.toml").open("a") as case:
         case.write(f"\n[probe.gauge]\npoint = [{WEST + 330.0}, {SOUTH + 300.0}]\n")
     words = sets(time__end=0.2, time__output_interval=0.1)
     assert thawslide("run", folder, "--output", run, *words).returncode == 0
-    as_killed(run)
-    begin_anew(run)
+    mark_killed(run)
+    reset_to_start(run)
     (run / "probes.csv").symlink_to(victim)
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
@@ -88,7 +88,7 @@ def test_a_run_in_space_touches_no_files_of_others(
     assert sorted(path.name for path in (run / "inputs").iterdir()) == ["case.toml"]
 
 
-def test_names_alone_make_no_run(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_a_folder_with_names_of_run_files_is_not_a_run(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     folder = tmp_path / "pictures"
     for name in ("snapshots/photo.jpg", "maps/alps.tif", "case.toml", "history.csv"):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -110,7 +110,7 @@ def test_names_alone_make_no_run(thawslide: Program, small_case: Path, tmp_path:
     assert content_of(folder) == before
 
 
-def test_a_run_that_is_replaced_leaves_what_is_not_its_own(thawslide: Program, small_case: Path, done: Path) -> None:
+def test_replacing_a_run_keeps_foreign_files(thawslide: Program, small_case: Path, done: Path) -> None:
     mine = [done / name for name in ("snapshots/photo.jpg", "inputs/notes.txt", "maps/alps.tif", "figures/photo.png")]
     for file in mine:
         file.parent.mkdir(exist_ok=True)
@@ -122,20 +122,20 @@ def test_a_run_that_is_replaced_leaves_what_is_not_its_own(thawslide: Program, s
 
 
 @pytest.mark.parametrize("name", ["valley.1.part.csv", "x.7.part"])
-def test_an_input_may_be_called_a_part(thawslide: Program, small_case: Path, tmp_path: Path, name: str) -> None:
+def test_an_input_can_have_the_suffix_part(thawslide: Program, small_case: Path, tmp_path: Path, name: str) -> None:
     (small_case / name).write_text("distance_m,terrain_elevation_m\n0,0\n20,0\n")
     case = small_case / "case.toml"
     case.write_text(case.read_text().replace('type = "flat"\nelevation = 0.0', f'type = "profile"\nfile = "{name}"'))
     run = tmp_path / "run"
     outcome = thawslide("run", small_case, "--output", run)
     assert outcome.returncode == 0, outcome.stderr
-    as_killed(run)
+    mark_killed(run)
     outcome = thawslide("resume", run)
     assert outcome.returncode == 0, outcome.stderr
     assert (run / "inputs" / name).is_file()
 
 
-def test_a_checkpoint_that_cannot_be_read_gives_way_to_the_one_before(thawslide: Program, killed: Path) -> None:
+def test_an_unreadable_checkpoint_is_replaced_by_the_previous_one(thawslide: Program, killed: Path) -> None:
     last = killed / "checkpoint.bin"
     last.unlink()
     last.mkdir()
@@ -149,11 +149,11 @@ def test_a_checkpoint_that_cannot_be_read_gives_way_to_the_one_before(thawslide:
     assert (killed / "checkpoint.damaged.bin").is_dir() and last.is_file()
 
 
-def test_a_checkpoint_that_is_missing_is_reported(thawslide: Program, killed: Path) -> None:
+def test_a_missing_checkpoint_is_reported(thawslide: Program, killed: Path) -> None:
     last = killed / "checkpoint.bin"
     last.unlink()
-    said = thawslide("status", killed).stdout
-    assert "  last checkpoint " in said and "no checkpoint yet" not in said
+    status = thawslide("status", killed).stdout
+    assert "  last checkpoint " in status and "no checkpoint yet" not in status
     outcome = thawslide("resume", killed)
     assert outcome.returncode == 0, outcome.stderr
     note = f"{last} is missing; the run continues from the previous checkpoint"
@@ -162,8 +162,8 @@ def test_a_checkpoint_that_is_missing_is_reported(thawslide: Program, killed: Pa
 
 
 @pytest.mark.parametrize("damage", ["times", "units", "pipe"])
-def test_snapshots_that_no_run_wrote_are_left_out(thawslide: Program, killed: Path, damage: str) -> None:
-    """The library that reads them writes as many numbers as a file claims to have, and waits for a pipe."""
+def test_foreign_snapshots_are_excluded(thawslide: Program, killed: Path, damage: str) -> None:
+    """The HDF5 library writes as many numbers as a file claims to contain, and waits for a pipe."""
     file = killed / "snapshots" / "000001.vtkhdf"
     if damage == "pipe":
         file.unlink()
@@ -177,19 +177,19 @@ def test_snapshots_that_no_run_wrote_are_left_out(thawslide: Program, killed: Pa
     outcome = thawslide("resume", killed, limit=SOON)
     assert outcome.returncode == 0, outcome.stderr
     assert (
-        "warning: of the 5 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf leaves "
-        "them out\n"
+        "warning: of the 5 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf omits "
+        "them\n"
     ) in outcome.stdout
 
 
 @pytest.mark.parametrize(("name", "kind"), [("pipe", "a pipe"), ("/dev/zero", "a device")])
 @pytest.mark.parametrize("file", ["run.json", "case.toml", "history.csv", "checkpoint.bin"])
-def test_pipes_and_devices_keep_nobody_waiting(
+def test_pipes_and_devices_do_not_block_commands(
     thawslide: Program, killed: Path, tmp_path: Path, file: str, name: str, kind: str
 ) -> None:
     os.mkfifo(tmp_path / "pipe")
     (killed / file).unlink()
-    (killed / file).symlink_to(tmp_path / name)  # of an absolute path that alone
+    (killed / file).symlink_to(tmp_path / name)  # an absolute name replaces tmp_path
     status, resume = thawslide("status", killed, limit=SOON), thawslide("resume", killed, limit=SOON)
     if file == "checkpoint.bin":
         assert (status.returncode, resume.returncode) == (0, 0), resume.stderr
@@ -201,7 +201,7 @@ def test_pipes_and_devices_keep_nobody_waiting(
     assert f"{killed / file} is {kind}" in status.stdout + status.stderr
 
 
-def test_status_reports_what_it_can_where_rows_cannot_be_read(thawslide: Program, killed: Path) -> None:
+def test_status_works_with_an_unreadable_history(thawslide: Program, killed: Path) -> None:
     rows = killed / "history.csv"
     rows.unlink()
     rows.mkdir()
@@ -217,13 +217,13 @@ def test_status_reports_what_it_can_where_rows_cannot_be_read(thawslide: Program
     assert json.loads(thawslide("status", killed, "--json").stdout)["state"] == "killed"
 
 
-def test_an_answer_that_is_lost_is_a_failure(binary: Path, done: Path) -> None:
+def test_lost_output_exits_with_5(binary: Path, done: Path) -> None:
     shell = f'"{binary}" status "{done}" > /dev/full'
     assert os.waitstatus_to_exitcode(os.system(shell + " 2>/dev/null")) == 5
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
-def test_a_part_that_cannot_be_removed_is_reported_as_a_failure_to_write(thawslide: Program, killed: Path) -> None:
+def test_a_temporary_file_that_cannot_be_removed_exits_with_5(thawslide: Program, killed: Path) -> None:
     torn = killed / "snapshots" / ".000001.vtkhdf.7.thawslide-part"
     torn.write_text("half")
     (killed / "snapshots").chmod(0o555)

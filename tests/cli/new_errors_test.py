@@ -1,4 +1,4 @@
-"""What is said of DEMs and releases that cannot be used, and of slides that leave the known ground."""
+"""Errors about unusable DEMs and releases, and about slides that leave the known terrain."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from slope_files import (
     Slope,
     assert_refused,
     made,
-    said,
+    without_folder,
     write_release,
     write_thickness,
 )
 
 
-def test_raster_releases_that_cannot_be_used(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+def test_unusable_raster_releases_are_refused(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     folder, dem = tmp_path / "slide", slope()
     raster = write_thickness(tmp_path / "thick.tif", dem, THICKNESS)
     assert_refused(
@@ -53,7 +53,9 @@ def test_raster_releases_that_cannot_be_used(thawslide: Program, tmp_path: Path,
     )
 
 
-def test_dem_without_a_system(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_a_dem_without_a_reference_system_needs_crs(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
     bare, folder = slope("bare.tif", crs=None), tmp_path / "slide"
     assert_refused(
         made(thawslide, folder, bare, release, "--thickness", THICKNESS),
@@ -70,7 +72,9 @@ def test_dem_without_a_system(thawslide: Program, tmp_path: Path, slope: Slope, 
     assert given.returncode == 0, given.stderr
 
 
-def test_dem_with_a_wrong_tag(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_a_dem_with_a_wrong_reference_system_needs_crs(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
     wrong, folder = slope("wrong.tif", crs="EPSG:4326"), tmp_path / "slide"
     assert_refused(
         made(thawslide, folder, wrong, release, "--thickness", THICKNESS),
@@ -86,7 +90,7 @@ def test_dem_with_a_wrong_tag(thawslide: Program, tmp_path: Path, slope: Slope, 
     )
 
 
-def test_dem_in_degrees(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_a_dem_in_degrees_is_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     degrees = slope("degrees.tif", crs="EPSG:4326")
     with rasterio.open(degrees, "r+") as file:
         file.transform = from_origin(7.9, 46.5, 1e-4, 1e-4)
@@ -99,10 +103,10 @@ def test_dem_in_degrees(thawslide: Program, tmp_path: Path, slope: Slope, releas
     )
 
 
-def test_dem_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    """Cut off in its values, cut off in its head, absent."""
+def test_an_unreadable_dem_is_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    """The DEM is truncated in its values, truncated in its header, or absent."""
     dem, folder = slope(), tmp_path / "slide"
-    whole = dem.read_bytes()
+    complete = dem.read_bytes()
     for size, begin, end in (
         (
             9000,
@@ -115,10 +119,10 @@ def test_dem_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: Slop
             ". Allowed: a GeoTIFF or an ESRI ASCII grid; check that the file is complete and readable.\n",
         ),
     ):
-        dem.write_bytes(whole[:size])
+        dem.write_bytes(complete[:size])
         outcome = made(thawslide, folder, dem, release, "--thickness", THICKNESS)
         assert outcome.returncode == 2 and not folder.exists()
-        text = said(outcome.stderr, tmp_path)
+        text = without_folder(outcome.stderr, tmp_path)
         assert text.startswith(f"error: --dem: dem.tif: {begin}") and text.endswith(end), text
     dem.unlink()
     assert_refused(
@@ -128,9 +132,7 @@ def test_dem_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: Slop
     )
 
 
-def test_thickness_neither_given_nor_in_the_file(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
+def test_a_missing_thickness_is_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(), release),
         tmp_path,
@@ -142,7 +144,7 @@ def test_thickness_neither_given_nor_in_the_file(
     assert nothing.stderr.startswith("error: --thickness: 0 found; allowed: above 0. Run with --help")
 
 
-def test_thickness_in_the_wrong_unit(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_a_thickness_in_millimetres_is_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     words = ["--thickness", 1000.0 * THICKNESS]
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(), release, *words),
@@ -154,11 +156,13 @@ def test_thickness_in_the_wrong_unit(thawslide: Program, tmp_path: Path, slope: 
     )
 
 
-def test_release_too_thin_for_its_area(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_a_release_too_thin_for_its_area_is_refused(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
     outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 0.3)
     assert outcome.returncode == 2 and not (tmp_path / "slide").exists()
     assert re.search(
-        r"^error: --thickness: a release 0\.3 m thick asks for cells of 0\.\d+ m and \S+ particles; allowed without "
+        r"^error: --thickness: a release 0\.3 m thick requires cells of 0\.\d+ m and \S+ particles; allowed without "
         r"--cell: 5,000,000\. Is the thickness in metres\? If it is, set --cell 0\.\d+ or more, which is "
         r"coarser, or use "
         r"a depth-averaged program",
@@ -167,16 +171,16 @@ def test_release_too_thin_for_its_area(thawslide: Program, tmp_path: Path, slope
 
 
 @pytest.mark.parametrize("content", ["", '{"type": "FeatureColl'])
-def test_release_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: Slope, content: str) -> None:
+def test_an_unreadable_release_is_refused(thawslide: Program, tmp_path: Path, slope: Slope, content: str) -> None:
     broken, folder = tmp_path / "broken.geojson", tmp_path / "slide"
     broken.write_text(content)
     outcome = made(thawslide, folder, slope(), broken, "--thickness", THICKNESS)
     assert outcome.returncode == 2 and not folder.exists()
-    text = said(outcome.stderr, tmp_path)
+    text = without_folder(outcome.stderr, tmp_path)
     assert text.startswith("error: --release: broken.geojson: the file cannot be opened; GDAL says: "), text
     assert text.endswith(
-        ". Allowed: Shapefile (with its .shx and .dbf), GeoPackage or GeoJSON; check that the file is complete and "
-        "readable.\n"
+        ". Allowed: Shapefile (with its .shx and .dbf), GeoPackage, GeoJSON or KML; check that the file is complete "
+        "and readable.\n"
     ), text
     assert_refused(
         made(thawslide, folder, slope(), tmp_path / "absent.shp", "--thickness", THICKNESS),
@@ -185,22 +189,22 @@ def test_release_that_cannot_be_read(thawslide: Program, tmp_path: Path, slope: 
     )
 
 
-def test_release_outside_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+def test_a_release_outside_the_dem_is_refused(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     for east, place, found in (
         (5000.0, "outside the DEM, by 4,230 m in the east", "x from 417000 to 417120"),
         (820.0, "partly outside the DEM, by 50 m in the east", "x from 412820 to 412940"),
     ):
-        beside = write_release(tmp_path / "beside.geojson", WEST + east, SOUTH)
+        outside = write_release(tmp_path / "outside.geojson", WEST + east, SOUTH)
         assert_refused(
-            made(thawslide, tmp_path / "slide", slope(), beside, "--thickness", THICKNESS),
+            made(thawslide, tmp_path / "slide", slope(), outside, "--thickness", THICKNESS),
             tmp_path,
-            f"--release: beside.geojson: the release lies {place}; found: {found}, y from 5160000 to 5160100; allowed: "
-            "x from 412000 to 412890, y from 5160000 to 5160590. Check that both have the same location and "
+            f"--release: outside.geojson: the release lies {place}; found: {found}, y from 5160000 to 5160100; "
+            "allowed: x from 412000 to 412890, y from 5160000 to 5160590. Check that both have the same location and "
             "reference system (the DEM has EPSG:32632), or use a larger DEM.",
         )
 
 
-def test_release_without_a_polygon_or_with_a_crossing_one(
+def test_a_release_without_valid_polygons_is_refused(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path
 ) -> None:
     content = json.loads(release.read_text())
@@ -222,7 +226,7 @@ def test_release_without_a_polygon_or_with_a_crossing_one(
     )
 
 
-def test_release_over_a_hole(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_a_release_over_nodata_is_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(hole=slice(20, 30)), release, "--thickness", THICKNESS),
         tmp_path,
@@ -231,8 +235,10 @@ def test_release_over_a_hole(thawslide: Program, tmp_path: Path, slope: Slope, r
     )
 
 
-def test_bodies_that_overlap(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    """A second body, added by hand: refused where outlines overlap, seeded beside the first one where they touch."""
+def test_overlapping_bodies_are_refused_and_adjoining_ones_run(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    """A second body is refused if outlines overlap, and seeded next to the first one if they touch."""
     folder, run = tmp_path / "slide", tmp_path / "run"
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
     with (folder / "case.toml").open("a") as case:
@@ -241,7 +247,7 @@ def test_bodies_that_overlap(thawslide: Program, tmp_path: Path, slope: Slope, r
     outcome = thawslide("run", folder, "--output", run, "--set", "time.end=0.01")
     line = 1 + (folder / "case.toml").read_text().splitlines().index('release = "toe.geojson"')
     assert outcome.returncode == 2 and not run.exists()
-    assert said(outcome.stderr, tmp_path) == (
+    assert without_folder(outcome.stderr, tmp_path) == (
         f"error: slide/case.toml:{line}:11: body.toe.release: the bodies 'slide' and 'toe' overlap by 1,000 m2 about "
         "412315, 5160300; allowed: bodies that touch or lie apart, but for slivers up to 12 m2, 0.1 % of the smaller "
         "one. Draw them apart (QGIS: Vector > Geoprocessing Tools > Difference).\n"
@@ -253,7 +259,7 @@ def test_bodies_that_overlap(thawslide: Program, tmp_path: Path, slope: Slope, r
         assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(WIDTH * DEPTH * (THICKNESS + 12.0), rel=1e-9)
 
 
-def test_folder_that_is_there(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_an_existing_folder_is_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     folder = tmp_path / "full"
     folder.mkdir()
     (folder / "notes.txt").write_text("mine")
@@ -264,7 +270,7 @@ def test_folder_that_is_there(thawslide: Program, tmp_path: Path, slope: Slope, 
     )
 
 
-ANEW = (
+CREATE_AGAIN = (
     r"`thawslide new` crops the DEM to the domain: create the case again with a smaller --reach-angle, which uses "
     r"more of the DEM, or from a larger DEM\."
 )
@@ -272,32 +278,32 @@ FURTHER = (
     r"With 8 degrees of friction, the reach angle that `thawslide new` assumes, it would go about (\d+) m "
     r"further on level ground, and more where the ground falls\. "
 )
-# What is said of a particle over ground that is not known.
+# Message about a particle over nodata.
 NO_GROUND = (
     r"error: the run failed at t = \S+ s \(step \d+\): particle \d+ of body 'slide' at \((\S+), (\S+), \S+\) m: the "
     r"terrain below it is not known: the DEM ends or has a hole there\. It moves at (\S+) m/s towards the east\. "
-    rf"{FURTHER}Give a DEM that reaches further there, and \[grid\] with it, or set grid\.leaving = \"remove\" to let "
-    rf"such particles go\. {ANEW}\n"
+    rf"{FURTHER}Give a DEM that reaches further there, and \[grid\] with it, or set grid\.leaving = \"remove\" to "
+    rf"remove such particles\. {CREATE_AGAIN}\n"
 )
-# And of one that reaches the domain's side.
+# Message about a particle at the edge of the domain.
 LEFT_DOMAIN = (
     r"error: the run failed at t = \S+ s \(step \d+\): particle \d+ of body 'slide' at \((\S+), (\S+), \S+\) m: "
     r"it left the domain\. It moves at (\S+) m/s towards the east, the slide at \S+ m/s on average\. Likely cause: "
     rf"the slide ran further than \[grid\] min and max allow\. {FURTHER}"
 )
-DEM_ENDS = rf"The DEM ends (\d+) m ahead of it: it has to be larger, and \[grid\] with it\. {ANEW}\n"
+DEM_ENDS = rf"The DEM ends (\d+) m ahead of it: it has to be larger, and \[grid\] with it\. {CREATE_AGAIN}\n"
 
 
-def at_rest_after(speed: str) -> float:
-    """Return how far [m] a slide of a speed [m/s] goes on level ground by 8 degrees of friction, in tens of metres."""
+def stopping_distance(speed: str) -> float:
+    """Return the stopping distance [m] from a speed [m/s] on level ground at 8 degrees, in tens of metres."""
     return 10.0 * math.ceil(float(speed) ** 2 / (2.0 * 9.81 * math.tan(math.radians(8.0))) / 10.0)
 
 
 @pytest.mark.parametrize("hole", [None, slice(60, 70)])
-def test_a_slide_that_leaves_the_known_ground_stops_there(
+def test_a_slide_that_leaves_the_known_terrain_fails_the_run(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path, hole: slice | None
 ) -> None:
-    """At the DEM's edge and at a hole on its way it ends with exit code 3, says where, and keeps the maps so far."""
+    """At the DEM's edge and at a hole, the run exits with 3, reports the position, and keeps the maps."""
     folder, run = tmp_path / "slide", tmp_path / "run"
     assert made(thawslide, folder, slope(hole=hole), release, "--thickness", THICKNESS).returncode == 0
     case = folder / "case.toml"
@@ -313,16 +319,16 @@ def test_a_slide_that_leaves_the_known_ground_stops_there(
     assert east - 3.0 * CELL < float(reported[1]) < east + CELL
     assert SOUTH + 200.0 < float(reported[2]) < SOUTH + 400.0
     assert float(reported[3]) > 20.0
-    assert float(reported[4]) == pytest.approx(at_rest_after(reported[3]), abs=10.0)  # of a speed with four digits
+    assert float(reported[4]) == pytest.approx(stopping_distance(reported[3]), rel=0.02)  # of a speed with three digits
     assert run_facts(run)["status"] == "failed"
     with rasterio.open(run / "maps" / "max_speed.tif") as file:
         assert file.read(1, masked=True).max() > 40.0
 
 
-def test_a_slide_that_leaves_a_steep_dem_is_reported_where_to_and_how_far(
+def test_the_distance_beyond_a_steep_dem_is_reported(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path
 ) -> None:
-    """On 38 degrees it falls nearly as fast as it goes: its way over the map counts, and the DEM ends there."""
+    """On 38 degrees the vertical velocity is large: the horizontal distance counts, and the DEM ends there."""
     folder = tmp_path / "slide"
     dem = slope(degrees=38.0, foot=CELL * COLUMNS)
     assert made(thawslide, folder, dem, release, "--thickness", THICKNESS).returncode == 0
@@ -334,18 +340,18 @@ def test_a_slide_that_leaves_a_steep_dem_is_reported_where_to_and_how_far(
     reported = re.fullmatch(LEFT_DOMAIN + DEM_ENDS, done.stderr)
     assert reported, done.stderr
     assert float(reported[3]) > 60.0
-    assert float(reported[4]) == pytest.approx(at_rest_after(reported[3]), abs=10.0)
+    assert float(reported[4]) == pytest.approx(stopping_distance(reported[3]), rel=0.02)
     assert float(reported[5]) == pytest.approx(WEST + CELL * (COLUMNS - 1) - float(reported[1]), abs=2.0)
 
 
-def test_a_domain_that_ends_before_its_dem_is_to_be_widened(
+def test_a_domain_smaller_than_its_dem_is_to_be_widened(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path
 ) -> None:
-    """Where the DEM reaches as far as the slide may go, nothing is said against the DEM."""
+    """If the DEM is large enough, the message names the domain only."""
     folder = tmp_path / "slide"
     assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
     grid = tomllib.loads((folder / "case.toml").read_text())["grid"]
-    # A cell or two ahead of the release, which ends at 320 m; the DEM of the case goes on.
+    # A cell or two ahead of the release, which ends at 320 m; the DEM of the case extends further.
     grid["max"][0] = grid["min"][0] + math.ceil((WEST + 330.0 - grid["min"][0]) / grid["cell"]) * grid["cell"]
     with rasterio.open(folder / "dem.tif") as file:
         end = file.bounds.right - 0.5 * CELL

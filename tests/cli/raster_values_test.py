@@ -1,6 +1,6 @@
-"""Rasters and polygons that were once taken for something else: masks, units, fine rasters, names by case.
+"""Rasters and polygons with masks, units, fine cells, and names that differ in case.
 
-The files are those of ../shared/data/faults, with the right values in the README of each.
+The files are those of ../shared/data/faults; their READMEs state the expected values.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ FAULTS = ROOT.parent / "shared" / "data" / "faults"
 MASKS, UNITS = FAULTS / "g01-mask-band", FAULTS / "g02-unit-of-values"
 FINE, NAMES = FAULTS / "g11-fine-thickness", FAULTS / "g04-names-by-case"
 
-pytestmark = pytest.mark.skipif(not FAULTS.is_dir(), reason=f"there are no input files at {FAULTS}")
+pytestmark = pytest.mark.skipif(not FAULTS.is_dir(), reason=f"no input files at {FAULTS}")
 
 US_FOOT = 1200.0 / 3937.0
 RIBS = 160_000.0  # m3, of ribs 20 m thick, one metre in five, over 200 m x 200 m
@@ -25,13 +25,13 @@ BLOCK = 400_000.0  # m3, 10 m over 200 m x 200 m
 
 
 class Maker:
-    """Make cases with `thawslide new` and return what `thawslide check` reports of them."""
+    """Creates cases with `thawslide new`, and returns results of `thawslide check`."""
 
     def __init__(self, thawslide: Program, folder: Path) -> None:
         self.thawslide, self.folder = thawslide, folder
 
     def made(self, dem: Path, release: Path, *words: object) -> str:
-        """Make the case and return what `new` printed."""
+        """Create the case and return the output of `new`."""
         outcome = self.thawslide("new", self.folder, "--dem", dem, "--release", release, *words)
         assert outcome.returncode == 0, outcome.stderr
         return outcome.stdout
@@ -61,13 +61,13 @@ def from_file(kind: str, file: Path) -> str:
 
 
 @pytest.mark.parametrize("name", ["thickness-masked.tif", "thickness-msk.tif"])
-def test_what_a_mask_hides_is_no_thickness(maker: Maker, name: str) -> None:
+def test_masked_thickness_is_zero(maker: Maker, name: str) -> None:
     assert "a release of 400,000 m3" in maker.made(MASKS / "dem.tif", MASKS / name)
     assert maker.volume() == pytest.approx(BLOCK, rel=1e-6)
 
 
 @pytest.mark.parametrize("name", ["thickness-masked.tif", "thickness-msk.tif"])
-def test_what_a_mask_hides_is_no_thickness_within_polygons(maker: Maker, name: str) -> None:
+def test_masked_thickness_is_zero_within_polygons(maker: Maker, name: str) -> None:
     maker.made(MASKS / "dem.tif", MASKS / "release.gpkg", "--thickness", 10)
     with rasterio.open(MASKS / name) as file:
         valid = file.read_masks(1) > 0
@@ -79,7 +79,7 @@ def test_what_a_mask_hides_is_no_thickness_within_polygons(maker: Maker, name: s
 
 
 @pytest.mark.parametrize("name", ["dem-masked.tif", "dem-alpha.tif"])
-def test_ground_next_to_a_mask_is_known(maker: Maker, name: str) -> None:
+def test_terrain_next_to_a_mask_is_known(maker: Maker, name: str) -> None:
     maker.made(MASKS / name, MASKS / "release.gpkg", "--thickness", 10)
     assert maker.volume() == pytest.approx(BLOCK, rel=1e-6)
     with rasterio.open(MASKS / name) as file:
@@ -88,7 +88,7 @@ def test_ground_next_to_a_mask_is_known(maker: Maker, name: str) -> None:
         assert int((file.read_masks(1) == 0).sum()) == hidden
 
 
-def test_masked_ground_is_none(thawslide: Program, tmp_path: Path) -> None:
+def test_masked_terrain_is_nodata(thawslide: Program, tmp_path: Path) -> None:
     release = MASKS / "release-over-masked.gpkg"
     words = ("--dem", MASKS / "dem-masked.tif", "--release", release, "--thickness", 10)
     outcome = thawslide("new", tmp_path / "slide", *words)

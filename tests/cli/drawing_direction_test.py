@@ -1,4 +1,4 @@
-"""No result depends on the direction in which a path, a cross section, an outline or a raster was drawn or stored."""
+"""Results do not depend on the direction in which paths, cross sections, outlines and rasters were drawn or stored."""
 
 from __future__ import annotations
 
@@ -57,12 +57,12 @@ friction_angle = 12.0
 
 
 def valley(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Fall for 450 m and rise beyond to above the start, with sides."""
+    """Return elevations that fall for 450 m and then rise above the start, with slopes on both sides."""
     return 1000.0 - 0.7 * np.minimum(x, 450.0) + 1.2 * np.maximum(0.0, x - 450.0) + 0.001 * (y - 150.0) ** 2
 
 
 def write_case(folder: Path, *, is_reversed: bool = False, path: list[tuple[float, float]] = PATH) -> Path:
-    """Write the case as it is, or with every line, ring and raster the other way round."""
+    """Write the case, or the same with every line, ring and raster reversed."""
     folder.mkdir()
     (folder / "case.toml").write_text(CASE)
     write_dem(folder / "dem.tif", valley, columns=COLUMNS, rows=ROWS, cell=CELL)
@@ -91,7 +91,7 @@ def rows_of(file: Path) -> dict[str, np.ndarray]:
 
 
 def assert_alike(one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> None:
-    """Fail unless all columns are the same but for round-off."""
+    """Fail unless all columns agree within round-off."""
     assert one.keys() == other.keys()
     for name, values in one.items():
         scale = np.abs(values[np.isfinite(values)]).max(initial=1e-9)
@@ -105,9 +105,7 @@ def safety_factor(outcome: Outcome) -> float:
     return float(found[1])
 
 
-def test_run_block_and_probes_are_the_same_for_whatever_was_drawn_the_other_way_round(
-    thawslide: Program, tmp_path: Path
-) -> None:
+def test_run_block_and_probes_do_not_depend_on_the_drawing_direction(thawslide: Program, tmp_path: Path) -> None:
     runs: dict[bool, dict[str, Any]] = {}
     for is_reversed in (False, True):
         case = write_case(tmp_path / f"case-{is_reversed}", is_reversed=is_reversed)
@@ -135,7 +133,7 @@ def test_run_block_and_probes_are_the_same_for_whatever_was_drawn_the_other_way_
 
 
 def test_discharge_is_positive_downstream(thawslide: Program, tmp_path: Path) -> None:
-    """Through a section just below the release, drawn either way."""
+    """The section just below the release is drawn in both directions."""
     for number, line in enumerate(([(201.0, 40.0), (201.0, 260.0)], [(201.0, 260.0), (201.0, 40.0)])):
         case, run = write_case(tmp_path / f"case{number}"), tmp_path / f"run{number}"
         write_line(case / "across.geojson", line)
@@ -145,14 +143,16 @@ def test_discharge_is_positive_downstream(thawslide: Program, tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("start", [60.0, 105.0, 150.0, 201.0, 205.0, 231.7, 260.0, 320.0])
-def test_block_needs_no_particular_start_of_its_path(thawslide: Program, tmp_path: Path, start: float) -> None:
-    """The release goes from 105 to 205 m: before it, within it and below it."""
+def test_the_safety_factor_does_not_depend_on_the_start_of_the_path(
+    thawslide: Program, tmp_path: Path, start: float
+) -> None:
+    """The release extends from 105 to 205 m; paths start before, within and below it."""
     words = sets(**COULOMB)
-    whole = thawslide("block", write_case(tmp_path / "whole"), *words)
+    complete = thawslide("block", write_case(tmp_path / "complete"), *words)
     path = [(start, 150.0), (400.0, 150.0)]
     for is_reversed in (False, True):
         case = write_case(tmp_path / f"case-{is_reversed}", is_reversed=is_reversed, path=path)
-        assert safety_factor(thawslide("block", case, *words)) == pytest.approx(safety_factor(whole), rel=0.02)
+        assert safety_factor(thawslide("block", case, *words)) == pytest.approx(safety_factor(complete), rel=0.02)
 
 
 @pytest.mark.parametrize("is_reversed", [False, True])
@@ -167,7 +167,7 @@ def test_section_keeps_its_direction_when_the_release_lies_at_the_first_end(
     assert (note in made.stdout) == is_reversed
     lines = (tmp_path / "section" / "profile.csv").read_text().splitlines()
     rows = np.array([line.split(",") for line in lines if line[0].isdigit()], dtype=float)
-    assert rows[0, 1] < rows[-1, 1], "the far slope goes on to above the start"
+    assert rows[0, 1] < rows[-1, 1], "the opposite slope rises above the start"
     assert rows[np.argmax(rows[:, 2] - rows[:, 1]), 0] < 200.0, "the release is at the beginning"
 
 
@@ -206,7 +206,7 @@ enabled = false
 
 
 def write_slope_in_plane(file: Path, sign: float, how: str) -> Path:
-    """Write a slide that leaves towards +x or -x: down a plane or a profile, by gravity or by its velocity."""
+    """Write a slide that moves towards +x or -x: down a plane or a profile, by gravity or by its velocity."""
     fall = 0.6 if how in ("plane", "profile") else 0.0
 
     def x_of(along: float) -> float:
@@ -228,9 +228,7 @@ def write_slope_in_plane(file: Path, sign: float, how: str) -> Path:
 
 
 @pytest.mark.parametrize("how", ["plane", "profile", "tilt", "velocity"])
-def test_slide_towards_lower_x_is_the_mirror_image_of_one_towards_higher_x(
-    thawslide: Program, tmp_path: Path, how: str
-) -> None:
+def test_slides_towards_lower_and_higher_x_are_mirror_images(thawslide: Program, tmp_path: Path, how: str) -> None:
     rows, block = [], []
     for name, sign in (("right", 1.0), ("left", -1.0)):
         case = write_slope_in_plane(tmp_path / f"{name}.toml", sign, how)
@@ -271,22 +269,22 @@ def test_points_of_a_profile_that_coincide_in_the_domain_are_refused(thawslide: 
         )
 
 
-def fault(name: str) -> Path:
+def data_folder(name: str) -> Path:
     folder = FAULTS / name
     if not folder.is_dir():
-        pytest.skip(f"the inputs of {name} are not beside this checkout")
+        pytest.skip(f"the inputs of {name} are not next to this checkout")
     return folder
 
 
 @pytest.mark.parametrize("line", ["s105", "s305", "s333.3", "s360", "s420"])
-def test_fault_of_path_starts(thawslide: Program, line: str) -> None:
-    folder = fault("g19-path-start")
+def test_the_safety_factor_does_not_depend_on_the_start_of_a_path_on_a_dem(thawslide: Program, line: str) -> None:
+    folder = data_folder("g19-path-start")
     slid = thawslide("block", folder / "case.toml", *sets(maps__path=folder / f"line-{line}.gpkg"))
     assert safety_factor(slid) == pytest.approx(0.464, abs=0.002)
 
 
-def test_fault_of_paths_uphill(thawslide: Program, tmp_path: Path) -> None:
-    folder = fault("g03-path-uphill")
+def test_paths_drawn_uphill_give_the_same_front(thawslide: Program, tmp_path: Path) -> None:
+    folder = data_folder("g03-path-uphill")
     ends = {}
     for line in ("down", "up", "late"):
         words = sets(maps__path=folder / f"line-{line}.gpkg")
@@ -299,9 +297,9 @@ def test_fault_of_paths_uphill(thawslide: Program, tmp_path: Path) -> None:
     assert ends["late"]["runout_m"] == pytest.approx(ends["down"]["runout_m"], abs=1e-6)
 
 
-def test_fault_of_path_starts_slides_alike(thawslide: Program, tmp_path: Path) -> None:
-    """Along the whole way, as on the path that starts in the middle of the release."""
-    folder = fault("g19-path-start")
+def test_the_block_moves_alike_on_paths_with_different_starts(thawslide: Program, tmp_path: Path) -> None:
+    """The motion is that on the path that starts in the middle of the release."""
+    folder = data_folder("g19-path-start")
     slides = {}
     for line in ("s150", "s105", "s305", "s333.3", "s360", "s420"):
         file = tmp_path / f"{line}.csv"
@@ -319,9 +317,9 @@ def test_fault_of_path_starts_slides_alike(thawslide: Program, tmp_path: Path) -
         assert slide["velocity_m_s"].max() == pytest.approx(expected["velocity_m_s"].max(), rel=0.01)
 
 
-def test_fault_of_a_path_next_to_the_release(thawslide: Program, tmp_path: Path) -> None:
+def test_a_path_next_to_the_release_measures_the_front_only(thawslide: Program, tmp_path: Path) -> None:
     """A line parallel to the slide measures its front; a block and a section along it are refused."""
-    folder = fault("g03-path-uphill")
+    folder = data_folder("g03-path-uphill")
     side, ends = folder / "line-side.gpkg", {}
     for line in ("down", "side"):
         words = sets(maps__path=folder / f"line-{line}.gpkg", time__end=2)
@@ -341,9 +339,9 @@ def test_fault_of_a_path_next_to_the_release(thawslide: Program, tmp_path: Path)
         assert f"line-{line}.gpkg: the line does not cross the release" in refused.stderr
 
 
-def test_fault_of_a_path_that_starts_late(thawslide: Program, tmp_path: Path) -> None:
-    """It starts 390 m further on than the other, and distances along it are shorter by as much."""
-    folder, fronts = fault("g03-path-uphill"), {}
+def test_distances_count_from_the_start_of_the_path(thawslide: Program, tmp_path: Path) -> None:
+    """One path starts 390 m further downhill, and distances along it are smaller by 390 m."""
+    folder, fronts = data_folder("g03-path-uphill"), {}
     for line in ("down", "late"):
         file = tmp_path / f"{line}.csv"
         words = sets(maps__path=folder / f"line-{line}.gpkg")
@@ -354,9 +352,9 @@ def test_fault_of_a_path_that_starts_late(thawslide: Program, tmp_path: Path) ->
     assert fronts["late"] == pytest.approx(fronts["down"] - 390.0, abs=1e-3)
 
 
-def test_fault_of_paths_that_go_on_up_the_far_slope(thawslide: Program, tmp_path: Path) -> None:
-    """Drawn either way: the slide crosses the valley and goes up beyond it."""
-    folder, slides = fault("g03-path-uphill"), {}
+def test_paths_up_the_opposite_slope_do_not_depend_on_direction(thawslide: Program, tmp_path: Path) -> None:
+    """The slide crosses the valley and moves up the opposite slope."""
+    folder, slides = data_folder("g03-path-uphill"), {}
     for line in ("runup", "runup_reversed"):
         words = sets(terrain__file=folder / "valley.tif", maps__path=folder / f"line-{line}.gpkg", time__end=25)
         run, file = tmp_path / line, tmp_path / f"{line}.csv"
@@ -379,11 +377,11 @@ def test_fault_of_paths_that_go_on_up_the_far_slope(thawslide: Program, tmp_path
     ("dem", "lines", "end"),
     [("dem", ("down", "up"), 501250), ("valley", ("runup", "runup_reversed"), 501480)],
 )
-def test_fault_of_sections_uphill(
+def test_sections_drawn_uphill_begin_at_the_release(
     thawslide: Program, tmp_path: Path, dem: str, lines: tuple[str, str], end: int
 ) -> None:
-    """The release lies at the first end of the section, even if the far slope rises to above it."""
-    folder = fault("g03-path-uphill")
+    """The release is at the first end of the section, even if the opposite slope rises above it."""
+    folder = data_folder("g03-path-uphill")
     words = ["--dem", folder / f"{dem}.tif", "--release", folder / "release.gpkg", "--thickness", 10]
     for line in lines:
         made = thawslide("section", tmp_path / line, *words, "--line", folder / f"line-{line}.gpkg")

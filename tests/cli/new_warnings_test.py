@@ -1,4 +1,4 @@
-"""What `thawslide new` and `thawslide check` say of releases and DEMs that run, but hardly as meant."""
+"""Warnings of `thawslide new` and `thawslide check` about releases and DEMs that are valid but probably unintended."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from slope_files import (
     Slope,
     assert_refused,
     made,
-    said,
+    without_folder,
     write_release,
 )
 
@@ -29,15 +29,17 @@ ACROSS = "across the median thickness of body slide, 24 m, there are "
 MAPS = "too few cells for maps of thickness and area"
 
 
-def test_particles_across_the_thickness(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    """`check` tells them; where the user's cell makes them too few, `new` and `check` say so."""
+def test_too_few_particles_across_the_thickness_have_a_warning(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    """`check` reports their number; `new` and `check` warn if the user's cell makes them too few."""
     outcome = made(thawslide, tmp_path / "fine", slope(), release, "--thickness", THICKNESS)
     assert outcome.returncode == 0 and "too few particles" not in outcome.stdout, outcome.stderr
     checked = thawslide("check", tmp_path / "fine")
     assert (
-        "  body        slide: 288,000 m3 and 5.94e+08 kg, over 12,000 m2; 24 m thick on average, 24 m in the "
+        "  body        slide: 288,000 m3 and 594,000 t, over 12,000 m2; 24 m thick on average, 24 m in the "
         "median and 24 m at most (vertical)\n"
-        "              4512 particles 4 m apart; 6 across in the median and 6 at most; -5 C\n"
+        "              4,512 particles 4 m apart; 6 across in the median and 6 at most; -5 C\n"
         "  roughness   noise of 0 m rms"
     ) in checked.stdout
     coarse = made(
@@ -73,8 +75,8 @@ def test_particles_across_the_thickness(thawslide: Program, tmp_path: Path, slop
     assert finest.returncode == 0 and MAPS not in finest.stdout, finest.stderr
 
 
-def test_cells_for_maps(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    """`new` proposes cells for travel distance. It names those for maps, and so do the case, `check` and `run`."""
+def test_too_few_cells_for_maps_have_a_warning(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+    """`new` proposes cells for travel distance. It also names those for maps, as do the case, `check` and `run`."""
     folder = tmp_path / "slide"
     outcome = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
     problem = f"{ACROSS}{MAPS} (found 3; needed 8)"
@@ -103,7 +105,7 @@ def test_cells_for_maps(thawslide: Program, tmp_path: Path, slope: Slope, releas
     assert json.loads(thawslide("check", folder, "--json").stdout)["warnings"] == [], "no key of maps is given"
 
 
-def test_release_smaller_than_a_cell_of_the_dem(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+def test_a_release_smaller_than_a_cell_of_the_dem_is_refused(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     tiny = write_release(tmp_path / "tiny.geojson", WEST + 203.0, SOUTH + 252.0, 3.0, 3.0)
     assert_refused(
         made(thawslide, tmp_path / "slide", slope(), tiny, "--thickness", 20),
@@ -114,16 +116,20 @@ def test_release_smaller_than_a_cell_of_the_dem(thawslide: Program, tmp_path: Pa
     )
 
 
-def test_thickness_of_the_order_of_the_width(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_a_thickness_of_the_order_of_the_width_has_a_warning(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
     outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 300)
     assert outcome.stdout.startswith(
-        "warning: the release of the body slide is up to 300 m thick and, by its area, 109.5 m wide: is the "
+        "warning: the release of the body slide is up to 300 m thick and, by its area, 110 m wide: is the "
         "thickness in metres?\n"
     ), outcome.stdout + outcome.stderr
 
 
-def test_hole_filled_with_zeros(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    """A slide would fall into it: `new`, `check` and `run` tell of it."""
+def test_a_hole_filled_with_zeros_has_a_warning(
+    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+) -> None:
+    """A slide would fall into the hole: `new`, `check` and `run` warn of it."""
     dem = slope()
     with rasterio.open(dem, "r+") as file:
         heights = file.read(1)
@@ -132,19 +138,19 @@ def test_hole_filled_with_zeros(thawslide: Program, tmp_path: Path, slope: Slope
     outcome = made(thawslide, tmp_path / "slide", dem, release, "--thickness", THICKNESS)
     note = (
         "warning: 15 points of dem.tif are exactly 0 m among heights of 1000 to 1035 m, such as (412400, 5160300): a "
-        "hole without data? Then say so in the file, gdal_edit.py -a_nodata 0 {}dem.tif, or fill it\n"
+        "hole without data? Then declare it in the file, gdal_edit.py -a_nodata 0 {}dem.tif, or fill it\n"
     )
-    assert said(outcome.stdout, tmp_path).startswith(note.format("")), outcome.stdout + outcome.stderr
+    assert without_folder(outcome.stdout, tmp_path).startswith(note.format("")), outcome.stdout + outcome.stderr
     for words in (
         ("check",),
         ("run", "--output", tmp_path / "run", "--set", "time.end=0.01"),
     ):
         done = thawslide(words[0], tmp_path / "slide", *words[1:])
         assert done.returncode == 0, done.stderr
-        assert note.format("slide/") in said(done.stdout, tmp_path)
+        assert note.format("slide/") in without_folder(done.stdout, tmp_path)
 
 
-def test_crs_by_a_bare_number(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_crs_as_a_number_only_is_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     bare = slope("bare.tif", crs=None)
     assert_refused(
         made(
@@ -158,12 +164,12 @@ def test_crs_by_a_bare_number(thawslide: Program, tmp_path: Path, slope: Slope, 
             32632,
         ),
         tmp_path,
-        "--crs: '32632' is no coordinate reference system that is known; did you mean \"EPSG:32632\"? Allowed: a "
+        "--crs: '32632' is not a known coordinate reference system; did you mean \"EPSG:32632\"? Allowed: a "
         'number of the EPSG registry such as "EPSG:31287" (epsg.io finds it), or a WKT.',
     )
 
 
-def test_resampling_a_made_case_reports_the_domain_that_fits(
+def test_resampling_a_case_reports_the_domain_that_fits(
     thawslide: Program, tmp_path: Path, slope: Slope, release: Path
 ) -> None:
     folder = tmp_path / "slide"
@@ -186,8 +192,10 @@ def test_resampling_a_made_case_reports_the_domain_that_fits(
     assert done.returncode == 0, done.stderr
 
 
-def test_a_release_near_the_edge_of_the_known_terrain(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    """`new` warns where the way to the edge, or to points without data, is shorter than the release."""
+def test_a_release_near_the_edge_of_the_known_terrain_has_a_warning(
+    thawslide: Program, tmp_path: Path, slope: Slope
+) -> None:
+    """`new` warns if the distance to the edge, or to points without data, is shorter than the release."""
 
     def warning(name: str, west: float, hole: slice | None = None) -> str:
         near = write_release(tmp_path / f"{name}.geojson", WEST + west, SOUTH + 250.0)
@@ -197,22 +205,28 @@ def test_a_release_near_the_edge_of_the_known_terrain(thawslide: Program, tmp_pa
         assert case["grid"]["leaving"] == "remove"
         return "".join(line for line in outcome.stdout.splitlines() if line.startswith("warning: "))
 
-    # Its points are those from 205 to 315 m, and it ends a cell beyond them.
-    assert warning("amid", 205.0) == ""
+    # The release has the points from 205 to 315 m, and ends a cell beyond them.
+    assert warning("middle", 205.0) == ""
     advice = (
-        "needed at least its own length, 130 m). Particles that pass the edge are removed, and the results lack them. "
-        "Use a larger DEM"
+        "needed at least its own length, 130 m). Particles that pass the edge are removed, and the results do not "
+        "include them. Use a larger DEM"
     )
     start = "warning: --dem: the release is close to the edge of the known terrain (found "
     assert warning("west", 75.0) == f"{start}70 m; {advice}"
     assert warning("hole", 205.0, hole=slice(40, 45)) == f"{start}70 m; {advice}"
 
 
+def rows_of(file: Path, layer: str) -> list[dict[str, object]]:
+    with closing(sqlite3.connect(file)) as database:
+        database.row_factory = sqlite3.Row
+        return [dict(row) for row in database.execute(f"SELECT * FROM {layer}").fetchall()]
+
+
 @pytest.mark.parametrize("degrees", [0.0, 30.0, 45.0])
 def test_a_release_at_rest_has_the_area_that_was_drawn(
     thawslide: Program, tmp_path: Path, slope: Slope, degrees: float
 ) -> None:
-    """Of 80 m by 100 m, eight cells of the DEM and more, in any direction; the volume is the particles' own."""
+    """The release of 80 m by 100 m, at least eight cells of the DEM, has any direction."""
     angle = np.radians(degrees)
     turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
     corners = np.array([[-40.0, -50.0], [40.0, -50.0], [40.0, 50.0], [-40.0, 50.0], [-40.0, -50.0]]) @ turn
@@ -231,9 +245,17 @@ def test_a_release_at_rest_has_the_area_that_was_drawn(
         ((area, state),) = database.execute("SELECT area_m2, state FROM affected_area").fetchall()
     assert area == pytest.approx(facts["affected_area_m2"], rel=1e-9)
     assert state == "at 0.01 s, not at rest"
+    layers = {name: rows_of(run / "maps" / "results.gpkg", name) for name in ("deposit_area", "release_area")}
+    ((deposit,), (release,)) = layers.values()
+    assert deposit["area_m2"] == pytest.approx(facts["covered_area_m2"], rel=1e-9)
+    assert deposit["volume_m3"] == pytest.approx(facts["covered_volume_m3"], rel=1e-9)
+    assert (deposit["threshold_m"], deposit["time_s"], deposit["run"]) == (0.1, 0.01, "run")
+    assert release["area_m2"] == pytest.approx(8000.0, rel=1e-9), "the outline as drawn"
+    assert release["volume_m3"] == pytest.approx(8000.0 * THICKNESS, rel=0.01)
+    assert (release["body"], release["run"]) == ("slide", "run")
     with rasterio.open(run / "maps" / "final_thickness.tif") as file:
         thickness = file.read(1, masked=True)
         assert file.descriptions == ("at 0.01 s, not at rest: vertical thickness of the sliding mass",)
     assert thickness.sum() * CELL**2 == pytest.approx(8000.0 * THICKNESS, rel=0.01)
     whole_cells = (thickness > 0.1).sum() * CELL**2
-    assert whole_cells > 1.25 * 8000.0, "the DEM makes ramps of the outline"
+    assert whole_cells > 1.25 * 8000.0, "on the DEM, the edges are ramps"

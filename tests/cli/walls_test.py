@@ -1,4 +1,4 @@
-"""A block that slides into walls keeps its velocity until it arrives, and one behind a dyke rests (issue data p05)."""
+"""A block keeps its velocity until it reaches a wall, and a block behind a dyke rests."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ RAMPS = {"ramp20": 20.0, "ramp30": 30.0, "ramp45": 45.0, "ramp60": 60.0, "ramp80
 RAMP_FOOT = DYKE_FOOT = 59.0  # m
 FRICTIONAL = {"contact__between_bodies": "frictional", "contact__friction_angle": 0.0}
 
-pytestmark = pytest.mark.skipif(not WALLS.is_dir(), reason=f"there is no {WALLS}")
+pytestmark = pytest.mark.skipif(not WALLS.is_dir(), reason=f"no folder {WALLS}")
 
 
 def distance_at_loss(thawslide: Program, case: Path, run: Path, foot: float, **words: object) -> float:
-    """Return how far [m] ahead of the foot of a wall the block has lost 1 % of its velocity; negative: beyond it."""
+    """Return the distance [m] to the foot of a wall at which 1 % of the velocity is lost; negative: beyond it."""
     end = (foot + CELL - FRONT) / SPEED
     done = thawslide("run", case, "--output", run, *sets(time__end=end, terrain__extend="true", **words))
     assert done.returncode == 0, done.stderr
@@ -39,14 +39,14 @@ def distance_at_loss(thawslide: Program, case: Path, run: Path, foot: float, **w
 
 
 @pytest.mark.parametrize("name", FOOT)
-def test_velocity_is_kept_until_the_block_arrives_at_a_wall(thawslide: Program, tmp_path: Path, name: str) -> None:
+def test_velocity_is_constant_until_the_block_reaches_a_wall(thawslide: Program, tmp_path: Path, name: str) -> None:
     ahead = distance_at_loss(thawslide, WALLS / f"alone-{name}.toml", tmp_path / "run", FOOT[name])
     assert -HALF_PARTICLE <= ahead <= EARLY
 
 
 @pytest.mark.parametrize("name", RAMPS)
-def test_velocity_is_kept_until_the_block_arrives_at_a_ramp(thawslide: Program, tmp_path: Path, name: str) -> None:
-    """A gentle ramp takes 1 % of the velocity only when the block is some way up it."""
+def test_velocity_is_constant_until_the_block_reaches_a_ramp(thawslide: Program, tmp_path: Path, name: str) -> None:
+    """On a gentle ramp, the block loses 1 % of its velocity only after some distance."""
     case, ramp = WALLS / "alone-ramp80.toml", WALLS / f"{name}.csv"
     ahead = distance_at_loss(thawslide, case, tmp_path / "run", RAMP_FOOT, terrain__file=ramp)
     assert ahead <= HALF_PARTICLE
@@ -54,7 +54,7 @@ def test_velocity_is_kept_until_the_block_arrives_at_a_ramp(thawslide: Program, 
 
 
 def places_and_speeds(thawslide: Program, case: Path, run: Path, **words: object) -> list[tuple[np.ndarray, ...]]:
-    """Run a case and return x and the velocity along x of the particles of each body, of each snapshot."""
+    """Run a case; return x and the velocity along x of the particles of each body, for each snapshot."""
     done = thawslide("run", case, "--output", run, *sets(time__output_interval=0.1, **words))
     assert done.returncode == 0, done.stderr
     found: list[tuple[np.ndarray, ...]] = []
@@ -101,7 +101,7 @@ def test_block_behind_the_dyke_does_not_move_when_another_hits_it(
     assert min(speed.mean() for _, speed, _, _ in states) < 0.0, "it rebounds"
 
 
-def test_a_wall_thinner_than_a_cell_is_warned_of(thawslide: Program) -> None:
+def test_a_wall_thinner_than_a_cell_has_a_warning(thawslide: Program) -> None:
     """Bonded bodies push each other through a dyke of 2 m on cells of 5 m, and not on cells of 2 m."""
     warning = "the terrain has a wall thinner than a cell (5 m), 40 m high"
     assert warning in thawslide("check", WALLS / "case.toml").stdout

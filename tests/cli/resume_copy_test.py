@@ -1,0 +1,103 @@
+"""`resume --output`: a copy of a run continues, and the run itself stays unchanged."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from conftest import Program, content_of, history, run_facts, sets
+from faults import FAILING_WRITES, environment_of_fault
+
+MEGABYTE = 2**20
+
+
+def test_a_copy_continues_as_the_run_itself_would(thawslide: Program, done: Path, tmp_path: Path) -> None:
+    before, branch = content_of(done), tmp_path / "new" / "branch"
+    outcome = thawslide("resume", done, "--output", branch, "--end", 0.3, *sets(basal__friction_angle=5))
+    assert outcome.returncode == 0, outcome.stderr
+    assert f"{done} is copied to {branch}\n" in outcome.stdout
+    assert content_of(done) == before
+    assert history(branch)["time_s"][-1] == 0.3
+    assert [part["changes"] for part in run_facts(branch)["parts"]] == [[], ["basal.friction_angle=5", "time.end=0.3"]]
+    assert thawslide("resume", done, "--end", 0.3, *sets(basal__friction_angle=5)).returncode == 0
+    assert (branch / "history.csv").read_bytes() == (done / "history.csv").read_bytes()
+    names = [{path.name for path in (run / "snapshots").iterdir()} for run in (done, branch)]
+    assert names[0] == names[1]
+
+
+def test_a_change_that_is_refused_leaves_no_copy(thawslide: Program, done: Path, tmp_path: Path) -> None:
+    before, branch = content_of(done), tmp_path / "branch"
+    for words, message in (
+        (sets(grid__cell=2), "grid.cell cannot be changed on resume"),
+        (sets(time__ende=2), "key 'time.ende' is not known in [time]"),
+        (sets(basal__friction_angle=5), "has reached its end at 0.2 s: no step is left"),
+    ):
+        outcome = thawslide("resume", done, "--output", branch, *words)
+        assert outcome.returncode == 2
+        assert message in outcome.stderr
+        assert not branch.exists()
+    assert content_of(done) == before
+
+
+def test_a_copy_never_replaces_another_run(thawslide: Program, done: Path) -> None:
+    before = content_of(done)
+    outcome = thawslide("resume", done, "--output", done, "--end", 0.3)
+    assert outcome.returncode == 2
+    assert "contains another run. Specify another --output" in outcome.stderr
+    assert content_of(done) == before
+
+
+def test_a_copy_that_fails_is_removed_and_the_run_stays_unchanged(
+    thawslide: Program, done: Path, tmp_path: Path
+) -> None:
+    if not FAILING_WRITES.exists():
+        pytest.skip(f"{FAILING_WRITES} is not built")
+    before, branch = content_of(done), tmp_path / "branch"
+    words = ("resume", done, "--output", branch, "--end", 0.3)
+    failures = 0
+    for at in range(1, 100):
+        outcome = thawslide(*words, environment=environment_of_fault(branch, at, "once", "full"))
+        if "is copied to" in outcome.stdout:
+            break
+        failures += 1
+        assert outcome.returncode == 5, outcome.stderr
+        assert "No space left on device" in outcome.stderr
+        assert not branch.exists()
+        assert content_of(done) == before
+    assert failures > 5  # folders and files of the copy
+
+
+def test_a_copy_that_fails_in_an_empty_folder_leaves_it_empty(thawslide: Program, done: Path, tmp_path: Path) -> None:
+    if not FAILING_WRITES.exists():
+        pytest.skip(f"{FAILING_WRITES} is not built")
+    branch = tmp_path / "branch"
+    branch.mkdir()
+    words = ("resume", done, "--output", branch, "--end", 0.3)
+    outcome = thawslide(*words, environment=environment_of_fault(branch, 4, "once", "full"))
+    assert outcome.returncode == 5
+    assert list(branch.iterdir()) == []
+    assert thawslide(*words).returncode == 0
+
+
+def test_a_run_is_locked_while_it_is_copied(
+    thawslide: Program, binary: Path, plain_environment: dict[str, str], done: Path, tmp_path: Path
+) -> None:
+    with (done / "terrain.csv").open("ab") as file:
+        file.truncate(200 * MEGABYTE)
+    before, branch = {path: path.stat().st_size for path in done.rglob("*")}, tmp_path / "branch"
+    command = [str(binary), "resume", str(done), "--output", str(branch), "--end", "0.3"]
+    with subprocess.Popen(command, env=plain_environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        while process.poll() is None and not (branch / "terrain.csv").exists():
+            time.sleep(0.001)
+        process.send_signal(signal.SIGSTOP)
+        assert not (branch / "run.json").exists(), "the copy was complete before the test could stop it"
+        outcome = thawslide("resume", done, "--end", 0.3)
+        process.send_signal(signal.SIGCONT)
+        process.communicate(timeout=60)
+        assert process.returncode == 0
+    assert outcome.returncode == 2
+    assert f"{done} is being written by process {process.pid} on " in outcome.stderr
+    assert {path: path.stat().st_size for path in done.rglob("*")} == before
