@@ -12,6 +12,7 @@ from thawslide.sweeps.folder import SweepFolder
 from thawslide.sweeps.member import Task, perform
 
 VARY = {"basal.friction_angle": [20.0, 25.0, 30.0]}
+MANY = {"basal.friction_angle": [20.0 + angle for angle in range(12)]}  # members wait on a worker that dies
 
 # Ends the process of a worker as soon as it begins member 1.
 DEADLY = """
@@ -45,7 +46,7 @@ def test_a_cluster_and_one_process_give_the_same_table(slope: Path, tmp_path: Pa
 def test_a_member_whose_workers_die_is_reported_and_the_others_finish(slope: Path, tmp_path: Path) -> None:
     with cluster(tmp_path / "cluster", DEADLY) as address:
         table = thawslide.sweep(
-            slope, tmp_path / "sweep", vary=VARY, block=True, scheduler=address, progress=False
+            slope, tmp_path / "sweep", vary=MANY, block=True, scheduler=address, progress=False
         )  # fmt: skip
-    assert list(table["status"]) == ["done", "failed", "done"]
+    assert list(table["status"]) == ["done", "failed", *(len(table) - 2) * ["done"]]
     assert table["error"][1] == f"{ALLOWED_FAILURES + 1} workers died during this member"

@@ -102,7 +102,7 @@ def perform_all(
             is_only_one = True
         if waiting:
             task = waiting.popleft()
-            key = ("member", str(task.folder), task.number, is_only_one)
+            key = ("member", str(task.folder), task.number, int(is_only_one))
             future = client.submit(perform_on_worker, task, key=key, pure=False)
             submitted[future.key] = (task, future)
             running.add(future)
