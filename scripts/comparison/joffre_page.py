@@ -70,10 +70,12 @@ def quantile_table(table: pd.DataFrame) -> str:
 def state_text(table: pd.DataFrame, total: int) -> str:
     """Return how the members ended."""
     resting = int((table["simulated_time_s"] < joffre.end()).sum())
-    removed = table["left_fraction"]
+    left = table["left_fraction"]
     text = f"{len(table)} of {total} members finished, and {resting} of them came to rest before {joffre.end():g} s. "
-    count = int((removed > 0.0).sum())
-    text += f"Particles were removed in {count} members, at most {100.0 * removed.max():.1f} % of the mass."
+    if (count := int((left > 0.0).sum())) == 0:
+        text += "No particle left the DEM."
+    else:
+        text += f"Particles left the DEM in {count} members, at most {100.0 * left.max():.1f} % of the mass."
     return textwrap.fill(text, 120)
 
 
