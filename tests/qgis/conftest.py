@@ -40,9 +40,10 @@ def environment(binary: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[
     home = tmp_path_factory.mktemp("home")
     home.chmod(0o700)
     own = {"HOME": home, "QGIS_CUSTOM_CONFIG_PATH": home / "qgis", "XDG_RUNTIME_DIR": home}
-    kept = {key: os.environ[key] for key in ("PATH", "LANG", "LC_ALL") if key in os.environ}
-    settings = {"QT_QPA_PLATFORM": "offscreen", "PYTHONDONTWRITEBYTECODE": "1", "THAWSLIDE_BINARY": str(binary)}
-    return {**kept, **settings, **{key: str(path) for key, path in own.items()}}
+    kept = {key: os.environ[key] for key in ("LANG", "LC_ALL") if key in os.environ}
+    # Another Python in PATH would become that of QGIS, and crash it.
+    settings = {"PATH": os.defpath, "QT_QPA_PLATFORM": "offscreen", "PYTHONDONTWRITEBYTECODE": "1"}
+    return {**kept, **settings, "THAWSLIDE_BINARY": str(binary), **{key: str(path) for key, path in own.items()}}
 
 
 @pytest.fixture(scope="session")

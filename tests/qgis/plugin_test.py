@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
-import tomllib
 import zipfile
 from pathlib import Path
 
@@ -24,10 +23,10 @@ def test_zip_file_contains_one_folder_with_licence_and_metadata(zip_file: Path) 
     assert {"thawslide_qgis/LICENSE", "thawslide_qgis/metadata.txt", "thawslide_qgis/icon.svg"} <= set(names)
 
 
-def test_version_is_that_of_the_python_package() -> None:
+def test_version_is_that_of_the_program() -> None:
     metadata = (ROOT / "qgis" / "thawslide_qgis" / "metadata.txt").read_text()
-    package = tomllib.loads((ROOT / "python" / "pyproject.toml").read_text())["project"]["version"]
-    assert f"\nversion={package}\n" in metadata
+    version = re.search(r"^project\(thawslide VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)
+    assert version and f"\nversion={version[1]}\n" in metadata
 
 
 def test_provider_lists_its_algorithms(environment: dict[str, str], plugin: None) -> None:
