@@ -110,7 +110,7 @@ Json json_of(const sim::BodyFigures& body) {
 
 Json json_of(const SubstrateFacts& substrate) {
   return {{"name", substrate.name},
-          {"place", substrate.location},
+          {"location", substrate.location},
           {"covered", substrate.covered},
           {"fraction", substrate.fraction},
           {"strength", substrate.strength}};
