@@ -180,8 +180,10 @@ struct RunCost {
 };
 
 // The first lines state the proposed cell and its cost. The other lines state the named resolutions except `chosen`;
-// their times follow from that cost and the cells. chosen: a name, or empty if the user specified the cell.
+// their times follow from that cost and the cells, unless so few particles run that they take no time. chosen: a name,
+// or empty if the user specified the cell.
 std::string resolution_text(const config::Proposal& proposal, const std::string& chosen, const RunCost& cost) {
+  constexpr double fewest_timed_particles = 1000.0;
   std::string purpose, others;
   for (const config::ResolutionFacts& each : config::resolutions) {
     if (chosen == each.name) {
@@ -191,8 +193,9 @@ std::string resolution_text(const config::Proposal& proposal, const std::string&
     const double cell =
         config::cell_of(each.resolution, proposal.thickness, proposal.median_thickness, proposal.particles_per_axis);
     const double seconds = cost.seconds * config::run_time_factor(proposal.cell, cell, 3);
-    others += fmt::format("             --resolution {}: cells of {:g} m, about {}; {}\n", each.name, cell,
-                          duration_text(seconds), each.purpose);
+    const bool is_timed = proposal.particles >= fewest_timed_particles;
+    others += fmt::format("             --resolution {}: cells of {:g} m{}; {}\n", each.name, cell,
+                          is_timed ? ", about " + duration_text(seconds) : "", each.purpose);
   }
   return fmt::format(
       "resolution:  {}cells of {:g} m{}\n             about {} particles, {} steps to time.end, and {} on {} "

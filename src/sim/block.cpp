@@ -20,33 +20,62 @@ namespace thawslide::sim {
 
 namespace {
 
-// Conversion between x and path length along the ground; coordinates relative to the domain's lower corner [m].
+Vector<double, 2> normal_below(const Model<2>& model, double x) {
+  return model.ground->normal_below(Vector<double, 1>(x), 0.0);
+}
+
+// Conversion between x and path length along the ground, and the direction of the ground, which is constant between two
+// of its points; coordinates relative to the domain's lower corner [m].
 class Path {
  public:
-  explicit Path(const terrain::Polyline& line) : line_(&line) {
+  explicit Path(const Model<2>& model) : x_(model.profile->x()) {
+    const std::vector<double>& heights = model.profile->heights();
     length_.push_back(0.0);
-    for (std::size_t k = 1; k < line.x().size(); ++k) {
-      length_.push_back(length_.back() +
-                        std::hypot(line.x()[k] - line.x()[k - 1], line.heights()[k] - line.heights()[k - 1]));
+    for (std::size_t k = 1; k < x_.size(); ++k) {
+      const double run = x_[k] - x_[k - 1], rise = heights[k] - heights[k - 1];
+      length_.push_back(length_.back() + std::hypot(run, rise));
+      angle_.push_back(std::atan(rise / run));
+      normal_.push_back(normal_below(model, 0.5 * (x_[k - 1] + x_[k])));
     }
   }
-  [[nodiscard]] double length_at(double x) const { return map(line_->x(), length_, x); }
-  [[nodiscard]] double x_at(double length) const { return map(length_, line_->x(), length); }
-  // Mean curvature over a span of the path [1/m], positive where the ground is concave.
-  [[nodiscard]] double curvature(double length, double span) const {
-    const auto angle = [&](double at) { return std::atan(line_->gradient(x_at(at))); };
-    return (angle(length + 0.5 * span) - angle(length - 0.5 * span)) / span;
-  }
+  [[nodiscard]] double length_at(double x) const { return map(x_, length_, segment(x_, x), x); }
+  [[nodiscard]] double x_at(double length) const { return map(length_, x_, segment(length_, length), length); }
+
+  // Position on the path. A search begins at the segment of the last one, because lengths usually ascend.
+  class Position {
+   public:
+    Position(const Path& path, double length) : path_(path), segment_(segment(path.length_, length)), length_(length) {}
+    void move_to(double length) {
+      const std::vector<double>& lengths = path_.length_;
+      length_ = length;
+      while (segment_ + 2 < lengths.size() && lengths[segment_ + 1] <= length) {
+        ++segment_;
+      }
+      while (segment_ > 0 && lengths[segment_] > length) {
+        --segment_;
+      }
+    }
+    [[nodiscard]] double x() const { return map(path_.length_, path_.x_, segment_, length_); }
+    [[nodiscard]] double angle() const { return path_.angle_[segment_]; }                      // of the slope
+    [[nodiscard]] const Vector<double, 2>& normal() const { return path_.normal_[segment_]; }  // into the ground
+
+   private:
+    const Path& path_;
+    std::size_t segment_;
+    double length_;
+  };
 
  private:
-  static double map(const std::vector<double>& from, const std::vector<double>& to, double value) {
-    const auto after = std::upper_bound(from.begin() + 1, from.end() - 1, value);
-    const auto k = static_cast<std::size_t>(after - from.begin());
-    return to[k - 1] + (value - from[k - 1]) / (from[k] - from[k - 1]) * (to[k] - to[k - 1]);
+  static std::size_t segment(const std::vector<double>& from, double value) {
+    return static_cast<std::size_t>(std::upper_bound(from.begin() + 1, from.end() - 1, value) - from.begin()) - 1;
+  }
+  static double map(const std::vector<double>& from, const std::vector<double>& to, std::size_t k, double value) {
+    return to[k] + (value - from[k]) / (from[k + 1] - from[k]) * (to[k + 1] - to[k]);
   }
 
-  const terrain::Polyline* line_;
-  std::vector<double> length_;
+  std::vector<double> x_, length_;         // of each point
+  std::vector<double> angle_;              // of each segment
+  std::vector<Vector<double, 2>> normal_;  // of each segment
 };
 
 // A vertical slice of the body.
@@ -88,10 +117,6 @@ Slices make_slices(const config::Case& parameters, const Model<2>& model, const 
   return slices;
 }
 
-Vector<double, 2> normal_below(const Model<2>& model, double x) {
-  return model.ground->normal_below(Vector<double, 1>(x), 0.0);
-}
-
 struct Forces {
   double along = 0, normal = 0;  // forces along the ground towards +x, and into the ground [N per m of width]
 };
@@ -100,16 +125,20 @@ struct Forces {
 Forces forces_on_slices(const Model<2>& model, const Path& path, const Slices& slices, double displacement,
                         double speed) {
   Forces forces;
+  // Averages curvature over at least the thickness, because the slide bridges shorter bends. Spans shorter than a slice
+  // would miss part of a kink.
+  const double first = slices.all.front().path + displacement;
+  Path::Position middle(path, first), ahead(path, first), behind(path, first);
   for (const Slice& slice : slices.all) {
-    const double along = slice.path + displacement;
-    const Vector<double, 2> normal = normal_below(model, path.x_at(along));
+    const double along = slice.path + displacement, span = std::max(slice.base, slices.thickness);
+    middle.move_to(along);
+    ahead.move_to(along + 0.5 * span);
+    behind.move_to(along - 0.5 * span);
+    const double curvature = (ahead.angle() - behind.angle()) / span;  // positive where the ground is concave
+    const Vector<double, 2>& normal = middle.normal();
     const Vector<double, 2> tangent(-normal[1], normal[0]);  // towards +x
     forces.along += slice.mass * model.motion.gravity.dot(tangent);
-    // Averages curvature over at least the thickness, because the slide bridges shorter bends. Spans shorter than a
-    // slice would miss part of a kink.
-    const double span = std::max(slice.base, slices.thickness);
-    forces.normal +=
-        physics::load_in_bend(slice.mass, model.motion.gravity.dot(normal), speed, path.curvature(along, span));
+    forces.normal += physics::load_in_bend(slice.mass, model.motion.gravity.dot(normal), speed, curvature);
   }
   return forces;
 }
@@ -120,7 +149,7 @@ class Block {
   Block(const config::Case& parameters, Table valley_factor, const Model<2>& model, const mpm::Particles<2>& particles)
       : parameters_(parameters),
         model_(model),
-        path_(*model.profile),
+        path_(model),
         valley_factor_(std::move(valley_factor)),
         slices_(make_slices(parameters, model, path_, particles)),
         column_(make_column(particles.material(0))) {
@@ -213,10 +242,7 @@ class Block {
   Forces evaluate_base() {
     const double speed_in_bends = parameters_.block.bends ? velocity_ : 0.0;
     const Forces forces = forces_on_slices(model_, path_, slices_, displacement_, speed_in_bends);
-    base_area_ = 0.0;
-    for (const Slice& slice : slices_.all) {
-      base_area_ += slice.base * valley_factor_.at(path_.x_at(slice.path + displacement_) + model_.origin[0]);
-    }
+    const std::vector<double> fractions = place_slices();
     basal_.count = 1;
     basal_.normal_pressure[0] = forces.normal / slices_.base;
     const BlockBase base =
@@ -229,7 +255,6 @@ class Block {
     basal_.speed[0] = std::abs(velocity_);
     basal_.unit_weight[0] = model_.contact.law.gravity * slices_.mass / (slices_.thickness * slices_.base);
     strength_ = friction_ = 0.0;
-    const std::vector<double> fractions = mass_on_substrates();
     for (std::size_t number = 0; number < fractions.size(); ++number) {
       if (fractions[number] > 0.0) {
         basal_.substrate[0] = static_cast<int>(number);
@@ -241,15 +266,16 @@ class Block {
     return forces;
   }
 
-  // Fraction of the mass on each substrate, by substrate number.
-  [[nodiscard]] std::vector<double> mass_on_substrates() const {
-    if (!model_.substrates) {
-      return {1.0};
-    }
-    std::vector<double> fractions(model_.contact.law.grounds.size(), 0.0);
+  // Sums the base area at the current position; returns the fraction of the mass on each substrate, by its number.
+  [[nodiscard]] std::vector<double> place_slices() {
+    std::vector<double> fractions(model_.substrates ? model_.contact.law.grounds.size() : 1, 0.0);
+    Path::Position position(path_, slices_.all.front().path + displacement_);
+    base_area_ = 0.0;
     for (const Slice& slice : slices_.all) {
-      const int number = model_.substrates->at(path_.x_at(slice.path + displacement_), 0.0);
-      fractions[static_cast<std::size_t>(number)] += slice.mass;
+      position.move_to(slice.path + displacement_);
+      const double x = position.x();
+      base_area_ += slice.base * valley_factor_.at(x + model_.origin[0]);
+      fractions[model_.substrates ? static_cast<std::size_t>(model_.substrates->at(x, 0.0)) : 0] += slice.mass;
     }
     for (double& fraction : fractions) {
       fraction /= slices_.mass;

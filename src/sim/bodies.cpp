@@ -73,11 +73,12 @@ void require_volume(const config::Case& parameters, const std::string& name, con
   const double fraction = shape.volume() / seeded;
   if (shape.release() && !(seeded >= (1.0 - release_tolerance) * shape.volume())) {
     throw UserError(fmt::format(
-        "{}: body '{}': particles {} m apart cannot represent {:.2g} % of its {} m3, because it is too thin there, or "
+        "{}: body '{}': particles {} m apart cannot represent {} % of its {} m3, because it is too thin there, or "
         "lies at its rim (allowed: {:g} %). Set a smaller grid.cell or a larger particles_per_axis, or check the unit "
         "of the thickness.",
-        config::location_of(parameters, "body." + name), name, spacing, 100.0 * (1.0 - seeded / shape.volume()),
-        rounded_text(shape.volume(), 3), 100.0 * release_tolerance));
+        config::location_of(parameters, "body." + name), name, spacing,
+        rounded_text(100.0 * (1.0 - seeded / shape.volume()), 2), rounded_text(shape.volume(), 3),
+        100.0 * release_tolerance));
   }
   if (!(std::abs(1.0 / fraction - 1.0) <= volume_tolerance)) {
     throw UserError(fmt::format(

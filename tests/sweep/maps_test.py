@@ -85,7 +85,9 @@ def read(path: Path) -> np.ndarray:
         return np.ma.filled(file.read(1, masked=True), np.nan)
 
 
-def test_probability_maps_are_those_of_the_members(plane: Path, tmp_path: Path) -> None:
+def test_probability_maps_are_those_of_the_members(
+    plane: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
     sweep = tmp_path / "sweep"
     command = [str(plane), "--vary", "basal.friction_angle=5:35:10", "--output", str(sweep), "--thickness", "2,10"]
     assert main([*command, "--speed", "5"]) == 0
@@ -106,6 +108,12 @@ def test_probability_maps_are_those_of_the_members(plane: Path, tmp_path: Path) 
     assert probability([str(sweep), "--output", str(tmp_path / "again"), "--thickness", "10"]) == 0
     again = (tmp_path / "again" / "thickness_above_10.tif").read_bytes()
     assert again == (maps / "thickness_above_10.tif").read_bytes()
+    assert capfd.readouterr().err.endswith("maps of 4 members\n")
+    SweepFolder(sweep).write_record(3, {"status": "running", "starts": 1})
+    assert probability([str(sweep), "--output", str(tmp_path / "three")]) == 0
+    assert capfd.readouterr().err.endswith(
+        "maps of 3 members; not finished: 1. To continue, repeat the command of the sweep.\n"
+    )
 
 
 def test_maps_that_are_not_kept_are_removed_after_the_probability_maps(

@@ -41,13 +41,21 @@ class SweepFolder:
 
     def done_folders(self) -> list[Path]:
         """Return the run folders of the members that are done; ReportError if there are none."""
-        count = read_json(self.plan_file, 64 * MEGABYTE).get("members")
-        if not isinstance(count, int):
-            raise ReportError(f"{self.plan_file}: members: not a whole number (found {count}). Repeat the sweep.")
-        done = [self.run_folder(number) for number in range(count) if self.record(number)["status"] == DONE]
+        done = [self.run_folder(number) for number in self._numbers() if self.record(number)["status"] == DONE]
         if not done:
             raise ReportError(f"{self.path}: no member is done. Wait, or read the errors in members.parquet.")
         return done
+
+    def unfinished(self) -> int:
+        """Return the number of members that are neither done nor failed."""
+        return sum(self.record(number)["status"] not in FINISHED for number in self._numbers())
+
+    def _numbers(self) -> range:
+        """Return the numbers of the members in the plan."""
+        count = read_json(self.plan_file, 64 * MEGABYTE).get("members")
+        if not isinstance(count, int):
+            raise ReportError(f"{self.plan_file}: members: not a whole number (found {count}). Repeat the sweep.")
+        return range(count)
 
     def start(self, plan: dict[str, Any]) -> None:
         """Write the plan, or compare it with the plan of an interrupted sweep; ReportError if they differ."""

@@ -23,7 +23,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         count = max(map(len, rasters.values()))
         for path in write_probability_maps(rasters, output, chosen or None, given.quantiles or QUANTILES):
             print(f"{path}")
-        print(f"maps of {count} members", file=sys.stderr)
+        print(f"maps of {count} members{_unfinished(given.folder)}", file=sys.stderr)
     except ReportError as error:
         print(printable(f"thawslide probability: error: {error}"), file=sys.stderr)
         return 2
@@ -44,6 +44,13 @@ def _rasters(paths: Sequence[Path], quantity: str) -> dict[str, Sequence[Path]]:
         run for path in paths for run in (SweepFolder(path).done_folders() if (path / PLAN).is_file() else [path])
     ]
     return dict(rasters_in(folders))
+
+
+def _unfinished(paths: Sequence[Path]) -> str:
+    """Return how many members of sweeps have not finished, as the end of a sentence."""
+    sweeps = [SweepFolder(path) for path in paths if (path / PLAN).is_file()]
+    count = sum(folder.unfinished() for folder in sweeps)
+    return f"; not finished: {count}. To continue, repeat the command of the sweep." if count else ""
 
 
 def _usual_output(paths: Sequence[Path]) -> Path:
