@@ -51,9 +51,11 @@ std::string is_no_empty_name(const std::string& folder) { return folder.empty() 
 CLI::Validator above_zero() {
   return {[](std::string& text) {
             double number = 0.0;
-            const bool is_number = CLI::detail::lexical_cast(text, number);
-            return is_number && number > 0.0 && std::isfinite(number) ? std::string()
-                                                                      : fmt::format("{} found; allowed: above 0", text);
+            if (!CLI::detail::lexical_cast(text, number)) {
+              return fmt::format("{} found; allowed: a number above 0, without a unit", text);
+            }
+            return number > 0.0 && std::isfinite(number) ? std::string()
+                                                         : fmt::format("{} found; allowed: above 0", text);
           },
           "above 0"};
 }

@@ -142,6 +142,8 @@ def test_a_missing_thickness_is_refused(thawslide: Program, tmp_path: Path, slop
     nothing = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 0)
     assert nothing.returncode == 2
     assert nothing.stderr.startswith("error: --thickness: 0 found; allowed: above 0. Run with --help")
+    unit = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", "20m")
+    assert unit.stderr.startswith("error: --thickness: 20m found; allowed: a number above 0, without a unit. Run")
 
 
 def test_a_thickness_in_millimetres_is_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
