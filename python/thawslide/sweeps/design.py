@@ -110,7 +110,9 @@ def parse_sample(text: str) -> tuple[str, int]:
     method, _, number = text.partition(":")
     if method not in METHODS or not number.isdecimal() or int(number) < 1:
         forms = ", ".join(f"{name}:N" for name in METHODS)
-        raise ReportError(f"--sample: invalid (found {quoted(text)}; allowed {forms}, with N from 1). Correct the sample.")
+        raise ReportError(
+            f"--sample: invalid (found {quoted(text)}; allowed {forms}, with N from 1). Correct the sample."
+        )
     count = int(number)
     if method in _POWERS_OF_TWO and count & (count - 1):
         nearest = 2 ** round(math.log2(count))
