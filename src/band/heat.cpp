@@ -122,10 +122,8 @@ void redistribute_unreached_heat(const mpm::SparseGrid<Dim>& grid, const BandMod
   thread_local std::vector<std::uint64_t> rows;  // persistent, to avoid allocation in each step
   rows.resize(grid.tiles().size());
   const SeesUnreachedHeat<Dim> sees_heat{grid, nodes.unreached_heat, rows};
-  mpm::with_shape(model.shape, [&](auto shape) {
-    const mpm::MomentumWeights<decltype(shape), Dim> weights{model.sizes, model.sides};
-    mpm::particle_pass(grid, weights, particles, nodes, sees_heat, RedistributeUnreachedHeat<Dim>{dt});
-  });
+  const mpm::MomentumWeights<Dim> weights{model.shape, model.sizes, model.sides};
+  mpm::particle_pass(grid, weights, particles, nodes, sees_heat, RedistributeUnreachedHeat<Dim>{dt});
 }
 
 }  // namespace

@@ -157,14 +157,6 @@ void check_switches(const Case& checked, Reading& reading) {
             "mechanics.transfer = \"blend\", or remove mechanics.pic_fraction.",
             checked.mechanics.pic_fraction));
   }
-  if (reading.are_valid({"mechanics.transfer", "mechanics.shape_function"}) &&
-      checked.mechanics.transfer == Transfer::apic && checked.mechanics.shape_function == ShapeFunction::linear) {
-    reading.report_misfit(
-        {"mechanics.transfer", "mechanics.shape_function"},
-        "mechanics.transfer is \"apic\", and mechanics.shape_function is \"linear\"; allowed with it: \"quadratic\" or "
-        "\"ugimp\", since nodes almost without mass would spoil the affine velocity. Set mechanics.shape_function = "
-        "\"quadratic\", or another mechanics.transfer.");
-  }
   if (reading.are_valid({"band.region", "terrain.type"}) && checked.band.region == BandRegion::first_layer &&
       !has_ground) {
     reading.report_misfit(

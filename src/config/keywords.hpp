@@ -83,7 +83,6 @@ inline std::vector<Choice<Policy>> choices(Policy) {
 }
 inline std::vector<Choice<ShapeFunction>> choices(ShapeFunction) {
   return {{ShapeFunction::ugimp, "ugimp", "uniform generalized interpolation (uGIMP)"},
-          {ShapeFunction::linear, "linear", "linear shape functions"},
           {ShapeFunction::quadratic, "quadratic", "quadratic B-splines"}};
 }
 inline std::vector<Choice<Transfer>> choices(Transfer) {

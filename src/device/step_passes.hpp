@@ -45,10 +45,8 @@ class StepPasses {
   // Calls work(weights) with the weights of APIC if the model uses it.
   template <class Work>
   void if_affine(const Work& work) const {
-    if constexpr (!std::is_same_v<Shape, mpm::Linear>) {
-      if (model.affine) {
-        work(AffineWeights<Shape, Dim>{weights()});
-      }
+    if (model.affine) {
+      work(AffineWeights<Shape, Dim>{weights()});
     }
   }
   // Pass arguments with linear shape functions, or with those of momentum.

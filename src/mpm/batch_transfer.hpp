@@ -51,15 +51,19 @@ THAWSLIDE_ALWAYS_INLINE SimdMask<Real> at_side(const PrescribedSides<Dim>& sides
   return (node == static_cast<Real>(sides.lower[a])) | (node == static_cast<Real>(sides.upper[a]));
 }
 
-// Stencil for shape functions Shape (Ugimp, Linear, Quadratic). size: of the particles, in cells.
-template <class Shape, int Dim>
-THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim> make_stencil(const SparseGrid<Dim>& grid, const TileBatch<Dim>& batch,
-                                                       const BatchGridPosition<Dim>& at,
+// Stencil for a shape function, which is selected by batch: a pass is then compiled once. size: of the particles, in
+// cells.
+template <int Dim>
+THAWSLIDE_ALWAYS_INLINE BatchStencil<Dim> make_stencil(ShapeFunction shape, const SparseGrid<Dim>& grid,
+                                                       const TileBatch<Dim>& batch, const BatchGridPosition<Dim>& at,
                                                        const HalfSize<Simd<Real>>& size,
                                                        const PrescribedSides<Dim>& sides) {
-  return {batch.nodes, for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
-            return Shape::weights(at.offset[a], size, at_side(sides, a, at.node[a]), grid.inverse_cell());
-          })};
+  const auto of_axes = [&](auto functions) THAWSLIDE_INLINE_LAMBDA {
+    return for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
+      return functions.weights(at.offset[a], size, at_side(sides, a, at.node[a]), grid.inverse_cell());
+    });
+  };
+  return {batch.nodes, shape == ShapeFunction::ugimp ? of_axes(Ugimp{}) : of_axes(Quadratic{})};
 }
 
 // Corners of the grid cells that particles lie in, as places in the patch and among the 3^Dim nodes around the nearest
@@ -117,15 +121,17 @@ struct AffineBatch {
   Vector<Simd<Real>, Dim> moment;
 };
 
-template <class Shape, int Dim>
-THAWSLIDE_ALWAYS_INLINE AffineBatch<Dim> make_affine(const SparseGrid<Dim>& grid, const BatchStencil<Dim>& stencil,
-                                                     const BatchGridPosition<Dim>& at,
+template <int Dim>
+THAWSLIDE_ALWAYS_INLINE AffineBatch<Dim> make_affine(ShapeFunction shape, const SparseGrid<Dim>& grid,
+                                                     const BatchStencil<Dim>& stencil, const BatchGridPosition<Dim>& at,
                                                      const PrescribedSides<Dim>& sides) {
-  const auto axis = [&](int a) THAWSLIDE_INLINE_LAMBDA {
-    return Shape::affine(stencil.axis[static_cast<std::size_t>(a)], at.offset[a], at_side(sides, a, at.node[a]),
-                         grid.inverse_cell());
+  const auto of_axes = [&](auto functions) THAWSLIDE_INLINE_LAMBDA {
+    return for_axes<Dim>([&](int a) THAWSLIDE_INLINE_LAMBDA {
+      return functions.affine(stencil.axis[static_cast<std::size_t>(a)], at.offset[a], at_side(sides, a, at.node[a]),
+                              grid.inverse_cell());
+    });
   };
-  AffineBatch<Dim> affine{{stencil.nodes, for_axes<Dim>(axis)}, {}};
+  AffineBatch<Dim> affine{{stencil.nodes, shape == ShapeFunction::ugimp ? of_axes(Ugimp{}) : of_axes(Quadratic{})}, {}};
   for (int a = 0; a < Dim; ++a) {
     affine.moment[a] =
         second_moment(stencil.axis[static_cast<std::size_t>(a)], at.offset[a]) * (grid.cell() * grid.cell());

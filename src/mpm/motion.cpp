@@ -13,24 +13,18 @@ namespace {
 // Calls work(weights) with the shape functions of the run, and the weights of APIC if it uses them.
 template <int Dim, class Work>
 void with_weights(const MotionModel<Dim>& model, const Work& work) {
-  const auto with = [&](auto shape) {
-    using Shape = decltype(shape);
-    if constexpr (!std::is_same_v<Shape, Linear>) {
-      if (model.transfer == TransferKind::apic) {
-        work(AffineWeights<Shape, Dim>{{model.sizes, model.sides}});
-        return;
-      }
-    }
-    THAWSLIDE_ASSERT(model.transfer != TransferKind::apic, "APIC with linear shape functions");
-    work(MomentumWeights<Shape, Dim>{model.sizes, model.sides});
-  };
-  with_shape(model.shape, with);
+  const MomentumWeights<Dim> weights{model.shape, model.sizes, model.sides};
+  if (model.transfer == TransferKind::apic) {
+    work(AffineWeights<Dim>{weights});
+  } else {
+    work(weights);
+  }
 }
 
 template <class Weights>
 inline constexpr bool is_affine = false;
-template <class Shape, int Dim>
-inline constexpr bool is_affine<AffineWeights<Shape, Dim>> = true;
+template <int Dim>
+inline constexpr bool is_affine<AffineWeights<Dim>> = true;
 
 }  // namespace
 

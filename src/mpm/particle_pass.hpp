@@ -14,8 +14,9 @@
 namespace thawslide::mpm {
 
 // Shape functions of momentum with their parameters.
-template <class Shape, int Dim>
+template <int Dim>
 struct MomentumWeights {
+  ShapeFunction shape;
   const BodySizes& sizes;  // of particles, in cells
   const PrescribedSides<Dim>& sides;
 };
@@ -38,12 +39,12 @@ struct BatchWeights<LinearWeights, Dim> {
     return linear;
   }
 };
-template <class Shape, int Dim>
-struct BatchWeights<MomentumWeights<Shape, Dim>, Dim> {
+template <int Dim>
+struct BatchWeights<MomentumWeights<Dim>, Dim> {
   BatchStencil<Dim> momentum;
   LinearStencil<Dim> linear;
 
-  THAWSLIDE_ALWAYS_INLINE BatchWeights(const MomentumWeights<Shape, Dim>& weights, const SparseGrid<Dim>& grid,
+  THAWSLIDE_ALWAYS_INLINE BatchWeights(const MomentumWeights<Dim>& weights, const SparseGrid<Dim>& grid,
                                        const Particles<Dim>& particles, const TileBatch<Dim>& batch)
       : BatchWeights(weights, grid, particles, batch, grid_position(grid, particles, batch)) {}
   template <class Functions>
@@ -56,25 +57,26 @@ struct BatchWeights<MomentumWeights<Shape, Dim>, Dim> {
   }
 
  private:
-  THAWSLIDE_ALWAYS_INLINE BatchWeights(const MomentumWeights<Shape, Dim>& weights, const SparseGrid<Dim>& grid,
+  THAWSLIDE_ALWAYS_INLINE BatchWeights(const MomentumWeights<Dim>& weights, const SparseGrid<Dim>& grid,
                                        const Particles<Dim>& particles, const TileBatch<Dim>& batch,
                                        const BatchGridPosition<Dim>& at)
-      : momentum(make_stencil<Shape>(grid, batch, at, weights.sizes.of(particles, batch), weights.sides)),
+      : momentum(make_stencil(weights.shape, grid, batch, at, weights.sizes.of(particles, batch), weights.sides)),
         linear{at.offset, batch.nodes, grid.inverse_cell()} {}
 };
 
 // Weights of momentum with those of APIC.
-template <class Shape, int Dim>
-struct AffineWeights : MomentumWeights<Shape, Dim> {};
-template <class Shape, int Dim>
-struct BatchWeights<AffineWeights<Shape, Dim>, Dim> : BatchWeights<MomentumWeights<Shape, Dim>, Dim> {
-  using Base = BatchWeights<MomentumWeights<Shape, Dim>, Dim>;
+template <int Dim>
+struct AffineWeights : MomentumWeights<Dim> {};
+template <int Dim>
+struct BatchWeights<AffineWeights<Dim>, Dim> : BatchWeights<MomentumWeights<Dim>, Dim> {
+  using Base = BatchWeights<MomentumWeights<Dim>, Dim>;
   AffineBatch<Dim> affine;
 
-  THAWSLIDE_ALWAYS_INLINE BatchWeights(const AffineWeights<Shape, Dim>& weights, const SparseGrid<Dim>& grid,
+  THAWSLIDE_ALWAYS_INLINE BatchWeights(const AffineWeights<Dim>& weights, const SparseGrid<Dim>& grid,
                                        const Particles<Dim>& particles, const TileBatch<Dim>& batch)
       : Base(weights, grid, particles, batch),
-        affine(make_affine<Shape>(grid, this->momentum, grid_position(grid, particles, batch), weights.sides)) {}
+        affine(make_affine(weights.shape, grid, this->momentum, grid_position(grid, particles, batch), weights.sides)) {
+  }
   template <class Functions>
   [[nodiscard]] THAWSLIDE_ALWAYS_INLINE const auto& of() const {
     if constexpr (std::is_same_v<Functions, AffineFunctions>) {

@@ -79,8 +79,7 @@ THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE Value second_moment(const AxisWeights<Value
 }
 
 // Weights of APIC, which give the affine velocity from node velocities and replace the slopes: w_k (x_k - x_p)/D with
-// the second moment D. They do not exist for linear shape functions: D is 0 at nodes, and a node without weight, and
-// hence without mass, would contribute fully.
+// the second moment D.
 template <class Value>
 THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE AxisWeights<Value> by_second_moment(const AxisWeights<Value>& axis, Value offset,
                                                                          Real inverse_cell) {
@@ -121,14 +120,6 @@ struct Ugimp {
   }
 };
 
-struct Linear {
-  template <class Value, class Condition>
-  THAWSLIDE_HD THAWSLIDE_ALWAYS_INLINE static AxisWeights<Value> weights(
-      Value offset, const std::type_identity_t<HalfSize<Value>>& /*size*/, Condition /*at_side*/, Real inverse_cell) {
-    return linear_weights(offset, inverse_cell);
-  }
-};
-
 // In the half cell at a side, the spline would need a node outside the domain. Linear extrapolation from the two nodes
 // inside gives the linear shape functions, which join the spline with a continuous slope.
 struct Quadratic {
@@ -145,14 +136,12 @@ struct Quadratic {
   }
 };
 
-// Calls work(shape) with the shape functions of a kind. Dispatch is outside the loop over particles.
+// Calls work(shape) with the shape functions of a kind, for code that is compiled for each of them.
 template <class Work>
 void with_shape(ShapeFunction kind, const Work& work) {
   switch (kind) {
     case ShapeFunction::ugimp:
       return work(Ugimp{});
-    case ShapeFunction::linear:
-      return work(Linear{});
     case ShapeFunction::quadratic:
       return work(Quadratic{});
   }

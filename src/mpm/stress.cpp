@@ -10,18 +10,14 @@ template <int Dim>
 StressWork update_stress_and_porosity(const SparseGrid<Dim>& grid, Particles<Dim>& particles,
                                       const MotionModel<Dim>& model, Real dt, Nodes<Dim>& nodes,
                                       InvalidParticle& invalid) {
-  StressWork work;
-  with_shape(model.shape, [&](auto shape) {
-    const MomentumWeights<decltype(shape), Dim> weights{model.sizes, model.sides};
-    const Deformed deformed = with_width<Dim>(model.width, [&](const auto& width) {
-      const UpdateStress<Dim, std::decay_t<decltype(width)>> update{model.materials.data(), model.phases,
-                                                                    model.effective_stress, dt, width};
-      return std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, update));
-    });
-    work = deformed.work;
-    invalid += deformed.invalid;
+  const MomentumWeights<Dim> weights{model.shape, model.sizes, model.sides};
+  const Deformed deformed = with_width<Dim>(model.width, [&](const auto& width) {
+    const UpdateStress<Dim, std::decay_t<decltype(width)>> update{model.materials.data(), model.phases,
+                                                                  model.effective_stress, dt, width};
+    return std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, update));
   });
-  return work;
+  invalid += deformed.invalid;
+  return deformed.work;
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                             \

@@ -27,25 +27,21 @@ void make_increments(const SparseGrid<Dim>& grid, bool first, Nodes<Dim>& nodes)
 template <int Dim>
 Real filter_velocities(const SparseGrid<Dim>& grid, Particles<Dim>& particles, const MotionModel<Dim>& model,
                        Nodes<Dim>& nodes) {
-  Real gained = 0;
   nodes.filter_increment.resize(grid.blocks().size());
   nodes.filter_total.resize(grid.blocks().size());
-  with_shape(model.shape, [&](auto shape) {
-    const MomentumWeights<decltype(shape), Dim> weights{model.sizes, model.sides};
-    const auto pass = [&](const auto& kernel) {
-      return std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, kernel));
-    };
-    pass(AddFilterMoments<Dim>{});
-    sum_patches(grid, nodes.filter_moments);
-    pass(AddFilterMomentum<Dim>{});
-    make_increments(grid, true, nodes);
-    for (int order = 2; order <= model.filter_order; ++order) {
-      pass(SweepFilter<Dim>{});
-      make_increments(grid, false, nodes);
-    }
-    gained = pass(ApplyFiltered<Dim>{});
-  });
-  return gained;
+  const MomentumWeights<Dim> weights{model.shape, model.sizes, model.sides};
+  const auto pass = [&](const auto& kernel) {
+    return std::get<0>(particle_pass(grid, weights, particles, nodes, every_tile, kernel));
+  };
+  pass(AddFilterMoments<Dim>{});
+  sum_patches(grid, nodes.filter_moments);
+  pass(AddFilterMomentum<Dim>{});
+  make_increments(grid, true, nodes);
+  for (int order = 2; order <= model.filter_order; ++order) {
+    pass(SweepFilter<Dim>{});
+    make_increments(grid, false, nodes);
+  }
+  return pass(ApplyFiltered<Dim>{});
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim) \

@@ -60,6 +60,6 @@ enum class BoundaryKind {
 enum class HeatBoundaryKind { insulated, temperature, flux };
 
 // Shape functions of momentum; heat and pore pressure always use the linear ones.
-enum class ShapeFunction { ugimp, linear, quadratic };
+enum class ShapeFunction { ugimp, quadratic };
 
 }  // namespace thawslide::physics

@@ -50,25 +50,22 @@ void set_contact_offset(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim
   // in units of a particle's contact offset
   constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off);
   mpm::PatchOf<mpm::Planes, Dim> patch;
-  mpm::with_shape(model.shape, [&](auto shape) {
-    const mpm::MomentumWeights<decltype(shape), Dim> weights{model.sizes, model.sides};
-    for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
-      load_patch(grid, t, PlanesOfGround<Dim>{ground}, patch);
-      for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
-        const mpm::BatchWeights<mpm::MomentumWeights<decltype(shape), Dim>, Dim> of_batch(weights, grid, particles,
-                                                                                          batch);
-        const auto seen = mpm::read_nodes<1 + Dim>(of_batch.linear, patch);
-        const Simd<Real> of_box = contact_offset_of_box(seen, model.sizes.of(particles, batch).half * grid.cell());
-        const Simd<Real> gap = smallest_gap(of_batch.momentum, particles, batch, patch);
-        const Simd<Real> found = select(gap < within_lowest_layer * of_box, gap, of_box);
-        for (std::size_t lane = 0; lane < batch.count; ++lane) {
-          if (batch.particle[lane] >= first) {
-            particles.contact_offset(batch.particle[lane]) = found[lane];
-          }
+  const mpm::MomentumWeights<Dim> weights{model.shape, model.sizes, model.sides};
+  for (std::size_t t = 0; t < grid.tiles().size(); ++t) {
+    load_patch(grid, t, PlanesOfGround<Dim>{ground}, patch);
+    for (const mpm::TileBatch<Dim>& batch : grid.batches(t)) {
+      const mpm::BatchWeights<mpm::MomentumWeights<Dim>, Dim> of_batch(weights, grid, particles, batch);
+      const auto seen = mpm::read_nodes<1 + Dim>(of_batch.linear, patch);
+      const Simd<Real> of_box = contact_offset_of_box(seen, model.sizes.of(particles, batch).half * grid.cell());
+      const Simd<Real> gap = smallest_gap(of_batch.momentum, particles, batch, patch);
+      const Simd<Real> found = select(gap < within_lowest_layer * of_box, gap, of_box);
+      for (std::size_t lane = 0; lane < batch.count; ++lane) {
+        if (batch.particle[lane] >= first) {
+          particles.contact_offset(batch.particle[lane]) = found[lane];
         }
       }
     }
-  });
+  }
 }
 
 namespace {
@@ -80,10 +77,8 @@ void to_candidates(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& gr
                    mpm::Nodes<Dim>& nodes) {
   const SeesCandidates<Dim> sees_candidates{ground};
   NodesOnGround<Dim> records{nodes, ground};
-  mpm::with_shape(model.shape, [&](auto shape) {
-    const mpm::MomentumWeights<decltype(shape), Dim> weights{model.sizes, model.sides};
-    mpm::particle_pass(grid, weights, particles, records, sees_candidates, kernel);
-  });
+  const mpm::MomentumWeights<Dim> weights{model.shape, model.sizes, model.sides};
+  mpm::particle_pass(grid, weights, particles, records, sees_candidates, kernel);
   nodes.near_ground.allocate(grid.blocks().size(), [&](std::size_t b) { return ground.any_candidate(b); });
   parallel_for(grid.blocks().size(), [&](std::size_t b) {
     if (ground.any_candidate(b)) {

@@ -46,13 +46,22 @@ struct TileFilterOnDevice {
   }
 };
 
+// Weights of momentum with the shape function as a type, as a device needs it. Weights: MomentumWeights, AffineWeights.
+template <class Shape, int Dim, template <int> class Weights = mpm::MomentumWeights>
+struct ShapedWeights : Weights<Dim> {};
+
+inline const mpm::LinearWeights& on_host(const mpm::LinearWeights& weights) { return weights; }
+template <class Shape, int Dim, template <int> class Weights>
+const Weights<Dim>& on_host(const ShapedWeights<Shape, Dim, Weights>& weights) {
+  return weights;
+}
 inline device::LinearWeights on_device(const mpm::LinearWeights& /*weights*/) { return {}; }
 template <class Shape, int Dim>
-device::MomentumWeights<Shape, Dim> on_device(const mpm::MomentumWeights<Shape, Dim>& weights) {
+device::MomentumWeights<Shape, Dim> on_device(const ShapedWeights<Shape, Dim>& weights) {
   return {weights.sizes.view(), weights.sides};
 }
 template <class Shape, int Dim>
-device::AffineWeights<Shape, Dim> on_device(const mpm::AffineWeights<Shape, Dim>& weights) {
+device::AffineWeights<Shape, Dim> on_device(const ShapedWeights<Shape, Dim, mpm::AffineWeights>& weights) {
   return {{weights.sizes.view(), weights.sides}};
 }
 
@@ -222,7 +231,8 @@ void expect_identical_to_lanes(const Pass<Records, TileFilter, ColumnQuery>& pas
   PatchesOf<Adds>::append(scene, pass.asked, nullptr, before);
   before["sums"] = {};
   const Bits by_lanes = bits_of<Adds>(scene, pass.asked, [&](auto& particles, auto& sums) {
-    const auto all = mpm::particle_pass(scene.grid, weights, particles, pass.records, pass.accepts, kernels...);
+    const auto all =
+        mpm::particle_pass(scene.grid, on_host(weights), particles, pass.records, pass.accepts, kernels...);
     std::apply([&](const auto&... sum) { (append_sum(sum, sums), ...); },
                static_cast<const std::tuple<typename Kernels::Totals...>&>(all));
     return std::vector<double>{};

@@ -43,7 +43,6 @@ TEST(Shape, WeightsSumToOneReproduceLinearFieldsAndMatchTheirSlopes) {
   for (const double half : {0.25, 0.125, 0.5}) {
     expect_sound_weights<Ugimp>(half);
   }
-  expect_sound_weights<Linear>(0.25);
   expect_sound_weights<Quadratic>(0.25);
 }
 
@@ -164,7 +163,8 @@ void expect_the_same_readings_by_runs(std::size_t count, std::array<int, BatchNo
     for (TileBatch<Dim> batch : grid.batches(t)) {
       const auto place = grid_position(grid, particles, batch);
       const auto read = [&] {
-        const auto stencil = make_stencil<Ugimp>(grid, batch, place, {Simd<double>(0.25)}, PrescribedSides<Dim>());
+        const auto stencil =
+            make_stencil(ShapeFunction::ugimp, grid, batch, place, {Simd<double>(0.25)}, PrescribedSides<Dim>());
         return std::tuple(read_nodes<3>(linear_stencil(grid, particles, batch), patch), read_nodes<3>(stencil, patch),
                           read_values(stencil, patch));
       };

@@ -104,7 +104,6 @@ std::vector<Choice> choices() {
       {"APIC, quadratic", {"mechanics.transfer=apic", "mechanics.shape_function=quadratic"}},
       {"FLIP and PIC", {"mechanics.transfer=blend", "mechanics.pic_fraction=0.1"}},
       {"FMPM", {"mechanics.transfer=fmpm", "mechanics.fmpm_interval=0.005", "mechanics.fmpm_order=3"}},
-      {"linear shape functions", {"mechanics.shape_function=linear"}},
       {"quadratic shape functions", {"mechanics.shape_function=quadratic"}},
       {"adaptive steps", {"time.stepping=adaptive"}},
       {"viscosity, gaps", {"material.frozen.viscosity_time=2e-4", "material.melted.gaps_close_first=true"}},

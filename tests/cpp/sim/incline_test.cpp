@@ -149,7 +149,7 @@ TEST(Incline, CohesionHoldsOrBrakes) {
 }
 
 TEST(Incline, LinearShapeFunctionsSlideAsWell) {
-  expect_slide("linear shape functions", slide<2>(turned_2d, {"mechanics.shape_function=linear"}), 15.0, 2e-2);
+  expect_slide("quadratic shape functions", slide<2>(turned_2d, {"mechanics.shape_function=quadratic"}), 15.0, 2e-2);
 }
 
 TEST(Incline, SlidesAndHeatsInThreeDimensions) {

@@ -190,7 +190,7 @@ TEST(VelocityFilter, IsAContractionThatPreservesRigidMotions) {
 
 // A spin passes unchanged with all shape functions; PIC would damp it.
 TEST(VelocityFilter, PreservesASpin) {
-  for (const char* shape : {"ugimp", "linear", "quadratic"}) {
+  for (const char* shape : {"ugimp", "quadratic"}) {
     SCOPED_TRACE(shape);
     Simulation<2> simulation(paper_case(block<2>(), {std::string("mechanics.shape_function=") + shape}));
     const Dense<2> dense(points_of(simulation));

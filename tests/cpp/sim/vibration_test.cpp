@@ -131,7 +131,6 @@ void expect_second_order(const std::string& shape, const std::string& transfer, 
 
 TEST(Bar, UgimpFlip) { expect_second_order("ugimp", "flip", 1.5e-3); }
 TEST(Bar, UgimpApic) { expect_second_order("ugimp", "apic", 5e-4); }
-TEST(Bar, LinearFlip) { expect_second_order("linear", "flip", 1.5e-3); }
 TEST(Bar, QuadraticFlip) { expect_second_order("quadratic", "flip", 2.7e-3); }
 TEST(Bar, QuadraticApic) { expect_second_order("quadratic", "apic", 1.4e-3); }
 

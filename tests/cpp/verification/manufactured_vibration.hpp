@@ -105,25 +105,23 @@ class ManufacturedVibration {
   void add_body_force() {
     using Layout = mpm::MomentumLayout<2>;
     const auto patches = body_force_.patches(grid_.tiles().size());
-    mpm::with_shape(model_.shape, [&](auto shape) {
-      for (std::size_t t = 0; t < grid_.tiles().size(); ++t) {
-        patches[t].clear();
-        auto sums = mpm::cell_sums<mpm::no_flux, 2>(patches[t]);
-        for (const auto& batch : grid_.batches(t)) {
-          const auto position = mpm::grid_position(grid_, particles_, batch);
-          const auto stencil = mpm::make_stencil<decltype(shape)>(grid_, batch, position,
-                                                                  model_.sizes.of(particles_, batch), model_.sides);
-          mpm::Contribution<2, 2> force;
-          for (std::size_t a = 0; a < 2; ++a) {
-            force.value[a] = Simd<double>::of([&](std::size_t lane) {
-              const std::uint32_t p = batch.particle[lane];
-              return particles_.mass(p) * body_force(start(p))[static_cast<int>(a)];
-            });
-          }
-          sums.add(stencil, batch.count, force);
+    for (std::size_t t = 0; t < grid_.tiles().size(); ++t) {
+      patches[t].clear();
+      auto sums = mpm::cell_sums<mpm::no_flux, 2>(patches[t]);
+      for (const auto& batch : grid_.batches(t)) {
+        const auto position = mpm::grid_position(grid_, particles_, batch);
+        const auto stencil =
+            mpm::make_stencil(model_.shape, grid_, batch, position, model_.sizes.of(particles_, batch), model_.sides);
+        mpm::Contribution<2, 2> force;
+        for (std::size_t a = 0; a < 2; ++a) {
+          force.value[a] = Simd<double>::of([&](std::size_t lane) {
+            const std::uint32_t p = batch.particle[lane];
+            return particles_.mass(p) * body_force(start(p))[static_cast<int>(a)];
+          });
         }
+        sums.add(stencil, batch.count, force);
       }
-    });
+    }
     sum_patches(grid_, body_force_);
     for (std::size_t b = 0; b < grid_.blocks().size(); ++b) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(mpm::Tile<2>::nodes); ++k) {
