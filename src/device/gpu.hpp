@@ -1,4 +1,4 @@
-// GPU detection and the solver on a GPU. Built if nvcc is found; THAWSLIDE_WITH_GPU is defined then.
+// GPU detection and the solver on a GPU: gpu.cu, or without_gpu.cpp in a build without CUDA.
 #pragma once
 
 #include <string>

@@ -1,15 +1,12 @@
 #include "run/device_choice.hpp"
 
 #include "base/error.hpp"
-#ifdef THAWSLIDE_WITH_GPU
 #include "device/gpu.hpp"
-#endif
 
 namespace thawslide::run {
 
 namespace {
 
-#ifdef THAWSLIDE_WITH_GPU
 template <int Dim>
 std::string step_on_gpu(sim::Simulation<Dim>& simulation) {
   const device::Gpu gpu = device::find_gpu();
@@ -19,24 +16,12 @@ std::string step_on_gpu(sim::Simulation<Dim>& simulation) {
   simulation.use_device(gpu.name, device::on_gpu<Dim>());
   return gpu.name;
 }
-#else
-template <int Dim>
-std::string step_on_gpu(sim::Simulation<Dim>& /*simulation*/) {
-  throw UserError(
-      "--device gpu: this program was built without CUDA. Install CUDA 12 or later and build again (./run --setup), or "
-      "run the case on the CPU: --device cpu");
-}
-#endif
 
 }  // namespace
 
 GpuFacts detect_gpu() {
-#ifdef THAWSLIDE_WITH_GPU
   const device::Gpu gpu = device::find_gpu();
   return {gpu.name, gpu.unavailable_reason, gpu.free, 0.0, 0.0};
-#else
-  return {"", "this program was built without CUDA", 0.0, 0.0, 0.0};
-#endif
 }
 
 template <int Dim>

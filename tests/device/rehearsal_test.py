@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
 import signal
 import subprocess
 import time
@@ -37,11 +36,9 @@ TOLERANCE = 1e-6
 
 @pytest.fixture(scope="session")
 def on_gpu() -> Path:
-    """Return the program, built if necessary; skip without nvcc."""
+    """Return the program, built if necessary."""
     if os.environ.get("THAWSLIDE_ON_GPU"):
         return ON_CPU
-    if shutil.which("nvcc") is None and not Path(os.environ.get("CUDA_HOME", "/usr/local/cuda"), "bin/nvcc").exists():
-        pytest.skip("no nvcc")
     command = ["cmake", "--build", str(BUILD), "--target", "thawslide_rehearsal"]
     built = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, check=False)
     assert built.returncode == 0, built.stdout[-4000:]
