@@ -12,7 +12,7 @@ namespace thawslide::config {
 namespace {
 
 // Names must be unique, because a run keeps copies of all inputs in one folder.
-void check_names(const Case& checked, Reading& reading) {
+void check_file_names(const Case& checked, Reading& reading) {
   const std::vector<InputFile> files = input_files_by_key(checked);
   for (std::size_t later = 1; later < files.size(); ++later) {
     for (std::size_t earlier = 0; earlier < later; ++earlier) {
@@ -62,7 +62,7 @@ void check_force_record(const Case& checked, Reading& reading) {
 }  // namespace
 
 void check_files(const Case& checked, Reading& reading) {
-  check_names(checked, reading);
+  check_file_names(checked, reading);
   check_targets(checked, reading);
   check_force_record(checked, reading);
 }

@@ -65,4 +65,6 @@ bool lies_within(const fs::path& path, const fs::path& folder) {
   return !inside.empty() && *inside.begin() != "..";
 }
 
+std::string in_quotes(const std::string& text) { return "'" + shown(text) + "'"; }
+
 }  // namespace thawslide::config

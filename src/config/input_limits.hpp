@@ -30,6 +30,8 @@ void require_size(const std::filesystem::path& file, double max_bytes, const std
 
 // Text in the form for messages: truncated, and with characters that would control a terminal replaced by '?'.
 [[nodiscard]] std::string shown(const std::string& text);
+// The same in single quotes.
+[[nodiscard]] std::string in_quotes(const std::string& text);
 
 // Kind of a path that is not a file: "a folder", "a pipe", "a device". Empty for a file, or nothing.
 [[nodiscard]] std::string other_kind_of_file(const std::filesystem::path& path);

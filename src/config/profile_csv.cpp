@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/shell_quote.hpp"
+#include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "config/problems.hpp"
 
@@ -24,11 +25,6 @@ using Fields = std::vector<std::string>;
 constexpr double least_profile_step = 1e-6;
 
 const Fields all_columns{"distance_m", "terrain_elevation_m", "surface_elevation_m"};
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 Fields split_at_commas(const std::string& line) {
   Fields fields;

@@ -23,8 +23,6 @@ const std::map<std::string, double> seconds_of{{"time_s", 1.0}, {"time_min", 60.
 const std::vector<std::string> allowed{"quantity", "value", "unit", "time_s", "time_min", "time_h", "source", "kind"};
 const std::vector<std::string> kinds{"observation", "model", "assumption"};
 
-std::string quoted(const std::string& text) { return "'" + shown(text) + "'"; }
-
 std::string format_unit(const std::string& unit) {
   return unit.empty() || unit == "-" || unit == "1" ? "" : " " + unit;
 }
@@ -63,8 +61,8 @@ class TargetsReader {
     for (std::size_t k = 0; k < table.columns.size(); ++k) {
       const std::string& name = table.columns[k];
       if (std::find(allowed.begin(), allowed.end(), name) == allowed.end()) {
-        throw UserError(fmt::format("{}:{}: no column is called {}{} allowed are {}", file_, table.line, quoted(name),
-                                    hint(name, allowed), comma_list(allowed)));
+        throw UserError(fmt::format("{}:{}: no column is called {}{} allowed are {}", file_, table.line,
+                                    in_quotes(name), hint(name, allowed), comma_list(allowed)));
       }
       if (seconds_of.count(name) > 0) {
         times.push_back(name);
@@ -121,7 +119,7 @@ class TargetsReader {
       }
       return fmt::format(
           "no quantity is called {}{} There are: {}; and {}_35_150_s for a force between periods of 35 and 150 s",
-          quoted(name), hint(name, known), comma_list(known), reported_force);
+          in_quotes(name), hint(name, known), comma_list(known), reported_force);
     }
     const std::string& unit_name = row.cells[column_.at("unit")];
     const auto& units = *quantity->units;
@@ -134,13 +132,13 @@ class TargetsReader {
           known.emplace_back(each.name);
         }
       }
-      return fmt::format("{} for {}; allowed: {}", unit_name.empty() ? "no unit" : "the unit " + quoted(unit_name),
+      return fmt::format("{} for {}; allowed: {}", unit_name.empty() ? "no unit" : "the unit " + in_quotes(unit_name),
                          name, comma_list(known));
     }
     if (const auto column = column_.find("kind"); column != column_.end()) {
       const std::string& kind = row.cells[column->second];
       if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
-        return fmt::format("{} for {}; allowed: {}", kind.empty() ? "no kind" : "the kind " + quoted(kind), name,
+        return fmt::format("{} for {}; allowed: {}", kind.empty() ? "no kind" : "the kind " + in_quotes(kind), name,
                            comma_list(kinds));
       }
     }

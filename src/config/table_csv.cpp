@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "config/text_file.hpp"
 
@@ -19,15 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_columns_listed = 12;
-
-std::string quoted(const std::string& text) { return "'" + shown(text) + "'"; }
-
-std::string trimmed(std::string_view text) {
-  constexpr const char* blanks = " \t\v\f";
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == std::string_view::npos ? ""
-                                         : std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
-}
 
 // Length in bytes of the UTF-8 character at the beginning of the text; 0 if it is invalid.
 std::size_t length_of_sign(std::string_view text) {
@@ -133,7 +125,7 @@ void require_columns(const TableCsv& table, const std::string& where, const std:
       std::transform(
           table.columns.begin(),
           table.columns.begin() + static_cast<std::ptrdiff_t>(std::min(table.columns.size(), most_columns_listed)),
-          std::back_inserter(found), quoted);
+          std::back_inserter(found), in_quotes);
       const bool by_semicolons = table.columns.size() == 1 && table.columns[0].find(';') != std::string::npos;
       throw UserError(fmt::format("{}: no column {}; found {}{}{}", where, name, fmt::join(found, ", "),
                                   found.size() < table.columns.size() ? ", ..." : "",
@@ -142,7 +134,7 @@ void require_columns(const TableCsv& table, const std::string& where, const std:
   }
   for (auto name = table.columns.begin(); name != table.columns.end(); ++name) {
     if (std::find(table.columns.begin(), name, *name) != name) {
-      throw UserError(fmt::format("{}: two columns {}", where, quoted(*name)));
+      throw UserError(fmt::format("{}: two columns {}", where, in_quotes(*name)));
     }
   }
 }
@@ -183,13 +175,13 @@ std::string read_finite_number(const std::string& cell, double& value) {
   const auto result = std::from_chars(begin, end, value);
   if (result.ptr != end || result.ec == std::errc::invalid_argument) {
     const bool has_decimal_comma = std::count(cell.begin(), cell.end(), ',') == 1;
-    return fmt::format("expected a number, found {}{}", quoted(cell),
+    return fmt::format("expected a number, found {}{}", in_quotes(cell),
                        has_decimal_comma ? "; write the decimals behind a point" : "");
   }
   if (result.ec == std::errc::result_out_of_range) {
     value = std::strtod(begin, nullptr);  // infinite, or almost 0
   }
-  return std::isfinite(value) ? "" : fmt::format("expected a finite number, found {}", quoted(cell));
+  return std::isfinite(value) ? "" : fmt::format("expected a finite number, found {}", in_quotes(cell));
 }
 
 }  // namespace thawslide::config

@@ -23,13 +23,13 @@ constexpr double overlap_tolerance = 1e-3;
 using Areas = std::map<std::string, config::SubstrateArea>;
 using PolygonsOf = std::map<std::string, Polygons>;  // by name of the substrate, within the domain
 
-std::string key_of(const std::string& substrate, const std::string& key) {
+std::string substrate_key(const std::string& substrate, const std::string& key) {
   return fmt::format("substrate.{}.{}", substrate, key);
 }
 
 // Key that specifies the extent of a substrate.
 std::string area_key(const std::string& name, const config::Substrate& substrate) {
-  return key_of(name, !substrate.raster.empty()        ? "raster"
+  return substrate_key(name, !substrate.raster.empty()        ? "raster"
                       : !substrate.outline.empty()     ? "outline"
                       : std::isfinite(substrate.x_min) ? "x_min"
                                                        : "x_max");
@@ -39,12 +39,12 @@ std::string area_key(const std::string& name, const config::Substrate& substrate
 config::SubstrateArea area_of_outline(const config::Case& parameters, const std::string& name, const Dem& ground,
                                       Polygons& inside, std::vector<std::string>& warnings) {
   const config::Substrate& substrate = parameters.substrates.at(name);
-  const std::string key = key_of(name, "outline");
+  const std::string key = substrate_key(name, "outline");
   const VectorLayer layer =
       with_error_location(parameters, key, [&] { return read_polygons(substrate.outline, ground.raster.crs); });
   warnings.insert(warnings.end(), layer.warnings.begin(), layer.warnings.end());
   Polygons all;
-  for (const Feature& feature : with_error_location(parameters, key_of(name, "polygons"), [&] {
+  for (const Feature& feature : with_error_location(parameters, substrate_key(name, "polygons"), [&] {
          return features_named(layer, substrate.polygons, substrate.name_attribute);
        })) {
     all.insert(all.end(), feature.polygons.begin(), feature.polygons.end());
@@ -76,7 +76,7 @@ config::SubstrateArea area_of_code(const config::Case& parameters, const std::st
   const CodesFound found = codes_in(domain_of(parameters), *codes);
   const auto own = found.by_code.find(substrate.code);
   if (own == found.by_code.end()) {
-    fail_at(parameters, key_of(name, "code"),
+    fail_at(parameters, substrate_key(name, "code"),
             fmt::format("{}: the code {} stands nowhere in the domain; found there: {}.", substrate.raster,
                         substrate.code, format_codes(found)));
   }
@@ -148,7 +148,7 @@ Areas load_substrates(const config::Case& parameters, const Dem& ground, std::ve
       auto& codes = rasters[substrate.raster];
       if (codes == nullptr) {
         codes = std::make_shared<const Raster>(
-            read_codes(parameters, key_of(name, "raster"), substrate.raster, ground.raster, warnings));
+            read_codes(parameters, substrate_key(name, "raster"), substrate.raster, ground.raster, warnings));
       }
       areas[name] = area_of_code(parameters, name, codes);
     }

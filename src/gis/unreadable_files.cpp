@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "base/shell_quote.hpp"
+#include "base/text.hpp"
 
 namespace thawslide::gis {
 
@@ -17,12 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t head_bytes = 4096;  // of a file, which include the header of an ASCII grid
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
 
 std::string head_of(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -34,7 +28,7 @@ std::string head_of(const std::string& file) {
 
 // First value of an ASCII grid, after lines of a keyword and a number; empty if the text is no ASCII grid.
 std::string first_value(const std::string& head) {
-  std::istringstream words(lower(head));
+  std::istringstream words(lower_case(head));
   std::string word, number;
   bool is_grid = false;
   while (words >> word) {
@@ -52,7 +46,7 @@ std::string first_value(const std::string& head) {
 
 std::string cause_of_unreadable_vector(const std::string& file) {
   const fs::path path(file);
-  if (lower(path.extension().string()) != ".shp") {
+  if (lower_case(path.extension().string()) != ".shp") {
     return "";
   }
   std::error_code ignored;

@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/rounding.hpp"
+#include "base/text.hpp"
 #include "config/input_limits.hpp"
 #include "config/problems.hpp"
 #include "gis/gdal_messages.hpp"
@@ -306,12 +307,6 @@ class LayerReader {
   VectorLayer result_;
 };
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
-}
-
 }  // namespace
 
 VectorLayer read_polygons(const std::string& file, const std::string& crs) {
@@ -332,7 +327,7 @@ std::string attribute_named(const VectorLayer& layer, const std::string& name, c
   }
   std::vector<std::string> alike;
   std::copy_if(layer.attributes.begin(), layer.attributes.end(), std::back_inserter(alike),
-               [&](const std::string& attribute) { return lower(attribute) == lower(name); });
+               [&](const std::string& attribute) { return lower_case(attribute) == lower_case(name); });
   if (alike.size() > 1) {
     throw UserError(
         fmt::format("{}: several attributes are called like '{}', which {} asks for: {}; allowed: one, or "

@@ -1,5 +1,7 @@
 #include "io/files.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -71,6 +73,12 @@ void require_regular(const fs::path& file) {
     throw UserError(fmt::format("{} is {}; a regular file is needed. Replace it by the file itself, or remove it.",
                                 file.string(), found));
   }
+}
+
+std::string host_name() {
+  char name[256] = "";
+  gethostname(name, sizeof name - 1);
+  return name;
 }
 
 }  // namespace thawslide::io

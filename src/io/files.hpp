@@ -26,4 +26,7 @@ std::string read_file(const std::filesystem::path& file);
 // Throws UserError for a folder, a pipe or a device; a missing file is accepted.
 void require_regular(const std::filesystem::path& file);
 
+// Name of this machine.
+[[nodiscard]] std::string host_name();
+
 }  // namespace thawslide::io

@@ -1,7 +1,5 @@
 #include "io/provenance.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -19,15 +17,9 @@
 namespace thawslide::io {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 namespace {
-
-std::string host_name() {
-  char name[256] = "";
-  gethostname(name, sizeof name - 1);
-  return name;
-}
 
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
@@ -57,8 +49,8 @@ std::string now_utc() {
   return text;
 }
 
-Json json_of(const RunPart& part) {
-  Json json;
+OrderedJson json_of(const RunPart& part) {
+  OrderedJson json;
   json["version"] = part.version;
   json["commit"] = part.commit;
   json["command"] = part.command;
@@ -76,7 +68,7 @@ Json json_of(const RunPart& part) {
   return json;
 }
 
-RunPart part_of(const Json& json) {
+RunPart part_of(const OrderedJson& json) {
   RunPart part;
   part.version = json.at("version");
   part.commit = json.at("commit");
@@ -119,13 +111,13 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   THAWSLIDE_ASSERT(!p.parts.empty(), "{} of a run without parts", file.string());
   const RunPart& first = p.parts.front();
   double wall = 0.0, particle_steps = 0.0;
-  Json parts = Json::array();
+  OrderedJson parts = OrderedJson::array();
   for (const RunPart& part : p.parts) {
     wall += part.wall_seconds;
     particle_steps += part.particle_steps;
     parts.push_back(json_of(part));
   }
-  Json json;
+  OrderedJson json;
   json["program"] = "thawslide";
   json["version"] = first.version;
   json["commit"] = first.commit;
@@ -138,7 +130,7 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   json["message"] = p.message;
   json["simulated_time_s"] = p.simulated_time;
   json["steps"] = p.steps;
-  json["at_rest"] = p.at_rest ? Json(*p.at_rest) : Json();
+  json["at_rest"] = p.at_rest ? OrderedJson(*p.at_rest) : OrderedJson();
   json["warnings"] = p.warnings;
   json["particles"] = p.particles;
   for (const auto& [cause, count] : p.removed) {
@@ -151,21 +143,21 @@ void write_provenance(const fs::path& file, const Provenance& p) {
   json["writer_seconds"] = p.writer_seconds;
   json["origin_m"] = p.origin;
   json["gravity_m_s2"] = p.gravity;
-  json["crs"] = p.crs.empty() ? Json() : Json(p.crs);
-  json["roughness"] = Json();
+  json["crs"] = p.crs.empty() ? OrderedJson() : OrderedJson(p.crs);
+  json["roughness"] = OrderedJson();
   for (const auto& [name, value] : p.roughness) {
     json["roughness"][name] = value;
   }
   for (const auto& [name, value] : p.figures) {
-    json[name] = std::isfinite(value) ? Json(value) : Json();
+    json[name] = std::isfinite(value) ? OrderedJson(value) : OrderedJson();
   }
-  json["inputs"] = Json::array();
+  json["inputs"] = OrderedJson::array();
   for (const InputFile& input : p.inputs) {
     json["inputs"].push_back(
         {{"path", input.path}, {"copy", input.copy}, {"sha256", input.sha256}, {"bytes", input.bytes}});
   }
   json["cite"] = "Thawslide (CITATION.cff), and the paper whose model it implements (docs/theory.md)";
-  write_file_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(file, json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
 }
 
 std::vector<InputFile> copy_inputs(const fs::path& folder, const std::vector<fs::path>& files) {
@@ -193,20 +185,20 @@ Provenance read_provenance(const fs::path& folder) {
   const fs::path file = folder / "run.json";
   const std::string text = read_file(file);
   try {
-    const Json facts = Json::parse(text);
-    for (const Json& part : facts.at("parts")) {
+    const OrderedJson facts = OrderedJson::parse(text);
+    for (const OrderedJson& part : facts.at("parts")) {
       provenance.parts.push_back(part_of(part));
     }
-    for (const Json& input : facts.at("inputs")) {
+    for (const OrderedJson& input : facts.at("inputs")) {
       provenance.inputs.push_back({input.at("path"), input.at("copy"), input.at("sha256"), input.at("bytes")});
     }
     provenance.status = facts.at("status");
     provenance.message = facts.at("message");
     provenance.simulated_time = facts.at("simulated_time_s");
     provenance.steps = facts.at("steps");
-  } catch (const Json::parse_error& error) {
+  } catch (const OrderedJson::parse_error& error) {
     fail_as_damaged(file, text.empty() ? "it is empty" : fmt::format("it is not JSON from byte {} on", error.byte));
-  } catch (const Json::exception& error) {
+  } catch (const OrderedJson::exception& error) {
     const std::string specified = error.what();
     fail_as_damaged(
         file, specified.substr(std::min(specified.size(), specified.find("] ") + 2)));  // without the library's number

@@ -14,6 +14,7 @@
 
 #include "base/error.hpp"
 #include "config/input_limits.hpp"
+#include "io/files.hpp"
 
 namespace thawslide::io {
 
@@ -64,12 +65,6 @@ std::string line_in(int descriptor) {
     words.pop_back();
   }
   return config::shown(words);
-}
-
-std::string host_name() {
-  char host[256] = "";
-  gethostname(host, sizeof host - 1);
-  return host;
 }
 
 std::string format_process(pid_t number) { return fmt::format("process {} on {}", number, host_name()); }

@@ -6,7 +6,7 @@
 
 namespace thawslide::sim {
 
-inline constexpr double least_fraction = 1e-6;  // of the maximum momentum or force: smaller values are round-off
+inline constexpr double least_sum = 1e-6;  // of the maximum momentum or force: smaller values are round-off
 
 // Momentum and force along a direction, with their magnitudes if fully aligned with it.
 class Departure {
@@ -30,7 +30,7 @@ class Departure {
 
  private:
   static int sign_of(double sum, double most) {
-    return std::abs(sum) <= least_fraction * most ? 0 : sum > 0.0 ? 1 : -1;
+    return std::abs(sum) <= least_sum * most ? 0 : sum > 0.0 ? 1 : -1;
   }
 
   double mass_ = 0.0, momentum_ = 0.0, most_momentum_ = 0.0, force_ = 0.0, most_force_ = 0.0;

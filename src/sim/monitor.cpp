@@ -15,7 +15,7 @@ namespace thawslide::sim {
 namespace {
 
 // Round-off of sums over particles, relative to their largest term, the potential energy.
-constexpr double round_off = 1e-10;
+constexpr double round_off_of_energy = 1e-10;
 
 // Lower bound of the reference energy, as the energy of a fall by this number of cells. A body almost at rest has so
 // little energy that discretization errors are a large fraction of it. An instability exceeds the bound within some
@@ -140,7 +140,7 @@ void Simulation<Dim>::stop_if_energy_grows(const mpm::MonitorSums& seen) {
   const double growth = made - monitor_.lowest_made;
   const double weight = static_cast<double>(seen.mass * model_.motion.gravity.norm());
   const double energy = std::max(monitor_.largest_energy, weight * noticed_fall * parameters_.grid.cell);
-  const double round_off_of_sums = round_off * static_cast<double>(std::abs(seen.potential));
+  const double round_off_of_sums = round_off_of_energy * static_cast<double>(std::abs(seen.potential));
   monitor_.made_fraction = made > round_off_of_sums ? made / energy : 0.0;
   if (growth > parameters_.guards.energy_growth * energy + round_off_of_sums) {
     stop_for_energy(growth, growth / energy);

@@ -11,8 +11,6 @@ namespace thawslide::sim {
 
 namespace {
 
-constexpr double round_off = 1e-9;  // of accumulated times, as a fraction of a step
-
 // Advice on a limit that has fallen to a small fraction of its initial value.
 std::string advice_on(LimitKind kind) {
   switch (kind) {

@@ -10,7 +10,6 @@ namespace thawslide::terrain {
 namespace {
 
 constexpr int reach = 4;  // columns on each side in the average
-constexpr double round_off = 1e-9;
 
 template <class Number>
 std::uint64_t key_of(const Number& number) {
