@@ -381,15 +381,5 @@ TEST(Transfers, PicFractionBelongsToTheBlend) {
   EXPECT_EQ(error_of_changed({fraction}, {"mechanics.transfer=blend"}), "no error");
 }
 
-TEST(Transfers, ApicNeedsShapeFunctionsWithASecondMoment) {
-  const Change apic{"[basal]", "[mechanics]\ntransfer = \"apic\"\nshape_function = \"linear\"\n[basal]"};
-  EXPECT_EQ(
-      error_of_changed({apic}),
-      "FOLDER/case.toml:21:12: mechanics.transfer is \"apic\", and mechanics.shape_function is \"linear\"; allowed "
-      "with it: \"quadratic\" or \"ugimp\", since nodes almost without mass would spoil the affine velocity. Set "
-      "mechanics.shape_function = \"quadratic\", or another mechanics.transfer.");
-  EXPECT_EQ(error_of_changed({apic}, {"mechanics.shape_function=quadratic"}), "no error");
-}
-
 }  // namespace
 }  // namespace thawslide::config

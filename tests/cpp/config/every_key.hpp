@@ -115,7 +115,7 @@ noise = 0.125
 seed = 7
 [mechanics]
 enabled = false
-shape_function = "linear"
+shape_function = "quadratic"
 transfer = "blend"
 pic_fraction = 0.125
 initial_stress = "settle"

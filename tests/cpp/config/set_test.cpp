@@ -21,9 +21,10 @@ TEST(Set, ReplacesNumbers) {
 }
 
 TEST(Set, ReplacesKeywordsAndTexts) {
-  const Case found = case_from_text(valid_case, {"mechanics.shape_function=linear", "heat.boundary.x_min=\"insulated\"",
-                                                 "case.title=Two words = one title", "heat.enabled=false"});
-  EXPECT_EQ(found.mechanics.shape_function, ShapeFunction::linear);
+  const Case found =
+      case_from_text(valid_case, {"mechanics.shape_function=quadratic", "heat.boundary.x_min=\"insulated\"",
+                                  "case.title=Two words = one title", "heat.enabled=false"});
+  EXPECT_EQ(found.mechanics.shape_function, ShapeFunction::quadratic);
   EXPECT_EQ(found.general.title, "Two words = one title");
   EXPECT_FALSE(found.heat.enabled);
 }
