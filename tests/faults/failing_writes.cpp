@@ -116,35 +116,16 @@ int open_with(const char* name, const char* path, int flags, mode_t mode) {
 
 extern "C" {
 
-int open(const char* path, int flags, ...) {
-  va_list words;
-  va_start(words, flags);
-  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(words, mode_t) : 0;
-  va_end(words);
-  return open_with("open", path, flags, mode);
-}
-
-int open64(const char* path, int flags, ...) {
-  va_list words;
-  va_start(words, flags);
-  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(words, mode_t) : 0;
-  va_end(words);
-  return open_with("open64", path, flags, mode);
-}
-
-FILE* fopen(const char* path, const char* mode) {
-  if (std::strpbrk(mode, "wa+") != nullptr && fate_of_call(path) != Fate::goes_on) {
-    return failed<FILE*>(nullptr);
+#define OPENS(name)                                                         \
+  int name(const char* path, int flags, ...) {                              \
+    va_list words;                                                          \
+    va_start(words, flags);                                                 \
+    const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(words, mode_t) : 0; \
+    va_end(words);                                                          \
+    return open_with(#name, path, flags, mode);                             \
   }
-  return real<FILE*(const char*, const char*)>("fopen")(path, mode);
-}
-
-FILE* fopen64(const char* path, const char* mode) {
-  if (std::strpbrk(mode, "wa+") != nullptr && fate_of_call(path) != Fate::goes_on) {
-    return failed<FILE*>(nullptr);
-  }
-  return real<FILE*(const char*, const char*)>("fopen64")(path, mode);
-}
+OPENS(open)
+OPENS(open64)
 
 ssize_t write(int descriptor, const void* data, size_t bytes) {
   const Fate fate = fate_of_call(descriptor);
@@ -155,48 +136,28 @@ ssize_t write(int descriptor, const void* data, size_t bytes) {
   return real<ssize_t(int, const void*, size_t)>("write")(descriptor, data, share);
 }
 
-ssize_t writev(int descriptor, const iovec* parts, int count) {
-  if (fate_of_call(descriptor) != Fate::goes_on) {
-    return failed<ssize_t>(-1);
+// A function that returns `failure` if the call on `place` is to fail, and else what the system's own returns.
+#define FAILS(result, name, parameters, arguments, place, failure)                                                    \
+  result name parameters {                                                                                            \
+    return fate_of_call(place) != Fate::goes_on ? failed<result>(failure) : real<result parameters>(#name) arguments; \
   }
-  return real<ssize_t(int, const iovec*, int)>("writev")(descriptor, parts, count);
-}
-
-ssize_t pwrite64(int descriptor, const void* data, size_t bytes, off64_t place) {
-  if (fate_of_call(descriptor) != Fate::goes_on) {
-    return failed<ssize_t>(-1);
-  }
-  return real<ssize_t(int, const void*, size_t, off64_t)>("pwrite64")(descriptor, data, bytes, place);
-}
-
-size_t fwrite(const void* data, size_t size, size_t count, FILE* file) {
-  if (fate_of_call(fileno(file)) != Fate::goes_on) {
-    return failed<size_t>(0);
-  }
-  return real<size_t(const void*, size_t, size_t, FILE*)>("fwrite")(data, size, count, file);
-}
+#define WRITTEN(path, mode) (std::strpbrk(mode, "wa+") != nullptr ? (path) : nullptr)
+FAILS(FILE*, fopen, (const char* path, const char* mode), (path, mode), WRITTEN(path, mode), nullptr)
+FAILS(FILE*, fopen64, (const char* path, const char* mode), (path, mode), WRITTEN(path, mode), nullptr)
+FAILS(ssize_t, writev, (int file, const iovec* parts, int count), (file, parts, count), file, -1)
+FAILS(ssize_t, pwrite64, (int file, const void* data, size_t bytes, off64_t at), (file, data, bytes, at), file, -1)
+FAILS(size_t, fwrite, (const void* data, size_t size, size_t count, FILE* file), (data, size, count, file),
+      fileno(file), 0)
+FAILS(int, fsync, (int file), (file), file, -1)
+FAILS(int, ftruncate, (int file, off_t size), (file, size), file, -1)
+FAILS(int, ftruncate64, (int file, off64_t size), (file, size), file, -1)
+FAILS(int, rename, (const char* from, const char* to), (from, to), to, -1)
+FAILS(int, mkdir, (const char* path, mode_t mode), (path, mode), path, -1)
 
 int fclose(FILE* file) {
   const bool fails = fate_of_call(fileno(file)) != Fate::goes_on;
   const int result = real<int(FILE*)>("fclose")(file);
   return fails ? failed(EOF) : result;
-}
-
-int fsync(int descriptor) {
-  return fate_of_call(descriptor) != Fate::goes_on ? failed(-1) : real<int(int)>("fsync")(descriptor);
-}
-
-int ftruncate64(int descriptor, off64_t size) {
-  return fate_of_call(descriptor) != Fate::goes_on ? failed(-1)
-                                                   : real<int(int, off64_t)>("ftruncate64")(descriptor, size);
-}
-
-int ftruncate(int descriptor, off_t size) {
-  return fate_of_call(descriptor) != Fate::goes_on ? failed(-1) : real<int(int, off_t)>("ftruncate")(descriptor, size);
-}
-
-int rename(const char* from, const char* to) {
-  return fate_of_call(to) != Fate::goes_on ? failed(-1) : real<int(const char*, const char*)>("rename")(from, to);
 }
 
 int flock(int descriptor, int kind) {
@@ -206,10 +167,6 @@ int flock(int descriptor, int kind) {
     return -1;
   }
   return real<int(int, int)>("flock")(descriptor, kind);
-}
-
-int mkdir(const char* path, mode_t mode) {
-  return fate_of_call(path) != Fate::goes_on ? failed(-1) : real<int(const char*, mode_t)>("mkdir")(path, mode);
 }
 
 }  // extern "C"

@@ -1,5 +1,6 @@
 // Bytes of a map file: the first selects its kind, the others are the file, or changes to a valid one. GDAL reads
 // them first, therefore findings can be errors of GDAL.
+#include <algorithm>
 #include <memory>
 
 #include "gis/raster_file.hpp"
@@ -95,34 +96,29 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     return 0;
   }
   const ValidFiles& valid = valid_files();
-  Provider bytes(data + 1, size - 1);
-  switch (data[0]) {
-    case 't':
-      read_raster(fuzz::in_memory("map.tif", bytes.ConsumeRemainingBytesAsString()));
-      break;
-    case 'a':
-      read_raster(fuzz::in_memory("map.asc", bytes.ConsumeRemainingBytesAsString()));
-      break;
-    case 'j':
-      read_features(fuzz::in_memory("area.geojson", bytes.ConsumeRemainingBytesAsString()));
-      break;
-    case 'p':
-      read_raster(fuzz::in_memory("map.tif", fuzz::changed(valid.tiff, bytes)));
-      break;
-    case 'd':
-      read_raster(fuzz::in_memory("map.tif", fuzz::changed(valid.tiled, bytes)));
-      break;
-    case 'g':
-      read_features(fuzz::in_memory("area.gpkg", fuzz::changed(valid.geopackage, bytes)));
-      break;
-    case 's':
-      fuzz::in_memory("area.shx", valid.shape_index);
-      fuzz::in_memory("area.dbf", valid.shape_table);
-      read_features(fuzz::in_memory("area.shp", fuzz::changed(valid.shape, bytes)));
-      break;
-    default:
-      return -1;
+  // The first byte, the file that it selects, a valid one whose bytes are changed (none: the input is the file), and
+  // the reader.
+  const struct {
+    unsigned char letter;
+    const char* name;
+    const std::string* valid;
+    void (*read)(const std::string&);
+  } kinds[] = {{'t', "map.tif", nullptr, read_raster},        {'a', "map.asc", nullptr, read_raster},
+               {'j', "area.geojson", nullptr, read_features}, {'p', "map.tif", &valid.tiff, read_raster},
+               {'d', "map.tif", &valid.tiled, read_raster},   {'g', "area.gpkg", &valid.geopackage, read_features},
+               {'s', "area.shp", &valid.shape, read_features}};
+  const auto* kind =
+      std::find_if(std::begin(kinds), std::end(kinds), [&](const auto& k) { return k.letter == data[0]; });
+  if (kind == std::end(kinds)) {
+    return -1;
   }
+  Provider bytes(data + 1, size - 1);
+  if (kind->valid == &valid.shape) {
+    fuzz::in_memory("area.shx", valid.shape_index);
+    fuzz::in_memory("area.dbf", valid.shape_table);
+  }
+  kind->read(fuzz::in_memory(
+      kind->name, kind->valid == nullptr ? bytes.ConsumeRemainingBytesAsString() : fuzz::changed(*kind->valid, bytes)));
   VSIRmdirRecursive(fuzz::memory.c_str());
   return 0;
 }

@@ -1,8 +1,10 @@
-// The domain that `thawslide new` proposes contains the release, whose edge and top lie between points of the DEM.
+// The domain that `thawslide new` proposes contains the release, whose edge and top lie between points of the DEM, and
+// the warnings about a release near the edge of the known terrain.
 #include "config/case_proposal.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "config/section_proposal.hpp"
@@ -13,30 +15,23 @@ namespace {
 
 constexpr double cell = 10.0;  // of the DEM [m]
 
-Raster points(int columns, int rows) {
-  Raster raster;
-  raster.x = 1000.0;
-  raster.y = 2000.0;
-  raster.cell_x = raster.cell_y = cell;
-  raster.columns = columns;
-  raster.rows = rows;
-  return raster;
-}
-
-Raster dem_points() {
-  Raster dem = points(60, 40);
-  dem.values.assign(60 * 40, 0.0);
-  for (int row = 0; row < dem.rows; ++row) {
-    for (int column = 0; column < dem.columns; ++column) {
-      dem.values[dem.index(column, row)] = 500.0 - 0.8 * cell * column;
-    }
+// 60 columns of points, the first at 1000, 2000, of a plane that falls to the east.
+Raster dem_points(double slope = 0.8, int rows = 40) {
+  Raster dem;
+  dem.x = 1000.0;
+  dem.y = 2000.0;
+  dem.cell_x = dem.cell_y = cell;
+  dem.columns = 60;
+  dem.rows = rows;
+  for (int k = 0; k < dem.columns * dem.rows; ++k) {
+    dem.values.push_back(500.0 - slope * cell * (k % dem.columns));
   }
   return dem;
 }
 
-Raster release_at(int first_column, int first_row, double thickness) {
-  Raster raster = points(60, 40);
-  raster.values.assign(60 * 40, 0.0);
+// A release of 10 x 8 points.
+Raster release_at(int first_column, int first_row, double thickness, int rows = 40) {
+  Raster raster = dem_points(0.0, rows).filled(0.0);
   for (int row = first_row; row < first_row + 8; ++row) {
     for (int column = first_column; column < first_column + 10; ++column) {
       raster.values[raster.index(column, row)] = thickness;
@@ -130,6 +125,48 @@ TEST(CaseProposal, BeginsAtTheEdgeOfTheDemIfAMultipleOfTheCellWouldCutTheRelease
     EXPECT_GE(proposal.min[1], 2000.0);
     EXPECT_LE(proposal.max[1], 2390.0);
   }
+}
+
+// The release of 10 x 8 points ends a cell beyond them: 110 m x 90 m.
+TEST(EdgeWarning, IsGivenIfTheEdgeIsNearerThanTheLengthOfTheRelease) {
+  const Raster dem = dem_points(0.0, 60);
+  for (int first = 1; first < 49; first += 4) {
+    for (const bool along_x : {true, false}) {
+      const Proposal proposal =
+          propose(dem, along_x ? release_at(first, 25, 20.0, 60) : release_at(25, first, 20.0, 60), 20.0);
+      EXPECT_EQ(proposal.length, 110.0);
+      const int last = first + (along_x ? 9 : 7);
+      const double distance = std::min(110.0, cell * std::min(first - 1, 58 - last));
+      EXPECT_EQ(proposal.edge_distance, distance) << first;
+      EXPECT_EQ(edge_warning(proposal).empty(), distance >= 110.0) << first;
+    }
+  }
+  EXPECT_EQ(edge_warning(propose(dem, release_at(4, 25, 20.0, 60), 20.0)),
+            "--dem: the release is close to the edge of the known terrain (found 30 m; needed at least its own length, "
+            "110 m). Particles that pass the edge are removed, and the results do not include them. Use a larger DEM");
+}
+
+TEST(EdgeWarning, IsGivenForPointsWithoutData) {
+  Raster dem = dem_points(0.0, 60);
+  const Raster release = release_at(25, 25, 20.0, 60);  // from 1240 to 1350 m and from 2240 to 2330 m
+  EXPECT_EQ(edge_warning(propose(dem, release, 20.0)), "");
+  dem.values[dem.index(38, 37)] = std::nan("");  // 30 m to the east and 40 m to the north
+  const Proposal proposal = propose(dem, release, 20.0);
+  EXPECT_NEAR(proposal.edge_distance, 50.0, 1e-9);
+  EXPECT_NE(edge_warning(proposal).find("(found 50 m; needed at least its own length, 110 m"), std::string::npos);
+}
+
+TEST(EdgeWarning, IsGivenForACaseThatRemovesLeavingParticles) {
+  const Raster dem = dem_points(0.0, 60);
+  ProposalInput input;
+  input.dem_file = "dem.tif";
+  input.release_file = "release.geojson";
+  input.thickness = {MapValue::From::number, 20.0, ""};
+  const std::string text = case_text(input, propose(dem, release_at(25, 25, 20.0, 60), 20.0));
+  EXPECT_NE(
+      text.find("\nleaving = \"remove\"  # what leaves the domain or the DEM is removed, and its mass reported; "),
+      std::string::npos)
+      << text;
 }
 
 }  // namespace

@@ -1,15 +1,16 @@
-// Warnings about bodies with too few particles or cells across their thickness, and the cost of finer cells.
+// Cell sizes: warnings about too few particles or cells across a body, the cost of finer cells, sizes that divide the
+// domain.
 #include "config/resolution.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <regex>
 #include <stdexcept>
 
-#include "../support/case_from_text.hpp"
+#include "case_messages.hpp"
 #include "config/case_proposal.hpp"
+#include "config/fitting_cell.hpp"
 
 namespace thawslide::config {
 namespace {
@@ -104,37 +105,14 @@ TEST(Resolution, RunTimeIsProportionalToCellsAndSteps) {
   EXPECT_EQ(run_time_factor(5.0, 5.0, 3), 1.0);
 }
 
-const std::string text = R"([case]
-dimension = {}
-[time]
-end = 1.0
-step = 0.001
-[grid]
-cell = 1.0
-min = [0.0, 0.0{}]
-max = [20.0, 20.0{}]
-[terrain]
-type = "flat"
-elevation = 1.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 1e8
-poisson_ratio = 0.2
-[body.block]
-material = "rock"
-min = [5.0, 1.0{}]
-max = [10.0, 5.0{}]
-[basal]
-friction_angle = 30.0
-)";
-
 TEST(Resolution, MapsAreRequestedByTheirCellOrTheirMinimumThickness) {
-  const std::string space = fmt::format(fmt::runtime(text), 3, ", 0.0", ", 20.0", ", 1.0", ", 5.0");
-  const std::string plane = fmt::format(fmt::runtime(text), 2, "", "", "", "");
+  using namespace case_messages;
+  write_map_files();
+  const std::string& space = valid_case_on_dem;
   const auto asks = [](const std::string& file, const std::vector<std::string>& sets = {}) {
     return requests_maps(testing_support::case_from_text(file, sets));
   };
-  EXPECT_FALSE(asks(plane));
+  EXPECT_FALSE(asks(valid_case));
   EXPECT_FALSE(asks(space));
   EXPECT_FALSE(asks(space + "[maps]\n"));
   EXPECT_TRUE(asks(space + "[maps]\narrival_thickness = 0.1\n")) << "at its default, and given";
@@ -195,6 +173,54 @@ TEST(Resolution, IsFoundByItsName) {
     EXPECT_EQ(resolution_named(each.name), each.resolution);
   }
   EXPECT_THROW((void)resolution_named("coarse"), std::out_of_range);
+}
+
+using Lengths = std::vector<double>;
+
+bool fits(double cell, const Lengths& lengths) {
+  bool all = true;
+  for (const double length : lengths) {
+    const double cells = length / cell;
+    all = all && cells > 1.999 && std::abs(cells - std::round(cells)) < 1e-6 * cells;  // as in check_grid
+  }
+  return all;
+}
+
+TEST(FittingCell, NearAGivenSizeFitsAllAxes) {
+  const Lengths valley{9960.0, 4320.0, 1800.0};
+  EXPECT_EQ(fitting_cell_near(80.0, valley), 60.0);
+  EXPECT_EQ(fitting_cell_near(79.68, valley), 60.0) << "not 80 m again";
+  EXPECT_EQ(fitting_cell_near(35.0, valley), 40.0);
+  EXPECT_EQ(fitting_cell_near(8.0, {100.0, 60.0}), 10.0);
+  EXPECT_EQ(fitting_cell_near(0.8, {10.0, 6.0}), 1.0);
+}
+
+TEST(FittingCell, NearAnySizeFitsOrIsZero) {
+  int found = 0;
+  for (int k = 1; k < 2000; ++k) {
+    const Lengths lengths{0.1 * (200 + k % 37), 0.1 * (150 + k % 11), 12.5};
+    const double requested = 0.01 * k, cell = fitting_cell_near(requested, lengths);
+    found += cell > 0.0 ? 1 : 0;
+    EXPECT_TRUE(cell == 0.0 || (fits(cell, lengths) && cell < 1.51 * requested && requested < 1.51 * cell))
+        << cell << " m for " << requested << " m";
+  }
+  EXPECT_GT(found, 10);
+}
+
+TEST(FittingCell, IsZeroIfTheLengthsHaveNoCommonDivisor) {
+  EXPECT_EQ(fitting_cell_near(5.0, {101.0, 60.0}), 0.0) << "1 m is far off";
+  EXPECT_EQ(fitting_cell_near(5.0, {100.0 / 3.0, 60.0}), 0.0);
+  EXPECT_EQ(fitting_cell_near(5.0, {100.0, -60.0}), 0.0);
+  EXPECT_EQ(fitting_cell_near(5.0, {7.0, 7.0}), 3.5) << "two cells at least, not the one of 7 m";
+}
+
+TEST(FittingCell, RespectsItsLowerOrUpperBound) {
+  const Lengths lengths{200.0, 60.0};
+  EXPECT_DOUBLE_EQ(fitting_cell(1.9, 2.0, lengths), 20.0 / 11.0) << "20 m is the greatest length that divides both";
+  EXPECT_EQ(fitting_cell(1.3, 2.0, lengths), 1.0) << "few digits preferred";
+  EXPECT_EQ(fitting_cell_from(2.1, 2.0, lengths), 2.5);
+  EXPECT_EQ(fitting_cell_from(30.0, 2.0, lengths), 30.0) << "no size fits, and the required one is returned";
+  EXPECT_EQ(fitting_cell(1.9, 2.0, {}), 1.5);
 }
 
 }  // namespace

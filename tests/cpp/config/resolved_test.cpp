@@ -64,7 +64,7 @@ TEST(Resolved, WritesEveryKeyAsItWasGivenAndReadsBack) {
   for (const auto& table : tables()) {
     for (const Entry& entry : table->entries()) {
       if (entry.rule->key == "based_on") {
-        continue;  // a resolved case has no base case; see variants_test.cpp
+        continue;  // a resolved case has no base case; see changed_cases_test.cpp
       }
       const std::string value = given[own_name(*table)][entry.rule->key];
       EXPECT_NE(value, "") << table->name << '.' << entry.rule->key << " is not tested";
@@ -72,6 +72,7 @@ TEST(Resolved, WritesEveryKeyAsItWasGivenAndReadsBack) {
     }
   }
 }
+
 TEST(Resolved, WritesDefaultsAndUnitsButNoIrrelevantKeys) {
   const std::string text = resolved_toml(case_from_text(valid_case), "inputs");
   const Lines lines = lines_of(text);

@@ -1,9 +1,10 @@
-// Text files, readable and unreadable.
+// Text files, readable and unreadable, and texts of users in messages.
 #include "config/text_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include "case_messages.hpp"
+#include "config/input_limits.hpp"
 
 namespace thawslide::config {
 namespace {
@@ -32,6 +33,20 @@ TEST(TextFile, ThatIsUnreadableIsReportedWithTheReason) {
   EXPECT_EQ(refusal_of("/proc/self/mem"),
             "/proc/self/mem: cannot be read: Input/output error. Check that the file is whole and may be read.")
       << "it opens, and its first byte is an error";
+}
+
+TEST(InputLimits, TerminalControlCharactersAreReplaced) {
+  EXPECT_EQ(printable("a\x1b[2J\x7f\n\tb"), "a?[2J???b");
+  EXPECT_EQ(printable("a\x1b[2J\n\tb", "\n\t"), "a?[2J\n\tb");
+  EXPECT_EQ(printable("left \u202e right \u2069 \u202f"), "left ? right ? \u202f") << "a space that is no mark stays";
+  EXPECT_EQ(printable("gl\u00e4cier"), "gl\u00e4cier");
+}
+
+TEST(InputLimits, LongTextsAreCut) {
+  const std::string most(most_letters_quoted, 'x');
+  EXPECT_EQ(shown(most), most);
+  EXPECT_EQ(shown(most + "y"), most + "...");
+  EXPECT_EQ(shown("\a" + most), "?" + most.substr(1) + "...");
 }
 
 }  // namespace

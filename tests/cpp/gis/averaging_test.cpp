@@ -95,14 +95,14 @@ TEST(AveragingTest, ReleasesKeepTheVolumeOfAFinerRaster) {
       ASSERT_NEAR(volume_of(raster), volume_of_ribs, 1e-6);
       config::Case parameters = plain_case(ground());
       parameters.bodies["rock"] = raster_body(geotiff("ribs.tif", raster));
-      EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs, 1e-6);
+      EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume_of_ribs, 1e-6);
       // Within an outline along cells of the ground or across them.
       parameters.bodies.at("rock").release =
           geojson("outline.geojson", {{"", box_at(320 + shift, 320 + shift, 520 + shift, 520 + shift)}});
-      EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs, 1e-4);
+      EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume_of_ribs, 1e-4);
       // Western half.
       parameters.bodies.at("rock").release = geojson("outline.geojson", {{"", box_at(250, 250, 420 + shift, 700)}});
-      EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), 0.5 * volume_of_ribs, 1e-4);
+      EXPECT_NEAR(volume_of(release_of(parameters).thickness), 0.5 * volume_of_ribs, 1e-4);
     }
   }
 }
@@ -114,11 +114,9 @@ TEST(AveragingTest, ReleasesKeepTheVolumeOfAFinerRasterOfAnotherSystem) {
   const Raster raster = ribs("EPSG:32633", x[0], y[0], 1.0);
   config::Case parameters = plain_case(ground());
   parameters.bodies["rock"] = raster_body(geotiff("ribs.tif", raster));
-  EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs,
-              5e-3 * volume_of_ribs);
+  EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume_of_ribs, 5e-3 * volume_of_ribs);
   parameters.bodies.at("rock").release = geojson("outline.geojson", {{"", box_at(250, 250, 600, 600)}});
-  EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs,
-              5e-3 * volume_of_ribs);
+  EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume_of_ribs, 5e-3 * volume_of_ribs);
 }
 
 // Positions in the two systems differ by less than a metre; lengths are equal.
@@ -126,26 +124,21 @@ TEST(AveragingTest, ReleasesKeepTheVolumeOfAFinerRasterOfNearlyTheSameSystem) {
   const Raster raster = ribs("EPSG:25833", west + 300.0, south + 300.0, 1.0);
   config::Case parameters = plain_case(ground("EPSG:32633"));
   parameters.bodies["rock"] = raster_body(geotiff("ribs.tif", raster));
-  EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs,
-              5e-3 * volume_of_ribs);
+  EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume_of_ribs, 5e-3 * volume_of_ribs);
 }
 
 TEST(AveragingTest, SurfacesFinerThanTheGroundKeepTheVolumeAboveIt) {
   const Raster thickness = ribs("EPSG:31287", west + 300.0, south + 300.0, 1.0);
   Raster surface = thickness;
-  for (int row = 0; row < surface.rows; ++row) {
-    for (int column = 0; column < surface.columns; ++column) {
-      surface.values[surface.index(column, row)] += plane(surface.x_of(column), surface.y_of(row));
-    }
-  }
+  for_points(surface, [&](int column, int row) {
+    surface.values[surface.index(column, row)] += plane(surface.x_of(column), surface.y_of(row));
+  });
   config::Case parameters = plain_case(ground());
   parameters.bodies["rock"] = raster_body(geotiff("before.tif", surface));
   parameters.bodies.at("rock").thickness.from = config::MapValue::From::surface;
-  EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs,
-              1e-6 * volume_of_ribs);
+  EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume_of_ribs, 1e-6 * volume_of_ribs);
   parameters.bodies.at("rock").release = geojson("outline.geojson", {{"", box_at(322, 322, 518, 518)}});
-  EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume_of_ribs * 196.0 * 196.0 / 4e4,
-              0.01 * volume_of_ribs);
+  EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume_of_ribs * 196.0 * 196.0 / 4e4, 0.01 * volume_of_ribs);
 }
 
 // A surface known within the release only, at points of any spacing and offset relative to the ground. Between points
@@ -158,13 +151,11 @@ TEST(AveragingTest, SurfacesWithoutDataAroundTheReleaseKeepItsVolume) {
         const double first = 300.0 + shift - margin * cell;
         Raster surface = raster_of([](double x, double y) { return plane(x, y) + 10.0; }, west + first, south + first,
                                    cell, inside + 2 * margin, inside + 2 * margin, "EPSG:31287");
-        for (int row = 0; row < surface.rows; ++row) {
-          for (int column = 0; column < surface.columns; ++column) {
-            if (std::min(row, column) < margin || std::max(row, column) >= margin + inside) {
-              surface.values[surface.index(column, row)] = missing;
-            }
+        for_points(surface, [&](int column, int row) {
+          if (std::min(row, column) < margin || std::max(row, column) >= margin + inside) {
+            surface.values[surface.index(column, row)] = missing;
           }
-        }
+        });
         config::Case parameters = plain_case(ground());
         parameters.bodies["rock"] = raster_body(geotiff("before.tif", surface));
         parameters.bodies["rock"].thickness.from = config::MapValue::From::surface;
@@ -172,8 +163,7 @@ TEST(AveragingTest, SurfacesWithoutDataAroundTheReleaseKeepItsVolume) {
         // A tolerance, as for noise, removes nothing if the surface is known in a part of a cell.
         for (const double tolerance : {0.01, cell < 5.0 ? 4.0 : 0.01}) {
           parameters.bodies["rock"].surface_tolerance = tolerance;
-          EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), volume,
-                      (cell <= 5.0 ? 1e-6 : 0.01) * volume)
+          EXPECT_NEAR(volume_of(release_of(parameters).thickness), volume, (cell <= 5.0 ? 1e-6 : 0.01) * volume)
               << cell << ", " << shift << ", " << margin << ", " << tolerance;
         }
       }
@@ -189,7 +179,7 @@ TEST(AveragingTest, TemperaturesAreMeansAndEachIsChecked) {
   Raster stripes = raster_of([](double x, double) { return std::fmod(x - west, 2.0) < 1.0 ? -4.0 : -8.0; },
                              west + 250.5, south + 250.5, 1.0, 200, 200);
   temperature.source = geotiff("temperature.tif", stripes);
-  const Raster field = load_site(parameters).site.releases.at("rock").fields.at("temperature");
+  const Raster field = release_of(parameters).fields.at("temperature");
   for (int row = 3; row + 3 < field.rows; ++row) {
     for (int column = 3; column + 3 < field.columns; ++column) {
       EXPECT_NEAR(field.at(column, row), -6.0, 1e-9);
@@ -197,7 +187,7 @@ TEST(AveragingTest, TemperaturesAreMeansAndEachIsChecked) {
   }
   stripes.values[stripes.index(100, 100)] = -5000.0;
   temperature.source = geotiff("other.tif", stripes);
-  EXPECT_NE(error_of_site(parameters).find("the temperature is -5000 C; allowed: above -273.15 C"), std::string::npos);
+  expect_message(error_of_site(parameters));
 }
 
 TEST(AveragingTest, NegativeThicknessIsNotHiddenByAMean) {
@@ -218,15 +208,13 @@ TEST(AveragingTest, BedsAreAveraged) {
                                    west + 50.5, south + 50.5, 1.0, 900, 700));
   const Raster depth = load_site(parameters).site.bed_depth;
   int inside = 0;
-  for (int row = 0; row < depth.rows; ++row) {
-    for (int column = 0; column < depth.columns; ++column) {
-      const double x = depth.x_of(column) - west, y = depth.y_of(row) - south;
-      if (x >= 100.0 && x <= 900.0 && y >= 100.0 && y <= 700.0) {
-        ASSERT_NEAR(depth.at(column, row), 1.0, 1e-9);
-        ++inside;
-      }
+  for_points(depth, [&](int column, int row) {
+    const double x = depth.x_of(column) - west, y = depth.y_of(row) - south;
+    if (x >= 100.0 && x <= 900.0 && y >= 100.0 && y <= 700.0) {
+      ASSERT_NEAR(depth.at(column, row), 1.0, 1e-9);
+      ++inside;
     }
-  }
+  });
   EXPECT_GT(inside, 1000);
 }
 

@@ -25,6 +25,29 @@ namespace thawslide::gis::map_files {
 
 using config::case_messages::error_of;
 
+// Compares a message with the next one of this test in messages.txt.
+inline void expect_message(const std::string& found) {
+  static std::string run_of_test;
+  static std::ifstream lines;
+  const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+  const std::string name = fmt::format("{}.{}", test.test_suite_name(), test.name());
+  if (const std::string run = fmt::format("{} {}", name, test.result()->start_timestamp()); run != run_of_test) {
+    lines = std::ifstream(std::filesystem::path(THAWSLIDE_SOURCE_DIR) / "tests/cpp/gis/messages.txt");
+    run_of_test = run;
+  }
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind(name + ": ", 0) == 0) {
+      EXPECT_EQ(found, line.substr(name.size() + 2));
+      return;
+    }
+    if (line.rfind(name + "~ ", 0) == 0) {
+      EXPECT_NE(found.find(line.substr(name.size() + 2)), std::string::npos) << found << " does not contain " << line;
+      return;
+    }
+  }
+  ADD_FAILURE() << "messages.txt has no more messages of " << name << "; found " << found;
+}
+
 inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 inline std::string in_folder(const std::string& name) {
@@ -36,6 +59,16 @@ inline std::string in_folder(const std::string& name) {
 inline std::string text_file(const std::string& name, const std::string& text) {
   std::ofstream(in_folder(name), std::ios::binary) << text;
   return in_folder(name);
+}
+
+// Calls `work` with the column and the row of each point.
+template <class Work>
+void for_points(const Raster& raster, const Work& work) {
+  for (int row = 0; row < raster.rows; ++row) {
+    for (int column = 0; column < raster.columns; ++column) {
+      work(column, row);
+    }
+  }
 }
 
 // Heights z(x, y) at points, the first of them at x, y.

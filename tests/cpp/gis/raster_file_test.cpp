@@ -1,4 +1,4 @@
-// Rasters in files: values read equal those written, for every format, type and direction of rows.
+// Rasters in files: values read equal those written, for every format, type and direction of rows; unusable files.
 #include "gis/raster_file.hpp"
 
 #include <chrono>
@@ -112,11 +112,8 @@ TEST(RasterFileTest, WindowIsPartOfTheWhole) {
   EXPECT_EQ(part.x_end(), 70.0);
   EXPECT_EQ(part.y, 40.0);
   EXPECT_EQ(part.y_end(), 55.0);
-  for (int row = 0; row < part.rows; ++row) {
-    for (int column = 0; column < part.columns; ++column) {
-      EXPECT_EQ(part.at(column, row), part.x_of(column) + 1000.0 * part.y_of(row));
-    }
-  }
+  for_points(
+      part, [&](int column, int row) { EXPECT_EQ(part.at(column, row), part.x_of(column) + 1000.0 * part.y_of(row)); });
   const Raster corner = file.read(Rectangle{-100.0, -100.0, 12.0, 22.0});
   EXPECT_EQ(corner.columns, 2);
   EXPECT_EQ(corner.rows, 2);
@@ -162,6 +159,98 @@ TEST(RasterFileTest, LargeModelIsReadInSeconds) {
   EXPECT_EQ(read.values, raster.values);
   EXPECT_LT(seconds, 10.0);
   std::filesystem::remove(file);
+}
+
+std::string error_of_file(const std::string& file) {
+  return error_of([&] { static_cast<void>(RasterFile(file, Quantity::length).read()); });
+}
+
+TEST(RasterFaultsTest, MissingFile) {
+  EXPECT_EQ(error_of_file(in_folder("none.tif")), "FOLDER/none.tif: there is no such file. Correct the path.");
+}
+
+TEST(RasterFaultsTest, NoRaster) {
+  const std::string message = error_of_file(text_file("dem.tif", "this is no raster"));
+  EXPECT_EQ(message.substr(0, message.find(';')), "FOLDER/dem.tif: the raster cannot be opened");
+  expect_message(message);
+}
+
+TEST(RasterFaultsTest, AsciiGridsThatGdalDoesNotOpen) {
+  const std::string header = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999\n";
+  EXPECT_EQ(
+      error_of_file(text_file("mark.asc", "\xEF\xBB\xBF" + header + "1 2\n3 4\n")),
+      "FOLDER/mark.asc: the file begins with a UTF-8 byte order mark, which an ASCII grid may not have. Remove it: "
+      "sed -i '1s/^\\xEF\\xBB\\xBF//' FOLDER/mark.asc");
+  for (const std::string first : {"nan", "NaN"}) {
+    EXPECT_EQ(error_of_file(text_file("first.asc", header + first + " 2\n3 4\n")),
+              "FOLDER/first.asc: the first value of the ASCII grid is nan, which GDAL does not read there. Write the "
+              "number of NODATA_value in its place, for example -9999: sed -i 's/nan/-9999/gi' FOLDER/first.asc");
+  }
+}
+
+TEST(RasterFaultsTest, SeveralBands) {
+  ForeignRaster what;
+  what.bands = 3;
+  expect_message(error_of_file(foreign("rgb.tif", what)));
+}
+
+TEST(RasterFaultsTest, Rotated) {
+  ForeignRaster what;
+  what.transform = {400000.0, 8.0, 6.0, 300030.0, 6.0, -8.0};
+  expect_message(error_of_file(foreign("turned.tif", what)));
+}
+
+TEST(RasterFaultsTest, OriginThatIsNotANumber) {
+  ForeignRaster what;
+  what.transform = {400000.0, std::numeric_limits<double>::quiet_NaN(), 0.0, 300030.0, 0.0, -8.0};
+  expect_message(error_of_file(foreign("cells.tif", what)));
+  what.transform = {400000.0, 8.0, 0.0, 300030.0, 0.0, -1e308};
+  expect_message(error_of_file(foreign("height.tif", what)));
+}
+
+TEST(RasterFaultsTest, WithoutAnOrigin) {
+  GDALAllRegister();
+  const std::string file = in_folder("picture.tif");
+  GDALDatasetUniquePtr(
+      GetGDALDriverManager()->GetDriverByName("GTiff")->Create(file.c_str(), 4, 3, 1, GDT_Float32, nullptr));
+  expect_message(error_of_file(file));
+}
+
+TEST(RasterFaultsTest, ComplexNumbers) {
+  ForeignRaster what;
+  what.type = GDT_CFloat32;
+  expect_message(error_of_file(foreign("radar.tif", what)));
+}
+
+TEST(RasterFaultsTest, NodataOnly) {
+  ForeignRaster what;
+  what.nodata = -1.0;
+  what.values.assign(12, -1.0);
+  expect_message(error_of_file(foreign("holes.tif", what)));
+}
+
+TEST(RasterFaultsTest, TruncatedFilesAreRefused) {
+  const Raster raster = raster_of([](double x, double y) { return std::sin(x * y); }, 0.0, 0.0, 5.0, 200, 150);
+  const std::string tiff = geotiff("cut.tif", raster);
+  std::filesystem::resize_file(tiff, std::filesystem::file_size(tiff) / 2);
+  const std::string of_tiff = error_of_file(tiff);
+  EXPECT_EQ(of_tiff.substr(0, of_tiff.find(';')), "FOLDER/cut.tif: the values cannot be read") << of_tiff;
+  EXPECT_EQ(of_tiff.substr(of_tiff.rfind(". The")), ". The file seems to be damaged or truncated: copy it again.");
+  std::string text = "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 5\n1 2 3\n4 5 6\n7";
+  const std::string message = error_of_file(text_file("cut.asc", text));
+  EXPECT_EQ(message.substr(0, message.find(';')), "FOLDER/cut.asc: the values cannot be read") << message;
+  expect_message(message);
+  text = "ncols 5\nnrows 2400000\nxllcorner 0\nyllcorner 0\ncellsize 5\n1 2 3\n";
+  expect_message(error_of_file(text_file("short.asc", text)));
+}
+
+TEST(RasterFaultsTest, MapsThatCannotBeWrittenAreReported) {
+  const Raster raster = raster_of([](double, double) { return 1.0; }, 0.0, 0.0, 5.0, 4, 4);
+  const std::string message = error_of([&] {
+    write_geotiff(in_folder("no/such/folder/map.tif"), raster, {"m", "thickness"});
+  });
+  EXPECT_EQ(message.substr(0, 45), "cannot write FOLDER/no/such/folder/map.tif: G") << message;
+  expect_message(message);
 }
 
 }  // namespace

@@ -27,17 +27,11 @@ TEST(ReferenceSystemTest, HeightsAreRemovedFromASystem) {
   EXPECT_EQ(name_of(metric_system(metric_raster, reference_system_named("EPSG:26910+6360"), "")), "EPSG:26910")
       << "the unit of the heights is that of the values, which are converted";
   const std::string message = error_of_system(metric_raster, "", "EPSG:26910+6360");
-  EXPECT_NE(message.find(" has heights in the unit 'US survey foot'; allowed: a map projection in metres, without "
-                         "heights or with heights in metres. Name its horizontal part alone, and state the unit of "
-                         "the elevations in the file: gdal_edit.py -units"),
-            std::string::npos)
-      << message;
+  expect_message(message);
 }
 
 TEST(ReferenceSystemTest, NumberWithoutItsRegistry) {
-  EXPECT_EQ(error_of_system(metric_raster, "", "32632"),
-            "'32632' is not a known coordinate reference system; did you mean \"EPSG:32632\"? Allowed: a number of the "
-            "EPSG registry such as \"EPSG:31287\" (epsg.io finds it), or a WKT.");
+  expect_message(error_of_system(metric_raster, "", "32632"));
   EXPECT_EQ(error_of_system(metric_raster, "", "99999999").find("did you mean"), std::string::npos);
 }
 
@@ -60,58 +54,32 @@ TEST(ReferenceSystemTest, FarOutsideTheAreaOfTheSystem) {
 }
 
 TEST(ReferenceSystemTest, NoSystem) {
-  EXPECT_EQ(error_of_system(metric_raster, ""),
-            "dem.tif: the file names no coordinate reference system (x from 49280 to 52280, y from 193490 to 195690). "
-            "Set terrain.crs to the one that the data provider states, such as terrain.crs = \"EPSG:31287\".");
-  EXPECT_EQ(error_of_system(degree_raster, ""),
-            "alps/dem.tif: the file names no coordinate reference system (x from 10.2 to 10.3, y from 46.85 to 46.95). "
-            "If these are degrees, reproject to metres: gdalwarp -s_srs EPSG:4326 -t_srs EPSG:32632 -tr 31 31 -r "
-            "bilinear alps/dem.tif alps/dem-EPSG32632.tif. If they are metres, set terrain.crs to the system they are "
-            "in, such as terrain.crs = \"EPSG:31287\".");
+  expect_message(error_of_system(metric_raster, ""));
+  expect_message(error_of_system(degree_raster, ""));
 }
 
 TEST(ReferenceSystemTest, Degrees) {
-  EXPECT_EQ(
-      error_of_system(degree_raster, "EPSG:4326"),
-      "alps/dem.tif: the coordinates are degrees (EPSG:4326; x from 10.2 to 10.3, y from 46.85 to 46.95); allowed: "
-      "a map projection in metres. Reproject: gdalwarp -t_srs EPSG:32632 -tr 31 31 -r bilinear alps/dem.tif "
-      "alps/dem-EPSG32632.tif");
+  expect_message(error_of_system(degree_raster, "EPSG:4326"));
   const Located andes{"my dem.tif", {-77.7, -9.2, -77.6, -9.0}, 0.0001, 0.0001};
-  EXPECT_NE(error_of_system(andes, "EPSG:4326")
-                .find("gdalwarp -t_srs EPSG:32718 -tr 11 11 -r bilinear 'my dem.tif' 'my dem-EPSG32718.tif'"),
-            std::string::npos);
+  expect_message(error_of_system(andes, "EPSG:4326"));
 }
 
 TEST(ReferenceSystemTest, TagOfDegreesOverMetricNumbers) {
-  EXPECT_EQ(error_of_system(metric_raster, "EPSG:4326"),
-            "dem.tif: the tag specifies degrees (EPSG:4326), but the numbers are metric (x from 49280 to 52280, y from "
-            "193490 to 195690). Set terrain.crs = \"EPSG:...\" to the system of the coordinates, which the data "
-            "provider states.");
+  expect_message(error_of_system(metric_raster, "EPSG:4326"));
 }
 
 TEST(ReferenceSystemTest, Feet) {
   const Located footpoints{"dem.tif", {6000000.0, 2000000.0, 6010000.0, 2010000.0}, 10.0, 10.0};
-  EXPECT_EQ(error_of_system(footpoints, "EPSG:2227"),
-            "dem.tif: the coordinates are in the unit 'US survey foot' (EPSG:2227); allowed: a map projection in "
-            "metres, and elevations in metres. Reproject: gdalwarp -t_srs EPSG:32610 -tr 3 3 -r bilinear dem.tif "
-            "dem-EPSG32610.tif");
+  expect_message(error_of_system(footpoints, "EPSG:2227"));
 }
 
 TEST(ReferenceSystemTest, InvalidKey) {
-  EXPECT_EQ(error_of_system(metric_raster, "", "EPSG:99999"),
-            "'EPSG:99999' is not a known coordinate reference system; allowed: a number of the EPSG registry such as "
-            "\"EPSG:31287\" (epsg.io finds it), or a WKT.");
-  EXPECT_EQ(error_of_system(metric_raster, "EPSG:31254", "EPSG:4326"),
-            "EPSG:4326 is in degrees; allowed: a map projection in metres, such as \"EPSG:31287\".");
-  EXPECT_EQ(error_of_system(metric_raster, "EPSG:31254", "EPSG:2227"),
-            "EPSG:2227 is in the unit 'US survey foot'; allowed: a map projection in metres, such as \"EPSG:31287\".");
+  expect_message(error_of_system(metric_raster, "", "EPSG:99999"));
+  expect_message(error_of_system(metric_raster, "EPSG:31254", "EPSG:4326"));
+  expect_message(error_of_system(metric_raster, "EPSG:31254", "EPSG:2227"));
 }
 
-TEST(ReferenceSystemTest, SystemsThatAreNotProjections) {
-  EXPECT_EQ(error_of_system(metric_raster, "EPSG:4978"),
-            "dem.tif: the coordinate reference system 'EPSG:4978' is not a map projection; allowed: a projection in "
-            "metres. Set terrain.crs, such as terrain.crs = \"EPSG:31287\".");
-}
+TEST(ReferenceSystemTest, SystemsThatAreNotProjections) { expect_message(error_of_system(metric_raster, "EPSG:4978")); }
 
 // In a separate process, which has not cached the database: a proj.db of another program, which is not valid.
 TEST(ReferenceSystemTest, MissingDatabaseIsNamed) {

@@ -12,8 +12,6 @@ namespace {
 
 using namespace site_case;
 
-config::Release release_of(const config::Case& parameters) { return load_site(parameters).site.releases.at("rock"); }
-
 TEST(ReleaseTest, VolumeIsAreaTimesThickness) {
   const std::string odd = polygon_json({{west + 301.3, south + 302.7},
                                         {west + 457.9, south + 318.2},
@@ -211,16 +209,14 @@ TEST(ReleaseTest, RasterAloneIsTheRelease) {
 TEST(ReleaseTest, SurfaceAloneIsTheRelease) {
   config::Case parameters = plain_case(ground());
   Raster surface = ground();
-  for (int row = 0; row < surface.rows; ++row) {
-    for (int column = 0; column < surface.columns; ++column) {
-      const bool inside =
-          std::abs(surface.x_of(column) - west - 400.0) < 51.0 && std::abs(surface.y_of(row) - south - 300.0) < 31.0;
-      surface.values[surface.index(column, row)] += inside ? 6.0 : 0.004;  // 0.004 m is within the noise tolerance
-    }
-  }
+  for_points(surface, [&](int column, int row) {
+    const bool inside =
+        std::abs(surface.x_of(column) - west - 400.0) < 51.0 && std::abs(surface.y_of(row) - south - 300.0) < 31.0;
+    surface.values[surface.index(column, row)] += inside ? 6.0 : 0.004;  // 0.004 m is within the noise tolerance
+  });
   parameters.bodies["rock"] = raster_body(geotiff("before.tif", surface));
   parameters.bodies["rock"].thickness.from = config::MapValue::From::surface;
-  const config::Release release = load_site(parameters).site.releases.at("rock");
+  const config::Release release = release_of(parameters);
   EXPECT_NEAR(volume_of(release.thickness), release.area * 6.0, 1e-6 * release.area);
   EXPECT_NEAR(thickness_at(release, 400.0, 300.0), 6.0, 1e-6);
   EXPECT_GT(release.area, 100.0 * 60.0);
@@ -239,7 +235,7 @@ TEST(ReleaseTest, SaturationAndIceContentFromMaps) {
       body.saturation.source =
           geotiff("saturation.tif", raster_of([](double, double) { return 0.2; }, west, south, 10.0, 100, 80));
     }
-    const config::Release release = load_site(parameters).site.releases.at("rock");
+    const config::Release release = release_of(parameters);
     for (const auto& [key, value] : {std::pair("saturation", 0.2), std::pair("ice_content", 0.3)}) {
       const Raster& field = release.fields.at(key);
       EXPECT_NEAR(field.at(field.columns / 2, field.rows / 2), value, 1e-9) << key;

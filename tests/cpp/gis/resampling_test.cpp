@@ -25,11 +25,9 @@ TEST(ResamplingTest, PlanesStayPlanes) {
     EXPECT_GE(made.x, raster.x);
     EXPECT_LE(made.x_end(), raster.x_end() + 1e-9);
     EXPECT_GT(made.x_end(), raster.x_end() - 1.5 * distance);
-    for (int row = 0; row < made.rows; ++row) {
-      for (int column = 0; column < made.columns; ++column) {
-        EXPECT_NEAR(made.at(column, row), plane(made.x_of(column), made.y_of(row)), 1e-9) << distance;
-      }
-    }
+    for_points(made, [&](int column, int row) {
+      EXPECT_NEAR(made.at(column, row), plane(made.x_of(column), made.y_of(row)), 1e-9) << distance;
+    });
   }
 }
 

@@ -105,13 +105,11 @@ TEST(RoughnessTest, CleanGroundOfAnyShapeIsNotFiltered) {
 TEST(RoughnessTest, NoiseOfAPartOfTheDomainCounts) {
   for (const bool is_along : {true, false}) {
     Raster raster = ground_of([](double x, double y) { return 0.5 * x - 0.1 * y; }, 0.2, 7, 321, 321);
-    for (int row = 0; row < raster.rows; ++row) {
-      for (int column = 0; column < raster.columns; ++column) {
-        if ((is_along ? row : column) > 60) {
-          raster.values[raster.index(column, row)] = 1500.0 + spacing * (0.5 * column - 0.1 * row);
-        }
+    for_points(raster, [&](int column, int row) {
+      if ((is_along ? row : column) > 60) {
+        raster.values[raster.index(column, row)] = 1500.0 + spacing * (0.5 * column - 0.1 * row);
       }
-    }
+    });
     EXPECT_NEAR(noise_rms(raster, span_of_points(raster)) / spacing, 0.2, 0.04) << is_along;
   }
 }
@@ -119,13 +117,11 @@ TEST(RoughnessTest, NoiseOfAPartOfTheDomainCounts) {
 // A band of noise narrower than a tile is not detected in the domain; a release on it triggers the warning.
 TEST(RoughnessTest, NoiseBelowABodyCounts) {
   Raster raster = ground_of([](double x, double y) { return 0.5 * x - 0.1 * y; }, 0.2, 7, 321, 161);
-  for (int row = 0; row < raster.rows; ++row) {
-    for (int column = 0; column < raster.columns; ++column) {
-      if (row < 70 || row > 81) {
-        raster.values[raster.index(column, row)] = 1500.0 + spacing * (0.5 * column - 0.1 * row);
-      }
+  for_points(raster, [&](int column, int row) {
+    if (row < 70 || row > 81) {
+      raster.values[raster.index(column, row)] = 1500.0 + spacing * (0.5 * column - 0.1 * row);
     }
-  }
+  });
   const Rectangle body{50.0 * spacing, 71.0 * spacing, 60.0 * spacing, 80.0 * spacing};
   EXPECT_EQ(noise_rms(raster, span_of_points(raster)), 0.0);
   EXPECT_GT(noise_below_body(raster, body) / spacing, 0.1);
@@ -142,11 +138,9 @@ TEST(RoughnessTest, StripesAreNoise) {
   std::generate(offset.begin(), offset.end(), [&] { return normal(random); });
   for (const bool is_along : {true, false}) {
     Raster raster = ground_of([](double x, double y) { return 0.5 * x - 0.1 * y; }, 0.0, 0);
-    for (int row = 0; row < raster.rows; ++row) {
-      for (int column = 0; column < raster.columns; ++column) {
-        raster.values[raster.index(column, row)] += offset[static_cast<std::size_t>(is_along ? row : column)];
-      }
-    }
+    for_points(raster, [&](int column, int row) {
+      raster.values[raster.index(column, row)] += offset[static_cast<std::size_t>(is_along ? row : column)];
+    });
     EXPECT_NEAR(noise_rms(raster, span_of_points(raster)) / spacing, 0.2, 0.07) << is_along;
   }
 }
@@ -351,7 +345,7 @@ TEST(RoughnessTest, ThicknessBelowASurfaceIsTheDifferenceOfTheFiles) {
     }
     parameters.bodies["rock"].release.clear();
     parameters.bodies["rock"].thickness.source = geotiff("partly.tif", partly);
-    EXPECT_NEAR(volume_of(load_site(parameters).site.releases.at("rock").thickness), 8.0 * 100.0 * 100.0, 1e-6);
+    EXPECT_NEAR(volume_of(release_of(parameters).thickness), 8.0 * 100.0 * 100.0, 1e-6);
   }
 }
 

@@ -58,6 +58,10 @@ inline config::Case case_with_release(const std::vector<JsonFeature>& features, 
   return made;
 }
 
+inline config::Release release_of(const config::Case& parameters) {
+  return load_site(parameters).site.releases.at("rock");
+}
+
 // Thickness at a position in metres from the first point of the ground; 0 beyond the raster.
 inline double thickness_at(const config::Release& release, double x, double y) {
   const Raster& raster = release.thickness;

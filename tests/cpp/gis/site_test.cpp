@@ -16,11 +16,9 @@ TEST(SiteTest, GroundIsCroppedToTheDomainAndSomeCells) {
   EXPECT_NEAR(raster.x_end(), west + 940.0, 5.0 + 1e-6);
   EXPECT_NEAR(raster.y, south + 60.0, 5.0 + 1e-6);
   EXPECT_NEAR(raster.y_end(), south + 740.0, 5.0 + 1e-6);
-  for (int row = 0; row < raster.rows; ++row) {
-    for (int column = 0; column < raster.columns; ++column) {
-      ASSERT_EQ(raster.at(column, row), plane(raster.x_of(column), raster.y_of(row)));
-    }
-  }
+  for_points(raster, [&](int column, int row) {
+    ASSERT_EQ(raster.at(column, row), plane(raster.x_of(column), raster.y_of(row)));
+  });
   EXPECT_EQ(loaded.site.crs_name, "EPSG:31287");
   EXPECT_EQ(name_of(loaded.site.crs), "EPSG:31287");
   EXPECT_EQ(raster.crs, loaded.site.crs);
@@ -67,10 +65,7 @@ TEST(SiteTest, KeyOverridesTheFile) {
 }
 
 TEST(SiteTest, WrongTagIsReportedAtTheKey) {
-  EXPECT_EQ(error_of_site(plain_case(ground("EPSG:4326"))),
-            "case.toml:5:8: terrain.file: FOLDER/dem.tif: the tag specifies degrees (EPSG:4326), but the numbers are "
-            "metric (x from 399997.5 to 401002.5, y from 299997.5 to 300802.5). Set terrain.crs = \"EPSG:...\" to the "
-            "system of the coordinates, which the data provider states.");
+  expect_message(error_of_site(plain_case(ground("EPSG:4326"))));
   config::Case parameters = plain_case(ground(""));
   parameters.terrain.crs = "EPSG:31278x";
   EXPECT_EQ(error_of_site(parameters).substr(0, 62), "case.toml: terrain.crs: 'EPSG:31278x' is not a known coordinat");
@@ -81,28 +76,16 @@ TEST(SiteTest, DomainBeyondTheTerrainModel) {
   parameters.locations["grid.min"] = "case.toml:3:1";
   parameters.grid.min = {west - 12.5, south + 100.0, 0.0};
   parameters.grid.max = {west + 900.0, south + 840.0, 3000.0};
-  EXPECT_EQ(
-      error_of_site(parameters),
-      "case.toml:3:1: grid.min: the domain reaches beyond the outermost points of FOLDER/dem.tif, by 12.5 m in the "
-      "west and 40 m in the north; allowed: x from 400000 to 401000, y from 300000 to 300800. Set grid.min = "
-      "[400007.5, 300100, 0] and grid.max = [400900, 300800, 3000], or take a larger DEM.");
+  expect_message(error_of_site(parameters));
   parameters.terrain.resample = 20.0;
-  EXPECT_EQ(
-      error_of_site(parameters),
-      "case.toml:3:1: grid.min: the domain reaches beyond the outermost points of FOLDER/dem.tif, taken to points 20 m "
-      "apart, by 22.5 m in the west and 50 m in the north; allowed: x from 400010 to 400990, y from 300010 to "
-      "300790. Set grid.min = [400017.5, 300100, 0] and grid.max = [400900, 300790, 3000], or take a larger DEM.");
+  expect_message(error_of_site(parameters));
   parameters.locations["terrain.resample"] = "case.toml:4:1";
   parameters.terrain.resample = 1e-7;
-  EXPECT_EQ(error_of_site(parameters),
-            "case.toml:4:1: terrain.resample: points 1e-07 m apart along the 1000 m of FOLDER/dem.tif would be 1e+10; "
-            "allowed: 4e+08. Give a larger distance.");
+  expect_message(error_of_site(parameters));
   parameters.terrain.resample = 0.0;
   parameters.grid.min = {0.0, 0.0, 0.0};
   parameters.grid.max = {100.0, 50.0, 3000.0};
-  EXPECT_NE(error_of_site(parameters).find("the domain lies outside FOLDER/dem.tif, by 400,000 m in the west"),
-            std::string::npos)
-      << error_of_site(parameters);
+  expect_message(error_of_site(parameters));
   parameters.grid.min = {west, south, 0.0};
   parameters.grid.max = {west + 1000.0, south + 800.0, 0.0};
   EXPECT_EQ(load_site(parameters).site.ground->columns, 201);
@@ -111,20 +94,13 @@ TEST(SiteTest, DomainBeyondTheTerrainModel) {
 TEST(SiteTest, ImplausibleElevations) {
   Raster dem = ground();
   dem.values[dem.index(100, 80)] = -32768.0;
-  EXPECT_EQ(error_of_site(plain_case(dem)),
-            "case.toml:5:8: terrain.file: FOLDER/dem.tif: the elevation at 400500, 300400 is -32768 m, which is "
-            "impossible on Earth. If it represents missing data, declare it in the file: gdal_translate -a_nodata "
-            "-32768 FOLDER/dem.tif with-nodata.tif");
+  expect_message(error_of_site(plain_case(dem)));
 }
 
 TEST(SiteTest, ElevationsInAnUnknownUnit) {
   config::Case parameters = plain_case(ground());
   write_geotiff(parameters.terrain.file, ground(), {"chains", "elevation"});
-  EXPECT_EQ(
-      error_of_site(parameters),
-      "case.toml:5:8: terrain.file: FOLDER/dem.tif: the unit of the values is 'chains'; allowed: a unit of length "
-      "(m, mm, cm, dm, km, in, ft, US survey foot, yd). Check that it is the right file, or state the unit that "
-      "the values have: gdal_edit.py -units m FOLDER/dem.tif");
+  expect_message(error_of_site(parameters));
 }
 
 TEST(SiteTest, PathAndProbes) {
@@ -138,15 +114,9 @@ TEST(SiteTest, PathAndProbes) {
   EXPECT_EQ(site.probes.at("hut"), (config::Polyline2{{west + 300.0, south + 400.0}}));
   EXPECT_EQ(site.probes.at("section"), site.path);
   parameters.maps.path = geojson("path.geojson", {{"", line}, {"", line}});
-  EXPECT_EQ(error_of_site(parameters),
-            "case.toml: maps.path: FOLDER/path.geojson: the file has 2 lines; allowed: one. "
-            "Join them, or delete the others.");
+  expect_message(error_of_site(parameters));
   parameters.maps.path = geojson("path.geojson", {{"", line_json({{0, 0}, {10, 10}})}});
-  EXPECT_EQ(
-      error_of_site(parameters),
-      "case.toml: maps.path: FOLDER/path.geojson: the line (x from 0 to 10, y from 0 to 10) lies outside the domain "
-      "(x from 400100 to 400900, y from 300100 to 300700). Check that both have the same place and reference "
-      "system.");
+  expect_message(error_of_site(parameters));
 }
 
 TEST(SiteTest, WithoutATerrainModelThereIsNoGround) {
@@ -157,9 +127,7 @@ TEST(SiteTest, WithoutATerrainModelThereIsNoGround) {
   EXPECT_EQ(site.ground, nullptr);
   EXPECT_EQ(site.crs_name, "");
   parameters.bodies["rock"] = release_body("release.shp", 10.0);
-  EXPECT_EQ(error_of_site(parameters),
-            "case.toml: body.rock.shape: a release lies on a DEM. Set terrain.type = "
-            "\"dem\" and terrain.file.");
+  expect_message(error_of_site(parameters));
 }
 
 }  // namespace

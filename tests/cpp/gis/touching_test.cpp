@@ -222,9 +222,7 @@ TEST(TouchingTest, TapersMustBeTheSame) {
   config::Case parameters = touching_case(box_at(400, 300, 480, 400), box_at(300, 300, 400, 400), 7.5, 12.0);
   parameters.bodies["ice"].taper = 30.0;
   parameters.locations["body.rock.taper"] = "case.toml:30:9";
-  EXPECT_EQ(error_of_site(parameters),
-            "case.toml:30:9: body.rock.taper: the bodies 'ice' and 'rock' touch, or lie in one another's taper, and "
-            "their tapers differ: 30 m and 0 m; allowed: the same. Set both keys to one value.");
+  expect_message(error_of_site(parameters));
 }
 
 TEST(TouchingTest, OverlapsAreReported) {
@@ -234,11 +232,7 @@ TEST(TouchingTest, OverlapsAreReported) {
     parameters.bodies["snow"] = release_body(geojson("snow.geojson", {{"", snow}}), 3.0);
     return error_of_site(parameters);
   };
-  EXPECT_EQ(
-      with(box_at(390, 380, 450, 450)),
-      "case.toml: body.snow.release: the bodies 'rock' and 'snow' overlap by 200 m2 about 400395, 300390; allowed: "
-      "bodies that touch or lie apart, but for slivers up to 4.2 m2, 0.1 % of the smaller one. Draw them apart "
-      "(QGIS: Vector > Geoprocessing Tools > Difference).");
+  expect_message(with(box_at(390, 380, 450, 450)));
   EXPECT_EQ(with(box_at(400, 380, 450, 450)), "no error");
   EXPECT_EQ(with(box_at(399.95, 300, 450, 400)), "no error");
   EXPECT_NE(with(box_at(399.9, 300, 450, 400)).find("overlap by 10 m2"), std::string::npos);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
+#include <sstream>
 #include <vector>
 
 #include "folder_of_test.hpp"
@@ -16,8 +18,13 @@ namespace fs = std::filesystem;
 class RunFiles : public FolderOfTest {
  protected:
   fs::path run() const { return folder_ / "run"; }
-  void put_all(const std::vector<std::string>& names) const {
-    for (const std::string& name : names) {
+  // `names`: parted by spaces.
+  static std::vector<std::string> parted(const std::string& names) {
+    std::istringstream stream(names);
+    return {std::istream_iterator<std::string>(stream), {}};
+  }
+  void put_all(const std::string& names) const {
+    for (const std::string& name : parted(names)) {
       put(run() / name, "text of " + name);
     }
   }
@@ -36,45 +43,27 @@ class RunFiles : public FolderOfTest {
 
 TEST_F(RunFiles, ARunThatIsReplacedIsRemovedWithItsFiles) {
   put_run_json();
-  put_all({"history.csv",
-           "probes.csv",
-           "case.toml",
-           "terrain.csv",
-           "particles.vtkhdf",
-           "checkpoint.bin",
-           "checkpoint.previous.bin",
-           "report.html",
-           "contours-max_thickness.gpkg",
-           "history.damaged.csv",
-           "probes.damaged.12.csv",
-           "checkpoint.damaged.bin",
-           ".run.json.7.thawslide-part",
-           "snapshots/000000.vtkhdf",
-           "snapshots/1000000.vtkhdf",
-           "snapshots/.000001.vtkhdf.7.thawslide-part",
-           "inputs/valley.1.part.csv",
-           "maps/max_speed.tif",
-           "maps/max_speed.qml",
-           "maps/max_pressure.hazard.qml",
-           "maps/max_speed.tif.aux.xml",
-           "maps/results.gpkg",
-           "figures/motion.png",
-           "figures/animation.mp4",
-           "figures/.motion.7.thawslide-part.png"});
+  put_all(
+      "history.csv probes.csv case.toml terrain.csv particles.vtkhdf checkpoint.bin checkpoint.previous.bin "
+      "report.html contours-max_thickness.gpkg history.damaged.csv probes.damaged.12.csv checkpoint.damaged.bin "
+      ".run.json.7.thawslide-part snapshots/000000.vtkhdf snapshots/1000000.vtkhdf "
+      "snapshots/.000001.vtkhdf.7.thawslide-part inputs/valley.1.part.csv maps/max_speed.tif maps/max_speed.qml "
+      "maps/max_pressure.hazard.qml maps/max_speed.tif.aux.xml maps/results.gpkg figures/motion.png "
+      "figures/animation.mp4 figures/.motion.7.thawslide-part.png");
   make_run_folder(run(), true);
   EXPECT_EQ(left(), std::vector<std::string>{"run.lock"});
 }
 
 TEST_F(RunFiles, FilesOfOthersAreKept) {
-  const std::vector<std::string> foreign{"figures/motion.svg",      "figures/photo.jpg",   "history.damaged.xlsx",
-                                         "history.damaged.old.csv", "inputs/notes.txt",    "inputs/x.7.part",
-                                         "maps/alps.tif",           "maps/max_speed.pdf",  "notes.txt",
-                                         "snapshots/mine.vtkhdf",   "snapshots/photo.jpg", "thesis/maps/max_speed.tif"};
+  const std::string foreign =
+      "figures/motion.svg figures/photo.jpg history.damaged.xlsx history.damaged.old.csv inputs/notes.txt "
+      "inputs/x.7.part maps/alps.tif maps/max_speed.pdf notes.txt snapshots/mine.vtkhdf snapshots/photo.jpg "
+      "thesis/maps/max_speed.tif";
   put_run_json();
   put_all(foreign);
-  put_all({"maps/max_speed.tif", "snapshots/000000.vtkhdf", "history.csv"});
+  put_all("maps/max_speed.tif snapshots/000000.vtkhdf history.csv");
   make_run_folder(run(), true);
-  std::vector<std::string> expected = foreign;
+  std::vector<std::string> expected = parted(foreign);
   expected.insert(expected.end(), {"figures", "inputs", "maps", "run.lock", "snapshots", "thesis", "thesis/maps"});
   std::sort(expected.begin(), expected.end());
   EXPECT_EQ(left(), expected);
@@ -91,7 +80,7 @@ TEST_F(RunFiles, LinksAreRemovedAndTheirTargetsKept) {
 }
 
 TEST_F(RunFiles, FoldersAndNamesAloneAreNotARun) {
-  put_all({"snapshots/photo.jpg", "maps/alps.tif", "case.toml", "history.csv"});
+  put_all("snapshots/photo.jpg maps/alps.tif case.toml history.csv");
   const std::vector<std::string> before = left();
   EXPECT_EQ(failure_of([&] { make_run_folder(run(), true); }),
             "the output folder " + run().string() + " contains other files, and no run. Specify another --output.");
@@ -113,7 +102,7 @@ TEST_F(RunFiles, ARunJsonOfAnotherProgramIsNotARun) {
 // Inputs, resolved case and an empty history are written before run.json (run/run_output.cpp).
 TEST_F(RunFiles, AnUnstartedRunIsReplacedAndOtherFoldersAreRefused) {
   { const RunLock lock = make_run_folder(run(), false); }
-  put_all({"inputs/dem.tif", "case.toml", ".case.toml.7.thawslide-part", "snapshots/.000000.vtkhdf.7.thawslide-part"});
+  put_all("inputs/dem.tif case.toml .case.toml.7.thawslide-part snapshots/.000000.vtkhdf.7.thawslide-part");
   put(run() / "history.csv", "");
   EXPECT_EQ(failure_of([&] { make_run_folder(run(), false); }), "no failure");
   EXPECT_EQ(left(), (std::vector<std::string>{"inputs", "inputs/dem.tif", "run.lock"})) << "their owner is unknown";

@@ -1,0 +1,160 @@
+// Files that a case names: terrain profiles, reported values, allowed locations and names.
+
+#include "case_messages.hpp"
+#include "config/profile_csv.hpp"
+#include "config/reported_values.hpp"
+
+namespace thawslide::config {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace case_messages;
+
+// Error from reading a profile with this text.
+std::string error_of_profile(const std::string& text) {
+  write_next_to_the_case("profile.csv", text);
+  return error_of([] { read_profile(folder_of_this_test() / "profile.csv"); });
+}
+
+TEST(Profile, IsReadWithCommentsBlankLinesMarksAndWindowsLineEnds) {
+  write_next_to_the_case("profile.csv",
+                         "\xEF\xBB\xBF# a comment\r\ndistance_m, terrain_elevation_m, surface_elevation_m\r\n\r\n"
+                         "-10, +5.5, 5.5\r\n# between\r\n0,1e1,12\r\n20,0,0");
+  const ProfileTable profile = read_profile(folder_of_this_test() / "profile.csv");
+  EXPECT_EQ(profile.distance, (std::vector<double>{-10.0, 0.0, 20.0}));
+  EXPECT_EQ(profile.terrain, (std::vector<double>{5.5, 10.0, 0.0}));
+  EXPECT_EQ(profile.surface, (std::vector<double>{5.5, 12.0, 0.0}));
+}
+
+TEST(Profile, WithoutSurface) {
+  write_next_to_the_case("profile.csv", "distance_m,terrain_elevation_m\n0,1\n1,2\n");
+  EXPECT_TRUE(read_profile(folder_of_this_test() / "profile.csv").surface.empty());
+}
+
+TEST(Profile, GroundIsLinearBetweenRowsAndExtrapolatedBeyondThem) {
+  const ProfileTable profile{{0.0, 10.0, 20.0}, {0.0, 5.0, 4.0}, {}};
+  EXPECT_DOUBLE_EQ(profile.terrain_at(4.0), 2.0);
+  EXPECT_DOUBLE_EQ(profile.terrain_at(10.0), 5.0);
+  EXPECT_DOUBLE_EQ(profile.terrain_at(15.0), 4.5);
+  EXPECT_DOUBLE_EQ(profile.terrain_at(-2.0), -1.0);
+  EXPECT_DOUBLE_EQ(profile.terrain_at(30.0), 3.0);
+}
+
+TEST(Profile, MistakesNameTheLine) {
+  const std::string file = "FOLDER/profile.csv:";
+  const std::string header = "distance_m,terrain_elevation_m,surface_elevation_m\n";
+  const std::string headers = "allowed: distance_m,terrain_elevation_m[,surface_elevation_m]";
+  for (const std::string text : {"", "# only a comment\n"}) {
+    EXPECT_EQ(error_of_profile(text), file + "1: the file holds no header; " + headers + ".");
+  }
+  EXPECT_EQ(error_of_profile("# profile\nx,z\n"),
+            file + "2: the header is 'x,z'; " + headers + ", separated by commas.");
+  EXPECT_EQ(error_of_profile("distance_m\tterrain_elevation_m\n0\t1\n"),
+            file +
+                "1: the columns are separated by tabs; allowed: commas. Replace them: sed -i 's/\\t/,/g' "
+                "FOLDER/profile.csv.");
+  EXPECT_EQ(error_of_profile(std::string("II*\0\10\0,\0\n", 9)),
+            file +
+                "1: this is not a text file; allowed: columns separated by commas under the header "
+                "distance_m,terrain_elevation_m[,surface_elevation_m]. A DEM is read with terrain.type = \"dem\".");
+  EXPECT_EQ(error_of_profile(header + "0,0,0\n"), file + "2: the profile has 1 rows; a profile needs at least 2.");
+  EXPECT_EQ(error_of_profile(header + "0,0\n"), file + "2: the row has 2 fields; the header has 3.");
+  const std::string number = "'; allowed: a finite number with a decimal point.";
+  EXPECT_EQ(error_of_profile(header + "0,0,0\n1,1m,2\n"), file + "3: terrain_elevation_m is '1m" + number);
+  EXPECT_EQ(error_of_profile(header + "0,0,0\n1,,0\n"), file + "3: terrain_elevation_m is '" + number);
+  EXPECT_EQ(error_of_profile(header + "0,0,nan\n"), file + "2: surface_elevation_m is 'nan" + number);
+  EXPECT_EQ(error_of_profile(header + "0,0,0\n5,0,-1\n"),
+            file +
+                "3: surface_elevation_m is -1, below terrain_elevation_m, 0; allowed: the same elevation or a "
+                "higher one.");
+  for (const std::string distance : {"5", "4"}) {
+    EXPECT_EQ(error_of_profile(header + "# a remark\n\n0,0,0\n5,0,0\n" + distance + ",1,1\n"),
+              file + "6: the profile folds back: distance_m is " + distance +
+                  " after 5; allowed: strictly increasing distances. Sort the rows, and leave out overhangs and "
+                  "repeated points.");
+  }
+}
+
+TEST(Profile, MissingFile) {
+  EXPECT_EQ(error_of([] { read_profile("/nowhere/profile.csv"); }),
+            "/nowhere/profile.csv: the profile cannot be read. Check that the file is there and may be read.");
+}
+
+const Change targets{"[basal]", "[report]\ntargets = \"targets.csv\"\n[basal]"};
+const std::string columns = "quantity,time_s,value,unit,source\n";
+
+TEST(InputFiles, ThatAreFoldersAreRefused) {
+  std::filesystem::create_directories(folder_of_this_test() / "data.csv");
+  EXPECT_EQ(error_of_changed({{"type = \"flat\"\nelevation = 0.0", "type = \"profile\"\nfile = \"data.csv\""}}),
+            "FOLDER/case.toml:10:8: terrain.file is \"data.csv\", a folder; allowed: a file.");
+}
+
+TEST(ReportedValues, AfterTheEndCauseAWarning) {
+  const std::string rows = "mean_velocity,1,8,m/s,x\nmean_velocity,75,8,m/s,x\ndeposit_volume,900,1,m3,x\n";
+  write_next_to_the_case("targets.csv", columns + rows + "mean_displacement,80,8,m,x\n");
+  const std::string warning = warning_of_late_values(testing_support::case_from_text(changed({targets})));
+  EXPECT_NE(
+      warning.find("/case.toml:21:11: report.targets is targets.csv: 2 of its values are later than the run, which "
+                   "ends at 2 s: mean_velocity of 75 s in line 3. The run is not compared with them."),
+      std::string::npos)
+      << warning;
+  write_next_to_the_case("targets.csv", columns + "start_velocity,40,8,m/s,x\n" + rows);
+  EXPECT_EQ(warning_of_late_values(testing_support::case_from_text(changed({targets}))), "")
+      << "with a separate start time";
+}
+
+TEST(ReportedValues, AreTextInUtf8) {
+  const auto error_of_file = [](const std::string& bytes) {
+    write_next_to_the_case("targets.csv", bytes);
+    const std::string found = error_of_changed({targets}), location = "FOLDER/case.toml:21:11: report.targets: FOLDER/";
+    return found.compare(0, location.size(), location) == 0 ? found.substr(location.size()) : found;
+  };
+  const std::string row = "mean_displacement,1,0.6,km,M\xC3\xBCller\n";
+  EXPECT_EQ(error_of_file("\xEF\xBB\xBF" + columns + row), "no error");
+  EXPECT_EQ(error_of_file("quantity,time_s,value,unit,source\r" + row + "\r\n\r\n"), "no error");
+  EXPECT_EQ(error_of_file(columns + "mean_velocity,1,8,m/s,M\xFCller\n"),
+            "targets.csv:2: byte 0xfc is not UTF-8; save the file as UTF-8");
+  EXPECT_EQ(error_of_file("\xFF\xFEq"), "targets.csv: encoded as UTF-16; save it as UTF-8");
+  EXPECT_EQ(error_of_file(columns + std::string("a\0b\n", 4)),
+            "targets.csv:2: a zero byte; this is not a text file, or it is damaged");
+  EXPECT_EQ(error_of_file(""), "targets.csv: empty; expected the columns quantity, value, unit");
+  EXPECT_EQ(error_of_file(std::string(1100000, '#')),
+            "targets.csv: the file has 1.1 MB; allowed: 1 MB. Is it the right file?");
+}
+
+TEST(Paths, DoNotLeaveTheFolderOfTheCase) {
+  const auto with_file = [](const std::string& file, const std::vector<std::string>& sets = {}) {
+    return error_of_changed({{"type = \"flat\"\nelevation = 0.0", "type = \"profile\"\nfile = \"" + file + "\""}},
+                            sets);
+  };
+  const fs::path folder = folder_of_this_test();
+  fs::remove_all(folder);
+  write_next_to_the_case("profile.csv", "distance_m,terrain_elevation_m\n0,0\n100,0\n");
+  fs::create_directories(folder / "inside");
+  const fs::path outside = folder.string() + ".csv";
+  fs::copy_file(folder / "profile.csv", outside, fs::copy_options::overwrite_existing);
+  fs::create_symlink(outside, folder / "link.csv");
+  const std::string remedy =
+      ", which lies outside the folder of the case file; allowed: a file in that folder. Copy it there, or give its "
+      "path with --set terrain.file=PATH.";
+  for (const std::string& file : {"../" + outside.filename().string(), std::string("/nowhere/profile.csv"),
+                                  "inside/../../" + outside.filename().string(), std::string("link.csv")}) {
+    const std::string found = with_file(file);
+    EXPECT_EQ(found, "FOLDER/case.toml:10:8: terrain.file is \"" + file + "\"" + remedy);
+  }
+  EXPECT_EQ(with_file("inside/../profile.csv"), "no error");
+  EXPECT_EQ(with_file("no_profile.csv"),
+            "FOLDER/case.toml:10:8: terrain.file is \"no_profile.csv\": no such file (FOLDER); did you mean "
+            "'profile.csv'? Allowed: a file, relative to the folder of the case file.");
+  EXPECT_EQ(with_file("profile.csv\\u0000"),
+            "FOLDER/case.toml:10:8: terrain.file is \"profile.csv?\", a name with a zero byte; allowed: a file.");
+  EXPECT_EQ(with_file("new\\nline"),
+            "FOLDER/case.toml:10:8: terrain.file is \"new?line\": no such file (FOLDER); allowed: a file, relative to "
+            "the folder of the case file.");
+  EXPECT_EQ(with_file("profile.csv", {"terrain.file=" + outside.string()}), "no error")
+      << "allowed on the command line";
+  fs::remove(outside);
+}
+
+}  // namespace
+}  // namespace thawslide::config
