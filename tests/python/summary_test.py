@@ -91,9 +91,7 @@ def test_command_writes_the_summary(map_run: Path, capsys: pytest.CaptureFixture
     assert not (map_run / "summary.html").exists()
 
 
-def test_summary_of_a_section_and_of_selected_figures_are_errors(
-    make_run: MakeRun, map_run: Path, fails: Fails
-) -> None:
+def test_summary_excludes_sections_and_selected_figures(make_run: MakeRun, map_run: Path, fails: Fails) -> None:
     fails([str(make_run()), "--brief"], "--brief: only for 3D runs on a DEM, which have maps.")
     words = "--only: not allowed with --brief. Remove one of the options."
     fails([str(map_run), "--brief", "--only", "motion"], words)

@@ -91,7 +91,7 @@ INVALID = [
     ("quantity,time_s,time_h,value,unit\n", f":1: {NO_TIME}"),
     (
         "quantity,time_s,value,unit,sorce\n",
-        ":1: no column is called 'sorce'; did you mean source? allowed are quantity, ",
+        ":1: no column is called 'sorce'; did you mean source? allowed are quantity, value, unit, ",
     ),
     ("quantity,time_s,value,unit,unit\n", ":1: two columns 'unit'"),
     (HEADER + "qqq,4,8,m/s,x\n", ":2: no quantity is called 'qqq'. There are: "),
@@ -99,11 +99,11 @@ INVALID = [
     (HEADER + "mean_velocity,4,8\n", ":2: 3 values for 5 columns"),
     (
         ROWS + "mean_velocity,4,9,m/s,x\n",
-        ":3: mean_velocity at this time from this source is in line 2 already; keep one",
+        ":3: mean_velocity at this time from this source is in line 2 already; keep one of the two",
     ),
     (
         KINDS + "mean_velocity,4,8,m/s,guess\n",
-        ":2: the kind 'guess' for mean_velocity; allowed: observation, model, ass",
+        f":2: the kind 'guess' {ALLOWED_KINDS}",
     ),
     (KINDS + "mean_velocity,4,8,m/s,\n", f":2: no kind {ALLOWED_KINDS}"),
     (HEADER.encode() + b"mean_velocity,4,8,m/s,M\xfcller\n", ":2: byte 0xfc is not UTF-8"),
