@@ -53,7 +53,7 @@ dem.tif --plane x=1,x=2 -> --plane: x: specified twice. Omit one.
 dem.tif {PLANE},depth=nan -> --plane: depth: not a finite number (found nan).
 dem.tif --plane {AT},dip=90,direction=0 -> --plane: dip: out of range (found 90; allowed 0 to 89 degrees).
 dem.tif {PLANE},depth=10,z=1000 -> --plane: depth and z are both specified.
-dem.tif {PLANE} -> --plane: not below the DEM at x = 400500, y = 6503500. Increase depth or 
+dem.tif {PLANE} -> --plane: not below the DEM at x = 400500, y = 6503500. Increase depth or
 dem.tif {PLANE},depth=10 -> --plane: the release reaches the edge of the DEM or cells without data
 hole.tif {PLANE},depth=10 -> --plane: the release reaches the edge
 dem.tif --plane x=1,y=2,dip=30,direction=0,depth=1 -> --plane: outside the DEM dem.tif (found x = 1, y = 2; allowed
