@@ -24,7 +24,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("THAWSLIDE_BINARY", ROOT / "build" / "release" / "thawslide"))
-LIMIT = {False: 300.0, True: 1800.0}  # s, of a command; of one in a block marked long
+LIMIT = {False: 600.0, True: 1800.0}  # s, of a command; of one in a block marked long
 
 FENCE = re.compile(r"^( *)```(\S*)\s*$")
 MARK = re.compile(r"^ *<!-- (not run|long|exit code|setup|file|merged into): (.+) -->$")
@@ -164,18 +164,11 @@ class Scratch:
         """Run a command in the folder of the previous one; return its exit code and its output."""
         kept = self.folder / ".current"
         script = f'{command}\ncode=$?; pwd > "{kept}"; exit $code'
+        streams = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
         with subprocess.Popen(
-            ["bash", "-c", script],
-            cwd=self.current,
-            env=self.environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            encoding="utf-8",
-            errors="replace",
-            start_new_session=True,
-        ) as running:
+            ["bash", "-c", script], cwd=self.current, env=self.environment, encoding="utf-8", errors="replace",
+            start_new_session=True, **streams,
+        ) as running:  # fmt: skip
             try:
                 printed, _ = running.communicate(timeout=limit)
             except subprocess.TimeoutExpired:

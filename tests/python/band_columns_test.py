@@ -7,7 +7,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from conftest import MakeRun, history_columns, write_history
+from conftest import MakeRun, edit, history_columns, page_of, write_history
 from figures_test import line, texts, titled
 
 from thawslide import NotInRunError, Run
@@ -16,9 +16,7 @@ from thawslide.figures import FIGURES
 from thawslide.figures.energy import relative_residual
 from thawslide.figures.water import relative_water_residual
 from thawslide.key_numbers import key_numbers, stop_time
-from thawslide.report_page import figures_of, make_report
-
-STEAM = "\n[heat]\nsteam = {}\n"
+from thawslide.report_page import figures_of
 
 
 def column_history(rows: int = 101) -> dict[str, np.ndarray]:
@@ -68,10 +66,7 @@ def add_base(folder: Path) -> None:
 
 @pytest.fixture
 def columns_run(make_run: MakeRun) -> Path:
-    folder = make_run()
-    write_history(folder / "history.csv", column_history())
-    with (folder / "case.toml").open("a") as case:
-        case.write(STEAM.format("true"))
+    folder = make_run(history=column_history(), tables="[heat]\nsteam = true\n")
     add_base(folder)
     return folder
 
@@ -191,11 +186,8 @@ def test_water_terms_have_their_panels(columns_run: Path) -> None:
     figure = FIGURES["water"].plot(run)
     t = run.history["time_s"]
     content, losses, voids = (titled(figure, f"({letter})") for letter in "abc")
-    assert [axes.get_ylabel() for axes in (content, losses, voids)] == [
-        "mass (million t)",
-        "mass (thousand t)",
-        "volume (thousand m³)",
-    ]
+    labels = [axes.get_ylabel() for axes in (content, losses, voids)]
+    assert labels == ["mass (million t)", "mass (thousand t)", "volume (thousand m³)"]
     np.testing.assert_allclose(line(content, "gained from the body")[1], 3.0 + 0.04 * t)
     np.testing.assert_allclose(line(losses, "steam")[1], 10.0 * t)
     np.testing.assert_allclose(line(voids, "openings along the base")[1], 0.05 * t)
@@ -220,17 +212,15 @@ def test_runs_without_columns_have_no_figures_of_columns(make_run: MakeRun) -> N
 def test_report_of_columns_has_their_figures_and_numbers(columns_run: Path) -> None:
     expected = ["motion", "velocity", "plastic_strain", "force", "band", "base_along", "energy", "water"]
     assert figures_of(Run(columns_run)) == expected
-    report = make_report(Run(columns_run), names=["band", "energy", "water"], dpi=40)
-    page = report.page.read_text(encoding="utf-8")
+    page = page_of(columns_run, "band", "energy", "water")
     assert "Water does not boil" not in page and "heat.steam is false" not in page
     assert "Area-weighted means over the base" in page and "particles next to the terrain" not in page
     found = {row.words: (row.value, row.remark) for row in key_numbers(Run(columns_run))}
     assert found["Maximum temperature of all columns"] == ("170 °C", "at 10 s")
     assert found["Maximum pore pressure ratio P/N"] == ("1", "at 10 s")
     assert found["Water lost as steam"] == ("100,000 t", "until the end")
-    text = (columns_run / "case.toml").read_text()
-    (columns_run / "case.toml").write_text(text.replace("steam = true", "steam = false"))
-    page = make_report(Run(columns_run), names=["band"], dpi=40).page.read_text(encoding="utf-8")
+    edit(columns_run / "case.toml", "steam = true", "steam = false")
+    page = page_of(columns_run, "band")
     assert "from 9.3 s on and attains 110 °C. Water does not boil because heat.steam is false." in page
 
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import TARGETS, MakeRun
+from conftest import TARGETS, MakeRun, page_of
 
 from thawslide.band_pass import band_passed, response
 from thawslide.errors import ReportError
@@ -108,24 +107,19 @@ def test_report_has_a_value_of_the_run_for_each_reported_one(make_run: MakeRun) 
     assert found_for(run, target("mean_velocity", 11.0, 11.0, "m/s")) == outside, "after the end"
     assert found_for(run, target("mean_velocity", -100.0, 11.0, "m/s")) == outside, "not with the nearest, at 0 s"
     assert found_for(run, target("source_volume", 0.0, 1.0, "m3")) == "800 m³", "80 particles of 1 m2 on 10 m of width"
-    page = make_report(run, names=["force"], dpi=50).page.read_text(encoding="utf-8")
-    cells = re.escape(
-        f"maximum seismic force, band-pass 2 to 8 s</th><td>5 s</td><td>110 GN</td><td>{largest}</td><td>waves</td>"
-    )
-    assert re.search(cells, page)
+    page = page_of(run.folder, "force")
+    cells = f"maximum seismic force, band-pass 2 to 8 s</th><td>5 s</td><td>110 GN</td><td>{largest}</td><td>waves</td>"
+    assert cells in page
     assert '<th scope="col">this run</th>' in page
 
 
 def test_force_per_metre_is_not_compared(make_run: MakeRun) -> None:
-    run = Run(make_run(width=0.0))
-    without_width = "not available: no case.width"
-    assert found_for(run, target("max_seismic_force_2_8_s")) == without_width
+    found = found_for(Run(make_run(width=0.0)), target("max_seismic_force_2_8_s"))
+    assert found == "not available: no case.width"
 
 
 def test_invalid_band_is_an_error(make_run: MakeRun, tmp_path: Path) -> None:
-    folder = make_run()
-    (folder / "inputs" / "targets.csv").write_text(TARGETS.replace("_2_8_s", "_8_2_s"))
-    with pytest.raises(
-        ReportError, match=r"targets\.csv:9: max_seismic_force_8_2_s: give the shorter period first, both"
-    ):
+    folder = make_run(targets=TARGETS.replace("_2_8_s", "_8_2_s"))
+    words = r"targets\.csv:9: max_seismic_force_8_2_s: give the shorter period first, both"
+    with pytest.raises(ReportError, match=words):
         make_report(Run(folder), tmp_path / "out", dpi=50)

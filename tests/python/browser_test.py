@@ -65,7 +65,7 @@ def states(folder: Path, tmp_path: Path, actions: str) -> dict[str, Any]:
             "--proxy-server=127.0.0.1:9", "--host-resolver-rules=MAP * ~NOTFOUND", "--window-size=1200,2400",
             "--virtual-time-budget=60000", "--dump-dom", path.as_uri(),
         ],
-        capture_output=True, text=True, timeout=300, check=True,
+        capture_output=True, text=True, timeout=600, check=True,
     )  # fmt: skip
     recorded = re.search(r'data-found="([^"]*)"', outcome.stdout)
     assert recorded, outcome.stderr[-2000:]

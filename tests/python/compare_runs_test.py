@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import MakeRun, history_columns, write_history
+from conftest import Fails, MakeRun, edit, update_facts
 from map_runs import write_map_run
 
 from thawslide import ReportError, Run
@@ -21,13 +20,9 @@ from thawslide.pages.comparison import case_rows, make_comparison, names_of, num
 @pytest.fixture
 def two_runs(make_run: MakeRun) -> list[Run]:
     """Return two 2D runs; the second has twice the displacement and another cell."""
-    first, second = make_run(name="first"), make_run(name="second")
-    columns = history_columns(101, 2)
-    columns["mean_displacement_m"] *= 2.0
-    write_history(second / "history.csv", columns)
-    case = (second / "case.toml").read_text().replace("cell = 2.0", "cell = 4.0")
-    (second / "case.toml").write_text(case)
-    return [Run(first), Run(second)]
+    second = make_run(name="second", history={"mean_displacement_m": 16.0 * np.linspace(0.0, 10.0, 101)})
+    edit(second / "case.toml", "cell = 2.0", "cell = 4.0")
+    return [Run(make_run(name="first")), Run(second)]
 
 
 def test_key_numbers_are_next_to_each_other(two_runs: list[Run]) -> None:
@@ -43,9 +38,9 @@ def test_only_different_keys_of_the_cases_are_rows(two_runs: list[Run]) -> None:
 
 def test_different_input_files_are_rows(two_runs: list[Run]) -> None:
     for run, digit in zip(two_runs, "ab", strict=True):
-        facts = json.loads((run.folder / "run.json").read_text())
-        facts["inputs"] = [{"path": "x/dem.tif", "sha256": digit * 64}, {"path": "x/case.toml", "sha256": digit * 64}]
-        (run.folder / "run.json").write_text(json.dumps(facts))
+        update_facts(
+            run.folder, inputs=[{"path": f"x/{name}", "sha256": digit * 64} for name in ("dem.tif", "case.toml")]
+        )
     rows = case_rows(names_of([Run(run.folder) for run in two_runs]))
     assert rows[-1] == ["SHA-256 of dem.tif", f"{'a' * 16}...", f"{'b' * 16}..."]
 
@@ -99,8 +94,6 @@ def test_2d_and_3d_runs_are_compared(make_run: MakeRun, map_run: Path, tmp_path:
 
 
 @pytest.mark.parametrize(("option", "name"), [(["--only", "motion"], "--only"), (["--brief"], "--brief")])
-def test_options_of_one_run_are_errors_for_two(
-    two_runs: list[Run], option: list[str], name: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main([*(str(run.folder) for run in two_runs), *option]) == 2
-    assert f"{name}: allowed with one RUN only (found 2). Remove the option." in capsys.readouterr().err
+def test_options_of_one_run_are_errors_for_two(two_runs: list[Run], option: list[str], name: str, fails: Fails) -> None:
+    words = f"{name}: allowed with one RUN only (found 2). Remove the option."
+    fails([*(str(run.folder) for run in two_runs), *option], words)

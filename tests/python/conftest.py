@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import json
+import shutil
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -11,6 +13,10 @@ from typing import Any
 import h5py
 import numpy as np
 import pytest
+
+from thawslide import Run
+from thawslide.command_line import main
+from thawslide.report_page import make_report
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # for `reproduction`
 
@@ -124,48 +130,108 @@ def write_snapshot(path: Path, time: float, dimension: int) -> None:
             group.create_dataset(f"PointData/{name}", data=values).attrs["unit"] = unit
 
 
-MakeRun = Callable[..., Path]
+def edit(path: Path, old: str, new: str) -> None:
+    """Replace a part of a text file."""
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+
+
+def write_facts(folder: Path, **facts: Any) -> None:
+    """Write run.json with a status, `done` by default, and these facts only."""
+    (folder / "run.json").write_text(json.dumps({"status": "done"} | facts))
+
+
+def update_facts(folder: Path, **facts: Any) -> None:
+    """Replace some facts in run.json."""
+    (folder / "run.json").write_text(json.dumps(json.loads((folder / "run.json").read_text()) | facts))
+
+
+def page_of(folder: Path, *names: str) -> str:
+    """Return the page of a run with the figure `motion` or those named."""
+    report = make_report(Run(folder), names=names or ["motion"], dpi=50)
+    return report.page.read_text(encoding="utf-8")
+
+
+Fails = Callable[[list[str], str], None]
 
 
 @pytest.fixture
-def make_run(tmp_path: Path) -> MakeRun:
-    """Return a function that writes a whole run folder and returns it."""
+def fails(capsys: pytest.CaptureFixture[str]) -> Fails:
+    """Return a function that checks a refused command of thawslide-report: exit code 2, and its message."""
+
+    def check(arguments: list[str], text: str) -> None:
+        assert main(arguments) == 2
+        assert text in capsys.readouterr().err
+
+    return check
+
+
+MakeRun = Callable[..., Path]
+
+
+@pytest.fixture(scope="session")
+def snapshots_of(tmp_path_factory: pytest.TempPathFactory) -> Callable[[int, int], Path]:
+    """Return a function that writes a number of snapshots once per session, and returns their folder."""
+
+    @functools.cache
+    def write(dimension: int, count: int) -> Path:
+        folder = tmp_path_factory.mktemp("snapshots")
+        for number in range(count):
+            write_snapshot(folder / f"{number:06d}.vtkhdf", float(number), dimension)
+        (folder / "notes.vtkhdf").write_text("not one of the numbered ones")
+        return folder
+
+    return write
+
+
+@pytest.fixture
+def make_run(tmp_path: Path, snapshots_of: Callable[[int, int], Path]) -> MakeRun:
+    """Return a function that writes a whole run folder and returns it.
+
+    `history` replaces columns, `targets` the reported values, `case_keys` adds lines to [case], `tables` to the end of
+    the case.
+    """
 
     def make(
-        *, name: str = "slope", dimension: int = 2, rows: int = 101, snapshots: int = 11, width: float = 10.0,
-        terrain: bool = True, targets: bool = True, times: str = "[0.0, 4.0, 7.4]",
+        *, name: str = "slope", dimension: int = 2, rows: int = 101, snapshots: int = 11, width: float | str = 10.0,
+        terrain: bool = True, targets: bool | str = True, times: str = "[0.0, 4.0, 7.4]", case_keys: str = "",
+        tables: str = "", history: dict[str, np.ndarray] | None = None, facts: dict[str, Any] | None = None,
     ) -> Path:  # fmt: skip
         folder = tmp_path / name
-        (folder / "snapshots").mkdir(parents=True)
+        shutil.copytree(snapshots_of(dimension, snapshots), folder / "snapshots")
         (folder / "inputs").mkdir()
         corners = ("[0.0, 0.0]", "[200.0, 150.0]") if dimension == 2 else ("[0.0, 0.0, 0.0]", "[200.0, 9.0, 150.0]")
         (folder / "case.toml").write_text(
-            f'[case]\ntitle = "Block on a slope & <more>"\ndimension = {dimension}\nwidth = {width}\n'
+            f'[case]\ntitle = "Block on a slope & <more>"\ndimension = {dimension}\nwidth = {width}\n{case_keys}'
             f"[grid]\ncell = 2.0\nmin = {corners[0]}\nmax = {corners[1]}\n"
-            f'[report]\ntimes = {times}\ntargets = "{"inputs/targets.csv" if targets else ""}"\n'
+            f'[report]\ntimes = {times}\ntargets = "{"inputs/targets.csv" if targets else ""}"\n{tables}'
         )
-        (folder / "inputs" / "targets.csv").write_text(TARGETS)
-        write_history(folder / "history.csv", history_columns(rows, dimension))
-        for number in range(snapshots):
-            write_snapshot(folder / "snapshots" / f"{number:06d}.vtkhdf", float(number), dimension)
-        (folder / "snapshots" / "notes.vtkhdf").write_text("not one of the numbered ones")
+        (folder / "inputs" / "targets.csv").write_text(targets if isinstance(targets, str) else TARGETS)
+        write_history(folder / "history.csv", history_columns(rows, dimension) | (history or {}))
         if terrain:
             x = np.linspace(0.0, 200.0, 21)
             rows_of_terrain = "".join(f"{a!r},{b!r}\n" for a, b in zip(x.tolist(), ground(x).tolist(), strict=True))
             (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n" + rows_of_terrain)
-        facts = {"version": "0.1.0", "status": "done", "threads": 2, "particle_steps_per_second": 3.1e6}
         stages = {"seconds_per_stage": {"momentum_to_grid": 1.25}}
-        (folder / "run.json").write_text(json.dumps(facts | stages))
+        of_run = {"version": "0.1.0", "threads": 2, "particle_steps_per_second": 3.1e6} | stages
+        write_facts(folder, **(of_run if facts is None else facts))
         return folder
 
     return make
 
 
-@pytest.fixture
-def map_run(tmp_path: Path) -> Path:
-    """Return the folder of a 3D run on a DEM, with six snapshots."""
+@pytest.fixture(scope="session")
+def whole_map_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of a 3D run on a DEM, with six snapshots, which tests copy."""
     import map_runs  # which imports this module
 
-    folder = tmp_path / "slab"
+    folder = tmp_path_factory.mktemp("map") / "slab"
     map_runs.write_map_run(folder, 6)
     return folder
+
+
+@pytest.fixture
+def map_run(tmp_path: Path, whole_map_run: Path) -> Path:
+    """Return a copy of the run on a DEM."""
+    return shutil.copytree(whole_map_run, tmp_path / "slab")

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import Fails
 from map_runs import CELL, SOUTH, WEST, write_map
 
 from thawslide.command_line import main
@@ -102,18 +103,12 @@ def test_gdal_reads_the_geopackage(map_run: Path) -> None:
         (["--map", "max_speed", "--threshold", "1", "--output", "a.shp"], "a.shp: unknown format (allowed: .gpkg, "),
     ],
 )
-def test_invalid_options_are_refused(
-    map_run: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str
-) -> None:
-    assert main(["contours", str(map_run), *words]) == 2
-    assert message in capsys.readouterr().err
+def test_invalid_options_are_refused(map_run: Path, fails: Fails, words: list[str], message: str) -> None:
+    fails(["contours", str(map_run), *words], message)
 
 
-def test_a_map_without_a_coordinate_system_needs_a_geopackage(
-    map_run: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_map_without_a_coordinate_system_needs_a_geopackage(map_run: Path, fails: Fails) -> None:
     cone(map_run / "maps", crs=None)
     words = ["contours", str(map_run), "--map", "cone", "--threshold", "1"]
-    assert main([*words, "--output", str(map_run / "a.geojson")]) == 2
-    assert "no coordinate system, which GeoJSON requires" in capsys.readouterr().err
+    fails([*words, "--output", str(map_run / "a.geojson")], "no coordinate system, which GeoJSON requires")
     assert main(words) == 0

@@ -7,7 +7,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from conftest import MakeRun, history_columns, write_history
+from conftest import MakeRun
 from figures_test import line, titled
 
 from thawslide import NotInRunError, Run
@@ -21,10 +21,8 @@ BED_DENSITY, JOINED = 900.0, 8  # kg/m3; particles of the bed in the last snapsh
 
 @pytest.fixture
 def bed_run(make_run: MakeRun) -> Path:
-    folder = make_run()
-    columns = history_columns(101, 2)
-    t = columns["time_s"]
-    columns |= {
+    t = np.linspace(0.0, 10.0, 101)
+    columns = {
         "entrained_mass_kg": 2e4 * t,
         "entrained_volume_m3": 2e4 * t / BED_DENSITY,
         "entrained_work_J": 1e6 * t,
@@ -34,9 +32,8 @@ def bed_run(make_run: MakeRun) -> Path:
         "bed_residual_kg": np.zeros(101),
         "bed_residual_J": np.zeros(101),
     }
-    write_history(folder / "history.csv", columns)
-    with (folder / "case.toml").open("a") as case:
-        case.write('\n[body.block]\nmaterial = "rock"\n[bed]\nlaw = "momentum"\ndepth = 1.0\n')
+    tables = '[body.block]\nmaterial = "rock"\n[bed]\nlaw = "momentum"\ndepth = 1.0\n'
+    folder = make_run(history=columns, tables=tables)
     last = folder / "snapshots" / "000010.vtkhdf"
     with h5py.File(last, "r+") as file:
         group = file["VTKHDF"]

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
-from conftest import MakeRun, ground, history_columns, write_history
+from conftest import MakeRun, ground, history_columns, update_facts, write_history
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import FillBetweenPolyCollection, PolyCollection
 from matplotlib.figure import Figure
+from matplotlib.transforms import Bbox
 
 from reproduction.bars import bars
 from thawslide import NotInRunError, Run
@@ -62,6 +62,16 @@ def particles(axes: Axes) -> PolyCollection:
     return found
 
 
+def centres(axes: Axes) -> np.ndarray:
+    """Return the centres of the particles of a panel, shape (n, 2)."""
+    return np.array([(0.5 * (b.x0 + b.x1), 0.5 * (b.y0 + b.y1)) for b in extents(axes)])
+
+
+def extents(axes: Axes) -> list[Bbox]:
+    """Return the boxes of the particles of a panel."""
+    return [path.get_extents() for path in particles(axes).get_paths()]
+
+
 @pytest.mark.parametrize(
     ("name", "label", "low", "high"),
     [
@@ -78,11 +88,7 @@ def test_snapshot_figures_have_one_panel_per_time_and_a_common_scale(
     (bar,) = [axes for axes in figure.axes if axes.get_xlabel() == label]
     assert bar.get_xlim() == pytest.approx((low, high))
     panels = [axes for axes in figure.axes if axes.get_title(loc="left").startswith("(")]
-    assert [axes.get_title(loc="left") for axes in panels] == [
-        "(a) t = 0 s",
-        "(b) t = 4 s",
-        "(c) t = 7 s",
-    ]
+    assert [axes.get_title(loc="left") for axes in panels] == ["(a) t = 0 s", "(b) t = 4 s", "(c) t = 7 s"]
     assert all(texts(axes)[0] == "true scale" for axes in panels)
     values = particles(panels[2]).get_array()
     assert values is not None
@@ -95,29 +101,22 @@ def test_snapshot_panels_have_particles_of_their_size_on_the_terrain(make_run: M
     figure = FIGURES["velocity"].plot(run)
     panel = titled(figure, "(b)")
     shot = run.snapshot(4)
-    boxes = [path.get_extents() for path in particles(panel).get_paths()]
-    np.testing.assert_allclose([(b.x0 + b.x1) / 2 for b in boxes], shot.points[:, 0])
-    np.testing.assert_allclose([(b.y0 + b.y1) / 2 for b in boxes], shot.points[:, 1])
+    np.testing.assert_allclose(centres(panel), shot.points[:, :2])
     # Cubes of 1 m on cells of 2 m: gaps narrower than a cell are closed.
-    np.testing.assert_allclose([(b.width, b.height) for b in boxes], [(2.0, 1.0)] * len(boxes))
+    np.testing.assert_allclose([(b.width, b.height) for b in extents(panel)], [(2.0, 1.0)] * len(shot.points))
     (ground_line,) = [found for found in panel.lines if len(found.get_xdata()) == 21]
     np.testing.assert_allclose(ground_line.get_ydata(), ground(np.asarray(ground_line.get_xdata(), dtype=float)))
     assert any(isinstance(c, FillBetweenPolyCollection) for c in panel.collections)
     (left, right), (bottom, top) = panel.get_xlim(), panel.get_ylim()
     assert left < shot.points[:, 0].min() and right > shot.points[:, 0].max()
     assert bottom < shot.points[:, 1].min() and top > shot.points[:, 1].max()
-    box = panel.get_position()
-    size = figure.get_size_inches()
-    assert (right - left) / (box.width * size[0]) == pytest.approx(
-        (top - bottom) / (box.height * size[1])
-    )  # true scale
+    width, height = figure.get_size_inches() * panel.get_position().size
+    assert (right - left) / width == pytest.approx((top - bottom) / height), "true scale"
 
 
 def test_block_on_a_tilted_plane_is_drawn_once(make_run: MakeRun) -> None:
     """The strip would have the scale of the panel; its height is not an elevation."""
-    folder = make_run(times="[0.0, 4.0]")
-    case = folder / "case.toml"
-    case.write_text(case.read_text().replace("[case]", "[case]\ngravity_tilt = 30.0"))
+    folder = make_run(times="[0.0, 4.0]", case_keys="gravity_tilt = 30.0\n")
     (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n0.0,0.0\n200.0,0.0\n")
     for number in (0, 4):
         with h5py.File(folder / "snapshots" / f"{number:06d}.vtkhdf", "r+") as file:
@@ -134,16 +133,14 @@ def test_strips_have_heights_above_the_terrain(make_run: MakeRun) -> None:
     figure = FIGURES["velocity"].plot(Run(make_run()))
     strips = [axes for axes in figure.axes if axes.get_ylabel() == "height above\nterrain (m)"]
     assert len(strips) == 3
-    middles = [0.5 * (box.y0 + box.y1) for box in (path.get_extents() for path in particles(strips[1]).get_paths())]
-    np.testing.assert_allclose(np.unique(np.round(middles, 9)), [0.5, 1.5, 2.5, 3.5])
+    np.testing.assert_allclose(np.unique(np.round(centres(strips[1])[:, 1], 9)), [0.5, 1.5, 2.5, 3.5])
 
 
 def test_overview_has_the_range_of_each_panel(make_run: MakeRun) -> None:
     figure = FIGURES["velocity"].plot(Run(make_run()))
     overview = titled(figure, "whole profile")
-    assert overview.get_title(loc="left") == (
-        "whole profile, true scale; grey: t = 0 s, red: t = 7 s; time: 0 at the start of the run"
-    )
+    title = "whole profile, true scale; grey: t = 0 s, red: t = 7 s; time: 0 at the start of the run"
+    assert overview.get_title(loc="left") == title
     (bars,) = [axes for axes in figure.axes if "range of each panel" in axes.get_xlabel()]
     assert bars.get_xlabel().startswith("distance (m)")
     shown = np.asarray(bars.lines[2].get_xdata(), dtype=float)
@@ -162,10 +159,9 @@ def test_without_terrain_there_is_no_fill_and_no_strip(make_run: MakeRun) -> Non
 def test_three_dimensions_are_projected_from_the_side(make_run: MakeRun) -> None:
     run = Run(make_run(dimension=3))
     panel = titled(FIGURES["velocity"].plot(run), "(b)")
-    boxes = [path.get_extents() for path in particles(panel).get_paths()]
-    across = run.snapshot(4).points[:, 1]
-    order = np.argsort(-across, kind="stable")  # distant ones first
-    np.testing.assert_allclose([(b.y0 + b.y1) / 2 for b in boxes], run.snapshot(4).points[order, 2])
+    points = run.snapshot(4).points
+    order = np.argsort(-points[:, 1], kind="stable")  # distant ones first
+    np.testing.assert_allclose(centres(panel)[:, 1], points[order, 2])
 
 
 def test_times_with_a_common_snapshot_have_one_panel(make_run: MakeRun) -> None:
@@ -210,27 +206,25 @@ def test_motion_has_reported_values(make_run: MakeRun) -> None:
     run = Run(make_run())
     figure = FIGURES["motion"].plot(run)
     speed, distance = titled(figure, "(a) speed"), titled(figure, "(b) distance")
-    np.testing.assert_array_equal(
-        line(speed, "mean (mass-weighted)"), [run.history["time_s"], run.history["mean_velocity_m_s"]]
-    )
-    np.testing.assert_array_equal(line(speed, "reported: seismic"), [[4.0, 6.0], [9.0, 11.0]])
-    np.testing.assert_array_equal(
-        line(distance, "mean path length (mass-weighted)")[1], run.history["mean_displacement_m"]
-    )
-    front = run.history["front_position_m"]
-    np.testing.assert_array_equal(line(distance, "front travel distance")[1], front - front[0])
-    np.testing.assert_array_equal(line(distance, "reported mean displacement: model"), [[10.0], [80.0]])
-    np.testing.assert_array_equal(line(distance, "reported runout distance: field"), [[10.0], [160.0]])
+    time, front = run.history["time_s"], run.history["front_position_m"]
+    for axes, label, expected in (
+        (speed, "mean (mass-weighted)", [time, run.history["mean_velocity_m_s"]]),
+        (speed, "reported: seismic", [[4.0, 6.0], [9.0, 11.0]]),
+        (distance, "mean path length (mass-weighted)", [time, run.history["mean_displacement_m"]]),
+        (distance, "front travel distance", [time, front - front[0]]),
+        (distance, "reported mean displacement: model", [[10.0], [80.0]]),
+        (distance, "reported runout distance: field", [[10.0], [160.0]]),
+    ):
+        np.testing.assert_array_equal(line(axes, label), expected)
     assert (speed.get_ylabel(), distance.get_ylabel()) == ("speed (m/s)", "distance (m)")
     assert (speed.get_xlabel(), distance.get_xlabel()) == (UNALIGNED, UNALIGNED)
 
 
 def test_maximum_velocity_ends_at_rest(make_run: MakeRun) -> None:
     folder = make_run()
-    facts = json.loads((folder / "run.json").read_text())
     moving = titled(FIGURES["motion"].plot(Run(folder)), "(a) speed")
     assert len(line(moving, "maximum")[0]) == len(Run(folder).history["time_s"])
-    (folder / "run.json").write_text(json.dumps(facts | {"at_rest": True, "rest_since_s": 6.0}))
+    update_facts(folder, at_rest=True, rest_since_s=6.0)
     run = Run(folder)
     before = run.history["time_s"] <= 6.0
     assert 0 < before.sum() < len(before)
@@ -239,19 +233,16 @@ def test_maximum_velocity_ends_at_rest(make_run: MakeRun) -> None:
 
 
 def test_front_travel_distance_begins_at_the_first_known_front(make_run: MakeRun) -> None:
-    folder = make_run()
-    columns = history_columns(11, 2)
-    columns["front_position_m"][:2] = columns["runout_m"][:2] = np.nan
-    write_history(folder / "history.csv", columns)
-    front = line(titled(FIGURES["motion"].plot(Run(folder)), "(b) distance"), "front travel distance")[1]
+    known = history_columns(11, 2)["runout_m"]
+    known[:2] = np.nan
+    run = Run(make_run(rows=11, history={"front_position_m": known, "runout_m": known}))
+    front = line(titled(FIGURES["motion"].plot(run), "(b) distance"), "front travel distance")[1]
     np.testing.assert_allclose(front, [np.nan, np.nan, *(12.0 * np.arange(9.0))], atol=1e-12)
 
 
 def test_reported_values_after_the_end_are_counted_in_the_legend(make_run: MakeRun) -> None:
-    folder = make_run()
-    columns = history_columns(101, 2)
-    write_history(folder / "history.csv", {name: values[:51] for name, values in columns.items()})  # to 5 s
-    figure = FIGURES["motion"].plot(Run(folder))
+    until_5_s = {name: values[:51] for name, values in history_columns(101, 2).items()}
+    figure = FIGURES["motion"].plot(Run(make_run(history=until_5_s)))
     speed, distance = titled(figure, "(a) speed"), titled(figure, "(b) distance")
     np.testing.assert_array_equal(line(speed, "reported: seismic"), [[4.0], [9.0]])
     assert legend_notes(speed) == ["1 reported value after the end of the run"]
@@ -262,15 +253,11 @@ def test_reported_values_after_the_end_are_counted_in_the_legend(make_run: MakeR
 
 
 def test_reported_values_before_the_start_are_counted_in_the_legend(make_run: MakeRun) -> None:
-    folder = make_run()
-    (folder / "inputs" / "targets.csv").write_text(
-        "quantity,time_s,value,unit\nmean_velocity,-100,9,m/s\nmean_velocity,99,9,m/s\n"
-    )
-    (speed, _) = FIGURES["motion"].plot(Run(folder)).axes
+    targets = "quantity,time_s,value,unit\nmean_velocity,-100,9,m/s\nmean_velocity,99,9,m/s\n"
+    (speed, _) = FIGURES["motion"].plot(Run(make_run(targets=targets))).axes
     assert not [marks for marks in speed.lines if str(marks.get_label()).startswith("reported")]
-    assert legend_notes(speed) == [
-        "1 reported value before the start of the run, 1 reported value after the end of the run"
-    ]
+    note = "1 reported value before the start of the run, 1 reported value after the end of the run"
+    assert legend_notes(speed) == [note]
 
 
 def test_motion_without_targets_has_curves_only(make_run: MakeRun) -> None:
@@ -316,15 +303,13 @@ def test_seismic_force_in_three_dimensions_has_three_components(make_run: MakeRu
 def test_band_has_the_history_with_gaps(make_run: MakeRun) -> None:
     run = Run(make_run())
     figure = FIGURES["band"].plot(run)
-    expected = {
-        "(a)": ("band_temperature_C", 1.0, "temperature (°C)"),
-        "(b)": ("band_pore_pressure_Pa", 1e6, "pore pressure (MPa)"),
-        "(c)": ("band_saturation", 1.0, "liquid saturation (–)"),
-        "(d)": ("band_friction_coefficient", 1.0, "friction coefficient (–)"),
-    }
-    for start, (column, divisor, axis_label) in expected.items():
+    for start, label, column, divisor, axis_label in (
+        ("(a)", "run", "band_temperature_C", 1.0, "temperature (°C)"),
+        ("(b)", "pore pressure P", "band_pore_pressure_Pa", 1e6, "pore pressure (MPa)"),
+        ("(c)", "run", "band_saturation", 1.0, "liquid saturation (–)"),
+        ("(d)", "run", "band_friction_coefficient", 1.0, "friction coefficient (–)"),
+    ):
         axes = titled(figure, start)
-        label = "pore pressure P" if "pressure" in column else "run"
         np.testing.assert_allclose(line(axes, label)[1] * divisor, run.history[column])
         assert axes.get_ylabel() == axis_label
     np.testing.assert_array_equal(line(titled(figure, "(c)"), "reported: model"), [[4.0], [0.3]])
@@ -353,10 +338,8 @@ def test_energy_terms_are_changes_and_residuals_are_relative(make_run: MakeRun) 
     np.testing.assert_allclose(line(mechanical, "kinetic")[1], 0.4 * t)
     np.testing.assert_allclose(line(thermal, "sensible heat")[1] * 1e12, 0.15e12 * t, atol=1.0)
     assert mechanical.get_ylabel() == "energy change (TJ)"
-    note = figure.get_supxlabel().replace("\n", " ")
-    assert note.startswith(
-        "Zero throughout: viscous work, damping, impact on the terrain, work of frames, numerical energy"
-    )
+    zero = "Zero throughout: viscous work, damping, impact on the terrain, work of frames, numerical energy"
+    assert figure.get_supxlabel().replace("\n", " ").startswith(zero)
     assert residual.get_yscale() == "log"
     np.testing.assert_allclose(line(residual, "mechanical")[1][1:], 1e3 * t[1:] / 1e13)
     np.testing.assert_allclose(line(residual, "thermal")[1][1:], 2e2 * t[1:] / 2e12)
@@ -380,16 +363,14 @@ def test_one_row_is_a_marker(make_run: MakeRun) -> None:
     assert [found.get_marker() for found in speed.lines] == ["o", "o"]
 
 
-@pytest.mark.parametrize("name", SNAPSHOT_FIGURES)
-def test_snapshot_figures_require_snapshots(make_run: MakeRun, name: str) -> None:
-    with pytest.raises(NotInRunError, match=r"no snapshots\. Set"):
-        FIGURES[name].plot(Run(make_run(snapshots=0)))
-
-
-def test_history_without_budget_or_force_has_no_such_figures(make_run: MakeRun) -> None:
-    folder = make_run()
+def test_figures_require_snapshots_budget_and_force(make_run: MakeRun) -> None:
+    folder = make_run(snapshots=0)
     write_history(folder / "history.csv", {"time_s": np.arange(3.0)})
-    for name, text in (("energy", "no columns of the energy budget"), ("force", "no column seismic_force_x_N")):
+    for name, text in (
+        *((name, r"no snapshots\. Set") for name in SNAPSHOT_FIGURES),
+        ("energy", "no columns of the energy budget"),
+        ("force", "no column seismic_force_x_N"),
+    ):
         with pytest.raises(NotInRunError, match=text):
             FIGURES[name].plot(Run(folder))
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import MakeRun, history_columns, write_history
+from conftest import MakeRun, history_columns, page_of, write_history
 from matplotlib.collections import FillBetweenPolyCollection
 from matplotlib.figure import Figure
 
@@ -15,14 +15,7 @@ from thawslide import NotInRunError, ReportError, Run
 from thawslide.band_pass import response
 from thawslide.figures import FIGURES
 from thawslide.figures.force_record import compared, filtered
-from thawslide.force_record import (
-    ForceRecord,
-    projected,
-    projected_ends,
-    read_force_record,
-    reversal,
-    travel_azimuth,
-)
+from thawslide.force_record import ForceRecord, projected, projected_ends, read_force_record, reversal, travel_azimuth
 from thawslide.report_page import make_report
 from thawslide.targets import Band
 
@@ -95,10 +88,8 @@ def test_curves_of_equal_forces_coincide(folder: Path) -> None:
         record_time, reference = line(figure, panel, "A survey, time shifted by +7.0 s")
         assert record_time[0] == pytest.approx(-13.0, abs=0.01) and record_time[-1] == pytest.approx(127.0, abs=0.26)
         inside = time <= record_time[-1]
-        # The record is interpolated linearly between rows one second apart.
-        assert (
-            np.abs(np.interp(time[inside], record_time, reference) - 0.5 * values[inside]).max() < 0.005 * values.max()
-        )
+        difference = np.interp(time[inside], record_time, reference) - 0.5 * values[inside]
+        assert np.abs(difference).max() < 0.005 * values.max(), "linear between rows one second apart"
         assert np.abs(values).max() > 20.0, "GN"
     assert figure.axes[0].get_ylabel() == "force (GN)"
     assert figure.axes[1].get_xlabel() == "time (s), 0 at the start of the run"
@@ -139,14 +130,11 @@ def test_range_surrounds_the_record(folder: Path) -> None:
     (folder / "inputs" / "force.csv").write_text(RANGE + "".join(rows))
     run = Run(folder)
     figure = FIGURES["force_record"].plot(run)
-    turned = np.radians(compared(run).azimuth)
-    assert turned == pytest.approx(0.0)
-    away = 3e9, 4e9
-    for panel, (low, high) in ((0, (1e9, 2e9)), (1, away)):
-        (band,) = [found for found in figure.axes[panel].collections if isinstance(found, FillBetweenPolyCollection)]
-        (label,) = [
-            str(found.get_label()) for found in figure.axes[panel].lines if "A survey" in str(found.get_label())
-        ]
+    assert np.radians(compared(run).azimuth) == pytest.approx(0.0)
+    for panel, low, high in ((0, 1e9, 2e9), (1, 3e9, 4e9)):
+        axes = figure.axes[panel]
+        (band,) = [found for found in axes.collections if isinstance(found, FillBetweenPolyCollection)]
+        (label,) = [label for found in axes.lines if "A survey" in (label := str(found.get_label()))]
         at, best = line(figure, panel, label)
         corners = band.get_paths()[0].vertices
         for middle in (10, len(at) // 2, len(at) - 10):
@@ -234,10 +222,8 @@ def test_history_is_extended_by_its_end_values() -> None:
 
 
 def test_times_without_a_reversal_are_not_aligned(folder: Path) -> None:
-    columns = history_columns(2001, 2)
-    columns["time_s"] = np.linspace(0.0, 200.0, 2001)
-    columns |= {f"seismic_force_{axis}_N": np.zeros(2001) for axis in "xy"}
-    write_history(folder / "history.csv", columns)
+    columns = history_columns(2001, 2) | {f"seismic_force_{axis}_N": np.zeros(2001) for axis in "xy"}
+    write_history(folder / "history.csv", columns | {"time_s": np.linspace(0.0, 200.0, 2001)})
     run = Run(folder)
     found = compared(run)
     assert (found.is_aligned, found.shift) == (False, 0.0)
@@ -279,22 +265,17 @@ def test_caption_has_the_difference_of_two_inversions(folder: Path) -> None:
     ]  # fmt: skip
     assert "Maximum force without a specified band, compared in 10 to 200 s (Them): 70 GN reported. " in words
     assert re.search(r"in 2 to 8 s \(Third\): 1 GN reported\. The run has [\d.]+ GN\.", words), "not in the record"
-    page = make_report(run, names=["force_record"], dpi=50).page.read_text(encoding="utf-8")
+    page = page_of(folder, "force_record")
     assert '<h2 id="force_record">' in page
     assert "The two inversions differ by a factor of" in page
 
 
 def test_x_is_east_in_three_dimensions(make_run: MakeRun) -> None:
-    made = make_run(dimension=3)
-    columns = history_columns(2001, 3)
-    time = columns["time_s"] = np.linspace(0.0, 200.0, 2001)
+    time = np.linspace(0.0, 200.0, 2001)
     along, angle = 1e11 * push(time), np.radians(AZIMUTH)
-    columns |= {
-        "seismic_force_x_N": along * np.sin(angle),
-        "seismic_force_y_N": along * np.cos(angle),
-        "seismic_force_z_N": 1e11 * pulse(time, 60.0),
-    }
-    write_history(made / "history.csv", columns)
+    force = (along * np.sin(angle), along * np.cos(angle), 1e11 * pulse(time, 60.0))
+    of_axes = {f"seismic_force_{axis}_N": part for axis, part in zip("xyz", force, strict=True)}
+    made = make_run(dimension=3, rows=2001, history={"time_s": time} | of_axes)
     write_record(made)
     found = compared(Run(made))
     np.testing.assert_allclose(found.run.along, filtered(time, along, found.run.time, BAND), atol=2e7)
@@ -316,29 +297,32 @@ def test_run_without_a_width_has_the_reason_on_the_page(make_run: MakeRun) -> No
     assert report.missing["force_record"] == reason and not report.faults
 
 
+ALL = "up_low_N, up_high_N, north_low_N, north_high_N, east_low_N, east_high_N"
+TOO_FEW = "too few rows (found {}; allowed: 2 or more). Add the history."
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "force.csv: empty; expected the columns time_s, up_N, north_N, east_N"),
-        ("time_s,up_N,north_N\n", "force.csv:1: no column east_N; found 'time_s', 'up_N', 'north_N'"),
-        (HEADER, "force.csv: too few rows (found 0; allowed: 2 or more). Add the history."),
-        (HEADER + "0,0,0,0\n", "force.csv: too few rows (found 1; allowed: 2 or more). Add the history."),
-        (HEADER + "0,0,x,0\n1,0,0,0\n", "force.csv:2: expected a number, found 'x'"),
-        (HEADER + "0,0,inf,0\n1,0,0,0\n", "force.csv:2: expected a finite number, found 'inf'"),
-        (HEADER + "0,0,0\n1,0,0,0\n", "force.csv:2: 3 values for 4 columns"),
+        ("", ": empty; expected the columns time_s, up_N, north_N, east_N"),
+        ("time_s,up_N,north_N\n", ":1: no column east_N; found 'time_s', 'up_N', 'north_N'"),
+        (HEADER, f": {TOO_FEW.format(0)}"),
+        (HEADER + "0,0,0,0\n", f": {TOO_FEW.format(1)}"),
+        (HEADER + "0,0,x,0\n1,0,0,0\n", ":2: expected a number, found 'x'"),
+        (HEADER + "0,0,inf,0\n1,0,0,0\n", ":2: expected a finite number, found 'inf'"),
+        (HEADER + "0,0,0\n1,0,0,0\n", ":2: 3 values for 4 columns"),
         (
             HEADER + "0,0,0,0\n1,0,0,0\n1.0,0,0,0\n",
-            "force.csv:4: time_s does not rise (found 1.0 after 1; allowed: more than that). Sort the rows by time.",
+            ":4: time_s does not rise (found 1.0 after 1; allowed: more than that). Sort the rows by time.",
         ),
         (
             HEADER.rstrip() + ",up_low_N\n0,0,0,0,0\n1,0,0,0,0\n",
-            "force.csv:1: the range is not complete (found no up_high_N, north_low_N, north_high_N, east_low_N, "
-            "east_high_N; allowed: all of up_low_N, up_high_N, north_low_N, north_high_N, east_low_N, east_high_N, or "
+            f":1: the range is not complete (found no {ALL.removeprefix('up_low_N, ')}; allowed: all of {ALL}, or "
             "none). Add what is missing.",
         ),
         (
             RANGE + "0,0,0,0,-1,1,-1,1,-1,1\n1,0,2,0,-1,1,-1,1,-1,1\n",
-            "force.csv:3: north_N is outside its range (found 2; allowed: -1 to 1). Correct one of the three.",
+            ":3: north_N is outside its range (found 2; allowed: -1 to 1). Correct one of the three.",
         ),
     ],
 )
@@ -346,7 +330,7 @@ def test_invalid_record_is_an_error(tmp_path: Path, text: str, message: str) -> 
     (tmp_path / "force.csv").write_text(text)
     with pytest.raises(ReportError) as error:
         read_force_record(tmp_path / "force.csv", BAND, "")
-    assert str(error.value) == f"{tmp_path}/{message}"
+    assert str(error.value) == f"{tmp_path}/force.csv{message}"
 
 
 def test_keys_of_the_case_are_checked(make_run: MakeRun) -> None:
@@ -354,19 +338,14 @@ def test_keys_of_the_case_are_checked(make_run: MakeRun) -> None:
     case = made / "case.toml"
     text = case.read_text() + 'force_record = "inputs/force.csv"\n'
     (made / "inputs" / "force.csv").write_text(HEADER + "0,0,0,0\n1,0,0,0\n")
+    invalid = "invalid value (found {}; allowed two numbers above 0, the smaller one first)"
     for keys, message in (
-        ("", "report.force_periods: missing for report.force_record. Add the periods of its waves [s]."),
-        (
-            "force_periods = [9.0]\n",
-            "report.force_periods: invalid value (found [9.0]; allowed two numbers above 0, the smaller one first)",
-        ),
-        (
-            "force_periods = [9.0, 3.0]\n",
-            "report.force_periods: invalid value (found [9.0, 3.0]; allowed two numbers above 0",
-        ),
+        ("", "missing for report.force_record. Add the periods of its waves [s]."),
+        ("force_periods = [9.0]\n", invalid.format([9.0])),
+        ("force_periods = [9.0, 3.0]\n", invalid.format([9.0, 3.0])),
     ):
         case.write_text(text + keys)
-        with pytest.raises(ReportError, match=re.escape(f"{case}: {message}")):
+        with pytest.raises(ReportError, match=re.escape(f"{case}: report.force_periods: {message}")):
             _ = Run(made).force_record
     case.write_text(text.replace("inputs/force.csv", "inputs/none.csv") + "force_periods = [3.0, 9.0]\n")
     with pytest.raises(ReportError, match=re.escape("none.csv: no such file. Correct report.force_record in")):

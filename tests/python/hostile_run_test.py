@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
-from conftest import MakeRun, history_columns, write_history
-from map_figure_parts import plotted
+from conftest import MakeRun, edit, history_columns, page_of, write_facts, write_history
+from map_runs import plotted
 
 from thawslide import Run
 from thawslide.atomic_file import atomic_file
@@ -26,45 +27,75 @@ def report(folder: Path, capsys: pytest.CaptureFixture[str], *only: str) -> tupl
     return code, capsys.readouterr().err, page.read_text(encoding="utf-8") if page.is_file() else ""
 
 
-def test_incomplete_last_row_is_a_warning(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = make_run()
-    text = (folder / "history.csv").read_text()
-    (folder / "history.csv").write_text(text[: len(text) // 2])
-    code, errors, page = report(folder, capsys, "motion")
-    assert code == 0
-    for words in (errors, page):
-        assert "history.csv: the last row is incomplete and is ignored" in words
+def history(change: Callable[[str], str]) -> Callable[[Path], None]:
+    """Return a function that changes the history."""
+    return lambda folder: write(folder / "history.csv", change((folder / "history.csv").read_text()))
 
 
-def test_history_without_rows_is_an_error(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = make_run()
-    text = (folder / "history.csv").read_text()
-    (folder / "history.csv").write_text(text[: text.index("\n") + 1])
-    code, errors, page = report(folder, capsys)
-    assert (code, page) == (2, "")
-    assert "history.csv: no rows after the header. Wait for the first row of the run." in errors
+def write(path: Path, text: str) -> None:
+    path.write_text(text)
 
 
-def test_damaged_row_is_an_error_with_its_line(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = make_run()
-    lines = (folder / "history.csv").read_text().splitlines(keepends=True)
+def damage_row(text: str) -> str:
+    lines = text.splitlines(keepends=True)
     lines[40] = lines[40][:30] + "\n"
-    (folder / "history.csv").write_text("".join(lines))
-    code, errors, _ = report(folder, capsys)
-    assert code == 2
-    assert "history.csv:41: " in errors
-    assert "Repeat the rows after the last checkpoint with `thawslide resume`." in errors
+    return "".join(lines)
 
 
-def test_missing_and_damaged_snapshots_are_warnings(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = make_run()
+def damage_snapshots(folder: Path) -> None:
     (folder / "snapshots" / "000003.vtkhdf").unlink()
     (folder / "snapshots" / "000005.vtkhdf").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))
-    code, errors, page = report(folder, capsys, "velocity")
-    assert code == 0
-    for words in (errors, page):
-        assert "000003.vtkhdf: missing. The figures use the other snapshots." in words
-        assert "000005.vtkhdf: cannot be read as HDF5" in words
+
+
+# Damage, exit code, words of standard error, words of the page; without words of the page, there is none.
+DAMAGE = {
+    "incomplete last row": (
+        history(lambda text: text[: len(text) // 2]), 0,
+        ["warning: ", "history.csv: the last row is incomplete and is ignored"],
+        ["history.csv: the last row is incomplete and is ignored"],
+    ),
+    "history without rows": (
+        history(lambda text: text[: text.index("\n") + 1]), 2,
+        ["history.csv: no rows after the header. Wait for the first row of the run."], [],
+    ),
+    "damaged row": (
+        history(damage_row), 2,
+        ["history.csv:41: ", "Repeat the rows after the last checkpoint with `thawslide resume`."], [],
+    ),
+    "missing and damaged snapshots": (
+        damage_snapshots, 0, words := [
+            "000003.vtkhdf: missing. The figures use the other snapshots.", "000005.vtkhdf: cannot be read as HDF5",
+        ], words,
+    ),
+    "no run.json": (
+        lambda folder: (folder / "run.json").unlink(), 0, [],
+        ["There is no run.json: it is unknown whether this run is complete."],
+    ),
+    "killed run": (
+        lambda folder: write_facts(folder, status="running", simulated_time_s=0.0), 0, [],
+        ["This run terminated unexpectedly", "To continue from its last checkpoint: `thawslide resume FOLDER`."],
+    ),
+} | {
+    f"run.json with {text[:9]!r}": (lambda folder, text=text: write(folder / "run.json", text), 2, ["run.json"], [])
+    for text in ('{"status": "running", "simu', "[]", "", "\0" * 50)
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", DAMAGE)
+def test_damage_is_named(make_run: MakeRun, capsys: pytest.CaptureFixture[str], name: str) -> None:
+    damage, expected, errors_expected, page_expected = DAMAGE[name]
+    folder = make_run()
+    damage(folder)
+    code, errors, page = report(folder, capsys, *(["velocity"] if "snapshots" in name else ["motion"]))
+    assert code == expected
+    assert all(words in errors for words in errors_expected)
+    assert all(words.replace("FOLDER", str(folder)) in page for words in page_expected)
+    assert bool(page) == bool(page_expected)
+
+
+def test_damaged_snapshots_have_no_times(make_run: MakeRun) -> None:
+    folder = make_run()
+    damage_snapshots(folder)
     assert Run(folder, skip_damaged=True).times.tolist() == [0.0, 1.0, 2.0, 4.0, 6.0, 7.0, 8.0, 9.0, 10.0]
 
 
@@ -79,32 +110,6 @@ def test_damaged_field_affects_only_its_figures(make_run: MakeRun, capsys: pytes
     assert "000004.vtkhdf: damaged (found the shape (3,) of 'VTKHDF/PointData/velocity')" in errors
     assert "Not plotted: velocity, interactive view. Section &#x27;Missing figures&#x27; has the reasons." in page
     assert (folder / "figures" / "motion.png").is_file()
-
-
-def test_missing_run_json_is_a_note(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = make_run()
-    (folder / "run.json").unlink()
-    code, _, page = report(folder, capsys, "motion")
-    assert code == 0
-    assert "There is no run.json: it is unknown whether this run is complete." in page
-
-
-@pytest.mark.parametrize("text", ['{"status": "running", "simu', "[]", "", "\0" * 50])
-def test_incomplete_run_json_is_an_error(make_run: MakeRun, text: str, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = make_run()
-    (folder / "run.json").write_text(text)
-    code, errors, page = report(folder, capsys)
-    assert (code, page) == (2, "")
-    assert "run.json" in errors
-
-
-def test_page_of_a_killed_run_has_the_command_to_resume(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = make_run()
-    (folder / "run.json").write_text(json.dumps({"status": "running", "simulated_time_s": 0.0}))
-    code, _, page = report(folder, capsys, "motion")
-    assert code == 0
-    assert "This run terminated unexpectedly" in page
-    assert f"To continue from its last checkpoint: `thawslide resume {folder}`." in page
 
 
 @pytest.mark.parametrize("damaged", ["max_thickness.tif", "terrain.tif", "results.gpkg"])
@@ -140,13 +145,9 @@ def test_overflow_affects_only_its_figures(make_run: MakeRun, capsys: pytest.Cap
 @pytest.mark.filterwarnings("ignore:Glyph")  # the font has no Chinese
 def test_special_characters_are_text(make_run: MakeRun) -> None:
     """A pair of dollar signs would be a formula, and an invalid formula is an error."""
-    folder = make_run()
+    folder = make_run(targets='quantity,time_s,value,unit,source\nmean_velocity,4,9,m/s,"$\\nothing$, $5 and $6"\n')
     title = r"$\frac{ 5 $ & <b> 氷 \u0007 x"
-    case = (folder / "case.toml").read_text().replace('"Block on a slope & <more>"', json.dumps(title))
-    (folder / "case.toml").write_text(case)
-    (folder / "inputs" / "targets.csv").write_text(
-        'quantity,time_s,value,unit,source\nmean_velocity,4,9,m/s,"$\\nothing$, $5 and $6"\n'
-    )
+    edit(folder / "case.toml", '"Block on a slope & <more>"', json.dumps(title))
     figure = FIGURES["motion"].plot(Run(folder))
     figure.savefig(folder / "motion.png", dpi=50)
     (speed, _), heading = figure.axes, figure.get_suptitle()
@@ -157,9 +158,8 @@ def test_special_characters_are_text(make_run: MakeRun) -> None:
 
 def test_title_is_not_a_template(make_run: MakeRun) -> None:
     folder = make_run()
-    case = (folder / "case.toml").read_text().replace("Block on a slope & <more>", "BODY of TITLE")
-    (folder / "case.toml").write_text(case)
-    page = make_report(Run(folder), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    edit(folder / "case.toml", "Block on a slope & <more>", "BODY of TITLE")
+    page = page_of(folder)
     assert "<title>BODY of TITLE</title>" in page
     assert page.count("<h1>") == 1
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from conftest import MakeRun, history_columns, write_history
+from conftest import MakeRun
 
 from reproduction.lamplugh import FRONT, base_traction, block_measures, near_ground, read_block, zone_fractions, zones
 from reproduction.one_at_a_time import Outcome, Row, at_rest, end_of, is_current, outcome, run_rows, table, table_row
@@ -44,22 +44,13 @@ def test_zones_adjoin_and_contain_their_fraction_of_the_volume(make_run: MakeRun
         points[:, 0] = x
         volume = float(np.sum(file["VTKHDF/PointData/volume"]))
     fractions = zone_fractions(Run(folder))
-    assert {letter: fraction for letter, (fraction, _) in fractions.items()} == {
-        "B": 25,
-        "C": 0,
-        "D": 25,
-        "E": 0,
-        "F": 25,
-    }
+    assert {letter: fraction for letter, (fraction, _) in fractions.items()} == dict(B=25, C=0, D=25, E=0, F=25)
     assert fractions["F"][1] == pytest.approx(0.25 * volume / 1000.0)
 
 
 def test_base_traction_follows_from_the_deceleration(make_run: MakeRun) -> None:
-    folder = make_run(rows=201)
+    folder = make_run(rows=201, history={"mean_velocity_m_s": 50.0 - 0.8 * np.linspace(0.0, 10.0, 201)})
     (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n-1e4,0.0\n1e4,0.0\n")
-    columns = history_columns(201, 2)
-    columns["mean_velocity_m_s"] = 50.0 - 0.8 * columns["time_s"]
-    write_history(folder / "history.csv", columns)
     run = Run(folder)
     x = np.sort(run.snapshot(0).points[:, 0])
     # 80 particles of 2,000 kg on 20 m in rows of 4: 0.5 % and 99.5 % of the mass are the first and the last of them.

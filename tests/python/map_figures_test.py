@@ -2,19 +2,30 @@
 
 from __future__ import annotations
 
-import json
 import struct
 from pathlib import Path
 
 import imageio_ffmpeg
 import numpy as np
 import pytest
-from map_figure_parts import field, labels, maps_of, notes, plotted
-from map_runs import SOUTH, SPEED, THICKNESS, WEST, centres, write_layer, write_map
+from conftest import Fails, edit, page_of, update_facts
+from map_runs import (
+    SOUTH,
+    SPEED,
+    THICKNESS,
+    WEST,
+    centres,
+    field,
+    labels,
+    maps_of,
+    notes,
+    plotted,
+    write_layer,
+    write_map,
+)
 from matplotlib.figure import Figure
 
 from thawslide import NotInRunError, ReportError, Run
-from thawslide.command_line import main
 from thawslide.figures import FIGURES
 from thawslide.figures.animation import MOST_FRAMES, Animation
 from thawslide.figures.map_page import HIGHEST, WIDTH, layout
@@ -140,7 +151,7 @@ def test_probes_have_one_panel_per_quantity(map_run: Path) -> None:
     assert panel.get_ylim()[0] < -6480.0 and panel.get_ylim()[1] == 0.0
 
 
-def test_animation_has_a_frame_for_each_snapshot(map_run: Path, tmp_path: Path) -> None:
+def test_animation_has_a_different_frame_with_even_sides_for_each_snapshot(map_run: Path, tmp_path: Path) -> None:
     video = FIGURES["animation"].plot(Run(map_run))
     assert isinstance(video, Animation)
     video.write(tmp_path / "video.mp4", 40)
@@ -148,11 +159,6 @@ def test_animation_has_a_frame_for_each_snapshot(map_run: Path, tmp_path: Path) 
     assert frames == 6
     assert seconds == pytest.approx(6 / video.frames_per_second, abs=0.1)
     assert [path.name for path in tmp_path.glob("*.mp4")] == ["video.mp4"]
-
-
-def test_frames_differ_and_have_even_sides(map_run: Path) -> None:
-    video = FIGURES["animation"].plot(Run(map_run))
-    assert isinstance(video, Animation)
     first, *_, last = list(video.frames(41))
     assert first.shape == last.shape
     assert first.shape[0] % 2 == 0 and first.shape[1] % 2 == 0
@@ -200,10 +206,8 @@ def test_key_numbers_of_the_deposit_are_those_of_run_json(map_run: Path) -> None
 
 def test_mass_that_is_not_at_rest_has_no_deposit(map_run: Path) -> None:
     """Rows, titles, notes and the page have the time and no word of a deposit."""
-    facts = json.loads((map_run / "run.json").read_text())
     warning = "the slide is not at rest at 10 s (mean velocity 20 m/s)."
-    facts |= {"at_rest": False, "rest_since_s": None, "simulated_time_s": 10.0, "warnings": [warning]}
-    (map_run / "run.json").write_text(json.dumps(facts))
+    update_facts(map_run, at_rest=False, rest_since_s=None, simulated_time_s=10.0, warnings=[warning])
     run = Run(map_run)
     assert (run.last_state, run.end_note) == ("10 s (not at rest)", "The sliding mass is not at rest at 10 s. ")
     found = {row.words: row for row in key_numbers(run)}
@@ -215,7 +219,7 @@ def test_mass_that_is_not_at_rest_has_no_deposit(map_run: Path) -> None:
     figure = plotted("extent_maps", map_run)
     assert figure._suptitle.get_text() == "Slab on a plane: extent, up to 10 s (not at rest)"
     assert any("flow thickness at 10 s (not at rest)" in axes.get_title(loc="left") for axes in figure.axes)
-    page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    page = page_of(map_run)
     assert f'<p class="note">Warning: {warning}</p>' in page
     assert "eposit" not in page
 
@@ -240,7 +244,7 @@ def test_components_of_the_force_on_a_map_are_east_and_north(map_run: Path) -> N
     assert [text.get_text() for text in components.get_legend().get_texts()] == ["x (east)", "y (north)", "z (up)"]
 
 
-def test_missing_maps_are_errors(map_run: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_missing_maps_are_errors(map_run: Path, fails: Fails) -> None:
     (map_run / "maps" / "results.gpkg").unlink()
     with pytest.raises(NotInRunError, match=r"results\.gpkg: no flow path\. Specify maps\.path"):
         plotted("cross_sections", map_run)
@@ -248,13 +252,11 @@ def test_missing_maps_are_errors(map_run: Path, capsys: pytest.CaptureFixture[st
     with pytest.raises(NotInRunError, match=r"max_speed\.tif: no such map \(found: "):
         list(Animation(Run(map_run)).frames(40))
     (map_run / "maps" / "terrain.tif").unlink()
-    assert main([str(map_run), "--only", "slide_speed"]) == 2
-    assert "terrain.tif: no such map. Repeat the run." in capsys.readouterr().err
+    fails([str(map_run), "--only", "slide_speed"], "terrain.tif: no such map. Repeat the run.")
 
 
 def test_maps_require_snapshots_and_heat(map_run: Path) -> None:
-    case = (map_run / "case.toml").read_text()
-    (map_run / "case.toml").write_text(case.replace("enabled = true", "enabled = false"))
+    edit(map_run / "case.toml", "enabled = true", "enabled = false")
     with pytest.raises(NotInRunError, match=r"heat\.enabled: temperatures are constant"):
         plotted("slide_temperature", map_run)
     for path in (map_run / "snapshots").iterdir():

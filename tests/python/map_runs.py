@@ -1,8 +1,7 @@
-"""Constructed run folders of 3D runs on a DEM: a slab that slides down a plane to the east."""
+"""Constructed run folders of 3D runs on a DEM: a slab that slides down a plane to the east; parts of their figures."""
 
 from __future__ import annotations
 
-import json
 import sqlite3
 import struct
 from contextlib import closing
@@ -11,7 +10,13 @@ from pathlib import Path
 import h5py
 import numpy as np
 import rasterio
-from conftest import history_columns, write_history
+from conftest import history_columns, write_facts, write_history
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
+
+from thawslide import Run
+from thawslide.figures import FIGURES
 
 WEST, SOUTH, CELL = 400_000.0, 380_000.0, 10.0
 COLUMNS, ROWS = 60, 30
@@ -151,12 +156,40 @@ def write_map_run(folder: Path, snapshots: int) -> None:
         "weir_flow_area_m2,weir_discharge_m3_s,weir_mean_speed_m_s,weir_max_thickness_m\n"
         "0.0,0.0,0.0,0.0,0.0,0.0,0.0\n5.0,6.0,20.0,360.0,-6480.0,18.0,5.0\n10.0,6.0,20.0,0.0,0.0,0.0,0.0\n"
     )
-    facts = {
-        "status": "done", "covered_volume_m3": 28800.0, "covered_area_m2": 4800.0, "affected_area_m2": 16800.0,
-        "at_rest": True, "rest_since_s": 8.5, "travel_distance_m": 280.0,
-        "drop_height_m": 112.0, "reach_angle_degrees": 21.8, "crs": "MGI / Austria Lambert",
-    }  # fmt: skip
-    (folder / "run.json").write_text(json.dumps(facts))
+    write_facts(
+        folder, covered_volume_m3=28800.0, covered_area_m2=4800.0, affected_area_m2=16800.0, at_rest=True,
+        rest_since_s=8.5, travel_distance_m=280.0, drop_height_m=112.0, reach_angle_degrees=21.8,
+        crs="MGI / Austria Lambert",
+    )  # fmt: skip
     write_maps(folder / "maps", 10.0)
     for number, time in enumerate(np.linspace(0.0, 10.0, snapshots)):
         write_particles(folder / "snapshots" / f"{number:06d}.vtkhdf", float(time))
+
+
+def plotted(name: str, folder: Path) -> Figure:
+    """Plot a figure of a run by its name."""
+    figure = FIGURES[name].plot(Run(folder))
+    assert isinstance(figure, Figure)
+    return figure
+
+
+def maps_of(figure: Figure) -> list[Axes]:
+    """Return the panels that have a letter."""
+    return [axes for axes in figure.axes if axes.get_title(loc="left").startswith("(")]
+
+
+def field(axes: Axes) -> AxesImage:
+    """Return the field over the shaded terrain."""
+    shade, *fields = [image for image in axes.images if isinstance(image, AxesImage)]
+    assert shade.get_zorder() < fields[-1].get_zorder()
+    return fields[-1]
+
+
+def labels(figure: Figure) -> set[str]:
+    """Return the labels of the axes."""
+    return {label for axes in figure.axes for label in (axes.get_xlabel(), axes.get_ylabel()) if label}
+
+
+def notes(figure: Figure) -> str:
+    """Return the notes of the figure in one line."""
+    return " ".join(" ".join(text.get_text().split()) for text in figure.texts)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
 import rasterio
+from conftest import edit
 from map_runs import CELL, COLUMNS, ROWS, SOUTH, WEST, centres, ground, write_map
 from rasterio.errors import NotGeoreferencedWarning
 
@@ -81,10 +83,7 @@ def test_means_over_other_cells_are_weighted_by_area() -> None:
 def test_interpolation_is_linear_and_ends_with_the_map() -> None:
     x, y = centres()
     field = Map(Grid(WEST + 5.0, SOUTH + 5.0, CELL, CELL, COLUMNS, ROWS), ground(x, y))
-    at_x, at_y = (
-        np.array([WEST + 5.0, WEST + 123.4, WEST + 595.0]),
-        np.array([SOUTH + 5.0, SOUTH + 77.7, SOUTH + 295.0]),
-    )
+    at_x, at_y = WEST + np.array([5.0, 123.4, 595.0]), SOUTH + np.array([5.0, 77.7, 295.0])
     np.testing.assert_allclose(field.at(at_x, at_y), ground(at_x, at_y), rtol=1e-12)
     assert np.isnan(field.at(np.array([WEST + 4.0]), np.array([SOUTH + 50.0]))).all()
     field.values[3, 4] = np.nan
@@ -103,14 +102,11 @@ def test_maps_of_a_run_are_read_by_name(map_run: Path) -> None:
 
 def test_runs_on_a_dem_are_on_a_map(map_run: Path) -> None:
     assert on_map(Run(map_run))
-    for path in [*(map_run / "maps").iterdir()]:
-        path.unlink()
-    (map_run / "maps").rmdir()
+    shutil.rmtree(map_run / "maps")
     assert on_map(Run(map_run))
     with pytest.raises(NotInRunError, match=r"maps: no such folder\. Only a 3D run on a DEM writes maps"):
         Maps(Run(map_run))
-    case = (map_run / "case.toml").read_text()
-    (map_run / "case.toml").write_text(case.replace('"dem"', '"plane"'))
+    edit(map_run / "case.toml", '"dem"', '"plane"')
     assert not on_map(Run(map_run))
 
 
@@ -121,25 +117,22 @@ def write_raw(path: Path, transform: rasterio.Affine) -> None:
         file.write(np.ones((3, 4)), 1)
 
 
-def fails(path: Path, text: str) -> None:
-    with pytest.raises(ReportError, match=re.escape(text)):
-        read_map(path)
-
-
 def test_damaged_files_are_errors(tmp_path: Path) -> None:
-    path = tmp_path / "a.tif"
-    fails(path, "a.tif: cannot be read as a GeoTIFF (")
-    path.write_text("no map")
-    fails(path, "a.tif: cannot be read as a GeoTIFF (")
-    write_map(path, np.random.default_rng(0).random((300, 300)))
-    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
-    fails(path, "a.tif: cannot be read as a GeoTIFF (")
-    path.unlink()
-    write_raw(path, rasterio.Affine(1.0, 0.2, 0.0, 0.0, -1.0, 5.0))
-    fails(path, "a.tif: not aligned with north. Repeat the run.")
+    unreadable = "cannot be read as a GeoTIFF ("
+    (tmp_path / "text.tif").write_text("no map")
+    write_map(tmp_path / "half.tif", np.random.default_rng(0).random((300, 300)))
+    half = (tmp_path / "half.tif").read_bytes()
+    (tmp_path / "half.tif").write_bytes(half[: len(half) // 2])
+    write_raw(tmp_path / "turned.tif", rasterio.Affine(1.0, 0.2, 0.0, 0.0, -1.0, 5.0))
     with pytest.warns(NotGeoreferencedWarning):
-        write_raw(path, rasterio.Affine.identity())
-    fails(path, "a.tif: no coordinates; not a map of the simulator.")
+        write_raw(tmp_path / "bare.tif", rasterio.Affine.identity())
+    for name, text in (
+        ("absent.tif", unreadable), ("text.tif", unreadable), ("half.tif", unreadable),
+        ("turned.tif", "not aligned with north. Repeat the run."),
+        ("bare.tif", "no coordinates; not a map of the simulator."),
+    ):  # fmt: skip
+        with pytest.raises(ReportError, match=re.escape(f"{name}: {text}")):
+            read_map(tmp_path / name)
 
 
 def test_terrain_with_gaps_is_shaded_in_cells_with_data() -> None:

@@ -56,8 +56,7 @@ def changed(**values: float | str) -> Observed:
 
 
 def test_observed_has_the_results_of_a_run(make_run: MakeRun) -> None:
-    folder = make_run()
-    write_history(folder / "history.csv", column_history())
+    folder = make_run(history=column_history())
     found = observed(folder)
     assert found.failure == ""
     assert found.start == pytest.approx(START, abs=2e-3)
@@ -72,14 +71,9 @@ def test_observed_has_the_results_of_a_run(make_run: MakeRun) -> None:
 
 
 def test_reversal_is_that_of_the_force_figure(make_run: MakeRun) -> None:
-    folder = make_run()
     time = np.linspace(0.0, 200.0, 2001)
-    force = {
-        "time_s": time,
-        "seismic_force_x_N": -1e11 * pulse(time, 52.0),
-        "seismic_force_y_N": 1e11 * pulse(time, 60.0),
-    }
-    write_history(folder / "history.csv", column_history(2001) | force)
+    force = {"seismic_force_x_N": -1e11 * pulse(time, 52.0), "seismic_force_y_N": 1e11 * pulse(time, 60.0)}
+    folder = make_run(rows=2001, history=column_history(2001) | {"time_s": time} | force)
     write_record(folder)
     found = compared(Run(folder)).run.reversal
     assert found is not None and 8.0 < found.duration < 20.0
@@ -87,11 +81,9 @@ def test_reversal_is_that_of_the_force_figure(make_run: MakeRun) -> None:
 
 
 def test_moving_run_has_no_stop(make_run: MakeRun) -> None:
-    folder = make_run()
     columns = column_history()
     columns["mean_velocity_m_s"] = 1.0 * columns["time_s"]
-    write_history(folder / "history.csv", columns)
-    (folder / "run.json").write_text(json.dumps({"status": "failed", "message": "it left"}))
+    folder = make_run(history=columns, facts={"status": "failed", "message": "it left"})
     found = observed(folder)
     assert (found.stop, found.failure) == (float("inf"), "it left")
     assert observed(folder.parent / "none").failure == "not run"

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
-from conftest import MakeRun, history_columns, write_history
+from conftest import MakeRun, history_columns, write_facts, write_history
 from matplotlib.colors import PowerNorm, to_rgba
 
 from thawslide import Run
@@ -67,7 +66,7 @@ def velocity_label(run: Run) -> str:
 @pytest.mark.parametrize("facts", [{"at_rest": False}, {}])
 def test_last_velocities_of_a_moving_mass_are_those_of_the_last_time(make_run: MakeRun, facts: dict[str, bool]) -> None:
     folder = make_run(times="[0.0, 5.0, 10.0]")
-    (folder / "run.json").write_text(json.dumps({"status": "done"} | facts))
+    write_facts(folder, **facts)
     run = Run(folder)
     np.testing.assert_array_equal(shown_snapshot(run, 10)["velocity"], run.snapshot(10)["velocity"])
     assert velocity_label(run) == "speed (m/s), 2 s mean; at 0 and 10 s: instantaneous"
@@ -76,13 +75,12 @@ def test_last_velocities_of_a_moving_mass_are_those_of_the_last_time(make_run: M
 def test_last_velocities_at_rest_are_means_of_the_last_interval(make_run: MakeRun) -> None:
     folder = make_run(times="[5.0, 10.0]")
     for since, words in ((9.5, "; at 10 s: mean of the last 1 s"), (8.0, "")):
-        (folder / "run.json").write_text(json.dumps({"status": "done", "at_rest": True, "rest_since_s": since}))
+        write_facts(folder, at_rest=True, rest_since_s=since)
         assert velocity_label(Run(folder)) == f"speed (m/s), 2 s mean{words}"
 
 
 def test_vibration_at_rest_has_no_velocity(make_run: MakeRun) -> None:
-    folder = make_run(times="[10.0]")
-    (folder / "run.json").write_text(json.dumps({"status": "done", "at_rest": True, "rest_since_s": 8.0}))
+    folder = make_run(times="[10.0]", facts={"at_rest": True, "rest_since_s": 8.0})
     points = Run(folder).snapshot(8).points
     for number in (9, 10):
         move(folder, number, points=points, velocity=1.2)
@@ -128,9 +126,7 @@ def test_thin_margins_have_a_separate_colour(map_run: Path) -> None:
     assert (norm.vmin, norm.vmax) == (0.1, pytest.approx(6.0))
     np.testing.assert_array_equal(colours(norm(0.05)), to_rgba(THIN))
     for thickness in (0.5, 1.5, 6.0):
-        assert norm(thickness) == pytest.approx(np.sqrt((thickness - 0.1) / 5.9)), (
-            "thin margins have a sufficient part of the scale"
-        )
+        assert norm(thickness) == pytest.approx(np.sqrt((thickness - 0.1) / 5.9)), "thin margins have a sufficient part"
     (bar,) = [axes for axes in figure.axes if axes.get_xlabel().startswith("flow thickness")]
     assert [label.get_text() for label in bar.get_xticklabels()] == ["0.1", "0.2", "0.5", "1", "2", "5"]
     for name in ("max_thickness", "final_thickness"):

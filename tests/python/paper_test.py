@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 import math
 import re
 from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import write_facts, write_history
 
 from reproduction.band_model import GRAVITY, Column, Drive, solve
 from reproduction.block import clapeyron, differences
@@ -43,10 +43,7 @@ def neumann(x: np.ndarray, time: float, mixture: Mixture, slope: float) -> np.nd
     """
     capacity = float(mixture.capacity(np.zeros(1))[0])
     conductivity = float(mixture.conductivity(np.zeros(1))[0])
-    near, far = (
-        conductivity / capacity,
-        conductivity / (capacity + mixture.melting_heat() * slope),
-    )
+    near, far = conductivity / capacity, conductivity / (capacity + mixture.melting_heat() * slope)
     ratio, front = math.sqrt(near / far), -1.0 / slope
 
     def excess(psi: float) -> float:
@@ -119,12 +116,11 @@ def test_seepage_lowers_pressure_and_prolongs_heating() -> None:
 
 def test_verdicts_follow_from_comparisons() -> None:
     measures = {"a": 1.0, "b": 2.0, "none": math.nan}
-    assert holds(["a", "<", "b"], measures) is True
-    assert holds(["a", ">", "b"], measures) is False
-    assert holds(["a", ">", "b", 0.4], measures) is True
-    assert holds(["a", "within", 1.5, 0.4], measures) is False
-    assert holds(["a", "within", 1.5, 0.5], measures) is True
-    assert holds(["a", "<", "none"], measures) is None
+    for test, expected in (
+        (["a", "<", "b"], True), (["a", ">", "b"], False), (["a", ">", "b", 0.4], True), (["a", "<", "none"], None),
+        (["a", "within", 1.5, 0.4], False), (["a", "within", 1.5, 0.5], True),
+    ):  # fmt: skip
+        assert holds(test, measures) is expected, test
     with pytest.raises(ValueError, match="unknown comparison"):
         holds(["a", "=", "b"], measures)
     assert verdict([["a", "<", "b"]], measures) is True
@@ -157,10 +153,7 @@ def test_numbers_in_sentences_have_a_tolerance_of_a_tenth() -> None:
     for row in claims():
         for left, kind, right, *width in row.get("tests", []):
             if kind == "within" and isinstance(right, float) and right > 1.0:
-                assert width[0] == pytest.approx(0.1 * right, rel=0.01), (
-                    row["text"],
-                    left,
-                )
+                assert width[0] == pytest.approx(0.1 * right, rel=0.01), (row["text"], left)
 
 
 def test_water_in_frozen_equilibrium_has_lower_pressure() -> None:
@@ -172,11 +165,9 @@ def test_water_in_frozen_equilibrium_has_lower_pressure() -> None:
 def short_run(folder: Path, columns: dict[str, list[float]]) -> Run:
     """Return a run folder with a history of these columns."""
     folder.mkdir()
-    (folder / "run.json").write_text(json.dumps({"status": "done"}))
+    write_facts(folder)
     (folder / "case.toml").write_text("")
-    rows = zip(*columns.values(), strict=True)
-    lines = [",".join(columns), *(",".join(map(repr, row)) for row in rows)]
-    (folder / "history.csv").write_text("\n".join(lines) + "\n")
+    write_history(folder / "history.csv", columns)
     return Run(folder)
 
 

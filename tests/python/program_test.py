@@ -32,7 +32,7 @@ def test_command_executes_the_program_and_finds_the_report_next_to_itself(tmp_pa
     report = write_executable(tmp_path / "bin" / "thawslide-report", "#!/bin/sh\n")
     call = CALLER.format(str(inner), "sys.exit(program.main())")
     command = write_executable(tmp_path / "bin" / "thawslide", f"#!{sys.executable}\n{call}\n")
-    done = subprocess.run([command, "run", "a b"], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([command, "run", "a b"], capture_output=True, text=True, timeout=600, check=False)
     assert done.returncode == 3, done.stderr
     assert done.stdout == f"{inner}|run|a b|{report}\n"
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import MakeRun, history_columns, write_history
+from conftest import MakeRun, edit, history_columns, page_of, update_facts, write_history
 
 from thawslide import Run
 from thawslide.balance import balance_note, balances
@@ -25,11 +25,6 @@ from thawslide.report_page import make_report
 from thawslide.section_thickness import particle_thickness, spaced
 
 MEGABYTE = 1_000_000
-
-
-def page_of(folder: Path, *names: str) -> str:
-    """Return the page of a run with one figure or those named."""
-    return make_report(Run(folder), names=names or ["motion"], dpi=50).page.read_text(encoding="utf-8")
 
 
 def element(page: str, name: str) -> str:
@@ -50,11 +45,6 @@ def field_of(parts: dict[str, Any], words: str) -> dict[str, Any]:
     return found
 
 
-def without_scripts(page: str) -> str:
-    """Return a page without its scripts, which contain addresses that they do not load."""
-    return re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)
-
-
 @pytest.fixture(params=["2D", "3D"])
 def any_run(request: pytest.FixtureRequest, make_run: MakeRun) -> Path:
     """Return the folder of a 2D run, then that of a 3D run."""
@@ -66,7 +56,7 @@ def any_run(request: pytest.FixtureRequest, make_run: MakeRun) -> Path:
 
 def test_page_loads_nothing(any_run: Path) -> None:
     page = page_of(any_run)
-    visible = without_scripts(page)
+    visible = re.sub(r"<script.*?</script>", "", page, flags=re.DOTALL)  # their addresses are not loaded
     assert not re.search(r"https?://", visible)
     sources = re.findall(r'\b(?:src|srcset|data|poster)="([^"]*)"', visible)
     assert sources
@@ -106,27 +96,23 @@ def test_linked_figures_are_not_kept(make_run: MakeRun, tmp_path: Path) -> None:
 
 def test_inputs_have_their_hashes(make_run: MakeRun) -> None:
     folder = make_run()
-    facts = json.loads((folder / "run.json").read_text())
-    facts["inputs"] = [{"path": "/cases/x/slope.csv", "sha256": "ab12" * 16, "bytes": 1234}, {"path": 5}, "text"]
-    (folder / "run.json").write_text(json.dumps(facts))
+    file = {"path": "/cases/x/slope.csv", "sha256": "ab12" * 16, "bytes": 1234}
+    update_facts(folder, inputs=[file, {"path": 5}, "text"])
     page = page_of(folder)
     assert f'<th scope="row">slope.csv</th><td>1,234 bytes</td><td>{"ab12" * 16}</td>' in page
     assert '<th scope="row">5</th><td>not known</td><td>not known</td>' in page
 
 
 def test_balances_have_a_verdict(make_run: MakeRun) -> None:
-    folder = make_run()
-    columns = history_columns(11, 2)
-    columns["mass_residual_kg"] = np.linspace(0.0, 50.0, 11)  # of 1e6 kg
-    write_history(folder / "history.csv", columns)
-    assert [(each.words, each.closes) for each in balances(Run(folder))] == [
-        ("Mass", True), ("Mechanical energy", True), ("Thermal energy", True),
-    ]  # fmt: skip
-    assert balances(Run(folder))[0].percentage == "0.005 % of the initial and entrained mass"
-    assert balances(Run(folder))[1].percentage == "below 0.0001 % of the maximum change of any term"
-    assert balance_note(Run(folder)) == ""
-    columns["mechanical_residual_J"] = np.linspace(0.0, 2e11, 11)  # of 1e13 J
-    write_history(folder / "history.csv", columns)
+    folder = make_run(rows=11, history={"mass_residual_kg": np.linspace(0.0, 50.0, 11)})  # of 1e6 kg
+    run = Run(folder)
+    assert [each.words for each in balances(run)] == ["Mass", "Mechanical energy", "Thermal energy"]
+    assert all(each.closes for each in balances(run))
+    assert balances(run)[0].percentage == "0.005 % of the initial and entrained mass"
+    assert balances(run)[1].percentage == "below 0.0001 % of the maximum change of any term"
+    assert balance_note(run) == ""
+    residual = {"mechanical_residual_J": np.linspace(0.0, 2e11, 11)}  # of 1e13 J
+    write_history(folder / "history.csv", history_columns(11, 2) | residual)
     page = page_of(folder)
     assert (
         '<th scope="row">Mechanical energy</th><td>does not close (limit 1 %)</td>'
@@ -151,9 +137,7 @@ def test_mobility_of_a_section_is_that_of_profile_and_history(make_run: MakeRun)
 
 @pytest.mark.parametrize("tilt", [40.0, -20.0])
 def test_mobility_with_tilted_gravity_is_that_of_the_rotated_slope(make_run: MakeRun, tilt: float) -> None:
-    folder = make_run()
-    case = folder / "case.toml"
-    case.write_text(case.read_text().replace("[case]\n", f"[case]\ngravity_tilt = {tilt}\n"))
+    folder = make_run(case_keys=f"gravity_tilt = {tilt}\n")
     found = mobility_of(Run(folder))
     # Independently: turn rear (0, 100), front (160, 20) and the particles until gravity points down.
     turn = np.exp(-1j * np.radians(tilt))
@@ -174,20 +158,15 @@ def test_view_shows_the_terrain_near_the_slide_with_axes_of_the_frame(make_run: 
     assert view["axes"] == ["distance", "elevation"]
     assert view["terrain"][0][2:] == pytest.approx([20.5 - 0.15 * 43.0, 63.5 + 0.15 * 43.0])
     assert view["terrain"][1][2:] == pytest.approx([100.0 - 0.5 * 69.95, 100.0 - 0.5 * 14.05])
-    case = folder / "case.toml"
-    case.write_text(case.read_text().replace("[case]\n", "[case]\ngravity_tilt = 30.0\n"))
+    edit(folder / "case.toml", "[case]\n", "[case]\ngravity_tilt = 30.0\n")
     assert section_view(Run(folder)).parts["axes"] == ["distance along x", "height normal to x"]
 
 
 def test_mobility_with_tilted_gravity_of_a_run_towards_minus_x(make_run: MakeRun) -> None:
-    folder = make_run()
-    case = folder / "case.toml"
-    case.write_text(case.read_text().replace("[case]\n", "[case]\ngravity_tilt = -40.0\n"))
+    time = np.linspace(0.0, 10.0, 11)
+    front = {"front_position_m": 20.0 - time, "runout_m": 20.0 + time}
+    folder = make_run(rows=11, history=front, case_keys="gravity_tilt = -40.0\n")
     (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n-200,0\n200,0\n")
-    columns = history_columns(11, 2)
-    columns["front_position_m"] = 20.0 - columns["time_s"]
-    columns["runout_m"] = 20.0 + columns["time_s"]
-    write_history(folder / "history.csv", columns)
     angle = np.radians(40.0)
     assert mobility_of(Run(folder)).length == pytest.approx(30.0 * np.cos(angle))  # from x = 40 m to 10 m
 
@@ -299,7 +278,6 @@ def test_map_run_is_among_the_published_events(map_run: Path) -> None:
 
 
 def test_run_without_a_distance_is_not_among_the_events(map_run: Path) -> None:
-    facts = json.loads((map_run / "run.json").read_text())
     for travelled in (None, 0.0, -5.0):
-        (map_run / "run.json").write_text(json.dumps(facts | {"travel_distance_m": travelled}))
+        update_facts(map_run, travel_distance_m=travelled)
         assert events_part({"x": mobility_of(Run(map_run))}) == ""

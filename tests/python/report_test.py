@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import MakeRun, history_columns, write_history
+from conftest import Fails, MakeRun, history_columns, page_of, write_facts, write_history
 
-from thawslide import ReportError, Run
+from thawslide import Run
 from thawslide.balance import balances
 from thawslide.command_line import main
 from thawslide.figures import FIGURES
@@ -41,31 +40,22 @@ def test_key_numbers_are_those_of_the_history(make_run: MakeRun) -> None:
 
 
 def test_front_travel_distance_begins_at_the_first_known_front(make_run: MakeRun) -> None:
-    folder = make_run()
-    columns = history_columns(11, 2)
-    columns["front_position_m"][:2] = columns["runout_m"][:2] = np.nan
-    write_history(folder / "history.csv", columns)
-    found = numbers(Run(folder))
+    front = history_columns(11, 2)["runout_m"]
+    front[:2] = np.nan
+    found = numbers(Run(make_run(rows=11, history={"front_position_m": front, "runout_m": front})))
     assert found["Runout distance L"] == ("160 m", "front at 10 s minus initial rear")
     assert found["Front travel distance"] == ("96 m", "front at 10 s minus front at 2 s, the first known")
 
 
 def test_unknown_front_has_no_distances(make_run: MakeRun) -> None:
-    folder = make_run()
-    columns = history_columns(11, 2)
-    columns["front_position_m"][:] = columns["runout_m"][:] = np.nan
-    write_history(folder / "history.csv", columns)
+    unknown = np.full(11, np.nan)
     reason = "no flow path: maps.path is not specified, and the mass has barely moved"
-    found = numbers(Run(folder))
+    found = numbers(Run(make_run(rows=11, history={"front_position_m": unknown, "runout_m": unknown})))
     assert found["Runout distance L"] == found["Front travel distance"] == ("not available", reason)
 
 
 def test_stop_time_of_a_moving_mass_has_its_velocity(make_run: MakeRun) -> None:
-    folder = make_run()
-    columns = history_columns(11, 2)
-    columns["mean_velocity_m_s"] = np.arange(11.0)
-    write_history(folder / "history.csv", columns)
-    run = Run(folder)
+    run = Run(make_run(rows=11, history={"mean_velocity_m_s": np.arange(11.0)}))
     assert stop_time(run) is None
     assert numbers(run)["Stop time"] == ("not reached", "mean velocity at 10 s: 10 m/s")
 
@@ -80,39 +70,16 @@ def test_dilation_and_removed_mass_are_rows(make_run: MakeRun) -> None:
     write_history(folder / "history.csv", columns)
     found = numbers(Run(folder))
     assert found["Volume change by dilation"] == ("+6.2 %", "250 m³; without entrained bed material")
-    assert found["Mass removed"] == (
-        "250 t",
-        "25 % of the mass: left the domain or the DEM, or removed by guards",
-    )
+    assert found["Mass removed"] == ("250 t", "25 % of the mass: left the domain or the DEM, or removed by guards")
     columns["left_mass_kg"][:] = 0.0
     write_history(folder / "history.csv", columns)
     assert "Mass removed" not in numbers(Run(folder))
 
 
-@pytest.mark.parametrize(
-    ("facts", "message"),
-    [
-        ('{"status": "done", "at_rest": "no"}', r"at_rest: invalid value \(found no; allowed true, false, null\)"),
-        ('{"status": "done", "warnings": "none"}', r"warnings: not a list of texts \(found none\)"),
-        ('{"status": "done", "covered_area_m2": "wide"}', r"covered_area_m2: not a number \(found wide\)"),
-    ],
-)
-def test_invalid_facts_of_the_end_are_errors(make_run: MakeRun, facts: str, message: str) -> None:
-    folder = make_run()
-    (folder / "run.json").write_text(facts)
-    with pytest.raises(ReportError, match=message):
-        _ = Run(folder).facts
-
-
 def test_key_numbers_of_a_mass_at_rest_are_zero(make_run: MakeRun) -> None:
-    folder = make_run()
-    columns = history_columns(11, 2)
-    for name in columns:
-        columns[name] = np.zeros(11) if name != "time_s" else columns[name]
-    write_history(folder / "history.csv", columns)
-    found = numbers(Run(folder))
-    assert found["Peak mean velocity"][0] == "0 m/s"
-    assert [balance.percentage for balance in balances(Run(folder))] == ["0 % of the maximum change of any term"] * 2
+    run = Run(make_run(rows=11, history={name: np.zeros(11) for name in history_columns(11, 2) if name != "time_s"}))
+    assert numbers(run)["Peak mean velocity"][0] == "0 m/s"
+    assert [balance.percentage for balance in balances(run)] == ["0 % of the maximum change of any term"] * 2
 
 
 def test_quantities_have_prefixes_and_three_digits() -> None:
@@ -148,28 +115,16 @@ def test_report_has_all_figures_and_the_page(make_run: MakeRun) -> None:
 
 
 def test_no_note_on_boiling_below_100_degrees(make_run: MakeRun) -> None:
-    folder = make_run()
-    columns = history_columns(11, 2)
-    columns["band_temperature_C"] = np.full(11, 99.0)
-    write_history(folder / "history.csv", columns)
-    report = make_report(Run(folder), names=["motion"], dpi=50)
-    assert "Water does not boil" not in report.page.read_text(encoding="utf-8")
+    folder = make_run(rows=11, history={"band_temperature_C": np.full(11, 99.0)})
+    assert "Water does not boil" not in page_of(folder)
 
 
-def test_page_of_a_failed_run_has_its_message(make_run: MakeRun) -> None:
-    folder = make_run()
-    (folder / "run.json").write_text(json.dumps({"status": "failed", "message": "particle 7 left the domain"}))
-    report = make_report(Run(folder), names=["motion"], dpi=50)
-    note = "This run is incomplete (failed): particle 7 left the domain."
-    assert note in report.page.read_text(encoding="utf-8")
-
-
-def test_page_of_a_run_that_ended_early_has_the_reason(make_run: MakeRun) -> None:
-    folder = make_run()
-    (folder / "run.json").write_text(json.dumps({"status": "done", "message": "the whole slide has left."}))
-    page = make_report(Run(folder), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
-    assert "The whole slide has left." in page
-    assert "incomplete" not in page
+def test_page_has_the_message_of_the_end(make_run: MakeRun) -> None:
+    folder = make_run(facts={"status": "failed", "message": "particle 7 left the domain"})
+    assert "This run is incomplete (failed): particle 7 left the domain." in page_of(folder)
+    write_facts(folder, message="the whole slide has left.")
+    page = page_of(folder)
+    assert "The whole slide has left." in page and "incomplete" not in page
 
 
 def test_command_lists_missing_figures(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
@@ -194,33 +149,18 @@ def test_command_writes_the_requested_figures_into_the_output_folder(make_run: M
     assert not (folder / "figures").exists()
 
 
-def test_command_warns_of_an_incomplete_row(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = make_run()
-    (folder / "history.csv").write_text((folder / "history.csv").read_text()[:-5])
-    assert main([str(folder), "--only", "motion", "--dpi", "50"]) == 0
-    assert "warning: " in (message := capsys.readouterr().err)
-    assert "the last row is incomplete and is ignored" in message
-
-
-def fails(arguments: list[str], text: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(arguments) == 2
-    assert text in capsys.readouterr().err
-
-
-def test_command_errors_state_problem_and_remedy(
-    make_run: MakeRun, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_command_errors_state_problem_and_remedy(make_run: MakeRun, tmp_path: Path, fails: Fails) -> None:
     folder = make_run(snapshots=0)
-    fails([], "error: RUN: not specified. Specify a run folder, e.g. thawslide-report runs/lamplugh.", capsys)
-    fails([str(tmp_path / "no")], "no such folder", capsys)
+    fails([], "error: RUN: not specified. Specify a run folder, e.g. thawslide-report runs/lamplugh.")
+    fails([str(tmp_path / "no")], "no such folder")
     known = f"Allowed: {', '.join(FIGURES)}"
-    fails([str(folder), "--only", "bnd"], f"--only: no figure 'bnd'; did you mean band? {known}", capsys)
-    fails([str(folder), "--only", "qqq"], f"--only: no figure 'qqq'. {known}", capsys)
-    fails([str(folder), "--only", ","], f"--only: no figure name. {known}", capsys)
-    fails([str(folder), "--only", "temperature"], "no snapshots. Set time.output_interval and repeat the run.", capsys)
-    fails(["--setup", "a.json"], "--setup: requires --picture, and no RUN.", capsys)
+    fails([str(folder), "--only", "bnd"], f"--only: no figure 'bnd'; did you mean band? {known}")
+    fails([str(folder), "--only", "qqq"], f"--only: no figure 'qqq'. {known}")
+    fails([str(folder), "--only", ","], f"--only: no figure name. {known}")
+    fails([str(folder), "--only", "temperature"], "no snapshots. Set time.output_interval and repeat the run.")
+    fails(["--setup", "a.json"], "--setup: requires --picture, and no RUN.")
     (tmp_path / "file").write_text("")
-    fails([str(folder), "--output", str(tmp_path / "file")], "cannot be written (", capsys)
+    fails([str(folder), "--output", str(tmp_path / "file")], "cannot be written (")
 
 
 @pytest.mark.parametrize("dpi", ["0", "many", "5000"])
@@ -233,8 +173,7 @@ def test_invalid_resolutions_are_errors(make_run: MakeRun, dpi: str, capsys: pyt
 
 def test_reported_values_are_compared_at_aligned_times(make_run: MakeRun) -> None:
     folder = make_run()
-    run = Run(folder)
-    page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    page = page_of(folder)
     assert page.index("Times are measured from the start of the run.") > page.index("Reported values</summary>")
     targets = next(folder.glob("**/*targets*.csv"))
     # 12 sin2(pi t/10) m/s is 6 m/s at 2.5 s of the run.
@@ -244,7 +183,7 @@ def test_reported_values_are_compared_at_aligned_times(make_run: MakeRun) -> Non
     assert run.time_reference.shift == pytest.approx(1.5, abs=1e-3)
     assert found_for(run, displacement) == "44 m"  # 8 m/s for 5.5 s
     assert found_for(run, start) == "2.5 s after the start"
-    page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    page = page_of(folder)
     note = "the mean velocity first attains 6 m/s at 4 s. The run starts at 1.5 s."
     assert page.count(note) == 1
     assert page.index("<h2>Key numbers</h2>") < page.index(note) < page.index("Simulated time")
@@ -256,10 +195,8 @@ def test_reported_values_are_compared_at_aligned_times(make_run: MakeRun) -> Non
     assert marks.get_xdata()[0] == 7.0
     targets.write_text("quantity,time_s,value,unit,source\nstart_velocity,4,60,m/s,x\nmean_displacement,7,50,m,x\n")
     run = Run(folder)
-    assert [found_for(run, target) for target in run.targets] == [
-        "never",
-        "not compared: the run never attains start_velocity",
-    ]
+    never = ["never", "not compared: the run never attains start_velocity"]
+    assert [found_for(run, target) for target in run.targets] == never
     assert "It never attains 60 m/s at 4 s" in time_note(run)
     labels = [str(found.get_label()).replace("\n", " ") for found in FIGURES["motion"].plot(run).axes[1].lines]
     assert "1 reported value of mean displacement not shown: no time reference" in labels

@@ -8,7 +8,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from conftest import MakeRun, ground, history_columns
+from conftest import MakeRun, edit, ground, history_columns
 
 from thawslide import NotInRunError, ReportError, Run
 
@@ -30,10 +30,8 @@ def test_terrain_case_and_targets_are_read(make_run: MakeRun) -> None:
     assert not run.per_metre
     assert run.terrain is not None
     np.testing.assert_allclose(run.terrain[1], ground(run.terrain[0]))
-    assert [(t.quantity, t.time, t.value) for t in run.targets[:2]] == [
-        ("mean_velocity", 4.0, 9.0),
-        ("mean_velocity", 6.0, 11.0),
-    ]
+    velocities = [("mean_velocity", 4.0, 9.0), ("mean_velocity", 6.0, 11.0)]
+    assert [(t.quantity, t.time, t.value) for t in run.targets[:2]] == velocities
     assert run.targets[-1].value == 1.1e11
 
 
@@ -74,45 +72,12 @@ def expect(folder: Path, text: str, kind: type[ReportError] = ReportError) -> No
         _ = run.case, run.history, run.terrain, run.targets, run.facts, run.times, run.snapshot(0)
 
 
-def test_missing_folder_is_an_error(tmp_path: Path) -> None:
+def test_other_folders_are_errors(make_run: MakeRun, tmp_path: Path) -> None:
     expect(tmp_path / "nowhere", "no such folder. Select the folder of a run, e.g. runs/lamplugh.")
-
-
-def test_other_folder_is_an_error(tmp_path: Path) -> None:
     expect(tmp_path, "not a run folder (found no case.toml and no history.csv). Select the folder of a run.")
-
-
-def test_only_the_missing_file_is_named(make_run: MakeRun) -> None:
     folder = make_run()
     (folder / "history.csv").unlink()
     expect(folder, "not a run folder (found no history.csv).")
-
-
-@pytest.mark.parametrize(
-    ("file", "content", "text"),
-    [
-        ("case.toml", "[case\n", "case.toml: not valid TOML ("),
-        ("history.csv", "", "history.csv: empty. Wait for the first row of the run."),
-        ("history.csv", "time_s,step\n", "history.csv: no rows after the header"),
-        ("history.csv", "a,b\n1,2\n", "history.csv:1: no column time_s. Select the folder of a run."),
-        ("history.csv", "time_s,step\n0,0\n1\n", "history.csv:3: damaged row (found 1 values for 2 columns)."),
-        ("history.csv", "time_s,step\n0,none\n", "history.csv:2: expected a number, found 'none'"),
-        (
-            "terrain.csv",
-            "distance_m,height\n0,1\n",
-            "terrain.csv:1: no column terrain_elevation_m; found ",
-        ),
-        ("terrain.csv", "", "terrain.csv: empty; expected the columns distance_m, terrain_elevation_m"),
-        ("inputs/targets.csv", "# x\nquantity,time_s\na,b\n", "targets.csv:2: no column value; found"),
-        ("run.json", "{", "run.json: not valid JSON ("),
-        ("run.json", "[]", "run.json: not a JSON object."),
-        ("snapshots/000003.vtkhdf", "cut", "000003.vtkhdf: cannot be read as HDF5"),
-    ],
-)
-def test_damaged_files_are_errors(make_run: MakeRun, file: str, content: str, text: str) -> None:
-    folder = make_run()
-    (folder / file).write_text(content)
-    expect(folder, text)
 
 
 def test_missing_targets_file_names_the_key(make_run: MakeRun) -> None:
@@ -125,25 +90,17 @@ def test_missing_targets_file_names_the_key(make_run: MakeRun) -> None:
 def test_invalid_name_of_targets_is_an_error(make_run: MakeRun, name: str) -> None:
     folder = make_run()
     (folder / "loop").symlink_to("loop")
-    case = folder / "case.toml"
-    case.write_text(case.read_text().replace("inputs/targets.csv", name))
+    edit(folder / "case.toml", "inputs/targets.csv", name)
     expect(folder, "case.toml: report.targets: cannot be read (found '" + name[:4])
 
 
 def test_incomplete_last_row_is_ignored_with_a_warning(make_run: MakeRun) -> None:
     folder = make_run(rows=11)
-    text = (folder / "history.csv").read_text()
-    (folder / "history.csv").write_text(text[:-20])
+    (folder / "history.csv").write_text((folder / "history.csv").read_text()[:-20])
     run = Run(folder)
     assert run.history.rows == 10
     assert run.history["time_s"][-1] == 9.0
     assert run.warnings == [f"{folder / 'history.csv'}: the last row is incomplete and is ignored"]
-
-
-def test_incomplete_header_is_an_error(make_run: MakeRun) -> None:
-    folder = make_run()
-    (folder / "history.csv").write_text("time_s,st")
-    expect(folder, "history.csv: empty. Wait for the first row of the run.")
 
 
 def test_messages_on_missing_names_have_the_nearest_one(make_run: MakeRun) -> None:
@@ -155,9 +112,8 @@ def test_messages_on_missing_names_have_the_nearest_one(make_run: MakeRun) -> No
 
 
 def test_missing_snapshots_are_errors(make_run: MakeRun) -> None:
-    expect(
-        make_run(name="none", snapshots=0), "no snapshots. Set time.output_interval and repeat the run.", NotInRunError
-    )
+    none = make_run(name="none", snapshots=0)
+    expect(none, "no snapshots. Set time.output_interval and repeat the run.", NotInRunError)
     with pytest.raises(ReportError, match=r"no snapshot 11 \(found 11 snapshots\)"):
         Run(make_run(name="some")).snapshot(11)
 
@@ -172,8 +128,14 @@ def test_incomplete_snapshots_are_errors(make_run: MakeRun) -> None:
     with h5py.File(paths[2], "a") as file:
         del file["VTKHDF/PointData/mass"]
         file["VTKHDF/PointData/mass"] = np.ones(3)
-    for path, text in zip(
-        paths, ("no group VTKHDF with", "found no Points", "found 3 rows of 'mass' for 80 particles"), strict=True
+    paths[1].with_name("000003.vtkhdf").write_text("cut")
+    for number, text in enumerate(
+        (
+            "no group VTKHDF with",
+            "found no Points",
+            "found 3 rows of 'mass' for 80 particles",
+            r"000003.vtkhdf: cannot be read as HDF5",
+        )
     ):
         with pytest.raises(ReportError, match=text):
-            Run(folder).snapshot(paths.index(path))
+            Run(folder).snapshot(number)

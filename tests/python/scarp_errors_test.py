@@ -11,8 +11,11 @@ from scarp_test import flat, slope
 from thawslide.scarps.command import main
 
 X, Y = centre()
-PLANE = f"x={X},y={Y},dip=30,direction=90"
-ELLIPSOID = f"x={X},y={Y},half_length=300,half_width=150,azimuth=0"
+AT = f"x={X},y={Y}"
+PLANE = f"--plane {AT},dip=30,direction=90"
+ELLIPSOID = f"--ellipsoid {AT},half_length=300,half_width=150,azimuth=0"
+WITHIN = "--slbl --within"
+SLBL = f"dem.tif {WITHIN} in.geojson"
 INSIDE = rectangle((-200.0, 200.0), (-100.0, 100.0))
 
 
@@ -38,130 +41,69 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        ("dem.tif", "failure surface: specify one of --plane, --ellipsoid and --slbl."),
-        (f"dem.tif --slbl --plane {PLANE}", "failure surface: specify one of"),
-        (f"dem.tif --plane {PLANE} --tolerance 1", "--tolerance and --max-depth: allowed with --slbl only."),
-        ("dem.tif --plane x=1,y=2", "--plane: missing: dip, direction. Specify them."),
-        (
-            "dem.tif --plane x=1,y=2,dipp=3",
-            "--plane: no key 'dipp' (allowed: x, y, dip, direction, depth, z); did you mean",
-        ),
-        ("dem.tif --plane x=1,y=two", "--plane: y: not a number (found 'two'). Correct it."),
-        ("dem.tif --plane x=1,x=2", "--plane: x: specified twice. Omit one."),
-        (f"dem.tif --plane {PLANE},depth=nan", "--plane: depth: not a finite number (found nan)."),
-        (
-            f"dem.tif --plane x={X},y={Y},dip=90,direction=0",
-            "--plane: dip: out of range (found 90; allowed 0 to 89 degrees).",
-        ),
-        (f"dem.tif --plane {PLANE},depth=10,z=1000", "--plane: depth and z are both specified."),
-        (f"dem.tif --plane {PLANE}", "--plane: not below the DEM at x = 400500, y = 6503500. Increase depth or "),
-        (f"dem.tif --plane {PLANE},depth=10", "--plane: the release reaches the edge of the DEM or cells without data"),
-        (f"hole.tif --plane x={X},y={Y},dip=30,direction=90,depth=10", "--plane: the release reaches the edge"),
-        (
-            "dem.tif --plane x=1,y=2,dip=30,direction=0,depth=1",
-            "--plane: outside the DEM dem.tif (found x = 1, y = 2; allowed",
-        ),
-        (
-            f"dem.tif --plane {PLANE},z=9000 --within in.geojson",
-            "dem.tif: no cell of the DEM is above the failure surface.",
-        ),
-        (f"dem.tif --ellipsoid {ELLIPSOID}", "--ellipsoid: neither depth nor a volume is specified."),
-        (
-            f"dem.tif --ellipsoid {ELLIPSOID},depth=10 --volume 1e6",
-            "--ellipsoid: depth and a volume are both specified.",
-        ),
-        (
-            f"dem.tif --ellipsoid {ELLIPSOID},depth=-5",
-            "--ellipsoid: depth: invalid number (found -5 m; allowed above 0, at most 10,000).",
-        ),
-        (f"dem.tif --ellipsoid {ELLIPSOID},depth=5,dip=3", "--ellipsoid: only one of dip and direction is specified."),
-        (
-            f"hole.tif --ellipsoid {ELLIPSOID},depth=5",
-            "--ellipsoid: cells without data in hole.tif (found 1; the first at x = 400525",
-        ),
-        (
-            f"dem.tif --ellipsoid x={X},y={Y},half_length=900,half_width=9,azimuth=0,depth=5",
-            "--ellipsoid: outside the DEM dem.tif (found x = 400491 to 400509, y = 6502600 to 6504400; allowed",
-        ),
-        (
-            f"dem.tif --ellipsoid x={X},y={Y},half_length=5,half_width=5,azimuth=0,depth=5",
-            "--ellipsoid: too small for the DEM (0 cells of 10 m). Enlarge the half axes.",
-        ),
-        (
-            f"dem.tif --ellipsoid {ELLIPSOID} --volume 0",
-            "--volume: invalid number (found 0 m3; allowed above 0, at most 10,000,000,000).",
-        ),
-        ("dem.tif --slbl --within in.geojson --volume 1e300", "--volume: invalid number (found 1e+300 m3; allowed"),
-        ("dem.tif --slbl --tolerance 1", "--slbl: no outline is specified. Specify --within FILE."),
-        (
-            "dem.tif --slbl --within in.geojson",
-            "--slbl: specify one of --tolerance, --max-depth and --volume (found: none).",
-        ),
-        (
-            "dem.tif --slbl --within in.geojson --tolerance -1",
-            "--tolerance: invalid number (found -1 m; allowed 0 to 10,000).",
-        ),
-        (
-            "dem.tif --slbl --within in.geojson --max-depth 0",
-            "--max-depth: invalid number (found 0 m; allowed above 0, at most 10,000).",
-        ),
-        (
-            "flat.tif --slbl --within in.geojson --tolerance 0",
-            "flat.tif: no cell of the DEM is above the failure surface.",
-        ),
-        ("dem.tif --slbl --within edge.geojson --tolerance 1", "--slbl: the outline reaches the edge of dem.tif."),
-        (
-            "dem.tif --slbl --within out.geojson --tolerance 1",
-            "--within out.geojson: outside the DEM dem.tif (found x = 400800",
-        ),
-        (
-            "hole.tif --slbl --within in.geojson --tolerance 1",
-            "--within in.geojson: cells without data in hole.tif (found 1;",
-        ),
-        (
-            "dem.tif --slbl --within tiny.geojson --tolerance 1",
-            "--within tiny.geojson: no centre of a cell of dem.tif is inside.",
-        ),
-        ("dem.tif --slbl --within empty.geojson --tolerance 1", "empty.geojson: no polygons."),
-        ("dem.tif --slbl --within text.geojson --tolerance 1", "text.geojson: cannot be read as polygons"),
-        ("dem.tif --slbl --within line.shp --tolerance 1", "line.shp: cannot be read as polygons"),
-        ("dem.tif --slbl --within outline.kml --tolerance 1", "outline.kml: unknown format (allowed: .gpkg, .geojson,"),
-        ("dem.tif --slbl --within absent.gpkg --tolerance 1", "absent.gpkg: no such file."),
-        (f"absent.tif --plane {PLANE}", "absent.tif: no such file. Correct the path of the DEM."),
-        (f"text.tif --plane {PLANE}", "text.tif: cannot be read as a GeoTIFF or ESRI ASCII grid"),
-        (f"feet.tif --plane {PLANE}", "feet.tif: elevations are not in metres (found 'ft')."),
-        (f"degrees.tif --plane {PLANE}", "degrees.tif: the coordinate system EPSG:4326 is not in projected metres."),
-        (f"dem.tif --plane {PLANE} --crs EPSG:32632", "--crs: dem.tif already has the coordinate system EPSG:32608."),
-        (f"nowhere.tif --plane {PLANE} --crs EPSG:0", "--crs: unknown coordinate system (found 'EPSG:0')."),
-        (
-            f"nowhere.tif --plane {PLANE} --within in.geojson",
-            "nowhere.tif: no coordinate system, but in.geojson has EPSG:32608. Specify that of the DEM with --crs.",
-        ),
-        (
-            f"dem.tif --plane {PLANE} --output a.asc",
-            "--output: a.asc: unknown format (allowed: .tif). Change the name.",
-        ),
-        (
-            f"dem.tif --plane {PLANE} --output dem.tif --overwrite",
-            "--output: dem.tif: would replace the input dem.tif.",
-        ),
-        (
-            f"dem.tif --plane {PLANE} --output flat.tif",
-            "--output: flat.tif: exists. Change the name, or specify --overwrite.",
-        ),
-        (f"dem.tif --plane {PLANE} --output no/a.tif", "--output: no/a.tif: the folder does not exist."),
-        (
-            f"dem.tif --ellipsoid {ELLIPSOID},depth=5 --picture a.pdf",
-            "--picture: a.pdf: unknown format (allowed: .png). Change the name.",
-        ),
-    ],
-)
+# Arguments, and the beginning of the message.
+REFUSED = f"""
+dem.tif -> failure surface: specify one of --plane, --ellipsoid and --slbl.
+dem.tif --slbl {PLANE} -> failure surface: specify one of
+dem.tif {PLANE} --tolerance 1 -> --tolerance and --max-depth: allowed with --slbl only.
+dem.tif --plane x=1,y=2 -> --plane: missing: dip, direction. Specify them.
+dem.tif --plane x=1,y=2,dipp=3 -> --plane: no key 'dipp' (allowed: x, y, dip, direction, depth, z); did you mean
+dem.tif --plane x=1,y=two -> --plane: y: not a number (found 'two'). Correct it.
+dem.tif --plane x=1,x=2 -> --plane: x: specified twice. Omit one.
+dem.tif {PLANE},depth=nan -> --plane: depth: not a finite number (found nan).
+dem.tif --plane {AT},dip=90,direction=0 -> --plane: dip: out of range (found 90; allowed 0 to 89 degrees).
+dem.tif {PLANE},depth=10,z=1000 -> --plane: depth and z are both specified.
+dem.tif {PLANE} -> --plane: not below the DEM at x = 400500, y = 6503500. Increase depth or
+dem.tif {PLANE},depth=10 -> --plane: the release reaches the edge of the DEM or cells without data
+hole.tif {PLANE},depth=10 -> --plane: the release reaches the edge
+dem.tif --plane x=1,y=2,dip=30,direction=0,depth=1 -> --plane: outside the DEM dem.tif (found x = 1, y = 2; allowed
+dem.tif {PLANE},z=9000 --within in.geojson -> dem.tif: no cell of the DEM is above the failure surface.
+dem.tif {ELLIPSOID} -> --ellipsoid: neither depth nor a volume is specified.
+dem.tif {ELLIPSOID},depth=10 --volume 1e6 -> --ellipsoid: depth and a volume are both specified.
+dem.tif {ELLIPSOID},depth=-5 -> --ellipsoid: depth: invalid number (found -5 m; allowed above 0, at most 10,000).
+dem.tif {ELLIPSOID},depth=5,dip=3 -> --ellipsoid: only one of dip and direction is specified.
+hole.tif {ELLIPSOID},depth=5 -> --ellipsoid: cells without data in hole.tif (found 1; the first at x = 400525
+dem.tif --ellipsoid {AT},half_length=900,half_width=9,azimuth=0,depth=5 -> \
+--ellipsoid: outside the DEM dem.tif (found x = 400491 to 400509, y = 6502600 to 6504400; allowed
+dem.tif --ellipsoid {AT},half_length=5,half_width=5,azimuth=0,depth=5 -> \
+--ellipsoid: too small for the DEM (0 cells of 10 m). Enlarge the half axes.
+dem.tif {ELLIPSOID} --volume 0 -> --volume: invalid number (found 0 m3; allowed above 0, at most 10,000,000,000).
+{SLBL} --volume 1e300 -> --volume: invalid number (found 1e+300 m3; allowed
+dem.tif --slbl --tolerance 1 -> --slbl: no outline is specified. Specify --within FILE.
+{SLBL} -> --slbl: specify one of --tolerance, --max-depth and --volume (found: none).
+{SLBL} --tolerance -1 -> --tolerance: invalid number (found -1 m; allowed 0 to 10,000).
+{SLBL} --max-depth 0 -> --max-depth: invalid number (found 0 m; allowed above 0, at most 10,000).
+flat.tif {WITHIN} in.geojson --tolerance 0 -> flat.tif: no cell of the DEM is above the failure surface.
+dem.tif {WITHIN} edge.geojson --tolerance 1 -> --slbl: the outline reaches the edge of dem.tif.
+dem.tif {WITHIN} out.geojson --tolerance 1 -> --within out.geojson: outside the DEM dem.tif (found x = 400800
+hole.tif {WITHIN} in.geojson --tolerance 1 -> --within in.geojson: cells without data in hole.tif (found 1;
+dem.tif {WITHIN} tiny.geojson --tolerance 1 -> --within tiny.geojson: no centre of a cell of dem.tif is inside.
+dem.tif {WITHIN} empty.geojson --tolerance 1 -> empty.geojson: no polygons.
+dem.tif {WITHIN} text.geojson --tolerance 1 -> text.geojson: cannot be read as polygons
+dem.tif {WITHIN} line.shp --tolerance 1 -> line.shp: cannot be read as polygons
+dem.tif {WITHIN} outline.kml --tolerance 1 -> outline.kml: unknown format (allowed: .gpkg, .geojson,
+dem.tif {WITHIN} absent.gpkg --tolerance 1 -> absent.gpkg: no such file.
+absent.tif {PLANE} -> absent.tif: no such file. Correct the path of the DEM.
+text.tif {PLANE} -> text.tif: cannot be read as a GeoTIFF or ESRI ASCII grid
+feet.tif {PLANE} -> feet.tif: elevations are not in metres (found 'ft').
+degrees.tif {PLANE} -> degrees.tif: the coordinate system EPSG:4326 is not in projected metres.
+dem.tif {PLANE} --crs EPSG:32632 -> --crs: dem.tif already has the coordinate system EPSG:32608.
+nowhere.tif {PLANE} --crs EPSG:0 -> --crs: unknown coordinate system (found 'EPSG:0').
+nowhere.tif {PLANE} --within in.geojson -> \
+nowhere.tif: no coordinate system, but in.geojson has EPSG:32608. Specify that of the DEM with --crs.
+dem.tif {PLANE} --output a.asc -> --output: a.asc: unknown format (allowed: .tif). Change the name.
+dem.tif {PLANE} --output dem.tif --overwrite -> --output: dem.tif: would replace the input dem.tif.
+dem.tif {PLANE} --output flat.tif -> --output: flat.tif: exists. Change the name, or specify --overwrite.
+dem.tif {PLANE} --output no/a.tif -> --output: no/a.tif: the folder does not exist.
+dem.tif {ELLIPSOID},depth=5 --picture a.pdf -> --picture: a.pdf: unknown format (allowed: .png). Change the name.
+""".strip().splitlines()
+
+
+@pytest.mark.parametrize("case", REFUSED)
 def test_mistakes_are_refused(
-    words: str, message: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    case: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    words, message = case.split(" -> ")
     monkeypatch.chdir(folder)
     before = {path: path.read_bytes() for path in folder.iterdir()}
     assert main(words.split()) == 2

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from map_figure_parts import maps_of, notes, plotted
-from map_runs import MIDDLE, THICKNESS, WEST, centres, ground, write_map
+from conftest import edit
+from map_runs import MIDDLE, THICKNESS, WEST, centres, ground, maps_of, notes, plotted, write_map
 
 from thawslide.figures.cross_sections import across, along, extended
 from thawslide.figures.site import distances
@@ -94,19 +94,13 @@ def test_note_describes_the_path(map_run: Path) -> None:
     """It has the ranges outside the covered area: here the track cuts a bend."""
     words = "Path: track of the centre of mass, extended at both ends along the middle of the covered area."
     assert words not in notes(plotted("cross_sections", map_run))  # given path
-    case = (map_run / "case.toml").read_text()
-    (map_run / "case.toml").write_text(case.replace('path = "path.gpkg"\n', ""))
+    edit(map_run / "case.toml", 'path = "path.gpkg"\n', "")
     assert notes(plotted("cross_sections", map_run)).endswith(words)
     x, y = centres()
+    middle = (x > WEST + 200.0) & (x < WEST + 300.0) & (y < MIDDLE + 50.0)
     for name in ("max_thickness", "final_thickness", "release"):
-        write_map(
-            map_run / "maps" / f"{name}.tif",
-            np.where(
-                (x > WEST + 200.0) & (x < WEST + 300.0) & (y < MIDDLE + 50.0) | (np.abs(x - WEST - 250.0) > 150.0),
-                5.0,
-                0.0,
-            ),
-        )
+        covered = np.where(middle | (np.abs(x - WEST - 250.0) > 150.0), 5.0, 0.0)
+        write_map(map_run / "maps" / f"{name}.tif", covered)
     found = re.search(
         rf"{words} It is outside the covered area at (\d+) to (\d+) m, (\d+) to (\d+) m\.",
         notes(plotted("cross_sections", map_run)).replace("\n", " "),

@@ -4,24 +4,22 @@ from __future__ import annotations
 
 import errno
 import fcntl
-import json
 import os
 import time
 from pathlib import Path
 
 import pytest
-from map_figure_parts import maps_of, notes, plotted
+from conftest import page_of, update_facts, write_facts
+from map_runs import maps_of, notes, plotted
 
 from thawslide import Run
 from thawslide.pages.notes import ending_note
-from thawslide.report_page import make_report
 from thawslide.run_facts import LOCK, Ending, is_held
 
 
 def test_figures_of_a_stopped_run_have_its_last_time(map_run: Path) -> None:
     """The last state is added to earlier report times of the case."""
-    facts = json.loads((map_run / "run.json").read_text()) | {"status": "stopped", "simulated_time_s": 9.51}
-    (map_run / "run.json").write_text(json.dumps(facts))
+    update_facts(map_run, status="stopped", simulated_time_s=9.51)
     with (map_run / "case.toml").open("a") as case:
         case.write("[time]\nend = 60.0\n[report]\ntimes = [0.0, 2.0]\n")
     note = "The run was stopped at 9.51 s of 60 s. "
@@ -43,20 +41,20 @@ def test_figures_of_a_stopped_run_have_its_last_time(map_run: Path) -> None:
         ({"status": "done", "simulated_time_s": 10.0}, "", "10 s"),
         ({"status": "failed", "simulated_time_s": 10.4087}, "The run failed at 10.4 s. ", "10.4 s (failed)"),
         (
-            {"status": "running", "simulated_time_s": 0.0},
+            {"status": "running", "simulated_time_s": 0},
             "The run terminated unexpectedly at 10 s. ",
             "10 s (terminated?)",
         ),
     ],
 )
 def test_notes_state_the_ending(map_run: Path, facts: dict[str, object], note: str, state: str) -> None:
-    (map_run / "run.json").write_text(json.dumps(facts))
+    write_facts(map_run, **facts)
     run = Run(map_run)
     assert (run.end_note, run.last_state) == (note, state)
 
 
 def test_a_run_whose_lock_is_held_is_running(map_run: Path) -> None:
-    (map_run / "run.json").write_text(json.dumps({"status": "running", "simulated_time_s": 0.0}))
+    write_facts(map_run, status="running", simulated_time_s=0.0)
     with (map_run / LOCK).open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         run = Run(map_run)
@@ -72,7 +70,7 @@ def test_ending_is_undetermined_without_locks(map_run: Path, monkeypatch: pytest
 
     monkeypatch.setattr(fcntl, "flock", refuse)
     (map_run / LOCK).touch()
-    (map_run / "run.json").write_text(json.dumps({"status": "running", "simulated_time_s": 0.0}))
+    write_facts(map_run, status="running", simulated_time_s=0.0)
     long_ago = time.time() - 3 * 3600
     for file in map_run.rglob("*"):
         os.utime(file, (long_ago, long_ago))
@@ -85,7 +83,7 @@ def test_ending_is_undetermined_without_locks(map_run: Path, monkeypatch: pytest
         "The last file was written 3 hours before this page. If the run has terminated, "
         f"`thawslide resume {map_run}` continues from its last checkpoint. The figures show the results so far."
     )
-    (map_run / "run.json").write_text(json.dumps({"status": "done"}))
+    write_facts(map_run)
     assert Run(map_run).ending is Ending.DONE
 
 
@@ -108,29 +106,27 @@ def test_other_files_in_place_of_the_lock_do_not_block(tmp_path: Path) -> None:
     assert not is_held(tmp_path / "circle")
 
 
-@pytest.mark.parametrize("text", ['{"status": "stopped"}', '{"status": "done"}', None])
-def test_held_lock_overrides_run_json(map_run: Path, text: str | None) -> None:
-    if text is None:
+@pytest.mark.parametrize("status", ["stopped", "done", None])
+def test_held_lock_overrides_run_json(map_run: Path, status: str | None) -> None:
+    write_facts(map_run, status=status)
+    if status is None:
         (map_run / "run.json").unlink()
-    else:
-        (map_run / "run.json").write_text(text)
     with (map_run / LOCK).open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         assert Run(map_run).ending is Ending.RUNNING
 
 
 def test_page_of_a_killed_run_has_the_command_to_resume(map_run: Path) -> None:
-    (map_run / "run.json").write_text(json.dumps({"status": "running"}))
-    page = make_report(Run(map_run), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    write_facts(map_run, status="running")
+    page = page_of(map_run)
     assert "This run terminated unexpectedly: its status in run.json is running, but no process holds run.lock." in page
     assert f"To continue from its last checkpoint: `thawslide resume {map_run}`." in page
 
 
 def test_page_has_the_warnings_of_resumed_parts(map_run: Path) -> None:
     parts = [{"warnings": []}, {}, {"warnings": ["history.csv lacks 2 of the 16 rows"]}, {"warnings": 3}, 4]
-    (map_run / "run.json").write_text(json.dumps({"status": "done", "parts": parts}))
-    page = make_report(Run(map_run), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
-    assert '<p class="note">history.csv lacks 2 of the 16 rows</p>' in page
+    write_facts(map_run, parts=parts)
+    assert '<p class="note">history.csv lacks 2 of the 16 rows</p>' in page_of(map_run)
 
 
 def test_page_of_a_run_without_run_json_states_it(map_run: Path) -> None:

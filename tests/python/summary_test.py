@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import re
 from pathlib import Path
 
 import pytest
-from conftest import MakeRun
+from conftest import Fails, MakeRun, update_facts
 
 from thawslide import Run
 from thawslide.command_line import main
@@ -30,8 +29,7 @@ def test_numbers_are_those_of_the_run_in_common_units(map_run: Path) -> None:
 
 def test_scenario_states_rest_or_motion(map_run: Path) -> None:
     assert "The mass is at rest from 8.5 s on." in scenario(Run(map_run))
-    facts = json.loads((map_run / "run.json").read_text()) | {"at_rest": False, "rest_since_s": None}
-    (map_run / "run.json").write_text(json.dumps(facts))
+    update_facts(map_run, at_rest=False, rest_since_s=None)
     assert "The mass was still moving at the end: the affected area can become larger." in scenario(Run(map_run))
 
 
@@ -53,8 +51,7 @@ def test_many_probes_leave_space_for_the_map(map_run: Path) -> None:
 
 
 def test_limits_count_the_warnings(map_run: Path) -> None:
-    facts = json.loads((map_run / "run.json").read_text())
-    (map_run / "run.json").write_text(json.dumps(facts | {"warnings": ["one", "two"]}))
+    update_facts(map_run, warnings=["one", "two"])
     assert limits(Run(map_run))[-1].startswith("The program reported 2 warnings on this run")
 
 
@@ -94,11 +91,7 @@ def test_command_writes_the_summary(map_run: Path, capsys: pytest.CaptureFixture
     assert not (map_run / "summary.html").exists()
 
 
-def test_summary_of_a_section_is_an_error(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main([str(make_run()), "--brief"]) == 2
-    assert "--brief: only for 3D runs on a DEM, which have maps." in capsys.readouterr().err
-
-
-def test_brief_excludes_only(map_run: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main([str(map_run), "--brief", "--only", "motion"]) == 2
-    assert "--only: not allowed with --brief. Remove one of the options." in capsys.readouterr().err
+def test_summary_excludes_sections_and_selected_figures(make_run: MakeRun, map_run: Path, fails: Fails) -> None:
+    fails([str(make_run()), "--brief"], "--brief: only for 3D runs on a DEM, which have maps.")
+    words = "--only: not allowed with --brief. Remove one of the options."
+    fails([str(map_run), "--brief", "--only", "motion"], words)

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from conftest import MakeRun
+from conftest import MakeRun, edit, page_of, update_facts
 
 from thawslide import ReportError, Run
 from thawslide.figures import FIGURES
@@ -77,89 +77,79 @@ def test_line_ends_marks_and_spaces_are_ignored(tmp_path: Path, text: bytes) -> 
     assert (target.quantity, target.time, target.value, target.source) == ("mean_displacement", 5.0, 600.0, "Müller")
 
 
+ROWS = HEADER + "mean_velocity,4,8,m/s,x\n"
+KINDS = "quantity,time_s,value,unit,kind\n"
+ALLOWED_KINDS = "for mean_velocity; allowed: observation, model, assumption"
+NO_TIME = "give one column of times, time_s, time_min, time_h; "
+# Contents, and words of the message.
+INVALID = [
+    (b"", ": empty; expected the columns quantity, value, unit"),
+    (b"# only this\n", ": empty; expected the columns quantity, value, unit"),
+    ("quantity,time_s,value\na,1,2\n", ":1: no column unit; found 'quantity', 'time_s', 'value'"),
+    ("quantity;unit\na;m\n", "found 'quantity;unit'. Columns are parted by commas: write , in place of ;"),
+    ("quantity,value,unit\nmean_velocity,1,m/s\n", f":1: {NO_TIME}found none"),
+    ("quantity,time_s,time_h,value,unit\n", f":1: {NO_TIME}"),
+    (
+        "quantity,time_s,value,unit,sorce\n",
+        ":1: no column is called 'sorce'; did you mean source? allowed are quantity, value, unit, ",
+    ),
+    ("quantity,time_s,value,unit,unit\n", ":1: two columns 'unit'"),
+    (HEADER + "qqq,4,8,m/s,x\n", ":2: no quantity is called 'qqq'. There are: "),
+    ("# x\n" + HEADER + "mean_displacement,4,8,ft,x\n", ":3: the unit 'ft' for mean_displacement; allowed: m, km, cm"),
+    (HEADER + "mean_velocity,4,8\n", ":2: 3 values for 5 columns"),
+    (
+        ROWS + "mean_velocity,4,9,m/s,x\n",
+        ":3: mean_velocity at this time from this source is in line 2 already; keep one of the two",
+    ),
+    (
+        KINDS + "mean_velocity,4,8,m/s,guess\n",
+        f":2: the kind 'guess' {ALLOWED_KINDS}",
+    ),
+    (KINDS + "mean_velocity,4,8,m/s,\n", f":2: no kind {ALLOWED_KINDS}"),
+    (HEADER.encode() + b"mean_velocity,4,8,m/s,M\xfcller\n", ":2: byte 0xfc is not UTF-8"),
+    (HEADER.encode("utf-16"), ": encoded as UTF-16; save it as UTF-8"),
+    (b"x" * (1024 * 1024 + 1), ": too large (allowed 1 MB)"),
+    (
+        HEADER + "start_velocity,4,8,m/s,x\nstart_velocity,5,8,m/s,y\n",
+        ":3: start_velocity is in line 2 already; one row sets the clock",
+    ),
+]
+# The second line of a file, and words of the message.
+INVALID_ROWS = [
+    ("mean_velocty,4,8,m/s,x", "no quantity is called 'mean_velocty'; did you mean mean_velocity? There are: "),
+    ("max_seismic_force_35_s,4,8,N,x", "no quantity is called 'max_seismic_force_35_s'"),
+    ("mean_displacement,4,8,,x", "no unit for mean_displacement; allowed: m, km, cm"),
+    ("mean_velocity,4,8,m,x", "the unit 'm' for mean_velocity; allowed: m/s, km/h"),
+    ("mean_velocity,4,nan,m/s,x", "expected a finite number, found 'nan'"),
+    ("mean_velocity,inf,1,m/s,x", "expected a finite number, found 'inf'"),
+    ("mean_velocity,4,fast,m/s,x", "expected a number, found 'fast'"),
+    ('mean_velocity,4,"0,6",m/s,x', "expected a number, found '0,6'; write the decimals behind a point"),
+    ("mean_velocity,4,1_0,m/s,x", "expected a number, found '1_0'"),
+    ("mean_displacement,4,1e308,km,x", "mean_displacement: a number that large cannot"),
+    ("mean_velocity,4,-8,m/s,x", "mean_velocity is -8 m/s; allowed: at least 0 m/s"),
+    ("band_SL,4,30,-,x", "band_SL is 30; allowed: at least 0, at most 1"),
+    ("band_SL,4,130,%,x", "band_SL is 130 %; allowed: at least 0, at most 1"),  # in the first unit
+    ("band_temperature,4,-5,K,x", "band_temperature is -5 K; allowed: at least -273.15 C"),
+    ('mean_velocity,4,8,m/s,"x', "not a row of comma-separated cells: "),
+    ("mean_velocity,4,8,m/s,\0", "a zero byte; this is not a text file"),
+]
+
+
 @pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        (b"", "targets.csv: empty; expected the columns quantity, value, unit"),
-        (b"# only this\n", "targets.csv: empty; expected the columns quantity, value, unit"),
-        ("quantity,time_s,value\na,1,2\n", "targets.csv:1: no column unit; found 'quantity', 'time_s', 'value'"),
-        ("quantity;unit\na;m\n", "found 'quantity;unit'. Columns are parted by commas: write , in place of ;"),
-        (
-            "quantity,value,unit\nmean_velocity,1,m/s\n",
-            "targets.csv:1: give one column of times, time_s, time_min, time_h; found none",
-        ),
-        ("quantity,time_s,time_h,value,unit\n", "targets.csv:1: give one column of times, time_s, time_min, time_h; "),
-        (
-            "quantity,time_s,value,unit,sorce\n",
-            "targets.csv:1: no column is called 'sorce'; did you mean source? allowed are quantity, value, unit, ",
-        ),
-        ("quantity,time_s,value,unit,unit\n", "targets.csv:1: two columns 'unit'"),
-        (
-            HEADER + "mean_velocty,4,8,m/s,x\n",
-            "targets.csv:2: no quantity is called 'mean_velocty'; did you mean mean_velocity? There are: ",
-        ),
-        (HEADER + "qqq,4,8,m/s,x\n", "targets.csv:2: no quantity is called 'qqq'. There are: "),
-        (HEADER + "max_seismic_force_35_s,4,8,N,x\n", "targets.csv:2: no quantity is called 'max_seismic_force_35_s'"),
-        (
-            "# x\n" + HEADER + "mean_displacement,4,8,ft,x\n",
-            "targets.csv:3: the unit 'ft' for mean_displacement; allowed: m, km, cm",
-        ),
-        (HEADER + "mean_displacement,4,8,,x\n", "targets.csv:2: no unit for mean_displacement; allowed: m, km, cm"),
-        (HEADER + "mean_velocity,4,8,m,x\n", "targets.csv:2: the unit 'm' for mean_velocity; allowed: m/s, km/h"),
-        (HEADER + "mean_velocity,4,nan,m/s,x\n", "targets.csv:2: expected a finite number, found 'nan'"),
-        (HEADER + "mean_velocity,inf,1,m/s,x\n", "targets.csv:2: expected a finite number, found 'inf'"),
-        (HEADER + "mean_velocity,4,fast,m/s,x\n", "targets.csv:2: expected a number, found 'fast'"),
-        (
-            HEADER + 'mean_velocity,4,"0,6",m/s,x\n',
-            "targets.csv:2: expected a number, found '0,6'; write the decimals behind a point",
-        ),
-        (HEADER + "mean_velocity,4,1_0,m/s,x\n", "targets.csv:2: expected a number, found '1_0'"),
-        (HEADER + "mean_displacement,4,1e308,km,x\n", "targets.csv:2: mean_displacement: a number that large cannot"),
-        (HEADER + "mean_velocity,4,-8,m/s,x\n", "targets.csv:2: mean_velocity is -8 m/s; allowed: at least 0 m/s"),
-        (HEADER + "band_SL,4,30,-,x\n", "targets.csv:2: band_SL is 30; allowed: at least 0, at most 1"),
-        (HEADER + "band_temperature,4,-5,K,x\n", "band_temperature is -5 K; allowed: at least -273.15 C"),
-        (
-            HEADER + "mean_velocity,4,8,m/s,x\nmean_velocity,4,9,m/s,x\n",
-            "targets.csv:3: mean_velocity at this time from this source is in line 2 already; keep one of the two",
-        ),
-        (
-            HEADER + "start_velocity,4,8,m/s,x\nstart_velocity,5,8,m/s,y\n",
-            "targets.csv:3: start_velocity is in line 2 already; one row sets the clock",
-        ),
-        (
-            "quantity,time_s,value,unit,kind\nmean_velocity,4,8,m/s,guess\n",
-            "targets.csv:2: the kind 'guess' for mean_velocity; allowed: observation, model, assumption",
-        ),
-        (
-            "quantity,time_s,value,unit,kind\nmean_velocity,4,8,m/s,\n",
-            "targets.csv:2: no kind for mean_velocity; allowed: observation, model, assumption",
-        ),
-        (HEADER + "mean_velocity,4,8\n", "targets.csv:2: 3 values for 5 columns"),
-        (HEADER + 'mean_velocity,4,8,m/s,"x\n', "targets.csv:2: not a row of comma-separated cells: "),
-        (HEADER.encode() + b"mean_velocity,4,8,m/s,M\xfcller\n", "targets.csv:2: byte 0xfc is not UTF-8"),
-        (HEADER.encode("utf-16"), "targets.csv: encoded as UTF-16; save it as UTF-8"),
-        (HEADER + "mean_velocity,4,8,m/s,\0\n", "targets.csv:2: a zero byte; this is not a text file"),
-        (b"x" * (1024 * 1024 + 1), "targets.csv: too large (allowed 1 MB)"),
-    ],
+    ("text", "message"), [*INVALID, *((f"{HEADER}{row}\n", f":2: {message}") for row, message in INVALID_ROWS)]
 )
-def test_invalid_rows_are_errors_with_their_line(tmp_path: Path, text: str | bytes, message: str) -> None:
-    with pytest.raises(ReportError, match=re.escape(message)):
+def test_invalid_files_are_errors_with_their_line(tmp_path: Path, text: str | bytes, message: str) -> None:
+    words = message if message.startswith("found") else f"targets.csv{message}"
+    with pytest.raises(ReportError, match=re.escape(words)):
         read(tmp_path, text)
 
 
-def test_message_on_the_range_is_in_the_first_unit(tmp_path: Path) -> None:
-    with pytest.raises(ReportError, match=re.escape("band_SL is 130 %; allowed: at least 0, at most 1")):
-        read(tmp_path, HEADER + "band_SL,4,130,%,x\n")
-
-
 def test_report_compares_in_the_unit_of_the_file(make_run: MakeRun) -> None:
-    folder = make_run()
-    (folder / "inputs" / "targets.csv").write_text(
-        HEADER + "mean_displacement,5,0.06,km,model\nmean_velocity,5,36,km/h,seismic\nsource_mean_thickness,0,4,m,x\n"
-    )
+    rows = "mean_displacement,5,0.06,km,model\nmean_velocity,5,36,km/h,seismic\nsource_mean_thickness,0,4,m,x\n"
+    folder = make_run(targets=HEADER + rows)
     run = Run(folder)
     assert [found_for(run, target) for target in run.targets] == ["0.04 km", "43.2 km/h", "not compared"]
-    page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    page = page_of(folder)
     assert '<th scope="row">mean displacement</th><td>5 s</td><td>0.06 km</td><td>0.04 km</td><td>model</td>' in page
     speed, distance = FIGURES["motion"].plot(run).axes
     marks = {str(line.get_label()): line.get_ydata() for axes in (speed, distance) for line in axes.lines}
@@ -168,23 +158,19 @@ def test_report_compares_in_the_unit_of_the_file(make_run: MakeRun) -> None:
 
 
 def test_observations_and_results_of_other_models_are_separate(make_run: MakeRun) -> None:
-    folder = make_run()
     rows = (
         "mean_velocity,4,9,m/s,radar,observation\nmean_velocity,6,11,m/s,blocks,model\n"
         "mean_displacement,5,60,m,blocks,model\nmean_displacement,6,70,m,survey,observation\n"
         "front_distance,10,150,m,guess,assumption\n"
     )
-    (folder / "inputs" / "targets.csv").write_text(HEADER.rstrip() + ",kind\n" + rows)
+    folder = make_run(targets=HEADER.rstrip() + ",kind\n" + rows)
     run = Run(folder)
     assert [target.kind for target in run.targets] == ["observation", "model", "model", "observation", "assumption"]
-    page = make_report(run, names=["motion"], dpi=50).page.read_text(encoding="utf-8")
+    page = page_of(folder)
     kinds = re.findall(r"<h3>(.*?)</h3>\n(.*?)</table>", page, re.DOTALL)
     assert [kind for kind, _ in kinds] == ["Observations", "Results of other models", "Assumptions"]
-    assert [re.findall(r"<td>(radar|survey|blocks|guess)</td>", table) for _, table in kinds] == [
-        ["radar", "survey"],
-        ["blocks", "blocks"],
-        ["guess"],
-    ]
+    sources = [re.findall(r"<td>(radar|survey|blocks|guess)</td>", table) for _, table in kinds]
+    assert sources == [["radar", "survey"], ["blocks", "blocks"], ["guess"]]
     speed, distance = FIGURES["motion"].plot(run).axes
     marks = {str(line.get_label()): line for axes in (speed, distance) for line in axes.lines}
     assert list(marks["observed: radar"].get_ydata()) == [9.0]
@@ -192,10 +178,8 @@ def test_observations_and_results_of_other_models_are_separate(make_run: MakeRun
     assert list(marks["observed mean displacement: survey"].get_ydata()) == [70.0]
     assert list(marks["assumed runout distance: guess"].get_ydata()) == [150.0]
     filled = {label: line.get_markerfacecolor() != "white" for label, line in marks.items() if ": " in label}
-    assert [label for label, is_filled in filled.items() if is_filled] == [
-        "observed: radar",
-        "observed mean displacement: survey",
-    ]
+    of_observations = ["observed: radar", "observed mean displacement: survey"]
+    assert [label for label, is_filled in filled.items() if is_filled] == of_observations
 
 
 def test_reported_values_of_cases_have_kinds() -> None:
@@ -211,31 +195,17 @@ def test_reported_values_of_cases_have_kinds() -> None:
 
 
 def test_results_of_the_end_are_compared(make_run: MakeRun) -> None:
-    folder = make_run()
-    facts = '{"status": "done", "covered_volume_m3": 5e7, "reach_angle_degrees": 14.5'
-    (folder / "run.json").write_text(f"{facts}}}")
-    (folder / "inputs" / "targets.csv").write_text(
-        HEADER + "deposit_volume,0,52,million m3,x\nangle_of_reach,0,14,degrees,x\ndrop_height,0,1,km,x\n"
-    )
-    run = Run(folder)
-    assert [found_for(run, target) for target in run.targets] == [
-        "50 million m³",
-        "14.5 degrees",
-        "not available in 2D",
-    ]
-    (folder / "run.json").write_text(f'{facts}, "at_rest": false, "simulated_time_s": 9.0}}')
-    run = Run(folder)
-    when = "at 9 s (not at rest)"
-    assert [found_for(run, target) for target in run.targets] == [
-        f"50 million m³ {when}",
-        f"14.5 degrees {when}",
-        "not available in 2D",
-    ]
+    rows = "deposit_volume,0,52,million m3,x\nangle_of_reach,0,14,degrees,x\ndrop_height,0,1,km,x\n"
+    folder = make_run(targets=HEADER + rows, facts={"covered_volume_m3": 5e7, "reach_angle_degrees": 14.5})
+    for when in ("", " at 9 s (not at rest)"):
+        run = Run(folder)
+        expected = [f"50 million m³{when}", f"14.5 degrees{when}", "not available in 2D"]
+        assert [found_for(run, target) for target in run.targets] == expected
+        update_facts(folder, at_rest=False, simulated_time_s=9.0)
 
 
 def test_errors_precede_the_figures(make_run: MakeRun) -> None:
-    folder = make_run()
-    (folder / "inputs" / "targets.csv").write_text(HEADER + "mean_displacement,5,0.6,miles,x\n")
+    folder = make_run(targets=HEADER + "mean_displacement,5,0.6,miles,x\n")
     with pytest.raises(ReportError, match="the unit 'miles' for mean_displacement"):
         make_report(Run(folder), dpi=50)
     assert not (folder / "figures").exists()
@@ -246,8 +216,7 @@ def test_file_outside_the_run_folder_is_an_error(make_run: MakeRun, name: str) -
     folder = make_run()
     (folder.parent / "outside.csv").write_text(HEADER)
     (folder / "inputs" / "link.csv").symlink_to(folder.parent / "outside.csv")
-    case = (folder / "case.toml").read_text().replace('targets = "inputs/targets.csv"', f'targets = "{name}"')
-    (folder / "case.toml").write_text(case)
+    edit(folder / "case.toml", 'targets = "inputs/targets.csv"', f'targets = "{name}"')
     with pytest.raises(ReportError, match="outside the run folder"):
         _ = Run(folder).targets
 

@@ -18,13 +18,7 @@ WIDENING = "{ x = [20.0, 40.0], value = [10.0, 40.0] }"
 def test_relative_width_is_one_at_the_first_place(make_run: MakeRun) -> None:
     run = Run(make_run(width=WIDENING))
     assert (run.width, run.per_metre) == (10.0, False)
-    assert run.relative_width(np.array([0.0, 20.0, 30.0, 40.0, 900.0])).tolist() == [
-        1.0,
-        1.0,
-        2.5,
-        4.0,
-        4.0,
-    ]
+    assert run.relative_width(np.array([0.0, 20.0, 30.0, 40.0, 900.0])).tolist() == [1.0, 1.0, 2.5, 4.0, 4.0]
     run = Run(make_run(name="one", width=10.0))
     assert run.width == 10.0
     assert run.relative_width(np.array([0.0, 900.0])).tolist() == [1.0, 1.0]
@@ -49,8 +43,7 @@ def test_thickness_of_the_deposit_is_area_over_length(make_run: MakeRun) -> None
     run = Run(make_run(width=WIDENING, snapshots=1))  # a block 4 m high and 20 m long at its start
     x, thickness = deposit(run)
     assert x[0] == 50.0
-    areas = run.section_areas(run.snapshot(0))
-    assert areas == pytest.approx(
-        np.asarray(run.snapshot(0)["volume"]) / run.relative_width(run.snapshot(0).points[:, 0])
-    )
+    shot = run.snapshot(0)
+    areas = run.section_areas(shot)
+    assert areas == pytest.approx(np.asarray(shot["volume"]) / run.relative_width(shot.points[:, 0]))
     assert thickness[0] == pytest.approx(areas.sum() / 100.0)

@@ -45,13 +45,10 @@ def test_provider_lists_its_algorithms(environment: dict[str, str], plugin: None
 
 def test_missing_program_is_reported_with_the_setting(algorithm: Algorithm, case: Path, tmp_path: Path) -> None:
     lost = {"THAWSLIDE_BINARY": "", "PATH": str(tmp_path)}
-    assert (
-        "Settings > Options > Processing > Providers > Thawslide"
-        in algorithm("checkcase", environment_too=lost, CASE=case).stderr
-    )
+    message = algorithm("checkcase", environment_too=lost, CASE=case, code=None).stderr
+    assert "Settings > Options > Processing > Providers > Thawslide" in message
     wrong = {"THAWSLIDE_BINARY": str(tmp_path)}
-    refused = algorithm("checkcase", environment_too=wrong, CASE=case)
-    assert refused.returncode == 1
+    refused = algorithm("checkcase", environment_too=wrong, CASE=case, code=1)
     assert f"THAWSLIDE_BINARY: {tmp_path} is not a program" in refused.stderr
 
 
@@ -63,5 +60,4 @@ def test_setting_precedes_the_environment_variable(
     (file,) = profile.rglob("QGIS3.ini")
     file.write_text(file.read_text() + f"\n[Processing]\nConfiguration\\THAWSLIDE_BINARY={binary}\n")
     own = {"QGIS_CUSTOM_CONFIG_PATH": str(profile), "THAWSLIDE_BINARY": str(tmp_path)}
-    outcome = algorithm("checkcase", environment_too=own, CASE=case)
-    assert outcome.returncode == 0, outcome.stdout + outcome.stderr
+    algorithm("checkcase", environment_too=own, CASE=case)

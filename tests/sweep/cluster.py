@@ -14,7 +14,7 @@ from pathlib import Path
 
 WORKERS = 2
 ALLOWED_FAILURES = 1  # of the scheduler: a member fails after two deaths of workers
-_LIMIT = 300.0  # seconds until the scheduler is ready
+_LIMIT = 600.0  # seconds until the scheduler is ready
 
 
 @contextlib.contextmanager
@@ -28,13 +28,9 @@ def cluster(folder: Path, preload: str = "") -> Iterator[str]:
     worker = ["worker", "--nthreads", "1", "--no-dashboard", "--scheduler-file", str(file), "--preload", str(script)]
     with contextlib.ExitStack() as ended:
         for arguments in (scheduler, *WORKERS * [worker]):
-            process = subprocess.Popen(
-                [sys.executable, "-m", "dask", *arguments],
-                cwd=folder,
-                env=environment,
-                stderr=subprocess.DEVNULL,
-                start_new_session=True,
-            )
+            command = [sys.executable, "-m", "dask", *arguments]
+            quiet = {"stderr": subprocess.DEVNULL, "start_new_session": True}
+            process = subprocess.Popen(command, cwd=folder, env=environment, **quiet)
             ended.callback(_end, process)
         deadline = time.monotonic() + _LIMIT
         while not file.is_file():

@@ -1,15 +1,21 @@
-"""Sweeps on a Dask cluster of separate processes: the same table, and members whose workers die."""
+"""Sweeps on a Dask cluster of separate processes: the same table, members whose workers die, and the job for Slurm.
+
+The Slurm job script is generated and parsed here; no test submits it to Slurm.
+"""
 
 from __future__ import annotations
 
+import subprocess
 from pathlib import Path
 
 import pandas as pd
 from cluster import ALLOWED_FAILURES, cluster
 
 import thawslide
+from thawslide.sweeps.engine import MOST_DEATHS
 from thawslide.sweeps.folder import SweepFolder
 from thawslide.sweeps.member import Task, perform
+from thawslide.sweeps.slurm import slurm_cluster
 
 VARY = {"basal.friction_angle": [20.0, 25.0, 30.0]}
 MANY = {"basal.friction_angle": [20.0 + angle for angle in range(12)]}  # members wait on a worker that dies
@@ -45,8 +51,23 @@ def test_a_cluster_and_one_process_give_the_same_table(slope: Path, tmp_path: Pa
 
 def test_a_member_whose_workers_die_is_reported_and_the_others_finish(slope: Path, tmp_path: Path) -> None:
     with cluster(tmp_path / "cluster", DEADLY) as address:
-        table = thawslide.sweep(
-            slope, tmp_path / "sweep", vary=MANY, block=True, scheduler=address, progress=False
-        )  # fmt: skip
+        table = thawslide.sweep(slope, tmp_path / "sweep", vary=MANY, block=True, scheduler=address, progress=False)
     assert list(table["status"]) == ["done", "failed", *(len(table) - 2) * ["done"]]
     assert table["error"][1] == f"{ALLOWED_FAILURES + 1} workers died during this member"
+
+
+def test_a_job_has_one_single_threaded_worker_for_each_core() -> None:
+    cluster = slurm_cluster(
+        jobs=4, cores=8, memory="16GB", walltime="02:00:00", account="hazards", queue="short",
+        job_script_prologue=["module load gcc"], interface=None,
+    )  # fmt: skip
+    try:
+        script = cluster.job_script()
+        assert cluster.scheduler.allowed_failures == MOST_DEATHS - 1
+    finally:
+        cluster.close()
+    for line in ("#SBATCH -A hazards", "#SBATCH -p short", "#SBATCH --cpus-per-task=8", "#SBATCH -t 02:00:00"):
+        assert line in script.splitlines()
+    assert "module load gcc" in script
+    assert "--nthreads 1 " in script and "--nworkers 8 " in script and "tcp://" in script
+    assert subprocess.run(["bash", "-n"], input=script, text=True, check=False).returncode == 0

@@ -19,6 +19,7 @@ from thawslide.errors import ReportError
 from thawslide.sweeps.command import main
 from thawslide.sweeps.folder import SweepFolder
 
+Process = subprocess.Popen[bytes]
 # A case that runs for seconds and writes checkpoints often.
 SLOW = '[case]\nbased_on = "case.toml"\n[time]\nend = 3.0\nstep = 0.0005\n[checkpoint]\ninterval = 0.05\n'
 
@@ -90,28 +91,31 @@ def test_a_column_may_not_replace_another_one(slope: Path, tmp_path: Path) -> No
 def test_an_unknown_column_is_refused_before_any_run(
     slope: Path, tmp_path: Path, with_program: None, is_block: bool, text: str, near: str
 ) -> None:
+    vary, folder = {"basal.friction_angle": [10.0]}, tmp_path / "sweep"
     with pytest.raises(ReportError, match=rf"no column '\w+' in the history \(allowed, for example: {near}"):
-        thawslide.sweep(
-            slope, tmp_path / "sweep", vary={"basal.friction_angle": [10.0]}, columns={"x": text}, block=is_block,
-            progress=False,
-        )  # fmt: skip
+        thawslide.sweep(slope, folder, vary=vary, columns={"x": text}, block=is_block, progress=False)
     assert not (tmp_path / "sweep").exists()
 
 
-def test_a_killed_sweep_continues_from_checkpoints(slope: Path, tmp_path: Path) -> None:
-    sweep = tmp_path / "sweep"
-    case = tmp_path / "slope" / "slow.toml"
+def start_slow(slope: Path, sweep: Path, angles: str, *options: str) -> tuple[Path, list[str], Process, list[Path]]:
+    """Start a slow sweep in a session of its own; return case, command, process and checkpoints once all exist."""
+    case = slope.with_name("slow.toml")
     case.write_text(SLOW)
-    command = [
-        *(sys.executable, "-m", "thawslide.sweeps.command", str(case), "--vary", "basal.friction_angle=20,30"),
-        *("--output", str(sweep), "--keep", "all", "--workers", "2"),
-    ]
+    command = [sys.executable, "-m", "thawslide.sweeps.command", str(case), "--vary", f"basal.friction_angle={angles}"]
+    command += ["--output", str(sweep), *options]
     process = subprocess.Popen(command, stderr=subprocess.DEVNULL, start_new_session=True)
-    checkpoints = [SweepFolder(sweep).run_folder(number) / "checkpoint.previous.bin" for number in (0, 1)]
+    folders = [SweepFolder(sweep).run_folder(number) for number in range(len(angles.split(",")))]
+    checkpoints = [folder / "checkpoint.previous.bin" for folder in folders]
     deadline = time.monotonic() + 600.0
     while not all(path.is_file() for path in checkpoints):
         assert process.poll() is None and time.monotonic() < deadline
         time.sleep(0.05)
+    return case, command, process, checkpoints
+
+
+def test_a_killed_sweep_continues_from_checkpoints(slope: Path, tmp_path: Path) -> None:
+    sweep = tmp_path / "sweep"
+    case, command, process, checkpoints = start_slow(slope, sweep, "20,30", "--keep", "all", "--workers", "2")
     os.killpg(process.pid, signal.SIGKILL)  # with its workers
     process.wait()
     checkpoints[0].with_name("checkpoint.bin").unlink(missing_ok=True)  # as if killed while replacing it
@@ -126,18 +130,7 @@ def test_a_killed_sweep_continues_from_checkpoints(slope: Path, tmp_path: Path) 
 
 def test_a_member_continues_after_the_death_of_its_worker(slope: Path, tmp_path: Path) -> None:
     sweep = tmp_path / "sweep"
-    case = tmp_path / "slope" / "slow.toml"
-    case.write_text(SLOW)
-    command = [
-        *(sys.executable, "-m", "thawslide.sweeps.command", str(case), "--vary", "basal.friction_angle=20"),
-        *("--output", str(sweep), "--workers", "1"),
-    ]
-    process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
-    checkpoint = SweepFolder(sweep).run_folder(0) / "checkpoint.previous.bin"
-    deadline = time.monotonic() + 600.0
-    while not checkpoint.is_file():
-        assert process.poll() is None and time.monotonic() < deadline
-        time.sleep(0.05)
+    _, _, process, _ = start_slow(slope, sweep, "20", "--workers", "1")
     worker = SweepFolder(sweep).record(0)["process"]
     assert parent_of(worker) == process.pid  # not a process of anyone else
     os.kill(worker, signal.SIGKILL)
@@ -171,14 +164,10 @@ def test_invalid_keys_fail_before_any_run(slope: Path, tmp_path: Path) -> None:
     ):
         with pytest.raises(UserError, match=text):
             thawslide.sweep(slope, tmp_path / "sweep", vary=vary, progress=False)
+    vary, columns = {"band.thickness": [0.1]}, {"x": "maximum(time_s)"}
     with pytest.raises(ReportError, match="did you mean"):
-        main_error(slope)
+        thawslide.sweep(slope, vary=vary, columns=columns, progress=False)
     assert not (tmp_path / "sweep").exists()
-
-
-def main_error(slope: Path) -> None:
-    """Run a sweep with an invalid expression."""
-    thawslide.sweep(slope, vary={"band.thickness": [0.1]}, columns={"x": "maximum(time_s)"}, progress=False)
 
 
 def test_a_block_sweep_has_the_numbers_of_single_blocks(slope: Path, tmp_path: Path) -> None:
