@@ -6,6 +6,7 @@ import argparse
 import os
 import sys
 import time
+import traceback
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -94,11 +95,15 @@ def make(study: Study, place: Place) -> str:
     if absent := study.absent(place):
         place.report(f"skipped: not found: {', '.join(map(str, absent))}. {study.remedy}".rstrip())
         return "skipped"
-    place.report(f"about {study.minutes:.0f} min of processor time without existing runs")
+    if not place.draws_only:
+        place.report(f"about {study.minutes:.0f} min of processor time without existing runs")
     try:
         problems = study.make(place)
-    except (ReportError, OSError, KeyError) as error:
-        problems = [f"error: {error or type(error).__name__}"]
+    except ReportError as error:
+        problems = [f"error: {error}"]
+    except Exception as error:  # the other studies continue
+        traceback.print_exc()
+        problems = [f"error: {type(error).__name__}: {error}"]
     for line in problems:
         place.report(line)
     place.report("failed" if problems else f"wrote {', '.join(study.pages)}")

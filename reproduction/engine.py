@@ -17,6 +17,8 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
+from thawslide.errors import ReportError
+
 Report = Callable[[str], None]
 FAILED_RUN = 3  # exit code of `thawslide run` for a run that failed and kept its results
 REST = 10.0  # s: duration of no motion for rest
@@ -98,8 +100,10 @@ def processor_time(results: Path) -> float:
 
 def commit_of(program: Path) -> str:
     """Return the commit of a program."""
-    output = subprocess.run([program, "version"], stdout=subprocess.PIPE, text=True, check=True).stdout
-    found = re.search(r"commit ([^,\s)]+)", output)
+    done = subprocess.run([program, "version"], stdout=subprocess.PIPE, text=True, check=False)
+    if done.returncode != 0:
+        raise ReportError(f"{program} version: exit code {done.returncode}. Build it with ./run --setup.")
+    found = re.search(r"commit ([^,\s)]+)", done.stdout)
     return found[1] if found else ""
 
 

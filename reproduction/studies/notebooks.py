@@ -28,17 +28,21 @@ def execute(path: Path) -> None:
     nbformat.write(notebook, path)
 
 
+def copied(path: Path, root: Path) -> Path:
+    """Copy a notebook into a folder with the layout of the repository; return the copy."""
+    copy = root / path.relative_to(ROOT)
+    copy.parent.mkdir(parents=True, exist_ok=True)
+    (root / "runs").mkdir(exist_ok=True)
+    if not (root / "cases").exists():
+        (root / "cases").symlink_to(ROOT / "cases")
+    return Path(shutil.copy(path, copy))
+
+
 def write(place: Place) -> None:
-    """Execute the selected notebooks; with --quick a copy of the first one in a similar folder."""
+    """Execute the selected notebooks; with --quick a copy of the first one."""
     found = [path for path in sorted(NOTEBOOKS.glob("*.ipynb")) if place.is_chosen(path.stem)]
     for path in [] if place.draws_only else found[: 1 if place.is_quick else None]:
-        copy = place.page(str(path.relative_to(ROOT)))
-        if place.is_quick:
-            shutil.copy(path, copy)
-            (place.pages / "runs").mkdir(exist_ok=True)
-            if not (place.pages / "cases").exists():
-                (place.pages / "cases").symlink_to(ROOT / "cases")
-        execute(copy)
+        execute(copied(path, place.runs) if place.is_quick else path)
         place.report(f"{path.stem}: executed")
 
 
