@@ -125,4 +125,9 @@ class Study:
         """Perform the missing runs and write the pages; return problems."""
         for stage in () if place.draws_only else self.stages:
             place.perform(stage(place))
-        return list(self.write(place) or ())
+        try:
+            return list(self.write(place) or ())
+        except (LookupError, OSError) as error:
+            if not place.draws_only:
+                raise
+            raise StudyError(f"runs are missing ({error}). Repeat without --draw-only.") from error

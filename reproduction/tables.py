@@ -11,9 +11,10 @@ TEXTS = Path(__file__).resolve().parent / "studies" / "texts"
 
 
 def markdown(lines: Sequence[Sequence[str]]) -> str:
-    """Return a table, its first line the header."""
-    head, *rest = lines
-    return "\n".join("| " + " | ".join(line) + " |" for line in [head, ["---"] * len(head), *rest])
+    """Return a table, its first line the header; a line is a list of cells, or one text with " | " between cells."""
+    head, *rest = (line if isinstance(line, str) else " | ".join(line) for line in lines)
+    ruler = " | ".join(["---"] * (head.count(" | ") + 1))
+    return "\n".join(f"| {line} |" for line in [head, ruler, *rest])
 
 
 def with_marks(text: str, parts: Mapping[str, str]) -> str:

@@ -3,13 +3,13 @@
 from reproduction.studies import (
     assumptions,
     avaframe,
+    checked_numbers,
     columns,
     frank_page,
     joffre_page,
     laboratory_page,
     lamplugh_results,
     notebooks,
-    numbers,
     paper,
     pictures,
     refinement_page,
@@ -31,6 +31,6 @@ MODULES = (
     notebooks,
     reliability,
     joffre_page,
-    numbers,
+    checked_numbers,
 )
 STUDIES = {module.STUDY.name: module.STUDY for module in MODULES}

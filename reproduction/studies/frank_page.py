@@ -20,7 +20,7 @@ from thawslide.run_folder import Run
 SHALTOP, THAWSLIDE = "SHALTOP", "Thawslide"
 COLOURS = {SHALTOP: BLUE, THAWSLIDE: RED}
 MARKS = {SHALTOP: "o", THAWSLIDE: "^"}
-PUBLISHED = {"drop": 760.0, "travel": 3080.0, "area": 3.57, "volume": 36.5}  # Mitchell et al. (2019)
+PUBLISHED = (760.0, 3080.0, 3.57, 36.5)  # m, m, km2, million m3: Mitchell et al. (2019)
 
 ROWS: dict[str, Callable[[frank.Figures], str]] = {
     "centroid, x (m)": lambda found: f"{found.x:,.0f}",
@@ -54,51 +54,30 @@ def difference_table(
     found: dict[tuple[int, str], frank.Figures], differences: dict[tuple[int, str], frank.Difference]
 ) -> str:
     """Return single runs by friction angle, and the differences of their deposits from SHALTOP's."""
-    head = ["angle (degrees)", "run", "centroid, x (m)", "area (km2)", "farthest x (m)", "median speed (m/s)"]
-    lines = [[*head, "overlap", "moved volume"]]
-    for (angle, name), figures in found.items():
+    lines = [
+        "angle (degrees) | run | centroid, x (m) | area (km2) | farthest x (m) | median speed (m/s) | overlap "
+        "| moved volume"
+    ]
+    for (angle, name), one in found.items():
         apart = differences.get((angle, name))
         lines.append(
-            [
-                str(angle),
-                name,
-                f"{figures.x:,.0f}",
-                f"{figures.area:.2f}",
-                f"{figures.farthest:,.0f}",
-                f"{figures.usual_speed:.1f}",
-                f"{apart.overlap:.2f}" if apart else "",
-                f"{100.0 * apart.moved:.0f} %" if apart else "",
-            ]
+            f"{angle} | {name} | {one.x:,.0f} | {one.area:.2f} | {one.farthest:,.0f} | {one.usual_speed:.1f} | "
+            + (f"{apart.overlap:.2f} | {100.0 * apart.moved:.0f} %" if apart else " | ")
         )
     return markdown(lines)
 
 
 def end_table(folders: dict[str, Path]) -> str:
     """Return a table of the ends of the runs."""
-    lines = [
-        [
-            "run",
-            "simulated (s)",
-            "at rest",
-            "mean velocity at the end (m/s)",
-            "left the DEM",
-            "particles",
-            "processor (s)",
-        ]
-    ]
+    head = "run | simulated (s) | at rest | mean velocity at the end (m/s) | left the DEM | particles | processor (s)"
+    lines = [head]
     for name, folder in folders.items():
         run = Run(folder)
-        history = run.history
+        history, rest = run.history, "yes" if run.facts["at_rest"] else "no"
+        left = 100.0 * history["left_mass_kg"][-1] / history["mass_kg"][0]
         lines.append(
-            [
-                name,
-                f"{run.last_time:.0f}",
-                "yes" if run.facts["at_rest"] else "no",
-                f"{history['mean_velocity_m_s'][-1]:.2f}",
-                f"{100.0 * history['left_mass_kg'][-1] / history['mass_kg'][0]:.1f} %",
-                f"{run.facts['particles']:,}",
-                f"{processor_time(folder):.0f}",
-            ]
+            f"{name} | {run.last_time:.0f} | {rest} | {history['mean_velocity_m_s'][-1]:.2f} | {left:.1f} % "
+            f"| {run.facts['particles']:,} | {processor_time(folder):.0f}"
         )
     return markdown(lines)
 
@@ -174,30 +153,14 @@ def sections(found: dict[tuple[str, int], frank.Deposit], fluid: dict[int, frank
 
 def published_table(found: dict[tuple[str, int], frank.Figures]) -> str:
     """Return the published values, and comparable values of both codes."""
-    lines = [["", "drop (m)", "travel distance (m)", "H/L", "area (km2)", "volume (million m3)"]]
-    lines.append(
-        [
-            "Frank slide, Mitchell et al. (2019)",
-            f"{PUBLISHED['drop']:.0f}",
-            f"{PUBLISHED['travel']:,.0f}",
-            f"{PUBLISHED['drop'] / PUBLISHED['travel']:.2f}",
-            f"{PUBLISHED['area']:.2f}",
-            f"{PUBLISHED['volume']:.1f}",
-        ]
-    )
-    for (code, angle), figures in found.items():
-        ratio = figures.drop / figures.travel
-        lines.append(
-            [
-                f"{code}, {angle} degrees",
-                f"{figures.drop:.0f}",
-                f"{figures.travel:,.0f}",
-                f"{ratio:.2f}",
-                f"{figures.passed:.2f}",
-                f"{figures.volume:.1f}",
-            ]
-        )
-    return markdown(lines)
+    head = " | drop (m) | travel distance (m) | H/L | area (km2) | volume (million m3)"
+    rows = {f"{code}, {angle} degrees": (one.drop, one.travel, one.passed, one.volume)
+            for (code, angle), one in found.items()}  # fmt: skip
+    lines = [
+        f"{name} | {drop:.0f} | {travel:,.0f} | {drop / travel:.2f} | {area:.2f} | {volume:.1f}"
+        for name, (drop, travel, area, volume) in ({"Frank slide, Mitchell et al. (2019)": PUBLISHED} | rows).items()
+    ]
+    return markdown([head, *lines])
 
 
 def write(place: Place) -> None:

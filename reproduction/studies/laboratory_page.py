@@ -51,47 +51,40 @@ def largest(values: np.ndarray) -> float:
 
 def bar_table(found: dict[tuple[str, float], Bars]) -> str:
     """Return the table of runs on several cells, one column for each run."""
-    rows = [["", *(f"{NAMES[transfer]}, {cell:g} mm" for transfer, cell in found)]]
     each = list(found.values())
-    rows.append(["deviation of the surface, rms (mm)", *(f"{rms(one.surface_error):.1f}" for one in each)])
-    rows.append(["deviation of the surface, maximum (mm)", *(f"{largest(one.surface_error):+.1f}" for one in each)])
-    rows.append(["deviation of the toe (mm)", *(f"{1e3 * one.toe - 442.0:+.0f}" for one in each)])
-    changes = ["change of the surface from the next coarser cell, rms (mm)"]
-    for transfer, cell in found:
-        before = found.get((transfer, 2.0 * cell))
-        changes.append(f"{1e3 * rms(found[transfer, cell].surface - before.surface):.1f}" if before else "")
-    rows.append(changes)
+    coarser = [found.get((transfer, 2.0 * cell)) for transfer, cell in found]
+    changes = [
+        f"{1e3 * rms(one.surface - before.surface):.1f}" if before else ""
+        for one, before in zip(each, coarser, strict=True)
+    ]
+    rows = {
+        "": [f"{NAMES[transfer]}, {cell:g} mm" for transfer, cell in found],
+        "deviation of the surface, rms (mm)": [f"{rms(one.surface_error):.1f}" for one in each],
+        "deviation of the surface, maximum (mm)": [f"{largest(one.surface_error):+.1f}" for one in each],
+        "deviation of the toe (mm)": [f"{1e3 * one.toe - 442.0:+.0f}" for one in each],
+        "change of the surface from the next coarser cell, rms (mm)": changes,
+    }
     for moved in MOVED:
         words = f"deviation of the failure line, threshold {moved:g} mm, rms (mm)"
-        rows.append([words, *(f"{rms(one.failure_error(moved)):.1f}" for one in each)])
-    rows.append(
-        [
-            "deviation of the failure line, threshold 1 mm, mean (mm)",
-            *(f"{one.failure_error(1.0).mean():+.1f}" for one in each),
-        ]
-    )
-    rows.append(["inclination of the failure line (degrees)", *(f"{one.slope():.1f}" for one in each)])
-    rows.append(["increase of volume", *(f"{100.0 * one.dilation:.1f} %" for one in each)])
-    return markdown(rows)
+        rows[words] = [f"{rms(one.failure_error(moved)):.1f}" for one in each]
+    rows |= {
+        "deviation of the failure line, threshold 1 mm, mean (mm)": [f"{x.failure_error(1).mean():+.1f}" for x in each],
+        "inclination of the failure line (degrees)": [f"{one.slope():.1f}" for one in each],
+        "increase of volume": [f"{100.0 * one.dilation:.1f} %" for one in each],
+    }
+    return markdown([[words, *cells] for words, cells in rows.items()])
 
 
 def bar_cause_table(runs: dict[str, Bars]) -> str:
     """Return the table of runs that change one parameter, one row for each run."""
-    rows = [
-        [
-            "variant",
-            "surface, rms (mm)",
-            "toe (mm)",
-            "failure line, rms (mm)",
-            "inclination (degrees)",
-            "increase of volume",
-        ]
-    ]
+    head = "variant | surface, rms (mm) | toe (mm) | failure line, rms (mm) | inclination (degrees) "
+    lines = [f"{head}| increase of volume"]
     for words, one in runs.items():
-        numbers = [f"{rms(one.surface_error):.1f}", f"{1e3 * one.toe - 442.0:+.0f}"]
-        numbers += [f"{rms(one.failure_error(1.0)):.1f}", f"{one.slope():.1f}", f"{100.0 * one.dilation:+.1f} %"]
-        rows.append([words, *numbers])
-    return markdown(rows)
+        lines.append(
+            f"{words} | {rms(one.surface_error):.1f} | {1e3 * one.toe - 442.0:+.0f} "
+            f"| {rms(one.failure_error(1.0)):.1f} | {one.slope():.1f} | {100.0 * one.dilation:+.1f} %"
+        )
+    return markdown(lines)
 
 
 def column_table(found: dict[tuple[str, str, int], Column]) -> str:

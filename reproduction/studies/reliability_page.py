@@ -147,11 +147,11 @@ def fuzzing_text(found: dict[str, Any]) -> str:
         + paragraph(
             "Readers of files that users write get random bytes, guided by code coverage. The programs are built with "
             "libFuzzer and the address and undefined-behaviour sanitizers; readers in Python use atheris. The "
-            "[developer "
-            "guide](developer-guide.md#fuzzing) lists the targets. A reader must return a value, or an error that "
+            "[developer guide](developer-guide.md#fuzzing) lists the targets. A reader must return a value, or an error that "
             "names the file, within a few seconds and a few gigabytes."
         )
-        + "\n| target | processor minutes | inputs tried | edges covered | findings in Thawslide | in libraries | commit |\n"
+        + "\n| target | processor minutes | inputs tried | edges covered | findings in Thawslide | in libraries "
+        + "| commit |\n"
         + "|---|---|---|---|---|---|---|\n"
         + "".join(lines)
         + ("\n" + "".join(findings) if findings else "")

@@ -40,78 +40,38 @@ QUICK = (("test_physics", "MohrCoulomb.ReturnSolves*"), ("test_terrain", "Height
 TOPICS = {
     "Motion and stress": (
         "manufactured solutions, vibration and impact of elastic bars, patch tests, rotation",
-        (
-            "Vibration",
-            "FineVibration",
-            "Bar",
-            "ElasticImpact",
-            "Turning",
-            "Patch",
-            "FreeFall",
-            "MohrCoulomb",
-            "RestNoise",
-        ),
+        "Vibration FineVibration Bar ElasticImpact Turning Patch FreeFall MohrCoulomb RestNoise",
     ),
     "Friction on terrain": (
         "rigid blocks on slopes, in bends and bowls; terminal velocity of Voellmy friction; invariance under rotation",
-        (
-            *(
-                "Incline",
-                "AngleSweep",
-                "Bonds",
-                "Substrates",
-                "Voellmy",
-                "RestingBlock",
-                "TiltedTerrain",
-                "TurnedTerrain",
-            ),
-            *("MirroredTerrain", "SteepWall", "BendPressure", "CurvedTerrain", "Bowl", "HelicalChannel"),
-        ),
+        "Incline AngleSweep Bonds Substrates Voellmy RestingBlock TiltedTerrain TurnedTerrain MirroredTerrain "
+        "SteepWall BendPressure CurvedTerrain Bowl HelicalChannel",
     ),
     "Terrain from a DEM": (
         "planes, V and U channels, rough terrain, the edge of a DEM; volume of a release",
-        (
-            *(
-                "PlaneOnDem",
-                "PlanesOnDem",
-                "VChannelOnDem",
-                "UChannelOnDem",
-                "ExtrudedProfile",
-                "RuggedDem",
-                "RoughDem",
-            ),
-            *("LeavingDem", "HeightField", "ReleaseVolume"),
-        ),
+        "PlaneOnDem PlanesOnDem VChannelOnDem UChannelOnDem ExtrudedProfile RuggedDem RoughDem LeavingDem "
+        "HeightField ReleaseVolume",
     ),
     "Spreading and collapse": (
         "thin-layer solutions of Ritter and of Savage and Hutter; laboratory experiments with bars and sand",
-        (
-            *(
-                "DamBreak",
-                "ParabolicPile",
-                "WideningSection",
-                "GranularColumn",
-                "CylindricalColumn",
-                "CylindricalColumns",
-            ),
-            *("CylinderSection", "FineCylinderSection", "BarCollapse", "FineBarCollapse", "SpreadingBlock"),
-        ),
+        "DamBreak ParabolicPile WideningSection GranularColumn CylindricalColumn CylindricalColumns "
+        "CylinderSection FineCylinderSection BarCollapse FineBarCollapse SpreadingBlock",
     ),
-    "Softening": ("blocks on a surface that softens over a slip, on any cell", ("SofteningSlab", "SofteningSlope")),
+    "Softening": ("blocks on a surface that softens over a slip, on any cell", "SofteningSlab SofteningSlope"),
     "Heat and freezing": (
         "half space, two layers, solutions of Neumann and Lunardini, manufactured melting, heat budget",
-        ("Conduction", "Freezing", "HeatLedger"),
+        "Conduction Freezing HeatLedger",
     ),
     "Pore pressure": (
         "undrained heating, diffusion, manufactured solution",
-        ("PorePressure", "UndrainedHeating", "Consolidation"),
+        "PorePressure UndrainedHeating Consolidation",
     ),
     "Basal layer": (
         "slip with thermal pressurization (Rice), arrest or runaway, independence of the mesh, rigid-block model",
-        ("SlipOnPlane", "ArrestOrRunaway", "BandColumnsVerification", "AdiabaticBand", "CutCells", "BlockModel"),
+        "SlipOnPlane ArrestOrRunaway BandColumnsVerification AdiabaticBand CutCells BlockModel",
     ),
-    "Entrainment": ("balance of momentum and energy of a block that entrains its bed", ("Entrainment",)),
-    "Energy budget": ("order of the residual in the time step", ("InclineEnergy", "WholeIncline")),
+    "Entrainment": ("balance of momentum and energy of a block that entrains its bed", "Entrainment"),
+    "Energy budget": ("order of the residual in the time step", "InclineEnergy WholeIncline"),
 }
 
 OVERVIEW = """# Verification
@@ -311,7 +271,7 @@ def topic_of(record: Record) -> str:
     """Return the topic of a record."""
     suite = record["test"].split(".")[0]
     for topic, (_, suites) in TOPICS.items():
-        if suite in suites:
+        if suite in suites.split():
             return topic
     raise StudyError(f"{suite}: this suite has no topic. Add it to TOPICS in reproduction/studies/verification.py.")
 

@@ -47,15 +47,17 @@ class Interval:
     inside: float  # the same measure of the dissipation by yielding and viscosity
 
 
+def gradient(field: Map) -> tuple[Map, Map]:
+    """Return the derivatives of a map along x and y."""
+    along_y, along_x = np.gradient(field.values, field.grid.cell_y, field.grid.cell_x)
+    return Map(field.grid, np.asarray(along_x)), Map(field.grid, np.asarray(along_y))
+
+
 def derivatives(terrain: Map) -> Ground:
     """Return the derivatives of a terrain [m]."""
-    grid = terrain.grid
-    along_y, along_x = np.gradient(terrain.values, grid.cell_y, grid.cell_x)
-    bend_xy, bend_xx = np.gradient(along_x, grid.cell_y, grid.cell_x)
-    bend_yy, _ = np.gradient(along_y, grid.cell_y, grid.cell_x)
-    return Ground(
-        (Map(grid, along_x), Map(grid, along_y)), (Map(grid, bend_xx), Map(grid, bend_xy), Map(grid, bend_yy))
-    )
+    along_x, along_y = gradient(terrain)
+    bend_xx, bend_xy = gradient(along_x)
+    return Ground((along_x, along_y), (bend_xx, bend_xy, gradient(along_y)[1]))
 
 
 def rates(ground: Ground, points: Numbers, velocity: Numbers, mass: Numbers) -> tuple[float, float]:
