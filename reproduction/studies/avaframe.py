@@ -36,7 +36,7 @@ from thawslide.maps import Map, read_map
 
 SCRIPT = Path(__file__).resolve().parent / "run_com1dfa.py"
 AVAFRAME, THAWSLIDE = Variant("avaframe", ""), Variant("thawslide", "")
-QUICK = ("time.end=2", "time.output_interval=1")
+QUICK = ("time.end=0.3", "time.output_interval=0.3")
 FIELDS = [("thickness", "maximum thickness (m, vertical)"), ("speed", "maximum speed (m/s)")]
 PAINTINGS = {"thickness": THICKNESS, "speed": SPEED}
 ROWS: dict[str, Callable[[Numbered], str]] = {
@@ -189,7 +189,6 @@ STUDY = Study(
     write,
     (avaframe_tasks, thawslide_jobs),
     needs,
-    "Install AvaFrame: python3 -m venv build/avaframe && build/avaframe/bin/pip install avaframe==2.1, or give its "
-    "virtual environment with --avaframe; it needs other versions of common packages. cases/alr/README.md states the "
-    "source of the data.",
+    "Install AvaFrame: python3 -m venv build/avaframe && build/avaframe/bin/pip install avaframe==2.1. Or give its "
+    "virtual environment with --avaframe. cases/alr/README.md states the source of the data.",
 )

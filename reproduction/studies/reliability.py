@@ -50,10 +50,16 @@ def write(place: Place) -> None:
 
 
 def needs(place: Place) -> list[Path]:
-    """Return the modules that the tests share."""
-    return [ROOT / "tests" / "cli" / "faults.py"]
+    """Return the library that makes writes fail."""
+    return [] if place.draws_only else [ROOT / "build" / "release" / "tests" / "failing_writes.so"]
 
 
 STUDY = Study(
-    "reliability", ("docs/reliability.md",), 600.0, write, tuple(partial(part, name=name) for name in TEXTS), needs
+    "reliability",
+    ("docs/reliability.md",),
+    600.0,
+    write,
+    tuple(partial(part, name=name) for name in TEXTS),
+    needs,
+    "Build it with cmake --build build/release.",
 )

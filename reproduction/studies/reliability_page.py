@@ -145,10 +145,10 @@ def fuzzing_text(found: dict[str, Any]) -> str:
     return (
         "## Fuzzing\n\n"
         + paragraph(
-            "Readers of files that users write get random bytes, guided by code coverage. The programs are built with "
-            "libFuzzer and the address and undefined-behaviour sanitizers; readers in Python use atheris. The "
-            "[developer guide](developer-guide.md#fuzzing) lists the targets. A reader must return a value, or an error that "
-            "names the file, within a few seconds and a few gigabytes."
+            "Readers of files that users write get random bytes, guided by code coverage. The programs are built "
+            "with libFuzzer and the address and undefined-behaviour sanitizers; readers in Python use atheris. The "
+            "[developer guide](developer-guide.md#fuzzing) lists the targets. A reader must return a value, or an "
+            "error that names the file, within a few seconds and a few gigabytes."
         )
         + "\n| target | processor minutes | inputs tried | edges covered | findings in Thawslide | in libraries "
         + "| commit |\n"

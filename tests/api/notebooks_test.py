@@ -30,8 +30,8 @@ def test_a_notebook_runs(notebook: Path, tmp_path: Path) -> None:
     (tmp_path / "runs").mkdir()
     paths = f"{ROOT}:{ROOT / 'python'}"
     environment = os.environ | {"PYTHONPATH": paths, "JUPYTER_PLATFORM_DIRS": "1"}
-    execute = f"import pathlib; from reproduction.studies.notebooks import execute; execute(pathlib.Path({str(copy)!r}))"
-    command = [sys.executable, "-c", execute]
+    words = f"import pathlib; from reproduction.studies import notebooks as n; n.execute(pathlib.Path({str(copy)!r}))"
+    command = [sys.executable, "-c", words]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
     assert [len(cell["outputs"]) for cell in code_of(copy)] == [len(cell["outputs"]) for cell in code_of(notebook)]
