@@ -110,7 +110,7 @@ def read_block(path: Path) -> History:
 
 def blocks(run: Run) -> dict[str, History]:
     """Return the histories of the rigid blocks next to a run folder, by name."""
-    return {each.name: read_block(run.folder.parent / f"{each.name}.csv") for each in LAMPLUGH_BLOCKS}
+    return {each.key: read_block(run.folder.parent / f"{each.key}.csv") for each in LAMPLUGH_BLOCKS}
 
 
 def block_measures(run: Run) -> dict[str, float]:
@@ -128,7 +128,7 @@ def block_measures(run: Run) -> dict[str, float]:
         found[f"{key}_stop"] = float(time[int(moving[-1]) + 1]) if stopped else float("nan")
         found[f"{key}_safety"] = float(history["sliding_strength_Pa"][0] / history["driving_traction_Pa"][0])
     first = LAMPLUGH_BLOCKS[0]
-    return found | balance(read_block(run.folder.parent / f"{first.name}.csv"), COHESION)
+    return found | balance(read_block(run.folder.parent / f"{first.key}.csv"), COHESION)
 
 
 def base_traction(run: Run, start: float = 100.0, end: float = 140.0) -> float:
@@ -290,7 +290,7 @@ def figure_blocks(runs: dict[str, Run]) -> Figure:
     time_line(distance, time, run.history["mean_displacement_m"] / 1e3, color=BLUE, label="deforming (MPM)")
     histories = blocks(run)
     for block, colour, dashes in zip(LAMPLUGH_BLOCKS, _COLOURS[:2], ("--", "-."), strict=True):
-        history, style = histories[block.name], {"color": colour, "linestyle": dashes}
+        history, style = histories[block.key], {"color": colour, "linestyle": dashes}
         for axes, column, divisor in ((speed, "velocity_m_s", 1.0), (distance, "displacement_m", 1e3)):
             time_line(axes, history["time_s"], history[column] / divisor, **style, label=block.words)
     plot_targets(speed, run, ("mean_velocity",), 1.0, NOTE)

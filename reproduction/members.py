@@ -10,8 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from reproduction.engine import failure
 from reproduction.lamplugh import INVERSION
-from reproduction.one_at_a_time import Row, incompleteness, refusal
+from reproduction.one_at_a_time import incompleteness
+from reproduction.study import Job
 from thawslide.errors import ReportError
 from thawslide.figures.force import force_in_band
 from thawslide.figures.force_record import compared
@@ -102,16 +104,14 @@ QUANTITIES = (
 def observed(folder: Path) -> Observed:
     """Return the results of a run folder, with the reason if it is missing or incomplete."""
     if not (folder / "history.csv").is_file():
-        note = refusal(folder)
-        return Observed(failure=note.read_text(encoding="utf-8") if note.is_file() else "not run")
+        return Observed(failure=failure(folder))
     run = Run(folder)
     history, time = run.history, run.history["time_s"]
     speed = history["mean_velocity_m_s"]
     start, stop = time_of_speed(run, SET_SPEED), stop_time(run, REST)
     shift = SET_TIME - start
-    failure = incompleteness(folder)
     return Observed(
-        failure=failure,
+        failure=incompleteness(folder),
         start=start,
         end=float(time[-1]) + shift,
         peak=float(np.nanmax(speed)),
@@ -136,10 +136,10 @@ def _reversal(run: Run) -> float:
     return found.duration if found else float("nan")
 
 
-def member_rows() -> list[Row]:
+def member_rows() -> list[Job]:
     """Return the members: the case with initial noise, each with a different seed."""
     return [
-        Row(f"member-{seed:02d}", f"seed {seed}", (f"initial.noise={NOISE}", f"initial.seed={seed}"))
+        Job(f"member-{seed:02d}", f"seed {seed}", (f"initial.noise={NOISE}", f"initial.seed={seed}"))
         for seed in range(1, MEMBERS + 1)
     ]
 
@@ -160,7 +160,7 @@ def _is_set(case: Mapping[str, Any], setting: str) -> bool:
     return isinstance(value, int | float) and float(value) == float(text)
 
 
-def variant_rows(case: Mapping[str, Any]) -> list[Row]:
+def variant_rows(case: Mapping[str, Any]) -> list[Job]:
     """Return variants that differ from a resolved case in one parameter each, without settings of the case."""
     conductivity = "material.rock_ice.hydraulic_conductivity"
     glacier = "substrate.glacier.friction_coefficient"
@@ -170,30 +170,30 @@ def variant_rows(case: Mapping[str, Any]) -> list[Row]:
     # A key of the case cannot be removed: negligible growth represents none.
     other_growth = (
         [
-            Row("no-growth", "the band does not grow", ("band.growth_per_slip=1e-12",)),
-            Row("e-0.55", "e 0.55 m, and it does not grow", ("band.growth_per_slip=1e-12", "band.thickness=0.55")),
+            Job("no-growth", "the band does not grow", ("band.growth_per_slip=1e-12",)),
+            Job("e-0.55", "e 0.55 m, and it does not grow", ("band.growth_per_slip=1e-12", "band.thickness=0.55")),
         ]
         if grows
-        else [Row("inertial", "the band grows by its inertial number", ("band.growth=inertial",))]
+        else [Job("inertial", "the band grows by its inertial number", ("band.growth=inertial",))]
     )
     rows = [
-        Row("e-0.15", "e 0.15 m at the start", ("band.thickness=0.15",)),
-        Row("e-0.3", "e 0.3 m at the start", ("band.thickness=0.3",)),
+        Job("e-0.15", "e 0.15 m at the start", ("band.thickness=0.15",)),
+        Job("e-0.3", "e 0.3 m at the start", ("band.thickness=0.3",)),
         *other_growth,
-        Row("no-mixing", "no mixing of the band", ("band.mixing_slip=inf",)),
-        Row("mixing-100", "mixing over 100 m of slip", ("band.mixing_slip=100",)),
-        Row("heat-0.9", "fraction of work that heats 0.9", ("basal.heat_fraction=0.9",)),
-        Row("k-5e-8", "k 5e-8 m/s", (f"{conductivity}=5e-8",)),
-        Row("k-2e-7", "k 2e-7 m/s", (f"{conductivity}=2e-7",)),
-        Row("glacier-0.10", "friction on the glacier 0.10", (f"{glacier}=0.10",)),
-        Row("glacier-0.13", "friction on the glacier 0.13", (f"{glacier}=0.13",)),
-        Row("bonds-100", "bonds lost over 100 m", ("basal.slip_distance=100",)),
-        Row("skeleton-1e-8", "m_v 1e-8 1/Pa", ("pressure.skeleton_compressibility=1e-8",)),
-        Row(f"frozen-{other_boundary}", f"frozen rows {other_boundary}", (f"pressure.frozen_rows={other_boundary}",)),
-        Row("no-steam", "no steam: water stays liquid", ("heat.steam=false",)),
-        Row("viscosity-0.005", "viscosity of the body 0.005 s", ("material.rock_ice.viscosity_time=0.005",)),
-        Row("broken-20", "broken body of 20 degrees", ("material.rock_ice.residual_friction_angle=20",)),
-        Row("load-time", f"N averaged over {load_time:g} s", (f"band.load_time={load_time:g}",)),
+        Job("no-mixing", "no mixing of the band", ("band.mixing_slip=inf",)),
+        Job("mixing-100", "mixing over 100 m of slip", ("band.mixing_slip=100",)),
+        Job("heat-0.9", "fraction of work that heats 0.9", ("basal.heat_fraction=0.9",)),
+        Job("k-5e-8", "k 5e-8 m/s", (f"{conductivity}=5e-8",)),
+        Job("k-2e-7", "k 2e-7 m/s", (f"{conductivity}=2e-7",)),
+        Job("glacier-0.10", "friction on the glacier 0.10", (f"{glacier}=0.10",)),
+        Job("glacier-0.13", "friction on the glacier 0.13", (f"{glacier}=0.13",)),
+        Job("bonds-100", "bonds lost over 100 m", ("basal.slip_distance=100",)),
+        Job("skeleton-1e-8", "m_v 1e-8 1/Pa", ("pressure.skeleton_compressibility=1e-8",)),
+        Job(f"frozen-{other_boundary}", f"frozen rows {other_boundary}", (f"pressure.frozen_rows={other_boundary}",)),
+        Job("no-steam", "no steam: water stays liquid", ("heat.steam=false",)),
+        Job("viscosity-0.005", "viscosity of the body 0.005 s", ("material.rock_ice.viscosity_time=0.005",)),
+        Job("broken-20", "broken body of 20 degrees", ("material.rock_ice.residual_friction_angle=20",)),
+        Job("load-time", f"N averaged over {load_time:g} s", (f"band.load_time={load_time:g}",)),
     ]
     return [row for row in rows if not all(_is_set(case, setting) for setting in row.sets)]
 
@@ -282,7 +282,7 @@ def middle_member(found: Sequence[Observed]) -> int:
     return int(np.argmin(distances))
 
 
-def variants_table(rows: Sequence[Row], found: Mapping[str, Observed]) -> str:
+def variants_table(rows: Sequence[Job], found: Mapping[str, Observed]) -> str:
     """Return one line a run; values outside the accepted interval are bold."""
     heads = [f"{each.kind}: {each.head}" + (f" [{each.unit}]" if each.unit else "") for each in QUANTITIES]
     lines = [f"| run | {' | '.join(heads)} | 8 m/s at [s] | set |", "|---" * (len(heads) + 3) + "|"]

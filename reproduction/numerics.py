@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from reproduction.members import QUANTITIES, Observed
-from reproduction.one_at_a_time import Row
+from reproduction.study import Job
 
 THICKNESSES = (0.21, 0.30, 0.40)  # m, of the band at the start
 CELLS = (20.0, 10.0, 5.0)  # m, the coarsest first
@@ -22,10 +22,10 @@ def cell_key(thickness: float, cell: float) -> str:
     return f"e-{thickness:g}-cell-{cell:g}"
 
 
-def cell_rows() -> list[Row]:
+def cell_rows() -> list[Job]:
     """Return the runs of the table of cells: each thickness of the band on each cell, the step in proportion."""
     return [
-        Row(
+        Job(
             cell_key(thickness, cell),
             f"e {thickness:g} m, cells of {cell:g} m",
             (f"band.thickness={thickness:g}", f"grid.cell={cell:g}", f"time.step={STEP_PER_CELL * cell:g}"),
@@ -40,10 +40,10 @@ def variant_cell_key(key: str, cell: float) -> str:
     return f"{key}-on-{cell:g}"
 
 
-def variant_cell_rows(variants: Sequence[Row]) -> list[Row]:
+def variant_cell_rows(variants: Sequence[Job]) -> list[Job]:
     """Return the runs of variants on the cells that are not those of the case."""
     return [
-        Row(
+        Job(
             variant_cell_key(row.key, cell),
             f"{row.words}, cells of {cell:g} m",
             (*row.sets, f"grid.cell={cell:g}", f"time.step={STEP_PER_CELL * cell:g}"),
@@ -61,34 +61,34 @@ def _shifted(fraction: float, cell: float = CELL) -> tuple[str, ...]:
     return (f"grid.min=[{left:g},{low:g}]", f"grid.max=[{right:g},{high:g}]")
 
 
-def numerics_rows() -> list[Row]:
+def numerics_rows() -> list[Job]:
     """Return the runs that differ from the case in one numerical parameter."""
     modulus, viscosity = "material.rock_ice.youngs_modulus", "material.rock_ice.viscosity_time"
     slip = "material.rock_ice.softening_slip"
     return [
-        Row("half-step", "half the time step", ("time.step=0.005",)),
-        Row("half-modulus", "half of Young's modulus", (f"{modulus}=2.5e8",)),
-        Row("twice-modulus", "twice Young's modulus (shorter step)", (f"{modulus}=1e9", "time.step=0.007")),
+        Job("half-step", "half the time step", ("time.step=0.005",)),
+        Job("half-modulus", "half of Young's modulus", (f"{modulus}=2.5e8",)),
+        Job("twice-modulus", "twice Young's modulus (shorter step)", (f"{modulus}=1e9", "time.step=0.007")),
         # The viscous stress is viscosity_time times the shear modulus: these keep it.
-        Row("soft", "half of Young's modulus, the same viscosity", (f"{modulus}=2.5e8", f"{viscosity}=0.005")),
-        Row("softest", "a quarter of Young's modulus, the same viscosity", (f"{modulus}=1.25e8", f"{viscosity}=0.01")),
-        Row(
+        Job("soft", "half of Young's modulus, the same viscosity", (f"{modulus}=2.5e8", f"{viscosity}=0.005")),
+        Job("softest", "a quarter of Young's modulus, the same viscosity", (f"{modulus}=1.25e8", f"{viscosity}=0.01")),
+        Job(
             "stiff",
             "twice Young's modulus, the same viscosity (shorter step)",
             (f"{modulus}=1e9", f"{viscosity}=0.00125", "time.step=0.007"),
         ),
-        Row("half-viscosity", "half the viscosity", (f"{viscosity}=0.00125",)),
-        Row("twice-viscosity", "twice the viscosity (shorter step)", (f"{viscosity}=0.005", "time.step=0.008")),
-        Row("half-slip", "half the slip over which the body softens", (f"{slip}=0.435",)),
-        Row("twice-slip", "twice that slip", (f"{slip}=1.74",)),
-        Row(
+        Job("half-viscosity", "half the viscosity", (f"{viscosity}=0.00125",)),
+        Job("twice-viscosity", "twice the viscosity (shorter step)", (f"{viscosity}=0.005", "time.step=0.008")),
+        Job("half-slip", "half the slip over which the body softens", (f"{slip}=0.435",)),
+        Job("twice-slip", "twice that slip", (f"{slip}=1.74",)),
+        Job(
             "fine-half-viscosity",
             "cells of 5 m, half the viscosity",
             ("grid.cell=5", "time.step=0.005", f"{viscosity}=0.00125"),
         ),
-        Row("quarter-shift", "the grid shifted by a quarter of a cell", _shifted(0.25)),
-        Row("half-shift", "the grid shifted by half a cell", _shifted(0.5)),
-        Row("twice-column-step", "twice the time step of the columns", ("band.column_step=0.1",)),
+        Job("quarter-shift", "the grid shifted by a quarter of a cell", _shifted(0.25)),
+        Job("half-shift", "the grid shifted by half a cell", _shifted(0.5)),
+        Job("twice-column-step", "twice the time step of the columns", ("band.column_step=0.1",)),
     ]
 
 
@@ -111,7 +111,7 @@ def cells_table(found: Mapping[str, Observed]) -> str:
     return "\n".join(lines)
 
 
-def variant_cells_table(variants: Sequence[Row], found: Mapping[str, Observed]) -> str:
+def variant_cells_table(variants: Sequence[Job], found: Mapping[str, Observed]) -> str:
     """Return one line per variant: quantities on each cell, the coarsest first."""
     by_name = {each.name: each for each in QUANTITIES}
     quantities = [by_name[name] for name in ("displacement", "runout", "peak", "reversal", "stop", "hottest")]
@@ -124,7 +124,7 @@ def variant_cells_table(variants: Sequence[Row], found: Mapping[str, Observed]) 
     return "\n".join(lines)
 
 
-def numerics_table(rows: Sequence[Row], base: Observed, found: Mapping[str, Observed]) -> str:
+def numerics_table(rows: Sequence[Job], base: Observed, found: Mapping[str, Observed]) -> str:
     """Return one line per run: displacement, runout and peak, and their differences from the case."""
     quantities = [each for each in QUANTITIES if each.name in QUANTITY_NAMES]
     lines = ["| run | " + " | ".join(f"{each.head} [{each.unit}]" for each in quantities) + " | set |"]

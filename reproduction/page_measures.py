@@ -1,4 +1,4 @@
-"""Quantities for scripts/page_numbers.toml, from a run, a rigid-block run and a generated page."""
+"""Quantities for reproduction/page_numbers.toml, from a run, a rigid-block run and a generated page."""
 
 from __future__ import annotations
 

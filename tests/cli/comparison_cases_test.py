@@ -8,19 +8,17 @@ from pathlib import Path
 import pytest
 from conftest import ROOT, Program
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "comparison"))
+sys.path.append(str(ROOT))
 
-import frank
-import joffre
-import refinement
-from jobs import Job
+from reproduction.studies import frank, joffre, refinement
+from reproduction.study import Job, Place
 
 DATA = ROOT.parent / "shared" / "data"
 
 
 def options(job: Job) -> list[str]:
     """Return the options of a job on the command line."""
-    return [word for change in job.changes for word in ("--set", change)]
+    return [word for key in job.sets for word in ("--set", key)]
 
 
 def needs(*names: str) -> None:
@@ -30,18 +28,17 @@ def needs(*names: str) -> None:
         pytest.skip(f"the comparison needs data that are not in the repository: {', '.join(absent)} in ../shared/data")
 
 
-def test_each_run_of_the_frank_slide_is_a_valid_case(thawslide: Program, tmp_path: Path) -> None:
+def test_each_run_of_the_frank_slide_is_a_valid_case(thawslide: Program, binary: Path, tmp_path: Path) -> None:
     needs("frank")
-    for job in frank.jobs(DATA / "frank", tmp_path):
+    for job in frank.jobs(Place(binary, tmp_path, tmp_path, parts=("*",))):
         checked = thawslide("check", job.case, *options(job))
         assert checked.returncode == 0, checked.stderr
         assert "36,000,000 m3" in checked.stdout
 
 
-def test_each_run_on_refined_cells_is_a_valid_case(thawslide: Program, tmp_path: Path) -> None:
+def test_each_run_on_refined_cells_is_a_valid_case(thawslide: Program, binary: Path, tmp_path: Path) -> None:
     needs("alr/alr.tif", "alr/release.shp")
-    refinement.write_inputs(tmp_path, DATA / "alr")
-    for job in refinement.jobs(tmp_path):
+    for job in refinement.jobs(Place(binary, tmp_path, tmp_path)):
         checked = thawslide("check", job.case, *options(job))
         assert checked.returncode == 0, checked.stderr
 
@@ -59,10 +56,10 @@ def test_short_run_of_the_frank_slide_has_the_pile_on_the_grid_of_shaltop(thawsl
     needs("frank")
     data = DATA / "frank"
     terrain, pile = (frank.read_grid(data / f"Frankslide_{kind}.asc") for kind in ("topography", "pile"))
-    job = frank.job(frank.BASE, 15, data, tmp_path, ("time.end=0.12", "time.output_interval=0.12"))
-    done = thawslide("run", job.case, *options(job), "--threads", "1", "--output", job.output)
+    job = frank.job(frank.BASE, 15, data, ("time.end=0.12", "time.output_interval=0.12"))
+    done = thawslide("run", job.case, *options(job), "--threads", "1", "--output", tmp_path / job.key)
     assert done.returncode == 0, done.stderr
-    deposit = frank.read_run(job.output, terrain.grid)
+    deposit = frank.read_run(tmp_path / job.key, terrain.grid)
     found = frank.figures(deposit, terrain, pile)
     assert found.volume == pytest.approx(36.0, rel=2e-3)
     released = frank.figures(frank.Deposit(pile, pile, pile), terrain, pile)

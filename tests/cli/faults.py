@@ -1,4 +1,4 @@
-"""Runs that are killed or whose writing fails, and their results: for the tests and for scripts/reliability."""
+"""Runs that are killed or whose writing fails, and their results: for the tests and for the page of reliability."""
 
 from __future__ import annotations
 

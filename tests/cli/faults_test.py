@@ -1,6 +1,6 @@
 """Killed runs and failing writes: a resumed run has the files of an undisturbed one.
 
-These are samples; scripts/reliability performs all tests.
+These are samples; scripts/pages --only reliability performs all tests.
 """
 
 from __future__ import annotations

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 import math
 import struct
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "comparison"))
-
-import grounds
-import page
-import results
-
+from reproduction.studies import avaframe, grounds, results
+from thawslide.errors import ReportError
 from thawslide.maps import Grid, Map, read_map
 
 SLOPE = math.tan(math.radians(30.0))
@@ -34,15 +29,10 @@ def test_terrains_have_the_specified_values(tmp_path: Path) -> None:
         (grounds.PLANE, (400_302.5, 400_502.5), SLOPE * (1_000.0 - 302.5)),
         (grounds.BOWL, (400_302.5, 400_902.5), (597.5**2 + 2.5**2) / 2_000.0),
     ]:
-        grounds.write_ground(ground, tmp_path / ground.name, None)
+        grounds.write_ground(ground, tmp_path / ground.name, tmp_path)
         terrain = read_map(tmp_path / ground.name / "dem.tif")
         assert terrain.at(*(np.array([each]) for each in place))[0] == pytest.approx(height, abs=1e-9)
         assert "EPSG:31287" in terrain.crs
-
-
-def test_terrain_of_the_user_requires_its_folder(tmp_path: Path) -> None:
-    with pytest.raises(SystemExit, match="needs --alr FOLDER"):
-        grounds.write_ground(grounds.ALR, tmp_path / "alr", None)
 
 
 def shapefile(kind: int, parts: list[int], points: list[tuple[float, float]]) -> bytes:
@@ -59,7 +49,7 @@ def test_first_ring_of_a_shapefile_is_read(tmp_path: Path) -> None:
     file.write_bytes(shapefile(5, [0, 4], outer + hole))
     assert grounds.first_polygon(file) == [list(point) for point in outer]
     file.write_bytes(shapefile(3, [0], outer))
-    with pytest.raises(SystemExit, match="of kind 3; a polygon is required"):
+    with pytest.raises(ReportError, match="of kind 3; a polygon is required"):
         grounds.first_polygon(file)
 
 
@@ -86,7 +76,7 @@ def test_point_mass_on_a_straight_slope_up_and_down_follows_the_energy_line() ->
 
 def test_point_mass_that_does_not_stop_is_an_error() -> None:
     x = 5.0 * np.arange(400)
-    with pytest.raises(SystemExit, match="the point mass leaves the DEM"):
+    with pytest.raises(ReportError, match="the point mass leaves the DEM"):
         results.point_mass(dem(-0.5 * x), square(500.0), 0.3)
 
 
@@ -142,7 +132,7 @@ def test_each_pair_of_maps_has_its_difference() -> None:
     ]
     corners = [[50.0, 50.0], [90.0, 50.0], [90.0, 90.0], [50.0, 50.0]]
     for field, factor in (("thickness", 1.0), ("speed", 2.0)):
-        figure = page.comparison_figure(grounds.PLANE, terrain, corners, found, field, "words")
+        figure = avaframe.comparison_figure(grounds.PLANE, terrain, corners, found, field, "words")
         maps = [axes for axes in figure.axes if len(axes.images) > 1]
         assert [axes.get_title(loc="left") for axes in maps] == ["(a) A 1", "(b) B 2", "(c) b − a"]
         first, other, change = (axes.images[-1].get_array() for axes in maps)

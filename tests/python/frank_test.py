@@ -1,21 +1,16 @@
-"""Comparisons with SHALTOP and of cells: deposits, orders of convergence, completed runs."""
+"""Comparisons with SHALTOP and of cells: deposits, orders of convergence."""
 
 from __future__ import annotations
 
 import json
 import math
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "comparison"))
-
-import frank
-import jobs
-import refinement
-
+from reproduction.studies import frank, refinement
+from thawslide.errors import ReportError
 from thawslide.maps import Grid, Map
 
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data" / "frank"
@@ -67,7 +62,7 @@ def test_maps_are_on_the_grid_of_the_other_code() -> None:
     assert placed[2, :3].tolist() == [2.0, 0.0, 0.0]  # the first column lies outside
     assert placed[3, :3].tolist() == [5.0, 6.0, 0.0]
     assert placed.sum() == 13.0
-    with pytest.raises(SystemExit, match=r"the cells of a map .* differ from those of SHALTOP"):
+    with pytest.raises(ReportError, match=r"the cells of a map .* differ from those of SHALTOP"):
         frank.on_grid(Map(Grid(35.0, 70.0, 20.0, 20.0, 3, 2), part.values), GRID)
 
 
@@ -123,21 +118,3 @@ def test_domain_of_each_cell_is_a_whole_number_of_cells(cell: float) -> None:
     assert (size[:2] <= np.array([2046.0, 4521.0]) + 1e-9).all()
     assert size[2] >= 2059.2 - 1e-9
     assert (np.abs(size - [2046.0, 4521.0, 2059.2]) < cell).all()
-
-
-def test_run_is_done_only_with_the_same_changes(tmp_path: Path) -> None:
-    job = jobs.Job(tmp_path / "case.toml", ("grid.cell=5",), tmp_path / "plane-5.6")
-    assert not job.is_done
-    jobs.call([sys.executable, "-c", "print('moving')"], job.log, job.changes)
-    assert job.is_done
-    assert job.log.read_text() == "moving\n"
-    assert 0.0 < jobs.processor_time(job.log.with_suffix(".json")) < 10.0
-    assert not jobs.Job(job.case, ("grid.cell=10",), job.output).is_done
-    assert not jobs.Job(job.case, job.changes, tmp_path / "plane-5.5").is_done
-
-
-def test_failed_command_ends_the_program_with_the_path_of_its_output(tmp_path: Path) -> None:
-    log = tmp_path / "a.log"
-    with pytest.raises(SystemExit, match=r"exit code 3; .*a\.log has the output of the command"):
-        jobs.call([sys.executable, "-c", "raise SystemExit(3)"], log)
-    assert not log.with_suffix(".json").exists()

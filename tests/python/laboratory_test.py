@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "comparison"))
-
-import laboratory
-import laboratory_page
+from reproduction.studies import laboratory, laboratory_page
+from reproduction.study import Place
+from reproduction.tables import rewrapped
 
 
 def test_windows_contain_the_whole_volume() -> None:
@@ -54,10 +52,10 @@ def test_measured_lines_are_complete() -> None:
 
 
 def test_runs_have_unique_names_and_keys() -> None:
-    jobs = laboratory.jobs(Path("runs"))
-    assert len({job.output for job in jobs}) == len(jobs) > 60
+    jobs = laboratory.jobs(Place(Path("program"), Path("runs"), Path("pages")))
+    assert len({job.key for job in jobs}) == len(jobs) > 60
     for job in jobs:
-        keys = [change.split("=")[0] for change in job.changes]
+        keys = [change.split("=")[0] for change in job.sets]
         assert len(set(keys)) == len(keys)
 
 
@@ -112,7 +110,7 @@ def test_table_of_bars_has_the_offsets() -> None:
 
 def test_filled_page_keeps_tables_and_lists() -> None:
     page = "# Title\n\n- one\n  two\n- " + "word " * 40 + "\n\n| a |\n| --- |\n\nlast"
-    lines = laboratory_page.filled(page).splitlines()
+    lines = rewrapped(page).splitlines()
     assert lines[:4] == ["# Title", "", "- one two", "- " + "word " * 22 + "word"]
     assert lines[4] == "  " + "word " * 16 + "word"
     assert lines[5:] == ["", "| a |", "| --- |", "", "last"]

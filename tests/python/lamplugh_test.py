@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import math
-import sys
-import time
 from pathlib import Path
 
 import h5py
@@ -13,9 +10,11 @@ import numpy as np
 import pytest
 from conftest import MakeRun
 
+from reproduction.engine import at_rest
 from reproduction.lamplugh import FRONT, base_traction, block_measures, near_ground, read_block, zone_fractions, zones
-from reproduction.one_at_a_time import Outcome, Row, at_rest, end_of, is_current, outcome, run_rows, table, table_row
+from reproduction.one_at_a_time import Outcome, end_of, outcome, table, table_row
 from reproduction.runs import LAMPLUGH_BLOCKS
+from reproduction.study import Job
 from thawslide.run_folder import Run
 
 
@@ -70,7 +69,7 @@ def test_measures_of_blocks_are_those_of_their_histories(make_run: MakeRun) -> N
     header = "time_s,velocity_m_s,displacement_m,sliding_strength_Pa,driving_traction_Pa\n"
     for block in LAMPLUGH_BLOCKS:
         rows = "0,0,0,90,100\n1,4,2,50,100\n2,0,4,50,100\n3,0,4,50,9\n"
-        (folder.parent / f"{block.name}.csv").write_text(header + rows)
+        (folder.parent / f"{block.key}.csv").write_text(header + rows)
     found = block_measures(Run(folder))
     assert found["lamplugh_block_561_peak"] == 4.0
     assert found["lamplugh_block_561_stop"] == 2.0
@@ -103,7 +102,7 @@ def test_outcome_has_the_results_of_a_run(make_run: MakeRun) -> None:
 
 
 def test_rows_state_failures() -> None:
-    row = Row("x", "x", ("a=1", "b=2"), "other.toml")
+    row = Job("x", "x", ("a=1", "b=2"), "other.toml")
     empty = "| x | not run | | | | | | | | | [other.toml](other.toml) `a=1` `b=2` |"
     assert table_row(row, Outcome("not run")) == empty
     still = Outcome(peak=0.4, peak_time=1.0, displacement=0.0, runout=1000.0, length=1000.0, end_time=100.0)
@@ -114,43 +113,3 @@ def test_rows_state_failures() -> None:
     going = Outcome("", 9.0, 1.0, 1.0, math.nan, 5.0, 6.0, 4.0, 7.0, 8.0, 200.0, 9.0)
     assert "not: 9 m/s at 200" in table_row(row, going)
     assert [end_of(each) for each in (Outcome(), still, broken, going)] == ["missing", "never", "broken", "going"]
-
-
-PROGRAM = """import sys, json, pathlib
-words = sys.argv[1:]
-folder = pathlib.Path(words[words.index("--output") + 1])
-if "bad=1" in words:
-    print("error: no such key bad", file=sys.stderr)
-    sys.exit(2)
-folder.mkdir(parents=True, exist_ok=True)
-(folder / "history.csv").write_text("time_s,mean_velocity_m_s\\n0,0\\n")
-(folder / "run.json").write_text(json.dumps({"status": "done", "command": " ".join([sys.argv[0], *words])}))
-"""
-
-
-def test_complete_runs_are_not_repeated(tmp_path: Path) -> None:
-    program = tmp_path / "program"
-    program.write_text(f"#!{sys.executable}\n{PROGRAM}")
-    program.chmod(0o755)
-    (tmp_path / "case.toml").write_text("")
-    rows = (Row("a", "a"), Row("b", "b", ("x=1",)), Row("c", "c", ("bad=1",)))
-    time.sleep(0.02)
-    lines: list[str] = []
-    for _ in range(2):
-        run_rows(rows, program, tmp_path, tmp_path / "runs", ("y=2",), 2, lines.append)
-    assert lines[0] == "3 runs, 0 of them complete"
-    assert any("min left: c: error: no such key bad" in line for line in lines)
-    assert lines[4] == "3 runs, 2 of them complete"
-    assert outcome(tmp_path / "runs" / "c").failure == "error: no such key bad"
-    assert outcome(tmp_path / "runs" / "d").failure == "not run"
-    words = json.loads((tmp_path / "runs" / "b" / "run.json").read_text())["command"].split(" ")
-    assert words[-4:] == ["--set", "y=2", "--set", "x=1"]
-    assert is_current(tmp_path / "runs" / "b", words, [program])
-    # A run stopped before rest is not complete.
-    facts = {"command": " ".join(words), "status": "stopped", "message": "signal 15"}
-    (tmp_path / "runs" / "b" / "run.json").write_text(json.dumps(facts))
-    assert not is_current(tmp_path / "runs" / "b", words, [program])
-    (tmp_path / "runs" / "b" / "history.csv").write_text("time_s,mean_velocity_m_s\n100,0\n")
-    assert is_current(tmp_path / "runs" / "b", words, [program])
-    program.touch()
-    assert not is_current(tmp_path / "runs" / "b", words, [program])

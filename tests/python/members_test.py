@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -29,7 +26,7 @@ from reproduction.members import (
     variants_table,
     verdict,
 )
-from reproduction.one_at_a_time import Row, command_line, commit_of, is_of_commit
+from reproduction.study import Job
 from thawslide import Run
 from thawslide.figures.force import force_in_band
 from thawslide.figures.force_record import compared
@@ -149,7 +146,7 @@ def test_variants_differ_from_the_case() -> None:
 
 
 def test_values_outside_the_intervals_are_bold() -> None:
-    rows = [Row("a", "the case"), Row("b", "hot", ("x=1",)), Row("c", "gone", ("y=2",))]
+    rows = [Job("a", "the case"), Job("b", "hot", ("x=1",)), Job("c", "gone", ("y=2",))]
     found = {"a": GOOD, "b": changed(hottest=300.0, failure="it left", stop=float("inf")), "c": Observed("not run")}
     head, _, case, hot, gone, _, broken = variants_table(rows, found).splitlines()
     assert case == "| the case | 10.0 | 0.28 | 10.0 | 80.0 | 35.0 | 5.70 | 180 | 190 | 1.000 | 20.0 |  |"
@@ -195,29 +192,3 @@ def test_members_have_aligned_times(make_run: MakeRun) -> None:
     assert distance.get_ylabel() == "mean displacement (km)"
     (marks,) = [line for line in speed.lines if line.get_label() == "reported: x"]
     np.testing.assert_allclose(marks.get_data(), [[40.0, 42.0], [8.0, 11.0]], atol=2e-3)
-
-
-def test_runs_of_the_same_commit_and_files_are_complete(tmp_path: Path) -> None:
-    program = tmp_path / "program"
-    program.write_text(f"#!{sys.executable}\nprint('thawslide 0.1.0 (commit 0123abcd, g++ 12.2.0)')\n")
-    program.chmod(0o755)
-    assert commit_of(program) == "0123abcd"
-    case = tmp_path / "case.toml"
-    case.write_text("# one")
-    words = command_line(program, case, tmp_path / "run", ())
-    facts = {
-        "command": " ".join(words), "status": "done", "commit": "0123abcd",
-        "inputs": [{"path": str(case), "sha256": hashlib.sha256(b"# one").hexdigest()}],
-    }  # fmt: skip
-    (tmp_path / "run").mkdir()
-    where = tmp_path / "run" / "run.json"
-    where.write_text(json.dumps(facts))
-    assert is_of_commit(tmp_path / "run", words, "0123abcd")
-    assert not is_of_commit(tmp_path / "run", words, "4567")
-    assert not is_of_commit(tmp_path / "run", [*words, "--set", "a=1"], "0123abcd")
-    case.write_text("# two")
-    assert not is_of_commit(tmp_path / "run", words, "0123abcd")
-    case.write_text("# one")
-    for change in ({"status": "running"}, {"commit": "0123abcd-dirty"}):
-        where.write_text(json.dumps(facts | change))
-        assert not is_of_commit(tmp_path / "run", words, str((facts | change)["commit"]))

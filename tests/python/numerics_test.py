@@ -20,7 +20,7 @@ from reproduction.numerics import (
     variant_cell_rows,
     variant_cells_table,
 )
-from reproduction.one_at_a_time import Row
+from reproduction.study import Job
 
 
 def test_rows_scale_the_step_and_shift_the_domain() -> None:
@@ -59,7 +59,7 @@ def test_table_of_numerics_has_differences_from_the_case() -> None:
 
 
 def test_variants_run_on_the_other_cells() -> None:
-    thin, thick = Row("thin", "a thin band", ("band.thickness=0.15",)), Row("thick", "a thick band")
+    thin, thick = Job("thin", "a thin band", ("band.thickness=0.15",)), Job("thick", "a thick band")
     rows = {row.key: row.sets for row in variant_cell_rows([thin, thick])}
     assert list(rows) == ["thin-on-5", "thick-on-5", "thin-on-20", "thick-on-20"], "the long runs first"
     assert rows["thin-on-20"] == ("band.thickness=0.15", "grid.cell=20", "time.step=0.02")

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import random
 import re
-import subprocess
-import sys
 from decimal import Decimal
 from pathlib import Path
 
 import pytest
 
+from reproduction.__main__ import main
 from reproduction.page_measures import from_table
 from reproduction.page_numbers import (
     DeclarationError,
@@ -221,12 +220,8 @@ def test_number_of_a_table_is_found_by_column_and_row() -> None:
         from_table(TABLES, "band", "0.3")
 
 
-def test_undeclared_page_is_an_error(tmp_path: Path) -> None:
+def test_undeclared_page_is_an_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     program = tmp_path / "thawslide"
     program.touch()
-    done = subprocess.run(
-        [sys.executable, ROOT / "scripts" / "check-numbers", "--program", program, "NONE.md"],
-        capture_output=True, text=True, timeout=60, check=False,
-    )  # fmt: skip
-    assert done.returncode == 2
-    assert "NONE.md: not in scripts/page_numbers.toml (allowed: README.md, " in done.stderr
+    assert main(["--only", "numbers:NONE.md", "--program", str(program)]) == 1
+    assert "NONE.md: not in reproduction/page_numbers.toml (allowed: README.md, " in capsys.readouterr().out

@@ -144,7 +144,7 @@ def test_figures_and_sentences_are_complete() -> None:
 
 
 def test_runs_have_unique_names() -> None:
-    names = [run.name for run in all_runs()]
+    names = [run.key for run in all_runs()]
     assert len(set(names)) == len(names) == 39
 
 

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import pytest
 
-sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts" / "comparison"))
-
-import refinement_page
-from refinement import PLANE_CELLS, PLANE_THICKNESS, Deposit
+from reproduction.studies import refinement_page
+from reproduction.studies.refinement import PLANE_CELLS, PLANE_THICKNESS, Deposit
 
 
 def deposit(cell: float) -> Deposit:

@@ -3,16 +3,11 @@
 from __future__ import annotations
 
 import math
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts" / "comparison"))
-
-import wedge
-
+from reproduction.studies import wedge
 from thawslide.maps import Grid, Map
 
 GRID = Grid(-200.0, -200.0, 5.0, 5.0, 81, 81)

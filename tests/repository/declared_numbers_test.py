@@ -13,7 +13,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "python")]
 
 from reproduction.page_numbers import misplaced, read_declarations, undeclared  # noqa: E402
 
-DECLARED = read_declarations(ROOT / "scripts" / "page_numbers.toml")
+DECLARED = read_declarations(ROOT / "reproduction" / "page_numbers.toml")
 PAGES = {page.file: page for page in DECLARED.pages}
 WHOLE = [
     str(path.relative_to(ROOT))

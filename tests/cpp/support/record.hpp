@@ -1,5 +1,5 @@
 // Results of a verification test for docs/verification.md: appended as a line of JSON to the file named by the
-// environment variable THAWSLIDE_VERIFICATION, if set. scripts/verification-page reads it.
+// environment variable THAWSLIDE_VERIFICATION, if set. scripts/pages --only verification reads it.
 #pragma once
 
 #include <cmath>

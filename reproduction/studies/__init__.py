@@ -1,0 +1,36 @@
+"""All studies, in the order in which they are made: a study follows those whose pages it reads."""
+
+from reproduction.studies import (
+    assumptions,
+    avaframe,
+    checked_numbers,
+    columns,
+    frank_page,
+    joffre_page,
+    laboratory_page,
+    lamplugh_results,
+    notebooks,
+    paper,
+    pictures,
+    refinement_page,
+    reliability,
+    verification,
+)
+
+MODULES = (
+    paper,
+    pictures,
+    lamplugh_results,
+    assumptions,
+    columns,
+    verification,
+    laboratory_page,
+    refinement_page,
+    avaframe,
+    frank_page,
+    notebooks,
+    reliability,
+    joffre_page,
+    checked_numbers,
+)
+STUDIES = {module.STUDY.name: module.STUDY for module in MODULES}

@@ -1,0 +1,194 @@
+"""The comparison with AvaFrame's com1DFA on three terrains: runs of both programs, figures, tables and causes."""
+
+from __future__ import annotations
+
+import json
+import math
+import textwrap
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+
+from reproduction.engine import Task
+from reproduction.studies.grounds import GROUNDS, Ground, Variant, write_case
+from reproduction.studies.results import (
+    AFFECTED,
+    Numbered,
+    Outcome,
+    PointMass,
+    numbers,
+    point_mass,
+    read_avaframe,
+    read_thawslide,
+)
+from reproduction.study import ROOT, Job, Place, Study
+from reproduction.tables import markdown, text_of
+from thawslide.figures.colours import SPEED, THICKNESS, label_bar, normalization, thickness_words
+from thawslide.figures.map_page import MapPage
+from thawslide.figures.map_panel import box_about, colour_map, covered_box, make_scene, outline, paint, scale_bar
+from thawslide.figures.style import styled
+from thawslide.maps import Map, read_map
+
+SCRIPT = Path(__file__).resolve().parent / "run_com1dfa.py"
+AVAFRAME, THAWSLIDE = Variant("avaframe", ""), Variant("thawslide", "")
+QUICK = ("time.end=0.3", "time.output_interval=0.3")
+FIELDS = [("thickness", "maximum thickness (m, vertical)"), ("speed", "maximum speed (m/s)")]
+PAINTINGS = {"thickness": THICKNESS, "speed": SPEED}
+ROWS: dict[str, Callable[[Numbered], str]] = {
+    "travel distance (m)": lambda found: f"{found.travel:,.0f}",
+    "reach angle (degrees)": lambda found: f"{found.reach_angle:.1f}",
+    "displacement of the centre (m)": lambda found: f"{found.centre_displacement:,.0f}",
+    "maximum speed (m/s)": lambda found: f"{found.max_speed:.1f}",
+    "maximum speed, median of places reached (m/s)": lambda found: f"{found.usual_speed:.1f}",
+    "maximum thickness (m, vertical)": lambda found: f"{found.max_thickness:.1f}",
+    "area reached (m2)": lambda found: f"{found.area:,.0f}",
+}
+
+
+def table(outcomes: list[Outcome], found: list[Numbered], point: PointMass | None) -> str:
+    """Return the table of a terrain: a column per program, and one of the point mass if available."""
+    columns = [outcome.program for outcome in outcomes]
+    rows = [[what, *(text(each) for each in found)] for what, text in ROWS.items()]
+    rows += [
+        ["volume released (m3)", *(f"{outcome.released:,.0f}" for outcome in outcomes)],
+        ["fraction of it that left the DEM", *(f"{100.0 * outcome.left_share:.1f} %" for outcome in outcomes)],
+        ["particles at the start", *(f"{outcome.particles:,}" for outcome in outcomes)],
+        ["simulated (s)", *(f"{outcome.simulated:.0f}" for outcome in outcomes)],
+        ["run time of one thread (s)", *(f"{outcome.processor:.0f}" for outcome in outcomes)],
+    ]
+    if point is not None:
+        columns.append("point mass")
+        of_point = {
+            "displacement of the centre (m)": f"{point.travel:,.0f}",
+            "maximum speed (m/s)": f"{point.max_speed:.1f}",
+        }
+        rows = [[*row, of_point.get(row[0], "")] for row in rows]
+    return markdown([["", *columns], *rows])
+
+
+def differences(first: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Return other minus first; nan in cells that neither reached, 0 for the program that did not reach a cell."""
+    both = np.nan_to_num(other) - np.nan_to_num(first)
+    return np.where(np.isfinite(first) | np.isfinite(other), both, np.nan)
+
+
+@styled
+def comparison_figure(
+    ground: Ground, terrain: Map, corners: list[list[float]], outcomes: list[Outcome], field: str, words: str
+) -> Figure:
+    """Plot a field of each program over the terrain, and the differences from the first."""
+    places = [covered_box(outcome.thickness, AFFECTED) for outcome in outcomes]
+    scene = make_scene(terrain, box_about([place for place in places if place is not None]))
+    note = f"Outline: maximum thickness of at least {AFFECTED} m. Blue line: release. Differences: 0 for a program "
+    note += f"without material in a cell. {scene.note()}"
+    page = MapPage(f"{ground.title}: {words}", scene, 2 * len(outcomes) - 1, note=note, foot=0.0, bar=0.62)
+    shown = [np.where(each.thickness.values >= AFFECTED, getattr(each, field).values, np.nan) for each in outcomes]
+    norm, extend = normalization(np.concatenate([values.ravel() for values in shown]), PAINTINGS[field])
+    painter = ScalarMappable(norm, colour_map(PAINTINGS[field].colours))
+    changes = [differences(shown[0], values) for values in shown[1:]]
+    most = float(np.nanquantile(np.abs(np.concatenate([change.ravel() for change in changes])), 0.998))
+    change_painter = ScalarMappable(Normalize(-most, most), "RdBu_r")
+    names = [outcome.program.split(", ")[-1] for outcome in outcomes]
+    drawn = [(values, painter, name) for values, name in zip(shown, names, strict=True)]
+    # Letters, because two names do not fit above a narrow panel.
+    drawn += [(change, change_painter, f"{letter} − a") for change, letter in zip(changes, "bcdefg", strict=False)]
+    panels = []
+    for number, (values, colours, name) in enumerate(drawn):
+        axes = page.panel(number, labels=False)
+        paint(axes, Map(terrain.grid, values), colours)
+        outcome = outcomes[number if number < len(outcomes) else number - len(outcomes) + 1]
+        outline(axes, outcome.thickness, AFFECTED, colors="#222222", linewidths=0.6)
+        axes.plot(*zip(*corners, strict=True), color="#0072B2", linewidth=1.0, zorder=6)
+        panels.append((axes, name, ""))
+        bar = page.figure.colorbar(colours, cax=page.panel_bar(axes), extend=extend if colours is painter else "both")
+        if colours is painter:
+            label_bar(bar, norm)
+            if field == "thickness":
+                bar.set_label(thickness_words(norm).replace("thickness (m)", "m").replace("; ", "\n"), labelpad=2)
+        scale_bar(axes, "lower left")
+    page.set_titles(panels)
+    return page.figure
+
+
+def avaframe_tasks(place: Place) -> list[Task]:
+    """Write the inputs; return the runs of AvaFrame."""
+    tasks = []
+    for ground in GROUNDS.values():
+        folder = place.runs / ground.name
+        write_case(ground, ground.name, place.runs, place.data / "alr")
+        for variant in (AVAFRAME, *ground.avaframe):
+            words = (str(folder), str(ground.friction_angle), variant.name, *variant.changes)
+            command = (str(python_of(place)), str(SCRIPT), *words)
+            inputs = (SCRIPT, folder / "dem.tif", folder / "release.json")
+            tasks.append(Task(f"{ground.name}/{variant.name}", command, folder / variant.name, inputs=inputs))
+    return tasks
+
+
+def thawslide_jobs(place: Place) -> list[Job]:
+    """Return the runs of Thawslide."""
+    jobs = [
+        Job(f"{ground.name}/{each.name}", "", each.changes, str(place.runs / ground.name / f"{ground.name}.toml"))
+        for ground in GROUNDS.values()
+        for each in (THAWSLIDE, *ground.thawslide)
+    ]
+    return [replace(job, sets=(*job.sets, *QUICK)) for job in jobs] if place.is_quick else jobs
+
+
+def python_of(place: Place) -> Path:
+    """Return the Python of AvaFrame."""
+    return (place.avaframe or ROOT / "build" / "avaframe") / "bin" / "python"
+
+
+def needs(place: Place) -> list[Path]:
+    """Return what runs need: AvaFrame, and the data of AlR."""
+    if place.draws_only:
+        return []
+    return [python_of(place), place.data / "alr" / "alr.tif", place.data / "alr" / "release.shp"]
+
+
+def section(ground: Ground, place: Place) -> str:
+    """Plot the figures of a terrain; return its section of the page."""
+    folder = place.runs / ground.name
+    terrain = read_map(folder / "dem.tif")
+    corners = json.loads((folder / "release.json").read_text())["corners"]
+    avaframe, *variants = (
+        read_avaframe(folder, terrain, each.name, each.words) for each in (AVAFRAME, *ground.avaframe)
+    )
+    own = [read_thawslide(folder, terrain, each.name, each.words) for each in (THAWSLIDE, *ground.thawslide)]
+    for field, words in FIELDS:
+        drawn = comparison_figure(ground, terrain, corners, [avaframe, *own], field, words)
+        drawn.savefig(place.page(f"docs/comparison/{ground.name}-{field}.png"), dpi=150)
+    outcomes = [avaframe, *own, *variants]
+    coefficient = math.tan(math.radians(ground.friction_angle))
+    found = [numbers(outcome, terrain, corners) for outcome in outcomes]
+    point = point_mass(terrain, corners, coefficient) if ground.is_straight else None
+    friction = f"Friction along the ground: {ground.friction_angle:g} degrees, a coefficient of {coefficient:.3f}."
+    parts = [
+        f"## {ground.title}",
+        textwrap.fill(f"{ground.text} {friction}", 118),
+        *(f"![{words}](comparison/{ground.name}-{field}.png)" for field, words in FIELDS),
+    ]
+    return "\n\n".join([*parts, table(outcomes, found, point), text_of(f"{ground.name}.md", {}).strip()])
+
+
+def write(place: Place) -> None:
+    """Write the page and its figures from existing runs."""
+    sections = "\n\n".join(section(ground, place) for ground in GROUNDS.values())
+    place.page("docs/comparison.md").write_text(text_of("avaframe.md", {"sections": sections}), encoding="utf-8")
+
+
+STUDY = Study(
+    "avaframe",
+    ("docs/comparison.md",),
+    15.0,
+    write,
+    (avaframe_tasks, thawslide_jobs),
+    needs,
+    "Install AvaFrame: python3 -m venv build/avaframe && build/avaframe/bin/pip install avaframe==2.1. Or give its "
+    "virtual environment with --avaframe. cases/alr/README.md states the source of the data.",
+)

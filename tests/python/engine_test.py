@@ -1,0 +1,284 @@
+"""The runner of studies: reuse of runs, failures, selection, order, exit codes, skipped and frozen studies."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from reproduction import __main__ as command
+from reproduction.engine import (
+    Task,
+    commit_of,
+    execute,
+    failure,
+    is_current,
+    is_done,
+    log_file,
+    perform,
+    processor_time,
+    read_record,
+)
+from reproduction.studies import STUDIES
+from reproduction.study import ROOT, Job, Place, Study, StudyError
+from reproduction.tables import markdown, rewrapped, with_marks
+from thawslide.errors import ReportError
+
+# Writes the files of a run that the engine reads; the settings bad, broken and slow change its end.
+PROGRAM = """import hashlib, json, pathlib, sys, time
+words = sys.argv[1:]
+if words == ["version"]:
+    print("thawslide 0.1.0 (commit COMMIT, g++ 12.2.0)")
+    sys.exit()
+if "bad=1" in words:
+    sys.exit("error: no such key bad")
+output, case = pathlib.Path(words[words.index("--output") + 1]), pathlib.Path(words[1])
+if words[0] == "block":
+    output.write_text("time_s,velocity_m_s\\n0,0\\n")
+    sys.exit()
+output.mkdir()
+rest = "".join(f"{t},{5 if t < 20 else 0}\\n" for t in range(60))
+(output / "history.csv").write_text("time_s,mean_velocity_m_s\\n" + rest)
+inputs = [{"path": str(case), "sha256": hashlib.sha256(case.read_bytes()).hexdigest()}]
+(output / "run.json").write_text(json.dumps({"status": "done", "inputs": inputs}))
+time.sleep(60 if "slow=1" in words else 0)
+if "broken=1" in words:
+    print("error: the run failed at 3 s", file=sys.stderr)
+    sys.exit(3)
+"""
+
+
+def write_program(path: Path, commit: str = "0123abcd") -> Path:
+    path.write_text(f"#!{sys.executable}\n{PROGRAM.replace('COMMIT', commit)}")
+    path.chmod(0o755)
+    return path
+
+
+@pytest.fixture
+def lines() -> list[str]:
+    return []
+
+
+@pytest.fixture
+def place(tmp_path: Path, lines: list[str]) -> Place:
+    """Return a place with a case and a program that writes the files of a run at once."""
+    (tmp_path / "case.toml").write_text("# one")
+    program = write_program(tmp_path / "program")
+    return Place(program, tmp_path / "runs", tmp_path / "pages", cases=tmp_path, report=lines.append)
+
+
+def with_program(place: Place, program: Path) -> Place:
+    return Place(program, place.runs, place.pages, cases=place.cases, report=place.report)
+
+
+JOBS = (Job("a"), Job("b", sets=("x=1",)), Job("block", subcommand="block"))
+
+
+def test_complete_runs_are_reused(place: Place, lines: list[str]) -> None:
+    assert place.perform(JOBS) == []
+    assert lines[0] == "3 runs, 0 of them complete"
+    assert lines[-1].startswith("3 of 3, about 0 min left: ")
+    stamp = (place.runs / "a" / "run.json").stat().st_mtime_ns
+    assert place.perform(JOBS) == []
+    assert lines[4:] == ["3 runs, 3 of them complete"]
+    assert (place.runs / "a" / "run.json").stat().st_mtime_ns == stamp
+    words = read_record(place.runs / "b").command  # type: ignore[union-attr]
+    assert words[1:] == [
+        "run", str(place.cases / "case.toml"), "--output", str(place.runs / "b"), "--threads", "1", "--set", "x=1",
+    ]  # fmt: skip
+    assert is_done(place.runs / "block.csv")
+    assert 0.0 < processor_time(place.runs / "a") < 10.0
+
+
+@pytest.mark.parametrize("change", ["case", "settings", "commit", "results", "record"])
+def test_runs_are_repeated_after_a_change(place: Place, change: str) -> None:
+    job = Job("a")
+    place.perform([job])
+    assert is_current(place.task(job))
+    if change == "case":
+        (place.cases / "case.toml").write_text("# two")
+    elif change == "settings":
+        job = Job("a", sets=("x=1",))
+    elif change == "commit":
+        place = with_program(place, write_program(place.program.with_name("newer"), "4567"))
+    elif change == "results":
+        (place.runs / "a").rename(place.runs / "moved")
+    else:
+        (place.runs / "a.record.json").write_text("{")
+    assert not is_current(place.task(job))
+
+
+def test_runs_of_the_same_commit_by_a_program_elsewhere_are_repeated_only_if_its_tree_had_changes(place: Place) -> None:
+    assert commit_of(place.program) == place.version == "0123abcd"
+    dirty = write_program(place.program, "0123abcd-dirty")
+    changed = with_program(place, dirty)
+    assert len(changed.version) == 64
+    changed.perform([Job("a")])
+    assert is_current(changed.task(Job("a")))
+    dirty.write_text(dirty.read_text() + "# changed\n")
+    assert not is_current(with_program(place, dirty).task(Job("a")))
+
+
+def test_program_without_a_version_is_an_error(place: Place) -> None:
+    with pytest.raises(ReportError, match=r"Build it with \./run --setup\."):
+        commit_of(Path("/bin/false"))
+
+
+def test_failed_runs_are_kept_and_stated(place: Place, lines: list[str]) -> None:
+    jobs = (Job("good"), Job("bad", sets=("bad=1",)), Job("broken", sets=("broken=1",)))
+    with pytest.raises(StudyError, match=r"bad: error: no such key bad; broken: error: the run failed at 3 s\. The"):
+        place.perform(jobs)
+    assert any("min left: bad: error: no such key bad" in line for line in lines)
+    assert failure(place.runs / "good") == ""
+    assert failure(place.runs / "none") == "not run"
+    assert log_file(place.runs / "broken").read_text() == "error: the run failed at 3 s\n"
+    # A run that failed keeps its results and is not repeated; one without results is.
+    assert is_current(place.task(jobs[2]))
+    assert not is_current(place.task(jobs[1]))
+    tolerant = Place(
+        place.program, place.runs, place.pages, cases=place.cases, report=lines.append, tolerates_failures=True
+    )
+    assert [each.partition(":")[0] for each in tolerant.perform(jobs)] == ["bad", "broken"]
+
+
+def test_run_without_results_is_not_complete(tmp_path: Path) -> None:
+    task = Task("a", (sys.executable, "-c", "print('moving')"), tmp_path / "a")
+    assert execute(task).message == "a was not written"
+    assert log_file(task.results).read_text() == "moving\n"
+    assert not is_done(task.results)
+
+
+def test_run_at_rest_is_stopped_and_complete(place: Place) -> None:
+    place.perform([Job("a", sets=("slow=1",), until_rest=True)])
+    record = read_record(place.runs / "a")
+    assert record is not None and record.is_done and record.code == -15 and record.wall_s < 30.0
+    assert is_current(place.task(Job("a", sets=("slow=1",), until_rest=True)))
+
+
+def test_expensive_runs_start_first_and_names_are_unique(place: Place, lines: list[str]) -> None:
+    tasks = [place.task(Job(key, cost=cost)) for key, cost in (("a", 1.0), ("b", 3.0), ("c", 2.0))]
+    perform(tasks, 1, lines.append)
+    assert [line.split(": ")[1].split()[0] for line in lines[1:]] == ["b", "c", "a"]
+    with pytest.raises(ValueError, match=r"runs with the same name: \['a'\]"):
+        perform([tasks[0], tasks[0]], 1, lines.append)
+
+
+def test_parts_select_runs(place: Place) -> None:
+    chosen = Place(
+        place.program, place.runs, place.pages, cases=place.cases, report=place.report, parts=("plane-*", "alr")
+    )
+    chosen.perform([Job("plane-20"), Job("plane-10"), Job("alr"), Job("alr-rough")])
+    assert sorted(path.name for path in place.runs.iterdir() if path.is_dir()) == ["alr", "plane-10", "plane-20"]
+
+
+def made(name: str, done: list[str], **more: object) -> Study:
+    """Return a study that lists its name when its page is written."""
+
+    def write(place: Place) -> Sequence[str]:
+        done.append(name)
+        place.page(f"docs/{name}.md").write_text(name)
+        return ["a number differs"] if name == "wrong" else []
+
+    return Study(name, (f"docs/{name}.md",), 1.0, write, **more)  # type: ignore[arg-type]
+
+
+def stage_of(place: Place) -> list[Job]:
+    """Return a run that needs the results of the stage before."""
+    return [Job("second", sets=(f"n={len((place.runs / 'first' / 'history.csv').read_text())}",))]
+
+
+@pytest.fixture
+def studies(place: Place, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Replace the studies by small ones; return the list to which they add their names."""
+    done: list[str] = []
+    small = (
+        made("staged", done, stages=(lambda place: [Job("first")], stage_of), cases=place.cases),
+        made("refused", done, stages=(lambda place: [Job("x", sets=("bad=1",))],), cases=place.cases),
+        made("wrong", done),
+        made("absent", done, needs=lambda place: [place.data / "none.tif"], remedy="Copy it."),
+        made("frozen", done, is_frozen=True),
+        made("last", done),
+    )
+    monkeypatch.setattr(command, "STUDIES", {study.name: study for study in small})
+    return done
+
+
+def call(place: Place, *words: str) -> int:
+    return command.main([*words, "--program", str(place.program), "--output", str(place.runs), "--quick"])
+
+
+def test_all_studies_are_made_although_some_fail(
+    place: Place, studies: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert call(place) == 1
+    assert studies == ["staged", "wrong", "last"]
+    output = capsys.readouterr().out
+    assert "made: staged, last; skipped: absent; failed: refused, wrong\n" in output
+    assert "absent: skipped: not found: " in output and "none.tif. Copy it." in output
+    assert "refused: error: x: error: no such key bad" in output
+    assert "wrong: a number differs" in output
+    written = place.runs / "quick" / "written" / "docs"
+    assert sorted(path.name for path in written.iterdir()) == ["last.md", "staged.md", "wrong.md"]
+    assert (place.runs / "quick" / "pages" / "staged" / "second" / "run.json").is_file()
+
+
+@pytest.mark.parametrize(
+    ("words", "expected", "code"),
+    [
+        (["--only", "last", "staged"], ["staged", "last"], 0),  # in the order of the studies
+        (["--only", "frozen"], ["frozen"], 0),
+        (["--only", "absent"], [], 0),
+        (["--only", "staged:first", "staged:second"], ["staged"], 0),
+        (["--draw-only", "--only", "refused", "last"], ["refused", "last"], 0),
+        (["--only", "wrong"], ["wrong"], 1),
+        (["--only", "none"], [], 2),
+    ],
+)
+def test_studies_are_selected(
+    place: Place, studies: list[str], words: list[str], expected: list[str], code: int
+) -> None:
+    assert call(place, *words) == code
+    assert studies == expected
+
+
+def test_list_states_times_pages_and_what_is_absent(
+    place: Place, studies: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert call(place, "--list") == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "staged           1 min  docs/staged.md"
+    assert "none.tif" in lines[3] and "made only if it is named" in lines[4]
+    assert studies == []
+
+
+def test_missing_program_is_an_error_with_its_remedy(place: Place, capsys: pytest.CaptureFixture[str]) -> None:
+    assert command.main(["--program", str(place.cases / "none")]) == 2
+    assert "Build it with ./run --setup." in capsys.readouterr().err
+
+
+def test_every_page_of_results_names_the_command_that_makes_it() -> None:
+    for study in STUDIES.values():
+        for page in study.pages:
+            if page.endswith(".md") and study.name != "numbers":
+                text = (ROOT / page).read_text(encoding="utf-8")
+                assert "scripts/pages --only" in text or page == "docs/verification.md", page
+
+
+def test_pages_have_tables_marks_and_wrapped_paragraphs() -> None:
+    assert markdown([["", "a"], ["b", "1"]]) == "|  | a |\n| --- | --- |\n| b | 1 |"
+    assert with_marks("x\n\n@one@\n\n@two@\n\ny", {"one": "", "two": "2"}) == "x\n\n2\n\ny"
+    text = "# A\n\n" + "word " * 40 + "\n\n- item\n- " + "long " * 30 + "\n\n| a |\n| - |"
+    lines = rewrapped(text).splitlines()
+    assert max(map(len, lines)) <= 120 and lines[0] == "# A" and lines[-2:] == ["| a |", "| - |"]
+    assert [line for line in lines if line.startswith("  long")]
+    assert rewrapped("\n".join(lines)) == "\n".join(lines) + "\n"
+
+
+def test_records_are_readable(place: Place) -> None:
+    place.perform([Job("a")])
+    facts = json.loads((place.runs / "a.record.json").read_text())
+    assert list(facts["inputs"]) == [str(place.cases / "case.toml")]
+    assert facts["program"] == "0123abcd" and facts["code"] == 0
