@@ -1,16 +1,12 @@
 // V-shaped channels on DEMs: shared by the short and the complete tests.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "../support/channel_on_dem.hpp"
-#include "../support/record.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 
 namespace channel_on_dem {
-
-using namespace testing_support;
 
 struct Course {
   double azimuth, aside;  // [degrees], [m]

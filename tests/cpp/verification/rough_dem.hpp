@@ -1,20 +1,16 @@
 // Slides on DEMs with noise on their points, filtered by default: shared by the short and the complete tests.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <random>
 
 #include "../support/channel_on_dem.hpp"
-#include "../support/record.hpp"
 #include "gis/roughness.hpp"
 #include "gis/smoothing.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 
 namespace rough_dem {
-
-using namespace testing_support;
 
 // White noise of a given rms [m] on the points, and the filter chosen by terrain.smooth = "auto".
 inline Treatment noise_and_filter(double rms, unsigned seed) {

@@ -1,7 +1,5 @@
 // Manufactured momentum balance: a square that vibrates along its axes, with each shape function and transfer.
-#include <gtest/gtest.h>
-
-#include "../support/record.hpp"
+#include "verification.hpp"
 #include "vibration_choices.hpp"
 
 namespace thawslide::verification {
