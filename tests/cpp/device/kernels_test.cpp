@@ -98,7 +98,6 @@ void expect_all_kernels_agree() {
   const auto& band = scene.model.band;
   const mpm::MomentumWeights<mpm::Ugimp, Dim> ugimp{motion.sizes, motion.sides};
   const mpm::MomentumWeights<mpm::Quadratic, Dim> quadratic{motion.sizes, motion.sides};
-  const mpm::MomentumWeights<mpm::Linear, Dim> linear{motion.sizes, motion.sides};
   const mpm::AffineWeights<mpm::Ugimp, Dim> affine{{motion.sizes, motion.sides}};
   const mpm::LinearWeights by_linear;
   const mpm::AddMomentum<Dim> momentum{motion.gravity, motion.effective_stress, motion.viscous()};
@@ -108,7 +107,6 @@ void expect_all_kernels_agree() {
   expect_identical_to_lanes("momentum, quadratic", scene, quadratic, momentum);
   expect_identical_to_lanes("momentum, affine", scene, affine, mpm::AddAffineMomentum<Dim>{});
   expect_identical_to_lanes("move", scene, ugimp, mpm::Move<Dim>{0.1, dt});
-  expect_identical_to_lanes("move, linear", scene, linear, mpm::Move<Dim>{0.1, dt});
   expect_identical_to_lanes("move, affine", scene, affine, mpm::MoveAffine<Dim>{dt});
   expect_identical_to_lanes("moments", scene, ugimp, mpm::AddFilterMoments<Dim>{});
   expect_identical_to_lanes("momentum to filter", scene, ugimp, mpm::AddFilterMomentum<Dim>{});

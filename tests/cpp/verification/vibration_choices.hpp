@@ -15,7 +15,6 @@ struct Choice {
 };
 const Choice ugimp_flip{"uGIMP, FLIP", mpm::ShapeFunction::ugimp, mpm::TransferKind::flip_pic};
 const Choice ugimp_apic{"uGIMP, APIC", mpm::ShapeFunction::ugimp, mpm::TransferKind::apic};
-const Choice linear_flip{"linear, FLIP", mpm::ShapeFunction::linear, mpm::TransferKind::flip_pic};
 const Choice quadratic_flip{"quadratic, FLIP", mpm::ShapeFunction::quadratic, mpm::TransferKind::flip_pic};
 const Choice quadratic_apic{"quadratic, APIC", mpm::ShapeFunction::quadratic, mpm::TransferKind::apic};
 

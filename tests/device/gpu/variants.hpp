@@ -15,7 +15,6 @@ namespace thawslide::gpu_test {
 enum class Variant {
   plain,
   elastic,
-  linear,
   quadratic,
   apic,
   filtered,
@@ -31,9 +30,8 @@ struct NamedVariant {
   Variant variant;
   const char* name;
 };
-inline constexpr std::array<NamedVariant, 12> variants{{{Variant::plain, "as it is"},
+inline constexpr std::array<NamedVariant, 11> variants{{{Variant::plain, "as it is"},
                                                         {Variant::elastic, "without yielding"},
-                                                        {Variant::linear, "linear shape functions"},
                                                         {Variant::quadratic, "quadratic shape functions"},
                                                         {Variant::apic, "APIC"},
                                                         {Variant::filtered, "velocity filter"},
@@ -50,9 +48,6 @@ device::StepModel<Dim> model_of(Variant variant) {
   switch (variant) {
     case Variant::elastic:
       model.materials[0].law = physics::LinearElastic{};
-      break;
-    case Variant::linear:
-      model.shape = mpm::ShapeFunction::linear;
       break;
     case Variant::quadratic:
       model.shape = mpm::ShapeFunction::quadratic;
