@@ -5,9 +5,7 @@
 #include "sim/front.hpp"
 #include "verification.hpp"
 
-namespace thawslide::verification {
-
-namespace cylinder_column {
+namespace thawslide::verification::cylinder_column {
 
 inline constexpr double radius = 10.0;  // of the column [m]
 
@@ -72,6 +70,4 @@ inline Record make_record(const std::string& title) {
       "runout over radius 1.24 a, above a = 1.7 1.6 a^(1/2)", "fits to experiments, Lube et al. 2004");
 }
 
-}  // namespace cylinder_column
-
-}  // namespace thawslide::verification
+}  // namespace thawslide::verification::cylinder_column

@@ -4,9 +4,7 @@
 #include "../support/slide_on_dem.hpp"
 #include "verification.hpp"
 
-namespace thawslide::verification {
-
-namespace plane_on_dem {
+namespace thawslide::verification::plane_on_dem {
 
 inline constexpr double width = 40.0;   // of the block, square in the map [m]
 inline constexpr double height = 20.0;  // vertical [m]
@@ -112,6 +110,4 @@ inline Record make_record(const std::string& title) {
                 "Coulomb friction with cohesion");
 }
 
-}  // namespace plane_on_dem
-
-}  // namespace thawslide::verification
+}  // namespace thawslide::verification::plane_on_dem

@@ -8,9 +8,7 @@
 #include "gis/smoothing.hpp"
 #include "verification.hpp"
 
-namespace thawslide::verification {
-
-namespace rough_dem {
+namespace thawslide::verification::rough_dem {
 
 // White noise of a given rms [m] on the points, and the filter chosen by terrain.smooth = "auto".
 inline Treatment noise_and_filter(double rms, unsigned seed) {
@@ -60,6 +58,4 @@ inline void expect_wedge_with_noise(Record& record, double spacing, double allow
       found / std::sqrt(2.0), 1.0, allowed);
 }
 
-}  // namespace rough_dem
-
-}  // namespace thawslide::verification
+}  // namespace thawslide::verification::rough_dem
