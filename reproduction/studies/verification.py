@@ -115,7 +115,7 @@ ELSEWHERE = """## Other tests
   `tests/cpp/physics/band_column_test.cpp`. [Band columns](theory/band-columns.md#exact-solutions) gives the solutions
   and tolerances.
 - Intake, merging and losses of columns: `tests/cpp/physics/band_column_balance_test.cpp`.
-- Height of columns below a slide: `tests/cpp/physics/band_column_height_test.cpp` and
+- Height of columns below a slide: `tests/cpp/physics/band_column_balance_test.cpp` and
   `tests/cpp/band/segment_step_test.cpp`.
 - The filter of velocities (FMPM), by the bar's frequency and decay: `tests/cpp/sim/velocity_filter_test.cpp`.
 - Experiments on friction at speed: not compared, because no published numbers are available.

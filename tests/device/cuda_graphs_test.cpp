@@ -143,6 +143,12 @@ class CudaGraphsTest : public ::testing::Test {
   void add(double number, unsigned groups = 5) {
     graphs_.add(kernel<Name>, dim3(groups), dim3(32), 0, Argument<Name>{number});
   }
+  // Adds as many launches as make a graph, with consecutive numbers.
+  void add_four(double first) {
+    for (int k = 0; k < 4; ++k) {
+      add<1>(first + k);
+    }
+  }
   std::vector<std::string> launch() {
     ran.clear();
     EXPECT_EQ(graphs_.launch(), cudaSuccess);
@@ -156,9 +162,7 @@ using Ran = std::vector<std::string>;
 
 TEST_F(CudaGraphsTest, NothingIsLaunchedBeforeItIsAskedFor) {
   EXPECT_EQ(launch(), Ran{});
-  for (int k = 0; k < 4; ++k) {
-    add<1>(k);
-  }
+  add_four(0);
   EXPECT_EQ(ran, Ran{});
   EXPECT_EQ(launch(), (Ran{"1:0", "1:1", "1:2", "1:3"}));
   EXPECT_EQ(launch(), Ran{});
@@ -188,16 +192,12 @@ TEST_F(CudaGraphsTest, TheSameKernelsAreTheSameGraphWithItsArgumentsOfNow) {
 
 TEST_F(CudaGraphsTest, OtherKernelsAreAnotherGraph) {
   const auto longer = [&](double a) {
-    for (int k = 0; k < 4; ++k) {
-      add<1>(a + k);
-    }
+    add_four(a);
     add<2>(a);
     return launch();
   };
   const auto shorter = [&](double a) {
-    for (int k = 0; k < 4; ++k) {
-      add<1>(a + k);
-    }
+    add_four(a);
     return launch();
   };
   for (const double a : {10.0, 20.0}) {

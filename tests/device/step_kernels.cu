@@ -107,71 +107,10 @@ struct Results {
 template <int Dim>
 using Shape = mpm::Ugimp;
 
-template <int Dim>
-__global__ void averages(TileOnDevice<Dim> tile, Results<Dim, band::AddAverages<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals, band::AddAverages<Dim>{});
-}
-
-template <int Dim>
-__global__ void momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddMomentum<Dim>> to, mpm::AddMomentum<Dim> kernel) {
+// Kernels that keep no references.
+template <int Dim, template <int> class Kernel>
+__global__ void pass(TileOnDevice<Dim> tile, Results<Dim, Kernel<Dim>> to, Kernel<Dim> kernel) {
   visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
-}
-
-template <int Dim>
-__global__ void affine_momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddAffineMomentum<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals, mpm::AddAffineMomentum<Dim>{});
-}
-
-template <int Dim>
-__global__ void near_ground(TileOnDevice<Dim> tile, Results<Dim, terrain::AddNearGround<Dim>> to,
-                            terrain::AddNearGround<Dim> kernel) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
-}
-
-template <int Dim>
-__global__ void clearance(TileOnDevice<Dim> tile, Results<Dim, terrain::LowerClearance<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals, terrain::LowerClearance<Dim>{});
-}
-
-template <int Dim>
-__global__ void mark_band(TileOnDevice<Dim> tile, Results<Dim, terrain::MarkBand<Dim>> to, Real dt) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals, terrain::MarkBand<Dim>{dt});
-}
-
-template <int Dim>
-__global__ void leave_band(TileOnDevice<Dim> tile, Results<Dim, terrain::LeaveBand<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals, terrain::LeaveBand<Dim>{});
-}
-
-template <int Dim>
-__global__ void move(TileOnDevice<Dim> tile, Results<Dim, mpm::Move<Dim>> to, mpm::Move<Dim> kernel) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
-}
-
-template <int Dim>
-__global__ void move_affine(TileOnDevice<Dim> tile, Results<Dim, mpm::MoveAffine<Dim>> to,
-                            mpm::MoveAffine<Dim> kernel) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
-}
-
-template <int Dim>
-__global__ void filter_moments(TileOnDevice<Dim> tile, Results<Dim, mpm::AddFilterMoments<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals, mpm::AddFilterMoments<Dim>{});
-}
-
-template <int Dim>
-__global__ void filter_momentum(TileOnDevice<Dim> tile, Results<Dim, mpm::AddFilterMomentum<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals, mpm::AddFilterMomentum<Dim>{});
-}
-
-template <int Dim>
-__global__ void sweep_filter(TileOnDevice<Dim> tile, Results<Dim, mpm::SweepFilter<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals, mpm::SweepFilter<Dim>{});
-}
-
-template <int Dim>
-__global__ void take_filtered(TileOnDevice<Dim> tile, Results<Dim, mpm::ApplyFiltered<Dim>> to) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals, mpm::ApplyFiltered<Dim>{});
 }
 
 template <int Dim, class Law>
@@ -226,11 +165,6 @@ __global__ void new_heat_masses(TileOnDevice<Dim> tile, Results<Dim, band::Updat
 }
 
 template <int Dim>
-__global__ void unreached_heat(TileOnDevice<Dim> tile, Results<Dim, band::RedistributeUnreachedHeat<Dim>> to, Real dt) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals, band::RedistributeUnreachedHeat<Dim>{dt});
-}
-
-template <int Dim>
 __global__ void seepage(TileOnDevice<Dim> tile, Results<Dim, band::SeepageFlows<Dim>> to, band::BandPhysics model,
                         band::HydraulicConductivity hydraulic, Real dt) {
   visit<Shape<Dim>>(tile, to.carried, to.totals, band::SeepageFlows<Dim>{model, hydraulic, dt, tile.inverse_cell});
@@ -275,12 +209,6 @@ __global__ void load(TileOnDevice<Dim> tile, band::ColumnsOfTile<Dim, band::Numb
   band::update_load(tile.particles, at.particle[0], columns.flow_depth(tile.particles, at));
 }
 
-template <int Dim>
-__global__ void take_position(TileOnDevice<Dim> tile, Results<Dim, mpm::UpdatePosition<Dim>> to,
-                              mpm::UpdatePosition<Dim> kernel) {
-  visit<Shape<Dim>>(tile, to.carried, to.totals, kernel);
-}
-
 // Second phase of a pass: reduces the contributions of particles first .. last-1 of a cell to a number of one of its
 // nodes, by sum or minimum.
 template <class Name, int Dim>
@@ -303,20 +231,20 @@ void instantiate() {
   using PowerLaw = physics::PowerLawCurve;
   using Line = physics::LinearCurve;
   TileOnDevice<Dim> tile{};
-  averages<Dim><<<1, 128>>>(tile, {});
-  momentum<Dim><<<1, 128>>>(tile, {}, {});
-  affine_momentum<Dim><<<1, 128>>>(tile, {});
-  near_ground<Dim><<<1, 128>>>(tile, {}, {});
-  clearance<Dim><<<1, 128>>>(tile, {});
-  mark_band<Dim><<<1, 128>>>(tile, {}, 0);
-  leave_band<Dim><<<1, 128>>>(tile, {});
-  take_position<Dim><<<1, 128>>>(tile, {}, {});
-  move<Dim><<<1, 128>>>(tile, {}, {});
-  move_affine<Dim><<<1, 128>>>(tile, {}, {});
-  filter_moments<Dim><<<1, 128>>>(tile, {});
-  filter_momentum<Dim><<<1, 128>>>(tile, {});
-  sweep_filter<Dim><<<1, 128>>>(tile, {});
-  take_filtered<Dim><<<1, 128>>>(tile, {});
+  pass<Dim, band::AddAverages><<<1, 128>>>(tile, {}, {});
+  pass<Dim, mpm::AddMomentum><<<1, 128>>>(tile, {}, {});
+  pass<Dim, mpm::AddAffineMomentum><<<1, 128>>>(tile, {}, {});
+  pass<Dim, terrain::AddNearGround><<<1, 128>>>(tile, {}, {});
+  pass<Dim, terrain::LowerClearance><<<1, 128>>>(tile, {}, {});
+  pass<Dim, terrain::MarkBand><<<1, 128>>>(tile, {}, {});
+  pass<Dim, terrain::LeaveBand><<<1, 128>>>(tile, {}, {});
+  pass<Dim, mpm::UpdatePosition><<<1, 128>>>(tile, {}, {});
+  pass<Dim, mpm::Move><<<1, 128>>>(tile, {}, {});
+  pass<Dim, mpm::MoveAffine><<<1, 128>>>(tile, {}, {});
+  pass<Dim, mpm::AddFilterMoments><<<1, 128>>>(tile, {}, {});
+  pass<Dim, mpm::AddFilterMomentum><<<1, 128>>>(tile, {}, {});
+  pass<Dim, mpm::SweepFilter><<<1, 128>>>(tile, {}, {});
+  pass<Dim, mpm::ApplyFiltered><<<1, 128>>>(tile, {}, {});
   deform<Dim, Elastic><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
   deform<Dim, Coulomb><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
   deform<Dim, physics::MohrCoulomb<true>><<<1, 128>>>(tile, {}, {}, {}, {}, false, 0, false, 0);
@@ -328,7 +256,7 @@ void instantiate() {
   take_heat<Dim, Line><<<1, 128>>>(tile, {}, {}, {}, 0);
   update_heat_as_published<Dim, PowerLaw><<<1, 128>>>(tile, {}, {}, {}, 0);
   new_heat_masses<Dim, PowerLaw><<<1, 128>>>(tile, {}, {});
-  unreached_heat<Dim><<<1, 128>>>(tile, {}, 0);
+  pass<Dim, band::RedistributeUnreachedHeat><<<1, 128>>>(tile, {}, {});
   seepage<Dim><<<1, 128>>>(tile, {}, {}, {}, 0);
   seeping_water<Dim><<<1, 128>>>(tile, {}, {}, {});
   box_in_columns<Dim><<<1, 128>>>(0, tile, nullptr);

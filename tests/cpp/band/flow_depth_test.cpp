@@ -10,6 +10,7 @@ namespace {
 
 constexpr double cell = 10.0;
 constexpr double spacing = 5.0;  // of particles
+constexpr std::size_t layers = 6;
 
 // A box of `length` particles along each horizontal axis and `layers` vertically, with its lower corner at `from` [m];
 // the lowest layer is the band, `bulge` [m] ahead of the others.
@@ -35,15 +36,27 @@ void fill_box(std::size_t length, std::size_t layers, double from, double bulge,
   }
 }
 
+// A box on its grid, and the model of its particles.
+template <int Dim>
+struct BoxOnGrid {
+  mpm::Particles<Dim> box;
+  mpm::SparseGrid<Dim> grid{cell};
+  BandModel<Dim> model;
+
+  BoxOnGrid(double from, double bulge) {
+    fill_box<Dim>(7, layers, from, bulge, box);
+    for (std::size_t p = 0; p < box.size(); ++p) {
+      box.mass(p) = 2000.0 * box.volume(p);
+    }
+    grid.update(box, 1);
+    model.sizes = {0.5 * spacing / cell};
+  }
+};
+
 template <int Dim>
 void expect_thickness(double from, double bulge, double allowed) {
-  constexpr std::size_t layers = 6;
-  mpm::Particles<Dim> box;
-  fill_box<Dim>(7, layers, from, bulge, box);
-  mpm::SparseGrid<Dim> grid(cell);
-  grid.update(box, 1);
-  BandModel<Dim> model;
-  model.sizes = {0.5 * spacing / cell};
+  BoxOnGrid<Dim> scene(from, bulge);
+  auto& [box, grid, model] = scene;
   FlowDepth<Dim> depth;
   depth.update(grid, model, {}, box);
   depth.depth_to_particles(grid, box);
@@ -70,16 +83,8 @@ TEST(FlowDepth, IsThatOfTheBoxAtAnyPosition) {
 // N of the columns and its change, on ground with a slope cosine of 0.8, with 0.6 of gravity.
 template <int Dim>
 void expect_load(double from) {
-  constexpr std::size_t layers = 6;
-  mpm::Particles<Dim> box;
-  fill_box<Dim>(7, layers, from, 0.0, box);
-  for (std::size_t p = 0; p < box.size(); ++p) {
-    box.mass(p) = 2000.0 * box.volume(p);
-  }
-  mpm::SparseGrid<Dim> grid(cell);
-  grid.update(box, 1);
-  BandModel<Dim> model;
-  model.sizes = {0.5 * spacing / cell};
+  BoxOnGrid<Dim> scene(from, 0.0);
+  auto& [box, grid, model] = scene;
   FlowDepth<Dim> depth;
   const auto normal_gravity = [](const Vector<double, Dim - 1>& /*place*/) { return 0.8 * 0.6 * 9.81; };
   for (const double thinning : {1.0, 0.25}) {
@@ -115,11 +120,8 @@ TEST(FlowDepth, IncludesTheBodyAboveABandThatIsAhead) {
 
 // Columns are renumbered when the body reaches other tiles.
 TEST(FlowDepth, FollowsTheBodyFromTileToTile) {
-  mpm::Particles<2> box;
-  fill_box<2>(7, 6, 2.5, 0.0, box);
-  mpm::SparseGrid<2> grid(cell);
-  BandModel<2> model;
-  model.sizes = {0.5 * spacing / cell};
+  BoxOnGrid<2> scene(2.5, 0.0);
+  auto& [box, grid, model] = scene;
   FlowDepth<2> followed;
   for (int step = 0; step < 60; ++step) {
     grid.update(box, 7);

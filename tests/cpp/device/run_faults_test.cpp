@@ -42,16 +42,18 @@ class FailingSolver final : public ForwardingSolver<2> {
   int left_;
 };
 
+device::SolverFactory<2> failing_gpu(int steps_before_failure) {
+  return [steps_before_failure](const auto& model, const auto& particles, std::size_t count, auto callbacks) {
+    return std::make_unique<FailingSolver>(
+        emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(callbacks)), steps_before_failure);
+  };
+}
+
 // Runs on a device that fails after a number of steps. Returns the error message, and checks the remaining particles.
 std::string reported_failure(int steps_before_failure, int steps) {
   Simulation<2> simulation(sliding_bodies<2>());
   const auto at_start = fields_by_id(simulation.particles());
-  const auto make = [steps_before_failure](const auto& model, const auto& particles, std::size_t count,
-                                           auto callbacks) {
-    return std::make_unique<FailingSolver>(
-        emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(callbacks)), steps_before_failure);
-  };
-  simulation.use_device("a GPU", make);
+  simulation.use_device("a GPU", failing_gpu(steps_before_failure));
   std::string message;
   try {
     for (int k = 0; k < steps; ++k) {
@@ -74,10 +76,7 @@ TEST(DeviceRun, ReportsAFailingDevice) {
 TEST(DeviceRun, ReportsADeviceThatFailsWhileABodySettles) {
   Simulation<2> simulation(sliding_bodies<2>(
       {"mechanics.initial_stress=\"settle\"", "mechanics.settle_time=0.1", "mechanics.settle_damping=5.0"}));
-  simulation.use_device("a GPU", [](const auto& model, const auto& particles, std::size_t count, auto callbacks) {
-    return std::make_unique<FailingSolver>(
-        emulated_gpu<2>(ThreadOrder::forward)(model, particles, count, std::move(callbacks)), 3);
-  });
+  simulation.use_device("a GPU", failing_gpu(3));
   EXPECT_THROW(simulation.settle(), DeviceError);
 }
 

@@ -66,7 +66,6 @@ template <int Dim>
 void expect_the_same_with_every_choice(int steps) {
   const std::string at_face = Dim == 2 ? "grid.min=[0.0,-4.0]" : "grid.min=[0.0,-4.0,-4.0]";
   const std::vector<std::vector<std::string>> choices{
-      {"mechanics.shape_function=\"linear\""},
       {"mechanics.shape_function=\"quadratic\""},
       {"mechanics.transfer=\"apic\""},
       {"mechanics.transfer=\"apic\"", "mechanics.shape_function=\"quadratic\""},

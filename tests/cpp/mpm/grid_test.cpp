@@ -21,14 +21,7 @@ class Crowd {
  public:
   explicit Crowd(std::size_t count) {
     particles.resize(count);
-    std::uniform_real_distribution<double> place(10.0, 60.0);
-    for (std::size_t p = 0; p < count; ++p) {
-      particles.id(p) = static_cast<std::int64_t>(p);
-      particles.material(p) = p % 5 == 0 ? 1 : 0;
-      for (int a = 0; a < Dim; ++a) {
-        particles.position(p, a) = place(random_);
-      }
-    }
+    place_from(0, 0);
   }
 
   void move(double most) {
@@ -52,9 +45,18 @@ class Crowd {
   }
 
   void append(std::size_t count) {
+    place_from(particles.append(count), next_id_);
+    next_id_ += static_cast<std::int64_t>(count);
+  }
+
+  Particles<Dim> particles;
+
+ private:
+  // Places particles from an index on at random, with consecutive ids.
+  void place_from(std::size_t first, std::int64_t id) {
     std::uniform_real_distribution<double> place(10.0, 60.0);
-    for (std::size_t p = particles.append(count); p < particles.size(); ++p) {
-      particles.id(p) = next_id_++;
+    for (std::size_t p = first; p < particles.size(); ++p) {
+      particles.id(p) = id++;
       particles.material(p) = p % 5 == 0 ? 1 : 0;
       for (int a = 0; a < Dim; ++a) {
         particles.position(p, a) = place(random_);
@@ -62,9 +64,6 @@ class Crowd {
     }
   }
 
-  Particles<Dim> particles;
-
- private:
   std::int64_t next_id_ = 1'000'000;
   std::mt19937 random_{7};
 };

@@ -39,10 +39,18 @@ void expect_sound_weights(double half) {
   }
 }
 
+// Of heat, averages and pore pressure.
+struct LinearWeightsAlone {
+  static AxisWeights<double> weights(double offset, double /*half*/, bool /*at_side*/, double inverse_cell) {
+    return linear_weights(offset, inverse_cell);
+  }
+};
+
 TEST(Shape, WeightsSumToOneReproduceLinearFieldsAndMatchTheirSlopes) {
   for (const double half : {0.25, 0.125, 0.5}) {
     expect_sound_weights<Ugimp>(half);
   }
+  expect_sound_weights<LinearWeightsAlone>(0.25);
   expect_sound_weights<Quadratic>(0.25);
 }
 

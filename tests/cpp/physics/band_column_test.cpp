@@ -3,8 +3,8 @@
 #include <cmath>
 #include <functional>
 
-#include "../exact/freezing_front.hpp"
-#include "../exact/pore_water.hpp"
+#include "../exact/heat.hpp"
+#include "../exact/water.hpp"
 #include "band_column_model.hpp"
 
 namespace thawslide::physics {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 #include <regex>
+#include <set>
 
 #include "config/changed_defaults.hpp"
 
@@ -30,6 +31,15 @@ config::Case paper_case(const std::string& text, std::vector<std::string> sets) 
     return std::regex_search(text, line) ||
            std::any_of(sets.begin(), sets.end(), [&](const std::string& set) { return std::regex_search(set, line); });
   };
+  std::set<std::string> materials;
+  const std::regex name("material\\.\\w+");
+  const auto add_materials = [&](const std::string& part) {
+    for (std::sregex_iterator found(part.begin(), part.end(), name), end; found != end; ++found) {
+      materials.insert(found->str());
+    }
+  };
+  add_materials(text);
+  std::for_each(sets.begin(), sets.end(), add_materials);
   std::vector<std::string> of_the_paper;
   for (const config::ChangedDefault& moved : config::changed_defaults()) {
     if (gives(moved.key)) {
@@ -39,9 +49,8 @@ config::Case paper_case(const std::string& text, std::vector<std::string> sets) 
       of_the_paper.push_back(moved.table + "." + moved.key + "=" + moved.before);
       continue;
     }
-    const std::regex title("\\[(material\\.\\w+)\\]");
-    for (std::sregex_iterator found(text.begin(), text.end(), title), end; found != end; ++found) {
-      of_the_paper.push_back((*found)[1].str() + "." + moved.key + "=" + moved.before);
+    for (const std::string& material : materials) {
+      of_the_paper.push_back(material + "." + moved.key + "=" + moved.before);
     }
   }
   sets.insert(sets.end(), of_the_paper.begin(), of_the_paper.end());

@@ -1,19 +1,12 @@
 // A block on a draining band arrests or runs away depending on the hydraulic conductivity k of the band, as in Goren
 // and Aharonov (2009); their numbers are not compared.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "../exact/drained_band.hpp"
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
-#include "base/portability.hpp"
+#include "../exact/water.hpp"
 #include "sim/block.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
 using physics::exact::DrainedBand;
 
 constexpr double slope = 10.0, friction = 0.3, heat_fraction = 0.9, porosity = 0.375;
@@ -23,58 +16,14 @@ constexpr double water_expansion = 2.1e-4, rock_expansion = 1e-5;
 // that remains frozen and leads to air: P = 0 at its top. There is no conduction, and the ground is impermeable. The
 // pressure follows friction within several hundredths of a second, the block's speed within seconds; the band has no
 // additional time to reach equilibrium.
-const std::string block = R"(
-[case]
-gravity_tilt = 10.0
-[time]
-end = 120.0
-step = 0.0025
-history_interval = 0.1
-[grid]
-cell = 2.5
-min = [-100.0, -20.0]
-max = [2000.0, 80.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[phases]
-ice_density = 1000.0
-water_expansion = 2.1e-4
-rock_expansion = 1e-5
-water_expansion_law = "constant"
-[freezing]
-curve = "linear"
-slope = 50.0
-[material.rock]
-youngs_modulus = 2e8
-poisson_ratio = 0.2
-law = "elastic"
-[body.slab]
-material = "rock"
-min = [0.0, 0.0]
-max = [100.0, 5.0]
-temperature = -0.1
-porosity = 0.375
-[basal]
-friction = "constant"
-cohesion = 0.0
-heat_fraction = 0.9
-[heat]
-latent = false
-conduction = false
-steam = false
-[band]
-model = "columns"
-growth = "none"
-thickness_change = "conserving"
-load_time = 0.01
-column_step = 0.0025
-[pressure]
-frozen = "none"
-frozen_rows = "vented"
-melt_contraction = true
-skeleton_compressibility = 0.0
-)";
+const Sets block{"case.gravity_tilt=10; time.end=120; time.step=0.0025; time.history_interval=0.1",
+                 "grid.cell=2.5; grid.min=[-100,-20]; grid.max=[2000,80]",
+                 "phases.ice_density=1000; phases.water_expansion=2.1e-4; phases.rock_expansion=1e-5",
+                 "phases.water_expansion_law=constant; freezing.curve=linear; freezing.slope=50",
+                 "material.rock.viscosity_time=0; body.slab.max=[100,5]; body.slab.temperature=-0.1",
+                 "basal.friction=constant; heat.latent=false; heat.conduction=false; heat.steam=false",
+                 "band.growth=none; band.load_time=0.01; band.column_step=0.0025",
+                 "pressure.frozen_rows=vented; pressure.skeleton_compressibility=0"};
 
 struct Start {
   double speed, thickness;  // initial speed of the block [m/s], thickness of the band [m]
@@ -82,11 +31,11 @@ struct Start {
 
 // Whether a block of this initial speed doubles its speed before it stops.
 bool runs_away(const Start& start, double conductivity) {
-  const auto rows = sim::run_block(case_from_text(
-      block,
-      {fmt::format("material.rock.hydraulic_conductivity={:.6e}", conductivity),
-       fmt::format("body.slab.velocity=[{}, 0.0]", start.speed), fmt::format("band.thickness={}", start.thickness),
-       fmt::format("basal.friction_angle={:.12f}", std::atan(friction) * 180.0 / pi)}));
+  const Sets of_start = fmt::format(
+      "material.rock.hydraulic_conductivity={:.6e}; body.slab.velocity=[{},0]; band.thickness={}; "
+      "basal.friction_angle={:.12f}",
+      conductivity, start.speed, start.thickness, std::atan(friction) * 180.0 / pi);
+  const auto rows = sim::run_block(base_case("columns", block + of_start));
   for (const auto& row : rows) {
     const double speed = value_of(row, "velocity_m_s");
     if (speed > 2.0 * start.speed || speed <= 0.0) {
@@ -127,18 +76,15 @@ TEST(ArrestOrRunaway, IsDecidedByConductivity) {
                 "k = A v/(mu/tan a - 1) of the steady drained band, with A = mu beta_m gamma_w eta e/(3 C). With a "
                 "smaller k it runs away, with a larger k it arrests",
                 "closed form; after Goren and Aharonov (2009), not compared with their numbers");
-  const double angle = slope * pi / 180.0;
   Curve curve{"speed at the start (m/s)", "k between arrest and runaway (m/s)", {}, {}, {}};
   for (const Start& start : {Start{2.0, 0.002}, Start{4.0, 0.002}, Start{6.0, 0.002}, Start{4.0, 0.004}}) {
-    const double exact = band_of(start.thickness).boundary_conductivity(start.speed, angle);
-    EXPECT_NEAR(band_of(start.thickness).strength(start.speed, exact), std::tan(angle), 1e-12);
+    const double exact = band_of(start.thickness).boundary_conductivity(start.speed, slope * degree);
+    EXPECT_NEAR(band_of(start.thickness).strength(start.speed, exact), std::tan(slope * degree), 1e-12);
     const double found = boundary(start, 0.5 * exact, 2.0 * exact);
     record.expect_near(fmt::format("k over closed form, {} m/s, band of {} mm", start.speed, 1e3 * start.thickness),
                        found / exact, 1.0, 0.1);
     if (start.thickness == 0.002) {
-      curve.x.push_back(start.speed);
-      curve.computed.push_back(found);
-      curve.exact.push_back(exact);
+      add_point(curve, start.speed, found, exact);
     }
   }
   record.explain("The block loses speed until the band has reached its pressure: the boundary lies a little lower.");

@@ -1,19 +1,11 @@
 // Results of band columns are mesh-independent: an elastic slab slides down an incline on cells of 20, 10 and 5 m.
-#include <gtest/gtest.h>
-
 #include <array>
-#include <cmath>
 
-#include "../support/case_from_text.hpp"
 #include "../support/column_slab.hpp"
-#include "../support/record.hpp"
-#include "sim/history.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
-
-using namespace testing_support;
 
 struct AtEnd {
   double velocity, displacement, temperature;
@@ -22,12 +14,10 @@ struct AtEnd {
 
 // The base melts in the first seconds; then steam exerts pressure in the void left by melting, and friction decreases.
 // Initial shear stress prevents oscillation of the slab.
-AtEnd slide(const std::vector<std::string>& more) {
-  std::vector<std::string> sets{"body.slab.max=[400.0, 80.0]", "grid.max=[800.0, 160.0]",
-                                "body.slab.temperature=-0.1",  "body.slab.velocity=[10.0, 0.0]",
-                                "basal.friction_angle=35.0",   "mechanics.slope_shear=true"};
-  sets.insert(sets.end(), more.begin(), more.end());
-  sim::Simulation<2> simulation(case_from_text(column_slab(), sets));
+AtEnd slide(const Sets& more) {
+  const Sets sets{"body.slab.max=[400,80]; grid.max=[800,160]; body.slab.temperature=-0.1",
+                  "body.slab.velocity=[10,0]; basal.friction_angle=35; mechanics.slope_shear=true"};
+  Simulation<2> simulation(base_case("columns", sets + more));
   const auto* columns = simulation.band_columns();
   AtEnd result{};
   for (double end = 0.05; end < 5.0 + 1e-9; end += 0.05) {
@@ -68,20 +58,19 @@ TEST(BandColumnsVerification, SameHeatPressureAndMotionOnAnyMesh) {
   }
 }
 
-// N at nodes is intermittent; the averaging time must not have an effect.
-TEST(BandColumnsVerification, TheAveragingTimeOfTheLoadHasNoEffect) {
-  const AtEnd once = slide({fine_column_step}), twice = slide({fine_column_step, "band.load_time=2.0"});
-  EXPECT_NEAR(twice.velocity, once.velocity, 0.02 * once.velocity);
-  EXPECT_NEAR(twice.temperature, once.temperature, 0.02 * once.temperature);
-  EXPECT_NEAR(twice.half_liquefied, once.half_liquefied, 0.02 * once.half_liquefied);
+void expect_the_same(const AtEnd& found, const AtEnd& expected) {
+  EXPECT_NEAR(found.velocity, expected.velocity, 0.02 * expected.velocity);
+  EXPECT_NEAR(found.temperature, expected.temperature, 0.02 * expected.temperature);
+  EXPECT_NEAR(found.half_liquefied, expected.half_liquefied, 0.02 * expected.half_liquefied);
 }
 
-// The time step of columns has no effect, either.
+// N at nodes is intermittent; the averaging time must not have an effect.
+TEST(BandColumnsVerification, TheAveragingTimeOfTheLoadHasNoEffect) {
+  expect_the_same(slide({fine_column_step, "band.load_time=2.0"}), slide({fine_column_step}));
+}
+
 TEST(BandColumnsVerification, TheTimeStepOfColumnsHasNoEffect) {
-  const AtEnd coarse = slide({}), fine = slide({"band.column_step=0.0125"});
-  EXPECT_NEAR(coarse.velocity, fine.velocity, 0.02 * fine.velocity);
-  EXPECT_NEAR(coarse.temperature, fine.temperature, 0.02 * fine.temperature);
-  EXPECT_NEAR(coarse.half_liquefied, fine.half_liquefied, 0.02 * fine.half_liquefied);
+  expect_the_same(slide({}), slide("band.column_step=0.0125"));
 }
 
 }  // namespace

@@ -1,53 +1,17 @@
 // Collapse of a column of aluminium bars next to a wall, compared with measurements.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <fstream>
-#include <string>
-#include <vector>
 
-#include "../support/case_from_text.hpp"
-#include "../support/friction_alone.hpp"
-#include "../support/record.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification::bar_collapse {
 
-using namespace testing_support;
-using Simulation = sim::Simulation<2>;
-
 // Parameters published with the measurements; E = 3 K (1 - 2 nu) with K = 0.7 MPa. Material in contact with the rough
 // floor does not slide: the friction angle of the floor is far above that of the bars.
-inline const std::string column = R"(
-[time]
-end = 1.0
-step = 0.001
-[grid]
-cell = 0.005
-min = [0.0, -0.04]
-max = [0.8, 0.2]
-[grid.boundary]
-x_min = "roller"
-[terrain]
-type = "flat"
-elevation = 0.0
-[phases]
-rock_density = 2650.0
-[material.bars]
-law = "mohr_coulomb"
-youngs_modulus = 0.84e6
-poisson_ratio = 0.3
-friction_angle = 19.8
-cohesion = 0.0
-[body.bars]
-material = "bars"
-min = [0.0, 0.0]
-max = [0.2, 0.1]
-porosity = 1e-9
-)" + friction_alone(80.0);
+inline const Sets column{"time.end=1; grid.min=[0,-0.04]; grid.max=[0.8,0.2]; phases.rock_density=2650",
+                         "material.sand.youngs_modulus=0.84e6; material.sand.friction_angle=19.8",
+                         "body.column.max=[0.2,0.1]; body.column.porosity=1e-9; basal.friction_angle=80"};
 
 struct Line {
   std::vector<double> x, height;  // [m]
@@ -77,9 +41,8 @@ class Collapse {
  public:
   Collapse(double cell, const std::string& transfer)
       : cell_(cell),
-        simulation_(
-            case_from_text(column, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 0.0194 * cell),
-                                    "mechanics.transfer=" + transfer})) {
+        simulation_(base_case("sand", column + Sets(fmt::format("grid.cell={}; time.step={}; mechanics.transfer={}",
+                                                                cell, 0.0194 * cell, transfer)))) {
     run_until(simulation_, 1.0);
   }
 
@@ -136,23 +99,21 @@ class Collapse {
   [[nodiscard]] double ground() const { return -simulation_.model().origin[1]; }
 
   double cell_;
-  Simulation simulation_;
+  Simulation<2> simulation_;
 };
 
-inline std::vector<double> surface_of(const Collapse& collapse, const std::vector<double>& places) {
+// The line of a quantity of the collapse at some places.
+inline std::vector<double> line_of(double (Collapse::*quantity)(double) const, const Collapse& collapse,
+                                   const std::vector<double>& places) {
   std::vector<double> found;
   for (const double x : places) {
-    found.push_back(collapse.thickness(x));
+    found.push_back((collapse.*quantity)(x));
   }
   return found;
 }
 
-inline std::vector<double> failure_of(const Collapse& collapse, const std::vector<double>& places) {
-  std::vector<double> found;
-  for (const double x : places) {
-    found.push_back(collapse.failure(x));
-  }
-  return found;
+inline std::vector<double> surface_of(const Collapse& collapse, const std::vector<double>& places) {
+  return line_of(&Collapse::thickness, collapse, places);
 }
 
 // Found minus expected [mm].
@@ -190,7 +151,8 @@ inline std::vector<double> expect_measured(Record& record, double cell, const st
   const Allowed allowed = allowed_on(cell, transfer);
   const Line surface = measured("surface"), failure = measured("failure");
   const Collapse collapse(cell, transfer);
-  const std::vector<double> top = surface_of(collapse, surface.x), limit = failure_of(collapse, failure.x);
+  const std::vector<double> top = surface_of(collapse, surface.x),
+                            limit = line_of(&Collapse::failure, collapse, failure.x);
   const std::string run = fmt::format("cells of {:g} mm, {}", 1e3 * cell, transfer);
   const std::vector<double> off = differences(top, surface.height);
   record.expect_near("surface less measured, root mean square [mm], " + run, root_mean_square(off), 0.0,

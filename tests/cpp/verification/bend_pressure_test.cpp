@@ -1,24 +1,15 @@
 // Pressure of a slide on curved ground: the additional pressure is the centripetal force.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <fstream>
 #include <functional>
 
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
-#include "base/portability.hpp"
 #include "physics/contact.hpp"
 #include "sim/block.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-using sim::Simulation;
-constexpr double degree = pi / 180.0;
-constexpr double gravity = 9.81, density = 0.625 * 2750.0 + 0.375 * 917.0;  // frozen, porosity 0.375
+constexpr double density = 0.625 * 2750.0 + 0.375 * 917.0;  // frozen, porosity 0.375
 constexpr double radius = 300.0, thickness = 10.0;
 
 // A circular arc with its lowest point at x = 0, continued by a slope of 40 degrees on the left and level ground on the
@@ -34,53 +25,25 @@ struct Ground {
 };
 
 // Points every metre, and a body between two positions with ends normal to the ground.
-std::string case_of_profile(const std::function<double(double)>& ground, double from, double to,
-                            const std::function<double(double)>& surface) {
-  std::ofstream csv(folder_of_this_test() / "bend.csv");
+config::Case case_of_profile(const std::function<double(double)>& ground, double from, double to,
+                             const std::function<double(double)>& surface, const Sets& sets = {}) {
+  std::ofstream csv(folder_of_this_test() / "profile.csv");
   csv << "distance_m,terrain_elevation_m,surface_elevation_m\n";
   for (double x = -500.0; x < 500.5; x += 1.0) {
     csv << fmt::format("{},{:.9f},{:.9f}\n", x, ground(x), x > from && x < to ? surface(x) : ground(x));
   }
-  return R"(
-[time]
-end = 60.0
-step = 0.001
-history_interval = 0.05
-[grid]
-cell = 2.5
-min = [-450.0, -20.0]
-max = [450.0, 430.0]
-[terrain]
-type = "profile"
-file = "bend.csv"
-[material.rock]
-law = "mohr_coulomb"
-friction_angle = 35.0
-cohesion = 1e3
-youngs_modulus = 1e8
-poisson_ratio = 0.2
-viscosity_time = 0.01
-[body.slide]
-material = "rock"
-shape = "surface"
-[mechanics]
-slope_shear = true
-[basal]
-friction = "constant"
-friction_angle = 10.0
-[mechanisms]
-pressurization = false
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)";
+  csv.close();
+  const Sets bend{"time.end=60; time.history_interval=0.05; grid.min=[-450,-20]; grid.max=[450,430]",
+                  "material.rock.law=mohr_coulomb; material.rock.friction_angle=35; material.rock.cohesion=1e3",
+                  "material.rock.youngs_modulus=1e8; mechanisms.pressurization=false; heat.enabled=false",
+                  "pressure.enabled=false"};
+  return published_case("profile", bend + sets);
 }
 
 // A body of uniform thickness across the slope above the bend.
-std::string slide_into_bend() {
-  return case_of_profile(Ground::height, -400.0, -330.0,
-                         [](double x) { return Ground::height(x) + thickness / std::cos(Ground::steepest); });
+config::Case slide_into_bend(const Sets& sets = {}) {
+  const auto surface = [](double x) { return Ground::height(x) + thickness / std::cos(Ground::steepest); };
+  return case_of_profile(Ground::height, -400.0, -330.0, surface, sets);
 }
 
 double mean_cosine(double angle, double half) { return std::cos(angle) * std::sin(half) / half; }
@@ -90,8 +53,7 @@ TEST(BendPressure, OfTheBlockIsThatOfTheArc) {
                 "A slab 10 m thick slides down a slope of 40 degrees and through an arc of 300 m radius. The points of "
                 "the profile are 1 m apart. The slab is a rigid block with block.bends.",
                 "N = rho h (g cos + v^2/R)", "balance of momentum across the path");
-  const config::Case parameters = paper_case(slide_into_bend(), {"block.bends=true"});
-  const auto rows = sim::run_block(parameters);
+  const auto rows = sim::run_block(slide_into_bend("block.bends=true"));
   const double length = 70.0 / std::cos(Ground::steepest), half = 0.5 * length / radius;
   const double middle_before_arc = (365.0 - radius * std::sin(Ground::steepest)) / std::cos(Ground::steepest);
   double largest = 0.0, largest_fraction = 0.0;
@@ -106,9 +68,7 @@ TEST(BendPressure, OfTheBlockIsThatOfTheArc) {
     const double expected = density * thickness * (weight + turning);
     largest = std::max(largest, std::abs(value_of(row, "normal_pressure_Pa") / expected - 1.0));
     largest_fraction = std::max(largest_fraction, turning / weight);
-    curve.x.push_back(angle / degree);
-    curve.computed.push_back(value_of(row, "normal_pressure_Pa") / 1e3);
-    curve.exact.push_back(expected / 1e3);
+    add_point(curve, angle / degree, value_of(row, "normal_pressure_Pa") / 1e3, expected / 1e3);
   }
   EXPECT_GT(curve.x.size(), 20U);
   EXPECT_GT(largest_fraction, 0.3) << "the bend is felt";
@@ -117,9 +77,9 @@ TEST(BendPressure, OfTheBlockIsThatOfTheArc) {
 }
 
 TEST(BendPressure, OfTheBlockIsLeftOutUnlessAskedFor) {
-  const auto pressures = [](const std::vector<std::string>& sets) {
+  const auto pressures = [](const Sets& sets) {
     std::vector<double> found;
-    for (const auto& row : sim::run_block(paper_case(slide_into_bend(), sets))) {
+    for (const auto& row : sim::run_block(slide_into_bend(sets))) {
       found.push_back(value_of(row, "normal_pressure_Pa") / (density * thickness * gravity));
     }
     return found;
@@ -128,7 +88,7 @@ TEST(BendPressure, OfTheBlockIsLeftOutUnlessAskedFor) {
     EXPECT_GT(pressure, 0.7);
     EXPECT_LT(pressure, 1.02);
   }
-  const std::vector<double> with_bends = pressures({"block.bends=true"});
+  const std::vector<double> with_bends = pressures("block.bends=true");
   EXPECT_GT(*std::max_element(with_bends.begin(), with_bends.end()), 1.3);
 }
 
@@ -138,9 +98,9 @@ TEST(BendPressure, IsNeverBelowZero) {
   EXPECT_DOUBLE_EQ(physics::load_in_bend(2.0, 9.0, 30.0, -1.0 / 200.0), 9.0);
   EXPECT_DOUBLE_EQ(physics::load_in_bend(2.0, 9.0, 30.0, 1.0 / 200.0), 27.0);
   const auto crest = [](double x) { return 100.0 - x * x / 400.0; };
-  const auto rows = sim::run_block(paper_case(
-      case_of_profile(crest, -120.0, -60.0, [&](double x) { return crest(x) + thickness; }),
-      {"block.bends=true", "body.slide.velocity=[60.0, 20.0]", "grid.min=[-450.0, -300.0]", "time.end=2.0"}));
+  const auto rows = sim::run_block(case_of_profile(
+      crest, -120.0, -60.0, [&](double x) { return crest(x) + thickness; },
+      "block.bends=true; body.slide.velocity=[60,20]; grid.min=[-450,-300]; time.end=2"));
   double lowest = HUGE_VAL;
   for (const auto& row : rows) {
     EXPECT_GE(value_of(row, "normal_pressure_Pa"), 0.0);
@@ -178,20 +138,18 @@ double load_of_nodes(const Simulation<2>& simulation) {
 }
 
 TEST(BendPressure, OfTheSlideIsThatOfTheArc) {
-  if (!Simulation<2>(paper_case(slide_into_bend())).device_name().empty()) {
+  if (!Simulation<2>(slide_into_bend()).device_name().empty()) {
     GTEST_SKIP() << "it looks at nodes, which a device keeps";
   }
   Record record("Pressure in a bend, deforming slide",
                 "The same slab consists of broken rock (35 degrees, 1 kPa), in cells of 2.5 m. The force of the slide "
                 "across the ground is summed over nodes and averaged over half a second.",
                 "sum over particles of m (g cos + v^2/r)", "balance of momentum across the path");
-  Simulation<2> simulation(paper_case(slide_into_bend()));
+  Simulation<2> simulation(slide_into_bend());
   double largest = 0.0, most = 0.0;
   Curve curve{"time [s]", "force across the ground over weight", {}, {}, {}};
-  double expected = 0.0, found = 0.0, mass = 0.0;
-  for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
-    mass += simulation.particles().mass(p);
-  }
+  const double mass = simulation.sum_over_body().mass;
+  double expected = 0.0, found = 0.0;
   int steps = 0;
   while (simulation.time() < 15.0) {
     simulation.step(simulation.next_step(60.0));
@@ -200,9 +158,7 @@ TEST(BendPressure, OfTheSlideIsThatOfTheArc) {
     if (++steps < 500) {
       continue;
     }
-    curve.x.push_back(simulation.time());
-    curve.computed.push_back(found / steps / (mass * gravity));
-    curve.exact.push_back(expected / steps / (mass * gravity));
+    add_point(curve, simulation.time(), found / steps / (mass * gravity), expected / steps / (mass * gravity));
     largest = std::max(largest, std::abs(found / expected - 1.0));
     most = std::max(most, curve.exact.back());
     expected = found = 0.0;

@@ -1,16 +1,10 @@
 // V-shaped channels on DEMs: shared by the short and the complete tests.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "../support/channel_on_dem.hpp"
-#include "../support/record.hpp"
+#include "verification.hpp"
 
-namespace thawslide::verification {
-
-namespace channel_on_dem {
-
-using namespace testing_support;
+namespace thawslide::verification::channel_on_dem {
 
 struct Course {
   double azimuth, aside;  // [degrees], [m]
@@ -43,6 +37,4 @@ inline void expect_wedge(Record& record, double opening, double cells, const Cou
                      found / wedge_factor(opening), 1.0, 0.015);
 }
 
-}  // namespace channel_on_dem
-
-}  // namespace thawslide::verification
+}  // namespace thawslide::verification::channel_on_dem

@@ -1,46 +1,12 @@
 // Heat conduction without motion: half space, two layers, and a manufactured solution with melting.
-#include "../exact/conduction.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
-#include "base/portability.hpp"
-#include "sim/simulation.hpp"
+#include "../exact/heat.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-using sim::Simulation;
-
 // A melted bar of 4 m at rest, of two porosities; the sides are insulated unless --set specifies otherwise.
-const std::string bar = R"(
-[case]
-gravity = 0.0
-[time]
-end = 4.0e5
-step = 1000.0
-[grid]
-cell = 0.1
-min = [0.0, 0.0]
-max = [4.0, 1.0]
-[phases]
-rock_expansion = 0.0
-[material.bar]
-law = "elastic"
-[body.bar]
-material = "bar"
-min = [0.0, 0.0]
-max = [4.0, 0.2]
-temperature = 2.0
-[mechanics]
-enabled = false
-[pressure]
-enabled = false
-)";
+const Sets insulated{"grid.max=[4,1]; phases.rock_expansion=0"};
 
 // Assigns temperatures to particles, with the corresponding heat content and saturation.
 template <class Temperature>
@@ -65,11 +31,10 @@ struct Errors {
 // run begins with the exact temperatures at a time `start` after t = 0 of the exact solution, or as in the case if
 // `start` is 0.
 template <class Exact>
-Errors errors_on(double cell, double start, std::vector<std::string> sets, const Exact& exact, Curve* curve) {
-  sets.push_back(fmt::format("grid.cell={}", cell));
-  sets.push_back(fmt::format("time.step={}", 1000.0 * cell * cell / 0.01));
-  sets.push_back(fmt::format("body.bar.max=[4.0,{}]", cell));
-  Simulation<2> simulation(paper_case(bar, sets));
+Errors errors_on(double cell, double start, const Sets& sets, const Exact& exact, Curve* curve) {
+  const Sets of_cell =
+      fmt::format("grid.cell={0}; time.step={1}; body.bar.max=[4,{0}]", cell, 1000.0 * cell * cell / 0.01);
+  Simulation<2> simulation(published_case("bar", insulated + sets + of_cell));
   if (start > 0.0) {
     set_temperatures(simulation, [&](double x, double /*y*/) { return exact(simulation, x, start); });
   }
@@ -84,9 +49,7 @@ Errors errors_on(double cell, double start, std::vector<std::string> sets, const
       away.push_back(all.back());
     }
     if (curve != nullptr && particles.position(p, 1) < 0.5 * cell) {
-      curve->x.push_back(x);
-      curve->computed.push_back(particles.temperature(p));
-      curve->exact.push_back(expected);
+      add_point(*curve, x, particles.temperature(p), expected);
     }
   }
   return {root_mean_square(all), root_mean_square(away)};
@@ -106,7 +69,7 @@ TEST(Conduction, HalfSpace) {
   std::vector<double> errors;
   for (const double cell : cells) {
     errors.push_back(
-        errors_on(cell, 0.0, {"heat.boundary.x_min={temperature=8.0}"}, exact, cell == 0.1 ? &curve : nullptr).all);
+        errors_on(cell, 0.0, "heat.boundary.x_min={temperature=8.0}", exact, cell == 0.1 ? &curve : nullptr).all);
   }
   record.draw(curve);
   record.expect_order("cell [m]", cells, "rms error of temperature [K]", errors, 2.0, 0.1);
@@ -187,9 +150,9 @@ struct Manufactured {
 };
 
 double manufactured_error(double cell) {
-  Simulation<2> simulation(paper_case(
-      bar, {"grid.max=[2.0,2.0]", "body.bar.max=[2.0,2.0]", fmt::format("grid.cell={}", cell),
-            fmt::format("time.step={}", 256.0 * cell * cell / 0.01), "time.end=8e4", "freezing.exponent=2.0"}));
+  const Sets square =
+      fmt::format("grid.max=[2,2]; body.bar.max=[2,2]; grid.cell={}; time.step={}", cell, 256.0 * cell * cell / 0.01);
+  Simulation<2> simulation(published_case("bar", insulated + square + "time.end=8e4; freezing.exponent=2"));
   return simulation.model().band.with_heat_content([&](const auto& content) {
     const auto set_heat = [&](auto& of, std::size_t p, double heat) {
       of.heat_content(p) = heat;

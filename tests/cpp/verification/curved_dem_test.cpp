@@ -1,22 +1,13 @@
 // A small block on curved DEMs: a bowl, and a channel along a helix.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "../exact/rigid_slide.hpp"
+#include "../exact/motion.hpp"
 #include "../support/point_on_surface.hpp"
-#include "../support/record.hpp"
 #include "../support/slide_on_dem.hpp"
-#include "base/portability.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-constexpr double degree = pi / 180.0;
-constexpr double gravity = 9.81;
-
-const std::string block =
+const auto block =
     release_on_dem({100.0, 0.0018, 2.5, {-350.0, -350.0, -250.0}, {350.0, 350.0, 450.0}}, elastic_rock(0.01), 10.0);
 
 // A block 10 m square in the map around a position, and 5 m high.
@@ -68,7 +59,7 @@ TEST(Bowl, BlockSwingsLikeAPointWithFriction) {
     return radius - std::sqrt(std::max(squared, 0.01 * radius * radius));
   });
   const Place along(std::cos(azimuth), std::sin(azimuth));
-  sim::Simulation<3> simulation(case_on_dem(block), site_of(ground, small_block(radius * std::sin(start) * along)));
+  Simulation<3> simulation(case_on_dem(block), site_of(ground, small_block(radius * std::sin(start) * along)));
   const auto from_centre = [&](const CentreOfMass& body) {
     return Position(body.position - Position(0.0, 0.0, radius));
   };
@@ -127,8 +118,8 @@ std::vector<double> run_along(double spacing, double turns, Curve& curve) {
   const Raster ground = raster_between(Place(-230.0, -230.0), Place(230.0, 230.0), spacing,
                                        [&](double x, double y) { return helix.height(x, y); });
   const double start = 15.0 * degree;
-  sim::Simulation<3> simulation(case_on_dem(block, {"basal.friction_angle=6.0"}),
-                                site_of(ground, small_block(helix.radius * Place(std::cos(start), std::sin(start)))));
+  Simulation<3> simulation(case_on_dem(block, {"basal.friction_angle=6.0"}),
+                           site_of(ground, small_block(helix.radius * Place(std::cos(start), std::sin(start)))));
   CentreOfMass now(simulation);
   const double above = helix.section - helix.off_centres(now.position);
   PointOnSurface exact([&](double x, double y) { return helix.height(x, y, above); }, now.position.head<2>(),
@@ -145,9 +136,7 @@ std::vector<double> run_along(double spacing, double turns, Curve& curve) {
       exact.step(dt);
     }
     now = CentreOfMass(simulation);
-    curve.x.push_back(simulation.time());
-    curve.computed.push_back(progress(now.position.head<2>()));
-    curve.exact.push_back(progress(exact.place()));
+    add_point(curve, simulation.time(), progress(now.position.head<2>()), progress(exact.place()));
     if (curve.exact.back() > next) {
       ratios.push_back(curve.computed.back() / curve.exact.back());
       next += 0.25;

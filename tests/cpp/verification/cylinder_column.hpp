@@ -1,54 +1,31 @@
 // Collapse of cylindrical granular columns on a flat DEM.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "../support/dry_sand.hpp"
-#include "../support/record.hpp"
 #include "../support/slide_on_dem.hpp"
 #include "sim/front.hpp"
+#include "verification.hpp"
 
-namespace thawslide::verification {
-
-namespace cylinder_column {
-
-using namespace testing_support;
+namespace thawslide::verification::cylinder_column {
 
 inline constexpr double radius = 10.0;  // of the column [m]
 
-inline const std::string column = dry_sand(1e7) + R"(
-[case]
-dimension = 3
-[time]
-end = 6.0
-step = 0.0035
-[grid]
-cell = 0.625
-min = [0.0, 0.0, -2.5]
-max = [50.0, 50.0, 30.0]
-[grid.boundary]
-x_min = "roller"
-y_min = "roller"
-[terrain]
-type = "dem"
-file = "dem.tif"
-)" + release_table + "material = \"sand\"\n";
+inline const Sets column{"grid.boundary.x_min=roller; grid.boundary.y_min=roller; grid.min=[0,0,-2.5]",
+                         "grid.max=[50,50,30]; material.debris.youngs_modulus=1e7",
+                         "material.debris.friction_angle=36.93; basal.friction_angle=31"};
 
 // (r_inf - r_0)/r_0 of experiments with dry sand and other grains: Lube, Huppert, Sparks and Hallworth 2004,
 // Axisymmetric collapses of granular columns, J. Fluid Mech. 508, 175-199.
 inline double runout_of_lube(double aspect) { return aspect < 1.7 ? 1.24 * aspect : 1.6 * std::sqrt(aspect); }
 
 // (r_inf - r_0)/r_0, with r_inf the radius that contains 99.5 % of the mass.
-inline double runout(const sim::Simulation<3>& simulation) {
+template <int Dim>
+double runout(const Simulation<Dim>& simulation) {
   const auto& particles = simulation.particles();
   std::vector<sim::MassOnPath> by_radius;
   double mass = 0.0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Position position = particles.position.get<Position>(p) + simulation.model().origin;
-    by_radius.push_back({position.head<2>().norm(), particles.mass(p), p});
+    const Vector<double, Dim> at = particles.position.template get<Vector<double, Dim>>(p) + simulation.model().origin;
+    by_radius.push_back({at.template head<Dim - 1>().norm(), particles.mass(p), p});
     mass += particles.mass(p);
   }
   return sim::front_of(by_radius, mass).along / radius - 1.0;
@@ -63,9 +40,10 @@ inline double collapse(double aspect, double cell = 0.625, const std::string& tr
                         [&](double x, double y) { return std::hypot(x, y) < radius ? aspect * radius : 0.0; });
   const Raster ground =
       raster_between(Place::Constant(-20.0), Place::Constant(60.0), 10.0, [](double, double) { return 0.0; });
-  sim::Simulation<3> simulation(
-      case_on_dem(column, {fmt::format("time.end={}", end), fmt::format("grid.cell={}", cell),
-                           fmt::format("time.step={}", 0.0056 * cell), "mechanics.transfer=" + transfer}),
+  Simulation<3> simulation(
+      case_on_dem(base_text("release"),
+                  column + Sets(fmt::format("time.end={}; grid.cell={}; time.step={}; mechanics.transfer={}", end, cell,
+                                            0.0056 * cell, transfer))),
       site_of(ground, thickness));
   run_until(simulation, 0.8 * end);
   const double before = runout(simulation);
@@ -92,6 +70,4 @@ inline Record make_record(const std::string& title) {
       "runout over radius 1.24 a, above a = 1.7 1.6 a^(1/2)", "fits to experiments, Lube et al. 2004");
 }
 
-}  // namespace cylinder_column
-
-}  // namespace thawslide::verification
+}  // namespace thawslide::verification::cylinder_column

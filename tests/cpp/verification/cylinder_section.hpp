@@ -6,43 +6,15 @@
 
 namespace thawslide::verification::cylinder_column {
 
-inline const std::string section = dry_sand(1e7) + R"(
-[case]
-dimension = 2
-width = { x = [0.0, 50.0], value = [0.02, 50.02] }
-[time]
-end = 5.0
-step = 0.0035
-[grid]
-cell = 0.625
-min = [0.0, -2.5]
-max = [50.0, 20.0]
-[grid.boundary]
-x_min = "roller"
-[terrain]
-type = "flat"
-elevation = 0.0
-[body.column]
-material = "sand"
-min = [0.0, 0.0]
-max = [10.0, 10.0]
-)";
-
 // (r - r_0)/r_0 of a column of aspect ratio 1 after 5 s, with r the radius that contains 99.5 % of the mass.
 inline double runout_of_section(int cells, const std::string& transfer) {  // across the radius
   const double cell = radius / cells;
-  sim::Simulation<2> simulation(
-      paper_case(section, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 0.0056 * cell),
-                           "mechanics.transfer=" + transfer}));
+  const Sets section{"case.width={ x = [0.0, 50.0], value = [0.02, 50.02] }; time.end=5; grid.max=[50,20]",
+                     "material.sand.youngs_modulus=1e7",
+                     fmt::format("grid.cell={}; time.step={}; mechanics.transfer={}", cell, 0.0056 * cell, transfer)};
+  Simulation<2> simulation(published_case("sand", section));
   run_until(simulation, 5.0);
-  const auto& particles = simulation.particles();
-  std::vector<sim::MassOnPath> by_radius;
-  double mass = 0.0;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    by_radius.push_back({particles.position(p, 0), particles.mass(p), p});
-    mass += particles.mass(p);
-  }
-  return sim::front_of(by_radius, mass).along / radius - 1.0;
+  return runout(simulation);
 }
 
 inline Record make_section_record(const std::string& title) {
@@ -60,9 +32,7 @@ inline void expect_approach(Record& record, const std::vector<int>& cells, const
     const double found = runout_of_section(cells[k], "apic");
     record.expect_near(fmt::format("runout over radius, {} cells across it", cells[k]), found, runout_of_lube(1.0),
                        allowed[k]);
-    curve.x.push_back(cells[k]);
-    curve.computed.push_back(found);
-    curve.exact.push_back(runout_of_lube(1.0));
+    add_point(curve, cells[k], found, runout_of_lube(1.0));
   }
   EXPECT_TRUE(std::is_sorted(curve.computed.begin(), curve.computed.end()));
   record.draw(curve);

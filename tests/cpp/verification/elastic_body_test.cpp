@@ -1,65 +1,24 @@
 // Elastic bodies in free motion: impact on the ground, and rotation under stress.
-#include "../exact/elastic_body.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <utility>
 
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
-#include "base/portability.hpp"
-#include "sim/history.hpp"
-#include "sim/simulation.hpp"
+#include "../exact/motion.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-using sim::Simulation;
-
-const std::string falling = R"(
-[case]
-gravity = 0.0
-[time]
-end = 3.0
-step = 0.0005
-[grid]
-cell = 2.0
-min = [0.0, -4.0]
-max = [8.0, 60.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.0
-[body.bar]
-material = "rock"
-min = [0.0, 4.0]
-max = [8.0, 24.0]
-velocity = [0.0, -1.0]
-[mechanics]
-initial_stress = "none"
-[basal]
-friction = "constant"
-friction_angle = 0.0
-[mechanisms]
-pressurization = false
-[heat]
-enabled = false
-)";
+const Sets falling{"case.gravity=0; time.end=3; grid.min=[0,-4]; grid.max=[8,60]",
+                   "material.rock.poisson_ratio=0; material.rock.viscosity_time=0; body.block.velocity=[0,-1]",
+                   "mechanics.initial_stress=none; basal.friction_angle=0; pressure.enabled=true"};
 
 // The bar on cells of a given size, its lower end at a given height; steps are a fifth of the time in which a wave
 // crosses a cell.
 Simulation<2> falling_bar(double cell, double height, bool distance_check = true) {
-  return Simulation<2>(paper_case(
-      falling,
-      {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 2.5e-4 * cell),
-       fmt::format("body.bar.min=[0.0,{}]", height), fmt::format("body.bar.max=[{},{}]", 2.0 * cell, 20.0 + height),
-       fmt::format("basal.distance_check={}", distance_check),
-       "guards.energy_growth=inf"}));  // without the check it gains energy
+  const Sets bar =
+      fmt::format("grid.cell={}; time.step={}; body.block.min=[0,{}]; body.block.max=[{},{}]; basal.distance_check={}",
+                  cell, 2.5e-4 * cell, height, 2.0 * cell, 20.0 + height, distance_check);
+  // Without the check it gains energy.
+  return Simulation<2>(published_case("block", falling + bar + "guards.energy_growth=inf"));
 }
 
 TEST(ElasticImpact, GivesTheEnergyBack) {
@@ -86,9 +45,7 @@ TEST(ElasticImpact, GivesTheEnergyBack) {
         ++samples;
       }
       if (cell == 0.5) {
-        curve.x.push_back(simulation.time());
-        curve.computed.push_back(force / width / 1e6);
-        curve.exact.push_back(simulation.time() < duration ? pressure / 1e6 : 0.0);
+        add_point(curve, simulation.time(), force / width / 1e6, simulation.time() < duration ? pressure / 1e6 : 0.0);
       }
     }
     const auto after = simulation.sum_over_body();
@@ -154,31 +111,8 @@ TEST(ElasticImpact, ComesWhereTheEdgesMeet) {
   record.expect_order("cell [m]", cells, "height of the lower end at the first force, unchecked [m]", early, 1.0, 0.01);
 }
 
-const std::string turning = R"(
-[case]
-gravity = 0.0
-[time]
-end = 1.6
-step = 0.001
-[grid]
-cell = 1.0
-min = [-15.0, -15.0]
-max = [15.0, 15.0]
-[material.rock]
-law = "elastic"
-youngs_modulus = 2e7
-poisson_ratio = 0.3
-[body.disc]
-material = "rock"
-shape = "polygon"
-vertices = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]
-[mechanics]
-initial_stress = "none"
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)";
+const Sets turning{"time.end=1.6; grid.min=[-15,-15]; grid.max=[15,15]",
+                   "material.rock.youngs_modulus=2e7; material.rock.poisson_ratio=0.3; body.block.shape=polygon"};
 
 std::string circle(double radius) {
   std::string corners;
@@ -216,8 +150,8 @@ TEST(Turning, CarriesItsStressRound) {
   std::vector<double> errors, spins;
   for (const double cell : cells) {
     Simulation<2> simulation(
-        paper_case(turning, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 2.5e-3 * cell),
-                             "body.disc.vertices=" + circle(10.0)}));
+        published_case("free", turning + Sets(fmt::format("grid.cell={}; time.step={}; body.block.vertices={}", cell,
+                                                          2.5e-3 * cell, circle(10.0)))));
     auto& particles = simulation.particles();
     const physics::exact::TurningCylinder exact{particles.mass(0) / particles.volume(0), 0.3, 1.0, 10.0};
     for (std::size_t p = 0; p < particles.size(); ++p) {

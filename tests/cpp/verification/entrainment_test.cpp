@@ -1,64 +1,28 @@
 // A block that entrains the bed below it: momentum and energy in closed form, for both laws, in 2D and 3D.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
-#include "sim/history.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-
 constexpr double speed = 20.0, front = 40.0, width = 20.0;  // [m/s], [m]: x of the block's front, its width in 3D
-constexpr double gravity = 9.81;
 
-// A frozen elastic block 40 m long on level ground, with a horizontal initial velocity; [basal] and [bed] are added
-// later.
+// A frozen elastic block 40 m long on level ground, with a horizontal initial velocity and a basal friction angle
+// [degrees].
 template <int Dim>
-std::string thrown(double height, double end) {
+config::Case thrown(double height, double end, double friction_angle, const Sets& bed = {}) {
   const auto at = [](double x, double y, double z) {
     return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, y, z);
   };
-  return fmt::format(R"(
-[case]
-dimension = {}
-[time]
-end = {}
-stepping = "adaptive"
-[grid]
-cell = 5.0
-min = {}
-max = {}
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 2e8
-poisson_ratio = 0.2
-viscosity_time = 0.02
-[body.block]
-material = "rock"
-shape = "box"
-min = {}
-max = {}
-temperature = -10.0
-porosity = 0.375
-velocity = {}
-[mechanisms]
-pressurization = false
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)",
-                     Dim, end, at(-20.0, -20.0, -10.0), at(260.0, 40.0, 40.0), at(0.0, 0.0, 0.0),
-                     at(front, width, height), at(speed, 0.0, 0.0));
+  const Sets block{fmt::format("case.dimension={0}; time.end={1}; time.step={1}; time.stepping=adaptive", Dim, end),
+                   fmt::format("grid.min={}; grid.max={}", at(-20.0, -20.0, -10.0), at(260.0, 40.0, 40.0)),
+                   fmt::format("body.block.min={}; body.block.max={}", at(0.0, 0.0, 0.0), at(front, width, height)),
+                   fmt::format("body.block.velocity={}; basal.friction_angle={}", at(speed, 0.0, 0.0), friction_angle),
+                   "material.rock.youngs_modulus=2e8; body.block.temperature=-10; body.block.porosity=0.375"};
+  return published_case("block", block + bed);
 }
+
+// Erodible bed of the block's rock.
+const Sets bed{"bed.depth_per_slip=1; bed.material=rock; bed.porosity=0.9"};
 
 // State of the run.
 struct State {
@@ -66,7 +30,7 @@ struct State {
 };
 
 template <int Dim>
-State state_of(const sim::Simulation<Dim>& simulation) {
+State state_of(const Simulation<Dim>& simulation) {
   const sim::HistoryRow row = sim::history_row(simulation);
   const auto value = [&](const std::string& name) { return value_of(row, name); };
   const auto& particles = simulation.particles();
@@ -90,11 +54,8 @@ void sweep_up(const std::string& where) {
                 "lies on the ground.",
                 "m = m_0 + rho_b d w (x - x_0), m v = m_0 v_0, kinetic energy (m_0 v_0)^2/(2 m)",
                 "inelastic collision with material at rest: momentum is kept");
-  sim::Simulation<Dim> simulation(
-      paper_case(thrown<Dim>(20.0, 8.0) +
-                 "[basal]\nfriction = \"constant\"\nfriction_angle = 0.0\n[bed]\nlaw = \"strength\"\n"
-                 "strength = 0.0\ndepth_per_slip = 1.0\nmaterial = \"rock\"\nporosity = 0.9\n"
-                 "depth = { x = [40.0, 40.0], value = [0.0, 2.0] }\n"));
+  Simulation<Dim> simulation(thrown<Dim>(
+      20.0, 8.0, 0.0, bed + "bed.law=strength; bed.strength=0; bed.depth={ x = [40.0, 40.0], value = [0.0, 2.0] }"));
   const double start = state_of(simulation).mass;
   const double per_metre = simulation.model().bed_density * depth * (Dim == 3 ? width : 1.0);
   Curve curve{"front x - x_0 [m]", "velocity [m/s]", {}, {}, {}};
@@ -103,9 +64,7 @@ void sweep_up(const std::string& where) {
   for (int k = 1; k <= 8; ++k) {
     run_until(simulation, k);
     now = state_of(simulation);
-    curve.x.push_back(now.front - front);
-    curve.computed.push_back(now.velocity);
-    curve.exact.push_back(start * speed / (start + per_metre * (now.front - front)));
+    add_point(curve, now.front - front, now.velocity, start * speed / (start + per_metre * (now.front - front)));
     most_residual = std::max(most_residual, now.residual);
   }
   const double mass = start + per_metre * (now.front - front);
@@ -126,17 +85,14 @@ TEST(Entrainment, SweepsUpALayerInSpace) { sweep_up<3>("3D"); }
 template <int Dim>
 void entrain_by_friction(const std::string& where) {
   constexpr double angle = 17.0, bed_angle = 14.0;  // degrees
-  const double mu = std::tan(angle * pi / 180.0), mu_bed = std::tan(bed_angle * pi / 180.0);
+  const double mu = std::tan(angle * degree), mu_bed = std::tan(bed_angle * degree);
   Record record("Entrainment: a block whose friction exceeds that of the bed, " + where,
                 "A block slides with friction over a bed of less friction, which is deep enough everywhere.",
                 "v = v_0 - mu g t, m = m_0 (v/v_0)^-(1 - mu_b/mu)",
                 "integral of v dm/dt = (mu - mu_b) m g, the law of momentum under the block's weight");
-  sim::Simulation<Dim> simulation(paper_case(
-      thrown<Dim>(10.0, 3.0) +
-      fmt::format("[basal]\nfriction = \"constant\"\nfriction_angle = {}\n[bed]\nlaw = \"momentum\"\nstrength = 0.0\n"
-                  "friction_angle = {}\ndepth_per_slip = 1.0\nmaterial = \"rock\"\nporosity = 0.9\n"
-                  "particles_per_axis = 4\ndepth = 5.0\n",
-                  angle, bed_angle)));
+  const Sets weak{"bed.law=momentum; bed.strength=0; bed.particles_per_axis=4; bed.depth=5",
+                  fmt::format("bed.friction_angle={}", bed_angle)};
+  Simulation<Dim> simulation(thrown<Dim>(10.0, 3.0, angle, bed + weak));
   const double start = state_of(simulation).mass;
   run_until(simulation, 3.0);
   const State now = state_of(simulation);
@@ -153,25 +109,16 @@ TEST(Entrainment, FrictionTakesUpWhatItHasImpulseForInSpace) { entrain_by_fricti
 // A bed stronger than the friction remains in place and has no effect on the slide.
 TEST(Entrainment, ABedThatWithstandsTheShearStays) {
   for (const std::string law : {"strength", "momentum"}) {
-    const auto text = [&](double strength) {
-      return thrown<2>(10.0, 1.0) +
-             fmt::format(
-                 "[basal]\nfriction = \"constant\"\nfriction_angle = 17.0\n[bed]\nlaw = \"{}\"\nstrength = {}\n"
-                 "depth_per_slip = 1.0\nmaterial = \"rock\"\nporosity = 0.9\ndepth = 2.0\n",
-                 law, strength);
+    const auto on_bed = [&](double strength) {
+      return thrown<2>(10.0, 1.0, 17.0, bed + fmt::format("bed.law={}; bed.strength={}; bed.depth=2", law, strength));
     };
-    sim::Simulation<2> strong(paper_case(text(1e7))), weak(paper_case(text(1e3)));
+    Simulation<2> strong(on_bed(1e7)), weak(on_bed(1e3)), same(on_bed(1e7)), without(thrown<2>(10.0, 1.0, 17.0));
     run_until(strong, 1.0);
     run_until(weak, 1.0);
     EXPECT_EQ(state_of(strong).taken, 0.0) << law;
     EXPECT_GT(state_of(weak).taken, 1e3) << law;
-    sim::Simulation<2> without(
-        paper_case(thrown<2>(10.0, 1.0) + "[basal]\nfriction = \"constant\"\nfriction_angle = 17.0\n"));
     for (int k = 0; k < 20; ++k) {
       without.step(1e-3);
-    }
-    sim::Simulation<2> same(paper_case(text(1e7)));
-    for (int k = 0; k < 20; ++k) {
       same.step(1e-3);
     }
     EXPECT_EQ(value_of(sim::history_row(same), "momentum_x_N_s"), value_of(sim::history_row(without), "momentum_x_N_s"))

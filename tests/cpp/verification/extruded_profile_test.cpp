@@ -1,17 +1,11 @@
 // A profile as a DEM that is uniform across, between smooth walls: a slide moves on it as in 2D.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <fstream>
 
-#include "../support/record.hpp"
 #include "../support/slide_on_dem.hpp"
-#include "sim/history.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
-
-using namespace testing_support;
 
 // A level shelf followed by a slope of 35 degrees and a plain. Points every 2.5 m.
 double elevation(double x) {
@@ -25,61 +19,37 @@ double elevation(double x) {
 constexpr double first_point = -30.0, last_point = 300.0, spacing = 2.5;
 
 // The body is on the shelf, where both cases fill the same lattice. It starts with an initial velocity.
-std::string text_of(int dimension) {
+Sets sets_of(int dimension) {
   const bool flat = dimension == 2;
   const auto corner = [&](double x, double y, double z) {
     return flat ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, y, z);
   };
-  return fmt::format(R"(
-[case]
-dimension = {}
-[time]
-end = 7.0
-step = 0.0015
-[grid]
-cell = 1.25
-min = {}
-max = {}
-[grid.boundary]
-{}
-[terrain]
-{}
-[material.debris]
-law = "mohr_coulomb"
-youngs_modulus = 2e7
-poisson_ratio = 0.3
-friction_angle = 30.0
-cohesion = 0.0
-gaps_close_first = true
-[body.slide]
-material = "debris"
-shape = "box"
-min = {}
-max = {}
-velocity = {}
-)",
-                     dimension, corner(-25.0, 0.0, -90.0), corner(295.0, 2.5, 40.0),
-                     flat ? "" : "y_min = \"roller\"\ny_max = \"roller\"",
-                     flat ? "type = \"profile\"\nfile = \"profile.csv\"" : "type = \"dem\"\nfile = \"dem.tif\"",
-                     corner(-20.0, 0.0, 0.0), corner(20.0, 2.5, 7.5), corner(14.0, 0.0, 0.0)) +
-         friction_alone(12.0);
+  return {fmt::format("case.dimension={}; time.end=7; time.step=0.0015; grid.cell=1.25", dimension),
+          fmt::format("grid.min={}; grid.max={}", corner(-25.0, 0.0, -90.0), corner(295.0, 2.5, 40.0)),
+          fmt::format("body.column.min={}; body.column.max={}", corner(-20.0, 0.0, 0.0), corner(20.0, 2.5, 7.5)),
+          fmt::format("body.column.velocity={}", corner(14.0, 0.0, 0.0)),
+          "material.sand.friction_angle=30",
+          "basal.friction_angle=12; grid.boundary.x_min=open",
+          flat ? "" : "grid.boundary.y_min=roller; grid.boundary.y_max=roller",
+          fmt::format("terrain.type={}; terrain.file={}", flat ? "profile" : "dem",
+                      (folder_of_this_test() / (flat ? "profile.csv" : "dem.tif")).string())};
 }
 
-sim::Simulation<2> in_profile() {
+Simulation<2> in_profile() {
   std::ofstream csv(folder_of_this_test() / "profile.csv");
   csv << "distance_m,terrain_elevation_m\n";
   for (double x = first_point; x <= last_point; x += spacing) {
     csv << fmt::format("{:.17g},{:.17g}\n", x, elevation(x));
   }
   csv.close();
-  return sim::Simulation<2>(paper_case(text_of(2)));
+  return Simulation<2>(published_case("sand", sets_of(2)));
 }
 
-sim::Simulation<3> in_space() {
+Simulation<3> in_space() {
   config::Site site;
   site.ground = std::make_shared<const Raster>(raster_between(Place(first_point, -10.0), Place(last_point, 15.0),
                                                               spacing, [](double x, double) { return elevation(x); }));
-  return sim::Simulation<3>(case_on_dem(text_of(3)), site);
+  return Simulation<3>(case_on_dem(base_text("sand"), sets_of(3)), site);
 }
 
 TEST(ExtrudedProfile, RunsAsInTwoDimensions) {
@@ -95,9 +65,8 @@ TEST(ExtrudedProfile, RunsAsInTwoDimensions) {
   for (double time = 0.5; time < 7.1; time += 0.5) {
     run_until(profile, time);
     run_until(space, time);
-    curve.x.push_back(time);
-    curve.exact.push_back(value_of(history_row(profile), "mean_velocity_m_s"));
-    curve.computed.push_back(value_of(history_row(space), "mean_velocity_m_s"));
+    add_point(curve, time, value_of(history_row(space), "mean_velocity_m_s"),
+              value_of(history_row(profile), "mean_velocity_m_s"));
     largest = std::max(largest, std::abs(curve.computed.back() / curve.exact.back() - 1.0));
   }
   record.expect_near("largest difference of the mean velocities, over that in 2D", largest, 0.0, 0.02);

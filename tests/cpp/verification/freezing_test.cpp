@@ -1,62 +1,24 @@
 // Freezing of a half space from its face, with the numbers of InterFrost's test case T1 (Grenier et al. 2018).
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <utility>
 
-#include "../exact/freezing_front.hpp"
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
-#include "freezing_similarity.hpp"
-#include "sim/simulation.hpp"
+#include "../exact/heat.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
 using physics::exact::FreezingProblem;
-using sim::Simulation;
 
 constexpr double latent_heat = 1680.0 * 334720.0 * 0.1218;  // [J/m3]
 constexpr double capacity = 690360.0;
 constexpr double k_frozen = 3.464352, k_between = 2.941352, k_thawed = 2.418352;
 
 // Heat capacities and densities are the same in all phases; a porosity of 0.3 gives InterFrost's conductivities.
-const std::string bar = R"(
-[case]
-gravity = 0.0
-[time]
-end = 8.64e5
-step = 540.0
-[grid]
-cell = 0.1
-min = [0.0, 0.0]
-max = [6.0, 1.0]
-[phases]
-rock_density = 1000.0
-ice_density = 1000.0
-rock_heat_capacity = 690.36
-ice_heat_capacity = 690.36
-water_heat_capacity = 690.36
-rock_expansion = 0.0
-rock_conductivity = 2.0
-[freezing]
-curve = "linear"
-[material.bar]
-law = "elastic"
-[body.bar]
-material = "bar"
-min = [0.0, 0.0]
-max = [6.0, 0.2]
-temperature = 4.0
-porosity = 0.3
-[mechanics]
-enabled = false
-[pressure]
-enabled = false
-[heat.boundary]
-x_min = { temperature = -6.0 }
-)";
+const Sets interfrost_bar{"time.end=8.64e5; grid.max=[6,1]; phases.rock_density=1000; phases.ice_density=1000",
+                          "phases.rock_heat_capacity=690.36; phases.ice_heat_capacity=690.36",
+                          "phases.water_heat_capacity=690.36; phases.rock_expansion=0; phases.rock_conductivity=2",
+                          "freezing.curve=linear; body.bar.temperature=4; body.bar.porosity=0.3",
+                          "heat.boundary.x_min={ temperature = -6.0 }"};
 
 FreezingProblem interfrost(double frozen) {
   return {4.0, -6.0, 0.0, frozen, {k_frozen, k_between, k_thawed}, {capacity, capacity, capacity}, latent_heat};
@@ -67,13 +29,12 @@ FreezingProblem interfrost(double frozen) {
 template <class Exact>
 double error_on(double cell, double frozen, double k_ice, double k_water, const Exact& exact, Curve* curve) {
   const double fraction = 0.3;
-  Simulation<2> simulation(
-      paper_case(bar, {fmt::format("grid.cell={}", cell), fmt::format("body.bar.max=[6.0,{}]", cell),
-                       fmt::format("time.step={}", 540.0 * cell * cell / 0.01),
-                       fmt::format("phases.latent_heat={}", latent_heat / (1000.0 * fraction)),
-                       fmt::format("phases.ice_conductivity={}", (k_ice - (1.0 - fraction) * 2.0) / fraction),
-                       fmt::format("phases.water_conductivity={}", (k_water - (1.0 - fraction) * 2.0) / fraction),
-                       fmt::format("freezing.slope={}", -1.0 / frozen)}));
+  const Sets sets{fmt::format("grid.cell={0}; body.bar.max=[6,{0}]; time.step={1}", cell, 540.0 * cell * cell / 0.01),
+                  fmt::format("phases.latent_heat={}", latent_heat / (1000.0 * fraction)),
+                  fmt::format("phases.ice_conductivity={}", (k_ice - (1.0 - fraction) * 2.0) / fraction),
+                  fmt::format("phases.water_conductivity={}", (k_water - (1.0 - fraction) * 2.0) / fraction),
+                  fmt::format("freezing.slope={}", -1.0 / frozen)};
+  Simulation<2> simulation(published_case("bar", interfrost_bar + sets));
   std::vector<double> errors;
   for (int sample = 20; sample <= 40; ++sample) {
     run_until(simulation, 8.64e5 * sample / 40.0);
@@ -83,9 +44,7 @@ double error_on(double cell, double frozen, double k_ice, double k_water, const 
       if (x < 2.0) {
         errors.push_back(particles.temperature(p) - exact.temperature(x, simulation.time()));
         if (sample == 40 && curve != nullptr && particles.position(p, 1) < 0.5 * cell) {
-          curve->x.push_back(x);
-          curve->computed.push_back(particles.temperature(p));
-          curve->exact.push_back(exact.temperature(x, simulation.time()));
+          add_point(*curve, x, particles.temperature(p), exact.temperature(x, simulation.time()));
         }
       }
     }
@@ -155,7 +114,7 @@ TEST(Freezing, ConductivityThatFollowsTheSaturation) {
                   "-(eta/2) C_eff(T) T' = (k(T) T')', eta = x/sqrt(t), by shooting", "similarity solution");
     const double slope = -1.0 / frozen;
     const auto saturation = [slope](double t) { return std::clamp(1.0 + slope * t, 0.0, 1.0); };
-    const FreezingSimilarity exact(
+    const physics::exact::FreezingSimilarity exact(
         -6.0, 4.0, 0.025, [&](double t) { return k_frozen + (k_thawed - k_frozen) * saturation(t); },
         [&](double t) { return capacity + (t > frozen && t < 0.0 ? latent_heat * slope : 0.0); });
     expect_convergence(record, frozen, k_frozen, k_thawed, exact, 2.0, frozen < -2.0 ? 0.15 : 0.35);

@@ -1,52 +1,19 @@
 // Collapse of granular columns: runout and remaining height, compared with laws fitted to experiments. Also the dry dam
 // break, for which thin flow has an exact solution.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "../support/case_from_text.hpp"
-#include "../support/dry_sand.hpp"
-#include "../support/record.hpp"
-#include "sim/history.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
-
-using namespace testing_support;
-using sim::Simulation;
-
-// A column against a smooth wall, 10 m wide.
-const std::string column = dry_sand(2e7) + R"(
-[time]
-end = 6.0
-step = 0.0035
-[grid]
-cell = 0.625
-min = [0.0, -2.5]
-max = [140.0, 60.0]
-[grid.boundary]
-x_min = "roller"
-[terrain]
-type = "flat"
-elevation = 0.0
-[body.column]
-material = "sand"
-min = [0.0, 0.0]
-max = [10.0, 10.0]
-)";
 
 struct Deposit {
   double runout;  // (final length - initial) over initial
   double height;  // at the wall, over the initial width
 };
 
-Deposit collapse(double aspect, std::vector<std::string> settings = {}) {
-  settings.push_back(fmt::format("body.column.max=[10.0,{}]", 10.0 * aspect));
-  settings.push_back(fmt::format("time.end={}", 5.0 * std::sqrt(aspect)));
-  Simulation<2> simulation(paper_case(column, settings));
+// A column against a smooth wall, 10 m wide.
+Deposit collapse(double aspect, const Sets& more = {}) {
+  const Sets sets = fmt::format("body.column.max=[10,{}]; time.end={}", 10.0 * aspect, 5.0 * std::sqrt(aspect));
+  Simulation<2> simulation(published_case("sand", sets + more));
   run_until(simulation, simulation.parameters().time.end);
   const auto row = history_row(simulation);
   EXPECT_LT(value_of(row, "mean_velocity_m_s"), 0.1) << "the column has come to rest";
@@ -75,9 +42,7 @@ TEST(GranularColumn, RunsOutAsExperimentsDo) {
   Curve curve{"aspect ratio", "runout over width", {}, {}, {}, "fit to experiments"};
   for (const double aspect : {0.5, 1.0, 1.5, 3.0, 6.0}) {
     const Deposit deposit = collapse(aspect);
-    curve.x.push_back(aspect);
-    curve.computed.push_back(deposit.runout);
-    curve.exact.push_back(runout_of_lube(aspect));
+    add_point(curve, aspect, deposit.runout, runout_of_lube(aspect));
     record.expect_near(fmt::format("runout over width, aspect ratio {}", aspect), deposit.runout,
                        runout_of_lube(aspect), 0.2 * runout_of_lube(aspect));
     record.expect_near(fmt::format("height over width, aspect ratio {}", aspect), deposit.height,
@@ -89,24 +54,21 @@ TEST(GranularColumn, RunsOutAsExperimentsDo) {
 // Early contact ejects grains, and separated material that bears stress immediately expands.
 TEST(GranularColumn, NeedsTheDistanceCheckAndGapsThatClose) {
   const double both = collapse(1.0).runout;
-  const double neither = collapse(1.0, {"material.sand.gaps_close_first=false", "basal.distance_check=false"}).runout;
+  const double neither = collapse(1.0, "material.sand.gaps_close_first=false; basal.distance_check=false").runout;
   EXPECT_GT(neither, 1.5 * both);
-  const double affine = collapse(1.0, {"mechanics.transfer=\"apic\""}).runout;
+  const double affine = collapse(1.0, "mechanics.transfer=apic").runout;
   EXPECT_NEAR(both, affine, 0.15 * affine) << "with both, the transfer has little effect";
 }
 
 // Ritter (1892), on a slope Mangeney et al. (2000): behind the front at x = L + a t^2/2 + 2 c t, c = sqrt(g cos h), the
 // depth is (front - x)^2/(9 g cos t^2), so that the volume beyond x is (front - x)^3/(27 g cos t^2).
 void expect_thin_flow_of_a_dam_break(Record& record, double slope) {
-  constexpr double length = 60.0;
-  constexpr double depth = 5.0;
-  const double radians = slope * std::acos(-1.0) / 180.0;
-  const double gravity = 9.81 * std::cos(radians);
-  const double acceleration = 9.81 * std::sin(radians);
-  Simulation<2> simulation(paper_case(
-      column, {"material.sand.friction_angle=0", "material.sand.tension_cutoff=0", "grid.cell=0.5",
-               fmt::format("body.column.max=[{},{}]", length, depth), "grid.max=[180,20]", "time.step=0.0025",
-               "time.end=4", fmt::format("case.gravity_tilt={}", slope), "basal.friction_angle=0"}));
+  constexpr double length = 60.0, depth = 5.0;
+  const double across = gravity * std::cos(slope * degree), along = gravity * std::sin(slope * degree);
+  const Sets sets{"material.sand.friction_angle=0; material.sand.tension_cutoff=0; grid.cell=0.5; grid.max=[180,20]",
+                  "time.step=0.0025; time.end=4; basal.friction_angle=0",
+                  fmt::format("body.column.max=[{},{}]; case.gravity_tilt={}", length, depth, slope)};
+  Simulation<2> simulation(published_case("sand", sets));
   Curve curve{"volume beyond (share of all)", "place (m)", {}, {}, {}};
   for (const double time : {2.0, 4.0}) {
     run_until(simulation, time);
@@ -116,15 +78,13 @@ void expect_thin_flow_of_a_dam_break(Record& record, double slope) {
       positions.push_back(particles.position(p, 0));
     }
     std::sort(positions.begin(), positions.end());
-    const double front = length + 0.5 * acceleration * time * time + 2.0 * std::sqrt(gravity * depth) * time;
+    const double front = length + 0.5 * along * time * time + 2.0 * std::sqrt(across * depth) * time;
     for (const double fraction : {0.005, 0.02, 0.05, 0.1}) {
-      const double behind = std::cbrt(27.0 * gravity * time * time * fraction * length * depth);
+      const double behind = std::cbrt(27.0 * across * time * time * fraction * length * depth);
       const double position =
           positions[static_cast<std::size_t>((1.0 - fraction) * static_cast<double>(positions.size()))];
       if (time > 3.0) {
-        curve.x.push_back(fraction);
-        curve.computed.push_back(position);
-        curve.exact.push_back(front - behind);
+        add_point(curve, fraction, position, front - behind);
       }
       record.expect_near(
           fmt::format("place with {} of the volume beyond, less the dam's, {} degrees, {} s", fraction, slope, time),

@@ -1,92 +1,60 @@
 // Heat is conserved, while ice melts in an insulated body and with heat from friction.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <utility>
 
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
-#include "base/portability.hpp"
-#include "sim/history.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-using sim::Simulation;
+const Sets melting{"time.end=2e7; time.step=1e4; grid.cell=0.5; grid.max=[10,5]; body.bar.max=[10,5]",
+                   "body.bar.temperature={ x = [0.0, 4.99, 5.01, 10.0], value = [30.0, 30.0, -3.0, -3.0] }"};
 
-const std::string melting = R"(
-[case]
-gravity = 0.0
-[time]
-end = 2e7
-step = 1e4
-[grid]
-cell = 0.5
-min = [0.0, 0.0]
-max = [10.0, 5.0]
-[material.soil]
-law = "elastic"
-[body.soil]
-material = "soil"
-min = [0.0, 0.0]
-max = [10.0, 5.0]
-temperature = { x = [0.0, 4.99, 5.01, 10.0], value = [30.0, 30.0, -3.0, -3.0] }
-[mechanics]
-enabled = false
-[pressure]
-enabled = false
-)";
+// Heat content of particles, by id.
+std::vector<double> heat_contents(const Simulation<2>& simulation) {
+  const auto& particles = simulation.particles();
+  std::vector<double> contents(particles.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    contents[static_cast<std::size_t>(particles.id(p))] = particles.heat_content(p);
+  }
+  return contents;
+}
+
+// Heat that particles have exchanged since the start [J].
+double heat_moved(const Simulation<2>& simulation, const std::vector<double>& start) {
+  const auto& particles = simulation.particles();
+  double moved = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    moved += 0.5 * particles.initial_volume(p) *
+             std::abs(particles.heat_content(p) - start[static_cast<std::size_t>(particles.id(p))]);
+  }
+  return moved;
+}
 
 TEST(HeatLedger, ClosesThroughMelting) {
   Record record("Heat of an insulated body that melts", "One half of a body, at 30 C, melts the other half, at -3 C.",
                 "the heat content does not change", "energy balance");
   for (const std::string curve : {"power_law", "linear"}) {
-    Simulation<2> simulation(paper_case(melting, {"freezing.curve=" + curve}));
-    const auto& at_start = std::as_const(simulation).particles();
-    std::vector<double> start(at_start.size());
-    double ice = 0.0;
-    for (std::size_t p = 0; p < at_start.size(); ++p) {
-      start[static_cast<std::size_t>(at_start.id(p))] = at_start.heat_content(p);
-      ice += 1.0 - at_start.liquid_saturation(p);
-    }
+    Simulation<2> simulation(published_case("bar", melting + ("freezing.curve=" + curve)));
+    const auto ice = [&] {
+      double sum = 0.0;
+      for (std::size_t p = 0; p < simulation.particle_count(); ++p) {
+        sum += 1.0 - std::as_const(simulation).particles().liquid_saturation(p);
+      }
+      return sum;
+    };
+    const std::vector<double> start = heat_contents(simulation);
+    const double at_start = ice();
     run_until(simulation, 2e7);
-    const auto& particles = std::as_const(simulation).particles();  // reread: a device may have modified them
-    double moved = 0.0, left = 0.0;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      moved += 0.5 * particles.initial_volume(p) *
-               std::abs(particles.heat_content(p) - start[static_cast<std::size_t>(particles.id(p))]);
-      left += 1.0 - particles.liquid_saturation(p);
-    }
-    EXPECT_LT(left, 0.9 * ice) << "ice must have melted for this to say much";
+    EXPECT_LT(ice(), 0.9 * at_start) << "ice must have melted for this to say much";
     record.expect_near("residual over heat moved, " + curve,
-                       value_of(history_row(simulation), "thermal_residual_J") / moved, 0.0, 1e-12);
+                       value_of(history_row(simulation), "thermal_residual_J") / heat_moved(simulation, start), 0.0,
+                       1e-12);
   }
 }
 
 // A melted column whose temperature and pore pressure both decrease towards the top.
-const std::string seeping = R"(
-[case]
-gravity = 0.0
-[time]
-end = 4000.0
-step = 1.0
-[grid]
-cell = 0.05
-min = [0.0, 0.0]
-max = [0.5, 1.2]
-[material.soil]
-law = "elastic"
-hydraulic_conductivity = 1e-9
-[body.soil]
-material = "soil"
-min = [0.0, 0.0]
-max = [0.05, 1.0]
-temperature = 25.0
-[mechanics]
-enabled = false
-)";
+const Sets seeping{"case.gravity=0; time.end=4000; time.step=1; grid.cell=0.05; grid.max=[0.5,1.2]",
+                   "material.soil.hydraulic_conductivity=1e-9; body.column.max=[0.05,1]; body.column.temperature=25"};
 
 TEST(HeatLedger, ShowsWhatAdvectionMakes) {
   Record record("Heat of a melted column through which water seeps",
@@ -96,7 +64,7 @@ TEST(HeatLedger, ShowsWhatAdvectionMakes) {
                 "the volume; not at all without the term",
                 "energy balance");
   for (const bool on : {true, false}) {
-    Simulation<2> simulation(paper_case(seeping, {on ? "heat.advection=true" : "heat.advection=false"}));
+    Simulation<2> simulation(published_case("column", seeping + fmt::format("heat.advection={}", on)));
     auto& particles = simulation.particles();
     const auto before = history_row(simulation);
     double stirred = 0.0;
@@ -110,26 +78,17 @@ TEST(HeatLedger, ShowsWhatAdvectionMakes) {
         stirred += particles.initial_volume(p) * (particles.heat_content(p) - old);
       }
     });
-    std::vector<double> start(particles.size());
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      start[static_cast<std::size_t>(particles.id(p))] = particles.heat_content(p);
-    }
+    const std::vector<double> start = heat_contents(simulation);
     simulation.step(1.0);
     const double first = value_of(history_row(simulation), "advection_J");
     run_until(simulation, 4000.0);
     const auto row = history_row(simulation);
-    const auto& after = std::as_const(simulation).particles();  // reread: a device may have modified them
-    double moved = 0.0;
-    for (std::size_t p = 0; p < after.size(); ++p) {
-      moved += 0.5 * after.initial_volume(p) *
-               std::abs(after.heat_content(p) - start[static_cast<std::size_t>(after.id(p))]);
-    }
     const std::string with = on ? "on" : "off";
     const double made = value_of(row, "advection_J");
     const double gained = value_of(row, "sensible_J") + value_of(row, "latent_J") - value_of(before, "sensible_J") -
                           value_of(before, "latent_J") - stirred;
     record.expect_near("advection " + with + ": heat gained less what the term made, over heat moved",
-                       (gained - made) / moved, 0.0, 1e-12);
+                       (gained - made) / heat_moved(simulation, start), 0.0, 1e-12);
     if (on) {
       const auto& phases = simulation.model().motion.phases;
       const double exact = phases.water_density * phases.water_heat_capacity * 1e-9 / phases.water_unit_weight * 1e6 *
@@ -141,42 +100,14 @@ TEST(HeatLedger, ShowsWhatAdvectionMakes) {
   }
 }
 
-const std::string braking = R"(
-[time]
-end = 2.0
-step = 0.002
-[grid]
-cell = 5.0
-min = [-20.0, -10.0]
-max = [200.0, 40.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.0
-viscosity_time = 0.02
-[body.block]
-material = "rock"
-min = [0.0, 0.0]
-max = [40.0, 20.0]
-temperature = -0.2
-velocity = [20.0, 0.0]
-[basal]
-friction = "constant"
-friction_angle = 20.0
-heat_fraction = 0.35
-[band]
-thickness = 0.05
-[mechanisms]
-pressurization = false
-)";
+const Sets braking{"time.end=2; time.step=0.002; material.rock.poisson_ratio=0; body.block.temperature=-0.2",
+                   "body.block.velocity=[20,0]; basal.heat_fraction=0.35; band.thickness=0.05",
+                   "heat.enabled=true; pressure.enabled=true"};
 
 TEST(HeatLedger, FrictionHeatsTheSlide) {
   Record record("Friction work becomes heat", "A block of rock and ice brakes on level ground and melts at its base.",
                 "work of friction = kinetic energy lost; 0.35 of it is heat in the block", "energy balance");
-  Simulation<2> simulation(paper_case(braking));
+  Simulation<2> simulation(published_case("block", braking));
   const auto before = history_row(simulation);
   run_until(simulation, 2.0);
   const auto row = history_row(simulation);

@@ -1,14 +1,7 @@
 // Residual of the mechanical energy budget of the paper's four cases on the incline of 40 degrees (Sec. 3.3).
 #pragma once
 
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
-#include "sim/history.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 
@@ -16,7 +9,7 @@ namespace thawslide::verification {
 inline double incline_residual(const std::string& name, double step, double end) {
   using testing_support::value_of;
   const std::string file = std::string(THAWSLIDE_SOURCE_DIR) + "/cases/incline/" + name + ".toml";
-  sim::Simulation<2> simulation(
+  Simulation<2> simulation(
       config::read_case(file, {fmt::format("time.step={}", step), fmt::format("time.end={}", end)}));
   const double potential = value_of(sim::history_row(simulation), "potential_J");
   testing_support::run_until(simulation, end);

@@ -1,7 +1,7 @@
 // The first seconds on the incline: the mechanical energy budget closes. The complete 25 s are in tests/cpp/long.
 #include "incline_energy.hpp"
 
-#include <gtest/gtest.h>
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {

@@ -1,57 +1,22 @@
 // A slide with every mechanism on a DEM, part of which leaves it: budgets, threads, messages. No particle gets below
 // the ground.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <regex>
 
 #include "../support/fields.hpp"
-#include "../support/record.hpp"
 #include "../support/slide_on_dem.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "sim/history.hpp"
 #include "terrain/height_field.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-using sim::Simulation;
-
-const std::string slide = R"(
-[case]
-dimension = 3
-[time]
-end = 5.0
-step = 0.002
-[grid]
-cell = 2.5
-min = [-60.0, -40.0, -80.0]
-max = [120.0, 40.0, 60.0]
-[terrain]
-type = "dem"
-file = "dem.tif"
-[material.debris]
-law = "mohr_coulomb"
-youngs_modulus = 5e7
-poisson_ratio = 0.3
-friction_angle = 30.0
-cohesion = 0.0
-gaps_close_first = true
-hydraulic_conductivity = 1e-9
-)" + release_table + R"(
-material = "debris"
-temperature = -2.0
-porosity = 0.375
-velocity = [8.0, 0.0, -4.8]
-[basal]
-friction = "lubricated"
-friction_angle = 15.0
-[band]
-thickness = 0.1
-)";
+const Sets slide{"grid.cell=2.5; grid.min=[-60,-40,-80]; grid.max=[120,40,60]",
+                 "material.debris.youngs_modulus=5e7; material.debris.hydraulic_conductivity=1e-9",
+                 "body.slide.temperature=-2; body.slide.porosity=0.375; body.slide.velocity=[8,0,-4.8]",
+                 "basal.friction=lubricated; band.thickness=0.1; heat.enabled=true; pressure.enabled=true",
+                 "mechanisms.pressurization=true"};
 
 // Slope of 31 degrees along x, with a gully and bumps; it ends at x = 40.
 double slope(double x, double y) {
@@ -64,11 +29,10 @@ Raster heap() {
 }
 
 // hole: whether points have no data.
-Simulation<3> run_onto(double end_of_dem, const std::vector<std::string>& sets,
-                       const std::function<bool(double, double)>& hole = nullptr) {
+Simulation<3> run_onto(double end_of_dem, const Sets& sets, const std::function<bool(double, double)>& hole = nullptr) {
   const Raster ground = raster_between(Place(-70.0, -50.0), Place(end_of_dem, 50.0), 4.0,
                                        [&](double x, double y) { return hole && hole(x, y) ? no_data : slope(x, y); });
-  return Simulation<3>(case_on_dem(slide, sets), site_of(ground, heap()));
+  return Simulation<3>(case_on_dem(base_text("release"), slide + sets), site_of(ground, heap()));
 }
 
 struct Seen {
@@ -81,7 +45,7 @@ struct Seen {
 Seen leave(int threads) {
   const int threads_before = thread_count();
   set_thread_count(threads);
-  auto simulation = run_onto(42.0, {"grid.leaving=remove"});
+  auto simulation = run_onto(42.0, "grid.leaving=remove");
   const double mass = value_of(history_row(simulation), "mass_kg");
   Seen seen;
   const auto update = [](double& largest, double fraction) { largest = std::max(largest, std::abs(fraction)); };
@@ -177,7 +141,8 @@ double oblique_cliff(double x, double y) {
 double deepest_in_any_step(const Height& height, double end, double& centre_x) {
   const Raster ground = raster_between(Place(-70.0, -50.0), Place(130.0, 50.0), 2.5, height);
   const terrain::HeightField surface(ground);
-  Simulation<3> simulation(case_on_dem(slide, {"grid.min=[-60.0,-40.0,-120.0]"}), site_of(ground, heap()));
+  Simulation<3> simulation(case_on_dem(base_text("release"), slide + "grid.min=[-60,-40,-120]"),
+                           site_of(ground, heap()));
   const Position origin = simulation.model().origin;
   double deepest = 0.0;
   while (simulation.time() < end) {

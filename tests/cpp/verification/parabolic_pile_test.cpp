@@ -1,55 +1,17 @@
 // A flat pile of cohesionless material spreads across the direction in which it slides: Savage and Hutter 1989.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include "../support/case_from_text.hpp"
 #include "../support/mass_spread.hpp"
-#include "../support/record.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using sim::Simulation;
-
-constexpr double height = 20.0, half_length = 200.0, gravity = 9.81, friction_angle = 35.0;
+constexpr double height = 20.0, half_length = 200.0, friction_angle = 35.0;
 
 // Friction acts down the slope only, and not across it: here, the base is frictionless.
-const std::string column_mass = R"(
-[case]
-dimension = 2
-[time]
-end = 20.0
-step = 0.045
-[grid]
-cell = 10.0
-min = [-800.0, -40.0]
-max = [800.0, 80.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[body.pile]
-material = "grains"
-shape = "polygon"
-temperature = -5.0
-porosity = 0.3
-[material.grains]
-law = "mohr_coulomb"
-youngs_modulus = 5.0e7
-poisson_ratio = 0.2
-friction_angle = 35.0
-cohesion = 0.0
-[basal]
-friction = "coefficient"
-friction_coefficient = 0.0
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)";
+const Sets column_mass{"time.end=20; grid.min=[-800,-40]; grid.max=[800,80]; material.rock.law=mohr_coulomb",
+                       "material.rock.youngs_modulus=5e7; material.rock.viscosity_time=0",
+                       "material.rock.friction_angle=35; material.rock.cohesion=0; body.block.shape=polygon",
+                       "body.block.temperature=-5; body.block.porosity=0.3; basal.friction_angle=0"};
 
 // Half the length g [m] of the parabolic cap after `time` [s]: h = H L/g (1 - (x/g)^2), and its edge moves by
 //   g'' = 2 K gravity H L/g^2,     K = tan^2(45 deg - phi/2), active: it stretches
@@ -72,7 +34,7 @@ std::string parabola() {
     vertices +=
         fmt::format("{}[{},{}]", vertices.empty() ? "" : ",", x, height * (1.0 - x * x / (half_length * half_length)));
   }
-  return "body.pile.vertices=[" + vertices + "]";
+  return "body.block.vertices=[" + vertices + "]";
 }
 
 TEST(ParabolicPile, SpreadsAsSavageAndHutterSay) {
@@ -82,13 +44,12 @@ TEST(ParabolicPile, SpreadsAsSavageAndHutterSay) {
                 "standard deviation of the mass g/sqrt(5): g'' = 2 K g_z H L/g^2, K = tan^2(45 deg - phi/2)",
                 "Savage and Hutter 1989");
   for (const double cell : {10.0, 5.0}) {
-    Simulation<2> simulation(testing_support::case_from_text(
-        column_mass, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 4.5e-3 * cell), parabola()}));
+    const Sets of_cell{fmt::format("grid.cell={}; time.step={}", cell, 4.5e-3 * cell), parabola()};
+    Simulation<2> simulation(base_case("block", column_mass + of_cell));
     for (const double time : {10.0, 20.0}) {
-      testing_support::run_until(simulation, time);
+      run_until(simulation, time);
       record.expect_near(fmt::format("spread over exact, cells of {} m, after {} s", cell, time),
-                         testing_support::mass_spread(simulation) * std::sqrt(5.0) / exact_half_length(time), 1.0,
-                         0.02);
+                         mass_spread(simulation) * std::sqrt(5.0) / exact_half_length(time), 1.0, 0.02);
     }
   }
 }

@@ -1,48 +1,17 @@
 // Patch tests: uniform fields remain uniform for any position of the grid lines in the body. Linear fields are
 // reproduced by FLIP if particles are at their initial positions, by APIC at any positions.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
 #include "physics/elasticity.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-using sim::Simulation;
-
-const std::string patch = R"(
-[case]
-gravity = 0.0
-[time]
-end = 1.0
-step = 1e-4
-[grid]
-cell = 1.0
-min = [0.0, 0.0]
-max = [20.0, 20.0]
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-[body.patch]
-material = "rock"
-min = [4.0, 4.0]
-max = [16.0, 16.0]
-[mechanics]
-initial_stress = "none"
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)";
+const Sets patch{"time.step=1e-4; grid.max=[20,20]; material.rock.youngs_modulus=5e8",
+                 "material.rock.poisson_ratio=0.2; body.block.min=[4,4]; body.block.max=[16,16]"};
 
 config::Case patch_case(const std::string& shape, const std::string& transfer) {
-  return paper_case(patch, {"mechanics.shape_function=" + shape, "mechanics.transfer=" + transfer});
+  return published_case("free",
+                        patch + fmt::format("mechanics.shape_function={}; mechanics.transfer={}", shape, transfer));
 }
 
 // Moves the body by a fraction of a cell along both axes.
@@ -65,13 +34,14 @@ void for_inner_particles(const Simulation<2>& simulation, const Visit& visit) {
   }
 }
 
+const std::vector<std::string> shapes{"ugimp", "quadratic"};
 const std::vector<double> shifts{0.0, 0.13, 0.25, 0.371, 0.5};
 
 TEST(Patch, UniformStressMovesNothing) {
   Record record("Patch test: uniform stress",
                 "A body under uniform stress, cut by the grid's lines anywhere; within it nothing may accelerate.",
                 "no force on inner nodes", "statics");
-  for (const std::string shape : {"ugimp", "quadratic"}) {
+  for (const std::string& shape : shapes) {
     double largest = 0.0;
     for (const double shift : shifts) {
       Simulation<2> simulation(patch_case(shape, "flip"));
@@ -128,11 +98,11 @@ TEST(Patch, LinearVelocityStrainsUniformly) {
   Record record("Patch test: linear velocity",
                 "The same body in a motion v = A x; one step must strain all of its interior equally.",
                 "strain = sym(A) dt", "kinematics");
-  for (const std::string shape : {"ugimp", "quadratic"}) {
+  for (const std::string& shape : shapes) {
     record.expect_near("error of the stress over it, FLIP, " + shape + ", particles as seeded",
                        linear_field_error(shape, "flip", 0.0), 0.0, 1e-7);
   }
-  for (const std::string shape : {"ugimp", "quadratic"}) {
+  for (const std::string& shape : shapes) {
     double largest = 0.0;
     for (const double shift : shifts) {
       largest = std::max(largest, linear_field_error(shape, "apic", shift));

@@ -1,27 +1,15 @@
 // A block on a planar DEM: shared by the short and the complete tests.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "../support/record.hpp"
 #include "../support/slide_on_dem.hpp"
-#include "base/portability.hpp"
-#include "sim/history.hpp"
+#include "verification.hpp"
 
-namespace thawslide::verification {
+namespace thawslide::verification::plane_on_dem {
 
-namespace plane_on_dem {
-
-using namespace testing_support;
-
-inline constexpr double degree = pi / 180.0;
-inline constexpr double gravity = 9.81;
 inline constexpr double width = 40.0;   // of the block, square in the map [m]
 inline constexpr double height = 20.0;  // vertical [m]
 
-inline const std::string block =
+inline const auto block =
     release_on_dem({1.0, 0.001, 5.0, {-100.0, -100.0, -120.0}, {100.0, 100.0, 120.0}}, elastic_rock(0.02), 10.0);
 
 struct Plane {
@@ -46,14 +34,14 @@ struct Slide {
 
 // The points of the DEM, 7 m apart, are not aligned with the grid. There are 16 points of the thickness per particle
 // spacing, which resolve the ends of the block.
-inline Slide slide(const Plane& plane, const std::vector<std::string>& sets) {
+inline Slide slide(const Plane& plane, const Sets& sets) {
   const Position down = plane.down();
   const Raster ground = raster_between(Place(-105.0, -105.0), Place(105.0, 105.0), 7.0, [&](double x, double y) {
     return down[2] * (x * down[0] + y * down[1]) / (1.0 - down[2] * down[2]);
   });
   const Place corner = Place::Constant(0.5 * width);
   const Raster thickness = thickness_between(-corner, corner, 2.5 / 16.0, [](double, double) { return height; });
-  sim::Simulation<3> simulation(case_on_dem(block, sets), site_of(ground, thickness));
+  Simulation<3> simulation(case_on_dem(block, sets), site_of(ground, thickness));
   const double end = simulation.parameters().time.end;
   run_until(simulation, 0.5 * end);
   const CentreOfMass middle(simulation);
@@ -77,9 +65,9 @@ inline Slide slide(const Plane& plane, const std::vector<std::string>& sets) {
           .area = area / steps};
 }
 
-inline std::vector<std::string> rubbing(double friction_angle, double cohesion = 0.0) {
-  return {fmt::format("basal.friction_angle={}", friction_angle), "basal.cohesion_law=constant",
-          fmt::format("basal.cohesion={}", cohesion), "heat.enabled=true"};
+inline Sets rubbing(double friction_angle, double cohesion = 0.0) {
+  return fmt::format("basal.friction_angle={}; basal.cohesion_law=constant; basal.cohesion={}; heat.enabled=true",
+                     friction_angle, cohesion);
 }
 
 // Nodes divide the base by the load that they carry. On slopes their sum is several hundredths too large, which affects
@@ -88,10 +76,8 @@ inline double allowed_of_area(const Plane& plane) { return 0.005 + 0.0015 * plan
 
 // a = g (sin - mu cos) - c A/m; work = mu m g cos times the displacement, plus that of the cohesion.
 inline Slide expect_slide(Record& record, const Plane& plane, double friction_angle, double cohesion = 0.0,
-                          const std::vector<std::string>& sets = {}) {
-  std::vector<std::string> all = rubbing(friction_angle, cohesion);
-  all.insert(all.end(), sets.begin(), sets.end());
-  const Slide seen = slide(plane, all);
+                          const Sets& sets = {}) {
+  const Slide seen = slide(plane, rubbing(friction_angle, cohesion) + sets);
   const double friction = std::tan(friction_angle * degree);
   const double resistance =
       friction * seen.mass * gravity * std::cos(plane.slope * degree) + cohesion * plane.base_area();
@@ -124,6 +110,4 @@ inline Record make_record(const std::string& title) {
                 "Coulomb friction with cohesion");
 }
 
-}  // namespace plane_on_dem
-
-}  // namespace thawslide::verification
+}  // namespace thawslide::verification::plane_on_dem

@@ -1,23 +1,13 @@
 // Motion in a body at rest: velocity differences between particles that the grid does not resolve, and that nothing
 // damps.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <random>
 
-#include "../support/case_from_text.hpp"
-#include "../support/dry_sand.hpp"
-#include "../support/record.hpp"
-#include "sim/history.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-using sim::Simulation;
-
-const std::vector<std::string> filtered{"mechanics.transfer=fmpm", "mechanics.fmpm_interval=0.1"};
+const Sets filtered{"mechanics.transfer=fmpm; mechanics.fmpm_interval=0.1"};
 
 // Root mean square speed of particles [m/s].
 double speed_of(const Simulation<2>& simulation) {
@@ -25,39 +15,14 @@ double speed_of(const Simulation<2>& simulation) {
   return std::sqrt(2.0 * value_of(row, "kinetic_J") / value_of(row, "mass_kg"));
 }
 
-const std::string block = R"(
-[case]
-gravity_tilt = TILT
-[time]
-end = 10.0
-step = 0.001
-[grid]
-cell = 1.0
-min = [-10.0, -3.0]
-max = [40.0, 20.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "mohr_coulomb"
-youngs_modulus = 1e8
-poisson_ratio = 0.2
-friction_angle = 35.0
-cohesion = 1e6
-viscosity_time = 0.002
-[body.block]
-material = "rock"
-min = [0.0, 0.0]
-max = [20.0, 8.0]
-[mechanics]
-slope_shear = true
-)" + friction_alone(40.0);
+const Sets block{"time.end=10; grid.cell=1; grid.min=[-10,-3]; grid.max=[40,20]; material.rock.law=mohr_coulomb",
+                 "material.rock.youngs_modulus=1e8; material.rock.friction_angle=35; material.rock.cohesion=1e6",
+                 "material.rock.viscosity_time=0.002; body.block.max=[20,8]; mechanics.slope_shear=true",
+                 "basal.friction_angle=40"};
 
 // Remaining fraction of a random velocity of 1 m/s per component and particle.
-double left_of_noise(double tilt, const std::vector<std::string>& sets) {
-  std::string text = block;
-  text.replace(text.find("TILT"), 4, fmt::format("{}", tilt));
-  Simulation<2> simulation(paper_case(text, sets));
+double left_of_noise(double tilt, const Sets& sets) {
+  Simulation<2> simulation(published_case("block", block + fmt::format("case.gravity_tilt={}", tilt) + sets));
   std::mt19937 random(5);
   std::normal_distribution<double> number;
   for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
@@ -80,30 +45,11 @@ TEST(RestNoise, OfABlockIsFilteredOut) {
   }
 }
 
-const std::string column = dry_sand(2e7) + R"(
-[time]
-end = 8.0
-step = 0.0035
-[grid]
-cell = 0.625
-min = [0.0, -2.5]
-max = [60.0, 20.0]
-[grid.boundary]
-x_min = "roller"
-[terrain]
-type = "flat"
-elevation = 0.0
-[body.column]
-material = "sand"
-min = [0.0, 0.0]
-max = [10.0, 10.0]
-)";
-
 struct Deposit {
   double speed, front;
 };
-Deposit collapse(const std::vector<std::string>& sets) {
-  Simulation<2> simulation(paper_case(column, sets));
+Deposit collapse(const Sets& sets) {
+  Simulation<2> simulation(published_case("sand", "time.end=8; grid.max=[60,20]" + sets));
   run_until(simulation, 8.0);
   return {speed_of(simulation), value_of(history_row(simulation), "front_position_m")};
 }

@@ -1,62 +1,24 @@
 // Pressure of a block at rest on the ground, and the angle at which it starts to slide.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "../exact/rigid_slide.hpp"
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
-#include "base/portability.hpp"
-#include "sim/history.hpp"
-#include "sim/simulation.hpp"
+#include "../exact/motion.hpp"
 #include "terrain/base_pressure.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-using sim::Simulation;
-
-const std::string resting = R"(
-[time]
-end = 2.0
-step = 0.002
-[grid]
-cell = 5.0
-min = [0.0, -10.0]
-max = [40.0, 40.0]
-[grid.boundary]
-x_min = "roller"
-x_max = "roller"
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-[body.block]
-material = "rock"
-min = [0.0, 0.0]
-max = [40.0, 20.0]
-[basal]
-friction = "constant"
-friction_angle = 30.0
-[mechanisms]
-pressurization = false
-[heat]
-enabled = false
-)";
+const Sets resting{"time.end=2; time.step=0.002; grid.min=[0,-10]; grid.max=[40,40]; grid.boundary.x_min=roller",
+                   "grid.boundary.x_max=roller; material.rock.viscosity_time=0; basal.friction_angle=30",
+                   "pressure.enabled=true"};
 
 struct Pressing {
   double unevenness = 0.0;  // maximum relative difference of nodal pressure from weight over area
   double ringing = 0.0;     // maximum relative difference of the total force from the weight
 };
 
-Pressing press(const std::vector<std::string>& sets) {
-  Simulation<2> simulation(paper_case(resting, sets));
+Pressing press(const Sets& sets) {
+  Simulation<2> simulation(published_case("block", resting + sets));
   simulation.settle();
-  const double weight = simulation.sum_over_body().mass * 9.81;
+  const double weight = simulation.sum_over_body().mass * gravity;
   const double mean = weight / 40.0;
   Pressing seen;
   while (simulation.time() < 2.0 - 1e-9) {
@@ -80,69 +42,39 @@ Pressing press(const std::vector<std::string>& sets) {
 }
 
 TEST(RestingBlock, PressesEvenly) {
-  if (!Simulation<2>(paper_case(resting)).device_name().empty()) {
+  if (!Simulation<2>(published_case("block", resting)).device_name().empty()) {
     GTEST_SKIP() << "it looks at nodes, which a device keeps";
   }
   Record record("Force of a resting block", "A block of 20 m between smooth walls, with geostatic stress at t = 0.",
                 "its weight, spread evenly over the base", "statics");
   for (const double cell : {5.0, 2.5, 1.25}) {
-    const Pressing seen = press({fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 1e-3 * cell)});
+    const Pressing seen = press(fmt::format("grid.cell={}; time.step={}", cell, 1e-3 * cell));
     record.expect_near(fmt::format("cells of {} m: unevenness of the base pressure", cell), seen.unevenness, 0.0,
                        1e-12);
     record.expect_near(fmt::format("cells of {} m: change of the total force in 2 s", cell), seen.ringing, 0.0, 1e-12);
   }
   const Pressing settled =
-      press({"mechanics.initial_stress=settle", "mechanics.settle_time=6.0", "mechanics.settle_damping=8.0"});
+      press("mechanics.initial_stress=settle; mechanics.settle_time=6; mechanics.settle_damping=8");
   record.expect_near("settled: unevenness of the base pressure", settled.unevenness, 0.0, 1e-3);
   record.expect_near("settled: change of the total force in 2 s", settled.ringing, 0.0, 1e-3);
 }
 
-const std::string sweep = R"(
-[time]
-end = 2.0
-step = 0.0015
-[grid]
-cell = 5.0
-min = [-20.0, -10.0]
-max = [100.0, 40.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e9
-poisson_ratio = 0.0
-viscosity_time = 0.005
-[body.block]
-material = "rock"
-min = [0.0, 0.0]
-max = [40.0, 10.0]
-[mechanics]
-slope_shear = true
-[basal]
-friction = "constant"
-friction_angle = 20.0
-[mechanisms]
-pressurization = false
-[heat]
-enabled = false
-)";
+const Sets sweep{"time.end=2; time.step=0.0015; grid.max=[100,40]; material.rock.youngs_modulus=5e9",
+                 "material.rock.poisson_ratio=0; material.rock.viscosity_time=0.005; body.block.max=[40,10]",
+                 "mechanics.slope_shear=true; pressure.enabled=true"};
 
 TEST(AngleSweep, SticksBelowAndSlidesAboveTheFrictionAngle) {
   Record record("Slopes near the friction angle", "A block at rest on slopes near its friction angle of 20 degrees.",
                 "a = g (sin - mu cos) above it, none below", "Coulomb friction");
-  const double degree = pi / 180.0;
   Curve curve{"slope [degrees]", "acceleration [m/s2]", {}, {}, {}};
   for (const double slope : {15.0, 18.0, 19.0, 19.9, 20.1, 21.0, 22.0, 25.0, 30.0}) {
-    Simulation<2> simulation(paper_case(sweep, {fmt::format("case.gravity_tilt={}", slope)}));
+    Simulation<2> simulation(published_case("block", sweep + fmt::format("case.gravity_tilt={}", slope)));
     run_until(simulation, 1.0);  // after the elastic transient at the start
     const double before = value_of(history_row(simulation), "mean_velocity_m_s");
     run_until(simulation, 2.0);
     const double acceleration = value_of(history_row(simulation), "mean_velocity_m_s") - before;
     const double exact = physics::exact::acceleration_on_plane(slope * degree, std::tan(20.0 * degree), 9.81);
-    curve.x.push_back(slope);
-    curve.computed.push_back(acceleration);
-    curve.exact.push_back(exact);
+    add_point(curve, slope, acceleration, exact);
     record.expect_near(fmt::format("acceleration on {} degrees [m/s2]", slope), acceleration, exact,
                        1e-3 * exact + 1e-6);
   }

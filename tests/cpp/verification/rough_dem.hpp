@@ -1,20 +1,14 @@
 // Slides on DEMs with noise on their points, filtered by default: shared by the short and the complete tests.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <random>
 
 #include "../support/channel_on_dem.hpp"
-#include "../support/record.hpp"
 #include "gis/roughness.hpp"
 #include "gis/smoothing.hpp"
+#include "verification.hpp"
 
-namespace thawslide::verification {
-
-namespace rough_dem {
-
-using namespace testing_support;
+namespace thawslide::verification::rough_dem {
 
 // White noise of a given rms [m] on the points, and the filter chosen by terrain.smooth = "auto".
 inline Treatment noise_and_filter(double rms, unsigned seed) {
@@ -64,6 +58,4 @@ inline void expect_wedge_with_noise(Record& record, double spacing, double allow
       found / std::sqrt(2.0), 1.0, allowed);
 }
 
-}  // namespace rough_dem
-
-}  // namespace thawslide::verification
+}  // namespace thawslide::verification::rough_dem

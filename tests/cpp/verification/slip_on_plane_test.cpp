@@ -1,71 +1,28 @@
 // Thermal pressurization of a slipping plane with material on one side: friction, heat, pore pressure and both
 // diffusions together, on a slab driven over sealed ground.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "../exact/pore_water.hpp"
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
-#include "base/portability.hpp"
+#include "../exact/water.hpp"
 #include "physics/pressurization.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-using sim::Simulation;
-
 // Poisson's ratio 0 keeps the slab one-dimensional. Mechanical cells are 1e4 times those of heat and pressure, so that
 // the slab slips by a small part of a cell. The frame moves all nodes except those of the base; weak gravity keeps
 // temperatures and elastic shear small.
-const std::string slab = R"(
-[case]
-gravity = 1e-4
-[time]
-end = 1.0
-step = 0.001
-[grid]
-cell = 100.0
-min = [-400.0, -200.0]
-max = [800.0, 1400.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[phases]
-rock_expansion = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.0
-viscosity_time = 0.01
-hydraulic_conductivity = 1e-9
-[body.slab]
-material = "rock"
-min = [0.0, 0.0]
-max = [400.0, 1000.0]
-temperature = 1.0
-velocity = [1.0, 0.0]
-[frame.driver]
-min = [-400.0, 0.1]
-max = [800.0, 1400.0]
-axis = "x"
-velocity = 1.0
-[basal]
-friction = "constant"
-friction_angle = 11.30993247402  # mu 0.2
-[heat]
-advection = false
-)";
+const Sets slab{"case.gravity=1e-4; time.end=1; grid.min=[-400,-200]; grid.max=[800,1400]; phases.rock_expansion=0",
+                "material.rock.youngs_modulus=5e8; material.rock.poisson_ratio=0; material.rock.viscosity_time=0.01",
+                "material.rock.hydraulic_conductivity=1e-9; body.slab.temperature=1; body.slab.velocity=[1,0]",
+                "frame.driver.min=[-400,0.1]; frame.driver.max=[800,1400]; frame.driver.axis=x",
+                "frame.driver.velocity=1; basal.friction=constant; heat.advection=false",
+                "basal.friction_angle=11.30993247402"};  // mu 0.2
 
 // Slips by a metre on cells of a given size; returns the rms error of the strength from 0.5 to 1 m, relative to the
 // initial strength.
-double error_on(double cell, std::vector<std::string> sets, Curve* curve) {
-  sets.insert(sets.end(),
-              {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 4e-7 * cell * cell),
-               fmt::format("band.thickness={}", 1e-4 * cell), fmt::format("body.slab.max=[{},1000.0]", 8.0 * cell)});
-  Simulation<2> simulation(paper_case(slab, sets));
+double error_on(double cell, const Sets& sets, Curve* curve) {
+  const Sets of_cell = fmt::format("grid.cell={}; time.step={}; band.thickness={}; body.slab.max=[{},1000]", cell,
+                                   4e-7 * cell * cell, 1e-4 * cell, 8.0 * cell);
+  Simulation<2> simulation(published_case("slab", slab + sets + of_cell));
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     particles.liquid_pressure(p) = particles.pore_pressure(p) = 0.0;
@@ -88,12 +45,23 @@ double error_on(double cell, std::vector<std::string> sets, Curve* curve) {
       differences.push_back(strength - exact);
     }
     if (curve != nullptr) {
-      curve->x.push_back(slip);
-      curve->computed.push_back(strength);
-      curve->exact.push_back(exact);
+      add_point(*curve, slip, strength, exact);
     }
   }
   return root_mean_square(differences);
+}
+
+const std::vector<double> sizes{10.0, 5.0, 2.5};  // cells over 1e4 [mm]
+
+// Errors on cells of these sizes; plots the strength on the middle one.
+std::vector<double> errors_on_cells(Record& record, const Sets& sets) {
+  std::vector<double> errors;
+  Curve curve{"slip [m]", "strength over that at the start", {}, {}, {}};
+  for (const double size : sizes) {
+    errors.push_back(error_on(10.0 * size, sets, size == 5.0 ? &curve : nullptr));
+  }
+  record.draw(curve);
+  return errors;
 }
 
 TEST(SlipOnPlane, LosesStrengthAsRiceSays) {
@@ -102,14 +70,7 @@ TEST(SlipOnPlane, LosesStrengthAsRiceSays) {
                 "first cells.",
                 "tau/tau0 = exp(d/L) erfc(sqrt(d/L)), L one-sided, without conduction",
                 "Rice 2006, Eq. 9, with a quarter of his length");
-  const std::vector<double> cells{100.0, 50.0, 25.0};
-  std::vector<double> sizes, errors;
-  Curve curve{"slip [m]", "strength over that at the start", {}, {}, {}};
-  for (const double cell : cells) {
-    sizes.push_back(0.1 * cell);
-    errors.push_back(error_on(cell, {"heat.conduction=false"}, cell == 50.0 ? &curve : nullptr));
-  }
-  record.draw(curve);
+  const std::vector<double> errors = errors_on_cells(record, "heat.conduction=false");
   record.expect_order("cell over 1e4 [mm]", sizes, "rms error of tau/tau0, 0.5 to 1 m", errors, 1.0, 0.1);
   record.explain(
       "The heat is a fraction of a cell away from the plane, and the node averages the pressure over its cell: order "
@@ -121,15 +82,8 @@ TEST(SlipOnPlane, WithConduction) {
                 "The same slab with a conductivity of 300 W/m/K, which makes the layer of heat as thick as some cells, "
                 "as the layer of pressure is.",
                 "tau/tau0 = exp(d/L) erfc(sqrt(d/L)), L one-sided", "Rice 2006, Eq. 9, with a quarter of his length");
-  const std::vector<double> cells{100.0, 50.0, 25.0};
-  std::vector<double> sizes, errors;
-  Curve curve{"slip [m]", "strength over that at the start", {}, {}, {}};
-  for (const double cell : cells) {
-    sizes.push_back(0.1 * cell);
-    errors.push_back(error_on(cell, {"phases.rock_conductivity=300.0", "phases.water_conductivity=300.0"},
-                              cell == 50.0 ? &curve : nullptr));
-  }
-  record.draw(curve);
+  const std::vector<double> errors =
+      errors_on_cells(record, "phases.rock_conductivity=300; phases.water_conductivity=300");
   record.expect_order_at_least("cell over 1e4 [mm]", sizes, "rms error of tau/tau0, 0.5 to 1 m", errors, 1.0, 0.1);
   record.explain(
       "Order 1 is what remains when the cells are much smaller than the layer of heat; here they are about as large, "

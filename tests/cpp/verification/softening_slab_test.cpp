@@ -1,61 +1,18 @@
 // A slab that breaks along its lowest cells and softens with slip, compared with the motion of a block on that surface.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using sim::Simulation;
-
-constexpr double gravity = 9.81, tilt = 20.0, height = 40.0, length = 800.0, end = 6.0;
+constexpr double tilt = 20.0, height = 40.0, length = 800.0, end = 6.0;
 constexpr double cohesion = 2.2e5, residual = 1.2e5, softening_slip = 1.0;
 
-const std::string slab = R"(
-[case]
-dimension = 2
-gravity_tilt = 20.0
-[time]
-end = 6.0
-step = 0.006
-[grid]
-cell = 10.0
-min = [-200.0, -40.0]
-max = [1400.0, 120.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[body.slab]
-material = "rock"
-shape = "polygon"
-vertices = [[0.0, 0.0], [800.0, 0.0], [800.0, 40.0], [0.0, 40.0]]
-temperature = -5.0
-porosity = 0.3
-[material.rock]
-law = "mohr_coulomb"
-youngs_modulus = 5.0e8
-poisson_ratio = 0.2
-friction_angle = 0.0
-cohesion = 2.2e5
-residual_cohesion = 1.2e5
-[mechanics]
-slope_shear = true
-[basal]
-friction = "constant"
-friction_angle = 60.0
-cohesion = 1e8
-cohesion_law = "constant"
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)";
+const Sets slab{"case.gravity_tilt=20; time.end=6; grid.min=[-200,-40]; grid.max=[1400,120]",
+                "material.rock.law=mohr_coulomb; material.rock.viscosity_time=0; material.rock.friction_angle=0",
+                "material.rock.cohesion=2.2e5; material.rock.residual_cohesion=1.2e5; body.block.shape=polygon",
+                "body.block.vertices=[[0.0,0.0],[800.0,0.0],[800.0,40.0],[0.0,40.0]]; body.block.temperature=-5",
+                "body.block.porosity=0.3; mechanics.slope_shear=true; basal.friction_angle=60",
+                "basal.cohesion=1e8; basal.cohesion_law=constant"};
 
 // Final slip [m] of a slab of thickness `above` [m] on a surface of the strength
 //   c = c_f + (c_0 - c_f) exp(-s/s_c),     rho above s'' = rho g above sin(tilt) - c
@@ -65,7 +22,7 @@ double slip_of_block(double density, double above) {
   double slip = 0.0, speed = 0.0;
   for (int k = 0; k < steps; ++k) {
     const double strength = residual + (cohesion - residual) * std::exp(-slip / softening_slip);
-    speed += dt * (gravity * std::sin(tilt * pi / 180.0) - strength / (density * above));
+    speed += dt * (gravity * std::sin(tilt * degree) - strength / (density * above));
     slip += dt * speed;
   }
   return slip;
@@ -74,10 +31,10 @@ double slip_of_block(double density, double above) {
 // Slip of the middle of the slab, above the breaking cells, relative to that of the block. These cells stick to the
 // ground at their lower face. The surface of rupture is assumed at their mid-height.
 double slip_over_exact(double cell, const std::string& softening) {
-  Simulation<2> simulation(testing_support::case_from_text(
-      slab, {fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 6e-4 * cell), softening}));
+  const Sets sets = fmt::format("grid.cell={}; time.step={}; {}", cell, 6e-4 * cell, softening);
+  Simulation<2> simulation(base_case("block", slab + sets));
   const double density = simulation.particles().mass(0) / simulation.particles().volume(0);  // at the start
-  testing_support::run_until(simulation, end);
+  run_until(simulation, end);
   const auto& particles = simulation.particles();
   const Vector<double, 2> origin = simulation.model().origin;
   double mass = 0.0, moment = 0.0;

@@ -1,71 +1,32 @@
 // A block that slides without friction into a wall keeps its velocity until it reaches the wall.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <fstream>
 
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
-#include "base/portability.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
 constexpr double cell = 5.0, front = 50.0, speed = 20.0;  // m, m, m/s
 
 // An elastic block, 40 m long and 20 m high, on level ground from which a wall rises at `foot` [m].
 config::Case block_before_wall(double wall_angle, double foot) {
   constexpr double height = 40.0;
-  const double run = std::max(1e-3, height / std::tan(wall_angle * pi / 180.0));
-  std::ofstream(folder_of_this_test() / "wall.csv")
-      << fmt::format("distance_m,terrain_elevation_m\n-100,0\n{0},0\n{1},{2}\n{3},{2}\n", foot, foot + run, height,
-                     foot + run + 100.0);
-  return paper_case(R"(
-[time]
-end = 1.0
-step = 0.004
-[grid]
-cell = 5.0
-min = [-90.0, -20.0]
-max = [150.0, 80.0]
-[terrain]
-type = "profile"
-file = "wall.csv"
-[material.rock]
-law = "elastic"
-youngs_modulus = 2e8
-poisson_ratio = 0.2
-viscosity_time = 0.01
-[body.block]
-material = "rock"
-min = [10.0, 0.0]
-max = [50.0, 20.0]
-velocity = [20.0, 0.0]
-[basal]
-friction = "constant"
-friction_angle = 0.0
-[mechanisms]
-pressurization = false
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)");
+  const double run = std::max(1e-3, height / std::tan(wall_angle * degree));
+  const std::filesystem::path file = folder_of_this_test() / "wall.csv";
+  std::ofstream(file) << fmt::format("distance_m,terrain_elevation_m\n-100,0\n{0},0\n{1},{2}\n{3},{2}\n", foot,
+                                     foot + run, height, foot + run + 100.0);
+  return published_case("block",
+                        {"time.step=0.004; grid.min=[-90,-20]; grid.max=[150,80]; material.rock.youngs_modulus=2e8",
+                         "material.rock.viscosity_time=0.01; body.block.min=[10,0]; body.block.max=[50,20]",
+                         "body.block.velocity=[20,0]; basal.friction_angle=0; terrain.type=profile",
+                         fmt::format("terrain.file={}", file.string())});
 }
 
 // Distance of the block's front from the foot of the wall, in cells, when the block has lost a fraction of its speed.
 double distance_of_loss(double wall_angle, double foot, double fraction) {
-  sim::Simulation<2> simulation(block_before_wall(wall_angle, foot));
+  Simulation<2> simulation(block_before_wall(wall_angle, foot));
   const auto mean_velocity = [&] {
-    const auto& particles = simulation.particles();
-    double momentum = 0.0, mass = 0.0;
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      mass += particles.mass(p);
-      momentum += particles.mass(p) * particles.velocity(p, 0);
-    }
-    return momentum / mass;
+    return mass_mean(simulation, [&](std::size_t p) { return simulation.particles().velocity(p, 0); });
   };
   double edge = front;
   while (mean_velocity() > (1.0 - fraction) * speed && simulation.time() < 1.0 - 1e-9) {

@@ -1,62 +1,26 @@
 // Slopes oblique to the grid, straight and curved.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <fstream>
 
-#include "../exact/rigid_slide.hpp"
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
-#include "base/portability.hpp"
-#include "sim/history.hpp"
-#include "sim/simulation.hpp"
+#include "../exact/motion.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-using sim::Simulation;
-constexpr double degree = pi / 180.0;
-
 // A slab 60 m long and 20 m thick on a plane of 35 degrees; the grid is rotated relative to it, and gravity with the
 // grid.
-std::string slab_on_plane(double ground) {
+config::Case slab_on_plane(double ground) {
   const double c = std::cos(ground * degree), s = std::sin(ground * degree);
   const auto corner = [&](double along, double up) {
     return fmt::format("[{:.9f}, {:.9f}]", along * c + up * s, -along * s + up * c);
   };
-  return fmt::format(R"(
-[case]
-gravity_tilt = {}
-[time]
-end = 2.0
-step = 0.0018
-[grid]
-cell = 2.5
-min = [-20.0, -100.0]
-max = [150.0, 50.0]
-[terrain]
-type = "plane"
-slope = {}
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-viscosity_time = 0.01
-[body.slab]
-material = "rock"
-shape = "polygon"
-vertices = [{}, {}, {}, {}]
-[mechanics]
-slope_shear = true
-[basal]
-friction = "constant"
-friction_angle = 20.0
-[mechanisms]
-pressurization = false
-)",
-                     35.0 - ground, ground, corner(0.0, 0.0), corner(60.0, 0.0), corner(60.0, 20.0), corner(0.0, 20.0));
+  return published_case(
+      "block", {fmt::format("case.gravity_tilt={}; terrain.type=plane; terrain.slope={}", 35.0 - ground, ground),
+                "time.end=2; time.step=0.0018; grid.cell=2.5; grid.min=[-20,-100]; grid.max=[150,50]",
+                "material.rock.viscosity_time=0.01; body.block.shape=polygon; mechanics.slope_shear=true",
+                fmt::format("body.block.vertices=[{}, {}, {}, {}]", corner(0.0, 0.0), corner(60.0, 0.0),
+                            corner(60.0, 20.0), corner(0.0, 20.0)),
+                "heat.enabled=true; pressure.enabled=true"});
 }
 
 TEST(TiltedTerrain, SlidesAlikeAtAnyAngleToTheGrid) {
@@ -67,7 +31,7 @@ TEST(TiltedTerrain, SlidesAlikeAtAnyAngleToTheGrid) {
   const double friction = std::tan(20.0 * degree);
   const double acceleration = physics::exact::acceleration_on_plane(35.0 * degree, friction, 9.81);
   for (const double ground : {0.0, 10.0, 26.565051177, 45.0}) {
-    Simulation<2> simulation(paper_case(slab_on_plane(ground)));
+    Simulation<2> simulation(slab_on_plane(ground));
     run_until(simulation, 2.0);
     const auto row = history_row(simulation);
     const double velocity = 2.0 * acceleration;
@@ -82,8 +46,8 @@ TEST(TiltedTerrain, SlidesAlikeAtAnyAngleToTheGrid) {
 constexpr double radius = 400.0;
 
 // Writes a circular arc with its lowest point at x = 0 and a body 10 m thick on it between two angles.
-void write_arc(const std::string& file) {
-  std::ofstream csv(file);
+void write_arc() {
+  std::ofstream csv(folder_of_this_test() / "profile.csv");
   csv << "distance_m,terrain_elevation_m,surface_elevation_m\n";
   for (double angle = -60.0; angle < 30.01; angle += 0.25) {
     const double x = radius * std::sin(angle * degree), y = radius * (1.0 - std::cos(angle * degree));
@@ -93,36 +57,6 @@ void write_arc(const std::string& file) {
     csv << fmt::format("{:.9f},{:.9f},{:.9f}\n", x, y, surface);
   }
 }
-
-const std::string arc = R"(
-[time]
-end = 30.0
-step = 0.0018
-[grid]
-cell = 2.5
-min = [-340.0, -10.0]
-max = [190.0, 200.0]
-[terrain]
-type = "profile"
-file = "arc.csv"
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-viscosity_time = 0.01
-[body.slide]
-material = "rock"
-shape = "surface"
-[mechanics]
-slope_shear = true
-[basal]
-friction = "constant"
-friction_angle = 10.0
-[mechanisms]
-pressurization = false
-[heat]
-enabled = false
-)";
 
 // Mass, position and motion of the slide about the centre of the arc.
 struct Turning {
@@ -153,10 +87,10 @@ TEST(CurvedTerrain, SwingsLikeThePendulumWithFriction) {
                 "is a polyline; the friction angle is 10 degrees.",
                 "w^2 = A sin phi + B cos phi + K exp(a phi)", "pendulum with Coulomb friction");
   for (const double cell : {5.0, 2.5}) {
-    const std::string file = testing::TempDir() + "arc.csv";
-    write_arc(file);
-    Simulation<2> simulation(paper_case(
-        arc, {"terrain.file=" + file, fmt::format("grid.cell={}", cell), fmt::format("time.step={}", 7e-4 * cell)}));
+    write_arc();
+    const Sets sets{fmt::format("grid.cell={}; time.step={}", cell, 7e-4 * cell),
+                    "mechanisms.pressurization=false; heat.enabled=false"};
+    Simulation<2> simulation(published_case("profile", sets));
     const Turning start(simulation);
     const physics::exact::ArcSlide exact{radius, start.centre.norm(), start.inertia, std::tan(10.0 * degree), 9.81};
     Curve curve{"angle [degrees]", "speed [m/s]", {}, {}, {}};
@@ -166,9 +100,8 @@ TEST(CurvedTerrain, SwingsLikeThePendulumWithFriction) {
         simulation.step(simulation.next_step(30.0));
       }
       now = Turning(simulation);
-      curve.x.push_back(now.angle() / degree);
-      curve.computed.push_back(now.speed);
-      curve.exact.push_back(exact.angular_speed(now.angle(), start.angle()) * now.centre.norm());
+      add_point(curve, now.angle() / degree, now.speed,
+                exact.angular_speed(now.angle(), start.angle()) * now.centre.norm());
     }
     record.expect_near(fmt::format("speed at the lowest point over exact, cells of {} m", cell),
                        curve.computed.back() / curve.exact.back(), 1.0, 0.02);

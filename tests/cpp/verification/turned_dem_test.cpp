@@ -1,31 +1,16 @@
 // Slides on DEMs that are rotated and shifted relative to the grid, or mirror-symmetric.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "../support/record.hpp"
 #include "../support/slide_on_dem.hpp"
 #include "sim/front.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-using sim::Simulation;
 constexpr double cell = 2.5;
 constexpr double seconds = 14.0;  // until a slide is at rest
 
-const std::string debris = release_on_dem({seconds, 0.003, cell, {-50.0, -50.0, -120.0}, {150.0, 50.0, 60.0}}, R"(
-[material.debris]
-law = "mohr_coulomb"
-youngs_modulus = 2e7
-poisson_ratio = 0.3
-friction_angle = 30.0
-cohesion = 0.0
-gaps_close_first = true
-)",
-                                          18.0);
+const Sets debris{fmt::format("time.end={}; time.step=0.003; grid.cell={}; basal.friction_angle=18", seconds, cell),
+                  "grid.min=[-50,-50,-120]; grid.max=[150,50,60]"};
 
 // Mass-weighted position along a direction behind which 99.5 % of the mass of particles is located [m, absolute].
 double front_along(const Simulation<3>& simulation, const Place& direction) {
@@ -94,8 +79,9 @@ double front_in_valley(int quarters, double shift) {
   const Place a = turn(Place(-50.0, -50.0)), b = turn(Place(150.0, 50.0));
   const Place least = a.cwiseMin(b).array() + shift, greatest = a.cwiseMax(b).array() + shift;
   Simulation<3> simulation(
-      case_on_dem(debris, {fmt::format("grid.min=[{},{},{}]", least[0], least[1], -120.0 + shift),
-                           fmt::format("grid.max=[{},{},{}]", greatest[0], greatest[1], 60.0 + shift)}),
+      case_on_dem(base_text("release"),
+                  debris + fmt::format("grid.min=[{},{},{}]; grid.max=[{},{},{}]", least[0], least[1], -120.0 + shift,
+                                       greatest[0], greatest[1], 60.0 + shift)),
       site_of(ground, thickness));
   return front_at_rest(simulation, turn(Place(1.0, 0.0)));
 }
@@ -115,14 +101,14 @@ TEST(TurnedTerrain, SlideEndsAtTheSamePlace) {
 }
 
 // A valley and a release that are mirror-symmetric about y = 0.
-Simulation<3> mirrored(const std::vector<std::string>& sets) {
+Simulation<3> mirrored(const Sets& sets) {
   const Raster ground = raster_between(Place(-60.0, -60.0), Place(160.0, 60.0), 4.0, [](double x, double y) {
     return slope(x) + 0.3 * std::abs(y) + 1.2 * std::sin(0.23 * x) * std::cos(0.4 * y);
   });
   const Raster thickness = thickness_between(Place(-15.0, -15.0), Place(15.0, 15.0), 0.25, [](double x, double y) {
     return std::max(0.0, 8.0 - 0.02 * (x * x + y * y));
   });
-  return Simulation<3>(case_on_dem(debris, sets), site_of(ground, thickness));
+  return Simulation<3>(case_on_dem(base_text("release"), debris + sets), site_of(ground, thickness));
 }
 
 Position position_of(const Simulation<3>& simulation, std::size_t p) {
@@ -163,7 +149,7 @@ double largest_asymmetry(const Simulation<3>& simulation,
 TEST(MirroredTerrain, SlideStaysSymmetric) {
   Record record("A symmetric slide", "A heap runs down a valley and comes to rest; both are their own mirror image.",
                 "the slide stays its own mirror image", "symmetry");
-  auto elastic = mirrored({"material.debris.law=elastic", "material.debris.gaps_close_first=false"});
+  auto elastic = mirrored("material.debris.law=elastic; material.debris.gaps_close_first=false");
   const auto pairs = mirror_pairs(elastic);
   EXPECT_EQ(2 * pairs.size(), elastic.particles().size());
   const double start = CentreOfMass(elastic).position[0];

@@ -1,7 +1,5 @@
 // Manufactured momentum balance: a square that vibrates along its axes, with each shape function and transfer.
-#include <gtest/gtest.h>
-
-#include "../support/record.hpp"
+#include "verification.hpp"
 #include "vibration_choices.hpp"
 
 namespace thawslide::verification {
@@ -35,9 +33,8 @@ TEST(Vibration, ManufacturedWithLargeDisplacements) {
   }
   record.explain(
       "uGIMP's undeformed squares overlap or leave gaps in proportion to the stretch: order 1. Splines are of order 2 "
-      "until the particles' uneven spacing, an error of "
-      "quadrature in first order (Steffen et al. 2010), dominates. The next refinement, which ./test --full runs, is "
-      "nearer to 1.");
+      "until the particles' uneven spacing, an error of quadrature in first order (Steffen et al. 2010), dominates. "
+      "The next refinement, which ./test --full runs, is nearer to 1.");
 }
 
 }  // namespace

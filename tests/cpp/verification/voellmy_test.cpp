@@ -1,68 +1,27 @@
 // A block that slides with Voellmy friction, from rest down a slope and to rest on level ground: with the material
 // point method, and as a rigid block. With h the thickness along the normal, since rho h carries the block's mass:
 //   dv/dt = a - g v^2/(xi h),  a = g (sin(theta) - mu cos(theta))
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <map>
 
-#include "../support/case_from_text.hpp"
-#include "../support/record.hpp"
-#include "base/portability.hpp"
 #include "sim/block.hpp"
-#include "sim/history.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-
-constexpr double gravity = 9.81, length = 40.0, height = 10.0;  // [m/s2], [m]
+constexpr double length = 40.0, height = 10.0;  // [m]
 
 // A frozen block, on ground that is level or tilted with gravity.
-std::string block(int dimension) {
-  const bool space = dimension == 3;
+config::Case block(int dimension, const Sets& sets) {
   const auto point = [&](double x, double across, double z) {
-    return space ? fmt::format("[{}, {}, {}]", x, across, z) : fmt::format("[{}, {}]", x, z);
+    return dimension == 3 ? fmt::format("[{}, {}, {}]", x, across, z) : fmt::format("[{}, {}]", x, z);
   };
-  return fmt::format(R"(
-[case]
-dimension = {}
-[time]
-end = 6.0
-step = 0.002
-[grid]
-cell = 5.0
-min = {}
-max = {}
-[terrain]
-type = "flat"
-elevation = 0.0
-[freezing]
-curve = "linear"
-[material.rock]
-law = "elastic"
-youngs_modulus = 2e8
-poisson_ratio = 0.2
-viscosity_time = 0.02
-[body.block]
-material = "rock"
-shape = "box"
-min = {}
-max = {}
-temperature = -10.0
-[mechanisms]
-pressurization = false
-[heat]
-enabled = false
-[pressure]
-enabled = false
-[basal]
-friction = "voellmy"
-)",
-                     dimension, point(-20.0, -10.0, -10.0), point(300.0, 20.0, 30.0), point(0.0, 0.0, 0.0),
-                     point(length, 10.0, height));
+  const Sets frozen{
+      fmt::format("case.dimension={}; time.end=6; time.step=0.002; freezing.curve=linear", dimension),
+      fmt::format("grid.min={}; grid.max={}", point(-20.0, -10.0, -10.0), point(300.0, 20.0, 30.0)),
+      fmt::format("body.block.min={}; body.block.max={}", point(0.0, 0.0, 0.0), point(length, 10.0, height)),
+      "material.rock.youngs_modulus=2e8; body.block.temperature=-10; basal.friction=voellmy"};
+  return published_case("block", frozen + sets);
 }
 
 struct Motion {
@@ -70,8 +29,8 @@ struct Motion {
 };
 
 template <int Dim>
-Motion in_mpm(const std::vector<std::string>& sets) {
-  sim::Simulation<Dim> simulation(paper_case(block(Dim), sets));
+Motion in_mpm(const Sets& sets) {
+  Simulation<Dim> simulation(block(Dim, sets));
   run_until(simulation, simulation.parameters().time.end);
   const auto row = sim::history_row(simulation);
   const double base = length * (Dim == 3 ? 10.0 : 1.0);
@@ -79,8 +38,8 @@ Motion in_mpm(const std::vector<std::string>& sets) {
           value_of(row, "friction_work_J") / base};
 }
 
-Motion of_rigid_block(const std::vector<std::string>& sets) {
-  const auto rows = sim::run_block(paper_case(block(2), sets));
+Motion of_rigid_block(const Sets& sets) {
+  const auto rows = sim::run_block(block(2, sets));
   const std::map<std::string, double> last(rows.back().begin(), rows.back().end());
   return {last.at("velocity_m_s"), last.at("displacement_m"), last.at("friction_work_J_m2")};
 }
@@ -89,14 +48,11 @@ Motion of_rigid_block(const std::vector<std::string>& sets) {
 struct FromRest {
   double slope = 20.0, mu = 0.1, turbulence = 50.0, time = 8.0;
 
-  [[nodiscard]] std::vector<std::string> sets() const {
-    return {fmt::format("case.gravity_tilt={}", slope), fmt::format("basal.friction_coefficient={}", mu),
-            fmt::format("basal.turbulent_friction={}", turbulence), fmt::format("time.end={}", time)};
+  [[nodiscard]] Sets sets() const {
+    return fmt::format("case.gravity_tilt={}; basal.friction_coefficient={}; basal.turbulent_friction={}; time.end={}",
+                       slope, mu, turbulence, time);
   }
-  [[nodiscard]] double drive() const {
-    const double angle = slope * pi / 180.0;
-    return gravity * (std::sin(angle) - mu * std::cos(angle));
-  }
+  [[nodiscard]] double drive() const { return gravity * (std::sin(slope * degree) - mu * std::cos(slope * degree)); }
   [[nodiscard]] double terminal() const { return std::sqrt(turbulence * height * drive() / gravity); }
   [[nodiscard]] Motion exact() const {
     const double at = drive() * time / terminal();
@@ -128,11 +84,10 @@ TEST(Voellmy, RigidBlockConvergesInFirstOrderOfTheStep) {
                 "v = v_t tanh(a t/v_t) after 8 s", "dv/dt = a - g v^2/(xi h), from rest");
   std::vector<double> steps, errors;
   for (const double step : {0.08, 0.04, 0.02, 0.01}) {
-    std::vector<std::string> sets = slide.sets();
-    sets.insert(sets.end(), {"material.rock.youngs_modulus=1e5", "material.rock.viscosity_time=0",
-                             fmt::format("time.step={}", step)});
+    const Sets soft{"material.rock.youngs_modulus=1e5; material.rock.viscosity_time=0",
+                    fmt::format("time.step={}", step)};
     steps.push_back(step);
-    errors.push_back(std::abs(of_rigid_block(sets).velocity / slide.exact().velocity - 1.0));
+    errors.push_back(std::abs(of_rigid_block(slide.sets() + soft).velocity / slide.exact().velocity - 1.0));
   }
   record.expect_order("time step (s)", steps, "error of the velocity", errors, 1.0, 0.1);
 }
@@ -145,8 +100,8 @@ TEST(Voellmy, ThrownBlockComesToRest) {
                 "A frozen block of 40 m x 10 m is thrown along level ground at 25 m/s; mu = 0.2, xi = 400 m/s2.",
                 "s = xi h/(2 g) log(1 + v_0^2/(mu xi h)); friction dissipates rho h v_0^2/2 per m2",
                 "dv/dt = -mu g - g v^2/(xi h)");
-  const std::vector<std::string> sets{"basal.friction_coefficient=0.2", "basal.turbulent_friction=400",
-                                      "body.block.velocity=[25.0,0.0]", "time.end=12.0"};
+  const Sets sets{"basal.friction_coefficient=0.2; basal.turbulent_friction=400; body.block.velocity=[25,0]",
+                  "time.end=12"};
   const Motion plane = in_mpm<2>(sets), rigid = of_rigid_block(sets);
   EXPECT_LT(plane.velocity, 1e-2) << "it still slides";
   EXPECT_EQ(rigid.velocity, 0.0) << "it still slides";
@@ -158,8 +113,8 @@ TEST(Voellmy, ThrownBlockComesToRest) {
 
 // At 60 m/s with xi = 1 m/s2, a step of the drag would remove more than the momentum of a node.
 TEST(Voellmy, StrongDragStopsTheBaseAndReversesNothing) {
-  sim::Simulation<2> simulation(paper_case(block(2), {"basal.friction_coefficient=0.1", "basal.turbulent_friction=1",
-                                                      "body.block.velocity=[60.0,0.0]", "time.end=1.0"}));
+  Simulation<2> simulation(block(
+      2, {"basal.friction_coefficient=0.1; basal.turbulent_friction=1; time.end=1", "body.block.velocity=[60,0]"}));
   double former = 60.0 * (1.0 + 1e-12);
   while (simulation.time() < 0.2) {
     simulation.step(simulation.next_step(0.2));

@@ -1,44 +1,11 @@
 // Flow without strength and friction through sections of varying width, for which thin flow has an exact solution.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include "../support/case_from_text.hpp"
-#include "../support/dry_sand.hpp"
-#include "../support/record.hpp"
-#include "sim/simulation.hpp"
+#include "verification.hpp"
 
 namespace thawslide::verification {
 namespace {
 
-using namespace testing_support;
-using sim::Simulation;
-
-constexpr double gravity = 9.81;
-
-const std::string fluid = dry_sand(2e7) + R"(
-[time]
-end = 6.0
-step = 0.003
-[grid]
-cell = 0.625
-min = [0.0, -2.5]
-max = [320.0, 10.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[body.fluid]
-material = "sand"
-)";
-const std::vector<std::string> without_strength = {"material.sand.friction_angle=0", "material.sand.tension_cutoff=0",
-                                                   "basal.friction_angle=0"};
-
-std::vector<std::string> with(std::vector<std::string> more) {
-  more.insert(more.end(), without_strength.begin(), without_strength.end());
-  return more;
-}
+const Sets fluid{"time.step=0.003; grid.max=[320,10]; grid.boundary.x_min=open; material.sand.friction_angle=0",
+                 "material.sand.tension_cutoff=0; basal.friction_angle=0"};
 
 // A body that flows from a channel into one twice as wide. Its ends do not affect its middle, where the flow is steady:
 //   h u b = const,  u^2/2 + g h = const
@@ -49,9 +16,9 @@ TEST(WideningSection, HalvesTheDepthWhereTheWidthDoubles) {
       "Material without strength or friction, 2.5 m deep and 80 m long, runs at 40 m/s from a channel 20 m wide "
       "into one 40 m wide.",
       "depth and speed of the middle by h u b = const, u^2/2 + g h = const", "Bernoulli");
-  Simulation<2> simulation(
-      paper_case(fluid, with({"case.width={ x = [120.0, 160.0], value = [20.0, 40.0] }", "body.fluid.min=[10.0, 0.0]",
-                              "body.fluid.max=[90.0, 2.5]", "body.fluid.velocity=[40.0, 0.0]"})));
+  const Sets channel{"case.width={ x = [120.0, 160.0], value = [20.0, 40.0] }; body.column.min=[10,0]",
+                     "body.column.max=[90,2.5]; body.column.velocity=[40,0]"};
+  Simulation<2> simulation(published_case("sand", fluid + channel));
   const double density = simulation.particles().mass(0) / simulation.particles().volume(0);
   run_until(simulation, time);
   double exact = 0.5 * depth;
@@ -99,16 +66,11 @@ TEST(WideningSection, SpreadsAsAParaboloidAboutItsAxis) {
     vertices += fmt::format(", [{}, {}]", x, depth * (1.0 - x * x / (radius * radius)));
   }
   for (const auto& [n, width] : {std::pair(1, "0.0"), std::pair(2, "{ x = [0.5, 1000.0], value = [0.5, 1000.0] }")}) {
-    Simulation<2> simulation(
-        paper_case(fluid, with({fmt::format("case.width={}", width), "body.fluid.shape=polygon",
-                                fmt::format("body.fluid.vertices=[{}]", vertices), "grid.boundary.x_min=roller"})));
+    const Sets paraboloid{fmt::format("case.width={}; body.column.shape=polygon", width),
+                          fmt::format("body.column.vertices=[{}]; grid.boundary.x_min=roller", vertices)};
+    Simulation<2> simulation(published_case("sand", fluid + paraboloid));
     const auto mean_x = [&] {
-      double mass = 0.0, moment = 0.0;
-      for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
-        mass += simulation.particles().mass(p);
-        moment += simulation.particles().mass(p) * simulation.particles().position(p, 0);
-      }
-      return moment / mass;
+      return mass_mean(simulation, [&](std::size_t p) { return simulation.particles().position(p, 0); });
     };
     const double before = mean_x();
     // Mean of r over (0, 1) with the weight (1 - r^2) r^(n-1): 3/8, 8/15.

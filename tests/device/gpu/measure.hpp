@@ -9,7 +9,7 @@
 #include <new>
 #include <vector>
 
-#include "steps_on.hpp"
+#include "variants.hpp"
 
 namespace thawslide::gpu_test {
 

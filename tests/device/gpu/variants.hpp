@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "../emulated.hpp"
 #include "slide.hpp"
 
 namespace thawslide::gpu_test {
@@ -29,7 +30,7 @@ struct NamedVariant {
   Variant variant;
   const char* name;
 };
-inline constexpr std::array<NamedVariant, 12> variants{{{Variant::plain, "as it is"},
+inline constexpr std::array<NamedVariant, 11> variants{{{Variant::plain, "as it is"},
                                                         {Variant::elastic, "without yielding"},
                                                         {Variant::quadratic, "quadratic shape functions"},
                                                         {Variant::apic, "APIC"},
@@ -158,6 +159,18 @@ device::HostCallbacks<Dim> processor_of(Variant variant, const std::shared_ptr<R
     ask.bed = bed_below<Dim>(specified);
   }
   return ask;
+}
+
+// Steps of the block on a GPU, or emulated on the CPU.
+template <int Dim>
+using Steps = device::Solver<Dim>;
+
+// specified: record of the data that the CPU receives during steps.
+template <int Dim>
+std::unique_ptr<Steps<Dim>> steps_of(const device::SolverFactory<Dim>& make, const ParticleMemory<Dim>& particles,
+                                     Variant variant = Variant::plain,
+                                     const std::shared_ptr<Reported>& specified = std::make_shared<Reported>()) {
+  return make(model_of<Dim>(variant), particles.view(), particles.size(), processor_of<Dim>(variant, specified));
 }
 
 }  // namespace thawslide::gpu_test

@@ -1,12 +1,14 @@
-// Rows that contain nodes of particles: other rows of a patch contribute to no node, and every number of these rows is
-// included.
+// Records of nodes. Rows without nodes of particles contribute to no node, and every number of the other rows is
+// included. Records of selected blocks store their values and read zeros elsewhere.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "base/error.hpp"
 #include "mpm/node_pass.hpp"
+#include "mpm/transfer.hpp"
 
 namespace thawslide::mpm {
 namespace {
@@ -165,6 +167,44 @@ TEST(SeenRows, AreSummedExclusivelyAndCompletely) {
 TEST(SeenRows, AreClearedAndReadExclusively) {
   expect_patches_of_seen_rows<2>();
   expect_patches_of_seen_rows<3>();
+}
+
+using Records = SparseRecords<2, 3>;
+
+TEST(SparseRecords, StoreRequestedBlocksAndReadZerosElsewhere) {
+  Records records;
+  records.allocate(5, [](std::size_t block) { return block == 1 || block == 4; });
+  for (const std::size_t block : {1u, 4u}) {
+    ASSERT_TRUE(records.contains(block));
+    for (std::size_t k = 0; k < Records::nodes; ++k) {
+      records.of_block(block)[k] = {static_cast<double>(100 * block + k), 1.0, 2.0, 0.0};
+    }
+  }
+  for (std::size_t block = 0; block < 5; ++block) {
+    const bool held = block == 1 || block == 4;
+    EXPECT_EQ(records.contains(block), held);
+    for (std::size_t k = 0; k < Records::nodes; ++k) {
+      EXPECT_EQ(records(block, k)[0], held ? static_cast<double>(100 * block + k) : 0.0) << block << ", " << k;
+      EXPECT_EQ(records(NodeAt{block, k})[1], held ? 1.0 : 0.0);
+    }
+  }
+}
+
+TEST(SparseRecords, OfReleasedBlocksAreZeroAndReadOnly) {
+  Records records;
+  records.allocate(3, [](std::size_t /*block*/) { return true; });
+  for (std::size_t block = 0; block < 3; ++block) {
+    std::fill_n(records.of_block(block), Records::nodes, Records::Record{7.0, 7.0, 7.0, 7.0});
+  }
+  records.allocate(4, [](std::size_t block) { return block == 3; });
+  for (std::size_t block = 0; block < 3; ++block) {
+    EXPECT_FALSE(records.contains(block));
+    for (std::size_t k = 0; k < Records::nodes; ++k) {
+      EXPECT_EQ(records(block, k), Records::Record{}) << block << ", " << k;
+    }
+    EXPECT_THROW(static_cast<void>(records.of_block(block)), InternalError);
+  }
+  EXPECT_TRUE(records.contains(3));
 }
 
 }  // namespace

@@ -1,0 +1,50 @@
+// Named base cases of tests. A test changes a few keys of one of them:
+//   base_case("block", "time.end=2; body.block.velocity=[2,0]")
+//
+//   block       elastic block on flat ground in 2D; only Coulomb friction acts, without heat and pore pressure
+//   free        elastic block without gravity, ground, initial stress, heat and pore pressure, in 2D
+//   slab        elastic slab on flat ground in 2D, with a shear band, heat and pore pressure
+//   columns     elastic slab on a frictional incline in 2D, with band columns
+//   bar         bar that conducts heat; no gravity, motion or pore pressure
+//   column      thawed soil column in which heat is conducted and water seeps; no motion
+//   sand        column of dry sand on flat ground next to a smooth wall (see the comment in base_cases.cpp)
+//   release     release on a DEM in 3D (files dem.tif, thickness.tif); only Coulomb friction acts
+//   profile     elastic slide on a profile in 2D (file profile.csv); only Coulomb friction acts
+//   two_bodies  frozen body behind a melted body on a slope in 2D, with every mechanism and different particles
+//   box         small 3D slide: box of warm ice on an incline
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "case_from_text.hpp"
+
+namespace thawslide::testing_support {
+
+// Texts of `--set`: KEY=VALUE, or several of them separated by semicolons. Bodies, materials and frames can be added if
+// all keys that they need are given. Paths are relative to the working directory, unlike those of the base cases.
+class Sets : public std::vector<std::string> {
+ public:
+  Sets() = default;
+  Sets(const char* text) : Sets(std::string(text)) {}
+  Sets(const std::string& text);
+  Sets(std::initializer_list<std::string> texts);
+  Sets(const std::vector<std::string>& texts);
+
+  // A later value of the same key replaces an earlier one.
+  friend Sets operator+(Sets first, const Sets& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+  }
+};
+
+// TOML text of a base case.
+const std::string& base_text(const std::string& name);
+
+// Base case with changed keys and the present defaults, or (published_case) with the published formulation for each key
+// that is not given, see paper_case().
+config::Case base_case(const std::string& name, const Sets& sets = {});
+config::Case published_case(const std::string& name, const Sets& sets = {});
+
+}  // namespace thawslide::testing_support
