@@ -390,8 +390,12 @@ Sets::Sets(const std::vector<std::string>& texts) {
 
 const std::string& base_text(const std::string& name) { return all_texts().at(name); }
 
-config::Case base_case(const std::string& name, const Sets& sets) { return case_from_text(base_text(name), sets); }
+config::Case case_from_text(const Variant& variant, const Sets& sets) {
+  return case_from_text(base_text(variant.base), variant.sets + sets);
+}
 
-config::Case published_case(const std::string& name, const Sets& sets) { return paper_case(base_text(name), sets); }
+config::Case paper_case(const Variant& variant, const Sets& sets) {
+  return paper_case(base_text(variant.base), variant.sets + sets);
+}
 
 }  // namespace thawslide::testing_support
