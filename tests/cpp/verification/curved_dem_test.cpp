@@ -16,7 +16,7 @@ using namespace testing_support;
 constexpr double degree = pi / 180.0;
 constexpr double gravity = 9.81;
 
-const std::string block =
+const Variant block =
     release_on_dem({100.0, 0.0018, 2.5, {-350.0, -350.0, -250.0}, {350.0, 350.0, 450.0}}, elastic_rock(0.01), 10.0);
 
 // A block 10 m square in the map around a position, and 5 m high.

@@ -21,7 +21,7 @@ inline constexpr double gravity = 9.81;
 inline constexpr double width = 40.0;   // of the block, square in the map [m]
 inline constexpr double height = 20.0;  // vertical [m]
 
-inline const std::string block =
+inline const Variant block =
     release_on_dem({1.0, 0.001, 5.0, {-100.0, -100.0, -120.0}, {100.0, 100.0, 120.0}}, elastic_rock(0.02), 10.0);
 
 struct Plane {

@@ -16,16 +16,7 @@ using sim::Simulation;
 constexpr double cell = 2.5;
 constexpr double seconds = 14.0;  // until a slide is at rest
 
-const std::string debris = release_on_dem({seconds, 0.003, cell, {-50.0, -50.0, -120.0}, {150.0, 50.0, 60.0}}, R"(
-[material.debris]
-law = "mohr_coulomb"
-youngs_modulus = 2e7
-poisson_ratio = 0.3
-friction_angle = 30.0
-cohesion = 0.0
-gaps_close_first = true
-)",
-                                          18.0);
+const Variant debris = release_on_dem({seconds, 0.003, cell, {-50.0, -50.0, -120.0}, {150.0, 50.0, 60.0}}, {}, 18.0);
 
 // Mass-weighted position along a direction behind which 99.5 % of the mass of particles is located [m, absolute].
 double front_along(const Simulation<3>& simulation, const Place& direction) {
