@@ -29,12 +29,12 @@ constexpr int steps = Dim == 2 ? 60 : 30;
 
 // Bodies that slide across the edge of their domain.
 template <int Dim>
-config::Case leaving_bodies(std::vector<std::string> sets) {
+config::Case leaving_bodies(const Sets& sets) {
   const double end = length<Dim> + 5.0;
-  sets.insert(sets.end(),
-              {"grid.leaving=remove", Dim == 2 ? "body.right.velocity=[60,0]" : "body.right.velocity=[60,0,0]",
-               Dim == 2 ? fmt::format("grid.max=[{}, 20.0]", end) : fmt::format("grid.max=[{}, 10.0, 20.0]", end)});
-  return two_bodies<Dim>(5e3, length<Dim>, 5.0, 20.0, "type = \"flat\"\nelevation = 0.0", sets);
+  const Sets leaving = "grid.leaving=remove; " +
+                       (Dim == 2 ? fmt::format("body.right.velocity=[60,0]; grid.max=[{}, 20.0]", end)
+                                 : fmt::format("body.right.velocity=[60,0,0]; grid.max=[{}, 10.0, 20.0]", end));
+  return two_bodies<Dim>(5e3, length<Dim>, 5.0, 20.0, sets + leaving);
 }
 
 // Particles that move with the left body, starting from a position behind or on top of it.

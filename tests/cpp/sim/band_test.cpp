@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
 #include "physics/pressurization.hpp"
@@ -17,46 +17,13 @@ namespace {
 using namespace testing_support;
 using verification::Record;
 
-const std::string slab = R"(
-[time]
-end = 1.5
-step = 0.001
-[grid]
-cell = 10.0
-min = [-50.0, -10.0]
-max = [250.0, 80.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-viscosity_time = 0.02
-hydraulic_conductivity = 2e-8
-[body.slab]
-material = "rock"
-shape = "box"
-min = [0.0, 0.0]
-max = [200.0, 50.0]
-temperature = 1e-9
-velocity = [1.0, 0.0]
-[frame.driver]
-min = [-50.0, -10.0]
-max = [250.0, 80.0]
-axis = "x"
-velocity = 1.0
-[basal]
-friction = "constant"
-friction_angle = 11.30993247402  # mu 0.2
-[band]
-thickness = 0.05
-[heat]
-conduction = false
-advection = false
-[pressure]
-seepage = false
-)";
+// The friction coefficient is 0.2.
+const Variant slab{
+    "slab",
+    "time.end=1.5; time.step=0.001; grid.max=[250,80]; material.rock.youngs_modulus=5e8; body.slab.temperature=1e-9; "
+    "body.slab.velocity=[1,0]; frame.driver.min=[-50,-10]; frame.driver.max=[250,80]; frame.driver.axis=x; "
+    "frame.driver.velocity=1; basal.friction=constant; basal.friction_angle=11.30993247402; heat.conduction=false; "
+    "heat.advection=false; pressure.seepage=false"};
 
 // The frame drives all nodes except those of the base.
 const std::vector<std::string> base_free = {"frame.driver.min=[-50.0,5.0]"};
@@ -115,41 +82,10 @@ TEST(AdiabaticBand, BlockModelFollowsTheSameExponential) {
 }
 
 // Frozen, melting and pressurized base under gravity: the deformable slab compared with the rigid block.
-const std::string sliding = R"(
-[case]
-gravity_tilt = 25.0
-[time]
-end = 6.0
-step = 0.001
-history_interval = 0.5
-[grid]
-cell = 10.0
-min = [-50.0, -10.0]
-max = [500.0, 80.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e9
-poisson_ratio = 0.2
-viscosity_time = 0.02
-hydraulic_conductivity = 2e-8
-[body.slab]
-material = "rock"
-shape = "box"
-min = [0.0, 0.0]
-max = [200.0, 50.0]
-temperature = -1.0
-velocity = [2.0, 0.0]
-[mechanics]
-slope_shear = true
-[basal]
-friction = "lubricated"
-friction_angle = 25.0
-[band]
-thickness = 0.05
-)";
+const Variant sliding{
+    "slab",
+    "case.gravity_tilt=25; time.end=6; time.step=0.001; time.history_interval=0.5; material.rock.youngs_modulus=5e9; "
+    "body.slab.temperature=-1; body.slab.velocity=[2,0]; mechanics.slope_shear=true"};
 
 TEST(BlockModel, AgreesWithTheMaterialPoints) {
   const config::Case parameters = paper_case(sliding, {"time.step=0.0005"});

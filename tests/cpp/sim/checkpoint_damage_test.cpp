@@ -20,7 +20,7 @@ using testing_support::folder_of_this_test;
 
 // Twelve cells of a 3D slide, with its maps.
 config::Case small_slide() {
-  return testing_support::slide_in_space("velocity = [8.0, 1.0, 0.0]", {"body.box.max=[2.0, 5.0, 1.0]"});
+  return testing_support::slide_in_space("body.box.velocity=[8,1,0]; body.box.max=[2.0, 5.0, 1.0]");
 }
 
 // Two generations of the run's checkpoint, several time steps apart.

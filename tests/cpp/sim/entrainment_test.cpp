@@ -26,10 +26,8 @@ template <int Dim>
 constexpr int steps = Dim == 2 ? 150 : 60;
 
 template <int Dim>
-config::Case slide_over_bed(std::vector<std::string> sets) {
-  const std::vector<std::string> bed = loose_bed();
-  sets.insert(sets.begin(), bed.begin(), bed.end());
-  return two_bodies<Dim>(5e3, Dim == 2 ? 20.0 : 8.0, 5.0, 20.0, "type = \"flat\"\nelevation = 0.0", sets);
+config::Case slide_over_bed(const Sets& sets) {
+  return two_bodies<Dim>(5e3, Dim == 2 ? 20.0 : 8.0, 5.0, 20.0, loose_bed() + sets);
 }
 
 // Final state of the run, and maxima recorded during the run.

@@ -6,9 +6,9 @@ namespace thawslide::sim {
 namespace {
 
 TEST(GroundMemory, IsReleasedBehindTheSlide) {
-  Simulation<3> simulation(testing_support::slide_in_space(
-      "velocity = [80.0, 0.0, 0.0]",
-      {"grid.max=[200.0, 15.0, 20.0]", "material.rock.law=\"elastic\"", "material.rock.viscosity_time=0.01"}));
+  Simulation<3> simulation(
+      testing_support::slide_in_space("body.box.velocity=[80,0,0]; grid.max=[200,15,20]; material.rock.law=elastic; "
+                                      "material.rock.viscosity_time=0.01"));
   std::size_t most_held = 0, most_active = 0, seen = 0;
   for (int k = 0; k < 1000; ++k) {  // about 170 m, nearly thirty times the length of the body
     const std::size_t before = simulation.ground()->stored();

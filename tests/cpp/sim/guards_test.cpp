@@ -6,7 +6,7 @@
 #include <limits>
 #include <regex>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "sim/history.hpp"
@@ -20,29 +20,11 @@ using namespace testing_support;
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 // An oscillating block of 800 particles in free flight.
-const std::string block = R"(
-[time]
-end = 1.0
-step = 0.01
-[grid]
-cell = 10.0
-min = [-50.0, -150.0]
-max = [300.0, 150.0]
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-[body.block]
-material = "rock"
-shape = "box"
-min = [0.0, 0.0]
-max = [100.0, 50.0]
-velocity = [20.0, 0.0]
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)";
+const Variant block{
+    "free",
+    "case.gravity=9.81; grid.cell=10; grid.min=[-50,-150]; grid.max=[300,150]; material.rock.youngs_modulus=5e8; "
+    "material.rock.poisson_ratio=0.2; body.block.min=[0,0]; body.block.max=[100,50]; "
+    "mechanics.initial_stress=geostatic; time.step=0.01; body.block.velocity=[20,0]"};
 
 std::string failure_of(Simulation<2>& simulation, double dt, int steps) {
   set_thread_count(1);

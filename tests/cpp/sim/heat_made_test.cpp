@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "base/portability.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
@@ -14,29 +14,10 @@ namespace {
 using namespace testing_support;
 
 // A column at rest; e from 0.05 m to 0.5 m and back.
-const std::string column = R"(
-[case]
-gravity = 0.0
-[time]
-end = 4000.0
-step = 1.0
-[grid]
-cell = 0.5
-min = [0.0, 0.0]
-max = [1.0, 6.0]
-[material.soil]
-law = "elastic"
-hydraulic_conductivity = 1e-9
-[body.column]
-material = "soil"
-min = [0.0, 0.0]
-max = [1.0, 5.0]
-temperature = -10.0
-[mechanics]
-enabled = false
-[heat]
-conduction = false
-)";
+const Variant column{
+    "column",
+    "case.gravity=0; time.end=4000; time.step=1; grid.max=[1,6]; material.soil.hydraulic_conductivity=1e-9; "
+    "body.column.max=[1,5]; body.column.temperature=-10; heat.conduction=false"};
 const std::string jumps = "band.thickness={time=[0.0,0.5,0.5,2.5,2.5,9.0],value=[0.05,0.05,0.5,0.5,0.05,0.05]}";
 
 // Gives a particle another temperature [C] with the heat for it; returns that heat, without scaling [J].

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "base/error.hpp"
 #include "base/portability.hpp"
 #include "physics/pressurization.hpp"
@@ -16,33 +16,7 @@ namespace {
 using namespace testing_support;
 
 // A bar at rest; cells and step are set by --set.
-const std::string bar = R"(
-[case]
-gravity = 0.0
-[time]
-end = 4.0e5
-step = 1000.0
-[grid]
-cell = 0.1
-min = [0.0, 0.0]
-max = [4.0, 0.4]
-[material.bar]
-law = "elastic"
-youngs_modulus = 1e7
-poisson_ratio = 0.3
-[body.bar]
-material = "bar"
-shape = "box"
-min = [0.0, 0.0]
-max = [4.0, 0.4]
-temperature = 2.0
-[mechanics]
-enabled = false
-[pressure]
-enabled = false
-[heat.boundary]
-x_min = { temperature = 8.0 }
-)";
+const Variant bar{"bar", "heat.boundary.x_min={temperature=8}"};
 
 // Root mean square error against 2 + 6 erfc(x/sqrt(4 a t)).
 double conduction_error(double cell) {
@@ -72,9 +46,7 @@ TEST(Conduction, HalfSpaceConvergesAtSecondOrder) {
 }
 
 TEST(Conduction, FluxAddsItsHeat) {
-  std::string text = bar;
-  text.replace(text.find("{ temperature = 8.0 }"), 21, "{ flux = 2.0 }");
-  Simulation<2> simulation(paper_case(text));
+  Simulation<2> simulation(paper_case(bar, "heat.boundary.x_min={flux=2}"));
   run_until(simulation, 4.0e5);
   const auto row = history_row(simulation);
   // 2 W/m2 over 0.4 m for 4e5 s.
@@ -101,35 +73,11 @@ TEST(Conduction, StepAboveTheLimitOfALaterThinnerBandIsRefused) {
 }
 
 TEST(UndrainedHeating, RaisesThePressureByLambda) {
-  const std::string heated = R"(
-[case]
-gravity = 9.81
-[time]
-end = 2.0e4
-step = 100.0
-[grid]
-cell = 0.1
-min = [0.0, 0.0]
-max = [1.0, 0.4]
-[material.bar]
-law = "elastic"
-youngs_modulus = 1e7
-poisson_ratio = 0.3
-hydraulic_conductivity = 2e-8
-[body.bar]
-material = "bar"
-shape = "box"
-min = [0.0, 0.0]
-max = [1.0, 0.4]
-temperature = 1.0
-[mechanics]
-enabled = false
-[pressure]
-seepage = false
-[heat.boundary]
-x_min = { flux = 40.0 }
-)";
-  Simulation<2> simulation(paper_case(heated));
+  const Sets heated =
+      "case.gravity=9.81; time.end=2e4; time.step=100; grid.max=[1,0.4]; material.bar.hydraulic_conductivity=2e-8; "
+      "body.bar.max=[1,0.4]; body.bar.temperature=1; pressure.enabled=true; pressure.seepage=false; "
+      "heat.boundary.x_min={flux=40}";
+  Simulation<2> simulation(published_case("bar", heated));
   const auto& particles = simulation.particles();
   std::vector<double> start(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {

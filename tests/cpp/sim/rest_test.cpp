@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "base/parallel.hpp"
 #include "io/checkpoint.hpp"
 #include "sim/end_state.hpp"
@@ -16,38 +16,12 @@ namespace {
 using namespace testing_support;
 
 // A block that friction stops: from 2 m/s by 0.2 g in about a second.
-const std::string block = R"(
-[time]
-end = 5.0
-step = 0.002
-stop_at_rest = 0.05
-rest_time = 0.4
-[grid]
-cell = 1.0
-min = [0.0, -2.0]
-max = [20.0, 20.0]
-[terrain]
-type = "flat"
-[material.rock]
-law = "elastic"
-youngs_modulus = 1e8
-poisson_ratio = 0.2
-viscosity_time = 0.005
-[body.block]
-material = "rock"
-shape = "box"
-min = [5.0, 0.0]
-max = [15.0, 6.0]
-velocity = [2.0, 0.0]
-[basal]
-friction = "constant"
-friction_angle = 11.31
-cohesion = 0.0
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)";
+const Variant endless{
+    "block",
+    "time.end=5; time.step=0.002; grid.cell=1; grid.min=[0,-2]; grid.max=[20,20]; material.rock.youngs_modulus=1e8; "
+    "material.rock.viscosity_time=0.005; body.block.min=[5,0]; body.block.max=[15,6]; body.block.velocity=[2,0]; "
+    "basal.friction_angle=11.31; mechanisms.pressurization=true"};
+const Variant block = endless + "time.stop_at_rest=0.05; time.rest_time=0.4";
 
 // Advances until rest or until the end; returns the time.
 double end_of(Simulation<2>& simulation) {
@@ -74,8 +48,7 @@ TEST(Rest, EndsARunAfterItsTime) {
 
 // With the default speed and the default 10 s; the run continues.
 TEST(Rest, IsDetectedWithoutTheKey) {
-  Simulation<2> simulation(
-      paper_case(block.substr(0, block.find("stop_at_rest")) + block.substr(block.find("[grid]")), {"time.end=13"}));
+  Simulation<2> simulation(paper_case(endless, "time.end=13"));
   while (simulation.time() < 13.0 - 1e-9) {
     simulation.step(simulation.next_step(13.0));
     EXPECT_FALSE(simulation.ends_at_rest());
@@ -129,9 +102,8 @@ TEST(Rest, IsNotDetectedBeforeTheSlideHasMoved) {
 
 // A run shorter than time.rest_time, 10 s: the block settles without further motion.
 TEST(Rest, IsSinceTheStartIfNothingHasMoved) {
-  const std::string without = block.substr(0, block.find("stop_at_rest")) + block.substr(block.find("[grid]"));
   const auto state_at = [&](double end, const std::string& set) {
-    Simulation<2> simulation(paper_case(without, {set}));
+    Simulation<2> simulation(paper_case(endless, set));
     while (simulation.time() < end - 1e-9) {
       simulation.step(simulation.next_step(end));
     }
@@ -149,12 +121,8 @@ TEST(Rest, IsSinceTheStartIfNothingHasMoved) {
 }
 
 TEST(Rest, AnEscapedParticleDoesNotPreventRest) {
-  const std::string escaping = R"([body.stray]
-material = "rock"
-min = [6.0, 12.0]
-max = [6.5, 12.5]
-velocity = [0.0, 6.0]
-)";
+  const Sets escaping =
+      "body.stray.material=rock; body.stray.min=[6,12]; body.stray.max=[6.5,12.5]; body.stray.velocity=[0,6]";
   Simulation<2> simulation(paper_case(block + escaping));
   const double end = end_of(simulation);
   EXPECT_LT(end, 1.8);

@@ -63,7 +63,7 @@ TEST(Section, OnTheLastBorderBelongsToTheCellsBeforeIt) {
 
 TEST(Probes, MeasureTheMovingBox) {
   // A box that slides as a rigid body: the discharge is the product of thickness, width and speed.
-  const Simulation<3> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
+  const Simulation<3> simulation(slide_in_space("body.box.velocity=[8,0,0]"));
   config::Site site;
   site.probes = {{"gauge", {{3.5, 4.5}}},
                  {"empty", {{30.5, 4.5}}},
@@ -118,7 +118,7 @@ TEST(Probes, OutsideTheMapsAreRefused) {
 }
 
 TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {
-  Simulation<3> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
+  Simulation<3> simulation(slide_in_space("body.box.velocity=[8,0,0]"));
   config::Site site;
   site.path = {{-2.0, 5.0}, {50.0, 5.0}};
   RunRecords<3> records(simulation, site);
@@ -157,7 +157,7 @@ TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {
 }
 
 TEST(RunRecords, UseThePathOfTheCentreOfMassByDefault) {
-  Simulation<3> simulation(slide_in_space("velocity = [0.0, -16.0, 0.0]", {"case.gravity_tilt=0.0"}));
+  Simulation<3> simulation(slide_in_space("body.box.velocity=[0,-16,0]; case.gravity_tilt=0.0"));
   RunRecords<3> records(simulation, {});
   records.start(simulation);
   EXPECT_FALSE(records.path_given());
@@ -186,7 +186,7 @@ TEST(RunRecords, UseThePathOfTheCentreOfMassByDefault) {
 }
 
 TEST(RunRecords, KeepPeakValuesAfterTheSlideHasLeft) {
-  Simulation<3> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
+  Simulation<3> simulation(slide_in_space("body.box.velocity=[8,0,0]"));
   config::Site site;
   site.probes = {{"gauge", {{3.5, 4.5}}}};
   RunRecords<3> records(simulation, site);
@@ -202,7 +202,7 @@ TEST(RunRecords, KeepPeakValuesAfterTheSlideHasLeft) {
 }
 
 TEST(RunRecords, AreBitwiseIdenticalAfterAStopAndAResume) {
-  const config::Case parameters = slide_in_space("velocity = [8.0, 1.0, 0.0]");
+  const config::Case parameters = slide_in_space("body.box.velocity=[8,1,0]");
   config::Site site;
   site.probes = {{"gauge", {{7.5, 5.5}}}, {"section", {{7.5, 0.0}, {8.5, 10.0}}}};
   const auto steps = [](Simulation<3>& simulation, RunRecords<3>& records, int count) {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "sim/simulation.hpp"
 
 namespace thawslide::sim {
@@ -12,31 +12,7 @@ namespace {
 
 using namespace testing_support;
 
-const std::string column = R"(
-[time]
-end = 5.0
-step = 0.05
-[grid]
-cell = 0.5
-min = [0.0, 0.0]
-max = [1.0, 12.0]
-[material.melted]
-law = "elastic"
-youngs_modulus = 1e8
-poisson_ratio = 0.2
-hydraulic_conductivity = 1e-7
-[body.column]
-material = "melted"
-shape = "box"
-min = [0.0, 0.0]
-max = [1.0, 10.0]
-temperature = 5.0
-porosity = 0.4
-[mechanics]
-enabled = false
-[heat]
-enabled = false
-)";
+const Variant column{"column", "time.end=5; body.column.porosity=0.4; heat.enabled=false"};
 
 // Pressures that alternate from row to row within each cell: each node resolves their mean only.
 TEST(Seepage, LevelsPressureUnresolvedByNodes) {
@@ -90,19 +66,10 @@ TEST(Seepage, SpreadsABumpAndKeepsItsSum) {
 
 // Melted material without hydraulic conductivity keeps its water, next to permeable material and at the surface.
 TEST(Seepage, DoesNotAffectImpermeableMaterial) {
-  const std::string tight = R"(
-[material.tight]
-law = "elastic"
-youngs_modulus = 1e8
-poisson_ratio = 0.2
-[body.lid]
-material = "tight"
-shape = "box"
-min = [0.0, 10.0]
-max = [1.0, 11.0]
-temperature = 5.0
-porosity = 0.4
-)";
+  const Sets tight =
+      "material.tight.law=elastic; material.tight.youngs_modulus=1e8; material.tight.poisson_ratio=0.2; "
+      "body.lid.material=tight; body.lid.min=[0,10]; body.lid.max=[1,11]; body.lid.temperature=5; "
+      "body.lid.porosity=0.4";
   Simulation<2> simulation(paper_case(column + tight));
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "physics/pressurization.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
@@ -15,35 +15,8 @@ namespace {
 using namespace testing_support;
 
 // A column of two cells by twenty whose particles are at rest.
-const std::string column = R"(
-[time]
-end = 100.0
-step = 0.05
-[grid]
-cell = 0.5
-min = [0.0, 0.0]
-max = [1.0, 12.0]
-[phases]
-rock_expansion = 0.0
-[material.soil]
-law = "elastic"
-youngs_modulus = 1e8
-poisson_ratio = 0.2
-hydraulic_conductivity = 1e-7
-[body.column]
-material = "soil"
-min = [0.0, 0.0]
-max = [1.0, 10.0]
-temperature = 5.0
-[mechanics]
-enabled = false
-)";
-const std::vector<std::string> still{"heat.enabled=false"};
-
-std::vector<std::string> both(std::vector<std::string> sets, const std::vector<std::string>& more) {
-  sets.insert(sets.end(), more.begin(), more.end());
-  return sets;
-}
+const Variant column{"column", "phases.rock_expansion=0"};
+const Sets still = "heat.enabled=false";
 
 // Assigns another temperature to particles as their initial temperature.
 void set_temperature(Simulation<2>& simulation, std::size_t p, double temperature) {
@@ -85,7 +58,7 @@ void fill_with_patches(Simulation<2>& simulation) {
 TEST(FrozenRows, SealedOnesKeepTheWaterAndBoundItsPressure) {
   for (const double step : {0.05, 2.2}) {
     Simulation<2> simulation(paper_case(
-        column, both(still, {"pressure.frozen_rows=sealed", "time.end=1000", fmt::format("time.step={}", step)})));
+        column, still + Sets{"pressure.frozen_rows=sealed", "time.end=1000", fmt::format("time.step={}", step)}));
     const auto& particles = simulation.particles();
     fill_with_patches(simulation);
     const double before = stored(simulation);
@@ -107,7 +80,7 @@ TEST(FrozenRows, SealedOnesKeepTheWaterAndBoundItsPressure) {
 
 TEST(FrozenRows, SealedOnesExertNoPressureOnAdjacentWater) {
   // Melted at 1 MPa below 5 m, frozen above, with ice at any pressure: nothing flows.
-  Simulation<2> simulation(paper_case(column, both(still, {"pressure.frozen_rows=sealed"})));
+  Simulation<2> simulation(paper_case(column, still + Sets{"pressure.frozen_rows=sealed"}));
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const bool frozen = particles.position(p, 1) > 5.0;
@@ -126,7 +99,7 @@ TEST(FrozenRows, SealedOnesExertNoPressureOnAdjacentWater) {
 // pressure.
 TEST(FrozenRows, TheirUptakeIsCounted) {
   const auto entrained = [&](const std::string& rows) {
-    Simulation<2> simulation(paper_case(column, both(still, {"pressure.frozen_rows=" + rows})));
+    Simulation<2> simulation(paper_case(column, still + Sets{"pressure.frozen_rows=" + rows}));
     fill_with_patches(simulation);
     const double before = stored(simulation);
     run_until(simulation, 1.0);
@@ -169,12 +142,12 @@ void bring_to(Simulation<2>& simulation, double temperature) {
   simulation.step(0.05);
 }
 
-const std::vector<std::string> weightless{"heat.enabled=false", "pressure.seepage=false", "case.gravity=0.0"};
+const Sets weightless = "heat.enabled=false; pressure.seepage=false; case.gravity=0.0";
 constexpr double porosity = 0.375, storage = porosity / 1e9;
 
 TEST(MeltContraction, ExpansionFillsTheVoidBeforePressureRises) {
   Simulation<2> simulation(
-      paper_case(column, both(weightless, {"pressure.melt_contraction=true", "body.column.temperature=-10.0"})));
+      paper_case(column, weightless + Sets{"pressure.melt_contraction=true", "body.column.temperature=-10.0"}));
   const auto& particles = simulation.particles();
   const double left = porosity * 0.083 * (1.0 - std::pow(11.0, -5.0));
   int open = 0, full = 0;
@@ -203,7 +176,7 @@ TEST(MeltContraction, ExpansionFillsTheVoidBeforePressureRises) {
 
 TEST(MeltContraction, WithoutItMeltIsPressurizedFromTheFirstKelvin) {
   Simulation<2> simulation(
-      paper_case(column, both(weightless, {"body.column.temperature=-10.0", "pressure.skeleton_compressibility=0"})));
+      paper_case(column, weightless + Sets{"body.column.temperature=-10.0", "pressure.skeleton_compressibility=0"}));
   bring_to(simulation, 2.0);
   EXPECT_NEAR(simulation.particles().pore_pressure(7), 2.0 * 275000.0, 1e-6);
   EXPECT_FALSE(simulation.particles().pore_void.is_kept());
@@ -213,8 +186,8 @@ TEST(MeltContraction, WithoutItMeltIsPressurizedFromTheFirstKelvin) {
 TEST(WaterExpansion, DependingOnTemperatureContractsFirst) {
   for (const double compressibility : {0.0, 2e-9}) {
     Simulation<2> simulation(paper_case(
-        column, both(weightless, {"phases.water_expansion_law=by_temperature", "body.column.temperature=1e-9",
-                                  fmt::format("pressure.skeleton_compressibility={}", compressibility)})));
+        column, weightless + Sets{"phases.water_expansion_law=by_temperature", "body.column.temperature=1e-9",
+                                  fmt::format("pressure.skeleton_compressibility={}", compressibility)}));
     const auto& particles = simulation.particles();
     const auto expect_at = [&](double temperature, double swelling) {
       bring_to(simulation, temperature);
@@ -231,11 +204,10 @@ TEST(WaterExpansion, DependingOnTemperatureContractsFirst) {
 }
 
 TEST(FrozenPressure, NoneGivesThawedWaterTheLoadMinusTheResidualStress) {
-  const std::vector<std::string> none{"heat.enabled=false", "pressure.seepage=false", "pressure.frozen=none",
-                                      "body.column.temperature=-1.0"};
+  const Sets none = "heat.enabled=false; pressure.seepage=false; pressure.frozen=none; body.column.temperature=-1";
   const double density = 0.625 * 2750.0 + porosity * (1000.0 / 32.0 + 917.0 * 31.0 / 32.0);
-  const auto expect_start = [&](const std::vector<std::string>& sets, double residual, double gas_void) {
-    Simulation<2> simulation(paper_case(column, both(none, sets)));
+  const auto expect_start = [&](const Sets& sets, double residual, double gas_void) {
+    Simulation<2> simulation(paper_case(column, none + sets));
     const auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       EXPECT_EQ(particles.pore_pressure(p), 0.0);
