@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../support/fields.hpp"
+#include "../support/messages.hpp"
 #include "../support/two_bodies.hpp"
 #include "base/parallel.hpp"
 #include "io/checkpoint.hpp"
@@ -170,15 +171,8 @@ TEST(Entrainment, HeatsEntrainedMaterialByTheLostKineticEnergy) {
 }
 
 TEST(Entrainment, TheBlockModelRefusesABed) {
-  try {
-    run_block(slide_over_bed<2>({"bed.law=strength"}));
-    FAIL();
-  } catch (const UserError& error) {
-    EXPECT_NE(
-        std::string(error.what()).find("the block model does not entrain a bed. Remove [bed], or use `thawslide run`."),
-        std::string::npos)
-        << error.what();
-  }
+  expect_in(error_of([] { run_block(slide_over_bed<2>("bed.law=strength")); }),
+            "the block model does not entrain a bed. Remove [bed], or use `thawslide run`.");
 }
 
 }  // namespace

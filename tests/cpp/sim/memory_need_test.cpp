@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/messages.hpp"
 #include "../support/slide_on_dem.hpp"
 #include "band/basal_segment.hpp"
-#include "base/error.hpp"
 #include "sim/flow_maps.hpp"
 #include "sim/map_grid.hpp"
 
@@ -87,12 +87,7 @@ TEST(MemoryNeed, DetectsThatNoCellHelps) {
 }
 
 std::string refusal_of(const config::Case& parameters, const AvailableMemory& available) {
-  try {
-    require_memory<2>(parameters, {}, available);
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "";
+  return error_of([&] { require_memory<2>(parameters, {}, available); });
 }
 
 TEST(MemoryNeed, IsRefusedWithTheKeyAndACellThatFits) {
@@ -102,8 +97,8 @@ TEST(MemoryNeed, IsRefusedWithTheKeyAndACellThatFits) {
             "--set grid.cell=0.02: grid.cell is 0.02 m, which makes 6,000,000 particles: the run needs about 8.6 GB of "
             "memory (particles 3.8 GB, writing them 4.8 GB), and 4 GB are free. Make grid.cell 0.032 m or more, or "
             "particles_per_axis smaller.");
-  EXPECT_EQ(refusal_of(parameters, {8.7e9, "are free"}), "");
-  EXPECT_EQ(refusal_of(case_from_text(two_bodies), {60.9e6, "are free"}), "");
+  EXPECT_EQ(refusal_of(parameters, {8.7e9, "are free"}), "no error");
+  EXPECT_EQ(refusal_of(case_from_text(two_bodies), {60.9e6, "are free"}), "no error");
 }
 
 // The limit is below the size of the program: no cell size helps, and the message names the largest part.

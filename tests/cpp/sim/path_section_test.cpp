@@ -9,8 +9,8 @@
 #include <functional>
 
 #include "../support/base_cases.hpp"
+#include "../support/messages.hpp"
 #include "../support/small_terrain.hpp"
-#include "base/error.hpp"
 #include "physics/basal/laws.hpp"
 #include "sim/block.hpp"
 #include "sim/steepest_descent.hpp"
@@ -222,12 +222,7 @@ TEST(PathSection, PathNeedsGroundAtTheReleaseOnly) {
 }
 
 std::string error_of(const InSpace& made) {
-  try {
-    static_cast<void>(section_along_path(made.parameters, made.site));
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing_support::error_of([&] { static_cast<void>(section_along_path(made.parameters, made.site)); });
 }
 
 TEST(PathSection, ReportsMissingRequirements) {
@@ -325,10 +320,8 @@ TEST(PathSection, WithoutADescendingPathReportsTheNeededKey) {
       "case.toml: no downhill path starts at the centre of the release, x = 200, y = 0: over 10 m the terrain is level "
       "or a pit there. Set maps.path to a file with a line from the release along the expected flow path.");
   reshape(bowl_about(260.0));
-  EXPECT_NE(error_of(made).find(
-                "case.toml: the line of steepest descent from the centre of the release ends in a pit at x = "),
-            std::string::npos)
-      << error_of(made);
+  testing_support::expect_in(
+      error_of(made), "case.toml: the line of steepest descent from the centre of the release ends in a pit at x = ");
   reshape(bowl_about(900.0));
   const PathSection section = section_along_path(made.parameters, made.site);
   ASSERT_TRUE(section.pit);

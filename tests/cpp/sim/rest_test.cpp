@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../support/base_cases.hpp"
+#include "../support/messages.hpp"
 #include "base/parallel.hpp"
 #include "io/checkpoint.hpp"
 #include "sim/end_state.hpp"
@@ -41,9 +42,7 @@ TEST(Rest, EndsARunAfterItsTime) {
   EXPECT_LT(end, 1.02 + 0.4 + 0.4) << "it oscillates for a while";
   const std::string text = simulation.rest_text();
   EXPECT_EQ(text.rfind("the slide is at rest: since t = ", 0), 0U) << text;
-  EXPECT_NE(text.find(" s no more than 0.5 % of its mass has moved faster than 0.05 m/s (time.stop_at_rest)"),
-            std::string::npos)
-      << text;
+  expect_in(text, " s no more than 0.5 % of its mass has moved faster than 0.05 m/s (time.stop_at_rest)");
 }
 
 // With the default speed and the default 10 s; the run continues.
@@ -77,12 +76,9 @@ TEST(Rest, IsPartOfTheEndStateWithAWarningBeforeIt) {
   const std::vector<std::string> warnings = warnings_of(moving, true);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].rfind("the slide is not at rest at 0.5 s (mean velocity ", 0), 0U) << warnings[0];
-  EXPECT_NE(
-      warnings[0].find(
-          " m/s; at rest: for 0.4 s, or 0.25 s from the start, no more than 0.5 % of the mass "
-          "faster than 0.05 m/s). Volumes, areas, distances and maps are those of this time and not of a deposit. "),
-      std::string::npos)
-      << warnings[0];
+  expect_in(warnings[0],
+            " m/s; at rest: for 0.4 s, or 0.25 s from the start, no more than 0.5 % of the mass "
+            "faster than 0.05 m/s). Volumes, areas, distances and maps are those of this time and not of a deposit. ");
   EXPECT_TRUE(warnings_of(moving, false).empty()) << "while it runs";
   EXPECT_FALSE(end_state<2>(simulation, true).is_known) << "nothing of the slide is left";
   end_of(simulation);
@@ -90,7 +86,7 @@ TEST(Rest, IsPartOfTheEndStateWithAWarningBeforeIt) {
   EXPECT_TRUE(still.at_rest);
   EXPECT_EQ(still.rest_since, simulation.rest_since());
   EXPECT_TRUE(warnings_of(still, true).empty());
-  EXPECT_NE(when_text(still).find(" s, at rest"), std::string::npos);
+  expect_in(when_text(still), " s, at rest");
 }
 
 TEST(Rest, IsNotDetectedBeforeTheSlideHasMoved) {

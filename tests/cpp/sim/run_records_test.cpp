@@ -7,16 +7,15 @@
 #include <cstring>
 #include <filesystem>
 
+#include "../support/messages.hpp"
 #include "../support/slide_in_space.hpp"
 #include "../support/two_bodies.hpp"
-#include "base/error.hpp"
 #include "io/checkpoint.hpp"
 
 namespace thawslide::sim {
 namespace {
 
-using testing_support::slide_in_space;
-using testing_support::value_of;
+using namespace testing_support;
 
 constexpr auto level_ground = [](double /*x*/, double /*y*/) { return 0.0; };
 
@@ -93,28 +92,14 @@ TEST(Probes, OutsideTheMapsAreRefused) {
   const Simulation<3> simulation(slide_in_space());
   config::Site site;
   site.probes = {{"gauge", {{3.5, 40.0}}}};
-  try {
-    RunRecords<3>(simulation, site);
-    FAIL();
-  } catch (const UserError& error) {
-    const std::string message = error.what();
-    EXPECT_NE(
-        message.find(": probe 'gauge' has a point at x = 3.5 m, y = 40 m, outside the maps; allowed: x from -4 to "
-                     "60 m, y from -5 to 15 m. Move it, or make the domain larger."),
-        std::string::npos)
-        << message;
-  }
+  const auto message = [&] { return error_of([&] { RunRecords<3>(simulation, site); }); };
+  expect_in(message(),
+            ": probe 'gauge' has a point at x = 3.5 m, y = 40 m, outside the maps; allowed: x from -4 to "
+            "60 m, y from -5 to 15 m. Move it, or make the domain larger.");
   site.probes = {{"gauge", {{3.5, 4.0}, {3.5, 4.0}}}};
-  try {
-    RunRecords<3>(simulation, site);
-    FAIL();
-  } catch (const UserError& error) {
-    const std::string message = error.what();
-    EXPECT_NE(message.find("the line of probe 'gauge' has no length; allowed: one point, or a line of at least two "
-                           "different ones."),
-              std::string::npos)
-        << message;
-  }
+  expect_in(message(),
+            "the line of probe 'gauge' has no length; allowed: one point, or a line of at least two "
+            "different ones.");
 }
 
 TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {

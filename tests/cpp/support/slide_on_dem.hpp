@@ -31,10 +31,10 @@ struct Frame {
 // Case "release" with other frame, material and friction angle [degrees].
 inline Variant release_on_dem(const Frame& frame, const Sets& material, double friction_angle) {
   const auto list = [](const Position& p) { return fmt::format("[{}, {}, {}]", p[0], p[1], p[2]); };
-  return {"release",
-          Sets(fmt::format("time.end={}; time.step={}; grid.cell={}; grid.min={}; grid.max={}; basal.friction_angle={}", frame.end,
-                      frame.step, frame.cell, list(frame.least), list(frame.greatest), friction_angle)) +
-              material};
+  return {"release", Sets(fmt::format(
+                         "time.end={}; time.step={}; grid.cell={}; grid.min={}; grid.max={}; basal.friction_angle={}",
+                         frame.end, frame.step, frame.cell, list(frame.least), list(frame.greatest), friction_angle)) +
+                         material};
 }
 
 // Rock that barely deforms, under the stress of a slab on a slope; viscosity divided by stiffness [s].
