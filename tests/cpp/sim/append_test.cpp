@@ -110,7 +110,7 @@ void expect_ids_and_rows(const Simulation<Dim>& simulation, std::size_t joined, 
 // Particles are added twice during the run. stop: time step before which the run stops and resumes from its checkpoint;
 // -1: no stop.
 template <int Dim>
-Seen run(const std::vector<std::string>& sets, int threads, int interval, int stop) {
+Seen run(const Sets& sets, int threads, int interval, int stop) {
   const int threads_before = thread_count();
   set_thread_count(threads);
   const config::Case parameters = leaving_bodies<Dim>(sets);
@@ -150,7 +150,7 @@ Seen run(const std::vector<std::string>& sets, int threads, int interval, int st
 }
 
 template <int Dim>
-void expect_sound_runs(const std::vector<std::string>& sets) {
+void expect_sound_runs(const Sets& sets) {
   const Seen first = run<Dim>(sets, 1, 0, -1);
   EXPECT_LT(first.mass, 1e-13);
   EXPECT_LT(first.momentum, 1e-13);
@@ -171,9 +171,9 @@ void expect_sound_runs(const std::vector<std::string>& sets) {
 TEST(Append, BalancesCloseAndResultsAreReproducibleInThePlane) { expect_sound_runs<2>({}); }
 TEST(Append, BalancesCloseAndResultsAreReproducibleInSpace) { expect_sound_runs<3>({}); }
 TEST(Append, BalancesCloseAndResultsAreReproducibleWithOtherChoices) {
-  expect_sound_runs<2>({"mechanics.transfer=apic", "time.stepping=adaptive"});
-  expect_sound_runs<2>({"band.region=first_layer", "band.thickness={time=[0.0,0.05],value=[0.1,0.2]}"});
-  expect_sound_runs<2>({"mechanics.effective_stress=true", "pressure.thickness_update=frozen", "time.step=0.001"});
+  expect_sound_runs<2>("mechanics.transfer=apic; time.stepping=adaptive");
+  expect_sound_runs<2>("band.region=first_layer; band.thickness={time=[0.0,0.05],value=[0.1,0.2]}");
+  expect_sound_runs<2>("mechanics.effective_stress=true; pressure.thickness_update=frozen; time.step=0.001");
 }
 
 // Particles added with the initial state of another particle equal that particle at t = 0.

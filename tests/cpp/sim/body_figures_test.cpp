@@ -50,9 +50,9 @@ TEST(BodyFigures, AreThoseOfTheBody) {
 
 // A heap of 5 m x 8 m with a layer of 25 m x 1 m in front of it, so soft that its weight compresses it.
 TEST(BodyFigures, TheMedianIsByAreaAndTriggersAWarning) {
-  const std::vector<std::string> sets{
-      "grid.max=[50.0,20.0]", "material.rock.youngs_modulus=2e6",
-      "body.block.vertices=[[5.0,1.0],[35.0,1.0],[35.0,2.0],[10.0,2.0],[10.0,9.0],[5.0,9.0]]"};
+  const Sets sets =
+      "grid.max=[50,20]; material.rock.youngs_modulus=2e6; "
+      "body.block.vertices=[[5.0,1.0],[35.0,1.0],[35.0,2.0],[10.0,2.0],[10.0,9.0],[5.0,9.0]]";
   const std::vector<BodyFigures> bodies = figures_of(step, sets);
   EXPECT_NEAR(bodies.front().mean_thickness, 65.0 / 30.0, 1e-12);
   EXPECT_NEAR(bodies.front().median_thickness, 1.0, 1e-12) << "not the 8 m of most of its volume";
@@ -73,8 +73,8 @@ TEST(BodyFigures, TheMedianIsByAreaAndTriggersAWarning) {
 const Sets strong = "material.rock.law=mohr_coulomb; material.rock.cohesion=1e5; material.rock.residual_cohesion=0";
 
 TEST(BodyFigures, ABrokenBodyWeakerThanItsBaseCausesAWarning) {
-  const auto warnings_with = [](const std::vector<std::string>& others) {
-    const std::vector<std::string> sets = strong + others;
+  const auto warnings_with = [](const Sets& others) {
+    const Sets sets = strong + others;
     return body_warnings(case_from_text(step, sets), figures_of(step, sets));
   };
   const std::string slip = "material.rock.softening_slip=1.0", angle = "material.rock.friction_angle=35.0";
@@ -100,9 +100,9 @@ TEST(BodyFigures, ABrokenBodyWeakerThanItsBaseCausesAWarning) {
 
 // R_0 - R_f is 1e5 cos 35 + p (sin 35 - sin 30), with p the weight of 4 m.
 TEST(BodyFigures, ACellTooWideForSofteningCausesAWarning) {
-  const std::vector<std::string> sets =
-      with_strength({"material.rock.friction_angle=35.0", "material.rock.residual_friction_angle=30.0",
-                     "material.rock.softening_slip=0.001"});
+  const Sets sets = strong +
+                    "material.rock.friction_angle=35; material.rock.residual_friction_angle=30; "
+                    "material.rock.softening_slip=0.001";
   const auto warnings = body_warnings(case_from_text(step, sets), figures_of(step, sets));
   ASSERT_EQ(warnings.size(), 1U);
   expect_in(warnings.front(),
@@ -113,9 +113,10 @@ TEST(BodyFigures, ACellTooWideForSofteningCausesAWarning) {
 
 // If cohesion is constant and friction decreases, the radius of Mohr's circle may grow, and no energy is released.
 TEST(BodyFigures, SofteningThatLosesNoStrengthIsNotReported) {
-  const std::vector<std::string> sets = with_strength(
-      {"material.rock.friction_angle=35.0", "material.rock.residual_friction_angle=20.0", "material.rock.cohesion=1e7",
-       "material.rock.residual_cohesion=1e7", "material.rock.softening_slip=0.001"});
+  const Sets sets =
+      strong +
+      "material.rock.friction_angle=35; material.rock.residual_friction_angle=20; "
+      "material.rock.cohesion=1e7; material.rock.residual_cohesion=1e7; material.rock.softening_slip=0.001";
   EXPECT_TRUE(body_warnings(case_from_text(step, sets), figures_of(step, sets)).empty());
 }
 
@@ -131,8 +132,7 @@ TEST(BodyFigures, ReportTheClearanceAboveTheGround) {
 }
 
 TEST(BodyFigures, ReportTheVolumeErrorOfTheLattice) {
-  const std::vector<std::string> lower{
-      "body.block.vertices=[[10.0,1.0],[22.0,1.0],[22.0,3.0],[18.0,3.0],[18.0,4.8],[10.0,4.8]]"};
+  const Sets lower = "body.block.vertices=[[10.0,1.0],[22.0,1.0],[22.0,3.0],[18.0,3.0],[18.0,4.8],[10.0,4.8]]";
   const std::vector<BodyFigures> bodies = figures_of(step, lower);
   EXPECT_NEAR(bodies.front().shape_volume, 38.4, 1e-12);
   EXPECT_NEAR(bodies.front().volume, 40.0, 1e-12);
@@ -170,10 +170,8 @@ TEST(BodyFigures, BodiesRestOnBodies) {
 }
 
 TEST(BodyFigures, BodiesWithNothingBelowHaveInfiniteClearance) {
-  const std::vector<std::string> sets{"terrain.type=none"};
-  EXPECT_TRUE(std::isinf(figures_of(step, sets).front().clearance));
-  const std::vector<std::string> held{"terrain.type=none", "grid.boundary.y_min=fixed", "grid.min=[0.0,1.0]",
-                                      "grid.max=[40.0,21.0]"};
+  EXPECT_TRUE(std::isinf(figures_of(step, "terrain.type=none").front().clearance));
+  const Sets held = "terrain.type=none; grid.boundary.y_min=fixed; grid.min=[0,1]; grid.max=[40,21]";
   EXPECT_NEAR(figures_of(step, held).front().clearance, 0.0, 1e-12) << "the side of the domain holds";
 }
 

@@ -37,7 +37,7 @@ struct MeanContact {
   double area = 0.0, normal = 0.0, tangential = 0.0, mass = 0.0, velocity = 0.0;
 };
 
-MeanContact mean_contact(const std::vector<std::string>& sets) {
+MeanContact mean_contact(const Sets& sets) {
   Simulation<2> simulation(paper_case(slab_on_plane(), sets));
   run_until(simulation, 1.5);
   MeanContact mean;
@@ -72,15 +72,14 @@ TEST(ContactArea, OfASlidingSlabIsItsBase) {
 
 // Friction from cohesion alone is cohesion times the base, at any angle to the grid.
 TEST(ContactArea, CohesionActsOnTheBase) {
-  const MeanContact seen =
-      mean_contact({"basal.friction_angle=0.0", "basal.cohesion=1e5", "basal.cohesion_law=constant"});
+  const MeanContact seen = mean_contact("basal.friction_angle=0.0; basal.cohesion=1e5; basal.cohesion_law=constant");
   EXPECT_GT(seen.velocity, 5.0);
   EXPECT_NEAR(seen.tangential / (1e5 * length), 1.0, 0.05);
 }
 
 // The momentum of the slab equals its initial momentum plus the impulses of gravity, ground and walls, to round-off.
 TEST(Budget, OfMomentumCloses) {
-  Simulation<2> simulation(paper_case(slab_on_plane(), {"grid.boundary.x_min=roller", "mechanics.mass_damping=0.1"}));
+  Simulation<2> simulation(paper_case(slab_on_plane(), "grid.boundary.x_min=roller; mechanics.mass_damping=0.1"));
   run_until(simulation, 2.0);
   const auto row = history_row(simulation);
   for (const std::string axis : {"x", "y"}) {
@@ -113,11 +112,12 @@ TEST(Walls, ApplyWhereTheyMeetTheGround) {
 // Without the distance check, contact acts up to a cell too early. A body that hovers by half a cell still has its
 // complete base.
 TEST(ContactArea, OfAHoveringSlabIsItsBase) {
-  Simulation<2> simulation(paper_case(
-      cornered, {"case.gravity_tilt=0", "grid.boundary.x_min=open", "terrain.elevation=-2.5", "body.block.min=[20,0]",
-                 "body.block.max=[60,20]", "body.block.velocity=[10,0]", "basal.friction_angle=0", "basal.cohesion=1e4",
-                 "basal.cohesion_law=constant", "mechanics.initial_stress=settle", "mechanics.settle_time=5.0",
-                 "mechanics.settle_damping=5.0", "basal.distance_check=false"}));
+  Simulation<2> simulation(
+      paper_case(cornered,
+                 "case.gravity_tilt=0; grid.boundary.x_min=open; terrain.elevation=-2.5; body.block.min=[20,0]; "
+                 "body.block.max=[60,20]; body.block.velocity=[10,0]; basal.friction_angle=0; "
+                 "basal.cohesion=1e4; basal.cohesion_law=constant; mechanics.initial_stress=settle; "
+                 "mechanics.settle_time=5.0; mechanics.settle_damping=5.0; basal.distance_check=false"));
   simulation.settle();
   double tangential = 0.0;
   for (int k = 0; k < 1000; ++k) {

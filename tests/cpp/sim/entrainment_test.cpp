@@ -62,7 +62,7 @@ void record_residuals(const Simulation<Dim>& simulation, Seen& seen) {
 
 // stop: time step before which the run stops and resumes from its checkpoint; -1: no stop.
 template <int Dim>
-Seen run(const std::vector<std::string>& sets, int threads, int interval, int stop) {
+Seen run(const Sets& sets, int threads, int interval, int stop) {
   const int threads_before = thread_count();
   set_thread_count(threads);
   const config::Case parameters = slide_over_bed<Dim>(sets);
@@ -103,7 +103,7 @@ Seen run(const std::vector<std::string>& sets, int threads, int interval, int st
 }
 
 template <int Dim>
-void expect_valid_runs(const std::vector<std::string>& sets) {
+void expect_valid_runs(const Sets& sets) {
   const Seen first = run<Dim>(sets, 1, 0, -1);
   EXPECT_GT(first.joined, Dim == 2 ? 10U : 20U);
   EXPECT_LT(first.mass, 1e-13);
@@ -129,11 +129,12 @@ TEST(Entrainment, BalancesCloseAndResultsAreReproducibleInThePlane) {
 }
 TEST(Entrainment, BalancesCloseAndResultsAreReproducibleInSpace) { expect_valid_runs<3>({"bed.law=strength"}); }
 TEST(Entrainment, BalancesCloseAndResultsAreReproducibleWithOtherChoices) {
-  expect_valid_runs<2>({"bed.law=strength", "mechanics.transfer=apic", "time.stepping=adaptive"});
-  expect_valid_runs<2>({"bed.law=strength", "band.model=columns", "heat.advection_form=conservative",
-                        "band.thickness_change=conserving", "pressure.frozen=none", "pressure.frozen_rows=vented",
-                        "pressure.melt_contraction=true", "body.right.material=frozen"});
-  expect_valid_runs<2>({"bed.law=momentum", "mechanics.effective_stress=true", "pressure.thickness_update=frozen"});
+  expect_valid_runs<2>("bed.law=strength; mechanics.transfer=apic; time.stepping=adaptive");
+  expect_valid_runs<2>(
+      "bed.law=strength; band.model=columns; heat.advection_form=conservative; "
+      "band.thickness_change=conserving; pressure.frozen=none; pressure.frozen_rows=vented; "
+      "pressure.melt_contraction=true; body.right.material=frozen");
+  expect_valid_runs<2>("bed.law=momentum; mechanics.effective_stress=true; pressure.thickness_update=frozen");
 }
 
 // The work of entrainment is in the budget to round-off (bed_residual_J). The remaining residual is that of time
@@ -158,7 +159,7 @@ TEST(Entrainment, MechanicalBudgetClosesInFirstOrderOfTheStep) {
 
 // Entrained material is warmer than the bed was, by the kinetic energy that the slide loses to it.
 TEST(Entrainment, HeatsEntrainedMaterialByTheLostKineticEnergy) {
-  const config::Case parameters = slide_over_bed<2>({"bed.law=strength", "bed.temperature=-20.0"});
+  const config::Case parameters = slide_over_bed<2>("bed.law=strength; bed.temperature=-20.0");
   Simulation<2> simulation(parameters);
   for (int k = 0; k < steps<2>; ++k) {
     simulation.step(0.002);

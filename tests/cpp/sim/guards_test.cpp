@@ -121,7 +121,7 @@ TEST(FiniteGuard, RemovesTheNonFiniteParticle) {
 }
 
 TEST(FiniteGuard, KeepsTheBudgetsOfTheRemainingParticles) {
-  Simulation<2> simulation(paper_case(block, {"guards.not_finite=remove", "guards.removed_mass=0.6"}));
+  Simulation<2> simulation(paper_case(block, "guards.not_finite=remove; guards.removed_mass=0.6"));
   simulation.step(0.005);
   simulation.particles().velocity(index_of(simulation, 17), 0) = no_number;  // and of all that share nodes with it
   EXPECT_EQ(failure_of(simulation, 0.005, 20), "no error");
@@ -161,7 +161,7 @@ TEST(StepGuard, NamesTheLimitAndTheParticle) {
 }
 
 TEST(StepGuard, NamesViscosity) {
-  Simulation<2> simulation(paper_case(block, {"time.stepping=adaptive", "material.rock.viscosity_time=0.1"}));
+  Simulation<2> simulation(paper_case(block, "time.stepping=adaptive; material.rock.viscosity_time=0.1"));
   simulation.particles().volume(index_of(simulation, 17)) *= 1e4;
   const std::string failure = failure_of_next(simulation);
   expect_in(failure, "It is set by the viscosity of material 'rock' (viscosity_time 0.1 s");
@@ -177,7 +177,7 @@ TEST(StepGuard, NamesAParticleThatIsTooFast) {
 }
 
 TEST(StepGuard, CountsTheStepsToTheEnd) {
-  Simulation<2> simulation(paper_case(block, {"time.stepping=adaptive", "guards.most_steps=50"}));
+  Simulation<2> simulation(paper_case(block, "time.stepping=adaptive; guards.most_steps=50"));
   const std::string failure = failure_of_next(simulation);
   expect_in(failure,
             "the next step would be 0.01 s, and 100 of them would be left to time.end, where "

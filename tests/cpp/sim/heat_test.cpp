@@ -58,7 +58,7 @@ TEST(Conduction, FluxAddsItsHeat) {
 TEST(Conduction, BandScalingRefinesTheGrid) {
   // With xi = 10, cells of 0.1 m conduct like cells of 0.01 m: the same curve over x/xi, 100 times earlier.
   const config::Case plain = paper_case(bar, {"time.step=1000.0"});
-  const config::Case scaled = paper_case(bar, {"time.step=10.0", "time.end=4000.0", "band.thickness=0.01"});
+  const config::Case scaled = paper_case(bar, "time.step=10.0; time.end=4000.0; band.thickness=0.01");
   Simulation<2> slow(plain), fast(scaled);
   run_until(slow, plain.time.end);
   run_until(fast, scaled.time.end);
@@ -68,9 +68,8 @@ TEST(Conduction, BandScalingRefinesTheGrid) {
 }
 
 TEST(Conduction, StepAboveTheLimitOfALaterThinnerBandIsRefused) {
-  EXPECT_THROW(
-      (Simulation<2>(paper_case(bar, {"band.thickness={time=[0.0,1e5],value=[0.1,0.001]}", "time.step=500.0"}))),
-      UserError);
+  EXPECT_THROW((Simulation<2>(paper_case(bar, "band.thickness={time=[0.0,1e5],value=[0.1,0.001]}; time.step=500.0"))),
+               UserError);
 }
 
 TEST(UndrainedHeating, RaisesThePressureByLambda) {
@@ -219,7 +218,7 @@ TEST(ThicknessChange, ConservingMixesTheWaterToo) {
   EXPECT_NEAR(frozen.gas_void, 0.1 * open + 0.9 * frozen.void_of_melt, 1e-12);
 }
 
-const std::vector<std::string> seeping{"body.column.temperature=25.0", "heat.advection_form=conservative"};
+const Sets seeping = "body.column.temperature=25.0; heat.advection_form=conservative";
 
 // Temperature and pressure decrease towards the top; returns the heat that was mixed in [J].
 double stir(Simulation<2>& simulation, double swing) {

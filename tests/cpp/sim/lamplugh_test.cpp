@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "../support/fields.hpp"
 #include "../support/messages.hpp"
 #include "base/parallel.hpp"
@@ -18,19 +18,17 @@ namespace {
 
 using namespace testing_support;
 
-config::Case lamplugh(const std::vector<std::string>& sets = {}) {
+config::Case lamplugh(const Sets& sets = {}) {
   return config::read_case(std::string(THAWSLIDE_SOURCE_DIR) + "/cases/lamplugh", sets);
 }
 
 // Fast from the start, such that a few seconds include sliding, melting, pressurization and yield.
-const std::vector<std::string> hasty = {"body.slide.velocity=[20.0,-22.0]", "basal.slip_distance=20.0"};
+const Sets hasty = "body.slide.velocity=[20.0,-22.0]; basal.slip_distance=20.0";
 
 TEST(Budget, ClosesOnAShortLamplugh) {
   double residual[2];
   for (int k = 0; k < 2; ++k) {
-    auto sets = hasty;
-    sets.push_back(k == 0 ? "time.step=0.01" : "time.step=0.005");
-    Simulation<2> simulation(lamplugh(sets));
+    Simulation<2> simulation(lamplugh(hasty + (k == 0 ? "time.step=0.01" : "time.step=0.005")));
     const auto start = history_row(simulation);
     run_until(simulation, 5.0);
     const auto row = history_row(simulation);
@@ -56,9 +54,7 @@ TEST(Budget, ClosesOnAShortLamplugh) {
 }
 
 TEST(Budget, HeatOfAThickeningBandIsReported) {
-  auto sets = hasty;
-  sets.push_back("band.thickness={time=[0.0,1.0,1.0,2.0],value=[0.05,0.05,0.5,0.5]}");
-  Simulation<2> simulation(lamplugh(sets));
+  Simulation<2> simulation(lamplugh(hasty + "band.thickness={time=[0.0,1.0,1.0,2.0],value=[0.05,0.05,0.5,0.5]}"));
   run_until(simulation, 2.0);
   const auto row = history_row(simulation);
   EXPECT_NE(value_of(row, "band_rescale_J"), 0.0);

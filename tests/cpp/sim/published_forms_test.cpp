@@ -32,12 +32,10 @@ std::vector<double> by_id(Simulation<2>& simulation, mpm::Field<double, 1> mpm::
 }
 
 TEST(SeepageScaling, PublishedIsSlowerByXi) {
-  const std::vector<std::string> still = {"mechanics.enabled=false", "heat.enabled=false", "band.thickness=0.0125"};
   const auto seep = [&](const std::string& scaling, double step, double end) {
-    auto sets = still;
-    sets.insert(sets.end(), {"pressure.seepage_scaling=" + scaling, fmt::format("time.step={}", step),
-                             fmt::format("time.end={}", end)});
-    Simulation<2> simulation(paper_case(bar, sets));
+    Simulation<2> simulation(
+        paper_case(bar + "mechanics.enabled=false; heat.enabled=false; band.thickness=0.0125",
+                   fmt::format("pressure.seepage_scaling={}; time.step={}; time.end={}", scaling, step, end)));
     auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e5 * std::cos(pi * particles.position(p, 0));
@@ -59,11 +57,11 @@ TEST(SeepageScaling, PublishedIsSlowerByXi) {
 }
 
 // Frequency of the first mode of a bar between rollers, from the time at which its velocity vanishes.
-double frequency(const std::vector<std::string>& sets, double* residual = nullptr) {
-  auto all = sets;
-  all.insert(all.end(), {"heat.enabled=false", "pressure.seepage=false", "time.step=4e-6", "time.end=1e-3",
-                         "grid.boundary={x_min=\"roller\",x_max=\"roller\",y_min=\"roller\",y_max=\"roller\"}"});
-  Simulation<2> simulation(paper_case(bar, all));
+double frequency(const Sets& sets, double* residual = nullptr) {
+  const Sets between_rollers =
+      "heat.enabled=false; pressure.seepage=false; time.step=4e-6; time.end=1e-3; "
+      "grid.boundary={x_min='roller',x_max='roller',y_min='roller',y_max='roller'}";
+  Simulation<2> simulation(paper_case(bar, sets + between_rollers));
   auto& particles = simulation.particles();
   const auto mode = [&](std::size_t p) { return std::sin(pi * particles.position(p, 0) / 2.0); };
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -93,7 +91,7 @@ TEST(EffectiveStress, WaterStiffensAnUndrainedBar) {
   const double undrained = pi / 2.0 * std::sqrt((elastic.p_wave_modulus() + 1e9 / 0.375) / density);
   const double total = frequency({});
   double residual = 1.0;
-  const double with_water = frequency({"mechanics.effective_stress=true", "pressure.volumetric_term=true"}, &residual);
+  const double with_water = frequency("mechanics.effective_stress=true; pressure.volumetric_term=true", &residual);
   EXPECT_NEAR(total / drained, 1.0, 0.006) << "20 cells a half wave";
   EXPECT_NEAR(frequency({"mechanics.effective_stress=true"}) / total, 1.0, 1e-12) << "P does not change by itself";
   EXPECT_NEAR(frequency({"pressure.volumetric_term=true"}) / total, 1.0, 1e-12) << "P does not act";
@@ -133,9 +131,11 @@ TEST(EffectiveStress, CarriesTheSameLoadWithLessStrength) {
 
 // Softening of cohesion and friction reduces the strength in terms of effective stress.
 TEST(EffectiveStress, SoftensLikeTotalStress) {
-  Simulation<2> simulation(paper_case(
-      slab, {"mechanics.effective_stress=true", "material.rock.cohesion=2e4", "material.rock.residual_cohesion=0.0",
-             "material.rock.residual_friction_angle=20.0", "material.rock.softening_strain=1e-5"}));
+  Simulation<2> simulation(
+      paper_case(slab,
+                 "mechanics.effective_stress=true; material.rock.cohesion=2e4; "
+                 "material.rock.residual_cohesion=0.0; material.rock.residual_friction_angle=20.0; "
+                 "material.rock.softening_strain=1e-5"));
   auto& particles = simulation.particles();
   std::size_t yielded = 0, softened = 0, beyond_by_total_stress = 0;
   for (int step = 0; step < 10; ++step) {
@@ -164,13 +164,13 @@ TEST(EffectiveStress, SoftensLikeTotalStress) {
   EXPECT_LT(beyond_by_total_stress, yielded / 10) << "the total stress is not what yields";
 }
 
-const std::vector<std::string> cooled = {"mechanics.enabled=false", "pressure.enabled=false",
-                                         "body.bar.temperature=-0.05", "heat.boundary.x_min={flux=-100.0}"};
+const Variant cooled =
+    bar +
+    "mechanics.enabled=false; pressure.enabled=false; body.bar.temperature=-0.05; heat.boundary.x_min={flux=-100}";
 
 HistoryRow after_cooling(const std::string& update, double step) {
-  auto sets = cooled;
-  sets.insert(sets.end(), {"heat.update=" + update, fmt::format("time.step={}", step), "time.end=400000"});
-  const config::Case parameters = paper_case(bar, sets);
+  const config::Case parameters =
+      paper_case(cooled, fmt::format("heat.update={}; time.step={}; time.end=400000", update, step));
   Simulation<2> simulation(parameters);
   run_until(simulation, parameters.time.end);
   return history_row(simulation);

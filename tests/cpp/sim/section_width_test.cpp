@@ -54,10 +54,9 @@ void expect_bits_of_one_width(const Sets& sets) {
 }
 
 TEST(SectionWidth, OfAUniformTableIsBitwiseIdenticalToANumber) {
-  const std::vector<std::string> scaled = {"band.model=scaled", "pressure.frozen_rows=vented"};
   expect_bits_of_one_width({});
-  expect_bits_of_one_width(scaled);
-  expect_bits_of_one_width({"mechanics.transfer=apic", "terrain.representation=rigid_points"});
+  expect_bits_of_one_width("band.model=scaled; pressure.frozen_rows=vented");
+  expect_bits_of_one_width("mechanics.transfer=apic; terrain.representation=rigid_points");
 }
 
 // Elastic material under its weight between sides of the domain, in a section that widens, narrows and widens again.
@@ -106,9 +105,10 @@ TEST(SectionWidth, ScalesTheVolumeOfTheSection) {
 TEST(SectionWidth, StrainsLikeAnExpandingCylinder) {
   constexpr double a = 2.0, dt = 0.001;
   Simulation<2> simulation(
-      case_from_text(basin, {"case.width={ x = [10.0, 1000.0], value = [10.0, 1000.0] }", "body.block.min=[20.0, 0.0]",
-                             "mechanics.initial_stress=none", "grid.boundary.x_min=open", "grid.boundary.x_max=open",
-                             "grid.boundary.y_min=open"}));
+      case_from_text(basin,
+                     "case.width={ x = [10.0, 1000.0], value = [10.0, 1000.0] }; body.block.min=[20.0, 0.0]; "
+                     "mechanics.initial_stress=none; grid.boundary.x_min=open; grid.boundary.x_max=open; "
+                     "grid.boundary.y_min=open"));
   mpm::Particles<2>& particles = simulation.particles();
   mpm::Nodes<2> nodes;
   const auto& model = simulation.model().motion;
@@ -186,9 +186,9 @@ TEST(SectionWidth, DoesNotChangeTheFlowDepth) {
 
 // The ground under a resting slab has the area of the section with its width, and carries the weight.
 TEST(SectionWidth, DoesNotChangeTheLoadPerArea) {
-  const std::vector<std::string> rests = {"case.width={ x = [20.0, 180.0], value = [10.0, 50.0] }",
-                                          "case.gravity_tilt=0.0", "body.slab.velocity=[0.0, 0.0]",
-                                          "material.rock.viscosity_time=0.1"};
+  const Sets rests =
+      "case.width={ x = [20.0, 180.0], value = [10.0, 50.0] }; case.gravity_tilt=0; body.slab.velocity=[0,0]; "
+      "material.rock.viscosity_time=0.1";
   Simulation<2> simulation(case_from_text(column_slab(), rests));
   run_until(simulation, 3.0);
   const double area = (20.0 * 10.0 + 160.0 * 30.0 + 20.0 * 50.0) / 10.0;  // per metre of the first 10 m
@@ -202,10 +202,11 @@ TEST(SectionWidth, DoesNotChangeTheLoadPerArea) {
 }
 
 TEST(SectionWidth, ConservesHeatAndWaterOfBandColumns) {
-  Simulation<2> simulation(case_from_text(
-      column_slab(),
-      {"case.width={ x = [100.0, 300.0, 400.0], value = [10.0, 50.0, 20.0] }", "body.slab.velocity=[30.0, 0.0]",
-       "material.rock.law=mohr_coulomb", "material.rock.cohesion=1e4", "material.rock.friction_angle=30.0"}));
+  Simulation<2> simulation(
+      case_from_text(column_slab(),
+                     "case.width={ x = [100.0, 300.0, 400.0], value = [10.0, 50.0, 20.0] }; "
+                     "body.slab.velocity=[30.0, 0.0]; material.rock.law=mohr_coulomb; material.rock.cohesion=1e4; "
+                     "material.rock.friction_angle=30.0"));
   while (simulation.time() < 6.0 - 1e-9) {
     simulation.step(simulation.next_step(6.0));
     const HistoryRow row = history_row(simulation);

@@ -92,7 +92,7 @@ double traction_under_pressure(const Sets& more) {
 TEST(Switch, LocationOfThePressureClamp) {
   EXPECT_NEAR(traction_under_pressure({}) / 5e4, 1.0, 0.02);
   EXPECT_NEAR(traction_under_pressure({"basal.clamp=joint"}), 0.0, 1.0);
-  EXPECT_NEAR(traction_under_pressure({"basal.clamp=joint", "basal.cap_pressure=true"}) / 5e4, 1.0, 0.02);
+  EXPECT_NEAR(traction_under_pressure("basal.clamp=joint; basal.cap_pressure=true") / 5e4, 1.0, 0.02);
   EXPECT_NEAR(traction_under_pressure({"mechanisms.pressurization=false"}) /
                   (5e4 + std::tan(20.0 * pi / 180.0) * 2093.75 * 9.81 * 50.0),
               1.0, 0.02);
@@ -100,8 +100,10 @@ TEST(Switch, LocationOfThePressureClamp) {
 
 // A thickening band drains more slowly, with heat on or off.
 TEST(Switch, TheBandFollowsItsTableWithoutHeat) {
-  Simulation<2> simulation(paper_case(
-      block, {"heat.enabled=false", "band.thickness={ time = [0.0, 0.5, 0.5, 1.0], value = [0.05, 0.05, 0.5, 0.5] }"}));
+  Simulation<2> simulation(
+      paper_case(block,
+                 "heat.enabled=false; "
+                 "band.thickness={ time = [0.0, 0.5, 0.5, 1.0], value = [0.05, 0.05, 0.5, 0.5] }"));
   run_until(simulation, 0.4);
   EXPECT_DOUBLE_EQ(simulation.particles().thermal_scaling(0), 200.0);
   run_until(simulation, 0.6);

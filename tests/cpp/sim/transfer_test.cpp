@@ -117,7 +117,7 @@ TEST(Transfer, OnlyApicConservesAngularMomentum) {
     simulation.step(0.002);
     return angular_momentum(simulation, positions, affine) / before - 1.0;
   };
-  const std::vector<std::string> pic{"mechanics.transfer=blend", "mechanics.pic_fraction=1"};
+  const Sets pic = "mechanics.transfer=blend; mechanics.pic_fraction=1";
   EXPECT_NEAR(change({"mechanics.transfer=apic"}, true, 0.0, 0.0), 0.0, 1e-13);
   EXPECT_NEAR(change({"mechanics.transfer=apic"}, true, 1.0, 1e6), 0.0, 1e-13);
   EXPECT_NEAR(change({}, false, 0.0, 0.0), 0.0, 1e-13);
@@ -144,7 +144,7 @@ TEST(Transfer, RigidSpinIsConservedByApic) {
     EXPECT_NEAR(run(shape, {"mechanics.transfer=apic"}) / published, 1.0, 0.02);
     const double flip = run(shape, {});
     EXPECT_LT(flip, -0.2);
-    EXPECT_LT(run(shape, {"mechanics.transfer=blend", "mechanics.pic_fraction=0.1"}), 2.0 * flip);
+    EXPECT_LT(run(shape, "mechanics.transfer=blend; mechanics.pic_fraction=0.1"), 2.0 * flip);
   }
 }
 
@@ -178,7 +178,7 @@ TEST(Transfer, MomentumIsConservedAndTheEnergyBudgetCloses) {
 
 TEST(Transfer, BlendWithoutPicIsBitwiseIdenticalToFlip) {
   Simulation<2> flip(block_with("ugimp", {}));
-  Simulation<2> blend(block_with("ugimp", {"mechanics.transfer=blend", "mechanics.pic_fraction=0"}));
+  Simulation<2> blend(block_with("ugimp", "mechanics.transfer=blend; mechanics.pic_fraction=0"));
   for (Simulation<2>* simulation : {&flip, &blend}) {
     stir(*simulation, 0.5, 0.5, 1e5);
     run_until(*simulation, 0.1);

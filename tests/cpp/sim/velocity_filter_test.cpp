@@ -179,7 +179,7 @@ TEST(VelocityFilter, PreservesASpin) {
 TEST(VelocityFilter, ActsOncePerInterval) {
   for (const std::string stepping : {"fixed", "adaptive"}) {
     SCOPED_TRACE(stepping);
-    const std::vector<std::string> sets{"time.stepping=" + stepping, "mechanics.fmpm_interval=0.02"};
+    const Sets sets = "mechanics.fmpm_interval=0.02; time.stepping=" + stepping;
     Simulation<2> filtered(paper_case(block<2>(), sets));
     Simulation<2> flip(paper_case(unfiltered<2>(), {"time.stepping=" + stepping}));
     set_velocities(filtered, random_velocities(velocities_of(filtered).size()));
@@ -222,7 +222,7 @@ const Variant bar{"free",
 struct Swing {
   double determinant, trace;
 };
-Swing swing(const std::vector<std::string>& sets) {
+Swing swing(const Sets& sets) {
   Simulation<2> simulation(paper_case(bar, sets));
   const auto points = points_of(simulation);
   const ScalarTransfer<2> to_nodes{static_cast<double>(bar_cells)};

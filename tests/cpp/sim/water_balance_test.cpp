@@ -147,7 +147,7 @@ constexpr double porosity = 0.375, storage = porosity / 1e9;
 
 TEST(MeltContraction, ExpansionFillsTheVoidBeforePressureRises) {
   Simulation<2> simulation(
-      paper_case(column, weightless + Sets{"pressure.melt_contraction=true", "body.column.temperature=-10.0"}));
+      paper_case(column, weightless + Sets "pressure.melt_contraction=true; body.column.temperature=-10.0"));
   const auto& particles = simulation.particles();
   const double left = porosity * 0.083 * (1.0 - std::pow(11.0, -5.0));
   int open = 0, full = 0;
@@ -176,7 +176,7 @@ TEST(MeltContraction, ExpansionFillsTheVoidBeforePressureRises) {
 
 TEST(MeltContraction, WithoutItMeltIsPressurizedFromTheFirstKelvin) {
   Simulation<2> simulation(
-      paper_case(column, weightless + Sets{"body.column.temperature=-10.0", "pressure.skeleton_compressibility=0"}));
+      paper_case(column, weightless + Sets "body.column.temperature=-10.0; pressure.skeleton_compressibility=0"));
   bring_to(simulation, 2.0);
   EXPECT_NEAR(simulation.particles().pore_pressure(7), 2.0 * 275000.0, 1e-6);
   EXPECT_FALSE(simulation.particles().pore_void.is_kept());
@@ -226,16 +226,17 @@ TEST(FrozenPressure, NoneGivesThawedWaterTheLoadMinusTheResidualStress) {
   expect_start({}, HUGE_VAL, 0.0);
   expect_start({"pressure.residual_stress=0.0"}, 0.0, 0.0);
   expect_start({"pressure.residual_stress=5e4"}, 5e4, 0.0);
-  expect_start({"pressure.residual_stress=0.0", "pressure.melt_contraction=true"}, 0.0, all);
+  expect_start("pressure.residual_stress=0.0; pressure.melt_contraction=true", 0.0, all);
   expect_start(
-      {"pressure.residual_stress=2e4", "pressure.melt_contraction=true", "pressure.skeleton_compressibility=1e-6"}, 2e4,
-      all);
+      "pressure.residual_stress=2e4; pressure.melt_contraction=true; "
+      "pressure.skeleton_compressibility=1e-6",
+      2e4, all);
 }
 
 // Half of the weight of the material is removed and restored.
 TEST(SkeletonCompressibility, PressureFollowsTheLoad) {
   Simulation<2> simulation(
-      paper_case(column, {"heat.enabled=false", "pressure.seepage=false", "pressure.skeleton_compressibility=2e-9"}));
+      paper_case(column, "heat.enabled=false; pressure.seepage=false; pressure.skeleton_compressibility=2e-9"));
   auto& particles = simulation.particles();
   simulation.step(0.05);
   std::vector<double> pressure(particles.size()), load(particles.size());

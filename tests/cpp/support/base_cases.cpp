@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -105,6 +106,23 @@ const std::map<std::string, Sets>& all_bases() {
   return bases;
 }
 
+std::string key_of(const std::string& set) { return set.substr(0, set.find('=')); }
+
+// Base case as a text, and sets, without removed keys.
+std::pair<std::string, Sets> resolved(const std::string& name, const Sets& sets) {
+  Sets base = all_bases().at(name), kept;
+  for (const std::string& set : sets) {
+    if (set.back() == '=') {
+      const auto is_removed = [&](const std::string& other) { return key_of(other) == key_of(set); };
+      base.erase(std::remove_if(base.begin(), base.end(), is_removed), base.end());
+      kept.erase(std::remove_if(kept.begin(), kept.end(), is_removed), kept.end());
+    } else {
+      kept.push_back(set);
+    }
+  }
+  return {fmt::format("{}\n", fmt::join(base, "\n")), kept};
+}
+
 }  // namespace
 
 Sets::Sets(const std::string& text) {
@@ -132,11 +150,13 @@ const std::string& base_text(const std::string& name) {
 }
 
 config::Case case_from_text(const Variant& variant, const Sets& sets) {
-  return case_from_text(base_text(variant.base), variant.sets + sets);
+  const auto [text, kept] = resolved(variant.base, variant.sets + sets);
+  return case_from_text(text, kept);
 }
 
 config::Case paper_case(const Variant& variant, const Sets& sets) {
-  return paper_case(base_text(variant.base), variant.sets + sets);
+  const auto [text, kept] = resolved(variant.base, variant.sets + sets);
+  return paper_case(text, kept);
 }
 
 }  // namespace thawslide::testing_support

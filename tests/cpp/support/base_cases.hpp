@@ -23,7 +23,8 @@
 namespace thawslide::testing_support {
 
 // Texts of `--set`: KEY=VALUE, or several of them separated by semicolons. Bodies, materials and frames can be added if
-// all keys that they need are given. Paths are relative to the working directory, unlike those of the base cases.
+// all keys that they need are given; KEY= without a value removes a key of the base case and of earlier sets. Paths are
+// relative to the working directory, unlike those of the base cases.
 class Sets : public std::vector<std::string> {
  public:
   Sets() = default;
