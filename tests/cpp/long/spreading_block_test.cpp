@@ -19,7 +19,8 @@ const testing_support::Variant block{
     "time.end=16; time.step=0.09; grid.cell=20; grid.min=[-1000,-40]; grid.max=[1000,160]; "
     "material.rock.law=mohr_coulomb; material.rock.youngs_modulus=5e7; material.rock.friction_angle=35; "
     "material.rock.cohesion=0; material.rock.viscosity_time=0.004; body.block.shape=polygon; "
-    "body.block.temperature=-5; body.block.porosity=0.3; basal.friction=coefficient; basal.friction_coefficient=0.02; "
+    "body.block.temperature=-5; body.block.porosity=0.3; basal.friction=coefficient; basal.friction_angle=; "
+    "basal.friction_coefficient=0.02; "
     "mechanisms.pressurization=true"};
 
 // Standard deviation of the mass along x after 16 s [m]. The ground lies `above` of a cell above a grid line.

@@ -106,7 +106,7 @@ const Variant slab{
     "time.end=0.01; time.step=0.001; grid.max=[250,80]; material.rock.law=mohr_coulomb; "
     "material.rock.youngs_modulus=5e8; material.rock.viscosity_time=0; material.rock.friction_angle=30; "
     "material.rock.cohesion=0; material.rock.hydraulic_conductivity=1e-9; body.slab.temperature=1; mechanics.k0=0.5; "
-    "basal.friction_angle=30; band.thickness=0"};
+    "basal.friction_angle=30; band.thickness="};
 
 TEST(EffectiveStress, CarriesTheSameLoadWithLessStrength) {
   Simulation<2> total(paper_case(slab));
