@@ -74,11 +74,9 @@ device::SolverFactory<Dim> counting_copies(ThreadOrder order, int& copies) {
   };
 }
 
-inline const std::string flat = "type = \"flat\"\nelevation = 0.0";
-
 template <int Dim>
-config::Case sliding_bodies(const std::vector<std::string>& more = {}, const std::string& terrain = flat) {
-  return two_bodies<Dim>(2e4, 3.0, 3.0, 12.0, terrain, more);
+config::Case sliding_bodies(const Sets& more = {}) {
+  return two_bodies<Dim>(2e4, 3.0, 3.0, 12.0, more);
 }
 
 template <int Dim>

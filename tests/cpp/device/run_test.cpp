@@ -176,13 +176,12 @@ config::Site bumpy_site(double known_to, double spacing = 2.0) {
 }
 
 TEST(DeviceRun, StaysOnKnownGround) {
-  std::ofstream(folder_of_this_test() / "dem.tif");
-  const config::Case parameters = sliding_bodies<3>({}, "type = \"dem\"\nfile = \"dem.tif\"\n");
+  const config::Case parameters = sliding_bodies<3>(on_dem());
   EXPECT_EQ(expect_the_same_run<3>(parameters, 12, bumpy_site(40.0)), 0);
   const config::Case by_layer =
-      sliding_bodies<3>({"band.region=first_layer", "band.cut_cells=equal_thickness", "body.right.particles_per_axis=2",
-                         "band.thickness={time=[0.0,0.01],value=[0.1,0.2]}"},
-                        "type = \"dem\"\nfile = \"dem.tif\"\n");
+      sliding_bodies<3>(on_dem() +
+                        "band.region=first_layer; band.cut_cells=equal_thickness; body.right.particles_per_axis=2; "
+                        "band.thickness={time=[0.0,0.01],value=[0.1,0.2]}");
   EXPECT_EQ(expect_the_same_run<3>(by_layer, 12, bumpy_site(40.0)), 0);
   std::vector<std::string> messages;
   for (const bool on_device : {false, true}) {
@@ -198,8 +197,7 @@ TEST(DeviceRun, StaysOnKnownGround) {
 
 // Above a block with a part of the ground unknown, and well away from it.
 TEST(DeviceRun, ChecksEscapedParticlesOnly) {
-  std::ofstream(folder_of_this_test() / "dem.tif");
-  const config::Case parameters = sliding_bodies<3>({}, "type = \"dem\"\nfile = \"dem.tif\"\n");
+  const config::Case parameters = sliding_bodies<3>(on_dem());
   for (double known_to = 30.0;; known_to -= 0.5) {
     ASSERT_GT(known_to, 0.0) << "the known ground never ends next to the slide";
     const config::Site site = bumpy_site(known_to, 0.5);

@@ -174,7 +174,7 @@ void expect_the_steps_of_the_cpu(const config::Case& parameters, int steps, int 
 
 template <int Dim>
 config::Case sliding_bodies(const std::vector<std::string>& sets) {
-  return two_bodies<Dim>(2e4, 3.0, 3.0, 12.0, "type = \"flat\"\nelevation = 0.0", sets);
+  return two_bodies<Dim>(2e4, 3.0, 3.0, 12.0, sets);
 }
 
 template <int Dim>

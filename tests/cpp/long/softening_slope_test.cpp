@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "../support/record.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
@@ -16,45 +16,13 @@ namespace {
 using namespace testing_support;
 using sim::Simulation;
 
-const std::string slope = R"(
-[case]
-dimension = 2
-[time]
-end = 50.0
-step = 0.012
-[grid]
-cell = 20.0
-min = [0.0, -80.0]
-max = [2000.0, 400.0]
-[grid.boundary]
-x_min = "roller"
-[terrain]
-type = "flat"
-elevation = 0.0
-[body.slope]
-material = "rock"
-shape = "polygon"
-vertices = [[0.0, 0.0], [800.0, 0.0], [600.0, 200.0], [0.0, 200.0]]
-temperature = -5.0
-porosity = 0.3
-[material.rock]
-law = "mohr_coulomb"
-youngs_modulus = 1.0e9
-poisson_ratio = 0.2
-friction_angle = 20.0
-cohesion = 1.6e5
-residual_cohesion = 2.0e4
-viscosity_time = 0.0035
-[mechanics]
-initial_stress = "geostatic"
-[basal]
-friction = "constant"
-friction_angle = 20.0
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)";
+const Variant slope{
+    "block",
+    "time.end=50; time.step=0.012; grid.cell=20; grid.min=[0,-80]; grid.max=[2000,400]; grid.boundary.x_min=roller; "
+    "material.rock.law=mohr_coulomb; material.rock.youngs_modulus=1e9; material.rock.friction_angle=20; "
+    "material.rock.cohesion=1.6e5; material.rock.residual_cohesion=2e4; material.rock.viscosity_time=0.0035; "
+    "body.block.shape=polygon; body.block.vertices=[[0,0],[800,0],[600,200],[0,200]]; body.block.temperature=-5; "
+    "body.block.porosity=0.3; mechanisms.pressurization=true"};
 
 struct Failure {
   double displacement, front, dissipated;  // [m], [m], [J]

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "../support/mass_spread.hpp"
 #include "../support/record.hpp"
 #include "sim/simulation.hpp"
@@ -14,40 +14,14 @@ namespace {
 
 using sim::Simulation;
 
-const std::string block = R"(
-[case]
-dimension = 2
-[time]
-end = 16.0
-step = 0.09
-[grid]
-cell = 20.0
-min = [-1000.0, -40.0]
-max = [1000.0, 160.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[body.block]
-material = "grains"
-shape = "polygon"
-vertices = [[-100.0, 0.0], [100.0, 0.0], [100.0, 40.0], [-100.0, 40.0]]
-temperature = -5.0
-porosity = 0.3
-[material.grains]
-law = "mohr_coulomb"
-youngs_modulus = 5.0e7
-poisson_ratio = 0.2
-friction_angle = 35.0
-cohesion = 0.0
-viscosity_time = 0.004
-[basal]
-friction = "coefficient"
-friction_coefficient = 0.02
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)";
+const testing_support::Variant block{
+    "block",
+    "time.end=16; time.step=0.09; grid.cell=20; grid.min=[-1000,-40]; grid.max=[1000,160]; "
+    "material.rock.law=mohr_coulomb; material.rock.youngs_modulus=5e7; material.rock.friction_angle=35; "
+    "material.rock.cohesion=0; material.rock.viscosity_time=0.004; body.block.shape=polygon; "
+    "body.block.temperature=-5; body.block.porosity=0.3; basal.friction=coefficient; basal.friction_angle=; "
+    "basal.friction_coefficient=0.02; "
+    "mechanisms.pressurization=true"};
 
 // Standard deviation of the mass along x after 16 s [m]. The ground lies `above` of a cell above a grid line.
 double spread(double cell, double above) {

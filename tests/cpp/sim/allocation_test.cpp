@@ -38,11 +38,10 @@ namespace {
 
 // Bodies large enough that loops over tiles are distributed to threads; sets: keys of the case.
 template <int Dim>
-long allocations_of_steps(const std::vector<std::string>& sets = {}) {
+long allocations_of_steps(const testing_support::Sets& sets = {}) {
   const int threads_before = thread_count();
   set_thread_count(2);
-  Simulation<Dim> simulation(
-      testing_support::two_bodies<Dim>(5e3, 30.0, 5.0, 0.0, "type = \"flat\"\nelevation = 0.0", sets));
+  Simulation<Dim> simulation(testing_support::two_bodies<Dim>(5e3, 30.0, 5.0, 0.0, sets));
   EXPECT_GE(simulation.grid().tiles().size(), fewest_shared_calls);
   simulation.set_sorting_interval(5);
   RunRecords<Dim> records(simulation, {});

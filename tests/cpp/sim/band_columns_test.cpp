@@ -51,9 +51,10 @@ TEST(BandColumns, LoseNeitherHeatNorWater3D) { expect_balances<3>(); }
 // toe carries more load.
 TEST(BandColumns, UnderASlabAgreeWithThoseOfTheBlock) {
   const config::Case parameters =
-      case_from_text(column_slab(), {"time.end=6.0", "time.history_interval=6.0", "body.slab.max=[400.0, 80.0]",
-                                     "grid.max=[800.0, 160.0]", "body.slab.temperature=-0.1",
-                                     "body.slab.velocity=[10.0, 0.0]", "basal.friction_angle=35.0"});
+      case_from_text(column_slab(),
+                     "time.end=6.0; time.history_interval=6.0; body.slab.max=[400.0, 80.0]; "
+                     "grid.max=[800.0, 160.0]; body.slab.temperature=-0.1; body.slab.velocity=[10.0, 0.0]; "
+                     "basal.friction_angle=35.0");
   Simulation<2> simulation(parameters);
   run_until(simulation, 6.0);
   const HistoryRow block = run_block(parameters).back();
@@ -75,12 +76,12 @@ TEST(BandColumns, UnderASlabAgreeWithThoseOfTheBlock) {
 // On ground as steep as 84 degrees, a cell of the lattice extends over ten cells of the grid. Every node in contact
 // must find a basal segment; otherwise friction heat is lost.
 TEST(BandColumns, LoseNoHeatOnSteepGround) {
-  Simulation<2> simulation(case_from_text(
-      column_slab(),
-      {"case.gravity_tilt=0.0", "terrain.type=plane", "terrain.slope=84.0", "grid.cell=5.0", "grid.min=[-40.0, -300.0]",
-       "grid.max=[100.0, 60.0]", "body.slab.shape=polygon",
-       "body.slab.vertices=[[0.0, 0.0], [10.453, -99.452], [30.343, -97.362], [19.890, 2.091]]",
-       "body.slab.velocity=[1.0453, -9.9452]", "basal.friction_angle=60.0", "basal.distance_check=false"}));
+  Simulation<2> simulation(
+      case_from_text(column_slab(),
+                     "case.gravity_tilt=0.0; terrain.type=plane; terrain.slope=84.0; grid.cell=5.0; "
+                     "grid.min=[-40.0, -300.0]; grid.max=[100.0, 60.0]; body.slab.shape=polygon; "
+                     "body.slab.vertices=[[0.0, 0.0], [10.453, -99.452], [30.343, -97.362], [19.890, 2.091]]; "
+                     "body.slab.velocity=[1.0453, -9.9452]; basal.friction_angle=60.0; basal.distance_check=false"));
   run_until(simulation, 1.5);
   const HistoryRow row = history_row(simulation);
   EXPECT_GT(value_of(row, "friction_heat_J"), 1e6);
@@ -104,8 +105,9 @@ TEST(BandColumns, AllowThinBandsAndLargeConductivitiesAtAnyStep) {
 // constant.
 TEST(BandColumns, SegmentsOfASpreadingSlideGrowAndSplit) {
   Simulation<2> simulation(
-      case_from_text(column_slab(), {"time.end=4.0", "basal.friction_angle=1.0", "case.gravity_tilt=0.0",
-                                     "body.slab.velocity=[0,0]", "material.rock.youngs_modulus=1e6"}));
+      case_from_text(column_slab(),
+                     "time.end=4.0; basal.friction_angle=1.0; case.gravity_tilt=0.0; body.slab.velocity=[0,0]; "
+                     "material.rock.youngs_modulus=1e6"));
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     particles.velocity(p, 0) = 0.2 * (particles.position(p, 0) - 160.0);
@@ -181,7 +183,7 @@ std::vector<double> heights_in(const Simulation& simulation) {
 // With a band 3 m thick, full columns would be 76 m tall below a slab of 40 m. They end at its surface, and together
 // contain no more ice and water than the slab.
 TEST(BandColumns, AreNoTallerThanTheSlide) {
-  Simulation<2> simulation(case_from_text(column_slab(), {"band.thickness=3.0", "body.slab.velocity=[0.0, 0.0]"}));
+  Simulation<2> simulation(case_from_text(column_slab(), "band.thickness=3.0; body.slab.velocity=[0.0, 0.0]"));
   run_until(simulation, 2.0);
   const double middle = median_over_base(simulation, [](const auto& segment) { return segment.depth; });
   EXPECT_NEAR(middle, 40.0, 2.0) << "N over rho g cos(30 degrees)";

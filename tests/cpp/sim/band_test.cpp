@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
 #include "physics/pressurization.hpp"
@@ -17,49 +17,16 @@ namespace {
 using namespace testing_support;
 using verification::Record;
 
-const std::string slab = R"(
-[time]
-end = 1.5
-step = 0.001
-[grid]
-cell = 10.0
-min = [-50.0, -10.0]
-max = [250.0, 80.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-viscosity_time = 0.02
-hydraulic_conductivity = 2e-8
-[body.slab]
-material = "rock"
-shape = "box"
-min = [0.0, 0.0]
-max = [200.0, 50.0]
-temperature = 1e-9
-velocity = [1.0, 0.0]
-[frame.driver]
-min = [-50.0, -10.0]
-max = [250.0, 80.0]
-axis = "x"
-velocity = 1.0
-[basal]
-friction = "constant"
-friction_angle = 11.30993247402  # mu 0.2
-[band]
-thickness = 0.05
-[heat]
-conduction = false
-advection = false
-[pressure]
-seepage = false
-)";
+// The friction coefficient is 0.2.
+const Variant slab{
+    "slab",
+    "time.end=1.5; time.step=0.001; grid.max=[250,80]; material.rock.youngs_modulus=5e8; body.slab.temperature=1e-9; "
+    "body.slab.velocity=[1,0]; frame.driver.min=[-50,-10]; frame.driver.max=[250,80]; frame.driver.axis=x; "
+    "frame.driver.velocity=1; basal.friction=constant; basal.friction_angle=11.30993247402; heat.conduction=false; "
+    "heat.advection=false; pressure.seepage=false"};
 
 // The frame drives all nodes except those of the base.
-const std::vector<std::string> base_free = {"frame.driver.min=[-50.0,5.0]"};
+const Sets base_free = "frame.driver.min=[-50.0,5.0]";
 
 // Effective friction coefficient: basal shear force over normal force, from two rows of particles per band.
 TEST(AdiabaticBand, FrictionFallsExponentiallyWithTheFactorOfTwoRows) {
@@ -115,41 +82,10 @@ TEST(AdiabaticBand, BlockModelFollowsTheSameExponential) {
 }
 
 // Frozen, melting and pressurized base under gravity: the deformable slab compared with the rigid block.
-const std::string sliding = R"(
-[case]
-gravity_tilt = 25.0
-[time]
-end = 6.0
-step = 0.001
-history_interval = 0.5
-[grid]
-cell = 10.0
-min = [-50.0, -10.0]
-max = [500.0, 80.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e9
-poisson_ratio = 0.2
-viscosity_time = 0.02
-hydraulic_conductivity = 2e-8
-[body.slab]
-material = "rock"
-shape = "box"
-min = [0.0, 0.0]
-max = [200.0, 50.0]
-temperature = -1.0
-velocity = [2.0, 0.0]
-[mechanics]
-slope_shear = true
-[basal]
-friction = "lubricated"
-friction_angle = 25.0
-[band]
-thickness = 0.05
-)";
+const Variant sliding{
+    "slab",
+    "case.gravity_tilt=25; time.end=6; time.step=0.001; time.history_interval=0.5; material.rock.youngs_modulus=5e9; "
+    "body.slab.temperature=-1; body.slab.velocity=[2,0]; mechanics.slope_shear=true"};
 
 TEST(BlockModel, AgreesWithTheMaterialPoints) {
   const config::Case parameters = paper_case(sliding, {"time.step=0.0005"});
@@ -178,11 +114,11 @@ TEST(BlockModel, AgreesWithTheMaterialPoints) {
 // The same with the balance of water: ice does not press, its rows are sealed, the skeleton is compressible and the
 // load is followed.
 TEST(BlockModel, AgreesWithTheMaterialPointsWithTheBalanceOfWater) {
-  const config::Case parameters =
-      paper_case(sliding, {"time.step=0.0005", "pressure.frozen=none", "pressure.residual_stress=2e5",
-                           "pressure.frozen_rows=sealed", "pressure.skeleton_compressibility=5e-9",
-                           "phases.water_expansion_law=by_temperature", "body.slab.temperature=-0.05",
-                           "material.rock.hydraulic_conductivity=1e-10"});
+  const config::Case parameters = paper_case(sliding,
+                                             "time.step=0.0005; pressure.frozen=none; pressure.residual_stress=2e5; "
+                                             "pressure.frozen_rows=sealed; pressure.skeleton_compressibility=5e-9; "
+                                             "phases.water_expansion_law=by_temperature; body.slab.temperature=-0.05; "
+                                             "material.rock.hydraulic_conductivity=1e-10");
   const auto rows = run_block(parameters);
   Simulation<2> simulation(parameters);
   run_until(simulation, parameters.time.end);
@@ -212,15 +148,10 @@ TEST(BlockModel, FollowsTheRegionOfTheScaling) {
 // Adaptive stepping uses the limits of the run, with the maximum set by time.step, and gives the same result as fixed
 // steps.
 TEST(BlockModel, StepsAdaptively) {
-  const std::vector<std::string> adaptive{"time.stepping=adaptive", "time.step=0.002"};
   const auto fixed = run_block(paper_case(sliding, {"time.step=0.001"}));
-  const auto rows = run_block(paper_case(sliding, adaptive));
+  const auto rows = run_block(paper_case(sliding, "time.stepping=adaptive; time.step=0.002"));
   EXPECT_NEAR(value_of(rows.back(), "velocity_m_s") / value_of(fixed.back(), "velocity_m_s"), 1.0, 1e-3);
-  std::string text = sliding;
-  const std::string step = "step = ";
-  const std::size_t at = text.find(step);
-  text.erase(at, text.find('\n', at) - at + 1);
-  const auto free = run_block(paper_case(text, {"time.stepping=adaptive"}));
+  const auto free = run_block(paper_case(sliding, "time.stepping=adaptive; time.step="));
   EXPECT_NEAR(value_of(free.back(), "velocity_m_s") / value_of(fixed.back(), "velocity_m_s"), 1.0, 2e-3);
 }
 

@@ -58,16 +58,13 @@ TEST(Bits, DependNeitherOnThreadsNorOnSortingInSpace) { expect_the_same_bits<3>(
 template <int Dim>
 constexpr double length = Dim == 2 ? 30.0 : 12.0;  // of the left body [m]
 
-const std::string flat = "type = \"flat\"\nelevation = 0.0\n";
-const std::string plane = "type = \"plane\"\nslope = 0.5\nelevation = -0.01\n";
-const std::string dem = "type = \"dem\"\nfile = \"dem.tif\"\n";
+const Sets plane = "terrain.type=plane; terrain.slope=0.5; terrain.elevation=-0.01";
 
-// Options of a case, added to two bodies that move down a slope. terrain: its table, and more tables; acts: evidence in
-// the state that the option has an effect, if a different state is not sufficient.
+// Options of a case, added to two bodies that move down a slope. acts: evidence in the state that the option has an
+// effect, if a different state is not sufficient.
 struct Choice {
   std::string name;
-  std::vector<std::string> sets;
-  std::string terrain = flat;
+  Sets sets;
   bool (*acts)(const State&) = nullptr;
 };
 
@@ -86,9 +83,10 @@ bool lacks_particles(const State& state) {
 
 // A box around the upper part of the left body, which drives it.
 template <int Dim>
-std::string frame() {
-  return fmt::format("[frame.driver]\nmin = [-3.0, {}2.4]\nmax = [7.5, {}20.0]\naxis = \"x\"\nvelocity = 25.0\n",
-                     Dim == 2 ? "" : "-4.0, ", Dim == 2 ? "" : "10.0, ");
+Sets frame() {
+  return fmt::format(
+      "frame.driver.min=[-3.0, {}2.4]; frame.driver.max=[7.5, {}20.0]; frame.driver.axis=x; frame.driver.velocity=25",
+      Dim == 2 ? "" : "-4.0, ", Dim == 2 ? "" : "10.0, ");
 }
 
 template <int Dim>
@@ -99,68 +97,62 @@ std::vector<Choice> choices() {
   };
   const std::string near_front = corner("max", length<Dim> + 5.0, 10.0, 20.0);
   std::vector<Choice> all{
-      {"a plane that cuts through cells", {}, plane},
-      {"APIC", {"mechanics.transfer=apic"}},
-      {"APIC, quadratic", {"mechanics.transfer=apic", "mechanics.shape_function=quadratic"}},
-      {"FLIP and PIC", {"mechanics.transfer=blend", "mechanics.pic_fraction=0.1"}},
-      {"FMPM", {"mechanics.transfer=fmpm", "mechanics.fmpm_interval=0.005", "mechanics.fmpm_order=3"}},
-      {"quadratic shape functions", {"mechanics.shape_function=quadratic"}},
-      {"adaptive steps", {"time.stepping=adaptive"}},
-      {"viscosity, gaps", {"material.frozen.viscosity_time=2e-4", "material.melted.gaps_close_first=true"}},
-      {"mass damping", {"mechanics.mass_damping=2.0"}},
-      {"effective stress", {"mechanics.effective_stress=true", "pressure.volumetric_term=true", "time.step=0.0005"}},
-      {"noise", {"initial.noise=0.2"}},
-      {"a moving frame", {}, flat + frame<Dim>()},
+      {"a plane that cuts through cells", plane},
+      {"APIC", "mechanics.transfer=apic"},
+      {"APIC, quadratic", "mechanics.transfer=apic; mechanics.shape_function=quadratic"},
+      {"FLIP and PIC", "mechanics.transfer=blend; mechanics.pic_fraction=0.1"},
+      {"FMPM", "mechanics.transfer=fmpm; mechanics.fmpm_interval=0.005; mechanics.fmpm_order=3"},
+      {"quadratic shape functions", "mechanics.shape_function=quadratic"},
+      {"adaptive steps", "time.stepping=adaptive"},
+      {"viscosity, gaps", "material.frozen.viscosity_time=2e-4; material.melted.gaps_close_first=true"},
+      {"mass damping", "mechanics.mass_damping=2.0"},
+      {"effective stress", "mechanics.effective_stress=true; pressure.volumetric_term=true; time.step=0.0005"},
+      {"noise", "initial.noise=0.2"},
+      {"a moving frame", frame<Dim>()},
       {"sides", {"grid.boundary.x_max=roller", "grid.boundary.x_min=fixed", near_front}},
-      {"rigid points", {"terrain.representation=rigid_points"}},
-      {"rigid points of a plane", {"terrain.representation=rigid_points"}, plane},
-      {"distance unchecked", {"basal.distance_check=false"}, plane},
+      {"rigid points", "terrain.representation=rigid_points"},
+      {"rigid points of a plane", "terrain.representation=rigid_points" + plane},
+      {"distance unchecked", "basal.distance_check=false" + plane},
       {"cohesion lost by slip",
-       {"basal.cohesion=1e4", "basal.cohesion_law=slip", "basal.slip_distance=2.0", "basal.clamp=joint"}},
+       "basal.cohesion=1e4; basal.cohesion_law=slip; basal.slip_distance=2.0; basal.clamp=joint"},
       {"two substrates",
-       {},
-       flat + "[substrate.ice]\nx_min = 8.3\nfriction = \"coefficient\"\nfriction_coefficient = 0.1\n"
-              "[substrate.rock]\nx_max = 2.1\nfriction_angle = 30.0\ncohesion = 1e4\ncohesion_law = \"bonds\"\n"
-              "slip_distance = 2.0\n"},
-      {"Voellmy friction",
-       {"basal.friction=voellmy", "basal.friction_coefficient=0.2", "basal.turbulent_friction=100"}},
-      {"bodies in frictional contact", {"contact.between_bodies=frictional", "contact.friction_angle=20.0"}},
+       "substrate.ice.x_min=8.3; substrate.ice.friction=coefficient; substrate.ice.friction_coefficient=0.1; "
+       "substrate.rock.x_max=2.1; substrate.rock.friction_angle=30; substrate.rock.cohesion=1e4; "
+       "substrate.rock.cohesion_law=bonds; substrate.rock.slip_distance=2"},
+      {"Voellmy friction", "basal.friction=voellmy; basal.friction_coefficient=0.2; basal.turbulent_friction=100"},
+      {"bodies in frictional contact", "contact.between_bodies=frictional; contact.friction_angle=20.0"},
       {"bodies in frictional contact, APIC, above a plane",
-       {"contact.between_bodies=frictional", "contact.friction_angle=20.0", "mechanics.transfer=apic"},
-       plane},
-      {"the first layer", {"band.region=first_layer"}},
-      {"the first layer above a plane", {"band.region=first_layer"}, plane},
-      {"cut cells", {"band.cut_cells=equal_thickness", "body.right.particles_per_axis=2"}, plane},
-      {"a band that thickens", {"band.thickness={time=[0.0,0.05],value=[0.1,0.2]}"}},
-      {"melting", {"body.left.temperature=-1e-6"}, flat, melts},
-      {"freezing along a line", {"freezing.curve=linear", "freezing.slope=0.5"}},
-      {"apparent capacity", {"heat.update=apparent_capacity"}},
-      {"current masses", {"heat.masses=current"}},
+       "contact.between_bodies=frictional; contact.friction_angle=20.0; mechanics.transfer=apic" + plane},
+      {"the first layer", "band.region=first_layer"},
+      {"the first layer above a plane", "band.region=first_layer" + plane},
+      {"cut cells", "band.cut_cells=equal_thickness; body.right.particles_per_axis=2" + plane},
+      {"a band that thickens", "band.thickness={time=[0.0,0.05],value=[0.1,0.2]}"},
+      {"melting", "body.left.temperature=-1e-6", melts},
+      {"freezing along a line", "freezing.curve=linear; freezing.slope=0.5"},
+      {"apparent capacity", "heat.update=apparent_capacity"},
+      {"current masses", "heat.masses=current"},
       {"heat through a side", {"heat.boundary.x_min={temperature=5.0}", corner("min", 0.0, -4.0, -4.0)}},
-      {"seepage", {"material.frozen.hydraulic_conductivity=1e-8", "material.melted.hydraulic_conductivity=1e-8"}},
-      {"seepage as published", {"pressure.seepage_scaling=published"}},
-      {"sealed frozen rows", {"pressure.frozen_rows=sealed", "body.left.temperature=-1e-6"}, flat, melts},
-      {"vented frozen rows", {"pressure.frozen_rows=vented", "body.left.temperature=-1e-6"}, flat, melts},
+      {"seepage", "material.frozen.hydraulic_conductivity=1e-8; material.melted.hydraulic_conductivity=1e-8"},
+      {"seepage as published", "pressure.seepage_scaling=published"},
+      {"sealed frozen rows", "pressure.frozen_rows=sealed; body.left.temperature=-1e-6", melts},
+      {"vented frozen rows", "pressure.frozen_rows=vented; body.left.temperature=-1e-6", melts},
       {"a balance of water",
-       {"pressure.frozen=none", "pressure.residual_stress=1e3", "pressure.melt_contraction=true",
-        "pressure.skeleton_compressibility=1e-8", "phases.water_expansion_law=by_temperature",
-        "body.left.temperature=-1e-6"},
-       flat,
+       "pressure.frozen=none; pressure.residual_stress=1e3; pressure.melt_contraction=true; "
+       "pressure.skeleton_compressibility=1e-8; phases.water_expansion_law=by_temperature; body.left.temperature=-1e-6",
        melts},
       {"heat that is conserved",
-       {"heat.advection_form=conservative", "band.thickness_change=conserving",
-        "band.thickness={time=[0.0,0.05],value=[0.1,0.2]}"}},
-      {"frozen thickness", {"pressure.thickness_update=frozen", "pressure.thickness_direction=vertical"}},
+       "heat.advection_form=conservative; band.thickness_change=conserving; "
+       "band.thickness={time=[0.0,0.05],value=[0.1,0.2]}"},
+      {"frozen thickness", "pressure.thickness_update=frozen; pressure.thickness_direction=vertical"},
       {"leaving",
        {"grid.leaving=remove", near_front, Dim == 2 ? "body.right.velocity=[60,0]" : "body.right.velocity=[60,0,0]"},
-       flat,
        lacks_particles},
   };
   if (Dim == 3) {
-    all.push_back({"a DEM", {}, dem});
-    all.push_back({"a DEM, the first layer, cut cells",
-                   {"band.region=first_layer", "band.cut_cells=equal_thickness", "body.right.particles_per_axis=2"},
-                   dem});
+    all.push_back({"a DEM", on_dem()});
+    all.push_back(
+        {"a DEM, the first layer, cut cells",
+         "band.region=first_layer; band.cut_cells=equal_thickness; body.right.particles_per_axis=2" + on_dem()});
   }
   return all;
 }
@@ -179,8 +171,7 @@ template <int Dim>
 State state_after(const Choice& choice, int threads, int interval) {
   const int threads_before = thread_count();
   set_thread_count(threads);
-  std::ofstream(folder_of_this_test() / "dem.tif");
-  Simulation<Dim> simulation(two_bodies<Dim>(5e3, length<Dim>, 5.0, 20.0, choice.terrain, choice.sets), bumpy_site());
+  Simulation<Dim> simulation(two_bodies<Dim>(5e3, length<Dim>, 5.0, 20.0, choice.sets), bumpy_site());
   simulation.set_sorting_interval(interval);
   EXPECT_GE(simulation.grid().tiles().size(), fewest_shared_calls);
   for (int k = 0; k < (Dim == 2 ? 40 : 16); ++k) {

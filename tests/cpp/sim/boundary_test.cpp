@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
 
@@ -13,35 +13,11 @@ namespace {
 using namespace testing_support;
 
 // A column between rollers under its own weight, brought to rest by damping.
-const std::string column = R"(
-[time]
-end = 12.0
-step = 0.002
-[grid]
-cell = 2.0
-min = [0.0, 0.0]
-max = [8.0, 24.0]
-[grid.boundary]
-x_min = "roller"
-x_max = "roller"
-y_min = "fixed"
-[material.rock]
-law = "elastic"
-youngs_modulus = 1e8
-poisson_ratio = 0.25
-[body.column]
-material = "rock"
-shape = "box"
-min = [0.0, 0.0]
-max = [8.0, 20.0]
-[mechanics]
-initial_stress = "none"
-mass_damping = 2.0
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)";
+const Variant column{
+    "free",
+    "case.gravity=9.81; time.end=12; grid.cell=2; grid.max=[8,24]; grid.boundary.x_min=roller; "
+    "grid.boundary.x_max=roller; grid.boundary.y_min=fixed; body.block.min=[0,0]; body.block.max=[8,20]; "
+    "mechanics.mass_damping=2"};
 
 TEST(Boundary, ColumnBetweenRollersCarriesItsWeight) {
   Simulation<2> simulation(paper_case(column));
@@ -81,33 +57,11 @@ TEST(Boundary, OpenSideLetsTheColumnSpread) {
 }
 
 TEST(Frame, DrivesNodesWithinAndCountsItsWork) {
-  const std::string text = R"(
-[case]
-gravity = 0.0
-[time]
-end = 1.0
-step = 0.001
-[grid]
-cell = 2.0
-min = [0.0, 0.0]
-max = [40.0, 20.0]
-[material.rock]
-law = "elastic"
-youngs_modulus = 1e8
-poisson_ratio = 0.25
-viscosity_time = 0.01
-[body.block]
-material = "rock"
-shape = "box"
-min = [4.0, 4.0]
-max = [12.0, 12.0]
-[frame.pusher]
-min = [0.0, 0.0]
-max = [40.0, 20.0]
-axis = "x"
-velocity = 3.0
-)";
-  Simulation<2> simulation(paper_case(text));
+  const Sets pushed =
+      "time.step=0.001; grid.cell=2; grid.max=[40,20]; material.rock.viscosity_time=0.01; body.block.min=[4,4]; "
+      "body.block.max=[12,12]; frame.pusher.min=[0,0]; frame.pusher.max=[40,20]; frame.pusher.axis=x; "
+      "frame.pusher.velocity=3; heat.enabled=true; pressure.enabled=true";
+  Simulation<2> simulation(published_case("free", pushed));
   run_until(simulation, 1.0);
   const auto row = history_row(simulation);
   EXPECT_NEAR(value_of(row, "mean_velocity_m_s"), 3.0, 1e-9);
@@ -116,40 +70,15 @@ velocity = 3.0
 }
 
 TEST(Bodies, OfDifferentMaterialsKeepTheirMaterials) {
-  const std::string text = R"(
-[time]
-end = 0.5
-step = 0.001
-[grid]
-cell = 2.0
-min = [0.0, 0.0]
-max = [40.0, 60.0]
-[material.ice]
-law = "elastic"
-youngs_modulus = 1e8
-poisson_ratio = 0.3
-[material.rock]
-law = "mohr_coulomb"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-friction_angle = 35.0
-cohesion = 1e6
-[body.left]
-material = "rock"
-shape = "box"
-min = [4.0, 40.0]
-max = [8.0, 44.0]
-porosity = 0.1
-[body.right]
-material = "ice"
-shape = "polygon"
-vertices = [[20.0, 40.0], [28.0, 40.0], [20.0, 48.0]]
-porosity = 0.9
-temperature = { depth = [0.0, 4.0], value = [-2.0, -6.0] }
-[mechanics]
-initial_stress = "none"
-)";
-  Simulation<2> simulation(paper_case(text));
+  const Sets two =
+      "case.gravity=9.81; time.end=0.5; time.step=0.001; grid.cell=2; grid.max=[40,60]; material.ice.law=elastic; "
+      "material.ice.youngs_modulus=1e8; material.ice.poisson_ratio=0.3; material.rock.law=mohr_coulomb; "
+      "material.rock.youngs_modulus=5e8; material.rock.poisson_ratio=0.2; material.rock.friction_angle=35; "
+      "material.rock.cohesion=1e6; body.block.min=[4,40]; body.block.max=[8,44]; body.block.porosity=0.1; "
+      "body.right.material=ice; body.right.shape=polygon; body.right.vertices=[[20,40],[28,40],[20,48]]; "
+      "body.right.porosity=0.9; body.right.temperature={depth=[0,4],value=[-2,-6]}; heat.enabled=true; "
+      "pressure.enabled=true";
+  Simulation<2> simulation(published_case("free", two));
   const auto& particles = simulation.particles();
   int left = 0, right = 0;
   for (std::size_t p = 0; p < particles.size(); ++p) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "../support/fields.hpp"
 #include "base/portability.hpp"
 #include "sim/history.hpp"
@@ -19,41 +19,17 @@ using namespace testing_support;
 constexpr double slope = 48.0;
 constexpr double length = 240.0;
 
-std::string slab_on_plane() {
+Variant slab_on_plane() {
   const double angle = slope * pi / 180.0;
   const double run = length * std::cos(angle), fall = length * std::sin(angle);
   const double rise = 25.0 / std::cos(angle);
-  return fmt::format(R"(
-[time]
-end = 3.0
-step = 0.001
-history_interval = 0.01
-[grid]
-cell = 5.0
-min = [-20.0, -400.0]
-max = [400.0, 100.0]
-[terrain]
-type = "plane"
-slope = {}
-elevation = 1.3
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-viscosity_time = 0.02
-[body.slab]
-material = "rock"
-shape = "polygon"
-vertices = [[0.0, 1.3], [{:.6f}, {:.6f}], [{:.6f}, {:.6f}], [0.0, {:.6f}]]
-[mechanics]
-slope_shear = true
-[basal]
-friction = "constant"
-friction_angle = 30.0
-[mechanisms]
-pressurization = false
-)",
-                     slope, run, 1.3 - fall, run, 1.3 - fall + rise, 1.3 + rise);
+  return {"block",
+          "time.end=3; time.history_interval=0.01; grid.min=[-20,-400]; grid.max=[400,100]; terrain.type=plane; "
+          "terrain.elevation=1.3; body.block.shape=polygon; mechanics.slope_shear=true; basal.friction_angle=30; "
+          "heat.enabled=true; pressure.enabled=true; " +
+              fmt::format("terrain.slope={}; body.block.vertices=[[0.0, 1.3], [{:.6f}, {:.6f}], [{:.6f}, "
+                          "{:.6f}], [0.0, {:.6f}]]",
+                          slope, run, 1.3 - fall, run, 1.3 - fall + rise, 1.3 + rise)};
 }
 
 // Means over the second half of a run: contact area [m2] and its change, force on the ground [N].
@@ -61,7 +37,7 @@ struct MeanContact {
   double area = 0.0, normal = 0.0, tangential = 0.0, mass = 0.0, velocity = 0.0;
 };
 
-MeanContact mean_contact(const std::vector<std::string>& sets) {
+MeanContact mean_contact(const Sets& sets) {
   Simulation<2> simulation(paper_case(slab_on_plane(), sets));
   run_until(simulation, 1.5);
   MeanContact mean;
@@ -96,15 +72,14 @@ TEST(ContactArea, OfASlidingSlabIsItsBase) {
 
 // Friction from cohesion alone is cohesion times the base, at any angle to the grid.
 TEST(ContactArea, CohesionActsOnTheBase) {
-  const MeanContact seen =
-      mean_contact({"basal.friction_angle=0.0", "basal.cohesion=1e5", "basal.cohesion_law=constant"});
+  const MeanContact seen = mean_contact("basal.friction_angle=0.0; basal.cohesion=1e5; basal.cohesion_law=constant");
   EXPECT_GT(seen.velocity, 5.0);
   EXPECT_NEAR(seen.tangential / (1e5 * length), 1.0, 0.05);
 }
 
 // The momentum of the slab equals its initial momentum plus the impulses of gravity, ground and walls, to round-off.
 TEST(Budget, OfMomentumCloses) {
-  Simulation<2> simulation(paper_case(slab_on_plane(), {"grid.boundary.x_min=roller", "mechanics.mass_damping=0.1"}));
+  Simulation<2> simulation(paper_case(slab_on_plane(), "grid.boundary.x_min=roller; mechanics.mass_damping=0.1"));
   run_until(simulation, 2.0);
   const auto row = history_row(simulation);
   for (const std::string axis : {"x", "y"}) {
@@ -118,37 +93,10 @@ TEST(Budget, OfMomentumCloses) {
 }
 
 // A block on flat ground against a roller: the node shared by wall and ground keeps the boundary condition of the wall.
-const std::string cornered = R"(
-[case]
-gravity_tilt = -20.0
-[time]
-end = 2.0
-step = 0.001
-[grid]
-cell = 5.0
-min = [0.0, -10.0]
-max = [100.0, 60.0]
-[grid.boundary]
-x_min = "roller"
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-viscosity_time = 0.02
-[body.block]
-material = "rock"
-shape = "box"
-min = [0.0, 0.0]
-max = [40.0, 20.0]
-[basal]
-friction = "constant"
-friction_angle = 5.0
-[mechanisms]
-pressurization = false
-)";
+const Variant cornered{
+    "block",
+    "case.gravity_tilt=-20; time.end=2; grid.min=[0,-10]; grid.max=[100,60]; grid.boundary.x_min=roller; "
+    "basal.friction_angle=5; heat.enabled=true; pressure.enabled=true"};
 
 TEST(Walls, ApplyWhereTheyMeetTheGround) {
   Simulation<2> simulation(paper_case(cornered));
@@ -164,11 +112,12 @@ TEST(Walls, ApplyWhereTheyMeetTheGround) {
 // Without the distance check, contact acts up to a cell too early. A body that hovers by half a cell still has its
 // complete base.
 TEST(ContactArea, OfAHoveringSlabIsItsBase) {
-  Simulation<2> simulation(paper_case(
-      cornered, {"case.gravity_tilt=0", "grid.boundary.x_min=open", "terrain.elevation=-2.5", "body.block.min=[20,0]",
-                 "body.block.max=[60,20]", "body.block.velocity=[10,0]", "basal.friction_angle=0", "basal.cohesion=1e4",
-                 "basal.cohesion_law=constant", "mechanics.initial_stress=settle", "mechanics.settle_time=5.0",
-                 "mechanics.settle_damping=5.0", "basal.distance_check=false"}));
+  Simulation<2> simulation(
+      paper_case(cornered,
+                 "case.gravity_tilt=0; grid.boundary.x_min=open; terrain.elevation=-2.5; body.block.min=[20,0]; "
+                 "body.block.max=[60,20]; body.block.velocity=[10,0]; basal.friction_angle=0; "
+                 "basal.cohesion=1e4; basal.cohesion_law=constant; mechanics.initial_stress=settle; "
+                 "mechanics.settle_time=5.0; mechanics.settle_damping=5.0; basal.distance_check=false"));
   simulation.settle();
   double tangential = 0.0;
   for (int k = 0; k < 1000; ++k) {
@@ -188,7 +137,7 @@ struct Ringing {
   double least = HUGE_VAL, most = -HUGE_VAL;
 };
 
-Ringing ring(const std::vector<std::string>& sets) {
+Ringing ring(const Sets& sets) {
   Simulation<2> simulation(paper_case(cornered, sets));
   simulation.settle();
   const double weight = simulation.sum_over_body().mass * 9.81;
@@ -201,15 +150,12 @@ Ringing ring(const std::vector<std::string>& sets) {
   return seen;
 }
 
+const Sets settled = "mechanics.initial_stress=settle; mechanics.settle_damping=5";
+
 TEST(Settling, MakesTheBaseCarryTheWeight) {
-  const std::vector<std::string> level{"case.gravity_tilt=0.0", "material.rock.viscosity_time=0.0"};
-  std::vector<std::string> sudden = level, settled = level;
-  sudden.push_back("mechanics.initial_stress=none");
-  for (const char* set :
-       {"mechanics.initial_stress=settle", "mechanics.settle_time=5.0", "mechanics.settle_damping=5.0"}) {
-    settled.push_back(set);
-  }
-  const Ringing loud = ring(sudden), quiet = ring(settled);
+  const Sets level = "case.gravity_tilt=0; material.rock.viscosity_time=0";
+  const Ringing loud = ring(level + "mechanics.initial_stress=none");
+  const Ringing quiet = ring(level + settled + "mechanics.settle_time=5");
   EXPECT_LT(loud.least, 0.3);
   EXPECT_GT(loud.most, 1.7);
   EXPECT_GT(quiet.least, 0.9);
@@ -217,9 +163,7 @@ TEST(Settling, MakesTheBaseCarryTheWeight) {
 }
 
 TEST(Settling, ChangesStressOnly) {
-  const std::vector<std::string> sets{"case.gravity_tilt=0.0", "mechanics.initial_stress=settle",
-                                      "mechanics.settle_time=2.0", "mechanics.settle_damping=5.0"};
-  const config::Case parameters = paper_case(cornered, sets);
+  const config::Case parameters = paper_case(cornered + settled, "case.gravity_tilt=0; mechanics.settle_time=2");
   Simulation<2> seeded(parameters), settled(parameters);
   ASSERT_TRUE(settled.needs_settling());
   settled.settle();

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "../support/slide_on_dem.hpp"
 #include "sim/block.hpp"
 #include "sim/history.hpp"
@@ -131,7 +131,7 @@ TEST(Direction, OfACrossSectionIsAlongThePathOrAwayFromTheRelease) {
 // On a plane that falls towards +x or, mirrored, towards -x; or on flat ground with tilted gravity.
 constexpr double length = 400.0;
 
-std::string sliding(bool is_mirrored, bool by_tilt, double velocity) {
+Variant sliding(bool is_mirrored, bool by_tilt, double velocity) {
   const double sign = is_mirrored ? -1.0 : 1.0, fall = by_tilt ? 0.0 : std::tan(30.0 * 3.14159265358979323846 / 180.0);
   const double at_zero = is_mirrored ? 300.0 - fall * length : 300.0;  // elevation of the ground
   std::string vertices;
@@ -140,49 +140,22 @@ std::string sliding(bool is_mirrored, bool by_tilt, double velocity) {
     vertices +=
         fmt::format("[{:.17g}, {:.17g}], ", is_mirrored ? length - along : along, 300.0 - fall * along + height);
   }
-  return fmt::format(R"(
-[case]
-gravity_tilt = {}
-[time]
-end = 2.0
-step = 0.002
-history_interval = 0.5
-[grid]
-cell = 5.0
-min = [0.0, 0.0]
-max = [{}, 400.0]
-[terrain]
-type = "{}"
-elevation = {:.17g}
-slope = {}
-[material.rock]
-law = "elastic"
-youngs_modulus = 1e8
-poisson_ratio = 0.2
-viscosity_time = 0.02
-[body.slide]
-material = "rock"
-shape = "polygon"
-vertices = [{}]
-velocity = [{}, 0.0]
-[basal]
-friction = "constant"
-friction_angle = 10.0
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)",
-                     by_tilt ? 30.0 * sign : 0.0, length, by_tilt ? "flat" : "plane", at_zero,
-                     by_tilt ? 0.0 : 30.0 * sign, vertices, sign * velocity);
+  return {"block",
+          "time.end=2; time.step=0.002; time.history_interval=0.5; grid.min=[0,0]; material.rock.youngs_modulus=1e8; "
+          "body.block.shape=polygon; basal.friction_angle=10; mechanisms.pressurization=true; " +
+              fmt::format("case.gravity_tilt={}; grid.max=[{}, 400.0]; terrain.type={}; "
+                          "terrain.elevation={:.17g}; terrain.slope={}; body.block.vertices=[{}]; "
+                          "body.block.velocity=[{}, 0.0]",
+                          by_tilt ? 30.0 * sign : 0.0, length, by_tilt ? "flat" : "plane", at_zero,
+                          by_tilt ? 0.0 : 30.0 * sign, vertices, sign * velocity)};
 }
 
 struct Rows {
   HistoryRow first, last;
 };
 
-Rows rows_of(const std::string& text) {
-  const config::Case parameters = paper_case(text);
+Rows rows_of(const Variant& variant) {
+  const config::Case parameters = paper_case(variant);
   Simulation<2> simulation(parameters);
   Rows rows{history_row(simulation), {}};
   run_until(simulation, parameters.time.end);

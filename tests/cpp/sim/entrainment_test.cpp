@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../support/fields.hpp"
+#include "../support/messages.hpp"
 #include "../support/two_bodies.hpp"
 #include "base/parallel.hpp"
 #include "io/checkpoint.hpp"
@@ -26,10 +27,8 @@ template <int Dim>
 constexpr int steps = Dim == 2 ? 150 : 60;
 
 template <int Dim>
-config::Case slide_over_bed(std::vector<std::string> sets) {
-  const std::vector<std::string> bed = loose_bed();
-  sets.insert(sets.begin(), bed.begin(), bed.end());
-  return two_bodies<Dim>(5e3, Dim == 2 ? 20.0 : 8.0, 5.0, 20.0, "type = \"flat\"\nelevation = 0.0", sets);
+config::Case slide_over_bed(const Sets& sets) {
+  return two_bodies<Dim>(5e3, Dim == 2 ? 20.0 : 8.0, 5.0, 20.0, loose_bed() + sets);
 }
 
 // Final state of the run, and maxima recorded during the run.
@@ -63,7 +62,7 @@ void record_residuals(const Simulation<Dim>& simulation, Seen& seen) {
 
 // stop: time step before which the run stops and resumes from its checkpoint; -1: no stop.
 template <int Dim>
-Seen run(const std::vector<std::string>& sets, int threads, int interval, int stop) {
+Seen run(const Sets& sets, int threads, int interval, int stop) {
   const int threads_before = thread_count();
   set_thread_count(threads);
   const config::Case parameters = slide_over_bed<Dim>(sets);
@@ -104,7 +103,7 @@ Seen run(const std::vector<std::string>& sets, int threads, int interval, int st
 }
 
 template <int Dim>
-void expect_valid_runs(const std::vector<std::string>& sets) {
+void expect_valid_runs(const Sets& sets) {
   const Seen first = run<Dim>(sets, 1, 0, -1);
   EXPECT_GT(first.joined, Dim == 2 ? 10U : 20U);
   EXPECT_LT(first.mass, 1e-13);
@@ -130,11 +129,12 @@ TEST(Entrainment, BalancesCloseAndResultsAreReproducibleInThePlane) {
 }
 TEST(Entrainment, BalancesCloseAndResultsAreReproducibleInSpace) { expect_valid_runs<3>({"bed.law=strength"}); }
 TEST(Entrainment, BalancesCloseAndResultsAreReproducibleWithOtherChoices) {
-  expect_valid_runs<2>({"bed.law=strength", "mechanics.transfer=apic", "time.stepping=adaptive"});
-  expect_valid_runs<2>({"bed.law=strength", "band.model=columns", "heat.advection_form=conservative",
-                        "band.thickness_change=conserving", "pressure.frozen=none", "pressure.frozen_rows=vented",
-                        "pressure.melt_contraction=true", "body.right.material=frozen"});
-  expect_valid_runs<2>({"bed.law=momentum", "mechanics.effective_stress=true", "pressure.thickness_update=frozen"});
+  expect_valid_runs<2>("bed.law=strength; mechanics.transfer=apic; time.stepping=adaptive");
+  expect_valid_runs<2>(
+      "bed.law=strength; band.model=columns; heat.advection_form=conservative; "
+      "band.thickness_change=conserving; pressure.frozen=none; pressure.frozen_rows=vented; "
+      "pressure.melt_contraction=true; body.right.material=frozen");
+  expect_valid_runs<2>("bed.law=momentum; mechanics.effective_stress=true; pressure.thickness_update=frozen");
 }
 
 // The work of entrainment is in the budget to round-off (bed_residual_J). The remaining residual is that of time
@@ -159,7 +159,7 @@ TEST(Entrainment, MechanicalBudgetClosesInFirstOrderOfTheStep) {
 
 // Entrained material is warmer than the bed was, by the kinetic energy that the slide loses to it.
 TEST(Entrainment, HeatsEntrainedMaterialByTheLostKineticEnergy) {
-  const config::Case parameters = slide_over_bed<2>({"bed.law=strength", "bed.temperature=-20.0"});
+  const config::Case parameters = slide_over_bed<2>("bed.law=strength; bed.temperature=-20.0");
   Simulation<2> simulation(parameters);
   for (int k = 0; k < steps<2>; ++k) {
     simulation.step(0.002);
@@ -172,15 +172,8 @@ TEST(Entrainment, HeatsEntrainedMaterialByTheLostKineticEnergy) {
 }
 
 TEST(Entrainment, TheBlockModelRefusesABed) {
-  try {
-    run_block(slide_over_bed<2>({"bed.law=strength"}));
-    FAIL();
-  } catch (const UserError& error) {
-    EXPECT_NE(
-        std::string(error.what()).find("the block model does not entrain a bed. Remove [bed], or use `thawslide run`."),
-        std::string::npos)
-        << error.what();
-  }
+  expect_in(error_of([] { run_block(slide_over_bed<2>("bed.law=strength")); }),
+            "the block model does not entrain a bed. Remove [bed], or use `thawslide run`.");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Maps of a 3D slide: fractions of boxes, sums, peak values, independence of threads and of the order in memory.
+// Maps of a 3D slide: fractions of boxes, sums, peak values, independence of threads and of the order in memory; stored
+// ground.
 #include "sim/flow_maps.hpp"
 
 #include <gtest/gtest.h>
@@ -128,7 +129,7 @@ TEST(FlowMaps, ABoxGivesItsThicknessFromTheStart) {
 }
 
 TEST(FlowMaps, SumsEqualThoseOfTheParticlesOnAnyGrid) {
-  Simulation<3> simulation(slide_in_space("velocity = [3.0, 2.0, 0.5]"));
+  Simulation<3> simulation(slide_in_space("body.box.velocity=[3,2,0.5]"));
   // The last cell ends within the outermost boxes: the part outside is assigned to the edge.
   const std::vector<MapGrid> grids{{-4.0, -5.0, 0.4, 0.3, 180, 80, ""},
                                    {-3.5, -4.5, 1.0, 1.0, 70, 30, ""},
@@ -153,7 +154,7 @@ TEST(FlowMaps, SumsEqualThoseOfTheParticlesOnAnyGrid) {
 
 // Contents of each cell compared with the overlap of all boxes with it.
 TEST(FlowMaps, CellsContainTheirFractionsOfAllBoxes) {
-  Simulation<3> simulation(slide_in_space("velocity = [6.0, 2.0, 0.5]", {"body.box.particles_per_axis=3"}));
+  Simulation<3> simulation(slide_in_space("body.box.velocity=[6,2,0.5]; body.box.particles_per_axis=3"));
   const double half = 0.5 / 3.0;
   for (const MapGrid& grid :
        {MapGrid{-4.1, -5.2, 0.13, 0.21, 500, 100, ""}, MapGrid{-4.0, -5.0, 0.7, 0.9, 100, 30, ""}}) {
@@ -194,7 +195,7 @@ TEST(FlowMaps, CellsContainTheirFractionsOfAllBoxes) {
 
 // Each peak value compared with the particles above one cell so large that it contains all of them.
 TEST(FlowMaps, PeakValuesAreTheMaximaOfTheColumn) {
-  Simulation<3> simulation(slide_in_space("velocity = [5.0, 0.0, 0.0]"));
+  Simulation<3> simulation(slide_in_space("body.box.velocity=[5,0,0]"));
   FlowMaps maps = maps_of(simulation, {28.0, 5.0, 64.0, 20.0, 1, 1, ""});
   FlowMaps of_thin = maps_of(simulation, maps.map_grid(), 0.05);  // the cell's thickness is 72/1280 m
   maps.start(simulation.grid(), simulation.particles());
@@ -251,7 +252,7 @@ TEST(FlowMaps, PeakValuesAreTheMaximaOfTheColumn) {
 }
 
 TEST(FlowMaps, ASlideThatMovesAwayLeavesEmptyCells) {
-  Simulation<3> simulation(slide_in_space("velocity = [40.0, 0.0, 0.0]", {"basal.friction_angle=0.0"}));
+  Simulation<3> simulation(slide_in_space("body.box.velocity=[40,0,0]; basal.friction_angle=0.0"));
   FlowMaps maps = maps_of(simulation, {-3.75, -4.75, 0.5, 0.5, 128, 40, ""});
   maps.start(simulation.grid(), simulation.particles());
   while (simulation.time() < 0.8) {
@@ -308,7 +309,7 @@ TEST(FlowMaps, RastersAreLocatedAtTheCells) {
 std::vector<double> state_after(const MapGrid& map_grid, int threads, int sorting_interval, int stop_at) {
   const int threads_before = thread_count();
   set_thread_count(threads);
-  Simulation<3> simulation(slide_in_space("velocity = [10.0, 3.0, 1.0]", {"body.box.max=[12.0, 11.0, 3.0]"}));
+  Simulation<3> simulation(slide_in_space("body.box.velocity=[10,3,1]; body.box.max=[12.0, 11.0, 3.0]"));
   simulation.set_sorting_interval(sorting_interval);
   FlowMaps maps = maps_of(simulation, map_grid);
   maps.start(simulation.grid(), simulation.particles());
@@ -352,6 +353,24 @@ TEST(FlowMaps, MemoryFollowsTheSlide) {
   EXPECT_EQ(raster.columns, 120);
   EXPECT_EQ(raster.rows, 80);
   EXPECT_NEAR(raster.x, 0.025, 1e-9);
+}
+
+// The stored ground data of the grid follow the slide.
+TEST(GroundMemory, IsReleasedBehindTheSlide) {
+  Simulation<3> simulation(
+      slide_in_space("body.box.velocity=[80,0,0]; grid.max=[200,15,20]; material.rock.law=elastic; "
+                     "material.rock.viscosity_time=0.01"));
+  std::size_t most_held = 0, most_active = 0, seen = 0;
+  for (int k = 0; k < 1000; ++k) {  // about 170 m, nearly thirty times the length of the body
+    const std::size_t before = simulation.ground()->stored();
+    simulation.step(0.002);
+    const std::size_t after = simulation.ground()->stored();
+    seen += after > before ? after - before : 0;
+    most_held = std::max(most_held, after);
+    most_active = std::max(most_active, simulation.grid().blocks().size());
+  }
+  EXPECT_GT(seen, 3 * most_active);  // the slide has passed over more ground than may be stored
+  EXPECT_LE(most_held, 4 * most_active);
 }
 
 }  // namespace

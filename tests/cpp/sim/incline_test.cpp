@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
 #include "sim/history.hpp"
@@ -18,70 +18,15 @@ constexpr double gravity = 9.81;
 double radians(double degrees) { return degrees * pi / 180.0; }
 
 // Gravity turned by 30 degrees over flat ground: the grid's axes are the slope's.
-const std::string turned_2d = R"(
-[case]
-gravity_tilt = 30.0
-[time]
-end = 2.0
-step = 0.001
-[grid]
-cell = 5.0
-min = [-20.0, -10.0]
-max = [200.0, 40.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-viscosity_time = 0.02
-[body.block]
-material = "rock"
-shape = "box"
-min = [0.0, 0.0]
-max = [40.0, 20.0]
-[mechanics]
-slope_shear = true
-[basal]
-friction = "constant"
-friction_angle = 15.0
-[mechanisms]
-pressurization = false
-)";
+const Variant turned_2d{
+    "block",
+    "case.gravity_tilt=30; time.end=2; mechanics.slope_shear=true; basal.friction_angle=15; heat.enabled=true; "
+    "pressure.enabled=true"};
 
-const std::string turned_3d = R"(
-[case]
-dimension = 3
-gravity_tilt = 30.0
-[time]
-end = 1.0
-step = 0.001
-[grid]
-cell = 5.0
-min = [-20.0, -20.0, -10.0]
-max = [100.0, 40.0, 30.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-viscosity_time = 0.02
-[body.block]
-material = "rock"
-shape = "box"
-min = [0.0, 0.0, 0.0]
-max = [20.0, 20.0, 10.0]
-[mechanics]
-slope_shear = true
-[basal]
-friction = "constant"
-friction_angle = 15.0
-[mechanisms]
-pressurization = false
-)";
+const Variant turned_3d =
+    turned_2d +
+    "case.dimension=3; time.end=1; grid.min=[-20,-20,-10]; grid.max=[100,40,30]; body.block.min=[0,0,0]; "
+    "body.block.max=[20,20,10]";
 
 // Motion of the block in the second half of the run, after the initial adjustment of its stress.
 struct Slide {
@@ -89,8 +34,8 @@ struct Slide {
 };
 
 template <int Dim>
-Slide slide(const std::string& text, const std::vector<std::string>& sets = {}) {
-  Simulation<Dim> simulation(paper_case(text, sets));
+Slide slide(const Variant& variant, const Sets& sets = {}) {
+  Simulation<Dim> simulation(paper_case(variant, sets));
   const double end = simulation.parameters().time.end;
   run_until(simulation, 0.5 * end);
   const auto middle = history_row(simulation);
@@ -162,43 +107,35 @@ TEST(Incline, SticksInThreeDimensions) { EXPECT_LT(slide<3>(turned_3d, {"basal.f
 
 // A plane that falls by 30 degrees through the grid, gravity upright: the body is a parallelogram on it.
 TEST(Incline, SlidesOnATiltedPlane) {
-  std::string text = turned_2d;
-  const std::string box = "shape = \"box\"\nmin = [0.0, 0.0]\nmax = [40.0, 20.0]";
-  const std::string polygon =
-      "shape = \"polygon\"\nvertices = [[0.0, 0.0], [60.0, -34.641], [60.0, -11.547], [0.0, 23.094]]";
-  text.replace(text.find(box), box.size(), polygon);
-  const Slide seen =
-      slide<2>(text, {"case.gravity_tilt=0.0", "terrain.type=plane", "terrain.slope=30.0", "grid.min=[-20.0,-150.0]"});
-  expect_slide("plane through the grid, 2D", seen, 15.0, 2e-2);
-  const Slide stuck = slide<2>(text, {"case.gravity_tilt=0.0", "terrain.type=plane", "terrain.slope=30.0",
-                                      "grid.min=[-20.0,-150.0]", "basal.friction_angle=40.0", "time.end=4.0"});
-  EXPECT_LT(stuck.velocity, 0.05);
+  const Variant plane =
+      turned_2d +
+      "case.gravity_tilt=0; terrain.type=plane; terrain.slope=30; grid.min=[-20,-150]; body.block.shape=polygon; "
+      "body.block.vertices=[[0.0, 0.0], [60.0, -34.641], [60.0, -11.547], [0.0, 23.094]]";
+  expect_slide("plane through the grid, 2D", slide<2>(plane), 15.0, 2e-2);
+  EXPECT_LT(slide<2>(plane, "basal.friction_angle=40; time.end=4").velocity, 0.05);
 }
 
 // In 3D, bodies are boxes: successive boxes of 2.5 m, each lower than the previous one, follow the plane.
-std::string stairs() {
-  std::string text = turned_3d;
+Variant stairs() {
+  Variant plane =
+      turned_3d +
+      "case.gravity_tilt=0; terrain.type=plane; terrain.slope=30; grid.min=[-20,-20,-80]; body.block.max=[2.5,20,10]";
   for (int k = 1; k < 8; ++k) {
     const double x = 2.5 * k, z = -x * std::tan(radians(30.0));
-    text += fmt::format(
-        "[body.stair_{}]\nmaterial = \"rock\"\nshape = \"box\"\nmin = [{}, 0.0, {}]\nmax = [{}, 20.0, {}]\n", k, x, z,
-        x + 2.5, z + 10.0);
+    plane = plane + fmt::format(
+                        "body.stair_{0}.material=rock; body.stair_{0}.min=[{1}, 0.0, {2}]; "
+                        "body.stair_{0}.max=[{3}, 20.0, {4}]",
+                        k, x, z, x + 2.5, z + 10.0);
   }
-  return text;
+  return plane;
 }
 
-const std::vector<std::string> plane_under_stairs = {"case.gravity_tilt=0.0", "terrain.type=plane",
-                                                     "terrain.slope=30.0", "grid.min=[-20.0,-20.0,-80.0]",
-                                                     "body.block.max=[2.5,20.0,10.0]"};
-
 TEST(Incline, SlidesOnATiltedPlaneInThreeDimensions) {
-  expect_slide("plane through the grid, 3D", slide<3>(stairs(), plane_under_stairs), 15.0, 2e-2);
+  expect_slide("plane through the grid, 3D", slide<3>(stairs()), 15.0, 2e-2);
 }
 
 TEST(Incline, SticksOnATiltedPlaneInThreeDimensions) {
-  auto rough = plane_under_stairs;
-  rough.emplace_back("basal.friction_angle=50.0");
-  EXPECT_LT(slide<3>(stairs(), rough).velocity, 0.05 * slide<3>(stairs(), plane_under_stairs).velocity);
+  EXPECT_LT(slide<3>(stairs(), "basal.friction_angle=50").velocity, 0.05 * slide<3>(stairs()).velocity);
 }
 
 // The ground of rigid points, as in the paper: the same with tilted gravity; on a plane across the grid it is rough.
@@ -208,28 +145,11 @@ TEST(Incline, SlidesOnRigidPoints) {
 }
 
 TEST(FreeFall, KeepsMomentumToRoundOff) {
-  const std::string text = R"(
-[time]
-end = 1.0
-step = 0.001
-[grid]
-cell = 5.0
-min = [0.0, -100.0]
-max = [60.0, 100.0]
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-[body.block]
-material = "rock"
-shape = "box"
-min = [10.0, 20.0]
-max = [40.0, 50.0]
-velocity = [3.0, 0.0]
-[mechanics]
-initial_stress = "none"
-)";
-  Simulation<2> simulation(paper_case(text));
+  const Sets thrown =
+      "case.gravity=9.81; time.step=0.001; grid.cell=5; grid.min=[0,-100]; grid.max=[60,100]; "
+      "material.rock.youngs_modulus=5e8; material.rock.poisson_ratio=0.2; body.block.min=[10,20]; "
+      "body.block.max=[40,50]; body.block.velocity=[3,0]; heat.enabled=true; pressure.enabled=true";
+  Simulation<2> simulation(published_case("free", thrown));
   run_until(simulation, 1.0);
   const auto row = history_row(simulation);
   double vx = 0.0, vy = 0.0;

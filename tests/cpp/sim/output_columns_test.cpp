@@ -56,12 +56,9 @@ std::set<std::string> written(const HistoryRow& row) {
 
 template <int Dim>
 void expect_declared_history() {
-  std::vector<std::string> sets = loose_bed();
-  sets.insert(sets.end(), {"bed.law=strength", "guards.not_finite=remove"});
-  const Simulation<Dim> plain(
-      two_bodies<Dim>(5e3, Dim == 2 ? 20.0 : 8.0, 5.0, 20.0, "type = \"flat\"\nelevation = 0.0"));
-  const Simulation<Dim> bed(
-      two_bodies<Dim>(5e3, Dim == 2 ? 20.0 : 8.0, 5.0, 20.0, "type = \"flat\"\nelevation = 0.0", sets));
+  const Sets sets = loose_bed() + "bed.law=strength; guards.not_finite=remove";
+  const Simulation<Dim> plain(two_bodies<Dim>(5e3, Dim == 2 ? 20.0 : 8.0, 5.0, 20.0));
+  const Simulation<Dim> bed(two_bodies<Dim>(5e3, Dim == 2 ? 20.0 : 8.0, 5.0, 20.0, sets));
   const Simulation<Dim> columns(case_from_text(column_slab(Dim)));
   EXPECT_EQ(written(history_row(plain)), sorted(declared(history_columns(), Dim, true)));
   std::set<std::string> all = written(history_row(bed));

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <functional>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
+#include "../support/messages.hpp"
 #include "../support/small_terrain.hpp"
-#include "base/error.hpp"
 #include "physics/basal/laws.hpp"
 #include "sim/block.hpp"
 #include "sim/steepest_descent.hpp"
@@ -21,48 +21,24 @@ namespace {
 using testing_support::paper_case;
 using testing_support::raster;
 using testing_support::value_of;
+using testing_support::Variant;
 
 constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr double slope = 30.0, top = 1000.0, thickness = 30.0, bend_at = 450.0, turn = 60.0;
 
 // A body of 30 m (vertical) from x = 100 to 300 m; its base melts while it slides.
-const std::string on_plane = R"(
-[time]
-end = 16.0
-step = 0.002
-history_interval = 1.0
-[grid]
-cell = 10.0
-min = [0.0, 0.0]
-max = [2000.0, 1100.0]
-[terrain]
-TERRAIN
-[material.rock]
-law = "elastic"
-youngs_modulus = 1e9
-poisson_ratio = 0.2
-viscosity_time = 0.02
-hydraulic_conductivity = 2e-8
-[body.slide]
-material = "rock"
-shape = "surface"
-temperature = -1.0
-[basal]
-friction = "lubricated"
-friction_angle = 25.0
-[band]
-thickness = 0.05
-)";
+const Variant on_plane{
+    "profile",
+    "time.end=16; time.step=0.002; time.history_interval=1; grid.cell=10; grid.min=[0,0]; grid.max=[2000,1100]; "
+    "material.rock.youngs_modulus=1e9; material.rock.viscosity_time=0.02; material.rock.hydraulic_conductivity=2e-8; "
+    "body.slide.temperature=-1; mechanics.slope_shear=false; basal.friction=lubricated; basal.friction_angle=25; "
+    "band.thickness=0.05; mechanisms.pressurization=true; heat.enabled=true; pressure.enabled=true"};
 
 // The same as a 2D case, on a profile with one slope along x up to a bend, and another beyond it.
 config::Case flat_case(double slope_beyond) {
   const double fall = std::tan(slope * degree), beyond = std::tan(slope_beyond * degree);
   const auto ground = [&](double x) { return top - fall * std::min(x, bend_at) - beyond * std::max(0.0, x - bend_at); };
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder =
-      std::filesystem::path(testing::TempDir()) / (std::string(test->test_suite_name()) + "." + test->name());
-  std::filesystem::create_directories(folder);
-  std::ofstream file(folder / "profile.csv");
+  std::ofstream file(testing_support::folder_of_this_test() / "profile.csv");
   file << "distance_m,terrain_elevation_m,surface_elevation_m\n";
   file.precision(17);
   for (const auto& [x, t] : std::vector<std::array<double, 2>>{{0.0, 0.0},
@@ -75,9 +51,7 @@ config::Case flat_case(double slope_beyond) {
     file << x << "," << ground(x) << "," << ground(x) + t << "\n";
   }
   file.close();
-  std::string text = on_plane;
-  text.replace(text.find("TERRAIN"), 7, "type = \"profile\"\nfile = \"profile.csv\"");
-  return paper_case(text);
+  return paper_case(on_plane);
 }
 
 struct InSpace {
@@ -248,12 +222,7 @@ TEST(PathSection, PathNeedsGroundAtTheReleaseOnly) {
 }
 
 std::string error_of(const InSpace& made) {
-  try {
-    static_cast<void>(section_along_path(made.parameters, made.site));
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing_support::error_of([&] { static_cast<void>(section_along_path(made.parameters, made.site)); });
 }
 
 TEST(PathSection, ReportsMissingRequirements) {
@@ -351,10 +320,8 @@ TEST(PathSection, WithoutADescendingPathReportsTheNeededKey) {
       "case.toml: no downhill path starts at the centre of the release, x = 200, y = 0: over 10 m the terrain is level "
       "or a pit there. Set maps.path to a file with a line from the release along the expected flow path.");
   reshape(bowl_about(260.0));
-  EXPECT_NE(error_of(made).find(
-                "case.toml: the line of steepest descent from the centre of the release ends in a pit at x = "),
-            std::string::npos)
-      << error_of(made);
+  testing_support::expect_in(
+      error_of(made), "case.toml: the line of steepest descent from the centre of the release ends in a pit at x = ");
   reshape(bowl_about(900.0));
   const PathSection section = section_along_path(made.parameters, made.site);
   ASSERT_TRUE(section.pit);

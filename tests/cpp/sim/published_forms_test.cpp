@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
 #include "physics/pressurization.hpp"
@@ -16,28 +16,11 @@ namespace {
 using namespace testing_support;
 
 // A bar without gravity.
-const std::string bar = R"(
-[case]
-gravity = 0.0
-[time]
-end = 1000.0
-step = 10.0
-[grid]
-cell = 0.1
-min = [0.0, 0.0]
-max = [2.0, 0.4]
-[material.bar]
-law = "elastic"
-youngs_modulus = 1e9
-poisson_ratio = 0.3
-hydraulic_conductivity = 1e-9
-[body.bar]
-material = "bar"
-shape = "box"
-min = [0.0, 0.0]
-max = [2.0, 0.4]
-temperature = 1.0
-)";
+const Variant bar{
+    "bar",
+    "time.end=1000; time.step=10; grid.max=[2,0.4]; material.bar.youngs_modulus=1e9; "
+    "material.bar.hydraulic_conductivity=1e-9; body.bar.max=[2,0.4]; body.bar.temperature=1; mechanics.enabled=true; "
+    "pressure.enabled=true"};
 
 std::vector<double> by_id(Simulation<2>& simulation, mpm::Field<double, 1> mpm::Particles<2>::*field) {
   auto& particles = simulation.particles();
@@ -49,12 +32,10 @@ std::vector<double> by_id(Simulation<2>& simulation, mpm::Field<double, 1> mpm::
 }
 
 TEST(SeepageScaling, PublishedIsSlowerByXi) {
-  const std::vector<std::string> still = {"mechanics.enabled=false", "heat.enabled=false", "band.thickness=0.0125"};
   const auto seep = [&](const std::string& scaling, double step, double end) {
-    auto sets = still;
-    sets.insert(sets.end(), {"pressure.seepage_scaling=" + scaling, fmt::format("time.step={}", step),
-                             fmt::format("time.end={}", end)});
-    Simulation<2> simulation(paper_case(bar, sets));
+    Simulation<2> simulation(
+        paper_case(bar + "mechanics.enabled=false; heat.enabled=false; band.thickness=0.0125",
+                   fmt::format("pressure.seepage_scaling={}; time.step={}; time.end={}", scaling, step, end)));
     auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e5 * std::cos(pi * particles.position(p, 0));
@@ -76,11 +57,11 @@ TEST(SeepageScaling, PublishedIsSlowerByXi) {
 }
 
 // Frequency of the first mode of a bar between rollers, from the time at which its velocity vanishes.
-double frequency(const std::vector<std::string>& sets, double* residual = nullptr) {
-  auto all = sets;
-  all.insert(all.end(), {"heat.enabled=false", "pressure.seepage=false", "time.step=4e-6", "time.end=1e-3",
-                         "grid.boundary={x_min=\"roller\",x_max=\"roller\",y_min=\"roller\",y_max=\"roller\"}"});
-  Simulation<2> simulation(paper_case(bar, all));
+double frequency(const Sets& sets, double* residual = nullptr) {
+  const Sets between_rollers =
+      "heat.enabled=false; pressure.seepage=false; time.step=4e-6; time.end=1e-3; "
+      "grid.boundary={x_min='roller',x_max='roller',y_min='roller',y_max='roller'}";
+  Simulation<2> simulation(paper_case(bar, sets + between_rollers));
   auto& particles = simulation.particles();
   const auto mode = [&](std::size_t p) { return std::sin(pi * particles.position(p, 0) / 2.0); };
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -110,7 +91,7 @@ TEST(EffectiveStress, WaterStiffensAnUndrainedBar) {
   const double undrained = pi / 2.0 * std::sqrt((elastic.p_wave_modulus() + 1e9 / 0.375) / density);
   const double total = frequency({});
   double residual = 1.0;
-  const double with_water = frequency({"mechanics.effective_stress=true", "pressure.volumetric_term=true"}, &residual);
+  const double with_water = frequency("mechanics.effective_stress=true; pressure.volumetric_term=true", &residual);
   EXPECT_NEAR(total / drained, 1.0, 0.006) << "20 cells a half wave";
   EXPECT_NEAR(frequency({"mechanics.effective_stress=true"}) / total, 1.0, 1e-12) << "P does not change by itself";
   EXPECT_NEAR(frequency({"pressure.volumetric_term=true"}) / total, 1.0, 1e-12) << "P does not act";
@@ -120,35 +101,12 @@ TEST(EffectiveStress, WaterStiffensAnUndrainedBar) {
 }
 
 // A melted slab at rest under its weight.
-const std::string slab = R"(
-[time]
-end = 0.01
-step = 0.001
-[grid]
-cell = 10.0
-min = [-50.0, -10.0]
-max = [250.0, 80.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "mohr_coulomb"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-friction_angle = 30.0
-cohesion = 0.0
-hydraulic_conductivity = 1e-9
-[body.slab]
-material = "rock"
-shape = "box"
-min = [0.0, 0.0]
-max = [200.0, 50.0]
-temperature = 1.0
-[mechanics]
-k0 = 0.5
-[basal]
-friction_angle = 30.0
-)";
+const Variant slab{
+    "slab",
+    "time.end=0.01; time.step=0.001; grid.max=[250,80]; material.rock.law=mohr_coulomb; "
+    "material.rock.youngs_modulus=5e8; material.rock.viscosity_time=0; material.rock.friction_angle=30; "
+    "material.rock.cohesion=0; material.rock.hydraulic_conductivity=1e-9; body.slab.temperature=1; mechanics.k0=0.5; "
+    "basal.friction_angle=30; band.thickness="};
 
 TEST(EffectiveStress, CarriesTheSameLoadWithLessStrength) {
   Simulation<2> total(paper_case(slab));
@@ -173,9 +131,11 @@ TEST(EffectiveStress, CarriesTheSameLoadWithLessStrength) {
 
 // Softening of cohesion and friction reduces the strength in terms of effective stress.
 TEST(EffectiveStress, SoftensLikeTotalStress) {
-  Simulation<2> simulation(paper_case(
-      slab, {"mechanics.effective_stress=true", "material.rock.cohesion=2e4", "material.rock.residual_cohesion=0.0",
-             "material.rock.residual_friction_angle=20.0", "material.rock.softening_strain=1e-5"}));
+  Simulation<2> simulation(
+      paper_case(slab,
+                 "mechanics.effective_stress=true; material.rock.cohesion=2e4; "
+                 "material.rock.residual_cohesion=0.0; material.rock.residual_friction_angle=20.0; "
+                 "material.rock.softening_strain=1e-5"));
   auto& particles = simulation.particles();
   std::size_t yielded = 0, softened = 0, beyond_by_total_stress = 0;
   for (int step = 0; step < 10; ++step) {
@@ -204,13 +164,13 @@ TEST(EffectiveStress, SoftensLikeTotalStress) {
   EXPECT_LT(beyond_by_total_stress, yielded / 10) << "the total stress is not what yields";
 }
 
-const std::vector<std::string> cooled = {"mechanics.enabled=false", "pressure.enabled=false",
-                                         "body.bar.temperature=-0.05", "heat.boundary.x_min={flux=-100.0}"};
+const Variant cooled =
+    bar +
+    "mechanics.enabled=false; pressure.enabled=false; body.bar.temperature=-0.05; heat.boundary.x_min={flux=-100}";
 
 HistoryRow after_cooling(const std::string& update, double step) {
-  auto sets = cooled;
-  sets.insert(sets.end(), {"heat.update=" + update, fmt::format("time.step={}", step), "time.end=400000"});
-  const config::Case parameters = paper_case(bar, sets);
+  const config::Case parameters =
+      paper_case(cooled, fmt::format("heat.update={}; time.step={}; time.end=400000", update, step));
   Simulation<2> simulation(parameters);
   run_until(simulation, parameters.time.end);
   return history_row(simulation);
@@ -270,53 +230,25 @@ TEST(HeatMasses, CurrentOnesCreateHeatAndIceThatTheBudgetReports) {
 }
 
 // A melted slab of 300 m that slides down a plane oblique to the grid; friction is the only source of heat.
-std::string tilted_slab(double slope, double elevation) {
+Variant tilted_slab(double slope, double elevation) {
   const double fall = std::tan(slope * pi / 180.0);
   const double height = 40.0 / std::cos(slope * pi / 180.0);
   const double length = 300.0 * std::cos(slope * pi / 180.0);
-  return fmt::format(R"(
-[time]
-end = 0.2
-step = 0.004
-[grid]
-cell = 5.0
-min = [-20.0, -320.0]
-max = [340.0, 80.0]
-[terrain]
-type = "plane"
-slope = {}
-elevation = {}
-[material.rock]
-law = "elastic"
-youngs_modulus = 1e8
-poisson_ratio = 0.2
-viscosity_time = 0.02
-[body.slab]
-material = "rock"
-shape = "polygon"
-vertices = [[0.0, {}], [{}, {}], [{}, {}], [0.0, {}]]
-temperature = 1.0
-velocity = [{}, {}]
-[mechanics]
-slope_shear = true
-[basal]
-friction = "constant"
-friction_angle = {}
-[band]
-thickness = 0.1
-[heat]
-conduction = false
-[pressure]
-enabled = false
-)",
-                     slope, elevation, elevation, length, elevation - fall * length, length,
-                     elevation - fall * length + height, elevation + height, std::cos(slope * pi / 180.0),
-                     -std::sin(slope * pi / 180.0), slope);
+  return {"slab",
+          "time.end=0.2; time.step=0.004; grid.cell=5; grid.min=[-20,-320]; grid.max=[340,80]; terrain.type=plane; "
+          "material.rock.youngs_modulus=1e8; material.rock.hydraulic_conductivity=0; body.slab.shape=polygon; "
+          "body.slab.temperature=1; mechanics.slope_shear=true; basal.friction=constant; band.thickness=0.1; "
+          "heat.conduction=false; pressure.enabled=false; " +
+              fmt::format("terrain.slope={}; terrain.elevation={}; body.slab.vertices=[[0.0, {}], [{}, {}], [{}, "
+                          "{}], [0.0, {}]]; body.slab.velocity=[{}, {}]; basal.friction_angle={}",
+                          slope, elevation, elevation, length, elevation - fall * length, length,
+                          elevation - fall * length + height, elevation + height, std::cos(slope * pi / 180.0),
+                          -std::sin(slope * pi / 180.0), slope)};
 }
 
 // Heat input per area over the capacity and the mean temperature rise of the band, in units of e.
-double effective_thickness(const std::string& text, const std::string& cut_cells) {
-  Simulation<2> simulation(paper_case(text, {"band.cut_cells=" + cut_cells}));
+double effective_thickness(const Variant& slab_on_plane, const std::string& cut_cells) {
+  Simulation<2> simulation(paper_case(slab_on_plane, {"band.cut_cells=" + cut_cells}));
   run_until(simulation, 0.2);
   const HistoryRow row = history_row(simulation);
   const double heat = value_of(row, "friction_heat_J");
@@ -334,9 +266,9 @@ TEST(CutCells, BandIsAsThickAsAskedOnASlopeThroughTheGrid) {
       "heat per area over C and the mean rise of the band is e", "docs/theory/band.md");
   for (const double slope : {10.0, 26.565051177, 45.0}) {
     for (const double elevation : {0.0, 1.85}) {
-      const std::string text = tilted_slab(slope, elevation);
-      const double remedied = effective_thickness(text, "equal_thickness");
-      const double as_they_are = effective_thickness(text, "as_they_are");
+      const Variant tilted = tilted_slab(slope, elevation);
+      const double remedied = effective_thickness(tilted, "equal_thickness");
+      const double as_they_are = effective_thickness(tilted, "as_they_are");
       const std::string where = fmt::format("{:.1f} degrees, ground at {} m", slope, elevation);
       record.expect_near("thickness over e, equal_thickness, " + where, remedied, 1.0, 0.05);
       EXPECT_GT(as_they_are, 1.5) << where;

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
+#include "../support/messages.hpp"
 #include "base/parallel.hpp"
 #include "io/checkpoint.hpp"
 #include "sim/end_state.hpp"
@@ -16,38 +17,12 @@ namespace {
 using namespace testing_support;
 
 // A block that friction stops: from 2 m/s by 0.2 g in about a second.
-const std::string block = R"(
-[time]
-end = 5.0
-step = 0.002
-stop_at_rest = 0.05
-rest_time = 0.4
-[grid]
-cell = 1.0
-min = [0.0, -2.0]
-max = [20.0, 20.0]
-[terrain]
-type = "flat"
-[material.rock]
-law = "elastic"
-youngs_modulus = 1e8
-poisson_ratio = 0.2
-viscosity_time = 0.005
-[body.block]
-material = "rock"
-shape = "box"
-min = [5.0, 0.0]
-max = [15.0, 6.0]
-velocity = [2.0, 0.0]
-[basal]
-friction = "constant"
-friction_angle = 11.31
-cohesion = 0.0
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)";
+const Variant endless{
+    "block",
+    "time.end=5; time.step=0.002; grid.cell=1; grid.min=[0,-2]; grid.max=[20,20]; material.rock.youngs_modulus=1e8; "
+    "material.rock.viscosity_time=0.005; body.block.min=[5,0]; body.block.max=[15,6]; body.block.velocity=[2,0]; "
+    "basal.friction_angle=11.31; mechanisms.pressurization=true"};
+const Variant block = endless + "time.stop_at_rest=0.05; time.rest_time=0.4";
 
 // Advances until rest or until the end; returns the time.
 double end_of(Simulation<2>& simulation) {
@@ -67,15 +42,12 @@ TEST(Rest, EndsARunAfterItsTime) {
   EXPECT_LT(end, 1.02 + 0.4 + 0.4) << "it oscillates for a while";
   const std::string text = simulation.rest_text();
   EXPECT_EQ(text.rfind("the slide is at rest: since t = ", 0), 0U) << text;
-  EXPECT_NE(text.find(" s no more than 0.5 % of its mass has moved faster than 0.05 m/s (time.stop_at_rest)"),
-            std::string::npos)
-      << text;
+  expect_in(text, " s no more than 0.5 % of its mass has moved faster than 0.05 m/s (time.stop_at_rest)");
 }
 
 // With the default speed and the default 10 s; the run continues.
 TEST(Rest, IsDetectedWithoutTheKey) {
-  Simulation<2> simulation(
-      paper_case(block.substr(0, block.find("stop_at_rest")) + block.substr(block.find("[grid]")), {"time.end=13"}));
+  Simulation<2> simulation(paper_case(endless, "time.end=13"));
   while (simulation.time() < 13.0 - 1e-9) {
     simulation.step(simulation.next_step(13.0));
     EXPECT_FALSE(simulation.ends_at_rest());
@@ -104,12 +76,9 @@ TEST(Rest, IsPartOfTheEndStateWithAWarningBeforeIt) {
   const std::vector<std::string> warnings = warnings_of(moving, true);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].rfind("the slide is not at rest at 0.5 s (mean velocity ", 0), 0U) << warnings[0];
-  EXPECT_NE(
-      warnings[0].find(
-          " m/s; at rest: for 0.4 s, or 0.25 s from the start, no more than 0.5 % of the mass "
-          "faster than 0.05 m/s). Volumes, areas, distances and maps are those of this time and not of a deposit. "),
-      std::string::npos)
-      << warnings[0];
+  expect_in(warnings[0],
+            " m/s; at rest: for 0.4 s, or 0.25 s from the start, no more than 0.5 % of the mass "
+            "faster than 0.05 m/s). Volumes, areas, distances and maps are those of this time and not of a deposit. ");
   EXPECT_TRUE(warnings_of(moving, false).empty()) << "while it runs";
   EXPECT_FALSE(end_state<2>(simulation, true).is_known) << "nothing of the slide is left";
   end_of(simulation);
@@ -117,7 +86,7 @@ TEST(Rest, IsPartOfTheEndStateWithAWarningBeforeIt) {
   EXPECT_TRUE(still.at_rest);
   EXPECT_EQ(still.rest_since, simulation.rest_since());
   EXPECT_TRUE(warnings_of(still, true).empty());
-  EXPECT_NE(when_text(still).find(" s, at rest"), std::string::npos);
+  expect_in(when_text(still), " s, at rest");
 }
 
 TEST(Rest, IsNotDetectedBeforeTheSlideHasMoved) {
@@ -129,9 +98,8 @@ TEST(Rest, IsNotDetectedBeforeTheSlideHasMoved) {
 
 // A run shorter than time.rest_time, 10 s: the block settles without further motion.
 TEST(Rest, IsSinceTheStartIfNothingHasMoved) {
-  const std::string without = block.substr(0, block.find("stop_at_rest")) + block.substr(block.find("[grid]"));
   const auto state_at = [&](double end, const std::string& set) {
-    Simulation<2> simulation(paper_case(without, {set}));
+    Simulation<2> simulation(paper_case(endless, set));
     while (simulation.time() < end - 1e-9) {
       simulation.step(simulation.next_step(end));
     }
@@ -149,12 +117,8 @@ TEST(Rest, IsSinceTheStartIfNothingHasMoved) {
 }
 
 TEST(Rest, AnEscapedParticleDoesNotPreventRest) {
-  const std::string escaping = R"([body.stray]
-material = "rock"
-min = [6.0, 12.0]
-max = [6.5, 12.5]
-velocity = [0.0, 6.0]
-)";
+  const Sets escaping =
+      "body.stray.material=rock; body.stray.min=[6,12]; body.stray.max=[6.5,12.5]; body.stray.velocity=[0,6]";
   Simulation<2> simulation(paper_case(block + escaping));
   const double end = end_of(simulation);
   EXPECT_LT(end, 1.8);

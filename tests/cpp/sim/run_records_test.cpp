@@ -7,16 +7,15 @@
 #include <cstring>
 #include <filesystem>
 
+#include "../support/messages.hpp"
 #include "../support/slide_in_space.hpp"
 #include "../support/two_bodies.hpp"
-#include "base/error.hpp"
 #include "io/checkpoint.hpp"
 
 namespace thawslide::sim {
 namespace {
 
-using testing_support::slide_in_space;
-using testing_support::value_of;
+using namespace testing_support;
 
 constexpr auto level_ground = [](double /*x*/, double /*y*/) { return 0.0; };
 
@@ -63,7 +62,7 @@ TEST(Section, OnTheLastBorderBelongsToTheCellsBeforeIt) {
 
 TEST(Probes, MeasureTheMovingBox) {
   // A box that slides as a rigid body: the discharge is the product of thickness, width and speed.
-  const Simulation<3> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
+  const Simulation<3> simulation(slide_in_space("body.box.velocity=[8,0,0]"));
   config::Site site;
   site.probes = {{"gauge", {{3.5, 4.5}}},
                  {"empty", {{30.5, 4.5}}},
@@ -93,32 +92,18 @@ TEST(Probes, OutsideTheMapsAreRefused) {
   const Simulation<3> simulation(slide_in_space());
   config::Site site;
   site.probes = {{"gauge", {{3.5, 40.0}}}};
-  try {
-    RunRecords<3>(simulation, site);
-    FAIL();
-  } catch (const UserError& error) {
-    const std::string message = error.what();
-    EXPECT_NE(
-        message.find(": probe 'gauge' has a point at x = 3.5 m, y = 40 m, outside the maps; allowed: x from -4 to "
-                     "60 m, y from -5 to 15 m. Move it, or make the domain larger."),
-        std::string::npos)
-        << message;
-  }
+  const auto message = [&] { return error_of([&] { RunRecords<3>(simulation, site); }); };
+  expect_in(message(),
+            ": probe 'gauge' has a point at x = 3.5 m, y = 40 m, outside the maps; allowed: x from -4 to "
+            "60 m, y from -5 to 15 m. Move it, or make the domain larger.");
   site.probes = {{"gauge", {{3.5, 4.0}, {3.5, 4.0}}}};
-  try {
-    RunRecords<3>(simulation, site);
-    FAIL();
-  } catch (const UserError& error) {
-    const std::string message = error.what();
-    EXPECT_NE(message.find("the line of probe 'gauge' has no length; allowed: one point, or a line of at least two "
-                           "different ones."),
-              std::string::npos)
-        << message;
-  }
+  expect_in(message(),
+            "the line of probe 'gauge' has no length; allowed: one point, or a line of at least two "
+            "different ones.");
 }
 
 TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {
-  Simulation<3> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
+  Simulation<3> simulation(slide_in_space("body.box.velocity=[8,0,0]"));
   config::Site site;
   site.path = {{-2.0, 5.0}, {50.0, 5.0}};
   RunRecords<3> records(simulation, site);
@@ -157,7 +142,7 @@ TEST(RunRecords, FrontAlongAStraightPathIsThatOfTheHistory) {
 }
 
 TEST(RunRecords, UseThePathOfTheCentreOfMassByDefault) {
-  Simulation<3> simulation(slide_in_space("velocity = [0.0, -16.0, 0.0]", {"case.gravity_tilt=0.0"}));
+  Simulation<3> simulation(slide_in_space("body.box.velocity=[0,-16,0]; case.gravity_tilt=0.0"));
   RunRecords<3> records(simulation, {});
   records.start(simulation);
   EXPECT_FALSE(records.path_given());
@@ -186,7 +171,7 @@ TEST(RunRecords, UseThePathOfTheCentreOfMassByDefault) {
 }
 
 TEST(RunRecords, KeepPeakValuesAfterTheSlideHasLeft) {
-  Simulation<3> simulation(slide_in_space("velocity = [8.0, 0.0, 0.0]"));
+  Simulation<3> simulation(slide_in_space("body.box.velocity=[8,0,0]"));
   config::Site site;
   site.probes = {{"gauge", {{3.5, 4.5}}}};
   RunRecords<3> records(simulation, site);
@@ -202,7 +187,7 @@ TEST(RunRecords, KeepPeakValuesAfterTheSlideHasLeft) {
 }
 
 TEST(RunRecords, AreBitwiseIdenticalAfterAStopAndAResume) {
-  const config::Case parameters = slide_in_space("velocity = [8.0, 1.0, 0.0]");
+  const config::Case parameters = slide_in_space("body.box.velocity=[8,1,0]");
   config::Site site;
   site.probes = {{"gauge", {{7.5, 5.5}}}, {"section", {{7.5, 0.0}, {8.5, 10.0}}}};
   const auto steps = [](Simulation<3>& simulation, RunRecords<3>& records, int count) {

@@ -188,7 +188,7 @@ TEST(ScalarStep, AgreesWithTheBatchesInSpaceYielding) {
 // Ground oblique to the cells, under a base that partly hovers above it until it yields.
 template <int Dim>
 void expect_the_scalar_step_on_a_plane(double cohesion, bool yields) {
-  const auto plane = "type = \"plane\"\nslope = 0.5\nelevation = -0.01";
+  const Sets plane = "terrain.type=plane; terrain.slope=0.5; terrain.elevation=-0.01";
   expect_the_scalar_step<Dim>(two_bodies<Dim>(cohesion, 7.0, 5.0, 0.0, plane), yields, !yields);
 }
 TEST(ScalarStep, AgreesWithTheBatchesOnAPlane) { expect_the_scalar_step_on_a_plane<2>(elastic, false); }
@@ -196,21 +196,20 @@ TEST(ScalarStep, AgreesWithTheBatchesInSpaceOnAPlane) { expect_the_scalar_step_o
 
 // With all options that the step particle by particle supports.
 TEST(ScalarStep, AgreesWithTheBatchesWithOtherOptions) {
-  const auto of = [](const std::vector<std::string>& sets) {
+  const auto of = [](const Sets& sets) {
     SCOPED_TRACE(sets[0]);
-    const auto flat = "type = \"flat\"\nelevation = 0.0";
-    expect_the_scalar_step<2>(two_bodies<2>(yielding, 7.0, 5.0, 0.0, flat, sets), true, false);
-    expect_the_scalar_step<3>(two_bodies<3>(yielding, 7.0, 5.0, 0.0, flat, sets), true, false);
+    expect_the_scalar_step<2>(two_bodies<2>(yielding, 7.0, 5.0, 0.0, sets), true, false);
+    expect_the_scalar_step<3>(two_bodies<3>(yielding, 7.0, 5.0, 0.0, sets), true, false);
   };
-  of({"time.stepping=adaptive"});
-  of({"band.region=first_layer"});
-  of({"terrain.representation=rigid_points"});
-  of({"pressure.frozen_rows=sealed"});
-  of({"pressure.frozen_rows=vented", "phases.water_expansion_law=by_temperature"});
-  of({"pressure.frozen=none", "pressure.residual_stress=2e3", "pressure.skeleton_compressibility=1e-8",
-      "basal.friction_angle=5.0"});
-  of({"pressure.melt_contraction=true", "pressure.skeleton_compressibility=1e-8", "heat.advection_form=conservative"});
-  of({"material.melted.softening_strain=0.01", "material.melted.residual_friction_angle=20.0"});
+  of("time.stepping=adaptive");
+  of("band.region=first_layer");
+  of("terrain.representation=rigid_points");
+  of("pressure.frozen_rows=sealed");
+  of("pressure.frozen_rows=vented; phases.water_expansion_law=by_temperature");
+  of("pressure.frozen=none; pressure.residual_stress=2e3; pressure.skeleton_compressibility=1e-8; "
+     "basal.friction_angle=5.0");
+  of("pressure.melt_contraction=true; pressure.skeleton_compressibility=1e-8; heat.advection_form=conservative");
+  of("material.melted.softening_strain=0.01; material.melted.residual_friction_angle=20.0");
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "../support/messages.hpp"
 #include "../support/small_terrain.hpp"
-#include "base/error.hpp"
 
 namespace thawslide::sim {
 namespace {
@@ -72,12 +72,8 @@ TEST(Section, GroundAndThicknessSumToTheTriangulatedSum) {
 
 std::string error_of(const PathLine& line, double to, const Raster& ground) {
   const auto stations = stations_along(line, 0.0, line.length(), 1.0);
-  try {
-    require_known(line, stations, ground_along(line, stations, ground), to, ground, "--line: way.gpkg");
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing_support::error_of(
+      [&] { require_known(line, stations, ground_along(line, stations, ground), to, ground, "--line: way.gpkg"); });
 }
 
 TEST(Section, ReportsWhereTheGroundEnds) {

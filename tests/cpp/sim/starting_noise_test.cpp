@@ -10,66 +10,21 @@ namespace thawslide::sim {
 namespace {
 
 using namespace testing_support;
-using Sets = std::vector<std::string>;
 using Fields = std::map<std::string, std::vector<double>>;
 
 constexpr double spacing = 5.0;  // of particles [m]
 
 // A wedge on flat ground, whose oblique side cuts through the lattice, next to a block.
-const std::string wedge_and_block = R"(
-[time]
-end = 1.0
-step = 0.002
-[grid]
-cell = 10.0
-min = [-50.0, -50.0]
-max = [600.0, 150.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-[body.block]
-material = "rock"
-min = [400.0, 0.0]
-max = [500.0, 100.0]
-temperature = { depth = [0.0, 100.0], value = [-10.0, -2.0] }
-[body.wedge]
-material = "rock"
-shape = "polygon"
-vertices = [[0.0, 0.0], [400.0, 0.0], [400.0, 100.0]]
-[basal]
-friction_angle = 20.0
-[pressure]
-enabled = false
-)";
+const Variant wedge_and_block{
+    "block",
+    "time.step=0.002; grid.cell=10; grid.min=[-50,-50]; grid.max=[600,150]; material.rock.viscosity_time=0; "
+    "body.block.min=[400,0]; body.block.max=[500,100]; body.block.temperature={depth=[0,100],value=[-10,-2]}; "
+    "body.wedge.material=rock; body.wedge.shape=polygon; body.wedge.vertices=[[0,0],[400,0],[400,100]]; "
+    "basal.friction=lubricated; mechanisms.pressurization=true; heat.enabled=true"};
 
-const std::string release = R"(
-[case]
-dimension = 3
-[time]
-end = 1.0
-step = 0.002
-[grid]
-cell = 10.0
-min = [-100.0, -100.0, -200.0]
-max = [100.0, 100.0, 200.0]
-[terrain]
-type = "dem"
-file = "dem.tif"
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-)" + release_table + R"(
-material = "rock"
-[basal]
-friction_angle = 20.0
-[pressure]
-enabled = false
-)";
+const Variant release =
+    release_on_dem({1.0, 0.002, 10.0, {-100.0, -100.0, -200.0}, {100.0, 100.0, 200.0}}, elastic_rock(0.0), 20.0) +
+    "mechanics.slope_shear=false; basal.friction=lubricated; mechanisms.pressurization=true; heat.enabled=true";
 
 Sets noise(double fraction, int seed) {
   return {fmt::format("initial.noise={}", fraction), fmt::format("initial.seed={}", seed)};
@@ -85,10 +40,7 @@ Fields fields_of(const Simulation<Dim>& simulation) {
   return fields;
 }
 
-// more: tables of further bodies.
-Fields on_flat_ground(const Sets& sets, const std::string& more = "") {
-  return fields_of(Simulation<2>(paper_case(wedge_and_block + more, sets)));
-}
+Fields on_flat_ground(const Sets& sets) { return fields_of(Simulation<2>(paper_case(wedge_and_block, sets))); }
 
 Simulation<3> on_slope(const Sets& sets) {
   const auto height = [](double x, double y) { return -0.8 * x + 6.0 * std::sin(0.1 * x) * std::cos(0.13 * y); };
@@ -150,10 +102,8 @@ TEST(StartingNoise, DependsOnTheSeedAndThePositionInTheBody) {
   }
   EXPECT_LT(alike, first.at("position").size() / 50) << "but for particles that may not leave the wedge";
   // A wider domain and another body, later in the alphabet, have no effect.
-  Sets wider = noise(0.2, 3);
-  wider.emplace_back("grid.min=[-150.0,-70.0]");
-  const Fields in_wider =
-      on_flat_ground(wider, "[body.zone]\nmaterial = \"rock\"\nmin = [520.0, 0.0]\nmax = [540.0, 20.0]\n");
+  const Fields in_wider = on_flat_ground(
+      noise(0.2, 3) + "grid.min=[-150,-70]; body.zone.material=rock; body.zone.min=[520,0]; body.zone.max=[540,20]");
   ASSERT_GT(in_wider.at("position").size(), first.at("position").size());
   for (std::size_t k = 0; k < first.at("position").size(); ++k) {
     EXPECT_NEAR(in_wider.at("position")[k], first.at("position")[k], 1e-9);

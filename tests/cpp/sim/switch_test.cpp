@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "base/portability.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
@@ -13,37 +13,11 @@ namespace {
 
 using namespace testing_support;
 
-const std::string block = R"(
-[time]
-end = 1.0
-step = 0.002
-[grid]
-cell = 10.0
-min = [-50.0, -150.0]
-max = [300.0, 150.0]
-[terrain]
-type = "flat"
-elevation = 0.0
-[material.rock]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-viscosity_time = 0.02
-[body.block]
-material = "rock"
-shape = "box"
-min = [0.0, 0.0]
-max = [100.0, 50.0]
-temperature = -0.2
-porosity = 0.375
-[basal]
-friction = "constant"
-friction_angle = 20.0
-[band]
-thickness = 0.05
-)";
-
-using Sets = std::vector<std::string>;
+const Variant block{
+    "block",
+    "time.step=0.002; grid.cell=10; grid.min=[-50,-150]; grid.max=[300,150]; body.block.max=[100,50]; "
+    "body.block.temperature=-0.2; body.block.porosity=0.375; band.thickness=0.05; mechanisms.pressurization=true; "
+    "heat.enabled=true; pressure.enabled=true"};
 
 TEST(Switch, ClapeyronSign) {
   for (const double sign : {1.0, -1.0}) {
@@ -59,11 +33,10 @@ TEST(Switch, ClapeyronSign) {
 }
 
 TEST(Switch, ThicknessAlongTheNormalOrVertical) {
-  const Sets tilted{"terrain.type=plane", "terrain.slope=30.0", "body.block.shape=polygon",
-                    "body.block.vertices=[[0,0],[100,-57.735],[100,-7.735],[0,50]]"};
-  Sets vertical = tilted;
-  vertical.emplace_back("pressure.thickness_direction=vertical");
-  const Simulation<2> along(paper_case(block, tilted)), upright(paper_case(block, vertical));
+  const Variant tilted = block +
+                         "terrain.type=plane; terrain.slope=30; body.block.shape=polygon; "
+                         "body.block.vertices=[[0,0],[100,-57.735],[100,-7.735],[0,50]]";
+  const Simulation<2> along(paper_case(tilted)), upright(paper_case(tilted, "pressure.thickness_direction=vertical"));
   const double cosine = std::cos(pi / 6.0);
   for (std::size_t p = 0; p < along.particles().size(); ++p) {
     EXPECT_NEAR(along.particles().flow_depth(p) / upright.particles().flow_depth(p), cosine, 1e-12);
@@ -72,11 +45,8 @@ TEST(Switch, ThicknessAlongTheNormalOrVertical) {
 
 TEST(Switch, ThicknessFollowsTheSlideOrIsFrozen) {
   for (const bool frozen : {false, true}) {
-    Sets sets{"body.block.velocity=[20.0,0.0]"};
-    if (frozen) {
-      sets.emplace_back("pressure.thickness_update=frozen");
-    }
-    Simulation<2> simulation(paper_case(block, sets));
+    Simulation<2> simulation(
+        paper_case(block + "body.block.velocity=[20,0]", frozen ? "pressure.thickness_update=frozen" : ""));
     std::vector<double> start(simulation.particles().size());
     for (std::size_t p = 0; p < start.size(); ++p) {
       start[static_cast<std::size_t>(simulation.particles().id(p))] = simulation.particles().flow_depth(p);
@@ -93,11 +63,7 @@ TEST(Switch, ThicknessFollowsTheSlideOrIsFrozen) {
 
 TEST(Switch, BandScalingOfAllParticlesOrOfTheFirstLayer) {
   for (const bool first : {false, true}) {
-    Sets sets;
-    if (first) {
-      sets.emplace_back("band.region=first_layer");
-    }
-    const Simulation<2> simulation(paper_case(block, sets));
+    const Simulation<2> simulation(paper_case(block, first ? "band.region=first_layer" : ""));
     const auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const bool scaled = !first || particles.position(p, 1) - 150.0 < 10.0;
@@ -108,11 +74,10 @@ TEST(Switch, BandScalingOfAllParticlesOrOfTheFirstLayer) {
 
 // Traction along the base over its length, with a pore pressure far above the overburden.
 double traction_under_pressure(const Sets& more) {
-  Sets sets{"body.block.temperature=5.0", "body.block.velocity=[5.0,0.0]",
-            "basal.cohesion=5e4",         "basal.cohesion_law=constant",
-            "heat.enabled=false",         "pressure.seepage=false"};
-  sets.insert(sets.end(), more.begin(), more.end());
-  Simulation<2> simulation(paper_case(block, sets));
+  const Sets sets =
+      "body.block.temperature=5; body.block.velocity=[5,0]; basal.cohesion=5e4; basal.cohesion_law=constant; "
+      "heat.enabled=false; pressure.seepage=false";
+  Simulation<2> simulation(paper_case(block, sets + more));
   for (std::size_t p = 0; p < simulation.particles().size(); ++p) {
     simulation.particles().liquid_pressure(p) = simulation.particles().pore_pressure(p) = 5e6;
   }
@@ -127,7 +92,7 @@ double traction_under_pressure(const Sets& more) {
 TEST(Switch, LocationOfThePressureClamp) {
   EXPECT_NEAR(traction_under_pressure({}) / 5e4, 1.0, 0.02);
   EXPECT_NEAR(traction_under_pressure({"basal.clamp=joint"}), 0.0, 1.0);
-  EXPECT_NEAR(traction_under_pressure({"basal.clamp=joint", "basal.cap_pressure=true"}) / 5e4, 1.0, 0.02);
+  EXPECT_NEAR(traction_under_pressure("basal.clamp=joint; basal.cap_pressure=true") / 5e4, 1.0, 0.02);
   EXPECT_NEAR(traction_under_pressure({"mechanisms.pressurization=false"}) /
                   (5e4 + std::tan(20.0 * pi / 180.0) * 2093.75 * 9.81 * 50.0),
               1.0, 0.02);
@@ -135,8 +100,10 @@ TEST(Switch, LocationOfThePressureClamp) {
 
 // A thickening band drains more slowly, with heat on or off.
 TEST(Switch, TheBandFollowsItsTableWithoutHeat) {
-  Simulation<2> simulation(paper_case(
-      block, {"heat.enabled=false", "band.thickness={ time = [0.0, 0.5, 0.5, 1.0], value = [0.05, 0.05, 0.5, 0.5] }"}));
+  Simulation<2> simulation(
+      paper_case(block,
+                 "heat.enabled=false; "
+                 "band.thickness={ time = [0.0, 0.5, 0.5, 1.0], value = [0.05, 0.05, 0.5, 0.5] }"));
   run_until(simulation, 0.4);
   EXPECT_DOUBLE_EQ(simulation.particles().thermal_scaling(0), 200.0);
   run_until(simulation, 0.6);

@@ -7,6 +7,8 @@
 #include <functional>
 #include <memory>
 
+#include "../support/messages.hpp"
+
 namespace thawslide::sim {
 namespace {
 
@@ -44,8 +46,8 @@ std::string on_raster(const std::function<double(double, double)>& height, doubl
 }
 
 TEST(ThinWalls, OfProfiles) {
-  EXPECT_NE(of_dyke(2.0, 40.0, 5.0).find("the terrain has a wall thinner than a cell (5 m), 40 m high. A slide"),
-            std::string::npos);
+  testing_support::expect_in(of_dyke(2.0, 40.0, 5.0),
+                             "the terrain has a wall thinner than a cell (5 m), 40 m high. A slide");
   EXPECT_NE(of_dyke(4.5, 6.0, 5.0), "");
   EXPECT_EQ(of_dyke(4.5, 4.9, 5.0), "") << "lower than a cell";
   EXPECT_EQ(of_dyke(5.1, 40.0, 5.0), "") << "a cell thick";

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
 
@@ -14,48 +14,20 @@ namespace {
 using namespace testing_support;
 using Plane = Vector<double, 2>;
 
-// A free elastic block, oblique to the grid.
-const std::string block = R"(
-[case]
-gravity = 0.0
-[time]
-end = 1.0
-step = 0.002
-[grid]
-cell = 1.0
-min = [0.0, 0.0]
-max = [40.0, 40.0]
-[material.rock]
-law = "elastic"
-youngs_modulus = 1e8
-poisson_ratio = 0.25
-[body.block]
-material = "rock"
-shape = "box"
-min = [17.3, 17.6]
-max = [22.3, 22.6]
-[mechanics]
-initial_stress = "none"
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)";
-
 const std::vector<std::string> shapes{"ugimp", "quadratic"};
 
 struct Transfer {
   std::string name;
-  std::vector<std::string> sets;
+  Sets sets;
 };
 const std::vector<Transfer> transfers{{"flip", {}},
-                                      {"blend", {"mechanics.transfer=blend", "mechanics.pic_fraction=0.1"}},
-                                      {"apic", {"mechanics.transfer=apic"}},
-                                      {"fmpm", {"mechanics.transfer=fmpm", "mechanics.fmpm_interval=0.02"}}};
+                                      {"blend", "mechanics.transfer=blend; mechanics.pic_fraction=0.1"},
+                                      {"apic", "mechanics.transfer=apic"},
+                                      {"fmpm", "mechanics.transfer=fmpm; mechanics.fmpm_interval=0.02"}};
 
-config::Case block_with(const std::string& shape, std::vector<std::string> sets) {
-  sets.push_back("mechanics.shape_function=" + shape);
-  return paper_case(block, sets);
+// A free elastic block, oblique to the grid.
+config::Case block_with(const std::string& shape, const Sets& sets) {
+  return published_case("free", sets + ("mechanics.shape_function=" + shape));
 }
 
 template <class Work>
@@ -114,10 +86,8 @@ std::vector<Plane> positions_by_id(const Simulation<2>& simulation) {
 
 TEST(Transfer, FreeFallThroughCellsIsExact) {
   for_each_choice([](const std::string& shape, const Transfer& transfer) {
-    auto sets = transfer.sets;
-    sets.insert(sets.end(),
-                {"case.gravity=9.81", "body.block.velocity=[6.0, -2.0]", "material.rock.youngs_modulus=1e4"});
-    Simulation<2> simulation(block_with(shape, sets));
+    Simulation<2> simulation(block_with(
+        shape, transfer.sets + "case.gravity=9.81; body.block.velocity=[6,-2]; material.rock.youngs_modulus=1e4"));
     run_until(simulation, 1.0);
     const auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -136,15 +106,15 @@ TEST(Transfer, FreeFallThroughCellsIsExact) {
 // Through one step, with particles at their initial positions: APIC conserves the angular momentum of any motion under
 // any stress. FLIP does not if there is stress, and PIC does not even for a rigid spin.
 TEST(Transfer, OnlyApicConservesAngularMomentum) {
-  const auto change = [](std::vector<std::string> sets, bool affine, double velocity, double stress) {
-    Simulation<2> simulation(block_with("quadratic", std::move(sets)));
+  const auto change = [](const Sets& sets, bool affine, double velocity, double stress) {
+    Simulation<2> simulation(block_with("quadratic", sets));
     stir(simulation, 2.0, velocity, stress);
     const std::vector<Plane> positions = positions_by_id(simulation);
     const double before = angular_momentum(simulation, positions, affine);
     simulation.step(0.002);
     return angular_momentum(simulation, positions, affine) / before - 1.0;
   };
-  const std::vector<std::string> pic{"mechanics.transfer=blend", "mechanics.pic_fraction=1"};
+  const Sets pic = "mechanics.transfer=blend; mechanics.pic_fraction=1";
   EXPECT_NEAR(change({"mechanics.transfer=apic"}, true, 0.0, 0.0), 0.0, 1e-13);
   EXPECT_NEAR(change({"mechanics.transfer=apic"}, true, 1.0, 1e6), 0.0, 1e-13);
   EXPECT_NEAR(change({}, false, 0.0, 0.0), 0.0, 1e-13);
@@ -158,8 +128,8 @@ TEST(Transfer, OnlyApicConservesAngularMomentum) {
 // angular momentum with any transfer. FLIP and PIC lose much: at the free edges their nodes receive velocities from one
 // side only.
 TEST(Transfer, RigidSpinIsConservedByApic) {
-  const auto run = [](const std::string& shape, std::vector<std::string> sets) {
-    Simulation<2> simulation(block_with(shape, std::move(sets)));
+  const auto run = [](const std::string& shape, const Sets& sets) {
+    Simulation<2> simulation(block_with(shape, sets));
     stir(simulation, 1.0, 0.0, 0.0);
     const double before = angular_momentum(simulation, positions_by_id(simulation), false);
     run_until(simulation, 1.0);
@@ -171,7 +141,7 @@ TEST(Transfer, RigidSpinIsConservedByApic) {
     EXPECT_NEAR(run(shape, {"mechanics.transfer=apic"}) / published, 1.0, 0.02);
     const double flip = run(shape, {});
     EXPECT_LT(flip, -0.2);
-    EXPECT_LT(run(shape, {"mechanics.transfer=blend", "mechanics.pic_fraction=0.1"}), 2.0 * flip);
+    EXPECT_LT(run(shape, "mechanics.transfer=blend; mechanics.pic_fraction=0.1"), 2.0 * flip);
   }
 }
 
@@ -181,9 +151,7 @@ TEST(Transfer, MomentumIsConservedAndTheEnergyBudgetCloses) {
   for_each_choice([](const std::string& shape, const Transfer& transfer) {
     double residual[2], made = 0.0;
     for (int k = 0; k < 2; ++k) {
-      auto sets = transfer.sets;
-      sets.push_back(k == 0 ? "time.step=0.0005" : "time.step=0.00025");
-      Simulation<2> simulation(block_with(shape, sets));
+      Simulation<2> simulation(block_with(shape, transfer.sets + (k == 0 ? "time.step=0.0005" : "time.step=0.00025")));
       stir(simulation, 0.5, 0.5, 0.0);
       const auto start = history_row(simulation);
       run_until(simulation, 0.1);
@@ -207,7 +175,7 @@ TEST(Transfer, MomentumIsConservedAndTheEnergyBudgetCloses) {
 
 TEST(Transfer, BlendWithoutPicIsBitwiseIdenticalToFlip) {
   Simulation<2> flip(block_with("ugimp", {}));
-  Simulation<2> blend(block_with("ugimp", {"mechanics.transfer=blend", "mechanics.pic_fraction=0"}));
+  Simulation<2> blend(block_with("ugimp", "mechanics.transfer=blend; mechanics.pic_fraction=0"));
   for (Simulation<2>* simulation : {&flip, &blend}) {
     stir(*simulation, 0.5, 0.5, 1e5);
     run_until(*simulation, 0.1);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "../support/fields.hpp"
 #include "../support/record.hpp"
 #include "../support/scalar_points.hpp"
@@ -21,42 +21,16 @@ using namespace testing_support;
 
 // A free block with displaced particles, oblique to the grid. Velocities are filtered in its first step.
 template <int Dim>
-std::string block() {
-  const auto point = [](double x, double z) {
-    return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, x + 0.2, z);
-  };
-  return fmt::format(R"(
-[case]
-dimension = {}
-gravity = 0.0
-[time]
-end = 1.0
-step = 0.002
-[grid]
-cell = 1.0
-min = {}
-max = {}
-[material.rock]
-law = "elastic"
-youngs_modulus = 1e7
-poisson_ratio = 0.25
-[body.block]
-material = "rock"
-min = {}
-max = {}
-[initial]
-noise = 0.4
-[mechanics]
-initial_stress = "none"
-transfer = "fmpm"
-fmpm_interval = 0.002
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)",
-                     Dim, Dim == 2 ? "[0.0, 0.0]" : "[0.0, 0.0, 0.0]", Dim == 2 ? "[40.0, 40.0]" : "[40.0, 40.0, 40.0]",
-                     point(17.3, 17.6), point(20.3, 19.6));
+Variant unfiltered() {
+  const Sets space =
+      "case.dimension=3; grid.min=[0,0,0]; grid.max=[40,40,40]; body.block.min=[17.3,17.5,17.6]; "
+      "body.block.max=[20.3,20.5,19.6]";
+  return Variant{"free", "material.rock.youngs_modulus=1e7; body.block.max=[20.3,19.6]; initial.noise=0.4"} +
+         (Dim == 3 ? space : Sets());
+}
+template <int Dim>
+Variant block() {
+  return unfiltered<Dim>() + "mechanics.transfer=fmpm; mechanics.fmpm_interval=0.002";
 }
 
 // Velocities of all particles by id, in rows.
@@ -201,19 +175,13 @@ TEST(VelocityFilter, PreservesASpin) {
   }
 }
 
-std::string without_filter() {
-  std::string text = block<2>();
-  const std::string lines = "transfer = \"fmpm\"\nfmpm_interval = 0.002\n";
-  return text.erase(text.find(lines), lines.size());
-}
-
 // Between filters it is bitwise identical to FLIP; fixed and adaptive steps reach each multiple of the interval once.
 TEST(VelocityFilter, ActsOncePerInterval) {
   for (const std::string stepping : {"fixed", "adaptive"}) {
     SCOPED_TRACE(stepping);
-    const std::vector<std::string> sets{"time.stepping=" + stepping, "mechanics.fmpm_interval=0.02"};
+    const Sets sets = "mechanics.fmpm_interval=0.02; time.stepping=" + stepping;
     Simulation<2> filtered(paper_case(block<2>(), sets));
-    Simulation<2> flip(paper_case(without_filter(), {"time.stepping=" + stepping}));
+    Simulation<2> flip(paper_case(unfiltered<2>(), {"time.stepping=" + stepping}));
     set_velocities(filtered, random_velocities(velocities_of(filtered).size()));
     int times = 0;
     while (filtered.time() < 0.201) {
@@ -243,42 +211,18 @@ TEST(VelocityFilter, ActsOncePerInterval) {
 // masses.
 constexpr int bar_cells = 4, interval_in_steps = 43;
 const double bar_step = 0.03 / bar_cells / std::sqrt(1e7 / ((1.0 - 1e-6) * 2750.0 + 1e-6 * 917.0));
-const std::string bar = fmt::format(R"(
-[case]
-gravity = 0.0
-[time]
-end = 10.0
-step = {}
-[grid]
-cell = {}
-min = [0.0, 0.0]
-max = [3.0, {}]
-[grid.boundary]
-y_min = "roller"
-y_max = "roller"
-[material.rock]
-law = "elastic"
-youngs_modulus = 1e7
-poisson_ratio = 0.0
-[body.bar]
-material = "rock"
-min = [1.0, 0.0]
-max = [2.0, {}]
-porosity = 1e-6
-[mechanics]
-initial_stress = "none"
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)",
-                                    bar_step, 1.0 / bar_cells, 2.0 / bar_cells, 2.0 / bar_cells);
+const Variant bar{"free",
+                  "time.end=10; grid.boundary.y_min=roller; grid.boundary.y_max=roller; "
+                  "material.rock.youngs_modulus=1e7; material.rock.poisson_ratio=0; body.block.min=[1,0]; "
+                  "body.block.porosity=1e-6; " +
+                      fmt::format("time.step={}; grid.cell={}; grid.max=[3.0, {}]; body.block.max=[2.0, {}]", bar_step,
+                                  1.0 / bar_cells, 2.0 / bar_cells, 2.0 / bar_cells)};
 
 // Determinant and trace of the matrix that advances the mode's velocity over an interval, by least squares.
 struct Swing {
   double determinant, trace;
 };
-Swing swing(const std::vector<std::string>& sets) {
+Swing swing(const Sets& sets) {
   Simulation<2> simulation(paper_case(bar, sets));
   const auto points = points_of(simulation);
   const ScalarTransfer<2> to_nodes{static_cast<double>(bar_cells)};

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "../support/record.hpp"
 #include "base/portability.hpp"
 #include "sim/simulation.hpp"
@@ -18,41 +18,14 @@ using namespace testing_support;
 constexpr double bar_speed = 1e-3;                                                      // V [m/s]
 const double bar_wave_speed = std::sqrt(1e7 / ((1.0 - 1e-6) * 2750.0 + 1e-6 * 917.0));  // c [m/s]
 
-config::Case bar(int cells, const std::vector<std::string>& sets) {
+config::Case bar(int cells, const Sets& sets) {
   const double cell = 1.0 / cells;
-  const std::string text = fmt::format(R"(
-[case]
-gravity = 0.0
-[time]
-end = 1.0
-step = {}
-[grid]
-cell = {}
-min = [0.0, 0.0]
-max = [1.0, {}]
-[grid.boundary]
-x_min = "roller"
-x_max = "roller"
-y_min = "roller"
-y_max = "roller"
-[material.rock]
-law = "elastic"
-youngs_modulus = 1e7
-poisson_ratio = 0.0
-[body.bar]
-material = "rock"
-min = [0.0, 0.0]
-max = [1.0, {}]
-porosity = 1e-6
-[mechanics]
-initial_stress = "none"
-[heat]
-enabled = false
-[pressure]
-enabled = false
-)",
-                                       0.1 * cell / bar_wave_speed, cell, 2.0 * cell, 2.0 * cell);
-  return paper_case(text, sets);
+  const Sets refined = fmt::format("time.step={}; grid.cell={}; grid.max=[1.0, {}]; body.block.max=[1.0, {}]",
+                                   0.1 * cell / bar_wave_speed, cell, 2.0 * cell, 2.0 * cell);
+  const Sets between_walls =
+      "grid.boundary={x_min='roller',x_max='roller',y_min='roller',y_max='roller'}; material.rock.youngs_modulus=1e7; "
+      "material.rock.poisson_ratio=0; body.block.min=[0,0]; body.block.porosity=1e-6";
+  return published_case("free", between_walls + refined + sets);
 }
 
 struct Mode {
@@ -62,7 +35,7 @@ struct Mode {
 };
 
 // Three periods of mode 1. The frequency follows from zeros of the modal velocity.
-Mode vibrate(int cells, const std::vector<std::string>& sets) {
+Mode vibrate(int cells, const Sets& sets) {
   Simulation<2> simulation(bar(cells, sets));
   auto& particles = simulation.particles();
   std::vector<double> form(particles.size());
@@ -136,7 +109,7 @@ TEST(Bar, QuadraticApic) { expect_second_order("quadratic", "apic", 1.4e-3); }
 
 // PIC damps by its fraction in each step: here about 1 % in each of 960 steps.
 TEST(Bar, PicDamps) {
-  const Mode mode = vibrate(16, {"mechanics.transfer=blend", "mechanics.pic_fraction=0.01"});
+  const Mode mode = vibrate(16, "mechanics.transfer=blend; mechanics.pic_fraction=0.01");
   EXPECT_LT(mode.amplitude, 0.96);
   EXPECT_GT(mode.amplitude, 0.94);
 }

@@ -1,10 +1,10 @@
-// Water of melted pores: uptake by frozen material, voids left by melting, water driven out by load and heat.
+// Water of melted pores: uptake by frozen material, voids left by melting, water driven out by load and heat, seepage.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "../support/case_from_text.hpp"
+#include "../support/base_cases.hpp"
 #include "physics/pressurization.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
@@ -15,35 +15,8 @@ namespace {
 using namespace testing_support;
 
 // A column of two cells by twenty whose particles are at rest.
-const std::string column = R"(
-[time]
-end = 100.0
-step = 0.05
-[grid]
-cell = 0.5
-min = [0.0, 0.0]
-max = [1.0, 12.0]
-[phases]
-rock_expansion = 0.0
-[material.soil]
-law = "elastic"
-youngs_modulus = 1e8
-poisson_ratio = 0.2
-hydraulic_conductivity = 1e-7
-[body.column]
-material = "soil"
-min = [0.0, 0.0]
-max = [1.0, 10.0]
-temperature = 5.0
-[mechanics]
-enabled = false
-)";
-const std::vector<std::string> still{"heat.enabled=false"};
-
-std::vector<std::string> both(std::vector<std::string> sets, const std::vector<std::string>& more) {
-  sets.insert(sets.end(), more.begin(), more.end());
-  return sets;
-}
+const Variant column{"column", "phases.rock_expansion=0"};
+const Sets still = "heat.enabled=false";
 
 // Assigns another temperature to particles as their initial temperature.
 void set_temperature(Simulation<2>& simulation, std::size_t p, double temperature) {
@@ -85,7 +58,7 @@ void fill_with_patches(Simulation<2>& simulation) {
 TEST(FrozenRows, SealedOnesKeepTheWaterAndBoundItsPressure) {
   for (const double step : {0.05, 2.2}) {
     Simulation<2> simulation(paper_case(
-        column, both(still, {"pressure.frozen_rows=sealed", "time.end=1000", fmt::format("time.step={}", step)})));
+        column, still + Sets{"pressure.frozen_rows=sealed", "time.end=1000", fmt::format("time.step={}", step)}));
     const auto& particles = simulation.particles();
     fill_with_patches(simulation);
     const double before = stored(simulation);
@@ -107,7 +80,7 @@ TEST(FrozenRows, SealedOnesKeepTheWaterAndBoundItsPressure) {
 
 TEST(FrozenRows, SealedOnesExertNoPressureOnAdjacentWater) {
   // Melted at 1 MPa below 5 m, frozen above, with ice at any pressure: nothing flows.
-  Simulation<2> simulation(paper_case(column, both(still, {"pressure.frozen_rows=sealed"})));
+  Simulation<2> simulation(paper_case(column, still + Sets{"pressure.frozen_rows=sealed"}));
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const bool frozen = particles.position(p, 1) > 5.0;
@@ -126,7 +99,7 @@ TEST(FrozenRows, SealedOnesExertNoPressureOnAdjacentWater) {
 // pressure.
 TEST(FrozenRows, TheirUptakeIsCounted) {
   const auto entrained = [&](const std::string& rows) {
-    Simulation<2> simulation(paper_case(column, both(still, {"pressure.frozen_rows=" + rows})));
+    Simulation<2> simulation(paper_case(column, still + Sets{"pressure.frozen_rows=" + rows}));
     fill_with_patches(simulation);
     const double before = stored(simulation);
     run_until(simulation, 1.0);
@@ -169,12 +142,12 @@ void bring_to(Simulation<2>& simulation, double temperature) {
   simulation.step(0.05);
 }
 
-const std::vector<std::string> weightless{"heat.enabled=false", "pressure.seepage=false", "case.gravity=0.0"};
+const Sets weightless = "heat.enabled=false; pressure.seepage=false; case.gravity=0.0";
 constexpr double porosity = 0.375, storage = porosity / 1e9;
 
 TEST(MeltContraction, ExpansionFillsTheVoidBeforePressureRises) {
   Simulation<2> simulation(
-      paper_case(column, both(weightless, {"pressure.melt_contraction=true", "body.column.temperature=-10.0"})));
+      paper_case(column, weightless + Sets "pressure.melt_contraction=true; body.column.temperature=-10.0"));
   const auto& particles = simulation.particles();
   const double left = porosity * 0.083 * (1.0 - std::pow(11.0, -5.0));
   int open = 0, full = 0;
@@ -203,7 +176,7 @@ TEST(MeltContraction, ExpansionFillsTheVoidBeforePressureRises) {
 
 TEST(MeltContraction, WithoutItMeltIsPressurizedFromTheFirstKelvin) {
   Simulation<2> simulation(
-      paper_case(column, both(weightless, {"body.column.temperature=-10.0", "pressure.skeleton_compressibility=0"})));
+      paper_case(column, weightless + Sets "body.column.temperature=-10.0; pressure.skeleton_compressibility=0"));
   bring_to(simulation, 2.0);
   EXPECT_NEAR(simulation.particles().pore_pressure(7), 2.0 * 275000.0, 1e-6);
   EXPECT_FALSE(simulation.particles().pore_void.is_kept());
@@ -213,8 +186,8 @@ TEST(MeltContraction, WithoutItMeltIsPressurizedFromTheFirstKelvin) {
 TEST(WaterExpansion, DependingOnTemperatureContractsFirst) {
   for (const double compressibility : {0.0, 2e-9}) {
     Simulation<2> simulation(paper_case(
-        column, both(weightless, {"phases.water_expansion_law=by_temperature", "body.column.temperature=1e-9",
-                                  fmt::format("pressure.skeleton_compressibility={}", compressibility)})));
+        column, weightless + Sets{"phases.water_expansion_law=by_temperature", "body.column.temperature=1e-9",
+                                  fmt::format("pressure.skeleton_compressibility={}", compressibility)}));
     const auto& particles = simulation.particles();
     const auto expect_at = [&](double temperature, double swelling) {
       bring_to(simulation, temperature);
@@ -231,11 +204,10 @@ TEST(WaterExpansion, DependingOnTemperatureContractsFirst) {
 }
 
 TEST(FrozenPressure, NoneGivesThawedWaterTheLoadMinusTheResidualStress) {
-  const std::vector<std::string> none{"heat.enabled=false", "pressure.seepage=false", "pressure.frozen=none",
-                                      "body.column.temperature=-1.0"};
+  const Sets none = "heat.enabled=false; pressure.seepage=false; pressure.frozen=none; body.column.temperature=-1";
   const double density = 0.625 * 2750.0 + porosity * (1000.0 / 32.0 + 917.0 * 31.0 / 32.0);
-  const auto expect_start = [&](const std::vector<std::string>& sets, double residual, double gas_void) {
-    Simulation<2> simulation(paper_case(column, both(none, sets)));
+  const auto expect_start = [&](const Sets& sets, double residual, double gas_void) {
+    Simulation<2> simulation(paper_case(column, none + sets));
     const auto& particles = simulation.particles();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       EXPECT_EQ(particles.pore_pressure(p), 0.0);
@@ -254,16 +226,17 @@ TEST(FrozenPressure, NoneGivesThawedWaterTheLoadMinusTheResidualStress) {
   expect_start({}, HUGE_VAL, 0.0);
   expect_start({"pressure.residual_stress=0.0"}, 0.0, 0.0);
   expect_start({"pressure.residual_stress=5e4"}, 5e4, 0.0);
-  expect_start({"pressure.residual_stress=0.0", "pressure.melt_contraction=true"}, 0.0, all);
+  expect_start("pressure.residual_stress=0.0; pressure.melt_contraction=true", 0.0, all);
   expect_start(
-      {"pressure.residual_stress=2e4", "pressure.melt_contraction=true", "pressure.skeleton_compressibility=1e-6"}, 2e4,
-      all);
+      "pressure.residual_stress=2e4; pressure.melt_contraction=true; "
+      "pressure.skeleton_compressibility=1e-6",
+      2e4, all);
 }
 
 // Half of the weight of the material is removed and restored.
 TEST(SkeletonCompressibility, PressureFollowsTheLoad) {
   Simulation<2> simulation(
-      paper_case(column, {"heat.enabled=false", "pressure.seepage=false", "pressure.skeleton_compressibility=2e-9"}));
+      paper_case(column, "heat.enabled=false; pressure.seepage=false; pressure.skeleton_compressibility=2e-9"));
   auto& particles = simulation.particles();
   simulation.step(0.05);
   std::vector<double> pressure(particles.size()), load(particles.size());
@@ -313,6 +286,81 @@ TEST(SkeletonCompressibility, SlowsDiffusionByTheStorage) {
   for (std::size_t p = 0; p < rigid.size(); ++p) {
     EXPECT_NEAR(soft[p], rigid[p], 1e-6 * 1e6);
   }
+}
+
+const Variant seeping{"column", "time.end=5; body.column.porosity=0.4; heat.enabled=false"};
+
+// Pressure resolved by the nodes diffuses, unresolved pressure decreases by subgrid diffusion. Pressures that alternate
+// from row to row within each cell: each node resolves their mean only.
+TEST(Seepage, LevelsPressureUnresolvedByNodes) {
+  Simulation<2> simulation(paper_case(seeping));
+  auto& particles = simulation.particles();
+  constexpr double mean = 5e5, swing = 4e5;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const auto row = static_cast<long>(std::floor(particles.position(p, 1) / 0.25));
+    particles.liquid_pressure(p) = particles.pore_pressure(p) = mean + (row % 2 == 0 ? swing : -swing);
+  }
+  run_until(simulation, 0.5);
+  // D = 1e9 x 1e-7/(0.4 x 9810) = 0.02548 m2/s; 4 D/0.25 m2 = 0.4077 1/s on the grid as it is (xi = 1).
+  const double left = std::exp(-0.5 * 4.0 * 1e9 * 1e-7 / (0.4 * 9810.0) / 0.25);
+  int inside = 0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double y = particles.position(p, 1);
+    if (y > 2.0 && y < 8.0) {
+      const auto row = static_cast<long>(std::floor(y / 0.25));
+      EXPECT_NEAR(particles.pore_pressure(p) - mean, (row % 2 == 0 ? swing : -swing) * left, 1e-3 * swing);
+      ++inside;
+    }
+  }
+  EXPECT_EQ(inside, 96);
+}
+
+// A bump far from the drained top spreads with the variance 2 D t, and its sum is constant.
+TEST(Seepage, SpreadsABumpAndKeepsItsSum) {
+  Simulation<2> simulation(paper_case(seeping));
+  auto& particles = simulation.particles();
+  const auto moments = [&] {
+    double sum = 0.0, middle = 0.0, spread = 0.0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      sum += particles.pore_pressure(p);
+      middle += particles.pore_pressure(p) * particles.position(p, 1);
+    }
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      spread += particles.pore_pressure(p) * std::pow(particles.position(p, 1) - middle / sum, 2);
+    }
+    return std::pair(sum, spread / sum);
+  };
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double from_middle = particles.position(p, 1) - 5.0;
+    particles.liquid_pressure(p) = particles.pore_pressure(p) = 1e6 * std::exp(-from_middle * from_middle / 0.8);
+  }
+  const auto [sum, spread] = moments();
+  run_until(simulation, 5.0);
+  const auto [sum_after, spread_after] = moments();
+  EXPECT_NEAR(sum_after / sum, 1.0, 1e-6);
+  EXPECT_NEAR((spread_after - spread) / (2.0 * 0.025484 * 5.0), 1.0, 0.02);
+}
+
+// Melted material without hydraulic conductivity keeps its water, next to permeable material and at the surface.
+TEST(Seepage, DoesNotAffectImpermeableMaterial) {
+  const Sets tight =
+      "material.tight.law=elastic; material.tight.youngs_modulus=1e8; material.tight.poisson_ratio=0.2; "
+      "body.lid.material=tight; body.lid.min=[0,10]; body.lid.max=[1,11]; body.lid.temperature=5; "
+      "body.lid.porosity=0.4";
+  Simulation<2> simulation(paper_case(seeping + tight));
+  auto& particles = simulation.particles();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    particles.liquid_pressure(p) = particles.pore_pressure(p) = particles.material(p) == 0 ? 1e6 : 3e5;
+  }
+  run_until(simulation, 1.0);
+  int lid = 0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (particles.position(p, 1) > 10.0) {
+      EXPECT_EQ(particles.pore_pressure(p), 3e5) << "at " << particles.position(p, 1) << " m";
+      ++lid;
+    }
+  }
+  EXPECT_EQ(lid, 16);
 }
 
 }  // namespace

@@ -23,7 +23,8 @@
 namespace thawslide::testing_support {
 
 // Texts of `--set`: KEY=VALUE, or several of them separated by semicolons. Bodies, materials and frames can be added if
-// all keys that they need are given. Paths are relative to the working directory, unlike those of the base cases.
+// all keys that they need are given; KEY= without a value removes a key of the base case and of earlier sets. Paths are
+// relative to the working directory, unlike those of the base cases.
 class Sets : public std::vector<std::string> {
  public:
   Sets() = default;
@@ -42,9 +43,22 @@ class Sets : public std::vector<std::string> {
 // TOML text of a base case.
 const std::string& base_text(const std::string& name);
 
-// Base case with changed keys and the present defaults, or (published_case) with the published formulation for each key
-// that is not given, see paper_case().
-config::Case base_case(const std::string& name, const Sets& sets = {});
-config::Case published_case(const std::string& name, const Sets& sets = {});
+// Case that differs from a base case in some keys.
+struct Variant {
+  std::string base;
+  Sets sets;
+
+  friend Variant operator+(const Variant& variant, const Sets& more) { return {variant.base, variant.sets + more}; }
+};
+
+// Case with the present defaults, and with the published formulation for each key that is not given (paper_case()).
+config::Case case_from_text(const Variant& variant, const Sets& sets = {});
+config::Case paper_case(const Variant& variant, const Sets& sets = {});
+inline config::Case base_case(const std::string& name, const Sets& sets = {}) {
+  return case_from_text(Variant{name, sets});
+}
+inline config::Case published_case(const std::string& name, const Sets& sets = {}) {
+  return paper_case(Variant{name, sets});
+}
 
 }  // namespace thawslide::testing_support

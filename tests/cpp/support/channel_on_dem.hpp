@@ -52,7 +52,7 @@ using Treatment = std::function<Raster(Raster)>;
 // Additional friction of the fill relative to the coefficient of the ground, on average between two times [s], from the
 // velocity of its centre of mass along the thalweg.
 inline double friction_in_channel(
-    const Channel& channel, const std::string& material, double from, double to,
+    const Channel& channel, const Sets& material, double from, double to,
     const Treatment& treat = [](Raster ground) { return ground; }) {
   constexpr double degree = pi / 180.0, gravity = 9.81, length = 60.0;
   const double sine = std::sin(channel_slope * degree), cosine = std::cos(channel_slope * degree);
@@ -70,9 +70,9 @@ inline double friction_in_channel(
     const bool is_in = std::abs(downstream(x, y) + 40.0) < 0.5 * length && std::abs(across(x, y)) < channel.half_width;
     return is_in ? std::max(0.0, depth) : 0.0;
   });
-  const std::string text = release_on_dem({to, 0.002, channel_cell, {-120.0, -120.0, -150.0}, {120.0, 120.0, 250.0}},
-                                          material, channel_friction);
-  sim::Simulation<3> simulation(case_on_dem(text), site_of(treat(ground), thickness));
+  const Variant slide = release_on_dem({to, 0.002, channel_cell, {-120.0, -120.0, -150.0}, {120.0, 120.0, 250.0}},
+                                       material, channel_friction);
+  sim::Simulation<3> simulation(case_on_dem(slide), site_of(treat(ground), thickness));
   const Position down(along[0] * cosine, along[1] * cosine, -sine);
   run_until(simulation, from);
   const double first = CentreOfMass(simulation).velocity.dot(down), began = simulation.time();
@@ -83,17 +83,8 @@ inline double friction_in_channel(
 }
 
 // Broken rock without cohesion.
-inline const std::string loose_rock = R"(
-[material.debris]
-law = "mohr_coulomb"
-youngs_modulus = 1e8
-poisson_ratio = 0.2
-friction_angle = 35.0
-cohesion = 0.0
-gaps_close_first = true
-viscosity_time = 0.01
-[mechanics]
-slope_shear = true
-)";
+inline const Sets loose_rock =
+    "material.debris.youngs_modulus=1e8; material.debris.poisson_ratio=0.2; material.debris.friction_angle=35; "
+    "material.debris.viscosity_time=0.01; mechanics.slope_shear=true";
 
 }  // namespace thawslide::testing_support

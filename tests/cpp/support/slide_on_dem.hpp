@@ -1,6 +1,8 @@
 // Slide on a DEM, both created in memory.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -8,9 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "case_from_text.hpp"
+#include "base_cases.hpp"
 #include "config/site.hpp"
-#include "friction_alone.hpp"
 #include "sim/simulation.hpp"
 #include "small_terrain.hpp"
 
@@ -27,45 +28,27 @@ struct Frame {
   Position least, greatest;
 };
 
-// Text of a case in which a release of the material "debris" slides with Coulomb friction [degrees] alone; `material`:
-// tables of the material and others.
-inline std::string release_on_dem(const Frame& frame, const std::string& material, double friction_angle) {
+// Case "release" with other frame, material and friction angle [degrees].
+inline Variant release_on_dem(const Frame& frame, const Sets& material, double friction_angle) {
   const auto list = [](const Position& p) { return fmt::format("[{}, {}, {}]", p[0], p[1], p[2]); };
-  return fmt::format(R"(
-[case]
-dimension = 3
-[time]
-end = {}
-step = {}
-[grid]
-cell = {}
-min = {}
-max = {}
-[terrain]
-type = "dem"
-file = "dem.tif"
-)",
-                     frame.end, frame.step, frame.cell, list(frame.least), list(frame.greatest)) +
-         material + release_table + "material = \"debris\"\n" + friction_alone(friction_angle);
+  return {"release", Sets(fmt::format(
+                         "time.end={}; time.step={}; grid.cell={}; grid.min={}; grid.max={}; basal.friction_angle={}",
+                         frame.end, frame.step, frame.cell, list(frame.least), list(frame.greatest), friction_angle)) +
+                         material};
 }
 
 // Rock that barely deforms, under the stress of a slab on a slope; viscosity divided by stiffness [s].
-inline std::string elastic_rock(double viscosity_time) {
-  return fmt::format(R"(
-[material.debris]
-law = "elastic"
-youngs_modulus = 5e8
-poisson_ratio = 0.2
-viscosity_time = {}
-[mechanics]
-slope_shear = true
-)",
-                     viscosity_time);
+inline Sets elastic_rock(double viscosity_time) {
+  return fmt::format(
+      "material.debris.law=elastic; material.debris.youngs_modulus=5e8; material.debris.poisson_ratio=0.2; "
+      "material.debris.gaps_close_first=false; material.debris.viscosity_time={}; mechanics.slope_shear=true",
+      viscosity_time);
 }
 
-// Case with `text`, in which the DEM is terrain.file = "dem.tif" and the release is `release_table`. The files exist
-// but are empty: their contents are in the site.
-inline config::Case case_on_dem(const std::string& text, const std::vector<std::string>& sets = {}) {
+// Case from a text or a variant, in which the DEM is terrain.file = "dem.tif" and the release is `release_table`. The
+// files exist but are empty: their contents are in the site.
+template <class Text>
+config::Case case_on_dem(const Text& text, const Sets& sets = {}) {
   const std::filesystem::path folder = folder_of_this_test();
   std::ofstream(folder / "dem.tif");
   std::ofstream(folder / "thickness.tif");

@@ -4,93 +4,46 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
 #include <string>
 #include <vector>
 
-#include "case_from_text.hpp"
+#include "base_cases.hpp"
 
 namespace thawslide::testing_support {
 
 // Two bodies on a slope, one frozen and one melted, with every mechanism. Each body has a different particle size and
 // number of particles per cell, so that SIMD batches are not aligned with nodes. length, height: of the left body [m];
-// speed: of both down the slope [m/s]; terrain: its table; sets: further keys of the case.
+// speed: of both down the slope [m/s]; sets: further keys of the case.
 template <int Dim>
 config::Case two_bodies(double cohesion, double length = 7.0, double height = 5.0, double speed = 0.0,
-                        const std::string& terrain = "type = \"flat\"\nelevation = 0.0",
-                        const std::vector<std::string>& sets = {}) {
-  const auto at = [](double x, double z) {
-    return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, z > 0.0 ? 3.0 : 0.0, z);
+                        const Sets& sets = {}) {
+  const auto at = [](double x, double z, double y) {
+    return Dim == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, y, z);
   };
-  const auto along_slope = Dim == 2 ? fmt::format("[{}, 0.0]", speed) : fmt::format("[{}, 0.0, 0.0]", speed);
-  return paper_case(fmt::format(R"(
-[case]
-dimension = {}
-gravity_tilt = 35.0
-[time]
-end = 10.0
-step = 0.002
-[grid]
-cell = 1.0
-min = {}
-max = {}
-[terrain]
-{}
-[material.frozen]
-law = "mohr_coulomb"
-youngs_modulus = 2e8
-poisson_ratio = 0.3
-friction_angle = 35.0
-cohesion = {}
-hydraulic_conductivity = 1e-9
-[material.melted]
-law = "mohr_coulomb"
-youngs_modulus = 1e8
-poisson_ratio = 0.2
-friction_angle = 30.0
-cohesion = {}
-residual_cohesion = {}
-softening_strain = 1.0
-tension_cutoff = 1e5
-hydraulic_conductivity = 1e-10
-[body.left]
-material = "frozen"
-min = {}
-max = {}
-velocity = {}
-temperature = -0.5
-porosity = 0.375
-[body.right]
-material = "melted"
-min = {}
-max = {}
-velocity = {}
-temperature = 1.5
-porosity = 0.3
-particles_per_axis = 3
-[basal]
-friction = "lubricated"
-friction_angle = 25.0
-[band]
-thickness = 0.1
-)",
-                                Dim, Dim == 2 ? "[-4.0, -4.0]" : "[-4.0, -4.0, -4.0]",
-                                Dim == 2 ? fmt::format("[{}, {}]", std::ceil(length) + 33.0, height + 15.0)
-                                         : fmt::format("[{}, 10.0, {}]", std::ceil(length) + 33.0, height + 15.0),
-                                terrain, cohesion, cohesion, 0.5 * cohesion, at(0.0, 0.0), at(length, height),
-                                along_slope, at(length, 0.0), at(length + 4.3, 4.1), along_slope),
-                    sets);
+  const Sets size = fmt::format(
+      "case.dimension={}; grid.min={}; grid.max={}; body.left.min={}; body.left.max={}; body.right.min={}; "
+      "body.right.max={}; body.left.velocity={}; body.right.velocity={}",
+      Dim, at(-4.0, -4.0, -4.0), at(std::ceil(length) + 33.0, height + 15.0, 10.0), at(0.0, 0.0, 0.0),
+      at(length, height, 3.0), at(length, 0.0, 0.0), at(length + 4.3, 4.1, 3.0), at(speed, 0.0, 0.0),
+      at(speed, 0.0, 0.0));
+  const Sets strength =
+      fmt::format("material.frozen.cohesion={0}; material.melted.cohesion={0}; material.melted.residual_cohesion={1}",
+                  cohesion, 0.5 * cohesion);
+  return published_case("two_bodies", size + strength + sets);
+}
+
+// Ground of a DEM, whose content is in the site: the file exists but is empty.
+inline Sets on_dem() {
+  const auto file = folder_of_this_test() / "dem.tif";
+  std::ofstream{file};
+  return "terrain.type=dem; terrain.file=" + file.string();
 }
 
 // Bed of melted material below two_bodies, weak enough to be entrained.
-inline std::vector<std::string> loose_bed() {
-  return {"bed.depth={x=[-4.0,8.0],value=[0.2,0.6]}",
-          "bed.strength=100.0",
-          "bed.friction_angle=5.0",
-          "bed.depth_per_slip=0.2",
-          "bed.material=melted",
-          "bed.temperature=-0.5",
-          "bed.porosity=0.9",
-          "bed.particles_per_axis=4"};
+inline Sets loose_bed() {
+  return "bed.depth={x=[-4,8],value=[0.2,0.6]}; bed.strength=100; bed.friction_angle=5; bed.depth_per_slip=0.2; "
+         "bed.material=melted; bed.temperature=-0.5; bed.porosity=0.9; bed.particles_per_axis=4";
 }
 
 }  // namespace thawslide::testing_support
