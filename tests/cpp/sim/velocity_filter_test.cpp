@@ -3,13 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "../support/base_cases.hpp"
 #include "../support/fields.hpp"
 #include "../support/record.hpp"
-#include "../support/scalar_points.hpp"
 #include "base/parallel.hpp"
 #include "sim/history.hpp"
 #include "sim/simulation.hpp"
@@ -18,6 +19,39 @@ namespace thawslide::sim {
 namespace {
 
 using namespace testing_support;
+
+// Particles, by id.
+template <int Dim>
+struct Point {
+  Vector<double, Dim> position;
+  double mass, half;  // half: size, in cells
+};
+template <int Dim>
+std::vector<Point<Dim>> points_of(const Simulation<Dim>& simulation) {
+  const auto& particles = simulation.particles();
+  std::vector<Point<Dim>> points(particles.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    points[static_cast<std::size_t>(particles.id(p))] = {
+        particles.position.template get<Vector<double, Dim>>(p), particles.mass(p),
+        simulation.model().motion.sizes.half(static_cast<std::size_t>(particles.body(p)))};
+  }
+  return points;
+}
+
+// Calls visit(node, weight) for the nodes of a particle, with the weights of uGIMP.
+template <int Dim, class Visit>
+void for_nodes(const Point<Dim>& p, double inverse_cell, const Visit& visit) {
+  for (int n = 0, count = mpm::power(3, Dim); n < count; ++n) {
+    std::array<int, Dim> node;
+    double product = 1.0;
+    for (int a = 0, rest = n; a < Dim; ++a, rest /= 3) {
+      const double in_cells = p.position[a] * inverse_cell, nearest = std::floor(in_cells + 0.5);
+      node[static_cast<std::size_t>(a)] = static_cast<int>(nearest) - 1 + rest % 3;
+      product *= mpm::ugimp_weights(in_cells - nearest, p.half, inverse_cell).weight[rest % 3];
+    }
+    visit(node, product);
+  }
+}
 
 // A free block with displaced particles, oblique to the grid. Velocities are filtered in its first step.
 template <int Dim>
@@ -75,8 +109,7 @@ struct Dense {
     constexpr int turns = physics::rotations<Dim>, motions = Dim + turns;
     rigid = Eigen::MatrixXd::Zero(count, motions);
     mass = Velocities::Zero(count);
-    std::map<NodeIndex<Dim>, Eigen::VectorXd> shape;  // by node, of each particle
-    const ScalarTransfer<Dim> to_nodes{1.0};
+    std::map<std::array<int, Dim>, Eigen::VectorXd> shape;  // by node, of each particle
     for (std::size_t p = 0; p < points.size(); ++p) {
       const auto first = static_cast<Eigen::Index>(Dim * p);
       const Vector<double, Dim> from_middle = points[p].position - Vector<double, Dim>::Constant(18.5);
@@ -88,14 +121,13 @@ struct Dense {
         const Vector<double, turns> unit = Vector<double, turns>::Unit(a);
         rigid.block<Dim, 1>(first, Dim + a) = physics::turned<Dim>(unit, from_middle);
       }
-      to_nodes.for_nodes(points[p], ScalarTransfer<Dim>::ugimp,
-                         [&](const auto& node, double weight, const auto& /*gradient*/) {
-                           auto& of_node = shape[node];
-                           of_node.conservativeResizeLike(Velocities::Zero(count));
-                           for (int a = 0; a < Dim; ++a) {
-                             of_node[first + a] = weight;
-                           }
-                         });
+      for_nodes(points[p], 1.0, [&](const auto& node, double weight) {
+        auto& of_node = shape[node];
+        of_node.conservativeResizeLike(Velocities::Zero(count));
+        for (int a = 0; a < Dim; ++a) {
+          of_node[first + a] = weight;
+        }
+      });
     }
     transfer = Eigen::MatrixXd::Zero(count, count);
     for (const auto& [node, weight] : shape) {
@@ -225,13 +257,11 @@ struct Swing {
 Swing swing(const Sets& sets) {
   Simulation<2> simulation(paper_case(bar, sets));
   const auto points = points_of(simulation);
-  const ScalarTransfer<2> to_nodes{static_cast<double>(bar_cells)};
   Velocities form = Velocities::Zero(2 * static_cast<Eigen::Index>(points.size()));
   for (std::size_t p = 0; p < points.size(); ++p) {
-    to_nodes.for_nodes(
-        points[p], ScalarTransfer<2>::ugimp, [&](const auto& node, double weight, const auto& /*slope*/) {
-          form[static_cast<Eigen::Index>(2 * p)] += weight * std::cos(pi * (node[0] - bar_cells) / bar_cells);
-        });
+    for_nodes(points[p], bar_cells, [&](const auto& node, double weight) {
+      form[static_cast<Eigen::Index>(2 * p)] += weight * std::cos(pi * (node[0] - bar_cells) / bar_cells);
+    });
   }
   set_velocities(simulation, Velocities(1e-3 * form));
   std::vector<double> velocity;
