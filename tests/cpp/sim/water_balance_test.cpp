@@ -57,8 +57,8 @@ void fill_with_patches(Simulation<2>& simulation) {
 // The step limit is 2.3 s.
 TEST(FrozenRows, SealedOnesKeepTheWaterAndBoundItsPressure) {
   for (const double step : {0.05, 2.2}) {
-    Simulation<2> simulation(paper_case(
-        column, still + Sets{"pressure.frozen_rows=sealed", "time.end=1000", fmt::format("time.step={}", step)}));
+    Simulation<2> simulation(
+        paper_case(column, still + fmt::format("pressure.frozen_rows=sealed; time.end=1000; time.step={}", step)));
     const auto& particles = simulation.particles();
     fill_with_patches(simulation);
     const double before = stored(simulation);
@@ -80,7 +80,7 @@ TEST(FrozenRows, SealedOnesKeepTheWaterAndBoundItsPressure) {
 
 TEST(FrozenRows, SealedOnesExertNoPressureOnAdjacentWater) {
   // Melted at 1 MPa below 5 m, frozen above, with ice at any pressure: nothing flows.
-  Simulation<2> simulation(paper_case(column, still + Sets{"pressure.frozen_rows=sealed"}));
+  Simulation<2> simulation(paper_case(column, still + "pressure.frozen_rows=sealed"));
   auto& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const bool frozen = particles.position(p, 1) > 5.0;
@@ -99,7 +99,7 @@ TEST(FrozenRows, SealedOnesExertNoPressureOnAdjacentWater) {
 // pressure.
 TEST(FrozenRows, TheirUptakeIsCounted) {
   const auto entrained = [&](const std::string& rows) {
-    Simulation<2> simulation(paper_case(column, still + Sets{"pressure.frozen_rows=" + rows}));
+    Simulation<2> simulation(paper_case(column, still + ("pressure.frozen_rows=" + rows)));
     fill_with_patches(simulation);
     const double before = stored(simulation);
     run_until(simulation, 1.0);
@@ -147,7 +147,7 @@ constexpr double porosity = 0.375, storage = porosity / 1e9;
 
 TEST(MeltContraction, ExpansionFillsTheVoidBeforePressureRises) {
   Simulation<2> simulation(
-      paper_case(column, weightless + Sets "pressure.melt_contraction=true; body.column.temperature=-10.0"));
+      paper_case(column, weightless + "pressure.melt_contraction=true; body.column.temperature=-10.0"));
   const auto& particles = simulation.particles();
   const double left = porosity * 0.083 * (1.0 - std::pow(11.0, -5.0));
   int open = 0, full = 0;
@@ -176,7 +176,7 @@ TEST(MeltContraction, ExpansionFillsTheVoidBeforePressureRises) {
 
 TEST(MeltContraction, WithoutItMeltIsPressurizedFromTheFirstKelvin) {
   Simulation<2> simulation(
-      paper_case(column, weightless + Sets "body.column.temperature=-10.0; pressure.skeleton_compressibility=0"));
+      paper_case(column, weightless + "body.column.temperature=-10.0; pressure.skeleton_compressibility=0"));
   bring_to(simulation, 2.0);
   EXPECT_NEAR(simulation.particles().pore_pressure(7), 2.0 * 275000.0, 1e-6);
   EXPECT_FALSE(simulation.particles().pore_void.is_kept());
@@ -186,8 +186,9 @@ TEST(MeltContraction, WithoutItMeltIsPressurizedFromTheFirstKelvin) {
 TEST(WaterExpansion, DependingOnTemperatureContractsFirst) {
   for (const double compressibility : {0.0, 2e-9}) {
     Simulation<2> simulation(paper_case(
-        column, weightless + Sets{"phases.water_expansion_law=by_temperature", "body.column.temperature=1e-9",
-                                  fmt::format("pressure.skeleton_compressibility={}", compressibility)}));
+        column, weightless + fmt::format("phases.water_expansion_law=by_temperature; body.column.temperature=1e-9; "
+                                         "pressure.skeleton_compressibility={}",
+                                         compressibility)));
     const auto& particles = simulation.particles();
     const auto expect_at = [&](double temperature, double swelling) {
       bring_to(simulation, temperature);
