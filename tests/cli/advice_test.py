@@ -13,9 +13,7 @@ from conftest import ROOT, Program, run_facts, sets, snapshot_files
 VALLEY = ROOT / "cases" / "valley3d"
 # A heap 5 m long and 8 m high, with a blanket 25 m long and 1 m thick in front of it.
 HEAP_AND_BLANKET = sets(
-    grid__max="[40,20]",
-    body__block__shape="polygon",
-    body__block__vertices="[[5,0],[35,0],[35,1],[10,1],[10,8],[5,8]]",
+    grid__max="[40,20]", body__block__shape="polygon", body__block__vertices="[[5,0],[35,0],[35,1],[10,1],[10,8],[5,8]]"
 )
 
 
@@ -38,12 +36,7 @@ def test_the_median_and_its_warning_are_weighted_by_area(thawslide: Program, sma
 
 @pytest.mark.parametrize(("end", "steps", "rows"), [(0.2005, 200, 5), (0.2006, 201, 6), (0.2503, 250, 6)])
 def test_a_run_performs_the_reported_steps(
-    thawslide: Program,
-    small_case: Path,
-    tmp_path: Path,
-    end: float,
-    steps: int,
-    rows: int,
+    thawslide: Program, small_case: Path, tmp_path: Path, end: float, steps: int, rows: int
 ) -> None:
     """A fixed step that would end more than half a step after the end is omitted."""
     reported = json.loads(thawslide("check", small_case, "--json", *sets(time__end=end)).stdout)
@@ -60,8 +53,7 @@ def test_the_reported_checkpoint_size_includes_maps_and_columns(thawslide: Progr
     case = VALLEY / "columns.toml"
     text = thawslide("check", case, *words).stdout
     reported = re.search(
-        r", 3 checkpoints of (\S+) ([kM])B at the start and about (\S+) ([kM])B after spreading, ",
-        text,
+        r", 3 checkpoints of (\S+) ([kM])B at the start and about (\S+) ([kM])B after spreading, ", text
     )
     assert reported, text
     assert thawslide("run", case, "--output", run, *words).returncode == 0
@@ -73,23 +65,10 @@ def test_the_reported_checkpoint_size_includes_maps_and_columns(thawslide: Progr
 
 def test_the_memory_error_names_the_cell_and_not_the_terrain(binary: Path, plain_environment: dict[str, str]) -> None:
     """The limit is too small even for terrain and program alone."""
-    words = [
-        "bash",
-        "-c",
-        'ulimit -v 300000; exec "$@"',
-        "bash",
-        str(binary),
-        "check",
-        str(VALLEY),
-    ]
+    words = ["bash", "-c", 'ulimit -v 300000; exec "$@"', "bash", str(binary), "check", str(VALLEY)]
     environment = plain_environment | {"OMP_NUM_THREADS": "1"}
     outcome = subprocess.run(
-        [*words, *sets(grid__cell=2)],
-        env=environment,
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
+        [*words, *sets(grid__cell=2)], env=environment, capture_output=True, text=True, timeout=60, check=False
     )
     assert outcome.returncode == 2, outcome.stderr
     assert "terrain.file" not in outcome.stderr

@@ -29,10 +29,7 @@ def motions(run: Path) -> list[tuple[float, np.ndarray, np.ndarray]]:
     for file in snapshot_files(run):
         data = datasets(file)
         body, mass = data["VTKHDF/PointData/body"], data["VTKHDF/PointData/mass"]
-        speed, place = (
-            data["VTKHDF/PointData/velocity"][:, 0],
-            data["VTKHDF/Points"][:, 0],
-        )
+        speed, place = (data["VTKHDF/PointData/velocity"][:, 0], data["VTKHDF/Points"][:, 0])
         masses = np.array([mass[body == number].sum() for number in (0, 1)])
         speeds = np.array([np.average(speed[body == number], weights=mass[body == number]) for number in (0, 1)])
         found.append((place[body == 1].min() - place[body == 0].max() - SPACING, speeds, masses))
@@ -41,14 +38,7 @@ def motions(run: Path) -> list[tuple[float, np.ndarray, np.ndarray]]:
 
 def run_case(thawslide: Program, case: Path, run: Path, **words: object) -> list[tuple[float, np.ndarray, np.ndarray]]:
     """Run a case of the data and return its motions."""
-    done = thawslide(
-        "run",
-        case,
-        "--output",
-        run,
-        *sets(time__output_interval=0.1, **words),
-        limit=LONG,
-    )
+    done = thawslide("run", case, "--output", run, *sets(time__output_interval=0.1, **words), limit=LONG)
     assert done.returncode == 0, done.stderr
     return motions(run)
 

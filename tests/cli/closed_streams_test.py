@@ -104,12 +104,7 @@ def test_files_with_future_times_are_reported(thawslide: Program, small_case: Pa
 @pytest.mark.skipif(not FULL.exists(), reason="the system has no /dev/full")
 @pytest.mark.parametrize("where", [f"> {FULL}", ">&-", "| head -c 1 > /dev/null"])
 def test_a_report_needs_no_terminal(
-    binary: Path,
-    report_environment: dict[str, str],
-    thawslide: Program,
-    small_case: Path,
-    tmp_path: Path,
-    where: str,
+    binary: Path, report_environment: dict[str, str], thawslide: Program, small_case: Path, tmp_path: Path, where: str
 ) -> None:
     run = tmp_path / "run"
     assert thawslide("run", small_case, "--output", run).returncode == 0

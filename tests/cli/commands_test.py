@@ -117,10 +117,7 @@ def test_check_writes_nothing(thawslide: Program, small_case: Path) -> None:
 
 
 def test_check_plots_the_setup(
-    thawslide: Program,
-    report_environment: dict[str, str],
-    small_case: Path,
-    tmp_path: Path,
+    thawslide: Program, report_environment: dict[str, str], small_case: Path, tmp_path: Path
 ) -> None:
     """The path is relative to the working directory; by default the figure is next to the case file."""
     (small_case / "stiff.toml").write_text('[case]\nbased_on = "case.toml"\n')
@@ -131,14 +128,7 @@ def test_check_plots_the_setup(
         (small_case, [], small_case / "setup.png"),
         (small_case / "stiff.toml", [], small_case / "stiff-setup.png"),
     ):
-        outcome = thawslide(
-            "check",
-            case,
-            "--picture",
-            *words,
-            environment=report_environment,
-            folder=elsewhere,
-        )
+        outcome = thawslide("check", case, "--picture", *words, environment=report_environment, folder=elsewhere)
         assert outcome.returncode == 0, outcome.stderr
         assert file.read_bytes().startswith(PNG)
         assert outcome.stdout.endswith(f"  picture     {words[0] if words else file}\n")

@@ -101,10 +101,7 @@ def thawslide(binary: Path, plain_environment: dict[str, str]) -> Program:
     """Return a function that runs the program with arguments and returns its outcome."""
 
     def start(
-        *words: object,
-        environment: dict[str, str] | None = None,
-        folder: Path | None = None,
-        limit: float = LIMIT,
+        *words: object, environment: dict[str, str] | None = None, folder: Path | None = None, limit: float = LIMIT
     ) -> Outcome:
         return subprocess.run(
             [str(binary), *map(str, words)],

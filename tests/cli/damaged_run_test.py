@@ -175,8 +175,7 @@ def test_a_run_without_snapshots_is_completed(thawslide: Program, small_case: Pa
 
 
 @pytest.mark.parametrize(
-    ("text", "found"),
-    [("", "it is empty"), ("{\n", "it is not JSON from byte 3 on"), ("{}", "key 'parts' not found")],
+    ("text", "found"), [("", "it is empty"), ("{\n", "it is not JSON from byte 3 on"), ("{}", "key 'parts' not found")]
 )
 def test_a_damaged_run_json_is_reported_with_the_remedy(
     thawslide: Program, killed: Path, text: str, found: str

@@ -374,8 +374,7 @@ def test_paths_up_the_opposite_slope_do_not_depend_on_direction(thawslide: Progr
 
 
 @pytest.mark.parametrize(
-    ("dem", "lines", "end"),
-    [("dem", ("down", "up"), 501250), ("valley", ("runup", "runup_reversed"), 501480)],
+    ("dem", "lines", "end"), [("dem", ("down", "up"), 501250), ("valley", ("runup", "runup_reversed"), 501480)]
 )
 def test_sections_drawn_uphill_begin_at_the_release(
     thawslide: Program, tmp_path: Path, dem: str, lines: tuple[str, str], end: int

@@ -96,12 +96,7 @@ def test_a_stop_during_rest_does_not_change_the_end(thawslide: Program, small_ca
 def test_an_instability_does_not_advise_a_wider_domain(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     """With contact one cell too early, the ground rebounds the falling block with more energy than it had."""
     run = tmp_path / "run"
-    fall = sets(
-        time__end=2,
-        body__block__min="[10,3]",
-        body__block__max="[14,6]",
-        basal__distance_check="false",
-    )
+    fall = sets(time__end=2, body__block__min="[10,3]", body__block__max="[14,6]", basal__distance_check="false")
     outcome = thawslide("run", small_case, "--output", run, *fall, *sets(guards__energy_growth=0.001))
     assert outcome.returncode == 3, outcome.stdout
     assert "J per m of width without a physical cause" in outcome.stderr
@@ -114,10 +109,7 @@ def test_an_instability_does_not_advise_a_wider_domain(thawslide: Program, small
 def test_removed_particles_are_counted(thawslide: Program, tmp_path: Path) -> None:
     run = tmp_path / "run"
     words = sets(
-        time__end=20,
-        material__rock_ice__youngs_modulus=0.5,
-        guards__volume='"remove"',
-        guards__removed_mass=0.05,
+        time__end=20, material__rock_ice__youngs_modulus=0.5, guards__volume='"remove"', guards__removed_mass=0.05
     )
     outcome = thawslide("run", LAMPLUGH, "--output", run, *words)
     assert outcome.returncode == 3
@@ -141,11 +133,7 @@ def test_removed_particles_are_counted(thawslide: Program, tmp_path: Path) -> No
         f"guards have removed {reported[2]} particles: 0 not finite, {reported[2]} by their volume\n" in outcome.stdout
     )
     facts, columns = run_facts(run), history(run)
-    assert facts["removed_particles"] == {
-        "left": 0,
-        "not_finite": 0,
-        "volume": int(reported[2]),
-    }
+    assert facts["removed_particles"] == {"left": 0, "not_finite": 0, "volume": int(reported[2])}
     assert 0.0 < columns["removed_mass_kg"][-1] == pytest.approx(columns["left_mass_kg"][-1], rel=1e-12)
 
 

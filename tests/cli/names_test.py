@@ -14,13 +14,7 @@ from slope_files import SOUTH, THICKNESS, WEST, Slope, made, write_release
 from terrain_files import write_dem, write_line
 from terrain_files import write_release as write_release_on_plane
 
-NAMES = [
-    'quo"te',
-    "back\\slash",
-    'x"\n[time]\nend = 5\n#',
-    "it's $(id) `id`",
-    "tab\there",
-]
+NAMES = ['quo"te', "back\\slash", 'x"\n[time]\nend = 5\n#', "it's $(id) `id`", "tab\there"]
 PROFILE = "distance_m,terrain_elevation_m\n0,0\n20,0\n"
 
 
@@ -45,12 +39,7 @@ def test_names_are_only_values_in_the_case_file(thawslide: Program, tmp_path: Pa
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_next_commands_can_be_pasted(
-    thawslide: Program,
-    binary: Path,
-    plain_environment: dict[str, str],
-    tmp_path: Path,
-    slope: Slope,
-    name: str,
+    thawslide: Program, binary: Path, plain_environment: dict[str, str], tmp_path: Path, slope: Slope, name: str
 ) -> None:
     release = write_release(tmp_path / "release.geojson", WEST + 200.0, SOUTH + 250.0)
     folder = tmp_path / name
@@ -75,9 +64,7 @@ def test_the_next_commands_can_be_pasted(
 def test_a_section_from_files_of_any_name_can_be_run(thawslide: Program, tmp_path: Path, name: str) -> None:
     dem = write_dem(tmp_path / f"{name}.tif", lambda x, _y: 1000.0 - 0.5 * x)
     release = write_release_on_plane(
-        tmp_path / f"{name}.geojson",
-        [(105.0, 155.0), (205.0, 155.0), (205.0, 245.0), (105.0, 245.0)],
-        thickness=20.0,
+        tmp_path / f"{name}.geojson", [(105.0, 155.0), (205.0, 155.0), (205.0, 245.0), (105.0, 245.0)], thickness=20.0
     )
     line = write_line(tmp_path / f"{name} line.geojson", [(15.0, 200.0), (775.0, 200.0)])
     folder = tmp_path / name
@@ -119,16 +106,7 @@ def test_a_name_that_is_not_utf8_is_refused_before_anything_is_written(
 
 def test_no_location_in_a_removed_file_is_reported(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     release = write_release(tmp_path / "release.geojson", WEST + 203.0, SOUTH + 252.0)
-    outcome = made(
-        thawslide,
-        tmp_path / "slide",
-        slope(),
-        release,
-        "--thickness",
-        20,
-        "--cell",
-        200,
-    )
+    outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 20, "--cell", 200)
     assert outcome.returncode == 2 and not (tmp_path / "slide").exists()
     assert outcome.stderr.startswith("error: no case was created, because it would not run: "), outcome.stderr
     assert "case.toml" not in outcome.stderr

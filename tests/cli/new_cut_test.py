@@ -76,10 +76,7 @@ def test_a_section_has_the_ramps_too(thawslide: Program, tmp_path: Path) -> None
     words = [
         *("--dem", write_dem(tmp_path / "dem.tif", lambda x, y: 1000.0 - 0.5 * x)),
         *("--release", write_outline(tmp_path / "release.geojson", outline)),
-        *(
-            "--line",
-            write_line(tmp_path / "line.geojson", [(15.0, 205.0), (775.0, 205.0)]),
-        ),
+        *("--line", write_line(tmp_path / "line.geojson", [(15.0, 205.0), (775.0, 205.0)])),
     ]
     outcome = thawslide("section", tmp_path / "case", *words, "--thickness", THICK, "--cut")
     assert outcome.returncode == 0, outcome.stderr

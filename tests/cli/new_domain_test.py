@@ -8,19 +8,7 @@ from pathlib import Path
 
 import pytest
 from conftest import Program
-from slope_files import (
-    CELL,
-    COLUMNS,
-    DEPTH,
-    ROWS,
-    SOUTH,
-    WEST,
-    WIDTH,
-    Slope,
-    assert_refused,
-    made,
-    write_release,
-)
+from slope_files import CELL, COLUMNS, DEPTH, ROWS, SOUTH, WEST, WIDTH, Slope, assert_refused, made, write_release
 
 
 def assert_starts(thawslide: Program, folder: Path) -> None:
@@ -35,23 +23,13 @@ def test_a_thin_release_is_inside_the_domain(
 ) -> None:
     """The release is thinner than the fall of the slope across a cell of the DEM."""
     release = write_release(tmp_path / "thin.geojson", WEST + 203.0, SOUTH + 252.0, 31.0, 23.0)
-    outcome = made(
-        thawslide,
-        tmp_path / "slide",
-        slope(),
-        release,
-        "--thickness",
-        thickness,
-        placement,
-    )
+    outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", thickness, placement)
     assert outcome.returncode == 0, outcome.stderr
     assert_starts(thawslide, tmp_path)
 
 
 @pytest.mark.parametrize(
-    "corner",
-    [(6.0, 7.0), ((COLUMNS - 1) * CELL - WIDTH - 6.0, (ROWS - 1) * CELL - DEPTH - 7.0)],
-    ids=["low", "high"],
+    "corner", [(6.0, 7.0), ((COLUMNS - 1) * CELL - WIDTH - 6.0, (ROWS - 1) * CELL - DEPTH - 7.0)], ids=["low", "high"]
 )
 def test_a_release_at_the_edge_of_the_dem_runs(
     thawslide: Program, tmp_path: Path, slope: Slope, corner: tuple[float, float]

@@ -130,13 +130,7 @@ def test_cut_lowers_the_terrain_by_the_thickness(thawslide: Program, tmp_path: P
 
 @pytest.mark.parametrize(("number", "percent"), [(signal.SIGTERM, 20), (signal.SIGINT, 50)])
 def test_a_run_stopped_by_a_signal_ends_bitwise_identical(
-    thawslide: Program,
-    interrupted: Interrupted,
-    tmp_path: Path,
-    slope: Slope,
-    release: Path,
-    number: int,
-    percent: int,
+    thawslide: Program, interrupted: Interrupted, tmp_path: Path, slope: Slope, release: Path, number: int, percent: int
 ) -> None:
     """Maps, probes, history, snapshots and checkpoint are those of an uninterrupted run."""
     folder, complete, parts = tmp_path / "slide", tmp_path / "complete", tmp_path / "parts"

@@ -13,17 +13,7 @@ import numpy as np
 import pytest
 import rasterio
 from conftest import Program, run_facts, sets
-from slope_files import (
-    CELL,
-    SOUTH,
-    THICKNESS,
-    WEST,
-    Slope,
-    assert_refused,
-    made,
-    without_folder,
-    write_release,
-)
+from slope_files import CELL, SOUTH, THICKNESS, WEST, Slope, assert_refused, made, without_folder, write_release
 
 ACROSS = "across the median thickness of body slide, 24 m, there are "
 MAPS = "too few cells for maps of thickness and area"
@@ -42,16 +32,7 @@ def test_too_few_particles_across_the_thickness_have_a_warning(
         "              4,512 particles 4 m apart; 6 across in the median and 6 at most; -5 C\n"
         "  roughness   noise of 0 m rms"
     ) in checked.stdout
-    coarse = made(
-        thawslide,
-        tmp_path / "coarse",
-        slope(),
-        release,
-        "--thickness",
-        THICKNESS,
-        "--cell",
-        30,
-    )
+    coarse = made(thawslide, tmp_path / "coarse", slope(), release, "--thickness", THICKNESS, "--cell", 30)
     problem = (
         f"{ACROSS}too few particles to resolve shear and thinning (found 1.6; needed 4), and {MAPS} (found 0.8; "
         "needed 8)"
@@ -141,10 +122,7 @@ def test_a_hole_filled_with_zeros_has_a_warning(
         "hole without data? Then declare it in the file, gdal_edit.py -a_nodata 0 {}dem.tif, or fill it\n"
     )
     assert without_folder(outcome.stdout, tmp_path).startswith(note.format("")), outcome.stdout + outcome.stderr
-    for words in (
-        ("check",),
-        ("run", "--output", tmp_path / "run", "--set", "time.end=0.01"),
-    ):
+    for words in (("check",), ("run", "--output", tmp_path / "run", "--set", "time.end=0.01")):
         done = thawslide(words[0], tmp_path / "slide", *words[1:])
         assert done.returncode == 0, done.stderr
         assert note.format("slide/") in without_folder(done.stdout, tmp_path)
@@ -153,16 +131,7 @@ def test_a_hole_filled_with_zeros_has_a_warning(
 def test_crs_as_a_number_only_is_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
     bare = slope("bare.tif", crs=None)
     assert_refused(
-        made(
-            thawslide,
-            tmp_path / "slide",
-            bare,
-            release,
-            "--thickness",
-            THICKNESS,
-            "--crs",
-            32632,
-        ),
+        made(thawslide, tmp_path / "slide", bare, release, "--thickness", THICKNESS, "--crs", 32632),
         tmp_path,
         "--crs: '32632' is not a known coordinate reference system; did you mean \"EPSG:32632\"? Allowed: a "
         'number of the EPSG registry such as "EPSG:31287" (epsg.io finds it), or a WKT.',
@@ -180,15 +149,7 @@ def test_resampling_a_case_reports_the_domain_that_fits(
     reported = outcome.stderr.partition("Set ")[2].partition(", or take a larger")[0]
     low, _, high = reported.partition(" and ")
     assert low.startswith("grid.min = [") and high.startswith("grid.max = ["), outcome.stderr
-    done = thawslide(
-        "check",
-        folder,
-        *words,
-        "--set",
-        low.replace(" ", ""),
-        "--set",
-        high.replace(" ", ""),
-    )
+    done = thawslide("check", folder, *words, "--set", low.replace(" ", ""), "--set", high.replace(" ", ""))
     assert done.returncode == 0, done.stderr
 
 

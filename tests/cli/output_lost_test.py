@@ -29,10 +29,7 @@ def run_to_full_disk(binary: Path, environment: dict[str, str], *words: object) 
     return done.returncode, done.stderr
 
 
-@pytest.mark.parametrize(
-    "words",
-    [["describe"], ["describe", "--md"], ["version"], ["--help"], ["check", "--help"]],
-)
+@pytest.mark.parametrize("words", [["describe"], ["describe", "--md"], ["version"], ["--help"], ["check", "--help"]])
 def test_lost_output_is_reported(binary: Path, plain_environment: dict[str, str], words: list[str]) -> None:
     assert run_to_full_disk(binary, plain_environment, *words) == (5, LOST)
 
@@ -79,11 +76,6 @@ def test_a_pipe_closed_by_the_reader_is_no_error(binary: Path, plain_environment
 def test_an_error_that_cannot_be_reported_keeps_its_exit_code(binary: Path, plain_environment: dict[str, str]) -> None:
     with FULL.open("w") as full:
         done = subprocess.run(
-            [str(binary), "check", "nowhere"],
-            env=plain_environment,
-            stdout=full,
-            stderr=full,
-            timeout=60,
-            check=False,
+            [str(binary), "check", "nowhere"], env=plain_environment, stdout=full, stderr=full, timeout=60, check=False
         )
     assert done.returncode == 2

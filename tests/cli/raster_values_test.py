@@ -104,11 +104,7 @@ def test_masked_temperature_is_missing(maker: Maker) -> None:
 
 @pytest.mark.parametrize(
     ("name", "unit"),
-    [
-        ("thickness-ft.tif", "ft"),
-        ("thickness-cm.tif", "cm"),
-        ("thickness-compound-ft.tif", "US survey foot"),
-    ],
+    [("thickness-ft.tif", "ft"), ("thickness-cm.tif", "cm"), ("thickness-compound-ft.tif", "US survey foot")],
 )
 def test_thickness_is_converted_to_metres(maker: Maker, name: str, unit: str) -> None:
     note = f"note: {name} states the unit '{unit}': its values were converted to metres\n"
@@ -148,10 +144,7 @@ def test_elevations_are_converted_to_metres(maker: Maker, name: str, unit: str, 
     note = f"note: {name} states the unit '{unit}': its values were converted to metres\n"
     assert note in maker.made(UNITS / name, UNITS / "release.gpkg", "--thickness", 10)
     assert maker.volume() == pytest.approx(BLOCK, rel=1e-6)
-    with (
-        rasterio.open(UNITS / name) as stated,
-        rasterio.open(maker.folder / "dem.tif") as made,
-    ):
+    with rasterio.open(UNITS / name) as stated, rasterio.open(maker.folder / "dem.tif") as made:
         rows, columns = stated.index(*made.xy(0, 0))
         expected = metres * stated.read(1)[rows : rows + made.height, columns : columns + made.width].astype(float)
         assert made.units == ("m",)
@@ -159,10 +152,7 @@ def test_elevations_are_converted_to_metres(maker: Maker, name: str, unit: str, 
 
 
 @pytest.mark.parametrize("dem", ["dem.tif", "dem30.tif"])
-@pytest.mark.parametrize(
-    "name",
-    ["thickness-1m", "thickness-1m-wide", "thickness-1m-25833", "thickness-1m-rough"],
-)
+@pytest.mark.parametrize("name", ["thickness-1m", "thickness-1m-wide", "thickness-1m-25833", "thickness-1m-rough"])
 @pytest.mark.parametrize("polygons", [False, True])
 def test_fine_thickness_keeps_its_volume(maker: Maker, dem: str, name: str, polygons: bool) -> None:
     raster = FINE / f"{name}.tif"

@@ -31,9 +31,7 @@ def make_case(thawslide: Program, folder: Path, noise: float) -> Path:
     """Make a case on a plane with white noise on its points."""
     random = np.random.default_rng(1)
     dem = write_dem(
-        folder / "dem.tif",
-        lambda x, y: 1000.0 - 0.5 * x + noise * random.standard_normal(x.shape),
-        columns=160,
+        folder / "dem.tif", lambda x, y: 1000.0 - 0.5 * x + noise * random.standard_normal(x.shape), columns=160
     )
     release = write_release(folder / "release.geojson", RELEASE, thickness=20.0)
     case = folder / "case"
@@ -49,10 +47,7 @@ def rough_case(thawslide: Program, tmp_path: Path) -> Path:
 
 
 def test_new_does_not_change_the_dem(thawslide: Program, rough_case: Path) -> None:
-    with (
-        rasterio.open(rough_case / "dem.tif") as kept,
-        rasterio.open(rough_case.parent / "dem.tif") as given,
-    ):
+    with rasterio.open(rough_case / "dem.tif") as kept, rasterio.open(rough_case.parent / "dem.tif") as given:
         column, row = map(round, ~given.transform * (kept.transform.c, kept.transform.f))
         complete = given.read(1)
         assert np.array_equal(kept.read(1), complete[row : row + kept.height, column : column + kept.width])
@@ -75,11 +70,7 @@ def test_check_reports_noise_filter_and_remaining_friction(thawslide: Program, r
     assert list(facts) == KEYS
     assert facts["noise_m"] == pytest.approx(NOISE, rel=0.2)
     assert facts["noise_cells"] == pytest.approx(facts["noise_m"] / 10.0)
-    assert (facts["spacing_m"], facts["filter_m"], facts["narrow_valley_m"]) == (
-        10.0,
-        WIDTH,
-        40 * WIDTH,
-    )
+    assert (facts["spacing_m"], facts["filter_m"], facts["narrow_valley_m"]) == (10.0, WIDTH, 40 * WIDTH)
     assert facts["remaining_slope"] == pytest.approx(facts["noise_m"] * 10.0 / (2.0 * np.sqrt(np.pi) * WIDTH**2))
     assert facts["apparent_friction"] < 0.03
 
@@ -133,9 +124,6 @@ def test_section_has_the_terrain_of_a_3d_run(thawslide: Program, rough_case: Pat
     assert f"note: {note}" in made.stdout
     text = (folder / "profile.csv").read_text()
     assert f"# {note}" in text
-    rows = np.array(
-        [row.split(",")[:2] for row in text.splitlines() if row[:1].isdigit()],
-        dtype=float,
-    )
+    rows = np.array([row.split(",")[:2] for row in text.splitlines() if row[:1].isdigit()], dtype=float)
     fall = rows[:, 1] + 0.5 * rows[:, 0]
     assert np.std(fall) < 0.5 * NOISE

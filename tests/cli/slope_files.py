@@ -24,11 +24,7 @@ Slope = Callable[..., Path]
 
 
 def write_slope(
-    path: Path,
-    crs: str | None = "EPSG:32632",
-    hole: slice | None = None,
-    degrees: float = 30.0,
-    foot: float = 450.0,
+    path: Path, crs: str | None = "EPSG:32632", hole: slice | None = None, degrees: float = 30.0, foot: float = 450.0
 ) -> Path:
     """Write a slope towards the east, level from its foot on, as far from the west [m].
 

@@ -76,11 +76,7 @@ def test_a_second_process_in_a_folder_is_refused(
 
 @pytest.mark.parametrize(("first", "second"), [(signal.SIGINT, signal.SIGINT), (signal.SIGTERM, signal.SIGINT)])
 def test_a_second_signal_stops_at_once(
-    thawslide: Program,
-    running: subprocess.Popen[str],
-    tmp_path: Path,
-    first: signal.Signals,
-    second: signal.Signals,
+    thawslide: Program, running: subprocess.Popen[str], tmp_path: Path, first: signal.Signals, second: signal.Signals
 ) -> None:
     running.send_signal(signal.SIGSTOP)  # both are pending: the second arrives before the first is handled
     running.send_signal(first)

@@ -63,14 +63,7 @@ def test_overlaps_are_refused(thawslide: Program, small_case: Path) -> None:
 
 def test_a_run_has_the_friction_of_its_substrate(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     """A block on a tilted plane rests on rock and slides on ice; the resolved case contains the substrate."""
-    words = [
-        "--set",
-        "case.gravity_tilt=15",
-        "--set",
-        "basal.friction_angle=30",
-        "--set",
-        "time.end=0.5",
-    ]
+    words = ["--set", "case.gravity_tilt=15", "--set", "basal.friction_angle=30", "--set", "time.end=0.5"]
     distance = {}
     for name, text in (("rock", ""), ("ice", GLACIER.replace("12.0", "2.0"))):
         case = small_case / f"{name}.toml"

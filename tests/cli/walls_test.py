@@ -13,13 +13,7 @@ FRONT, SPEED = 50.0, 20.0  # m, m/s
 CELL = 5.0  # m
 EARLY = 0.3 * CELL  # m
 HALF_PARTICLE = CELL / 4.0  # m
-FOOT = {
-    "thick57.5": 57.5,
-    "thick59": 59.0,
-    "thick61": 61.0,
-    "thin59": 59.0,
-    "thin61": 61.0,
-}  # m
+FOOT = {"thick57.5": 57.5, "thick59": 59.0, "thick61": 61.0, "thin59": 59.0, "thin61": 61.0}  # m
 RAMPS = {"ramp20": 20.0, "ramp30": 30.0, "ramp45": 45.0, "ramp60": 60.0, "ramp80": 80.0, "ramp89.99": 89.99}  # degrees
 RAMP_FOOT = DYKE_FOOT = 59.0  # m
 FRICTIONAL = {"contact__between_bodies": "frictional", "contact__friction_angle": 0.0}
