@@ -16,7 +16,6 @@ sys.path.append(str(ROOT / "scripts" / "comparison"))
 import jobs
 import refinement
 from refinement_page import friction_rows
-
 from thawslide.maps import read_map
 
 ALR = ROOT.parent / "shared" / "data" / "alr"
