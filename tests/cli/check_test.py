@@ -4,73 +4,56 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 from pathlib import Path
 
 import pytest
-from conftest import Program, run_facts, sets, snapshot_files
-
-PROFILE = "distance_m,terrain_elevation_m\n0,0\n20,0\n"
-COLUMNS = "quantity,time_s,value,unit,source\n"
-
-
-def with_two_files_of_one_name(case: Path) -> str:
-    """Give a case a profile and targets of one name, and return the error message."""
-    (case / "data.csv").write_text(PROFILE)
-    (case / "reports").mkdir()
-    (case / "reports" / "data.csv").write_text(COLUMNS)
-    file = case / "case.toml"
-    text = file.read_text().replace('type = "flat"\nelevation = 0.0', 'type = "profile"\nfile = "data.csv"')
-    file.write_text(text + '\n[report]\ntargets = "reports/data.csv"\n')
-    line = file.read_text().splitlines().index('targets = "reports/data.csv"') + 1
-    return (
-        f"error: {file}:{line}:11: report.targets leads to {case}/reports/data.csv, and terrain.file to {case}/data.csv"
-        "; allowed: names of their own, since a run keeps copies of all its inputs in one folder. Rename one.\n"
-    )
+from conftest import Program, Ran, content_of, run_facts, sets, snapshot_files, with_profile
 
 
 def test_a_run_is_kept_until_the_case_that_replaces_it_is_accepted(
-    thawslide: Program, small_case: Path, tmp_path: Path
+    ran: Ran, thawslide: Program, small_case: Path
 ) -> None:
-    run = tmp_path / "run"
-    assert thawslide("run", small_case, "--output", run).returncode == 0
-    before = {file: file.read_bytes() for file in run.rglob("*") if file.is_file()}
-    message = with_two_files_of_one_name(small_case)
+    """Two of its files have one name."""
+    run = ran()
+    before = content_of(run)
+    with_profile(small_case, name="data.csv")
+    (small_case / "reports").mkdir()
+    (small_case / "reports" / "data.csv").write_text("quantity,time_s,value,unit,source\n")
+    file = small_case / "case.toml"
+    file.write_text(file.read_text() + '\n[report]\ntargets = "reports/data.csv"\n')
     for words in (["check", small_case], ["run", small_case, "--output", run, "--overwrite"]):
-        outcome = thawslide(*words)
-        assert (outcome.returncode, outcome.stdout, outcome.stderr) == (2, "", message)
-    assert {file: file.read_bytes() for file in run.rglob("*") if file.is_file()} == before
+        assert re.match(rf"error: {re.escape(str(file))}:\d+:11: report\.targets leads to ", thawslide.error(*words))
+    assert content_of(run) == before
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
-def test_an_unreadable_input_does_not_replace_a_run(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    run = tmp_path / "run"
-    assert thawslide("run", small_case, "--output", run).returncode == 0
+def test_an_unreadable_input_does_not_replace_a_run(ran: Ran, thawslide: Program, small_case: Path) -> None:
+    run = ran()
     (small_case / "base.toml").write_text((small_case / "case.toml").read_text())
     (small_case / "base.toml").chmod(0)
     (small_case / "case.toml").write_text('[case]\nbased_on = "base.toml"\n')
-    assert thawslide("run", small_case, "--output", run, "--overwrite").returncode == 2
+    thawslide.error("run", small_case, "--output", run, "--overwrite")
     assert (run / "history.csv").exists() and snapshot_files(run)
 
 
 @pytest.mark.parametrize("key", ["time.history_interval", "time.output_interval", "checkpoint.interval"])
 def test_an_interval_that_would_hang_the_run_is_refused(thawslide: Program, small_case: Path, key: str) -> None:
     for command in ("check", "run"):
-        outcome = thawslide(command, small_case, "--set", f"{key}=1e-300", folder=small_case)
-        assert outcome.returncode == 2 and outcome.stdout == ""
-        assert outcome.stderr.startswith(
+        message = thawslide.error(command, small_case, "--set", f"{key}=1e-300", folder=small_case, quiet=True)
+        assert message.startswith(
             f"error: --set {key}=1e-300: {key} is 1e-300 s, and the run of 0.2 s has 2e+299 times as much; allowed: "
             "2e-10 s and more, 1,000,000,000 of them in the run"
         )
     assert not (small_case / "runs").exists()
 
 
-def test_rows_and_snapshots_are_at_most_one_per_step(thawslide: Program, small_case: Path) -> None:
+def test_rows_and_snapshots_are_at_most_one_per_step(ran: Ran, thawslide: Program, small_case: Path) -> None:
     words = sets(time__end=0.02, time__output_interval=1e-7, time__history_interval=1e-9, checkpoint__interval=1e-10)
-    disk = json.loads(thawslide("check", small_case, "--json", *words).stdout)["disk"]
+    disk = thawslide.json("check", small_case, *words)["disk"]
     assert (disk["snapshots"], disk["history_rows"]) == (21, 21)
-    run = small_case.parent / "run"
-    assert thawslide("run", small_case, "--output", run, *words).returncode == 0
+    run = ran(*words)
     assert len(snapshot_files(run)) == 21
     assert len((run / "history.csv").read_text().splitlines()) == 1 + 21
     assert run_facts(run)["steps"] == 20
@@ -78,7 +61,7 @@ def test_rows_and_snapshots_are_at_most_one_per_step(thawslide: Program, small_c
 
 def test_large_numbers_of_steps_are_printed_briefly(thawslide: Program, small_case: Path) -> None:
     words = sets(time__end=1e300, time__output_interval=1e299, time__history_interval=1e299)
-    message = thawslide("check", small_case, *words).stdout
+    message = thawslide.ok("check", small_case, *words)
     assert "  steps       1e+303\n" in message and " years on " in message
     assert "time.step is 0.001 s: that is 1e+303 steps" in message
     assert max(map(len, message.splitlines())) < 400
@@ -89,9 +72,7 @@ def test_folders_and_pipes_are_named_as_such(thawslide: Program, small_case: Pat
     place = small_case / "prof.csv"
     place.mkdir() if kind == "a folder" else os.mkfifo(place)
     words = sets(terrain__type="profile", terrain__file=place)
-    outcome = thawslide("check", small_case, *words)
-    assert outcome.returncode == 2
-    assert f'terrain.file is "{place}", {kind}; allowed: a file' in outcome.stderr
+    assert f'terrain.file is "{place}", {kind}; allowed: a file' in thawslide.error("check", small_case, *words)
     (small_case / "case.toml").unlink()
     place.rename(small_case / "case.toml")
     outcome = thawslide("check", small_case)
@@ -101,21 +82,15 @@ def test_folders_and_pipes_are_named_as_such(thawslide: Program, small_case: Pat
 
 
 def test_no_output_replaces_an_input(thawslide: Program, small_case: Path) -> None:
-    file = small_case / "case.toml"
-    profile = small_case / "profile.csv"
-    profile.write_text(PROFILE)
-    text = file.read_text().replace('type = "flat"\nelevation = 0.0', 'type = "profile"\nfile = "profile.csv"')
-    file.write_text(text)
-    for place in (file, profile):
+    for place in (with_profile(small_case), small_case / "case.toml"):
         before = place.read_bytes()
         for words in (["block", small_case, "--output", place], ["check", small_case, "--picture", place]):
-            outcome = thawslide(*words)
-            assert outcome.returncode == 2
-            assert outcome.stderr == (
+            message = thawslide.error(*words)
+            assert message == (
                 f"error: {words[-2]} {place} is an input of the case, which it would replace. Give another file.\n"
             )
         assert place.read_bytes() == before
-    assert thawslide("block", small_case, "--output", small_case / "rows.csv").returncode == 0
+    thawslide.ok("block", small_case, "--output", small_case / "rows.csv")
 
 
 def test_check_reports_facts_of_a_case_that_fails_in_its_first_steps(thawslide: Program, small_case: Path) -> None:
@@ -131,7 +106,7 @@ def test_check_reports_facts_of_a_case_that_fails_in_its_first_steps(thawslide: 
     outcome = thawslide("check", small_case, *words)
     assert outcome.returncode == 3
     assert "case.toml: the run fails in its first steps\n" in outcome.stdout and "  particles   64\n" in outcome.stdout
-    valid = json.loads(thawslide("check", small_case, "--json").stdout)
+    valid = thawslide.json("check", small_case)
     gpu = valid["gpu"]
     assert valid["error"] is None and (gpu["unavailable_reason"] is None) == (gpu["wall_s"] is not None)
 
@@ -143,27 +118,26 @@ def test_zero_drainage_by_default_has_a_warning_in_a_run_folder_too(
     file, run = small_case / "case.toml", tmp_path / "run"
     file.write_text(file.read_text() + '\n[band]\nmodel = "columns"\nthickness = 0.2\n')
     note = "material.rock.hydraulic_conductivity is 0 m/s, its default: pore water cannot drain"
-    assert note in thawslide("run", small_case, "--output", run, *sets(time__end=0.01)).stdout
-    assert note in thawslide("check", run).stdout
-    assert note in thawslide("run", run, "--output", tmp_path / "again").stdout
+    assert note in thawslide.ok("run", small_case, "--output", run, *sets(time__end=0.01))
+    assert note in thawslide.ok("check", run)
+    assert note in thawslide.ok("run", run, "--output", tmp_path / "again")
     assert (run / "case.toml").read_text() == (tmp_path / "again" / "case.toml").read_text()
-    assert note in thawslide("resume", run, "--end", 0.02).stdout
-    assert note not in thawslide("check", run, *sets(material__rock__hydraulic_conductivity=0)).stdout
+    assert note in thawslide.ok("resume", run, "--end", 0.02)
+    assert note not in thawslide.ok("check", run, *sets(material__rock__hydraulic_conductivity=0))
     shutil.rmtree(run)
     meant = sets(time__end=0.01, material__rock__hydraulic_conductivity=0)
-    assert thawslide("run", small_case, "--output", run, *meant).returncode == 0
-    assert note not in thawslide("check", run).stdout
+    thawslide.ok("run", small_case, "--output", run, *meant)
+    assert note not in thawslide.ok("check", run)
 
 
 def test_the_proposed_cell_fits_the_domain(thawslide: Program, small_case: Path) -> None:
     words = sets(body__block__max="[14.0,0.9]", time__step=0.0001)
-    message = thawslide("check", small_case, *words).stdout
+    message = thawslide.ok("check", small_case, *words)
     line = (small_case / "case.toml").read_text().splitlines().index("cell = 1.0") + 1
     place = f"warning: {small_case / 'case.toml'}:{line}:8: grid.cell: across the median thickness of body block, "
     (note,) = (each for each in message.splitlines() if each.startswith(place))
     assert note.endswith(" Set grid.cell to 0.25 m, at about 64 times the run time.")
-    finer = thawslide("check", small_case, *words, *sets(grid__cell=0.25))
-    assert finer.returncode == 0 and "too few particles" not in finer.stdout
+    assert "too few particles" not in thawslide.ok("check", small_case, *words, *sets(grid__cell=0.25))
 
 
 @pytest.mark.skipif(not Path("/proc/self/mem").exists(), reason="the system has no file whose first byte is an error")
@@ -171,8 +145,7 @@ def test_an_error_during_reading_is_reported_with_file_and_reason(thawslide: Pro
     broken = small_case / "broken.csv"
     broken.symlink_to("/proc/self/mem")
     message = f"{broken}: cannot be read: Input/output error. Check that the file is whole and may be read.\n"
-    outcome = thawslide("check", small_case, *sets(report__targets=broken))
-    assert outcome.returncode == 2
-    assert outcome.stderr == f"error: --set report.targets={broken}: report.targets: {message}"
+    error = thawslide.error("check", small_case, *sets(report__targets=broken))
+    assert error == f"error: --set report.targets={broken}: report.targets: {message}"
     outcome = thawslide("check", broken)
     assert (outcome.returncode, outcome.stderr) == (2, f"error: {message}")

@@ -1,4 +1,4 @@
-"""Damaged and missing files of a run: `resume` repairs them or continues without them, and reports it."""
+"""Damaged, missing and changed files of a run: `resume` repairs them or continues without them, or refuses them."""
 
 from __future__ import annotations
 
@@ -7,8 +7,19 @@ from pathlib import Path
 
 import h5py
 import pytest
-from conftest import Program, assert_bitwise_identical, history, run_facts, sets, snapshot_files
-from faults import mark_killed
+from conftest import (
+    LAMPLUGH,
+    Program,
+    Ran,
+    assert_bitwise_identical,
+    content_of,
+    history,
+    mark_killed,
+    run_facts,
+    sets,
+    snapshot_files,
+    with_profile,
+)
 
 WORDS = sets(checkpoint__interval=0.15)  # checkpoints at 0, 0.15 and 0.2 s; rows each 0.01 s, snapshots each 0.05 s
 
@@ -17,7 +28,7 @@ WORDS = sets(checkpoint__interval=0.15)  # checkpoints at 0, 0.15 and 0.2 s; row
 def uninterrupted(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
     """Return the folder of an uninterrupted run."""
     run = tmp_path / "uninterrupted"
-    assert thawslide("run", small_case, "--output", run, *WORDS).returncode == 0
+    thawslide.ok("run", small_case, "--output", run, *WORDS)
     return run
 
 
@@ -25,7 +36,7 @@ def uninterrupted(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
 def killed(thawslide: Program, small_case: Path, tmp_path: Path) -> Path:
     """Return the folder of a run that was killed after its checkpoint at 0.15 s and before the one at its end."""
     run = tmp_path / "run"
-    assert thawslide("run", small_case, "--output", run, *WORDS).returncode == 0
+    thawslide.ok("run", small_case, "--output", run, *WORDS)
     mark_killed(run)
     (run / "checkpoint.previous.bin").rename(run / "checkpoint.bin")
     return run
@@ -93,8 +104,7 @@ def test_lost_rows_are_reported(
     assert (killed / "history.csv").read_text().splitlines() == [rows[0], *(rows[1 + k] for k in left)]
     # After the report, the run continues like any other.
     mark_killed(killed)
-    outcome = thawslide("resume", killed)
-    assert outcome.returncode == 0 and "history.csv" not in outcome.stdout
+    assert "history.csv" not in thawslide.ok("resume", killed)
 
 
 def test_a_lost_history_starts_again(thawslide: Program, killed: Path) -> None:
@@ -111,7 +121,7 @@ def test_damaged_copies_are_removed_with_the_run(thawslide: Program, small_case:
     resumed(thawslide, killed)
     assert (killed / "history.damaged.csv").read_text() == "an earlier one\n"
     assert (killed / "history.damaged.2.csv").read_text() == ""
-    assert thawslide("run", small_case, "--output", killed, "--overwrite").returncode == 0
+    thawslide.ok("run", small_case, "--output", killed, "--overwrite")
     assert not list(killed.glob("*.damaged*"))
 
 
@@ -163,32 +173,27 @@ def test_lost_earlier_snapshots_are_reported(
     assert (killed / "history.csv").read_bytes() == (uninterrupted / "history.csv").read_bytes()
 
 
-def test_a_run_without_snapshots_is_completed(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    run = tmp_path / "run"
-    assert thawslide("run", small_case, "--output", run).returncode == 0
+def test_a_run_without_snapshots_is_completed(ran: Ran, thawslide: Program) -> None:
+    run = ran()
     mark_killed(run)
     for file in snapshot_files(run):
         file.unlink()
-    outcome = thawslide("resume", run)
-    assert outcome.returncode == 0, outcome.stderr
+    thawslide.ok("resume", run)
     assert not (run / "particles.vtkhdf").exists()
 
 
 @pytest.mark.parametrize(
-    ("text", "found"),
-    [("", "it is empty"), ("{\n", "it is not JSON from byte 3 on"), ("{}", "key 'parts' not found")],
+    ("text", "found"), [("", "it is empty"), ("{\n", "it is not JSON from byte 3 on"), ("{}", "key 'parts' not found")]
 )
 def test_a_damaged_run_json_is_reported_with_the_remedy(
     thawslide: Program, killed: Path, text: str, found: str
 ) -> None:
     (killed / "run.json").write_text(text)
     for command in ("resume", "status"):
-        outcome = thawslide(command, killed)
-        assert outcome.returncode == 2
-        assert outcome.stderr == (
+        message = thawslide.error(command, killed)
+        assert message == (
             f"error: {killed / 'run.json'} is damaged: {found}. Without it, the run cannot continue. Put back a copy "
-            f"of it, "
-            f"or run the case again into another folder: thawslide run {killed} --output OTHER.\n"
+            f"of it, or run the case again into another folder: thawslide run {killed} --output OTHER.\n"
         )
 
 
@@ -205,3 +210,58 @@ def test_resume_removes_only_temporary_files_of_the_run(thawslide: Program, kill
     resumed(thawslide, killed)
     assert foreign.exists() and all(file.exists() for file in own)
     assert not any(file.exists() for file in torn)
+
+
+def test_a_missing_terrain_file_is_written_again(thawslide: Program, done: Path) -> None:
+    mark_killed(done)
+    ground = (done / "terrain.csv").read_bytes()
+    (done / "terrain.csv").unlink()
+    thawslide.ok("resume", done)
+    assert (done / "terrain.csv").read_bytes() == ground
+
+
+def test_missing_maps_of_the_terrain_are_written_again(ran: Ran, thawslide: Program) -> None:
+    words = sets(grid__cell=60, time__end=0.1, time__output_interval=0.1)
+    run = ran(*words, case=LAMPLUGH.parent / "valley3d")
+    names = ("terrain.tif", "release.tif", "release.qml")
+    maps = {name: (run / "maps" / name).read_bytes() for name in names}
+    for name in names:
+        mark_killed(run)
+        (run / "maps" / name).unlink()
+        thawslide.ok("resume", run)
+        assert {each: (run / "maps" / each).read_bytes() for each in names} == maps
+
+
+@pytest.mark.parametrize(("name", "content"), [("case.toml", "other"), ("profile.csv", "no profile")])
+def test_a_changed_input_is_refused_and_a_changed_original_reported(
+    thawslide: Program, small_case: Path, tmp_path: Path, name: str, content: str
+) -> None:
+    """The original need not be that of the start, and the copy need not be valid."""
+    with_profile(small_case)
+    run, original = tmp_path / "run", small_case / name
+    thawslide.ok("run", small_case, "--output", run)
+    mark_killed(run)
+    original.write_text(original.read_text() + "# a remark\n")
+    warning = f"{original} has changed since the run began. The run continues with its copy, inputs/{name}\n"
+    assert f"warning: {warning}" in thawslide.ok("resume", run)
+    mark_killed(run)
+    copy = run / "inputs" / name
+    copy.write_text(content)
+    assert thawslide.error("resume", run) == (
+        f"error: {copy} has changed. A run continues with the inputs of its start (run.json has their SHA-256): put "
+        "them back, or run the case again.\n"
+    )
+
+
+@pytest.mark.parametrize("name", ["snapshots", "inputs"])
+def test_a_link_in_place_of_a_folder_of_a_run_is_refused(
+    thawslide: Program, done: Path, tmp_path: Path, name: str
+) -> None:
+    elsewhere = (done / name).rename(tmp_path / "elsewhere")
+    (done / name).symlink_to(elsewhere)
+    before = content_of(elsewhere)
+    assert thawslide.error("resume", done, "--end", 0.3) == (
+        f"error: {done / name} is a link; a run writes and reads its files in its own folder alone. Put the folder "
+        "itself there.\n"
+    )
+    assert content_of(elsewhere) == before

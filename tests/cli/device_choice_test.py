@@ -26,13 +26,12 @@ def test_a_missing_gpu_is_reported_before_anything_is_written(
 def test_auto_and_cpu_run_and_resume(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     for device in ("auto", "cpu"):
         run = tmp_path / device
-        assert thawslide("run", small_case, "--output", run, "--device", device).returncode == 0
+        thawslide.ok("run", small_case, "--output", run, "--device", device)
         reported = json.loads((run / "run.json").read_text())["parts"][0]["device"]
         assert device == "auto" or reported == ""
-        assert thawslide("resume", run, "--device", device).returncode == 0
+        thawslide.ok("resume", run, "--device", device)
 
 
 def test_another_device_is_refused(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    outcome = thawslide("run", small_case, "--output", tmp_path / "run", "--device", "tpu")
-    assert outcome.returncode == 2
-    assert "--device: tpu not in {cpu,gpu,auto}" in outcome.stderr
+    message = thawslide.error("run", small_case, "--output", tmp_path / "run", "--device", "tpu")
+    assert "--device: tpu not in {cpu,gpu,auto}" in message

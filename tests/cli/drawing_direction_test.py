@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from pathlib import Path
 from typing import Any
@@ -10,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 import rasterio
-from conftest import ROOT, Outcome, Program, history, run_facts, sets
-from terrain_files import EAST, NORTH, place, write_dem, write_geojson, write_line
+from conftest import ROOT, Outcome, Program, Ran, columns_of, history, run_facts, sets
+from terrain_files import EAST, NORTH, place, toml, write_dem, write_geojson, write_line
 
 FAULTS = ROOT.parent / "shared" / "data" / "faults"
 RING = [(105.0, 105.0), (205.0, 105.0), (205.0, 195.0), (105.0, 195.0)]
@@ -21,39 +20,18 @@ CELL = 10.0
 COLUMNS, ROWS = 80, 30
 COULOMB = {"heat__enabled": "false", "pressure__enabled": "false", "basal__friction": "constant"}
 
-CASE = f"""
-[case]
-dimension = 3
-[time]
-end = 1.5
-step = 0.01
-output_interval = 1.5
-history_interval = 0.5
-[grid]
-cell = {CELL}
-min = [{EAST + 15.0}, {NORTH + 15.0}, 550.0]
-max = [{EAST + 775.0}, {NORTH + 285.0}, 1050.0]
-[terrain]
-type = "dem"
-file = "dem.tif"
-[maps]
-path = "path.geojson"
-[probe.across]
-line = "across.geojson"
-[material.rock]
-law = "elastic"
-youngs_modulus = 2.0e7
-poisson_ratio = 0.2
-viscosity_time = 0.02
-[body.slide]
-material = "rock"
-shape = "release"
-release = "release.geojson"
-thickness = 20.0
-temperature = -5.0
-[basal]
-friction_angle = 12.0
-"""
+CASE = toml(f"""
+[case] dimension = 3
+[time] end = 1.5 | step = 0.01 | output_interval = 1.5 | history_interval = 0.5
+[grid] cell = {CELL} | min = [{EAST + 15.0}, {NORTH + 15.0}, 550.0] | max = [{EAST + 775.0}, {NORTH + 285.0}, 1050.0]
+[terrain] type = "dem" | file = "dem.tif"
+[maps] path = "path.geojson"
+[probe.across] line = "across.geojson"
+[material.rock] law = "elastic" | youngs_modulus = 2.0e7 | poisson_ratio = 0.2 | viscosity_time = 0.02
+[body.slide] material = "rock" | shape = "release" | release = "release.geojson" | thickness = 20.0
+  temperature = -5.0
+[basal] friction_angle = 12.0
+""")
 
 
 def valley(x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -85,11 +63,6 @@ def turn_rows(file: Path) -> None:
         raster.write(values[::-1], 1)
 
 
-def rows_of(file: Path) -> dict[str, np.ndarray]:
-    header, *rows = csv.reader(file.read_text().splitlines())
-    return dict(zip(header, np.array(rows, dtype=float).T, strict=True))
-
-
 def assert_alike(one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> None:
     """Fail unless all columns agree within round-off."""
     assert one.keys() == other.keys()
@@ -110,16 +83,14 @@ def test_run_block_and_probes_do_not_depend_on_the_drawing_direction(thawslide: 
     for is_reversed in (False, True):
         case = write_case(tmp_path / f"case-{is_reversed}", is_reversed=is_reversed)
         run = tmp_path / f"run-{is_reversed}"
-        done = thawslide("run", case, "--output", run, "--threads", 1, *sets(**COULOMB))
-        assert done.returncode == 0, done.stderr
+        printed = thawslide.ok("run", case, "--output", run, "--threads", 1, *sets(**COULOMB))
         reported = "maps.path: path.geojson was drawn against the direction of the slide; distances count from its last"
-        assert (reported in done.stdout) == is_reversed
-        slid = thawslide("block", case, "--output", tmp_path / "block.csv", *sets(**COULOMB, time__end=20))
-        assert slid.returncode == 0, slid.stderr
+        assert (reported in printed) == is_reversed
+        thawslide.ok("block", case, "--output", tmp_path / "block.csv", *sets(**COULOMB, time__end=20))
         runs[is_reversed] = {
             "history": history(run),
-            "probes": rows_of(run / "probes.csv"),
-            "block": rows_of(tmp_path / "block.csv"),
+            "probes": columns_of(run / "probes.csv"),
+            "block": columns_of(tmp_path / "block.csv"),
             "facts": {key: value for key, value in run_facts(run).items() if key.endswith(("distance_m", "degrees"))},
         }
     plain, turned = runs[False], runs[True]
@@ -132,14 +103,13 @@ def test_run_block_and_probes_do_not_depend_on_the_drawing_direction(thawslide: 
     assert (plain["block"]["driving_traction_Pa"][:1] > 0.0).all()
 
 
-def test_discharge_is_positive_downstream(thawslide: Program, tmp_path: Path) -> None:
+def test_discharge_is_positive_downstream(ran: Ran, tmp_path: Path) -> None:
     """The section just below the release is drawn in both directions."""
     for number, line in enumerate(([(201.0, 40.0), (201.0, 260.0)], [(201.0, 260.0), (201.0, 40.0)])):
-        case, run = write_case(tmp_path / f"case{number}"), tmp_path / f"run{number}"
+        case = write_case(tmp_path / f"case{number}")
         write_line(case / "across.geojson", line)
-        done = thawslide("run", case, "--output", run, "--threads", 1, *sets(**COULOMB))
-        assert done.returncode == 0, done.stderr
-        assert rows_of(run / "probes.csv")["across_discharge_m3_s"][-1] > 100.0
+        run = ran("--threads", 1, *sets(**COULOMB), case=case, name=f"run{number}")
+        assert columns_of(run / "probes.csv")["across_discharge_m3_s"][-1] > 100.0
 
 
 @pytest.mark.parametrize("start", [60.0, 105.0, 150.0, 201.0, 205.0, 231.7, 260.0, 320.0])
@@ -161,48 +131,26 @@ def test_section_keeps_its_direction_when_the_release_lies_at_the_first_end(
 ) -> None:
     case = write_case(tmp_path / "case", is_reversed=is_reversed)
     words = ["--dem", case / "dem.tif", "--release", case / "release.geojson", "--thickness", 20]
-    made = thawslide("section", tmp_path / "section", *words, "--line", case / "path.geojson")
-    assert made.returncode == 0, made.stderr
+    printed = thawslide.ok("section", tmp_path / "section", *words, "--line", case / "path.geojson")
     note = "warning: --line: path.geojson was drawn against the direction of the slide"
-    assert (note in made.stdout) == is_reversed
+    assert (note in printed) == is_reversed
     lines = (tmp_path / "section" / "profile.csv").read_text().splitlines()
     rows = np.array([line.split(",") for line in lines if line[0].isdigit()], dtype=float)
     assert rows[0, 1] < rows[-1, 1], "the opposite slope rises above the start"
     assert rows[np.argmax(rows[:, 2] - rows[:, 1]), 0] < 200.0, "the release is at the beginning"
 
 
-SLOPE_IN_PLANE = """
-[case]
-gravity_tilt = {tilt}
-[time]
-end = 1.5
-step = 0.002
-output_interval = 1.5
-history_interval = 0.5
-[grid]
-cell = 5.0
-min = [0.0, 0.0]
-max = [400.0, 400.0]
-[terrain]
-{ground}
-[material.rock]
-law = "elastic"
-youngs_modulus = 1.0e8
-poisson_ratio = 0.2
-viscosity_time = 0.02
-[body.slide]
-material = "rock"
-shape = "polygon"
-vertices = {vertices}
-velocity = [{velocity}, 0.0]
-[basal]
-friction = "constant"
-friction_angle = 10.0
-[heat]
-enabled = false
-[pressure]
-enabled = false
-"""
+SLOPE_IN_PLANE = toml("""
+[case] gravity_tilt = {tilt}
+[time] end = 1.5 | step = 0.002 | output_interval = 1.5 | history_interval = 0.5
+[grid] cell = 5.0 | min = [0.0, 0.0] | max = [400.0, 400.0]
+[terrain] {ground}
+[material.rock] law = "elastic" | youngs_modulus = 1.0e8 | poisson_ratio = 0.2 | viscosity_time = 0.02
+[body.slide] material = "rock" | shape = "polygon" | vertices = {vertices} | velocity = [{velocity}, 0.0]
+[basal] friction = "constant" | friction_angle = 10.0
+[heat] enabled = false
+[pressure] enabled = false
+""")
 
 
 def write_slope_in_plane(file: Path, sign: float, how: str) -> Path:
@@ -232,12 +180,10 @@ def test_slides_towards_lower_and_higher_x_are_mirror_images(thawslide: Program,
     rows, block = [], []
     for name, sign in (("right", 1.0), ("left", -1.0)):
         case = write_slope_in_plane(tmp_path / f"{name}.toml", sign, how)
-        done = thawslide("run", case, "--output", tmp_path / name, "--threads", 1)
-        assert done.returncode == 0, done.stderr
-        slid = thawslide("block", case, "--output", tmp_path / f"{name}-block.csv")
-        assert slid.returncode == 0, slid.stderr
+        thawslide.ok("run", case, "--output", tmp_path / name, "--threads", 1)
+        thawslide.ok("block", case, "--output", tmp_path / f"{name}-block.csv")
         rows.append(history(tmp_path / name))
-        block.append(rows_of(tmp_path / f"{name}-block.csv"))
+        block.append(columns_of(tmp_path / f"{name}-block.csv"))
     right, left = rows
     assert right["runout_m"][-1] > right["runout_m"][0] + 2.0
     for column in ("runout_m", "mean_displacement_m", "mean_velocity_m_s", "friction_work_J"):
@@ -261,12 +207,8 @@ def test_points_of_a_profile_that_coincide_in_the_domain_are_refused(thawslide: 
     rows = ["0.0,300.0", "200.0,180.0", "200.00000000000003,180.0", "400.0,60.0"]
     (tmp_path / "case.csv").write_text("\n".join(["distance_m,terrain_elevation_m", *rows]) + "\n")
     for command in ("check", "block"):
-        refused = thawslide(command, case)
-        assert refused.returncode == 2, refused.stderr
-        assert (
-            "case.csv:4: distance_m is 200.00000000000003 after 200; allowed: steps of 1e-06 m and more."
-            in refused.stderr
-        )
+        message = thawslide.error(command, case)
+        assert "case.csv:4: distance_m is 200.00000000000003 after 200; allowed: steps of 1e-06 m and more." in message
 
 
 def data_folder(name: str) -> Path:
@@ -290,8 +232,7 @@ def test_paths_drawn_uphill_give_the_same_front(thawslide: Program, tmp_path: Pa
         words = sets(maps__path=folder / f"line-{line}.gpkg")
         assert safety_factor(thawslide("block", folder / "case-3d.toml", *words)) == pytest.approx(0.464, abs=0.002)
         run = tmp_path / line
-        done = thawslide("run", folder / "case-3d.toml", *words, *sets(time__end=2), "--output", run, "--threads", 1)
-        assert done.returncode == 0, done.stderr
+        thawslide.ok("run", folder / "case-3d.toml", *words, *sets(time__end=2), "--output", run, "--threads", 1)
         ends[line] = {name: history(run)[name][-1] for name in ("front_position_m", "runout_m")}
     assert ends["up"] == pytest.approx(ends["down"], abs=1e-6)
     assert ends["late"]["runout_m"] == pytest.approx(ends["down"]["runout_m"], abs=1e-6)
@@ -304,10 +245,9 @@ def test_the_block_moves_alike_on_paths_with_different_starts(thawslide: Program
     for line in ("s150", "s105", "s305", "s333.3", "s360", "s420"):
         file = tmp_path / f"{line}.csv"
         words = sets(maps__path=folder / f"line-{line}.gpkg")
-        slid = thawslide("block", folder / "case.toml", *words, "--output", file)
-        assert slid.returncode == 0, slid.stderr
-        assert f"{line}.gpkg was drawn against" not in slid.stdout
-        slides[line] = rows_of(file)
+        printed = thawslide.ok("block", folder / "case.toml", *words, "--output", file)
+        assert f"{line}.gpkg was drawn against" not in printed
+        slides[line] = columns_of(file)
     expected = slides["s150"]
     strength, traction = (expected[name][0] for name in ("sliding_strength_Pa", "driving_traction_Pa"))
     assert strength / traction == pytest.approx(0.464, abs=0.0005)
@@ -323,20 +263,18 @@ def test_a_path_next_to_the_release_measures_the_front_only(thawslide: Program, 
     side, ends = folder / "line-side.gpkg", {}
     for line in ("down", "side"):
         words = sets(maps__path=folder / f"line-{line}.gpkg", time__end=2)
-        done = thawslide("run", folder / "case-3d.toml", *words, "--output", tmp_path / line, "--threads", 1)
-        assert done.returncode == 0, done.stderr
+        thawslide.ok("run", folder / "case-3d.toml", *words, "--output", tmp_path / line, "--threads", 1)
         ends[line] = {name: history(tmp_path / line)[name] for name in ("front_position_m", "runout_m")}
     for name, values in ends["down"].items():
         assert ends["side"][name] == pytest.approx(values, abs=1e-6)
         assert values[-1] > values[0] + 4.0
-    refused = thawslide("block", folder / "case-3d.toml", *sets(maps__path=side))
-    assert refused.returncode == 2
-    assert "the path misses the release of body 'slide' by 155 m. Draw it through the release." in refused.stderr
+    message = thawslide.error("block", folder / "case-3d.toml", *sets(maps__path=side))
+    assert "the path misses the release of body 'slide' by 155 m. Draw it through the release." in message
     ground = ["--dem", folder / "dem.tif", "--release", folder / "release.gpkg", "--thickness", 10]
     for line in ("side", "late"):
-        refused = thawslide("section", tmp_path / "section", *ground, "--line", folder / f"line-{line}.gpkg")
-        assert refused.returncode == 2 and not (tmp_path / "section").exists()
-        assert f"line-{line}.gpkg: the line does not cross the release" in refused.stderr
+        message = thawslide.error("section", tmp_path / "section", *ground, "--line", folder / f"line-{line}.gpkg")
+        assert not (tmp_path / "section").exists()
+        assert f"line-{line}.gpkg: the line does not cross the release" in message
 
 
 def test_distances_count_from_the_start_of_the_path(thawslide: Program, tmp_path: Path) -> None:
@@ -345,9 +283,8 @@ def test_distances_count_from_the_start_of_the_path(thawslide: Program, tmp_path
     for line in ("down", "late"):
         file = tmp_path / f"{line}.csv"
         words = sets(maps__path=folder / f"line-{line}.gpkg")
-        slid = thawslide("block", folder / "case-3d.toml", *words, "--output", file)
-        assert slid.returncode == 0, slid.stderr
-        fronts[line] = rows_of(file)["front_position_m"]
+        thawslide.ok("block", folder / "case-3d.toml", *words, "--output", file)
+        fronts[line] = columns_of(file)["front_position_m"]
     assert fronts["down"][0] == pytest.approx(270.0, abs=1e-6), "the release ends at x = 500300, the path starts at 30"
     assert fronts["late"] == pytest.approx(fronts["down"] - 390.0, abs=1e-3)
 
@@ -361,10 +298,8 @@ def test_paths_up_the_opposite_slope_do_not_depend_on_direction(thawslide: Progr
         note = f"maps.path: line-{line}.gpkg was drawn against the direction of the slide"
         for command in (["run", folder / "case-3d.toml", "--threads", 1], ["block", folder / "case-3d.toml"]):
             output = run if command[0] == "run" else file
-            done = thawslide(*command, *words, "--output", output)
-            assert done.returncode == 0, done.stderr
-            assert (note in done.stdout) == (line == "runup_reversed")
-        slides[line] = {"run": history(run), "block": rows_of(file)}
+            assert (note in thawslide.ok(*command, *words, "--output", output)) == (line == "runup_reversed")
+        slides[line] = {"run": history(run), "block": columns_of(file)}
     for plain, turned in zip(slides["runup"].values(), slides["runup_reversed"].values(), strict=True):
         assert_alike(plain, turned)
     front, block_front = (slides["runup"][name]["front_position_m"] for name in ("run", "block"))
@@ -374,8 +309,7 @@ def test_paths_up_the_opposite_slope_do_not_depend_on_direction(thawslide: Progr
 
 
 @pytest.mark.parametrize(
-    ("dem", "lines", "end"),
-    [("dem", ("down", "up"), 501250), ("valley", ("runup", "runup_reversed"), 501480)],
+    ("dem", "lines", "end"), [("dem", ("down", "up"), 501250), ("valley", ("runup", "runup_reversed"), 501480)]
 )
 def test_sections_drawn_uphill_begin_at_the_release(
     thawslide: Program, tmp_path: Path, dem: str, lines: tuple[str, str], end: int
@@ -384,10 +318,9 @@ def test_sections_drawn_uphill_begin_at_the_release(
     folder = data_folder("g03-path-uphill")
     words = ["--dem", folder / f"{dem}.tif", "--release", folder / "release.gpkg", "--thickness", 10]
     for line in lines:
-        made = thawslide("section", tmp_path / line, *words, "--line", folder / f"line-{line}.gpkg")
-        assert made.returncode == 0, made.stderr
+        printed = thawslide.ok("section", tmp_path / line, *words, "--line", folder / f"line-{line}.gpkg")
         note = f"warning: --line: line-{line}.gpkg was drawn against the direction of the slide"
-        assert (note in made.stdout) == (line == lines[1])
+        assert (note in printed) == (line == lines[1])
         text = (tmp_path / line / "profile.csv").read_text().splitlines()
         assert text[1] == f"# From x = 500030, y = 5200300 to x = {end}, y = 5200300 in EPSG:32633."
         rows = np.array([each.split(",") for each in text if each[0].isdigit()], dtype=float)

@@ -1,8 +1,9 @@
-"""Runs that fail: exit code 3, particle, position, time and likely cause in the message; the last state is written."""
+"""Runs that fail or reach unphysical temperatures: exit codes, messages with position, time and cause, last state."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import h5py
@@ -17,14 +18,13 @@ PATTERN = (
 
 def expect_failure(thawslide: Program, case: Path, run: Path, *words: str) -> re.Match[str]:
     """Run a case that must fail, check its files, and return the match of the message."""
-    outcome = thawslide("run", case, "--output", run, *words)
-    assert outcome.returncode == 3, outcome.stderr
-    reported = re.fullmatch(PATTERN, outcome.stderr)
-    assert reported, outcome.stderr
+    message = thawslide.error("run", case, "--output", run, *words, code=3)
+    reported = re.fullmatch(PATTERN, message)
+    assert reported, message
     time, step, particle = float(reported[1]), int(reported[2]), int(reported[3])
     facts = run_facts(run)
     assert facts["status"] == "failed"
-    assert f"error: {facts['message']}\n" == outcome.stderr
+    assert f"error: {facts['message']}\n" == message
     assert facts["simulated_time_s"] == pytest.approx(time, rel=1e-5) and facts["steps"] == step
     columns = history(run)
     assert columns["step"][-1] == step and columns["time_s"][-1] == pytest.approx(time, rel=1e-5)
@@ -76,18 +76,76 @@ def test_a_time_step_too_long_for_the_load_is_named_as_cause(
         *sets(time__step=0.004, case__gravity=1e5, mechanics__initial_stress='"none"'),
         *sets(body__block__min="[10,4]", body__block__max="[14,8]"),
     ]
-    outcome = thawslide("run", small_case, "--output", tmp_path / "guarded", *fall)
-    assert outcome.returncode == 3
+    message = thawslide.error("run", small_case, "--output", tmp_path / "guarded", *fall, code=3)
     assert re.fullmatch(
-        r"error: the run failed at t = \S+ s \(step \d+\): energy grew by \S+ J per m of width without a "
-        r"physical cause, \S+ % of all energy so far \(guards\.energy_growth allows 25 %\)\. The fastest "
-        r"particle, \d+ of body 'block' at "
-        r"\(\S+, \S+\) m, moves at \S+ m/s, the slide at \S+ m/s on average\. Likely cause: the step is too long for "
-        r"the material, the material is too soft for its load, or it has separated\. Try half of "
-        r"time\.step, a viscosity_time in the material, or mechanics\.transfer = \"blend\" with "
-        r"mechanics\.pic_fraction = 0\.02\.\n",
-        outcome.stderr,
-    ), outcome.stderr
+        r"error: the run failed at t = \S+ s \(step \d+\): energy grew by \S+ J per m of width without a physical "
+        r"cause, \S+ % of all energy so far \(guards\.energy_growth allows 25 %\)\. The fastest particle, \d+ of body "
+        r"'block' at \(\S+, \S+\) m, moves at \S+ m/s, the slide at \S+ m/s on average\. Likely cause: the step is too "
+        r"long for the material, the material is too soft for its load, or it has separated\. Try half of time\.step, "
+        r"a viscosity_time in the material, or mechanics\.transfer = \"blend\" with mechanics\.pic_fraction = "
+        r"0\.02\.\n",
+        message,
+    ), message
     reported = expect_failure(thawslide, small_case, tmp_path / "run", *fall, *sets(guards__energy_growth="inf"))
     assert reported[7] == "its volume ratio is not positive"
     assert reported[8].startswith("the step is too long for the material")
+
+
+# A block at 100 m/s whose friction pore pressure does not reduce: a band of 1 mm boils dry within half a second.
+FAST = sets(
+    grid__max="[220.0, 10.0]",
+    body__block__velocity="[100.0, 0.0]",
+    basal__friction="coefficient",
+    basal__friction_coefficient=0.8,
+    band__thickness=0.001,
+    time__end=0.5,
+)
+
+RunWarnings = Callable[..., list[str]]
+
+
+def notes(stdout: str) -> list[str]:
+    return re.findall(r"^warning: at .*$", stdout, flags=re.MULTILINE)
+
+
+@pytest.fixture
+def warnings_of_run(thawslide: Program, small_case: Path, tmp_path: Path) -> RunWarnings:
+    def run(*more: str) -> list[str]:
+        case = small_case / "case.toml"
+        case.write_text(case.read_text().replace("friction_angle = 10.0\n", ""))
+        return notes(thawslide.ok("run", case, "--output", tmp_path / "run", "--overwrite", *more))
+
+    return run
+
+
+def limits(notes: list[str]) -> list[int]:
+    """Return the temperature limits in warnings, which must increase."""
+    found = [int(re.search(r"passes ([\d,]+) C", note)[1].replace(",", "")) for note in notes]  # type: ignore[index]
+    assert found == sorted(set(found))
+    return found
+
+
+def test_columns_that_boil_dry_are_reported_once(warnings_of_run: RunWarnings) -> None:
+    note, *later = warnings_of_run(*FAST)
+    found = re.match(r"warning: at [\d.]+ s (\d+ columns|a column) .*boiled dry, and the hottest is at (\d+) C", note)
+    assert found, note
+    assert 100 < int(found[2]) < 5000
+    assert set(limits(later)) <= {500, 1000, 2000}
+    assert "no longer limits temperature and friction" in note
+
+
+def test_columns_without_steam_do_not_boil(warnings_of_run: RunWarnings) -> None:
+    notes = warnings_of_run(*FAST, *sets(heat__steam="false"))
+    assert limits(notes)[-1] >= 1000
+    for note in notes:
+        assert "Nothing boils, as heat.steam is false: temperatures above 100 C are not physical" in note
+
+
+def test_particles_of_the_scaled_band_do_not_boil(warnings_of_run: RunWarnings) -> None:
+    notes = warnings_of_run(*FAST, *sets(band__model="scaled", band__thickness=0.01))
+    assert limits(notes)
+    assert "Nothing in the model boils: temperatures above 100 C are not physical" in notes[0]
+
+
+def test_a_cold_base_has_no_warning(warnings_of_run: RunWarnings) -> None:
+    assert warnings_of_run(*sets(basal__friction_angle=10, band__thickness=0.1)) == []

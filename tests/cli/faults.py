@@ -14,8 +14,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
-from conftest import LAMPLUGH, datasets, sets
+from conftest import LAMPLUGH, datasets, mark_killed, run_facts, sets
 
 ROOT = Path(__file__).resolve().parents[2]
 FAILING_WRITES = ROOT / "build" / "release" / "tests" / "failing_writes.so"
@@ -66,19 +67,10 @@ def digest(run: Path) -> dict[str, str]:
     }
 
 
-def mark_killed(run: Path) -> None:
-    """Set run.json to that of a run whose process was killed."""
-    text = (run / "run.json").read_text()
-    assert text.count('"status": "done"') == 1
-    (run / "run.json").write_text(text.replace('"status": "done"', '"status": "running"'))
-
-
 def before_its_first_checkpoint(run: Path) -> None:
     """Change a finished run to one that was killed just before its first checkpoint."""
     mark_killed(run)
-    facts = json.loads((run / "run.json").read_text())
-    facts.update(steps=0, simulated_time_s=0.0)
-    (run / "run.json").write_text(json.dumps(facts))
+    (run / "run.json").write_text(json.dumps(run_facts(run) | {"steps": 0, "simulated_time_s": 0.0}))
     for name in ("checkpoint.bin", "checkpoint.previous.bin"):
         (run / name).unlink()
     rows = (run / "history.csv").read_text().splitlines(keepends=True)
@@ -104,10 +96,15 @@ def command_of(program: Path, subject: Subject, run: Path) -> list[str]:
     return [str(program), "run", str(subject.case), "--output", str(run), "--threads", "1", *subject.words]
 
 
+def finish(command: list[str], **more: Any) -> subprocess.CompletedProcess[str]:
+    """Run a command to its end."""
+    return subprocess.run(command, capture_output=True, text=True, check=False, **more)
+
+
 def undisturbed(program: Path, subject: Subject, run: Path) -> tuple[dict[str, str], float]:
     """Run the subject; return the digest of its files and its duration [s]."""
     begin = time.monotonic()
-    done = subprocess.run(command_of(program, subject, run), capture_output=True, text=True, check=False)
+    done = finish(command_of(program, subject, run))
     assert done.returncode == 0, done.stderr
     return digest(run), time.monotonic() - begin
 
@@ -129,11 +126,9 @@ def unreadable(run: Path) -> list[str]:
 
 def resume_or_restart(program: Path, subject: Subject, run: Path) -> list[str]:
     """Resume a run, or restart it if it had not begun; return errors."""
-    outcome = subprocess.run(
-        [str(program), "resume", str(run), "--threads", "1"], capture_output=True, text=True, check=False
-    )
+    outcome = finish([str(program), "resume", str(run), "--threads", "1"])
     if outcome.returncode == 2 and NOT_BEGUN in outcome.stderr:
-        outcome = subprocess.run(command_of(program, subject, run), capture_output=True, text=True, check=False)
+        outcome = finish(command_of(program, subject, run))
     return [] if outcome.returncode == 0 else [f"resuming ended with {outcome.returncode}: {outcome.stderr.strip()}"]
 
 
@@ -178,9 +173,7 @@ def environment_of_fault(run: Path, at: int, kind: str, reason: str, count: Path
 def calls_that_write(program: Path, subject: Subject, run: Path, count: Path) -> int:
     """Return how many calls of an undisturbed run change its folder."""
     environment = environment_of_fault(run, 0, "once", "full", count)
-    done = subprocess.run(
-        command_of(program, subject, run), env=environment, capture_output=True, text=True, check=False
-    )
+    done = finish(command_of(program, subject, run), env=environment)
     assert done.returncode == 0, done.stderr
     return int(count.read_text())
 
@@ -190,9 +183,7 @@ def failing(
 ) -> Trial:
     """Let the writing call number `at` fail, resume the run without failures and compare."""
     environment = environment_of_fault(run, at, kind, reason)
-    outcome = subprocess.run(
-        command_of(program, subject, run), env=environment, capture_output=True, text=True, check=False
-    )
+    outcome = finish(command_of(program, subject, run), env=environment)
     lines = outcome.stderr.strip().splitlines()
     reported = lines[0] if lines else ""
     remarks = []
@@ -213,9 +204,7 @@ def limited(program: Path, subject: Subject, run: Path, expected: dict[str, str]
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, resource.RLIM_INFINITY))
 
-    outcome = subprocess.run(
-        command_of(program, subject, run), preexec_fn=limit, capture_output=True, text=True, check=False
-    )
+    outcome = finish(command_of(program, subject, run), preexec_fn=limit)
     remarks = [] if outcome.returncode in (2, 5) and "File too large" in outcome.stderr else [outcome.stderr]
     remarks += resume_or_restart(program, subject, run)
     changed = changed_files(expected, digest(run))
@@ -237,7 +226,7 @@ def on_small_disk(
         return None
     try:
         run = disk / "run"
-        outcome = subprocess.run(command_of(program, subject, run), capture_output=True, text=True, check=False)
+        outcome = finish(command_of(program, subject, run))
         is_reported = "No space left" in outcome.stderr or "The disk may be full" in outcome.stderr
         remarks = [] if outcome.returncode in (2, 5) and is_reported else [outcome.stderr]
         subprocess.run(["mount", "-o", f"remount,size={sizes[1]}k", str(disk)], check=True)

@@ -9,19 +9,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from conftest import Program, content_of, run_facts, sets, snapshot_files
-from faults import mark_killed
-from slope_files import SOUTH, THICKNESS, WEST, Slope, made
+from conftest import Program, Ran, Slope, content_of, mark_killed, run_facts, sets, snapshot_files, with_profile
+from terrain_files import SOUTH, WEST
 
-SOON = 20.0  # s: limit for commands that could block forever
 NO_FILE = "a regular file is needed. Replace it by the file itself, or remove it.\n"
-
-
-@pytest.fixture
-def killed(done: Path) -> Path:
-    """Return the folder of a run that was killed after its last checkpoint."""
-    mark_killed(done)
-    return done
 
 
 @pytest.fixture
@@ -46,42 +37,39 @@ def test_a_link_in_place_of_the_rows_is_replaced(
     reset_to_start(killed)
     rows = killed / "history.csv"
     rows.symlink_to(victim)
-    outcome = thawslide("resume", killed)
-    assert outcome.returncode == 0, outcome.stderr
-    assert "it starts again" in outcome.stdout
+    assert "it starts again" in thawslide.ok("resume", killed)
     assert victim.read_text() == "mine\n" and not rows.is_symlink() and rows.read_text().count("\n") > 10
     complete = rows.read_bytes()
     mark_killed(killed)
     rows.rename(victim)
     rows.symlink_to(victim)
-    assert thawslide("resume", killed).returncode == 0
+    thawslide.ok("resume", killed)
     assert victim.read_bytes() == complete and not rows.is_symlink() and rows.read_bytes() == complete
     rows.unlink()
     rows.symlink_to(victim)
-    assert thawslide("run", small_case, "--output", killed, "--overwrite").returncode == 0
+    thawslide.ok("run", small_case, "--output", killed, "--overwrite")
     assert victim.read_bytes() == complete and not rows.is_symlink()
 
 
 def test_a_3d_run_changes_no_foreign_files(
-    thawslide: Program, small_case: Path, tmp_path: Path, slope: Slope, release: Path, victim: Path
+    ran: Ran, thawslide: Program, small_case: Path, tmp_path: Path, slope: Slope, victim: Path
 ) -> None:
     """A link in place of probes is replaced; a replaced run is removed with all its maps, and no others."""
-    folder, run = tmp_path / "slide", tmp_path / "run"
-    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
+    folder = tmp_path / "slide"
+    slope.ok()
     with (folder / "case.toml").open("a") as case:
         case.write(f"\n[probe.gauge]\npoint = [{WEST + 330.0}, {SOUTH + 300.0}]\n")
     words = sets(time__end=0.2, time__output_interval=0.1)
-    assert thawslide("run", folder, "--output", run, *words).returncode == 0
+    run = ran(*words, case=folder)
     mark_killed(run)
     reset_to_start(run)
     (run / "probes.csv").symlink_to(victim)
-    outcome = thawslide("resume", run)
-    assert outcome.returncode == 0, outcome.stderr
+    thawslide.ok("resume", run)
     assert victim.read_text() == "mine\n" and not (run / "probes.csv").is_symlink()
     assert len(list((run / "maps").iterdir())) > 20
     alps = run / "maps" / "alps.tif"
     alps.write_text("mine\n")
-    assert thawslide("run", small_case, "--output", run, "--overwrite").returncode == 0
+    thawslide.ok("run", small_case, "--output", run, "--overwrite")
     assert list((run / "maps").iterdir()) == [alps] and not (run / "probes.csv").exists()
     alps.unlink()
     (run / "maps").rmdir()
@@ -94,17 +82,15 @@ def test_a_folder_with_names_of_run_files_is_not_a_run(thawslide: Program, small
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text("mine\n")
     before = content_of(folder)
-    outcome = thawslide("run", small_case, "--output", folder, "--overwrite")
-    assert outcome.returncode == 2
-    assert outcome.stderr == (
+    message = thawslide.error("run", small_case, "--output", folder, "--overwrite")
+    assert message == (
         f"error: the output folder {folder} contains other files, and no run. Specify another --output.\n"
     )
     (folder / "run.json").write_text('{"km": 12}')
-    outcome = thawslide("run", small_case, "--output", folder, "--overwrite")
-    assert outcome.returncode == 2
+    message = thawslide.error("run", small_case, "--output", folder, "--overwrite")
     assert (
         "its run.json is damaged, or was written by another program. Specify another --output, or delete the folder."
-        in outcome.stderr
+        in message
     )
     (folder / "run.json").unlink()
     assert content_of(folder) == before
@@ -115,23 +101,17 @@ def test_replacing_a_run_keeps_foreign_files(thawslide: Program, small_case: Pat
     for file in mine:
         file.parent.mkdir(exist_ok=True)
         file.write_text("mine\n")
-    outcome = thawslide("run", small_case, "--output", done, "--overwrite", *sets(time__end=0.05))
-    assert outcome.returncode == 0, outcome.stderr
+    thawslide.ok("run", small_case, "--output", done, "--overwrite", *sets(time__end=0.05))
     assert all(file.read_text() == "mine\n" for file in mine)
     assert len(snapshot_files(done)) == 2
 
 
 @pytest.mark.parametrize("name", ["valley.1.part.csv", "x.7.part"])
-def test_an_input_can_have_the_suffix_part(thawslide: Program, small_case: Path, tmp_path: Path, name: str) -> None:
-    (small_case / name).write_text("distance_m,terrain_elevation_m\n0,0\n20,0\n")
-    case = small_case / "case.toml"
-    case.write_text(case.read_text().replace('type = "flat"\nelevation = 0.0', f'type = "profile"\nfile = "{name}"'))
-    run = tmp_path / "run"
-    outcome = thawslide("run", small_case, "--output", run)
-    assert outcome.returncode == 0, outcome.stderr
+def test_an_input_can_have_the_suffix_part(ran: Ran, thawslide: Program, small_case: Path, name: str) -> None:
+    with_profile(small_case, name=name)
+    run = ran()
     mark_killed(run)
-    outcome = thawslide("resume", run)
-    assert outcome.returncode == 0, outcome.stderr
+    thawslide.ok("resume", run)
     assert (run / "inputs" / name).is_file()
 
 
@@ -139,25 +119,23 @@ def test_an_unreadable_checkpoint_is_replaced_by_the_previous_one(thawslide: Pro
     last = killed / "checkpoint.bin"
     last.unlink()
     last.mkdir()
-    outcome = thawslide("resume", killed)
-    assert outcome.returncode == 0, outcome.stderr
+    printed = thawslide.ok("resume", killed)
     note = (
         f"{last} is a folder, no file; it is kept as checkpoint.damaged.bin, and the run continues from the previous "
         f"checkpoint"
     )
-    assert outcome.stdout.startswith(f"warning: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
+    assert printed.startswith(f"warning: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
     assert (killed / "checkpoint.damaged.bin").is_dir() and last.is_file()
 
 
 def test_a_missing_checkpoint_is_reported(thawslide: Program, killed: Path) -> None:
     last = killed / "checkpoint.bin"
     last.unlink()
-    status = thawslide("status", killed).stdout
+    status = thawslide.ok("status", killed)
     assert "  last checkpoint " in status and "no checkpoint yet" not in status
-    outcome = thawslide("resume", killed)
-    assert outcome.returncode == 0, outcome.stderr
+    printed = thawslide.ok("resume", killed)
     note = f"{last} is missing; the run continues from the previous checkpoint"
-    assert outcome.stdout.startswith(f"warning: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
+    assert printed.startswith(f"warning: {note}\n") and run_facts(killed)["parts"][-1]["warnings"] == [note]
     assert last.is_file() and not list(killed.glob("*.damaged*"))
 
 
@@ -174,12 +152,11 @@ def test_foreign_snapshots_are_excluded(thawslide: Program, killed: Path, damage
                 opened["VTKHDF"].attrs["time"] = np.ones(4000)
             else:
                 opened["VTKHDF/PointData/mass"].attrs["unit"] = np.full(4000, b"kilogram")
-    outcome = thawslide("resume", killed, limit=SOON)
-    assert outcome.returncode == 0, outcome.stderr
+    printed = thawslide.ok("resume", killed)
     assert (
         "warning: of the 5 snapshots up to here these are missing or cannot be read: 000001; particles.vtkhdf omits "
         "them\n"
-    ) in outcome.stdout
+    ) in printed
 
 
 @pytest.mark.parametrize(("name", "kind"), [("pipe", "a pipe"), ("/dev/zero", "a device")])
@@ -190,7 +167,7 @@ def test_pipes_and_devices_do_not_block_commands(
     os.mkfifo(tmp_path / "pipe")
     (killed / file).unlink()
     (killed / file).symlink_to(tmp_path / name)  # an absolute name replaces tmp_path
-    status, resume = thawslide("status", killed, limit=SOON), thawslide("resume", killed, limit=SOON)
+    status, resume = thawslide("status", killed), thawslide("resume", killed)
     if file == "checkpoint.bin":
         assert (status.returncode, resume.returncode) == (0, 0), resume.stderr
         assert f"warning: {killed / file} is {kind}, no file; it is kept as " in resume.stdout
@@ -214,7 +191,7 @@ def test_status_works_with_an_unreadable_history(thawslide: Program, killed: Pat
     assert second == "  0.2 of 0.2 s simulated (100 %)\n"
     assert third == f"  it may have come further: {rows} is a folder; {NO_FILE}"
     assert fourth.startswith("  last checkpoint ") and fifth == f"  to continue: thawslide resume {killed}\n"
-    assert json.loads(thawslide("status", killed, "--json").stdout)["state"] == "killed"
+    assert thawslide.json("status", killed)["state"] == "killed"
 
 
 def test_lost_output_exits_with_5(binary: Path, done: Path) -> None:

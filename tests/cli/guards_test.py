@@ -11,6 +11,7 @@ from conftest import (
     LAMPLUGH,
     Interrupted,
     Program,
+    Ran,
     assert_bitwise_identical,
     content_of,
     history,
@@ -24,10 +25,9 @@ SLIDES = sets(time__end=5, body__block__velocity="[2,0]", material__rock__viscos
 RESTS = [*SLIDES, *sets(time__stop_at_rest=0.1, time__rest_time=0.4)]
 
 
-def test_a_run_ends_at_rest(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    run, complete = tmp_path / "run", tmp_path / "complete"
-    outcome = thawslide("run", small_case, "--output", run, *RESTS)
-    assert outcome.returncode == 0, outcome.stderr
+def test_a_run_ends_at_rest(ran: Ran, thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    printed = thawslide.ok("run", small_case, "--output", run, *RESTS)
     facts = run_facts(run)
     reported = re.fullmatch(
         r"the slide is at rest: since t = (\S+) s no more than 0\.5 % of its mass has moved faster than 0\.1 m/s "
@@ -35,56 +35,74 @@ def test_a_run_ends_at_rest(thawslide: Program, small_case: Path, tmp_path: Path
         facts["message"],
     )
     assert reported, facts["message"]
-    assert outcome.stdout.endswith(facts["message"] + "\n")
+    assert printed.endswith(facts["message"] + "\n")
     assert facts["status"] == "done"
     end = facts["simulated_time_s"]
     assert end == pytest.approx(float(reported[1]) + 0.4, abs=0.0101) and 1.0 < end < 2.0
     # All outputs have that time; until then the run equals the one without the key.
     columns = history(run)
     assert columns["time_s"][-1] == end
-    assert thawslide("run", small_case, "--output", complete, *SLIDES, *sets(time__end=end)).returncode == 0
+    complete = ran(*SLIDES, *sets(time__end=end), name="complete")
     assert_bitwise_identical(run, complete)
 
 
-def test_resume_does_not_change_a_run_at_rest(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    run = tmp_path / "run"
-    assert thawslide("run", small_case, "--output", run, *RESTS).returncode == 0
-    before = content_of(run)
-    outcome = thawslide("resume", run)
-    assert outcome.returncode == 0
-    end = run_facts(run)["simulated_time_s"]
+def test_a_run_at_rest_is_not_changed_and_continues_by_a_changed_case(ran: Ran, thawslide: Program) -> None:
+    """Each change runs until the rest that it defines; the advice of `resume` works."""
+    run = ran(*RESTS)
+    before, rest = content_of(run), run_facts(run)["simulated_time_s"]
     reported = run_facts(run)["message"]
     assert reported.startswith("the slide is at rest: ")
-    assert outcome.stdout == f"{run} has reached its end at {end:g} s: {reported}; nothing to do\n"
+    assert thawslide.ok("resume", run) == f"{run} has reached its end at {rest:g} s: {reported}; nothing to do\n"
+    assert thawslide.ok("resume", run, "--end", 6) == (
+        f"{run} has come to rest at {rest:g} s; nothing to do. To continue it, add --set time.stop_at_rest=0\n"
+    )
     assert content_of(run) == before
+    thawslide.ok("resume", run, *sets(time__rest_time=0.6))
+    longer = run_facts(run)
+    assert longer["simulated_time_s"] == pytest.approx(rest + 0.2, abs=0.02)
+    assert longer["message"].startswith("the slide is at rest")
+    thawslide.ok("resume", run, *sets(time__rest_time=0.4, basal__friction_angle=5))
+    again = run_facts(run)
+    assert again["simulated_time_s"] == pytest.approx(longer["simulated_time_s"] + 0.4, abs=0.03)
+    assert again["parts"][-1]["changes"] == ["time.rest_time=0.4", "basal.friction_angle=5"]
+    thawslide.ok("resume", run, "--end", again["simulated_time_s"] + 0.5, "--set", "time.stop_at_rest=0")
+    assert run_facts(run)["simulated_time_s"] == pytest.approx(again["simulated_time_s"] + 0.5)
+    assert run_facts(run)["message"] == ""
+    text = (run / "case.toml").read_text()
+    assert "stop_at_rest = 0.0 " in text and "rest_time = 0.4 " in text
+
+
+def test_a_run_at_rest_without_its_last_checkpoint_ends_at_the_same_rest(ran: Ran, thawslide: Program) -> None:
+    run = ran(*RESTS, *sets(checkpoint__interval=0.3, time__history_interval=0.1, time__output_interval=1))
+    rows = (run / "history.csv").read_bytes()
+    (run / "checkpoint.bin").unlink()
+    thawslide.ok("resume", run, "--end", 5.5)
+    assert (run / "history.csv").read_bytes() == rows
 
 
 @pytest.mark.parametrize("slides", [True, False])
 def test_a_mass_already_at_rest_ends_the_resumed_run_only_if_it_has_moved(
-    thawslide: Program, small_case: Path, tmp_path: Path, slides: bool
+    ran: Ran, thawslide: Program, slides: bool
 ) -> None:
     """A mass has moved if its displacement exceeds a cell."""
-    run = tmp_path / "run"
     words = [*SLIDES, *sets(time__end=2.5, body__block__velocity="[2,0]" if slides else "[0,0]")]
-    assert thawslide("run", small_case, "--output", run, *words).returncode == 0
+    run = ran(*words)
     assert history(run)["max_velocity_m_s"][-1] < 0.1
     rest = sets(time__stop_at_rest=0.1, time__rest_time=0.4)
-    assert thawslide("resume", run, "--end", 4, *rest).returncode == 0
+    thawslide.ok("resume", run, "--end", 4, *rest)
     end = run_facts(run)["simulated_time_s"]
     assert end == pytest.approx(2.91, abs=0.02) if slides else end == pytest.approx(4)
 
 
-def test_a_stop_during_rest_does_not_change_the_end(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    run, complete = tmp_path / "run", tmp_path / "complete"
-    assert thawslide("run", small_case, "--output", complete, *RESTS).returncode == 0
+def test_a_stop_during_rest_does_not_change_the_end(ran: Ran, thawslide: Program, small_case: Path) -> None:
+    complete = ran(*RESTS, name="complete")
     end = run_facts(complete)["simulated_time_s"]
     stop = round(end - 0.2, 2)
     words = sets(time__output_interval=10, time__history_interval=0.1)
-    assert thawslide("run", small_case, "--output", complete, "--overwrite", *RESTS, *words).returncode == 0
-    assert thawslide("run", small_case, "--output", run, *RESTS, *words, *sets(time__end=stop)).returncode == 0
+    thawslide.ok("run", small_case, "--output", complete, "--overwrite", *RESTS, *words)
+    run = ran(*RESTS, *words, *sets(time__end=stop))
     assert run_facts(run)["simulated_time_s"] == pytest.approx(stop)
-    outcome = thawslide("resume", run, "--end", 5)
-    assert outcome.returncode == 0, outcome.stderr
+    thawslide.ok("resume", run, "--end", 5)
     assert run_facts(run)["simulated_time_s"] == end
     assert run_facts(run)["message"] == run_facts(complete)["message"]
     assert history(run)["kinetic_J"][-1] == history(complete)["kinetic_J"][-1]
@@ -96,28 +114,19 @@ def test_a_stop_during_rest_does_not_change_the_end(thawslide: Program, small_ca
 def test_an_instability_does_not_advise_a_wider_domain(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     """With contact one cell too early, the ground rebounds the falling block with more energy than it had."""
     run = tmp_path / "run"
-    fall = sets(
-        time__end=2,
-        body__block__min="[10,3]",
-        body__block__max="[14,6]",
-        basal__distance_check="false",
-    )
-    outcome = thawslide("run", small_case, "--output", run, *fall, *sets(guards__energy_growth=0.001))
-    assert outcome.returncode == 3, outcome.stdout
-    assert "J per m of width without a physical cause" in outcome.stderr
-    assert "Set it to true" in outcome.stderr and "widen" not in outcome.stderr
+    fall = sets(time__end=2, body__block__min="[10,3]", body__block__max="[14,6]", basal__distance_check="false")
+    message = thawslide.error("run", small_case, "--output", run, *fall, *sets(guards__energy_growth=0.001), code=3)
+    assert "J per m of width without a physical cause" in message
+    assert "Set it to true" in message and "widen" not in message
     facts = run_facts(run)
-    assert facts["status"] == "failed" and outcome.stderr == f"error: {facts['message']}\n"
+    assert facts["status"] == "failed" and message == f"error: {facts['message']}\n"
     assert len(snapshot_files(run)) > 1
 
 
 def test_removed_particles_are_counted(thawslide: Program, tmp_path: Path) -> None:
     run = tmp_path / "run"
     words = sets(
-        time__end=20,
-        material__rock_ice__youngs_modulus=0.5,
-        guards__volume='"remove"',
-        guards__removed_mass=0.05,
+        time__end=20, material__rock_ice__youngs_modulus=0.5, guards__volume='"remove"', guards__removed_mass=0.05
     )
     outcome = thawslide("run", LAMPLUGH, "--output", run, *words)
     assert outcome.returncode == 3
@@ -133,35 +142,44 @@ def test_removed_particles_are_counted(thawslide: Program, tmp_path: Path) -> No
     assert reported[2] == reported[3] and 5.0 < float(reported[4]) < 10.0
     assert re.search(
         r"warning: at t = \S+ s guards have removed \d+ particles?: 0 not finite, \d+ by their volume; history\.csv "
-        r"has "
-        r"their mass, run\.json their number\n",
+        r"has their mass, run\.json their number\n",
         outcome.stdout,
     )
     assert (
         f"guards have removed {reported[2]} particles: 0 not finite, {reported[2]} by their volume\n" in outcome.stdout
     )
     facts, columns = run_facts(run), history(run)
-    assert facts["removed_particles"] == {
-        "left": 0,
-        "not_finite": 0,
-        "volume": int(reported[2]),
-    }
+    assert facts["removed_particles"] == {"left": 0, "not_finite": 0, "volume": int(reported[2])}
     assert 0.0 < columns["removed_mass_kg"][-1] == pytest.approx(columns["left_mass_kg"][-1], rel=1e-12)
 
 
 def test_a_resumed_run_with_removed_particles_is_bitwise_identical(
-    thawslide: Program, interrupted: Interrupted, tmp_path: Path
+    ran: Ran, thawslide: Program, interrupted: Interrupted, tmp_path: Path
 ) -> None:
-    run, complete = tmp_path / "run", tmp_path / "complete"
+    run = tmp_path / "run"
     words = sets(
         time__end=4.5, time__output_interval=0.7, material__rock_ice__youngs_modulus=0.5, guards__volume='"remove"',
         guards__removed_mass=1, guards__smallest_volume=0.5,
     )  # fmt: skip
-    assert thawslide("run", LAMPLUGH, "--output", complete, *words).returncode == 0
+    complete = ran(*words, case=LAMPLUGH, name="complete")
     assert interrupted(LAMPLUGH, run, words, signal.SIGTERM, 60) == 4
-    outcome = thawslide("resume", run)
-    assert outcome.returncode == 0, outcome.stderr
+    thawslide.ok("resume", run)
     assert_bitwise_identical(run, complete)
     removed = run_facts(complete)["removed_particles"]
     assert run_facts(run)["removed_particles"] == removed and removed["volume"] > 0
     assert (run / "checkpoint.bin").read_bytes() == (complete / "checkpoint.bin").read_bytes()
+
+
+def test_slow_energy_growth_is_reported_once(ran: Ran, thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+    slow = sets(time__end=30, time__history_interval=1, time__output_interval=10, guards__energy_growth=0.02)
+    slow += sets(body__block__max="[15.0,5.0]")
+    outcome = thawslide("run", small_case, "--output", tmp_path / "run", *slow)
+    assert outcome.returncode == 0, outcome.stderr
+    message = outcome.stdout + outcome.stderr
+    assert message.count("gradually and without a physical cause") == 1
+    assert "viscosity_time" in message
+    damped = thawslide(
+        "run", small_case, "--output", tmp_path / "damped", *slow, *sets(material__rock__viscosity_time=0.002)
+    )
+    assert damped.returncode == 0
+    assert "without a physical cause" not in damped.stdout + damped.stderr

@@ -7,31 +7,14 @@ import re
 from pathlib import Path
 
 import pytest
-from conftest import Program, assert_bitwise_identical, run_facts, sets
-from slope_files import CELL, SOUTH, WEST, Slope, made, write_release
-
-PROFILE = "distance_m,terrain_elevation_m\n0,0\n20,0\n"
-
-
-def refusal(thawslide: Program, *words: object) -> str:
-    outcome = thawslide(*words)
-    assert outcome.returncode == 2 and outcome.stdout == "", outcome.stdout
-    return outcome.stderr
-
-
-def with_profile(case: Path, profile: str = PROFILE) -> Path:
-    """Add a profile to the case; return its file."""
-    file = case / "case.toml"
-    text = file.read_text()
-    file.write_text(text.replace('type = "flat"\nelevation = 0.0', 'type = "profile"\nfile = "profile.csv"'))
-    (case / "profile.csv").write_text(profile)
-    return case / "profile.csv"
+from conftest import PROFILE, Program, Ran, Slope, assert_bitwise_identical, run_facts, sets, with_profile
+from terrain_files import CELL, SOUTH, WEST, write_rectangle
 
 
 def test_a_large_case_file_is_refused(thawslide: Program, small_case: Path) -> None:
     file = small_case / "case.toml"
     file.write_text(file.read_text() + "#" * 10_000_000 + "\n")
-    assert refusal(thawslide, "check", file) == (
+    assert thawslide.error("check", file, quiet=True) == (
         f"error: {file}: the file has 10 MB; allowed: 10 MB. Profiles, polygons and rasters are separate files.\n"
     )
 
@@ -39,15 +22,15 @@ def test_a_large_case_file_is_refused(thawslide: Program, small_case: Path) -> N
 def test_a_large_profile_is_refused(thawslide: Program, small_case: Path) -> None:
     profile = with_profile(small_case)
     os.truncate(profile, 200_000_000)
-    message = refusal(thawslide, "check", small_case)
+    message = thawslide.error("check", small_case, quiet=True)
     assert f'{profile}: the file has 200 MB; allowed: 100 MB. A DEM is read with terrain.type = "dem".' in message
 
 
 def test_a_profile_of_many_rows_is_refused(thawslide: Program, small_case: Path) -> None:
     rows = "".join(f"{k},0\n" for k in range(1_000_001))
     profile = with_profile(small_case, "distance_m,terrain_elevation_m\n" + rows)
-    assert f"{profile}:1000002: the profile has more than 1000000 rows; allowed: as many." in refusal(
-        thawslide, "check", small_case
+    assert f"{profile}:1000002: the profile has more than 1000000 rows; allowed: as many." in thawslide.error(
+        "check", small_case
     )
 
 
@@ -57,7 +40,7 @@ def test_a_key_of_many_parts_is_refused(thawslide: Program, tmp_path: Path, text
     file = tmp_path / "deep.toml"
     file.write_text(text.format((" . a" if text.startswith("a {") else ".a") * 200_000))
     line = 2 if "time" in text else 1
-    assert refusal(thawslide, "check", file) == (
+    assert thawslide.error("check", file, quiet=True) == (
         f"error: {file}:{line}: this is not a case: a key of more than 50 parts; allowed: TABLE.NAME.KEY. Is it the "
         "right file?\n"
     )
@@ -66,12 +49,12 @@ def test_a_key_of_many_parts_is_refused(thawslide: Program, tmp_path: Path, text
 def test_many_problems_are_not_all_reported(thawslide: Program, small_case: Path) -> None:
     file = small_case / "case.toml"
     file.write_text(file.read_text() + "".join(f"wrong{k} = 1\n" for k in range(80)))
-    message = refusal(thawslide, "check", file).splitlines()
+    message = thawslide.error("check", file, quiet=True).splitlines()
     assert len(message) == 51 and message[-1] == "and 30 more problems."
 
 
 def test_long_texts_and_control_characters_are_not_repeated(thawslide: Program, small_case: Path) -> None:
-    message = refusal(thawslide, "check", small_case, "--set", 'time.end="\\u001b[2J' + "x" * 100_000 + '"')
+    message = thawslide.error("check", small_case, "--set", 'time.end="\\u001b[2J' + "x" * 100_000 + '"', quiet=True)
     assert "\x1b" not in message and 'time.end is the text "?[2J' in message and 'xxx..."; allowed: a number' in message
 
 
@@ -79,53 +62,49 @@ def test_the_chain_of_base_cases_is_limited(thawslide: Program, small_case: Path
     for k in range(20):
         base = "case.toml" if k == 0 else f"v{k - 1}.toml"
         (small_case / f"v{k}.toml").write_text(f'[case]\nbased_on = "{base}"\n')
-    assert thawslide("check", small_case / "v14.toml").returncode == 0
-    message = refusal(thawslide, "check", small_case / "v19.toml")
+    thawslide.ok("check", small_case / "v14.toml")
+    message = thawslide.error("check", small_case / "v19.toml", quiet=True)
     assert ": a chain of 16 files precedes it; allowed: 16. Combine some of them." in message
 
 
 def test_a_variant_can_be_named_without_a_folder(thawslide: Program, small_case: Path) -> None:
     (small_case / "variant.toml").write_text('[case]\nbased_on = "case.toml"\n')
     for words in (("check", "variant.toml"), ("run", "variant.toml", "--output", "run", *sets(time__end=0.01))):
-        outcome = thawslide(*words, folder=small_case)
-        assert outcome.returncode == 0, outcome.stderr
+        thawslide.ok(*words, folder=small_case)
 
 
-def test_links_to_inputs_outside_the_folder_are_refused(thawslide: Program, small_case: Path) -> None:
+def test_links_to_inputs_outside_the_folder_are_refused(ran: Ran, thawslide: Program, small_case: Path) -> None:
     """Links in the folder can lead to files in it, not outside; paths given by --set can lead anywhere."""
     outside = small_case.parent / "elsewhere.csv"
     outside.write_text(PROFILE)
     profile = with_profile(small_case)
     profile.rename(small_case / "real.csv")
     profile.symlink_to("real.csv")
-    run = small_case.parent / "run"
-    assert thawslide("run", small_case, "--output", run, *sets(time__end=0.01)).returncode == 0
+    run = ran(*sets(time__end=0.01))
     copy = run / "inputs" / "profile.csv"
     assert copy.read_text() == PROFILE and not copy.is_symlink()
     profile.unlink()
     profile.symlink_to(outside)
-    assert 'terrain.file is "profile.csv", which lies outside the folder of the case file; allowed:' in refusal(
-        thawslide, "check", small_case
+    assert 'terrain.file is "profile.csv", which lies outside the folder of the case file; allowed:' in thawslide.error(
+        "check", small_case
     )
-    assert thawslide("check", small_case, "--set", f"terrain.file={profile}").returncode == 0
+    thawslide.ok("check", small_case, "--set", f"terrain.file={profile}")
 
 
-def test_the_copy_of_a_large_input_is_a_copy(thawslide: Program, small_case: Path) -> None:
+def test_the_copy_of_a_large_input_is_a_copy(ran: Ran, thawslide: Program, small_case: Path) -> None:
     """A changed original does not affect the run, which continues with its copy."""
     profile = with_profile(small_case, PROFILE + ("#" * 99 + "\n") * 510_000)
     original = profile.rename(small_case / "real.csv")
     profile.symlink_to("real.csv")
-    run = small_case.parent / "run"
-    assert thawslide("run", small_case, "--output", run, *sets(time__end=0.01)).returncode == 0
+    run = ran(*sets(time__end=0.01))
     copy = run / "inputs" / "profile.csv"
     assert not copy.is_symlink() and not copy.samefile(original)
     assert copy.read_bytes() == original.read_bytes()
     with original.open("a") as file:
         file.write("# a remark\n")
-    outcome = thawslide("resume", run, "--end", 0.02)
-    assert outcome.returncode == 0, outcome.stderr
+    printed = thawslide.ok("resume", run, "--end", 0.02)
     note = f"{profile} has changed since the run began. The run continues with its copy, inputs/profile.csv"
-    assert f"warning: {note}\n" in outcome.stdout and outcome.stdout.count("has changed") == 1
+    assert f"warning: {note}\n" in printed and printed.count("has changed") == 1
     assert run_facts(run)["parts"][1]["warnings"] == [note]
 
 
@@ -134,10 +113,10 @@ def test_a_linked_case_file_is_read_and_a_linked_base_is_refused(thawslide: Prog
     outside = small_case.parent / "other.toml"
     (small_case / "case.toml").rename(outside)
     (small_case / "case.toml").symlink_to(outside)
-    assert thawslide("check", small_case).returncode == 0
+    thawslide.ok("check", small_case)
     variant = small_case / "variant.toml"
     variant.write_text('[case]\nbased_on = "case.toml"\n')
-    assert refusal(thawslide, "check", variant) == (
+    assert thawslide.error("check", variant, quiet=True) == (
         f'error: {variant}:2:12: case.based_on is "case.toml", a link that leads out of the folder; allowed: a case '
         "file in it. Copy it there.\n"
     )
@@ -149,9 +128,9 @@ def test_a_linked_output_folder_is_written_and_kept(thawslide: Program, small_ca
     disk.mkdir()
     run.symlink_to(disk)
     words = sets(time__end=0.05)
-    assert thawslide("run", small_case, "--output", run, *words).returncode == 0
+    thawslide.ok("run", small_case, "--output", run, *words)
     assert run.is_symlink() and (disk / "run.json").is_file()
-    assert thawslide("run", small_case, "--output", plain, *words).returncode == 0
+    thawslide.ok("run", small_case, "--output", plain, *words)
     assert_bitwise_identical(run, plain)
     # A link among the files of a run is replaced; its target is kept.
     kept = small_case.parent / "kept"
@@ -161,7 +140,7 @@ def test_a_linked_output_folder_is_written_and_kept(thawslide: Program, small_ca
         each.unlink()
     (disk / "snapshots").rmdir()
     (disk / "snapshots").symlink_to(kept)
-    assert thawslide("run", small_case, "--output", run, "--overwrite", *words).returncode == 0
+    thawslide.ok("run", small_case, "--output", run, "--overwrite", *words)
     assert not (disk / "snapshots").is_symlink() and (kept / "000000.vtkhdf").read_text() == "of another"
     assert run_facts(run)["status"] == "done"
 
@@ -169,7 +148,7 @@ def test_a_linked_output_folder_is_written_and_kept(thawslide: Program, small_ca
 def test_an_output_folder_linked_to_nothing_is_refused(thawslide: Program, small_case: Path) -> None:
     run = small_case.parent / "run"
     run.symlink_to(small_case.parent / "nowhere")
-    message = refusal(thawslide, "run", small_case, "--output", run)
+    message = thawslide.error("run", small_case, "--output", run, quiet=True)
     assert message == (
         f"error: the output folder {run} cannot be made: it is a link to a folder that is not there. Give another "
         "--output.\n"
@@ -177,7 +156,7 @@ def test_an_output_folder_linked_to_nothing_is_refused(thawslide: Program, small
     assert not (small_case.parent / "nowhere").exists()
 
 
-def test_rasters_of_other_formats_are_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_rasters_of_other_formats_are_refused(tmp_path: Path, slope: Slope) -> None:
     """A virtual raster can name other files, which a case must not read."""
     dem = slope()
     virtual = tmp_path / "virtual.tif"
@@ -186,38 +165,34 @@ def test_rasters_of_other_formats_are_refused(thawslide: Program, tmp_path: Path
         f'-{CELL}</GeoTransform><VRTRasterBand dataType="Float64" band="1"><SimpleSource><SourceFilename>{dem}'
         "</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>"
     )
-    outcome = made(thawslide, tmp_path / "slide", virtual, release, "--thickness", 20)
-    assert outcome.returncode == 2 and not (tmp_path / "slide").exists()
-    assert "virtual.tif: the raster cannot be opened" in outcome.stderr
-    assert "Allowed: a GeoTIFF or an ESRI ASCII grid" in outcome.stderr
+    message = slope.error(dem=virtual, thickness=20)
+    assert not (tmp_path / "slide").exists()
+    assert "virtual.tif: the raster cannot be opened" in message
+    assert "Allowed: a GeoTIFF or an ESRI ASCII grid" in message
 
 
-def test_too_many_polygons_are_refused(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    polygons = write_release(tmp_path / "many.geojson", WEST + 200.0, SOUTH + 250.0)
+def test_too_many_polygons_are_refused(tmp_path: Path, slope: Slope) -> None:
+    polygons = write_rectangle(tmp_path / "many.geojson", WEST + 200.0, SOUTH + 250.0)
     text = polygons.read_text()
     start, end = text.index('{"type": "Feature",'), text.rindex("]")
     polygons.write_text(text[:start] + ",".join([text[start:end]] * 100_001) + text[end:])
-    outcome = made(thawslide, tmp_path / "slide", slope(), polygons, "--thickness", 20)
-    assert outcome.returncode == 2 and "the file has more than 100000 polygons; allowed: as many." in outcome.stderr
+    assert "the file has more than 100000 polygons; allowed: as many." in slope.error(release=polygons, thickness=20)
 
 
-def test_a_raster_of_too_many_points_is_refused(thawslide: Program, tmp_path: Path, release: Path) -> None:
+def test_a_raster_of_too_many_points_is_refused(slope: Slope, tmp_path: Path) -> None:
     """The header is sufficient: no memory is allocated."""
     dem = tmp_path / "large.asc"
     with dem.open("w") as file:
         file.write(f"ncols 30000\nnrows 30000\nxllcorner {WEST}\nyllcorner {SOUTH}\ncellsize 1\nNODATA_value -9999\n")
         file.write(" ".join(["1"] * 1000) + "\n")
         file.truncate(2 * 30000**2)  # long enough for so many values; a sparse file needs no disk space
-    outcome = made(thawslide, tmp_path / "slide", dem, release, "--thickness", 20, "--crs", "EPSG:31287")
-    assert outcome.returncode == 2
-    assert "30,000 x 30,000 points of it are needed; allowed: 400,000,000 points. Crop it" in outcome.stderr
+    message = slope.error("--crs", "EPSG:31287", dem=dem)
+    assert "30,000 x 30,000 points of it are needed; allowed: 400,000,000 points. Crop it" in message
 
 
-def test_resampling_to_too_many_points_is_refused(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
-    assert made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 20).returncode == 0
-    message = refusal(thawslide, "check", tmp_path / "slide", "--set", "terrain.resample=0.01")
+def test_resampling_to_too_many_points_is_refused(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    slope.ok(thickness=20)
+    message = thawslide.error("check", tmp_path / "slide", "--set", "terrain.resample=0.01", quiet=True)
     assert re.search(
         r"--set terrain\.resample=0\.01: terrain\.resample: \S+dem\.tif: [\d,]+ x [\d,]+ points of it are needed; "
         r"allowed: 400,000,000 points\. Crop it",
@@ -225,12 +200,12 @@ def test_resampling_to_too_many_points_is_refused(
     ), message
 
 
-def test_a_failed_new_leaves_a_linked_folder_empty(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+def test_a_failed_new_leaves_a_linked_folder_empty(tmp_path: Path, slope: Slope) -> None:
     """The target of the link is empty again, and the link is kept."""
     place, folder = tmp_path / "place", tmp_path / "slide"
     place.mkdir()
     folder.symlink_to(place)
-    release = write_release(tmp_path / "release.geojson", WEST + 203.0, SOUTH + 252.0)
-    outcome = made(thawslide, folder, slope(), release, "--thickness", 20, "--cell", 200)
-    assert outcome.returncode == 2 and "error: no case was created, because it would not run: " in outcome.stderr
+    release = write_rectangle(tmp_path / "release.geojson", WEST + 203.0, SOUTH + 252.0)
+    message = slope.error("--cell", 200, release=release, thickness=20)
+    assert "error: no case was created, because it would not run: " in message
     assert folder.is_symlink() and place.is_dir() and not list(place.iterdir())

@@ -4,134 +4,73 @@ from __future__ import annotations
 
 import os
 import shlex
-import subprocess
 import tomllib
 from pathlib import Path
 
 import pytest
-from conftest import Program, sets
-from slope_files import SOUTH, THICKNESS, WEST, Slope, made, write_release
-from terrain_files import write_dem, write_line
-from terrain_files import write_release as write_release_on_plane
+from conftest import PROFILE, Program, Ran, Slope, sets
+from terrain_files import SOUTH, WEST, write_dem, write_line, write_rectangle, write_release
 
-NAMES = [
-    'quo"te',
-    "back\\slash",
-    'x"\n[time]\nend = 5\n#',
-    "it's $(id) `id`",
-    "tab\there",
-]
-PROFILE = "distance_m,terrain_elevation_m\n0,0\n20,0\n"
+NAMES = ['quo"te', "back\\slash", 'x"\n[time]\nend = 5\n#', "it's $(id) `id`", "tab\there"]
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_names_are_only_values_in_the_case_file(thawslide: Program, tmp_path: Path, slope: Slope, name: str) -> None:
+def test_names_are_only_values_in_the_case_file(ran: Ran, tmp_path: Path, slope: Slope, name: str) -> None:
     """The names of folder, DEM and release appear only as values of their keys."""
-    release = write_release(tmp_path / f"{name}.geojson", WEST + 200.0, SOUTH + 250.0)
+    release = write_rectangle(tmp_path / f"{name}.geojson", WEST + 200.0, SOUTH + 250.0)
     folder = tmp_path / name
-    outcome = made(thawslide, folder, slope(f"{name}.tif"), release, "--thickness", THICKNESS)
-    assert outcome.returncode == 0, outcome.stderr
+    slope.ok(folder=folder, dem=slope(f"{name}.tif"), release=release)
     case = tomllib.loads((folder / "case.toml").read_text())
     assert case["case"]["title"] == name
     assert case["body"]["slide"]["release"] == f"{name}.geojson"
     assert case["time"]["end"] == 60.0
-    run = tmp_path / "run"
-    done = thawslide("run", folder, "--output", run, *sets(time__end=0.01))
-    assert done.returncode == 0, done.stderr
+    run = ran(*sets(time__end=0.01), case=folder)
     resolved = tomllib.loads((run / "case.toml").read_text())
     assert resolved["case"]["title"] == name and resolved["time"]["end"] == 0.01
     assert resolved["body"]["slide"]["release"] == f"inputs/{name}.geojson"
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_next_commands_can_be_pasted(
-    thawslide: Program,
-    binary: Path,
-    plain_environment: dict[str, str],
-    tmp_path: Path,
-    slope: Slope,
-    name: str,
-) -> None:
-    release = write_release(tmp_path / "release.geojson", WEST + 200.0, SOUTH + 250.0)
+def test_the_next_commands_can_be_pasted(thawslide: Program, tmp_path: Path, slope: Slope, name: str) -> None:
     folder = tmp_path / name
-    outcome = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
-    assert outcome.returncode == 0, outcome.stderr
-    preview = next(line for line in outcome.stdout.splitlines() if line.startswith("preview:"))
+    preview = next(line for line in slope.ok(folder=folder).splitlines() if line.startswith("preview:"))
     command = preview.removeprefix("preview:").removesuffix("--picture").strip()
     if "\n" not in name and "\t" not in name:
-        assert shlex.split(command) == [str(binary), "check", str(folder)]
-    pasted = subprocess.run(
-        ["bash", "-c", f"{command} --json"],
-        env=plain_environment,
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-    )
+        assert shlex.split(command) == [str(thawslide.binary), "check", str(folder)]
+    pasted = thawslide.finish(["bash", "-c", f"{command} --json"])
     assert pasted.returncode == 0 and '"particles": 4512' in pasted.stdout, pasted.stderr
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_section_from_files_of_any_name_can_be_run(thawslide: Program, tmp_path: Path, name: str) -> None:
     dem = write_dem(tmp_path / f"{name}.tif", lambda x, _y: 1000.0 - 0.5 * x)
-    release = write_release_on_plane(
-        tmp_path / f"{name}.geojson",
-        [(105.0, 155.0), (205.0, 155.0), (205.0, 245.0), (105.0, 245.0)],
-        thickness=20.0,
+    release = write_release(
+        tmp_path / f"{name}.geojson", [(105.0, 155.0), (205.0, 155.0), (205.0, 245.0), (105.0, 245.0)], thickness=20.0
     )
     line = write_line(tmp_path / f"{name} line.geojson", [(15.0, 200.0), (775.0, 200.0)])
     folder = tmp_path / name
-    outcome = thawslide("section", folder, "--dem", dem, "--line", line, "--release", release)
-    assert outcome.returncode == 0, outcome.stderr
+    thawslide.ok("section", folder, "--dem", dem, "--line", line, "--release", release)
     assert tomllib.loads((folder / "case.toml").read_text())["case"]["title"] == name
     comments = [each for each in (folder / "profile.csv").read_text().splitlines() if each.startswith("#")]
     plain = name.replace("\n", "?").replace("\t", "?")
     assert comments[0].startswith(f"# Cut by `thawslide section` out of {plain}.tif along {plain} line.geojson")
     assert len(comments) == 3
-    checked = thawslide("check", folder)
-    assert checked.returncode == 0, checked.stderr
+    thawslide.ok("check", folder)
 
 
-def test_a_name_that_is_not_utf8_is_refused_before_anything_is_written(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
-    folder = os.fsdecode(os.fsencode(str(tmp_path)) + b"/sl\xffide")
-    outcome = subprocess.run(
-        [
-            *thawslide("new", "--help").args[:1],
-            "new",
-            folder,
-            "--dem",
-            slope(),
-            "--release",
-            release,
-            "--thickness",
-            "9",
-        ],
-        capture_output=True,
-        timeout=60,
-        check=False,
-    )
+def test_a_name_that_is_not_utf8_is_refused_before_anything_is_written(tmp_path: Path, slope: Slope) -> None:
+    folder = Path(os.fsdecode(os.fsencode(str(tmp_path)) + b"/sl\xffide"))
+    outcome = slope.new(folder=folder, text=False)
     assert outcome.returncode == 2
     assert b"is not UTF-8, as required for names in a case file" in outcome.stderr
-    assert not Path(folder).exists()
+    assert not folder.exists()
 
 
-def test_no_location_in_a_removed_file_is_reported(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    release = write_release(tmp_path / "release.geojson", WEST + 203.0, SOUTH + 252.0)
-    outcome = made(
-        thawslide,
-        tmp_path / "slide",
-        slope(),
-        release,
-        "--thickness",
-        20,
-        "--cell",
-        200,
-    )
-    assert outcome.returncode == 2 and not (tmp_path / "slide").exists()
-    assert outcome.stderr.startswith("error: no case was created, because it would not run: "), outcome.stderr
-    assert "case.toml" not in outcome.stderr
+def test_no_location_in_a_removed_file_is_reported(tmp_path: Path, slope: Slope) -> None:
+    release = write_rectangle(tmp_path / "release.geojson", WEST + 203.0, SOUTH + 252.0)
+    message = slope.error("--cell", 200, release=release, thickness=20)
+    assert message.startswith("error: no case was created, because it would not run: "), message
+    assert "case.toml" not in message
 
 
 def test_a_name_of_maximum_length_is_checked_and_run(thawslide: Program, small_case: Path) -> None:
@@ -140,6 +79,5 @@ def test_a_name_of_maximum_length_is_checked_and_run(thawslide: Program, small_c
     profile.write_text(PROFILE)
     words = sets(terrain__type="profile", terrain__file=profile, time__end=0.01)
     for command in ("check", "run"):
-        outcome = thawslide(command, small_case, *words, folder=small_case)
-        assert outcome.returncode == 0, outcome.stderr
+        thawslide.ok(command, small_case, *words, folder=small_case)
     assert (small_case / "runs" / "small" / "inputs" / profile.name).read_text() == PROFILE

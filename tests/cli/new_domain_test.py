@@ -1,14 +1,16 @@
-"""Cases by `thawslide new` run: thin releases on coarse DEMs, and releases near the edge of a DEM."""
+"""Cases by `thawslide new` run: thin releases on coarse DEMs, releases near an edge and cut out, and resolutions."""
 
 from __future__ import annotations
 
-import json
 import re
+import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
-from conftest import Program
-from slope_files import (
+import rasterio
+from conftest import Program, Ran, Slope, history, sets
+from terrain_files import (
     CELL,
     COLUMNS,
     DEPTH,
@@ -16,147 +18,198 @@ from slope_files import (
     SOUTH,
     WEST,
     WIDTH,
-    Slope,
-    assert_refused,
-    made,
+    write_dem,
+    write_line,
+    write_rectangle,
     write_release,
 )
-
-
-def assert_starts(thawslide: Program, folder: Path) -> None:
-    done = thawslide("run", folder / "slide", "--output", folder / "run", "--set", "time.end=0.01")
-    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize("placement", ["--on-top", "--cut"])
 @pytest.mark.parametrize("thickness", [3.0, 1.0])
 def test_a_thin_release_is_inside_the_domain(
-    thawslide: Program, tmp_path: Path, slope: Slope, thickness: float, placement: str
+    ran: Ran, tmp_path: Path, slope: Slope, thickness: float, placement: str
 ) -> None:
     """The release is thinner than the fall of the slope across a cell of the DEM."""
-    release = write_release(tmp_path / "thin.geojson", WEST + 203.0, SOUTH + 252.0, 31.0, 23.0)
-    outcome = made(
-        thawslide,
-        tmp_path / "slide",
-        slope(),
-        release,
-        "--thickness",
-        thickness,
-        placement,
-    )
-    assert outcome.returncode == 0, outcome.stderr
-    assert_starts(thawslide, tmp_path)
+    release = write_rectangle(tmp_path / "thin.geojson", WEST + 203.0, SOUTH + 252.0, 31.0, 23.0)
+    slope.ok(placement, release=release, thickness=thickness)
+    ran("--set", "time.end=0.01", case=slope.case)
 
 
 @pytest.mark.parametrize(
-    "corner",
-    [(6.0, 7.0), ((COLUMNS - 1) * CELL - WIDTH - 6.0, (ROWS - 1) * CELL - DEPTH - 7.0)],
-    ids=["low", "high"],
+    "corner", [(6.0, 7.0), ((COLUMNS - 1) * CELL - WIDTH - 6.0, (ROWS - 1) * CELL - DEPTH - 7.0)], ids=["low", "high"]
 )
 def test_a_release_at_the_edge_of_the_dem_runs(
-    thawslide: Program, tmp_path: Path, slope: Slope, corner: tuple[float, float]
+    ran: Ran, tmp_path: Path, slope: Slope, corner: tuple[float, float]
 ) -> None:
     """The domain includes the outermost points, although their distance is no multiple of the grid's cell, 6 m."""
-    release = write_release(tmp_path / "edge.geojson", WEST + corner[0], SOUTH + corner[1])
-    outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 23)
-    assert outcome.returncode == 0, outcome.stderr
-    assert_starts(thawslide, tmp_path)
+    release = write_rectangle(tmp_path / "edge.geojson", WEST + corner[0], SOUTH + corner[1])
+    slope.ok(release=release, thickness=23)
+    ran("--set", "time.end=0.01", case=slope.case)
 
 
-def test_a_release_beyond_the_edge_of_the_dem_is_refused(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    """Bodies on the outermost points need terrain half a cell beyond them."""
-    assert_refused(
-        made(
-            thawslide,
-            tmp_path / "slide",
-            slope(),
-            write_release(tmp_path / "edge.geojson", WEST + 1.0, SOUTH + 100.0),
-            "--thickness",
-            24,
-        ),
-        tmp_path,
-        "--release: edge.geojson: the release reaches the outermost points of the DEM in the west "
-        "(needed: at least 10 m, one cell, beyond the release). Use a DEM that covers the flow path too.",
-    )
-
-
-def test_more_particles_than_memory_are_refused(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
+def test_more_particles_than_memory_are_refused(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     """The message proposes a cell that fits, and `new` writes no files."""
-    outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 0.02, "--cell", 0.02)
-    assert outcome.returncode == 2 and not (tmp_path / "slide").exists()
+    message = slope.error("--cell", 0.02, thickness=0.02)
     assert re.fullmatch(
         r"error: --cell: a release 0\.02 m thick with cells of 0\.02 m and 2\d0,000,000 particles; they need about "
         r"[34]\d0 GB of memory, and \S+ GB are [a-z -()]+\. Set --cell \S+ or more, which is coarser\.\n",
-        outcome.stderr,
-    ), outcome.stderr
-    assert made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24, "--cell", 8).returncode == 0
-    refused = thawslide("check", tmp_path / "slide", "--set", "grid.cell=0.04")
-    assert refused.returncode == 2
+        message,
+    ), message
+    slope.ok("--cell", 8)
+    message = thawslide.error("check", tmp_path / "slide", "--set", "grid.cell=0.04")
     assert re.fullmatch(
         r"error: --set grid\.cell=0\.04: grid\.cell is 0\.04 m, which makes 3\.6e\+10 particles; allowed: "
         r"230,000,000\. Make grid\.cell 0\.\d+ m or more, or particles_per_axis smaller\.\n",
-        refused.stderr,
-    ), refused.stderr
+        message,
+    ), message
 
 
-def test_holes_in_the_flow_path_have_a_warning(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_holes_in_the_flow_path_have_a_warning(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     """Before the first step, `check` and `run` report where the terrain ends, and the consequence for the slide."""
-    made(thawslide, tmp_path / "slide", slope(hole=slice(40, 45)), release, "--thickness", 24)
+    slope.new(dem=slope(hole=slice(40, 45)))
     note = (
         r"warning: 50 of \d+ points of the DEM within the domain have no data, the nearest at "
         r"\(412400, 5160(2[5-9]|3[0-4])0\), about 70 m from the release: a slide that gets there "
     )
-    checked = thawslide("check", tmp_path / "slide", "--set", 'grid.leaving="stop"')
-    assert re.search(note + r"ends the run\n", checked.stdout), checked.stdout
-    words = ("--set", "time.end=0.01")
-    run = thawslide("run", tmp_path / "slide", "--output", tmp_path / "run", *words)
-    assert re.search(note + r"is removed and counted\n", run.stdout), run.stdout
+    assert re.search(note + r"ends the run\n", thawslide.ok("check", slope.case, "--set", 'grid.leaving="stop"'))
+    printed = thawslide.ok("run", slope.case, "--output", tmp_path / "run", "--set", "time.end=0.01")
+    assert re.search(note + r"is removed and counted\n", printed), printed
 
 
-def test_web_mercator_is_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    assert_refused(
-        made(thawslide, tmp_path / "slide", slope(crs="EPSG:3857"), release, "--thickness", 24),
-        tmp_path,
-        "--dem: dem.tif: the coordinates are in Web Mercator (EPSG:3857), where lengths at latitude 42 are 1.35 times "
-        "too long; allowed: a map projection that keeps lengths. Reproject: gdalwarp -t_srs EPSG:32631 -tr 7.4 7.4 "
-        "-r bilinear dem.tif dem-EPSG32631.tif",
-    )
-    assert_refused(
-        made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24, "--crs", "EPSG:3857"),
-        tmp_path,
-        "--crs: EPSG:3857 is Web Mercator, whose lengths are those of the equator; allowed: a map projection in metres "
-        'that keeps lengths, such as "EPSG:31287".',
-    )
-
-
-def test_a_feature_without_a_geometry_is_refused(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
-    content = json.loads(release.read_text())
-    content["features"][0]["geometry"] = None
-    release.write_text(json.dumps(content))
-    assert_refused(
-        made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24),
-        tmp_path,
-        "--release: release.geojson: polygon 1 (slide) has no geometry; needed: polygons. Delete it or draw it.",
-    )
-
-
-def test_options_that_exclude_each_other_are_refused(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
-    assert_refused(
-        made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24, "--cut", "--on-top"),
-        tmp_path,
-        "--cut excludes --on-top. Run with --help for more information.",
-    )
-
-
-def test_new_prints_the_next_commands(
-    thawslide: Program, binary: Path, tmp_path: Path, slope: Slope, release: Path
-) -> None:
+def test_new_prints_the_next_commands(binary: Path, tmp_path: Path, slope: Slope) -> None:
     folder = tmp_path / "a slide"
-    outcome = made(thawslide, folder, slope(), release, "--thickness", 24)
+    outcome = slope.new(folder=folder)
     assert f"preview:  {binary} check '{folder}' --picture\nrun:      {binary} run '{folder}'\n" in outcome.stdout
+
+
+CELLS = {"quick": 8.0, "standard": 3.0, "fine": 1.5}  # m, for 24 m
+DURATION = r"(?:\S+ (?:s|min|h|days))"
+
+
+def cell_of(folder: Path) -> float:
+    return float(tomllib.loads((folder / "case.toml").read_text())["grid"]["cell"])
+
+
+@pytest.mark.parametrize("resolution", ["", "quick", "standard"])
+def test_new_reports_the_cell_and_the_cost(thawslide: Program, tmp_path: Path, slope: Slope, resolution: str) -> None:
+    folder = tmp_path / "slide"
+    words = ["--resolution", resolution] if resolution else []
+    printed = slope.ok(*words)
+    chosen = resolution or "quick"
+    assert cell_of(folder) == CELLS[chosen]
+    found = re.search(
+        rf"^resolution:  {chosen}, cells of {CELLS[chosen]:g} m; for [a-z ]+\n"
+        rf" +about (\S+) particles, (\S+) steps to time\.end, and {DURATION} on \d+ threads?$",
+        printed,
+        re.MULTILINE,
+    )
+    assert found, printed
+    checked = thawslide.json("check", folder)
+    assert float(found[1].replace(",", "")) == pytest.approx(checked["particles"], rel=0.1)
+    assert float(found[2].replace(",", "")) == pytest.approx(checked["steps"], rel=0.05)
+    others = dict(
+        re.findall(rf"^ +--resolution (\w+): cells of (\S+) m, about {DURATION}; [a-z ]+$", printed, re.MULTILINE)
+    )
+    assert {name: float(cell) for name, cell in others.items()} == {
+        name: cell for name, cell in CELLS.items() if name != chosen
+    }
+    assert "warning: " not in printed, "the text names the cells for maps"
+
+
+def test_a_cell_given_by_the_user_has_no_resolution_name(tmp_path: Path, slope: Slope) -> None:
+    printed = slope.ok("--cell", 12, folder=tmp_path / "own")
+    assert cell_of(tmp_path / "own") == 12.0
+    assert "\nresolution:  cells of 12 m\n             about " in printed
+    assert printed.count("--resolution ") == 3
+    assert "warning: --cell: across the median thickness" in printed
+
+
+def seconds_of(duration: str) -> float:
+    """Return a duration such as "1.7 min" [s]."""
+    number, unit = duration.split()
+    return float(number) * {"s": 1.0, "min": 60.0, "h": 3600.0, "days": 86400.0}[unit]
+
+
+def test_the_times_of_other_resolutions_follow_from_their_cells(slope: Slope) -> None:
+    """Cells half as large cost 16 times as much."""
+    found = dict(re.findall(r"--resolution (\w+): cells of \S+ m, about ([^;]+);", slope.new().stdout))
+    assert seconds_of(found["fine"]) == pytest.approx(16.0 * seconds_of(found["standard"]), rel=0.08)
+
+
+def test_an_unknown_resolution_is_refused(tmp_path: Path, slope: Slope) -> None:
+    message = slope.error("--resolution", "coarse")
+    assert "--resolution" in message and "quick" in message
+
+
+SIDE, THICK = 200.0, 20.0  # of the release [m]
+VOLUME = SIDE * SIDE * THICK
+# A slide on the slope of 30 degrees moves with friction of 17 degrees; with 25, the level ramp stops it at any width.
+COARSE = sets(grid__cell=12, time__end=8, basal__friction="constant", basal__friction_angle=17)
+
+
+def test_a_release_that_is_cut_out_leaves_the_cut(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+    """The motion is nearly that of a release on top; walls would stop it."""
+    folder = tmp_path / "slide"
+    release = write_rectangle(tmp_path / "wide.geojson", WEST + 150.0, SOUTH + 200.0, SIDE, SIDE)
+    printed = slope.ok("--cut", release=release, thickness=THICK)
+    # The cell is that for most of the volume; most of the area is below ramps.
+    assert [line for line in printed.splitlines() if line.startswith("warning: --cell")] == [
+        "warning: --cell: across the median thickness of body slide, 10 m, there are too few particles to resolve "
+        "shear and thinning (found 3.3; needed 4). Set --cell to 3 m, at about 16 times the run time."
+    ]
+    assert (
+        'placement = "cut"  # out of the DEM, which is the surface before the slide; "on_top": onto it\n'
+        "# The edges of the cut are ramps of this width, half of it beyond the outline, and the volume is preserved. "
+        "Vertical\n# edges would trap the slide. At their steepest, the ramps rise 29.7 degrees against the DEM, which "
+        "falls 30.0\n# degrees here.\ntaper = 70.0  # m\n"
+    ) in (folder / "case.toml").read_text()
+    walls = sets(body__slide__taper=0)
+    top = [*walls, *sets(body__slide__placement="on_top")]
+    speeds = {}
+    for name, words in (("ramps", []), ("walls", walls), ("top", top)):
+        thawslide.ok("run", folder, "--output", tmp_path / name, *COARSE, *words)
+        speeds[name] = history(tmp_path / name)["mean_velocity_m_s"][-1]
+        with rasterio.open(tmp_path / name / "maps" / "release.tif") as file:
+            assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(VOLUME, rel=1e-9), name
+    assert speeds["ramps"] > 0.6 * speeds["top"]
+    assert speeds["walls"] < 0.4 * speeds["top"]
+
+
+def test_ramps_near_the_edge_of_the_dem_are_as_wide_as_possible(ran: Ran, tmp_path: Path, slope: Slope) -> None:
+    """Their width has a warning, and the case runs."""
+    folder = tmp_path / "slide"
+    release = write_rectangle(tmp_path / "edge.geojson", WEST + 23.0, SOUTH + 200.0, SIDE, SIDE)
+    printed = slope.ok("--cut", release=release, thickness=THICK)
+    assert printed.startswith(
+        "warning: --cut: the edges of the cut are too narrow, because the release is narrow or near the edge of the "
+        "known terrain (found 40 m; needed 70 m). They rise by up to 45 degrees against the terrain, which falls by 30 "
+        "degrees, and may stop the slide. Use --on-top, which has no such edges\n"
+    ), printed
+    assert (
+        "the ramps rise 45.0 degrees against the DEM, which falls 30.0\n"
+        "# degrees here; 70.0 m is needed, but the release is too narrow.\ntaper = 40.0  # m\n"
+    ) in (folder / "case.toml").read_text()
+    ran("--set", "time.end=0.01", case=folder)
+    with rasterio.open(tmp_path / "run" / "maps" / "release.tif") as file:
+        assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(VOLUME, rel=1e-9)
+
+
+def test_a_section_has_the_ramps_too(thawslide: Program, tmp_path: Path) -> None:
+    outline = [(155.0, 105.0), (355.0, 105.0), (355.0, 305.0), (155.0, 305.0)]
+    words = [
+        *("--dem", write_dem(tmp_path / "dem.tif", lambda x, y: 1000.0 - 0.5 * x)),
+        *("--release", write_release(tmp_path / "release.geojson", outline)),
+        *("--line", write_line(tmp_path / "line.geojson", [(15.0, 205.0), (775.0, 205.0)])),
+    ]
+    thawslide.ok("section", tmp_path / "case", *words, "--thickness", THICK, "--cut")
+    lines = (tmp_path / "case" / "profile.csv").read_text().splitlines()
+    assert lines[3] == (
+        "# The edges of the cut are ramps 80 m wide, half of it beyond the outline: vertical edges would trap "
+        "the slide."
+    )
+    distance, terrain, surface = np.array([line.split(",") for line in lines[5:]], dtype=float).T
+    assert np.trapezoid(surface - terrain, distance) == pytest.approx(SIDE * THICK, rel=1e-9)
+    assert (surface - terrain).max() == pytest.approx(THICK, abs=1e-9)
+    steepest = np.max(np.diff(terrain) / np.diff(distance))
+    assert -0.05 < steepest < 0.01, "the base falls or is level everywhere"

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import rasterio
-from conftest import Interrupted, Outcome, Program, assert_bitwise_identical, history, run_facts, sets
-from slope_files import CELL, DEPTH, SOUTH, THICKNESS, WEST, WIDTH, Slope, made, write_release, write_thickness
+from conftest import Interrupted, Outcome, Program, Ran, Slope, assert_bitwise_identical, history, run_facts, sets
+from terrain_files import CELL, DEPTH, SOUTH, THICKNESS, WEST, WIDTH, write_rectangle, write_thickness
 
 
 def refused(outcome: Outcome) -> str:
@@ -21,14 +21,12 @@ def refused(outcome: Outcome) -> str:
     return outcome.stderr
 
 
-def test_two_commands_produce_maps(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    folder, run = tmp_path / "slide", tmp_path / "run"
-    outcome = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
-    assert outcome.returncode == 0, outcome.stderr
+def test_two_commands_produce_maps(ran: Ran, tmp_path: Path, slope: Slope) -> None:
+    folder = tmp_path / "slide"
+    slope.ok()
     case = tomllib.loads((folder / "case.toml").read_text())
     assert THICKNESS / (case["grid"]["cell"] / case["body"]["slide"]["particles_per_axis"]) >= 6.0
-    done = thawslide("run", folder, "--output", run, "--set", "time.end=1.5")
-    assert done.returncode == 0, done.stderr
+    run = ran("--set", "time.end=1.5", case=folder)
 
     volume = WIDTH * DEPTH * THICKNESS
     with rasterio.open(run / "maps" / "final_thickness.tif") as file:
@@ -63,16 +61,15 @@ def test_two_commands_produce_maps(thawslide: Program, tmp_path: Path, slope: Sl
     assert (run / "maps" / "results.gpkg").is_file()
 
 
-def test_a_run_ends_at_rest_of_its_slide(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_a_run_ends_at_rest_of_its_slide(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     """Without the key the run continues to time.end, with the same front and deposit."""
     folder = tmp_path / "slide"
-    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS, "--cell", 12).returncode == 0
+    slope.ok("--cell", 12)
     words = sets(time__end=40, time__rest_time=2, basal__friction="constant", basal__friction_angle=20)
     facts = {}
     for name, more in (("rest", []), ("complete", sets(time__stop_at_rest=0))):
         run = tmp_path / name
-        done = thawslide("run", folder, "--output", run, *words, *more)
-        assert done.returncode == 0, done.stderr
+        thawslide.ok("run", folder, "--output", run, *words, *more)
         facts[name] = run_facts(run)
         assert facts[name]["at_rest"] is True and facts[name]["status"] == "done"
     rest, complete = facts["rest"], facts["complete"]
@@ -86,12 +83,10 @@ def test_a_run_ends_at_rest_of_its_slide(thawslide: Program, tmp_path: Path, slo
     assert ends[0] > 200.0 and ends[0] == pytest.approx(ends[1], abs=0.1)
 
 
-def test_a_thickness_raster_defines_the_release_without_polygons(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
+def test_a_thickness_raster_defines_the_release_without_polygons(ran: Ran, tmp_path: Path, slope: Slope) -> None:
     """The thin rim of the body keeps its position and its volume."""
-    folder, run = tmp_path / "slide", tmp_path / "run"
-    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
+    folder = tmp_path / "slide"
+    slope.ok()
     with rasterio.open(folder / "dem.tif") as file:
         thickness = np.zeros(file.shape)
         row, column = file.index(WEST + 260.0, SOUTH + 300.0)
@@ -104,8 +99,7 @@ def test_a_thickness_raster_defines_the_release_without_polygons(
     lines = [line for line in case.read_text().splitlines() if not line.startswith("release = ")]
     text = "\n".join(lines).replace("thickness = 24.0  # m\n", 'thickness = { raster = "thick.tif" }\n', 1)
     case.write_text(text)
-    done = thawslide("run", folder, "--output", run, *sets(time__end=0.01, maps__cell=CELL))
-    assert done.returncode == 0, done.stderr
+    run = ran(*sets(time__end=0.01, maps__cell=CELL), case=folder)
     with rasterio.open(run / "maps" / "final_thickness.tif") as file:
         found = file.read(1, masked=True).filled(0.0)
         x, y = file.xy(*np.indices(found.shape).reshape(2, -1))
@@ -115,13 +109,12 @@ def test_a_thickness_raster_defines_the_release_without_polygons(
     assert found[(near > 69.0) & (near < 71.0)].mean() == pytest.approx(1.5, rel=0.1)
 
 
-def test_cut_lowers_the_terrain_by_the_thickness(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+def test_cut_lowers_the_terrain_by_the_thickness(ran: Ran, tmp_path: Path, slope: Slope) -> None:
     """The thickness is an attribute of the polygon."""
-    release = write_release(tmp_path / "cut.geojson", WEST + 200.0, SOUTH + 250.0, thickness=THICKNESS)
-    dem, folder, run = slope(), tmp_path / "cut", tmp_path / "run"
-    assert made(thawslide, folder, dem, release, "--cut").returncode == 0
-    done = thawslide("run", folder, "--output", run, "--set", "time.end=0.01")
-    assert done.returncode == 0, done.stderr
+    release = write_rectangle(tmp_path / "cut.geojson", WEST + 200.0, SOUTH + 250.0, thickness=THICKNESS)
+    dem, folder = slope(), tmp_path / "cut"
+    slope.ok("--cut", folder=folder, release=release, thickness=None)
+    run = ran("--set", "time.end=0.01", case=folder)
     with rasterio.open(run / "maps" / "terrain.tif") as ground, rasterio.open(dem) as before:
         west, south = WEST + 260.0, SOUTH + 300.0  # in the middle of the release
         lowered = next(before.sample([(west, south)]))[0] - next(ground.sample([(west, south)]))[0]
@@ -130,28 +123,21 @@ def test_cut_lowers_the_terrain_by_the_thickness(thawslide: Program, tmp_path: P
 
 @pytest.mark.parametrize(("number", "percent"), [(signal.SIGTERM, 20), (signal.SIGINT, 50)])
 def test_a_run_stopped_by_a_signal_ends_bitwise_identical(
-    thawslide: Program,
-    interrupted: Interrupted,
-    tmp_path: Path,
-    slope: Slope,
-    release: Path,
-    number: int,
-    percent: int,
+    ran: Ran, thawslide: Program, interrupted: Interrupted, tmp_path: Path, slope: Slope, number: int, percent: int
 ) -> None:
     """Maps, probes, history, snapshots and checkpoint are those of an uninterrupted run."""
-    folder, complete, parts = tmp_path / "slide", tmp_path / "complete", tmp_path / "parts"
-    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
+    folder, parts = tmp_path / "slide", tmp_path / "parts"
+    slope.ok()
     case = folder / "case.toml"
     text = case.read_text().replace("temperature = ", "velocity = [10.0, 0.0, -5.0]\ntemperature = ", 1)
     case.write_text(f"{text}\n[probe.gauge]\npoint = [{WEST + 330.0}, {SOUTH + 300.0}]\n")
     # Rows, snapshots and checkpoints have different times.
     words = sets(time__end=2, time__history_interval=0.07, time__output_interval=0.45, checkpoint__interval=0.3)
-    assert thawslide("run", folder, *words, "--output", complete).returncode == 0
+    complete = ran(*words, case=folder, name="complete")
     assert interrupted(folder, parts, words, number, percent) == 4
     facts = run_facts(parts)
     assert facts["status"] == "stopped" and percent / 50 <= facts["simulated_time_s"] < 2.0
-    outcome = thawslide("resume", parts)
-    assert outcome.returncode == 0, outcome.stderr
+    thawslide.ok("resume", parts)
     assert_bitwise_identical(complete, parts)
     after, expected = run_facts(parts), run_facts(complete)
     keys = ("steps", "covered_volume_m3", "covered_area_m2", "affected_area_m2")
@@ -167,15 +153,15 @@ def test_a_run_stopped_by_a_signal_ends_bitwise_identical(
 
 
 def test_results_are_bitwise_identical_for_any_number_of_threads(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+    thawslide: Program, tmp_path: Path, slope: Slope
 ) -> None:
     folder = tmp_path / "slide"
-    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
+    slope.ok()
     runs = []
     for threads in (1, 2):
         runs.append(tmp_path / f"threads-{threads}" / "run")
         words = ["--set", "time.end=0.4", "--threads", threads, "--output", runs[-1]]
-        assert thawslide("run", folder, *words).returncode == 0
+        thawslide.ok("run", folder, *words)
     assert_bitwise_identical(*runs)
     first, second = (sorted((run / "maps").iterdir()) for run in runs)
     assert [file.name for file in first] == [file.name for file in second]
@@ -183,20 +169,18 @@ def test_results_are_bitwise_identical_for_any_number_of_threads(
         assert one.read_bytes() == other.read_bytes(), one.name
 
 
-def test_new_accepts_a_raster_of_the_thickness(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
+def test_new_accepts_a_raster_of_the_thickness(ran: Ran, tmp_path: Path, slope: Slope) -> None:
     """The raster replaces polygons, and can have the name of the DEM."""
     dem = slope()
     raster = write_thickness(tmp_path / "elsewhere" / "dem.tif", dem, THICKNESS)
-    folder, run = tmp_path / "slide", tmp_path / "run"
-    outcome = made(thawslide, folder, dem, raster)
-    assert outcome.returncode == 0, outcome.stderr
+    folder = tmp_path / "slide"
+    slope.ok(release=raster, thickness=None)
     assert {path.name for path in folder.iterdir()} == {"case.toml", "dem.tif", "terrain.tif"}
     assert (folder / "dem.tif").read_bytes() == raster.read_bytes()
     case = tomllib.loads((folder / "case.toml").read_text())
     assert case["terrain"]["file"] == "terrain.tif"
     assert case["body"]["slide"]["thickness"] == {"raster": "dem.tif"} and "release" not in case["body"]["slide"]
-    done = thawslide("run", folder, "--output", run, "--set", "time.end=0.01")
-    assert done.returncode == 0, done.stderr
+    run = ran("--set", "time.end=0.01", case=folder)
     with rasterio.open(run / "maps" / "release.tif") as file:
         assert file.read(1, masked=True).sum() * CELL**2 == pytest.approx(WIDTH * DEPTH * THICKNESS, rel=1e-9)
 
@@ -207,12 +191,10 @@ def size_text(size: float) -> str:
     return f"{round(value, 1 - math.floor(math.log10(value))):g} {unit}"
 
 
-def test_check_reports_cells_and_memory_of_maps(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
+def test_check_reports_cells_and_memory_of_maps(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     """It reports the size of cells with its reason and the number of files, and warns of small cells."""
     folder = tmp_path / "slide"
-    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
+    slope.ok()
     with rasterio.open(folder / "dem.tif") as file:
         of_ground = file.width * file.height * 8
     usual = "2 x 2 of the DEM's, to be at least 12 m wide: three particle distances"
@@ -221,10 +203,9 @@ def test_check_reports_cells_and_memory_of_maps(
         "speeds and pressures are those of single particles. Without maps.cell, maps have cells of 20 m.\n"
     )
     for words, cell, reason in (([], 20, usual), (["--set", "maps.cell=5"], 5, "as maps.cell asks")):
-        outcome = thawslide("check", folder, *words)
-        assert outcome.returncode == 0, outcome.stderr
-        assert (note in outcome.stdout) == (cell == 5)
-        facts = dict(re.findall(r"^  (\w+) +(\S.*)$", outcome.stdout, re.MULTILINE))
+        printed = thawslide.ok("check", folder, *words)
+        assert (note in printed) == (cell == 5)
+        facts = dict(re.findall(r"^  (\w+) +(\S.*)$", printed, re.MULTILINE))
         reported = re.fullmatch(
             rf"(\d+) x (\d+) cells of {cell} x {cell} m \({re.escape(reason)}\); "
             r"memory (\S+) ([kM])B for the release, at most (\S+) ([kM])B",

@@ -12,46 +12,25 @@ from pathlib import Path
 import numpy as np
 import pytest
 import rasterio
-from conftest import Program, run_facts, sets
-from slope_files import (
-    CELL,
-    SOUTH,
-    THICKNESS,
-    WEST,
-    Slope,
-    assert_refused,
-    made,
-    without_folder,
-    write_release,
-)
+from conftest import Program, Ran, Slope, run_facts, sets
+from terrain_files import CELL, SOUTH, THICKNESS, WEST, write_rectangle
 
 ACROSS = "across the median thickness of body slide, 24 m, there are "
 MAPS = "too few cells for maps of thickness and area"
 
 
 def test_too_few_particles_across_the_thickness_have_a_warning(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
+    thawslide: Program, tmp_path: Path, slope: Slope
 ) -> None:
     """`check` reports their number; `new` and `check` warn if the user's cell makes them too few."""
-    outcome = made(thawslide, tmp_path / "fine", slope(), release, "--thickness", THICKNESS)
-    assert outcome.returncode == 0 and "too few particles" not in outcome.stdout, outcome.stderr
+    assert "too few particles" not in slope.ok(folder=tmp_path / "fine")
     checked = thawslide("check", tmp_path / "fine")
     assert (
-        "  body        slide: 288,000 m3 and 594,000 t, over 12,000 m2; 24 m thick on average, 24 m in the "
-        "median and 24 m at most (vertical)\n"
-        "              4,512 particles 4 m apart; 6 across in the median and 6 at most; -5 C\n"
-        "  roughness   noise of 0 m rms"
+        "  body        slide: 288,000 m3 and 594,000 t, over 12,000 m2; 24 m thick on average, 24 m in the median and "
+        "24 m at most (vertical)\n              4,512 particles 4 m apart; 6 across in the median and 6 at most; -5 "
+        "C\n  roughness   noise of 0 m rms"
     ) in checked.stdout
-    coarse = made(
-        thawslide,
-        tmp_path / "coarse",
-        slope(),
-        release,
-        "--thickness",
-        THICKNESS,
-        "--cell",
-        30,
-    )
+    coarse = slope.new("--cell", 30, folder=tmp_path / "coarse")
     problem = (
         f"{ACROSS}too few particles to resolve shear and thinning (found 1.6; needed 4), and {MAPS} (found 0.8; "
         "needed 8)"
@@ -60,7 +39,7 @@ def test_too_few_particles_across_the_thickness_have_a_warning(
         f"warning: --cell: {problem}. Set --cell to 8 m, at about 200 times the run time, or for maps to 3 m, at about "
         "10,000 times the run time.\n"
     ) in coarse.stdout, coarse.stderr
-    checked = thawslide("check", tmp_path / "coarse").stdout
+    checked = thawslide.ok("check", tmp_path / "coarse")
     assert "; 1.6 across in the median and 1.6 at most; " in checked
     fitting = re.search(
         rf"/coarse/case\.toml:\d+:\d+: grid\.cell: {re.escape(problem)}\. Set grid\.cell to (\S+) m, at about \S+ "
@@ -69,16 +48,14 @@ def test_too_few_particles_across_the_thickness_have_a_warning(
     )
     assert fitting and 4.0 < float(fitting[1]) <= 8.0, checked
     assert 2.0 <= float(fitting[2]) <= 3.0, checked
-    finer = thawslide("check", tmp_path / "coarse", "--set", f"grid.cell={fitting[1]}")
-    assert finer.returncode == 0 and "too few particles" not in finer.stdout, finer.stderr
-    finest = thawslide("check", tmp_path / "coarse", "--set", f"grid.cell={fitting[2]}")
-    assert finest.returncode == 0 and MAPS not in finest.stdout, finest.stderr
+    assert "too few particles" not in thawslide.ok("check", tmp_path / "coarse", "--set", f"grid.cell={fitting[1]}")
+    assert MAPS not in thawslide.ok("check", tmp_path / "coarse", "--set", f"grid.cell={fitting[2]}")
 
 
-def test_too_few_cells_for_maps_have_a_warning(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
+def test_too_few_cells_for_maps_have_a_warning(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     """`new` proposes cells for travel distance. It also names those for maps, as do the case, `check` and `run`."""
     folder = tmp_path / "slide"
-    outcome = made(thawslide, folder, slope(), release, "--thickness", THICKNESS)
+    outcome = slope.new()
     problem = f"{ACROSS}{MAPS} (found 3; needed 8)"
     fewer = "Travel distance and speed need 2 to 4 cells.\n"
     assert "warning: " not in outcome.stdout and "  --resolution standard: cells of 3 m, about " in outcome.stdout
@@ -89,121 +66,63 @@ def test_too_few_cells_for_maps_have_a_warning(thawslide: Program, tmp_path: Pat
         "need\n# 8: cells of 3 m (`thawslide new --resolution standard`), at about 51 times the run time.\n"
     ) in text
     place = f"{folder / 'case.toml'}:{text.splitlines().index('[grid]') + 2}:8"
-    checked = thawslide("check", folder, "--json")
-    (note,) = json.loads(checked.stdout)["warnings"]
+    (note,) = thawslide.json("check", folder)["warnings"]
     assert note.startswith(f"{place}: grid.cell: {problem}. Set grid.cell to ") and note.endswith(fewer.strip())
     run = thawslide("run", folder, "--output", tmp_path / "run", *sets(time__end=0.01))
     assert f"warning: {note}\n" in run.stdout, run.stderr
-    assert f"{problem}. Set grid.cell to " in thawslide("check", tmp_path / "run").stdout
+    assert f"{problem}. Set grid.cell to " in thawslide.ok("check", tmp_path / "run")
 
-    fine = made(thawslide, tmp_path / "fine", slope(), release, "--thickness", THICKNESS, "--cell", 3)
-    assert fine.returncode == 0 and "warning: " not in fine.stdout, fine.stderr
+    assert "warning: " not in slope.ok("--cell", 3, folder=tmp_path / "fine")
     assert "need 2 to 4 cells" not in (tmp_path / "fine" / "case.toml").read_text()
-    assert json.loads(thawslide("check", tmp_path / "fine", "--json").stdout)["warnings"] == []
+    assert thawslide.json("check", tmp_path / "fine")["warnings"] == []
 
     (folder / "case.toml").write_text(text.partition("# Maps are updated")[0])
-    assert json.loads(thawslide("check", folder, "--json").stdout)["warnings"] == [], "no key of maps is given"
+    assert thawslide.json("check", folder)["warnings"] == [], "no key of maps is given"
 
 
-def test_a_release_smaller_than_a_cell_of_the_dem_is_refused(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
-    tiny = write_release(tmp_path / "tiny.geojson", WEST + 203.0, SOUTH + 252.0, 3.0, 3.0)
-    assert_refused(
-        made(thawslide, tmp_path / "slide", slope(), tiny, "--thickness", 20),
-        tmp_path,
-        "--release: tiny.geojson: the release is smaller than a cell of the DEM (9 m2; 100 m2), over which it "
-        "would be distributed and become too thin. Draw it larger, or resample the DEM (gdalwarp -tr "
-        "0.8 0.8 -r bilinear dem.tif finer.tif).",
+def test_a_thickness_of_the_order_of_the_width_has_a_warning(slope: Slope) -> None:
+    assert slope.new(thickness=300).stdout.startswith(
+        "warning: the release of the body slide is up to 300 m thick and, by its area, 110 m wide: is the "
+        "thickness in metres?\n"
     )
 
 
-def test_a_thickness_of_the_order_of_the_width_has_a_warning(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
-    outcome = made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 300)
-    assert outcome.stdout.startswith(
-        "warning: the release of the body slide is up to 300 m thick and, by its area, 110 m wide: is the "
-        "thickness in metres?\n"
-    ), outcome.stdout + outcome.stderr
-
-
-def test_a_hole_filled_with_zeros_has_a_warning(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
+def test_a_hole_filled_with_zeros_has_a_warning(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     """A slide would fall into the hole: `new`, `check` and `run` warn of it."""
     dem = slope()
     with rasterio.open(dem, "r+") as file:
         heights = file.read(1)
         heights[27:30, 40:45] = 0.0
         file.write(heights, 1)
-    outcome = made(thawslide, tmp_path / "slide", dem, release, "--thickness", THICKNESS)
     note = (
         "warning: 15 points of dem.tif are exactly 0 m among heights of 1000 to 1035 m, such as (412400, 5160300): a "
         "hole without data? Then declare it in the file, gdal_edit.py -a_nodata 0 {}dem.tif, or fill it\n"
     )
-    assert without_folder(outcome.stdout, tmp_path).startswith(note.format("")), outcome.stdout + outcome.stderr
-    for words in (
-        ("check",),
-        ("run", "--output", tmp_path / "run", "--set", "time.end=0.01"),
-    ):
-        done = thawslide(words[0], tmp_path / "slide", *words[1:])
-        assert done.returncode == 0, done.stderr
-        assert note.format("slide/") in without_folder(done.stdout, tmp_path)
+    assert slope.ok(dem=dem).startswith(note.format(f"{slope.folder}/"))
+    for words in (["check", slope.case], ["run", slope.case, "--output", tmp_path / "run", "--set", "time.end=0.01"]):
+        assert note.format(f"{slope.case}/") in thawslide.ok(*words)
 
 
-def test_crs_as_a_number_only_is_refused(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> None:
-    bare = slope("bare.tif", crs=None)
-    assert_refused(
-        made(
-            thawslide,
-            tmp_path / "slide",
-            bare,
-            release,
-            "--thickness",
-            THICKNESS,
-            "--crs",
-            32632,
-        ),
-        tmp_path,
-        "--crs: '32632' is not a known coordinate reference system; did you mean \"EPSG:32632\"? Allowed: a "
-        'number of the EPSG registry such as "EPSG:31287" (epsg.io finds it), or a WKT.',
-    )
-
-
-def test_resampling_a_case_reports_the_domain_that_fits(
-    thawslide: Program, tmp_path: Path, slope: Slope, release: Path
-) -> None:
+def test_resampling_a_case_reports_the_domain_that_fits(thawslide: Program, tmp_path: Path, slope: Slope) -> None:
     folder = tmp_path / "slide"
-    assert made(thawslide, folder, slope(), release, "--thickness", THICKNESS).returncode == 0
+    slope.ok()
     words = ("--set", "terrain.resample=40")
-    outcome = thawslide("check", folder, *words)
-    assert outcome.returncode == 2
-    reported = outcome.stderr.partition("Set ")[2].partition(", or take a larger")[0]
+    message = thawslide.error("check", folder, *words)
+    reported = message.partition("Set ")[2].partition(", or take a larger")[0]
     low, _, high = reported.partition(" and ")
-    assert low.startswith("grid.min = [") and high.startswith("grid.max = ["), outcome.stderr
-    done = thawslide(
-        "check",
-        folder,
-        *words,
-        "--set",
-        low.replace(" ", ""),
-        "--set",
-        high.replace(" ", ""),
-    )
-    assert done.returncode == 0, done.stderr
+    assert low.startswith("grid.min = [") and high.startswith("grid.max = ["), message
+    thawslide.ok("check", folder, *words, "--set", low.replace(" ", ""), "--set", high.replace(" ", ""))
 
 
-def test_a_release_near_the_edge_of_the_known_terrain_has_a_warning(
-    thawslide: Program, tmp_path: Path, slope: Slope
-) -> None:
+def test_a_release_near_the_edge_of_the_known_terrain_has_a_warning(tmp_path: Path, slope: Slope) -> None:
     """`new` warns if the distance to the edge, or to points without data, is shorter than the release."""
 
     def warning(name: str, west: float, hole: slice | None = None) -> str:
-        near = write_release(tmp_path / f"{name}.geojson", WEST + west, SOUTH + 250.0)
-        outcome = made(thawslide, tmp_path / name, slope(hole=hole), near, "--thickness", THICKNESS)
-        assert outcome.returncode == 0, outcome.stderr
+        near = write_rectangle(tmp_path / f"{name}.geojson", WEST + west, SOUTH + 250.0)
+        printed = slope.ok(folder=tmp_path / name, dem=slope(hole=hole), release=near)
         case = tomllib.loads((tmp_path / name / "case.toml").read_text())
         assert case["grid"]["leaving"] == "remove"
-        return "".join(line for line in outcome.stdout.splitlines() if line.startswith("warning: "))
+        return "".join(line for line in printed.splitlines() if line.startswith("warning: "))
 
     # The release has the points from 205 to 315 m, and ends a cell beyond them.
     assert warning("middle", 205.0) == ""
@@ -223,20 +142,18 @@ def rows_of(file: Path, layer: str) -> list[dict[str, object]]:
 
 
 @pytest.mark.parametrize("degrees", [0.0, 30.0, 45.0])
-def test_a_release_at_rest_has_the_area_that_was_drawn(
-    thawslide: Program, tmp_path: Path, slope: Slope, degrees: float
-) -> None:
+def test_a_release_at_rest_has_the_area_that_was_drawn(ran: Ran, tmp_path: Path, slope: Slope, degrees: float) -> None:
     """The release of 80 m by 100 m, at least eight cells of the DEM, has any direction."""
     angle = np.radians(degrees)
     turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
     corners = np.array([[-40.0, -50.0], [40.0, -50.0], [40.0, 50.0], [-40.0, 50.0], [-40.0, -50.0]]) @ turn
-    path = write_release(tmp_path / "turned.geojson", WEST, SOUTH)
+    path = write_rectangle(tmp_path / "turned.geojson", WEST, SOUTH)
     drawn = json.loads(path.read_text())
     drawn["features"][0]["geometry"]["coordinates"] = [(corners + np.array([WEST + 303.0, SOUTH + 301.0])).tolist()]
     path.write_text(json.dumps(drawn))
-    folder, run = tmp_path / "slide", tmp_path / "run"
-    assert made(thawslide, folder, slope(), path, "--thickness", THICKNESS).returncode == 0
-    assert thawslide("run", folder, "--output", run, *sets(time__end=0.01, maps__cell=CELL)).returncode == 0
+    folder = tmp_path / "slide"
+    slope.ok(release=path)
+    run = ran(*sets(time__end=0.01, maps__cell=CELL), case=folder)
     facts = run_facts(run)
     assert facts["at_rest"] is False
     assert facts["affected_area_m2"] == pytest.approx(8000.0, rel=0.05)

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import csv
-import json
 import re
 from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import ROOT, Program, datasets, run_facts, sets, snapshot_files
-from slope_files import Slope
+from conftest import ROOT, Program, Ran, Slope, datasets, run_facts, sets, snapshot_files
 
 REFERENCE = ROOT / "docs" / "reference"
 NAME = re.compile(r"`([^`\n]+)`")
@@ -37,23 +35,17 @@ def keys_in(value: Any) -> set[str]:
 
 
 @pytest.fixture
-def case_on_dem(thawslide: Program, tmp_path: Path, slope: Slope, release: Path) -> Path:
-    folder = tmp_path / "case"
-    outcome = thawslide("new", folder, "--dem", slope(), "--release", release, "--thickness", "20", "--cell", "10")
-    assert outcome.returncode == 0, outcome.stderr
-    return folder
+def case_on_dem(slope: Slope) -> Path:
+    slope.ok("--cell", 10, thickness=20)
+    return slope.case
 
 
 def test_columns_datasets_and_maps_of_runs_are_described(
-    thawslide: Program, small_case: Path, case_on_dem: Path, tmp_path: Path
+    ran: Ran, thawslide: Program, small_case: Path, case_on_dem: Path
 ) -> None:
-    outcome = thawslide("describe", "--outputs")
-    assert outcome.returncode == 0
-    described = names_in(outcome.stdout)
+    described = names_in(thawslide.ok("describe", "--outputs"))
     for case in (small_case, case_on_dem):
-        run = tmp_path / f"run-{case.name}"
-        outcome = thawslide("run", case, "--output", run, *sets(time__end=0.02))
-        assert outcome.returncode == 0, outcome.stderr
+        run = ran(*sets(time__end=0.02), case=case, name=f"run-{case.name}")
         with (run / "history.csv").open(newline="") as file:
             columns = next(csv.reader(file))
         names = [Path(name).name for name in datasets(snapshot_files(run)[-1]) if re.search("PointData|^base", name)]
@@ -62,9 +54,8 @@ def test_columns_datasets_and_maps_of_runs_are_described(
         assert {*columns, *names, *maps} - described == set()
 
 
-def test_keys_of_run_json_are_described(thawslide: Program, case_on_dem: Path, tmp_path: Path) -> None:
-    run = tmp_path / "run"
-    assert thawslide("run", case_on_dem, "--output", run, *sets(time__end=0.01)).returncode == 0
+def test_keys_of_run_json_are_described(ran: Ran, case_on_dem: Path) -> None:
+    run = ran(*sets(time__end=0.01), case=case_on_dem)
     facts = run_facts(run)
     main, parts, roughness = re.split(r"^Keys of `\w+`:$", section("run.json"), flags=re.MULTILINE)
     assert names_in(main) == set(facts)
@@ -74,10 +65,9 @@ def test_keys_of_run_json_are_described(thawslide: Program, case_on_dem: Path, t
 
 
 def test_keys_of_json_of_commands_are_described(thawslide: Program, case_on_dem: Path, done: Path) -> None:
-    checked = json.loads(thawslide("check", case_on_dem, "--json").stdout)
+    checked = thawslide.json("check", case_on_dem)
     text = section("check --json")
     assert names_in(text) == set(checked)
     roughness = set(checked.pop("roughness"))
     assert keys_in(checked) <= set(NAME.findall(text)) | roughness
-    status = json.loads(thawslide("status", done, "--json").stdout)
-    assert names_in(section("status --json")) == set(status)
+    assert names_in(section("status --json")) == set(thawslide.json("status", done))

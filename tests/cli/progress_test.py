@@ -5,14 +5,13 @@ from __future__ import annotations
 import os
 import pty
 import re
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 import rasterio
-from conftest import LAMPLUGH, LIMIT, Program, history, run_facts, sets
-from slope_files import DEPTH, SOUTH, WEST, WIDTH, Slope, made
+from conftest import HANG, LAMPLUGH, Program, Slope, history, run_facts, sets
+from terrain_files import DEPTH, SOUTH, WEST, WIDTH
 
 STATE = r"\d+\.\d of 2 s \| \d+ steps/s \| \S+ (s|min) left \| front \d+ m"
 SPEED = r" at -?\d+\.\d m/s"
@@ -22,10 +21,9 @@ SPEED = r" at -?\d+\.\d m/s"
 def run_output(thawslide: Program, tmp_path_factory: pytest.TempPathFactory) -> tuple[list[str], Path]:
     """Return the lines of a run whose output is not a terminal, and its folder."""
     run = tmp_path_factory.mktemp("runs") / "run"
-    outcome = thawslide("run", LAMPLUGH, "--output", run, "--threads", 1, *sets(time__end=2))
-    assert outcome.returncode == 0, outcome.stderr
-    assert "\r" not in outcome.stdout and "\033" not in outcome.stdout
-    return outcome.stdout.splitlines(), run
+    printed = thawslide.ok("run", LAMPLUGH, "--output", run, "--threads", 1, *sets(time__end=2))
+    assert "\r" not in printed and "\033" not in printed
+    return printed.splitlines(), run
 
 
 def test_the_first_line_has_title_particles_and_threads(run_output: tuple[list[str], Path]) -> None:
@@ -88,17 +86,14 @@ def read_terminal(descriptor: int) -> bytes:
         shown += part
 
 
-def test_the_bar_on_a_terminal_is_redrawn_in_place(
-    binary: Path, plain_environment: dict[str, str], tmp_path: Path
-) -> None:
+def test_the_bar_on_a_terminal_is_redrawn_in_place(thawslide: Program, tmp_path: Path) -> None:
     terminal, program_side = pty.openpty()
     words = sets(time__end=2, time__step=0.001)
-    command = [str(binary), "run", str(LAMPLUGH), "--output", str(tmp_path / "run"), *words]
-    with subprocess.Popen(command, env=plain_environment, stdout=program_side, stdin=subprocess.DEVNULL) as process:
+    with thawslide.start("run", LAMPLUGH, "--output", tmp_path / "run", *words, stdout=program_side) as process:
         os.close(program_side)
         shown = read_terminal(terminal).decode()
         os.close(terminal)
-        assert process.wait(timeout=LIMIT) == 0
+        assert process.wait(timeout=HANG) == 0
     bars = re.findall(rf"\r\033\[K\[(=* *)\] +(\d+) % \| {STATE}({SPEED})?", shown)
     assert bars and not bars[0][3] and all(bar[3] for bar in bars[1:])
     for bar, share, *_ in bars:
@@ -112,34 +107,26 @@ def test_the_bar_on_a_terminal_is_redrawn_in_place(
     assert re.search(r"m( at -?\d+\.\d m/s)?\r\n[\d,]+ particles, 2,000 steps in ", shown[last:])
 
 
-def test_a_slide_that_barely_moved_has_no_front(
-    thawslide: Program, slope: Slope, release: Path, tmp_path: Path
-) -> None:
-    made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24)
-    outcome = thawslide("run", tmp_path / "slide", "--output", tmp_path / "run", *sets(time__end=0.05))
-    assert outcome.returncode == 0, outcome.stderr
-    assert "nan" not in outcome.stdout
+def test_a_slide_that_barely_moved_has_no_front(thawslide: Program, slope: Slope, tmp_path: Path) -> None:
+    slope.new()
+    printed = thawslide.ok("run", tmp_path / "slide", "--output", tmp_path / "run", *sets(time__end=0.05))
+    assert "nan" not in printed
     assert re.search(
-        r"\nat 0\.05 s, not at rest: mean velocity 0\.\d\d m/s, mean displacement 0 m, no front: "
-        r"maps\.path is not set, "
-        r"and the slide has barely moved\n",
-        outcome.stdout,
+        r"\nat 0\.05 s, not at rest: mean velocity 0\.\d\d m/s, mean displacement 0 m, no front: maps\.path is not "
+        r"set, and the slide has barely moved\n",
+        printed,
     )
 
 
-def test_a_run_ends_when_all_particles_have_left(
-    thawslide: Program, slope: Slope, release: Path, tmp_path: Path
-) -> None:
-    made(thawslide, tmp_path / "slide", slope(), release, "--thickness", 24)
+def test_a_run_ends_when_all_particles_have_left(thawslide: Program, slope: Slope, tmp_path: Path) -> None:
+    slope.new()
     run = tmp_path / "run"
-    outcome = thawslide(
-        "run", tmp_path / "slide", "--output", run, "--threads", 1,
-        *sets(time__end=60, grid__cell=16, grid__leaving='"remove"', basal__friction_angle=3),
+    words = [
+        *sets(time__end=60, grid__cell=16, grid__leaving='"remove"', basal__friction_angle=3, band__model="scaled"),
         *sets(grid__min=[WEST + 128, SOUTH + 176, 960], grid__max=[WEST + 512, SOUTH + 432, 1216]),
         *sets(heat__enabled="false", pressure__enabled="false", body__slide__velocity=[20, 0, 0]),
-        *sets(band__model="scaled"),
-    )  # fmt: skip
-    assert outcome.returncode == 0, outcome.stderr
+    ]
+    printed = thawslide.ok("run", tmp_path / "slide", "--output", run, "--threads", 1, *words)
     facts, columns = run_facts(run), history(run)
     reported = re.fullmatch(
         r"the whole slide has left the domain or the known terrain at t = (\S+) s \(step \d+\)\. mass_kg still "
@@ -148,11 +135,11 @@ def test_a_run_ends_when_all_particles_have_left(
         facts["message"],
     )
     assert reported and facts["status"] == "done"
-    assert outcome.stdout.splitlines()[-1] == facts["message"]
+    assert printed.splitlines()[-1] == facts["message"]
     work = re.search(
         r"^([\d,]+) particles, ([\d,]+) of them at the end, [\d,]+ steps in .*: (\S+) million particle-steps per "
         r"second on 1 thread$",
-        outcome.stdout,
+        printed,
         re.MULTILINE,
     )
     assert work and int(work[1].replace(",", "")) == facts["particles"] > int(work[2].replace(",", ""))
@@ -166,7 +153,7 @@ def test_a_run_ends_when_all_particles_have_left(
     assert facts["covered_volume_m3"] == facts["covered_area_m2"] == 0.0
     assert facts["affected_area_m2"] > WIDTH * DEPTH
     assert facts["at_rest"] is None and facts["left_mass_kg"] == pytest.approx(columns["left_mass_kg"][-1])
-    left = [line for line in outcome.stdout.splitlines() if line.startswith("warning: ") and "have left" in line]
+    left = [line for line in printed.splitlines() if line.startswith("warning: ") and "have left" in line]
     assert len(left) == 1 and left[0].removeprefix("warning: ") == facts["warnings"][0]
     assert re.fullmatch(
         rf"{facts['removed_particles']['left']} particles have left the domain or the known terrain and were removed: "

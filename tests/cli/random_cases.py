@@ -7,7 +7,9 @@ folders of those that end in an internal error or by a signal.
 from __future__ import annotations
 
 import os
+import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -18,52 +20,32 @@ from pathlib import Path
 
 import numpy as np
 import rasterio
-from terrain_files import CRS_NAME, EAST, NORTH, place, write_geojson
+from terrain_files import CRS_NAME, EAST, NORTH, place, toml, write_geojson
 
 Generator = np.random.Generator
 Corners = list[tuple[float, float]]
 EXPECTED_CODES = {0, 2, 3}  # done, refused, and a run that failed with a message
-LONGEST = 60.0  # s of one command, which is then ended
+LONGEST = 60  # s of processor time of one command, which is then ended
 CUT_OFF = -1
 FEW_THREADS = {"OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive"}
 
-MATERIAL = """
-[material.rock]
-law = "{law}"
-youngs_modulus = 5.0e7
-poisson_ratio = 0.2
-friction_angle = 32.0
-cohesion = 1.0e3
-viscosity_time = 0.02
-hydraulic_conductivity = 1.0e-6
-"""
-DRY = """
-[basal]
-friction = "constant"
-friction_angle = {angle:.3g}
-[heat]
-enabled = false
-[pressure]
-enabled = false
-"""
-MELTING = """
-[basal]
-friction = "lubricated"
-friction_angle = {angle:.3g}
-[band]
-thickness = 0.1
-"""
-TIMES = """[case]
-title = "random"
-dimension = {dimension}
-gravity_tilt = {tilt:.4g}
-
-[time]
-end = {end:.4g}
-stepping = "adaptive"
-output_interval = {end:.4g}
-history_interval = 0.01
-"""
+MATERIAL = toml("""
+[material.rock] law = "{law}" | youngs_modulus = 5.0e7 | poisson_ratio = 0.2 | friction_angle = 32.0
+  cohesion = 1.0e3 | viscosity_time = 0.02 | hydraulic_conductivity = 1.0e-6
+""")
+DRY = toml("""
+[basal] friction = "constant" | friction_angle = {angle:.3g}
+[heat] enabled = false
+[pressure] enabled = false
+""")
+MELTING = toml("""
+[basal] friction = "lubricated" | friction_angle = {angle:.3g}
+[band] thickness = 0.1
+""")
+TIMES = toml("""
+[case] title = "random" | dimension = {dimension} | gravity_tilt = {tilt:.4g}
+[time] end = {end:.4g} | stepping = "adaptive" | output_interval = {end:.4g} | history_interval = 0.01
+""")
 
 
 @dataclass
@@ -301,17 +283,17 @@ def attempt(program: Path, case: RandomCase) -> TestedCase:
     """Run each command; return the failures: anything but success, a refusal, or a failure with a message."""
     tested = TestedCase()
     for words in case.commands:
-        try:
-            done = subprocess.run(
-                [str(program), *words],
-                env=os.environ | FEW_THREADS,
-                stdin=subprocess.DEVNULL,
-                capture_output=True,
-                text=True,
-                timeout=LONGEST,
-                check=False,
-            )
-        except subprocess.TimeoutExpired:
+        done = subprocess.run(
+            [str(program), *words],
+            env=os.environ | FEW_THREADS,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST + 5)),
+            timeout=10 * LONGEST,
+            check=False,
+        )
+        if done.returncode == -signal.SIGXCPU:
             tested.codes[words[0], CUT_OFF] += 1
             continue
         tested.codes[words[0], done.returncode] += 1

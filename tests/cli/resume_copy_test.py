@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import signal
-import subprocess
 import time
 from pathlib import Path
 
 import pytest
-from conftest import Program, content_of, history, run_facts, sets
+from conftest import HANG, Program, content_of, history, run_facts, sets
 from faults import FAILING_WRITES, environment_of_fault
 
 MEGABYTE = 2**20
@@ -16,13 +15,12 @@ MEGABYTE = 2**20
 
 def test_a_copy_continues_as_the_run_itself_would(thawslide: Program, done: Path, tmp_path: Path) -> None:
     before, branch = content_of(done), tmp_path / "new" / "branch"
-    outcome = thawslide("resume", done, "--output", branch, "--end", 0.3, *sets(basal__friction_angle=5))
-    assert outcome.returncode == 0, outcome.stderr
-    assert f"{done} is copied to {branch}\n" in outcome.stdout
+    printed = thawslide.ok("resume", done, "--output", branch, "--end", 0.3, *sets(basal__friction_angle=5))
+    assert f"{done} is copied to {branch}\n" in printed
     assert content_of(done) == before
     assert history(branch)["time_s"][-1] == 0.3
     assert [part["changes"] for part in run_facts(branch)["parts"]] == [[], ["basal.friction_angle=5", "time.end=0.3"]]
-    assert thawslide("resume", done, "--end", 0.3, *sets(basal__friction_angle=5)).returncode == 0
+    thawslide.ok("resume", done, "--end", 0.3, *sets(basal__friction_angle=5))
     assert (branch / "history.csv").read_bytes() == (done / "history.csv").read_bytes()
     names = [{path.name for path in (run / "snapshots").iterdir()} for run in (done, branch)]
     assert names[0] == names[1]
@@ -35,18 +33,15 @@ def test_a_change_that_is_refused_leaves_no_copy(thawslide: Program, done: Path,
         (sets(time__ende=2), "key 'time.ende' is not known in [time]"),
         (sets(basal__friction_angle=5), "has reached its end at 0.2 s: no step is left"),
     ):
-        outcome = thawslide("resume", done, "--output", branch, *words)
-        assert outcome.returncode == 2
-        assert message in outcome.stderr
+        assert message in thawslide.error("resume", done, "--output", branch, *words)
         assert not branch.exists()
     assert content_of(done) == before
 
 
 def test_a_copy_never_replaces_another_run(thawslide: Program, done: Path) -> None:
     before = content_of(done)
-    outcome = thawslide("resume", done, "--output", done, "--end", 0.3)
-    assert outcome.returncode == 2
-    assert "contains another run. Specify another --output" in outcome.stderr
+    message = thawslide.error("resume", done, "--output", done, "--end", 0.3)
+    assert "contains another run. Specify another --output" in message
     assert content_of(done) == before
 
 
@@ -76,28 +71,23 @@ def test_a_copy_that_fails_in_an_empty_folder_leaves_it_empty(thawslide: Program
     branch = tmp_path / "branch"
     branch.mkdir()
     words = ("resume", done, "--output", branch, "--end", 0.3)
-    outcome = thawslide(*words, environment=environment_of_fault(branch, 4, "once", "full"))
-    assert outcome.returncode == 5
+    assert thawslide(*words, environment=environment_of_fault(branch, 4, "once", "full")).returncode == 5
     assert list(branch.iterdir()) == []
-    assert thawslide(*words).returncode == 0
+    thawslide.ok(*words)
 
 
-def test_a_run_is_locked_while_it_is_copied(
-    thawslide: Program, binary: Path, plain_environment: dict[str, str], done: Path, tmp_path: Path
-) -> None:
+def test_a_run_is_locked_while_it_is_copied(thawslide: Program, done: Path, tmp_path: Path) -> None:
     with (done / "terrain.csv").open("ab") as file:
         file.truncate(200 * MEGABYTE)
     before, branch = {path: path.stat().st_size for path in done.rglob("*")}, tmp_path / "branch"
-    command = [str(binary), "resume", str(done), "--output", str(branch), "--end", "0.3"]
-    with subprocess.Popen(command, env=plain_environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+    with thawslide.start("resume", done, "--output", branch, "--end", 0.3) as process:
         while process.poll() is None and not (branch / "terrain.csv").exists():
             time.sleep(0.001)
         process.send_signal(signal.SIGSTOP)
         assert not (branch / "run.json").exists(), "the copy was complete before the test could stop it"
-        outcome = thawslide("resume", done, "--end", 0.3)
+        message = thawslide.error("resume", done, "--end", 0.3)
         process.send_signal(signal.SIGCONT)
-        process.communicate(timeout=60)
+        process.communicate(timeout=HANG)
         assert process.returncode == 0
-    assert outcome.returncode == 2
-    assert f"{done} is being written by process {process.pid} on " in outcome.stderr
+    assert f"{done} is being written by process {process.pid} on " in message
     assert {path: path.stat().st_size for path in done.rglob("*")} == before

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 import rasterio
-from conftest import Program, history, run_facts, sets
+from conftest import Program, Ran, history, run_facts, sets
 from terrain_files import write_dem, write_line, write_release
 
 NOISE = 1.0  # m rms, a tenth of the points' distance of 10 m
@@ -31,15 +30,11 @@ def make_case(thawslide: Program, folder: Path, noise: float) -> Path:
     """Make a case on a plane with white noise on its points."""
     random = np.random.default_rng(1)
     dem = write_dem(
-        folder / "dem.tif",
-        lambda x, y: 1000.0 - 0.5 * x + noise * random.standard_normal(x.shape),
-        columns=160,
+        folder / "dem.tif", lambda x, y: 1000.0 - 0.5 * x + noise * random.standard_normal(x.shape), columns=160
     )
     release = write_release(folder / "release.geojson", RELEASE, thickness=20.0)
     case = folder / "case"
-    made = thawslide("new", case, "--dem", dem, "--release", release, "--cell", 10)
-    assert made.returncode == 0, made.stderr
-    assert "smoothed" not in made.stdout
+    assert "smoothed" not in thawslide.ok("new", case, "--dem", dem, "--release", release, "--cell", 10)
     return case
 
 
@@ -48,75 +43,61 @@ def rough_case(thawslide: Program, tmp_path: Path) -> Path:
     return make_case(thawslide, tmp_path, NOISE)
 
 
-def test_new_does_not_change_the_dem(thawslide: Program, rough_case: Path) -> None:
-    with (
-        rasterio.open(rough_case / "dem.tif") as kept,
-        rasterio.open(rough_case.parent / "dem.tif") as given,
-    ):
+def test_new_does_not_change_the_dem(rough_case: Path) -> None:
+    with rasterio.open(rough_case / "dem.tif") as kept, rasterio.open(rough_case.parent / "dem.tif") as given:
         column, row = map(round, ~given.transform * (kept.transform.c, kept.transform.f))
         complete = given.read(1)
         assert np.array_equal(kept.read(1), complete[row : row + kept.height, column : column + kept.width])
 
 
 def test_check_reports_noise_filter_and_remaining_friction(thawslide: Program, rough_case: Path) -> None:
-    checked = thawslide("check", rough_case)
-    assert checked.returncode == 0, checked.stderr
+    printed = thawslide.ok("check", rough_case)
     reported = f"smoothed with a standard deviation of {WIDTH:g} m; remaining friction by noise and bumps about "
-    assert reported in checked.stdout
+    assert reported in printed
     assert (
         f"In V valleys of 90 degrees filled less than {40 * WIDTH:g} m wide the filter removes more than 3 % of the "
-        "friction of their sides" in checked.stdout
+        "friction of their sides" in printed
     )
-    assert (
-        f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as it has noise of 0.99 m rms"
-        in checked.stdout
-    )
-    facts = json.loads(thawslide("check", rough_case, "--json").stdout)["roughness"]
+    assert f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as it has noise of 0.99 m rms" in printed
+    facts = thawslide.json("check", rough_case)["roughness"]
     assert list(facts) == KEYS
     assert facts["noise_m"] == pytest.approx(NOISE, rel=0.2)
     assert facts["noise_cells"] == pytest.approx(facts["noise_m"] / 10.0)
-    assert (facts["spacing_m"], facts["filter_m"], facts["narrow_valley_m"]) == (
-        10.0,
-        WIDTH,
-        40 * WIDTH,
-    )
+    assert (facts["spacing_m"], facts["filter_m"], facts["narrow_valley_m"]) == (10.0, WIDTH, 40 * WIDTH)
     assert facts["remaining_slope"] == pytest.approx(facts["noise_m"] * 10.0 / (2.0 * np.sqrt(np.pi) * WIDTH**2))
     assert facts["apparent_friction"] < 0.03
 
 
 def test_unfiltered_noise_has_a_warning(thawslide: Program, rough_case: Path) -> None:
-    left = json.loads(thawslide("check", rough_case, "--json", *sets(terrain__smooth=0)).stdout)
+    left = thawslide.json("check", rough_case, *sets(terrain__smooth=0))
     note = next(note for note in left["warnings"] if note.startswith("terrain.smooth: "))
     assert note.endswith('at most 0.06 is intended). Set terrain.smooth = "auto".')
     assert 0.1 < left["roughness"]["apparent_friction"] < 0.25
-    smooth = json.loads(thawslide("check", rough_case, "--json", *sets(terrain__smooth=20)).stdout)
+    smooth = thawslide.json("check", rough_case, *sets(terrain__smooth=20))
     assert not [note for note in smooth["warnings"] if note.startswith("terrain.smooth: ")]
 
 
 def test_clean_ground_is_not_smoothed(thawslide: Program, tmp_path: Path) -> None:
     case = make_case(thawslide, tmp_path, 0.0)
-    checked = json.loads(thawslide("check", case, "--json").stdout)
+    checked = thawslide.json("check", case)
     assert checked["roughness"]["filter_m"] == 0.0
     assert not [note for note in checked["warnings"] if "smooth" in note]
 
 
-def test_run_resolved_case_and_resume_have_the_same_terrain(
-    thawslide: Program, rough_case: Path, tmp_path: Path
-) -> None:
-    run, again = tmp_path / "run", tmp_path / "again"
+def test_run_resolved_case_and_resume_have_the_same_terrain(ran: Ran, thawslide: Program, rough_case: Path) -> None:
     short = sets(time__end=0.5, time__output_interval=0.5)
-    assert thawslide("run", rough_case, "--output", run, *short).returncode == 0
+    run = ran(*short, case=rough_case)
     facts = run_facts(run)["roughness"]
-    assert facts == json.loads(thawslide("check", rough_case, "--json", *short).stdout)["roughness"]
+    assert facts == thawslide.json("check", rough_case, *short)["roughness"]
     assert 'smooth = "auto"' in (run / "case.toml").read_text()
-    assert thawslide("run", run, "--output", again).returncode == 0
+    again = ran(case=run, name="again")
     assert (again / "history.csv").read_bytes() == (run / "history.csv").read_bytes()
     assert run_facts(again)["roughness"] == facts
     with rasterio.open(run / "maps" / "terrain.tif") as ground:
         noise = ground.read(1, masked=True)
     across = np.diff(noise, axis=0)
     assert np.ma.std(across) < 0.5 * NOISE
-    assert thawslide("resume", run, "--end", 1.0).returncode == 0
+    thawslide.ok("resume", run, "--end", 1.0)
     assert run_facts(run)["roughness"] == facts
     assert history(run)["time_s"][-1] == pytest.approx(1.0, abs=0.1)
 
@@ -124,18 +105,14 @@ def test_run_resolved_case_and_resume_have_the_same_terrain(
 def test_section_has_the_terrain_of_a_3d_run(thawslide: Program, rough_case: Path, tmp_path: Path) -> None:
     line = write_line(tmp_path / "line.geojson", [(15.0, 200.0), (1500.0, 200.0)])
     folder = tmp_path / "section"
-    made = thawslide("section", folder, "--dem", rough_case.parent / "dem.tif", "--line", line)
-    assert made.returncode == 0, made.stderr
+    printed = thawslide.ok("section", folder, "--dem", rough_case.parent / "dem.tif", "--line", line)
     note = (
         f"dem.tif was smoothed with a standard deviation of {WIDTH:g} m, as for a 3D run on 10 m cells "
         "whose domain is the whole DEM. It has noise of 1 m rms and bumps with an rms slope of "
     )
-    assert f"note: {note}" in made.stdout
+    assert f"note: {note}" in printed
     text = (folder / "profile.csv").read_text()
     assert f"# {note}" in text
-    rows = np.array(
-        [row.split(",")[:2] for row in text.splitlines() if row[:1].isdigit()],
-        dtype=float,
-    )
+    rows = np.array([row.split(",")[:2] for row in text.splitlines() if row[:1].isdigit()], dtype=float)
     fall = rows[:, 1] + 0.5 * rows[:, 0]
     assert np.std(fall) < 0.5 * NOISE

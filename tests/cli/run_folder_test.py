@@ -10,7 +10,17 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from conftest import LAMPLUGH, Program, assert_bitwise_identical, datasets, history, run_facts, sets, snapshot_files
+from conftest import (
+    LAMPLUGH,
+    Program,
+    Ran,
+    assert_bitwise_identical,
+    datasets,
+    history,
+    run_facts,
+    sets,
+    snapshot_files,
+)
 
 END = 1.0  # s, of the Lamplugh runs
 FIELDS = {
@@ -164,46 +174,40 @@ def test_terrain_is_the_profile_inside_the_domain(lamplugh: Path) -> None:
         assert elevation == pytest.approx(given[round(x, 6)], abs=1e-6)
 
 
-def test_the_resolved_case_has_bitwise_identical_results(thawslide: Program, lamplugh: Path, tmp_path: Path) -> None:
+def test_the_resolved_case_has_bitwise_identical_results(ran: Ran, lamplugh: Path, tmp_path: Path) -> None:
     resolved = tomllib.loads((lamplugh / "case.toml").read_text())
     assert resolved["time"]["end"] == END and resolved["basal"]["lubrication_exponent"] == 2.0
     assert resolved["terrain"]["file"] == "inputs/lamplugh_profile.csv"
-    assert thawslide("run", lamplugh, "--output", tmp_path / "again").returncode == 0
+    ran(case=lamplugh, name="again")
     assert_bitwise_identical(lamplugh, tmp_path / "again")
 
 
 @pytest.mark.parametrize("threads", [2, 3])
-def test_results_are_bitwise_identical_for_any_number_of_threads(
-    thawslide: Program, lamplugh: Path, tmp_path: Path, threads: int
-) -> None:
-    run = tmp_path / "run"
+def test_results_are_bitwise_identical_for_any_number_of_threads(ran: Ran, lamplugh: Path, threads: int) -> None:
     words = sets(time__end=END, time__output_interval=0.25)
-    assert thawslide("run", LAMPLUGH, "--threads", threads, "--output", run, *words).returncode == 0
+    run = ran("--threads", threads, *words, case=LAMPLUGH)
     assert run_facts(run)["threads"] == threads
     assert_bitwise_identical(lamplugh, run)
 
 
 def test_folder_is_named_after_the_case(thawslide: Program, small_case: Path) -> None:
     (small_case / "steep.toml").write_text((small_case / "case.toml").read_text())
-    assert thawslide("run", small_case, folder=small_case.parent).returncode == 0
-    assert thawslide("run", small_case / "steep.toml", folder=small_case.parent).returncode == 0
+    thawslide.ok("run", small_case, folder=small_case.parent)
+    thawslide.ok("run", small_case / "steep.toml", folder=small_case.parent)
     assert sorted(path.name for path in (small_case.parent / "runs").iterdir()) == ["small", "small-steep"]
 
 
-def test_a_run_is_replaced_only_on_request(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    run = tmp_path / "run"
-    assert thawslide("run", small_case, "--output", run).returncode == 0
+def test_a_run_is_replaced_only_on_request(ran: Ran, thawslide: Program, small_case: Path) -> None:
+    run = ran()
     before = (run / "history.csv").read_bytes()
-    refused = thawslide("run", small_case, "--output", run, *sets(time__end=0.1))
-    assert refused.returncode == 2
+    message = thawslide.error("run", small_case, "--output", run, *sets(time__end=0.1))
     assert (
         f"the output folder {run} contains another run. Specify another --output, or replace that run with --overwrite"
-        in refused.stderr
+        in message
     )
     assert (run / "history.csv").read_bytes() == before
     (run / "notes.txt").write_text("mine")
-    replaced = thawslide("run", small_case, "--output", run, "--overwrite", *sets(time__end=0.1))
-    assert replaced.returncode == 0, replaced.stderr
+    thawslide.ok("run", small_case, "--output", run, "--overwrite", *sets(time__end=0.1))
     assert history(run)["time_s"][-1] == pytest.approx(0.1)
     assert len(snapshot_files(run)) == 3
     assert (run / "notes.txt").read_text() == "mine"
@@ -216,29 +220,24 @@ def test_a_folder_of_other_files_is_refused(
     folder = tmp_path / "letters"
     folder.mkdir()
     (folder / "letter.txt").write_text("mine")
-    outcome = thawslide("run", small_case, "--output", folder, *words)
-    assert outcome.returncode == 2
-    assert f"the output folder {folder} contains other files, and no run." in outcome.stderr
+    message = thawslide.error("run", small_case, "--output", folder, *words)
+    assert f"the output folder {folder} contains other files, and no run." in message
     assert [path.name for path in folder.iterdir()] == ["letter.txt"]
 
 
 def test_a_path_below_a_file_is_refused(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
-    outcome = thawslide("run", small_case, "--output", tmp_path / "file" / "run")
-    assert outcome.returncode == 2
-    assert f"cannot be made: {tmp_path / 'file'} is a file. Give another --output." in outcome.stderr
+    message = thawslide.error("run", small_case, "--output", tmp_path / "file" / "run")
+    assert f"cannot be made: {tmp_path / 'file'} is a file. Give another --output." in message
+    assert "--output: name a folder" in thawslide.error("run", small_case, "--output", "")
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
 def test_a_folder_without_permission_is_refused(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
     closed = tmp_path / "closed"
     closed.mkdir(mode=0o555)
-    outcome = thawslide("run", small_case, "--output", closed / "run")
-    assert outcome.returncode == 2
-    assert f"no permission for {closed}" in outcome.stderr
+    assert f"no permission for {closed}" in thawslide.error("run", small_case, "--output", closed / "run")
 
 
 def test_a_name_too_long_for_the_file_system_is_refused(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    outcome = thawslide("run", small_case, "--output", tmp_path / ("a" * 260))
-    assert outcome.returncode == 2
-    assert "File name too long" in outcome.stderr
+    assert "File name too long" in thawslide.error("run", small_case, "--output", tmp_path / ("a" * 260))

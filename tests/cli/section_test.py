@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 import tomllib
 from dataclasses import dataclass
@@ -10,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import Program, history, run_facts, sets
+from conftest import Program, Ran, columns_of, history, run_facts, sets
 from terrain_files import place, write_dem, write_geojson, write_line, write_release
 
 SLOPE = 0.5  # fall per metre of x
@@ -46,18 +45,15 @@ def maps(tmp_path: Path) -> Maps:
 
 def profile(folder: Path) -> tuple[list[str], dict[str, np.ndarray]]:
     """Return comments and columns of a written profile."""
-    lines = (folder / "profile.csv").read_text().splitlines()
-    comments = [line for line in lines if line.startswith("#")]
-    header, *rows = csv.reader(line for line in lines if not line.startswith("#"))
-    return comments, dict(zip(header, np.array(rows, dtype=float).T, strict=True))
+    file = folder / "profile.csv"
+    return [line for line in file.read_text().splitlines() if line.startswith("#")], columns_of(file)
 
 
-def test_section_of_a_plane_runs_unchanged(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
+def test_section_of_a_plane_runs_unchanged(ran: Ran, thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     folder = tmp_path / "case"
-    made = thawslide(*maps.words_with_release(folder))
-    assert made.returncode == 0, made.stderr
+    printed = thawslide.ok(*maps.words_with_release(folder))
     assert sorted(file.name for file in folder.iterdir()) == ["case.toml", "profile.csv"]
-    assert "a release of 2,000 m3 per metre of width, 18.7 m thick, on 6 m cells: about 220 particles" in made.stdout
+    assert "a release of 2,000 m3 per metre of width, 18.7 m thick, on 6 m cells: about 220 particles" in printed
     comments, columns = profile(folder)
     assert comments == [
         "# Cut by `thawslide section` out of dem.tif along line.geojson: its triangles below the line.",
@@ -79,11 +75,8 @@ def test_section_of_a_plane_runs_unchanged(thawslide: Program, maps: Maps, tmp_p
     assert 2 * 18.7 / case["grid"]["cell"] >= 6.0
     assert case["body"]["slide"]["shape"] == "surface" and case["terrain"]["type"] == "profile"
 
-    checked = thawslide("check", folder)
-    assert checked.returncode == 0, checked.stderr
-    run = tmp_path / "run"
-    done = thawslide("run", folder, "--output", run, *sets(time__end=2))
-    assert done.returncode == 0, done.stderr
+    thawslide.ok("check", folder)
+    run = ran(*sets(time__end=2), case=folder)
     assert run_facts(run)["status"] == "done"
     columns = history(run)
     assert columns["mean_velocity_m_s"][-1] > 0.5
@@ -91,9 +84,8 @@ def test_section_of_a_plane_runs_unchanged(thawslide: Program, maps: Maps, tmp_p
 
 
 def test_section_shares_its_physics_with_new(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
-    assert thawslide(*maps.words_with_release(tmp_path / "flat")).returncode == 0
-    made = thawslide("new", tmp_path / "space", "--dem", maps.dem, "--release", maps.release)
-    assert made.returncode == 0, made.stderr
+    thawslide.ok(*maps.words_with_release(tmp_path / "flat"))
+    thawslide.ok("new", tmp_path / "space", "--dem", maps.dem, "--release", maps.release)
     flat, space = (tomllib.loads((tmp_path / name / "case.toml").read_text()) for name in ("flat", "space"))
     for table in ("material", "basal", "band"):
         assert flat[table] == space[table]
@@ -104,8 +96,7 @@ def test_section_shares_its_physics_with_new(thawslide: Program, maps: Maps, tmp
 def test_cut_lowers_the_terrain_below_the_body(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     folders = [tmp_path / "on-top", tmp_path / "cut"]
     for folder, placement in zip(folders, ("--on-top", "--cut"), strict=True):
-        made = thawslide(*maps.words_with_release(folder, "--thickness", 12, placement))
-        assert made.returncode == 0, made.stderr
+        thawslide.ok(*maps.words_with_release(folder, "--thickness", 12, placement))
     (_, on_top), (comments, cut) = map(profile, folders)
     assert cut["surface_elevation_m"] == pytest.approx(on_top["terrain_elevation_m"], abs=1e-9)
     thickness = cut["surface_elevation_m"] - cut["terrain_elevation_m"]
@@ -118,25 +109,23 @@ def test_cut_lowers_the_terrain_below_the_body(thawslide: Program, maps: Maps, t
     assert comments[2] == (
         "# The surface is that of the DEM; the terrain is lower by the vertical thickness of release.geojson."
     )
-    assert thawslide("check", folders[1]).returncode == 0
+    thawslide.ok("check", folders[1])
 
 
 def test_section_without_a_release_writes_the_profile_only(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     folder = tmp_path / "case"
-    made = thawslide(*maps.words(folder))
-    assert made.returncode == 0, made.stderr
+    printed = thawslide.ok(*maps.words(folder))
     assert [file.name for file in folder.iterdir()] == ["profile.csv"]
-    assert "note: without --release there is no body, and no case.toml was written" in made.stdout
+    assert "note: without --release there is no body, and no case.toml was written" in printed
     assert set(profile(folder)[1]) == {"distance_m", "terrain_elevation_m"}
 
 
 def test_corners_are_kept_and_a_line_uphill_is_reversed(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     write_line(maps.line, [(703.0, 351.0), (403.0, 200.0), (53.0, 200.0)])
-    made = thawslide(*maps.words_with_release(tmp_path / "case"))
-    assert made.returncode == 0, made.stderr
+    printed = thawslide.ok(*maps.words_with_release(tmp_path / "case"))
     assert (
         "warning: --line: line.geojson was drawn against the direction of the slide; distances count from its last "
-        "corner" in made.stdout
+        "corner" in printed
     )
     comments, columns = profile(tmp_path / "case")
     assert comments[1].startswith("# From x = 300053, y = 400200 to x = 300703, y = 400351 ")
@@ -151,10 +140,9 @@ def test_invalid_lines_and_options_are_reported(thawslide: Program, maps: Maps, 
     folder = tmp_path / "case"
 
     def error(*words: object) -> str:
-        outcome = thawslide(*words)
-        assert outcome.returncode == 2, outcome.stdout
+        message = thawslide.error(*words)
         assert not folder.exists()
-        return outcome.stderr.strip()
+        return message.strip()
 
     write_line(maps.line, [(15.0, 200.0), (815.0, 200.0)])
     x, y = place(800.0, 200.0)
@@ -196,55 +184,41 @@ def test_an_existing_folder_is_not_changed(thawslide: Program, maps: Maps, tmp_p
     folder = tmp_path / "case"
     folder.mkdir()
     (folder / "mine.txt").write_text("mine")
-    outcome = thawslide(*maps.words_with_release(folder))
-    assert outcome.returncode == 2
-    assert outcome.stderr == (f"error: {folder}: it exists and is not an empty folder. Choose another name.\n")
+    message = thawslide.error(*maps.words_with_release(folder))
+    assert message == (f"error: {folder}: it exists and is not an empty folder. Choose another name.\n")
     assert [file.name for file in folder.iterdir()] == ["mine.txt"]
 
 
 def test_block_moves_a_3d_case_along_its_path(thawslide: Program, maps: Maps, tmp_path: Path) -> None:
     folder = tmp_path / "space"
-    assert thawslide("new", folder, "--dem", maps.dem, "--release", maps.release).returncode == 0
+    thawslide.ok("new", folder, "--dem", maps.dem, "--release", maps.release)
     file = tmp_path / "block.csv"
-    coulomb = sets(
-        maps__path=maps.line,
-        basal__friction="constant",
-        basal__friction_angle=20,
-        time__end=6,
-        pressure__enabled="false",
-    )
-    slid = thawslide("block", folder, "--output", file, *coulomb)
-    assert slid.returncode == 0, slid.stderr
-    assert "a section along maps.path, with the mean thickness of the release across the path" in slid.stdout
-    columns = {name: values for name, values in zip(*read_csv(file), strict=True)}
+    coulomb = sets(basal__friction="constant", basal__friction_angle=20, pressure__enabled="false")
+    coulomb += sets(maps__path=maps.line, time__end=6)
+    printed = thawslide.ok("block", folder, "--output", file, *coulomb)
+    assert "a section along maps.path, with the mean thickness of the release across the path" in printed
+    columns = columns_of(file)
     angle = np.arctan(SLOPE)
     acceleration = 9.81 * (np.sin(angle) - np.tan(np.radians(20.0)) * np.cos(angle))
     assert acceleration > 0.5
     assert columns["velocity_m_s"] == pytest.approx(acceleration * columns["time_s"], abs=1e-6)
     assert columns["front_position_m"][0] == pytest.approx(190.0, abs=10.0)
-    assert "the front leaves the DEM" not in slid.stdout
+    assert "the front leaves the DEM" not in printed
 
-    down = thawslide("block", folder, "--output", file, *coulomb, *sets(maps__path='""'))
-    assert down.returncode == 0, down.stderr
-    assert "the line of steepest descent from the centre of the release, because maps.path is not set" in down.stdout
-    columns = {name: values for name, values in zip(*read_csv(file), strict=True)}
+    printed = thawslide.ok("block", folder, "--output", file, *coulomb, *sets(maps__path='""'))
+    assert "the line of steepest descent from the centre of the release, because maps.path is not set" in printed
+    columns = columns_of(file)
     assert columns["velocity_m_s"] == pytest.approx(acceleration * columns["time_s"], abs=1e-6)
 
-    far = thawslide("block", folder, "--output", file, *coulomb, *sets(time__end=40))
-    assert far.returncode == 0, far.stderr
+    printed = thawslide.ok("block", folder, "--output", file, *coulomb, *sets(time__end=40))
     reported = re.search(
         r"warning: maps\.path: the front leaves the DEM after 760 m, at (\S+) s, and the table ends there\. Use a "
         r"longer maps\.path, or a larger DEM, to follow it further\n",
-        far.stdout,
+        printed,
     )
     assert reported and float(reported[1]) == pytest.approx(
         np.sqrt(2.0 * (760.0 - 190.0) * np.hypot(1.0, SLOPE) / acceleration), rel=0.05
     )
-    columns = {name: values for name, values in zip(*read_csv(file), strict=True)}
+    columns = columns_of(file)
     assert 700.0 < columns["front_position_m"][-1] <= 760.0
     assert columns["time_s"][-1] < float(reported[1])
-
-
-def read_csv(file: Path) -> tuple[list[str], np.ndarray]:
-    header, *rows = csv.reader(file.read_text().splitlines())
-    return header, np.array(rows, dtype=float).T

@@ -1,80 +1,111 @@
-"""Signals during a run, in addition to the tests in status_test.py and resume_test.py."""
+"""Signals during a run, and runs whose folder was moved, removed or unlocked."""
 
 from __future__ import annotations
 
-import json
+import shutil
 import signal
 import subprocess
 import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from conftest import LIMIT, Program, sets
+from conftest import HANG, Program, Ran, content_of, run_facts, sets
+
+LONG = sets(time__end=1000, time__output_interval=0.5, time__history_interval=0.1, checkpoint__interval=0.5)
+SETTLES = sets(mechanics__initial_stress="settle", mechanics__settle_time=1000, mechanics__settle_damping=10)
+Process = subprocess.Popen
+Start = Callable[..., "Process[str]"]
 
 
-def started(binary: Path, run: Path, *words: object, ignored: signal.Signals | None = None) -> subprocess.Popen[str]:
-    """Start a run whose parent ignores a signal, as nohup does with SIGHUP."""
+@pytest.fixture
+def started(thawslide: Program, small_case: Path) -> Iterator[Start]:
+    """Return a function that starts a long run into a folder and waits for one of its files.
 
-    def ignore() -> None:
-        if ignored:
-            signal.signal(ignored, signal.SIG_IGN)
+    The parent can ignore a signal, as nohup does with SIGHUP.
+    """
+    processes: list[Process[str]] = []
 
-    return subprocess.Popen(
-        [str(binary), "run", *map(str, words), "--output", str(run)],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-        preexec_fn=ignore,
-    )
+    def start(run: Path, file: str, *words: str, ignored: signal.Signals | None = None) -> Process[str]:
+        def ignore() -> None:
+            if ignored:
+                signal.signal(ignored, signal.SIG_IGN)
 
+        command = ("run", small_case, "--output", run, "--threads", 1, *words)
+        processes.append(thawslide.start(*command, stdout=subprocess.DEVNULL, preexec_fn=ignore))
+        while not (run / file).exists():
+            assert processes[-1].poll() is None, f"{file} does not appear"
+            time.sleep(0.01)
+        return processes[-1]
 
-def wait_for(file: Path) -> None:
-    until = time.monotonic() + LIMIT
-    while not file.exists():
-        assert time.monotonic() < until, f"{file} does not appear"
-        time.sleep(0.02)
+    yield start
+    for process in processes:
+        process.kill()
+        process.communicate()
 
 
 @pytest.mark.parametrize("ignored", [signal.SIGHUP, signal.SIGINT])
-def test_ignored_signals_remain_ignored(
-    binary: Path, small_case: Path, tmp_path: Path, ignored: signal.Signals
-) -> None:
-    run = tmp_path / "run"
-    process = started(binary, run, small_case, *sets(time__end=1000), ignored=ignored)
-    wait_for(run / "checkpoint.bin")
+def test_ignored_signals_remain_ignored(started: Start, tmp_path: Path, ignored: signal.Signals) -> None:
+    process = started(tmp_path / "run", "checkpoint.bin", *sets(time__end=1000), ignored=ignored)
     process.send_signal(ignored)
     time.sleep(0.3)
     assert process.poll() is None
     process.send_signal(signal.SIGTERM)
-    assert f"interrupted by signal {int(signal.SIGTERM)} at t = " in process.communicate(timeout=LIMIT)[1]
+    assert f"interrupted by signal {int(signal.SIGTERM)} at t = " in process.communicate(timeout=HANG)[1]
     assert process.returncode == 4
 
 
-def test_a_signal_ends_the_settling(binary: Path, thawslide: Program, small_case: Path, tmp_path: Path) -> None:
+def test_a_signal_ends_the_settling(thawslide: Program, started: Start, tmp_path: Path) -> None:
     run = tmp_path / "run"
-    words = sets(mechanics__initial_stress="settle", mechanics__settle_time=1000, mechanics__settle_damping=10)
-    process = started(binary, run, small_case, *words)
-    wait_for(run / "run.json")
+    process = started(run, "run.json", *SETTLES)
     time.sleep(0.3)
     process.send_signal(signal.SIGTERM)
-    message = process.communicate(timeout=LIMIT)[1]
+    message = process.communicate(timeout=HANG)[1]
     assert process.returncode == 4
     assert message == f"interrupted by signal 15 while the body settled. To start again: thawslide resume {run}\n"
-    facts = json.loads((run / "run.json").read_text())
+    facts = run_facts(run)
     assert (facts["status"], facts["message"], facts["simulated_time_s"]) == ("stopped", "signal 15", 0.0)
-    assert thawslide("status", run).stdout.startswith(f"{run}: stopped")
+    assert thawslide.ok("status", run).startswith(f"{run}: stopped")
 
 
-def test_slow_energy_growth_is_reported_once(thawslide: Program, small_case: Path, tmp_path: Path) -> None:
-    slow = sets(time__end=30, time__history_interval=1, time__output_interval=10, guards__energy_growth=0.02)
-    outcome = thawslide("run", small_case, "--output", tmp_path / "run", *slow, "--set", "body.block.max=[15.0, 5.0]")
-    assert outcome.returncode == 0, outcome.stderr
-    message = outcome.stdout + outcome.stderr
-    assert message.count("gradually and without a physical cause") == 1
-    assert "viscosity_time" in message
-    damped = thawslide(
-        *("run", small_case, "--output", tmp_path / "damped", *slow, "--set", "body.block.max=[15.0, 5.0]"),
-        *sets(material__rock__viscosity_time=0.002),
-    )
-    assert damped.returncode == 0
-    assert "without a physical cause" not in damped.stdout + damped.stderr
+def assert_stopped(process: Process[str], run: Path) -> None:
+    _, message = process.communicate(timeout=HANG)
+    assert process.returncode == 5
+    assert message.startswith(f"error: {run} is no longer the folder in which this run began: ")
+    assert "continues from the last checkpoint.\nstopped at t = " in message and "resume " + str(run) not in message
+
+
+SECOND = "snapshots/000001.vtkhdf"
+
+
+def test_a_run_whose_folder_was_moved_does_not_change_its_replacement(
+    thawslide: Program, started: Start, ran: Ran, tmp_path: Path
+) -> None:
+    process = started(tmp_path / "run", SECOND, *LONG)
+    moved = (tmp_path / "run").rename(tmp_path / "moved")
+    run, alone = (ran(*sets(time__end=0.2), name=name) for name in ("run", "alone"))
+    assert_stopped(process, run)
+    assert {path.relative_to(run) for path in content_of(run)} == {
+        path.relative_to(alone) for path in content_of(alone)
+    }
+    for name in ("history.csv", "checkpoint.bin"):
+        assert (run / name).read_bytes() == (alone / name).read_bytes()
+    assert run_facts(run)["status"] == "done"
+    # The moved run can be resumed.
+    thawslide.ok("resume", moved, "--end", run_facts(moved)["simulated_time_s"] + 1)
+
+
+def test_a_run_does_not_restore_its_removed_folder(started: Start, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    process = started(run, SECOND, *LONG)
+    shutil.rmtree(run.rename(tmp_path / "to be removed"))
+    assert_stopped(process, run)
+    assert not run.exists()
+
+
+def test_a_run_whose_lock_is_removed_stops(thawslide: Program, started: Start, tmp_path: Path) -> None:
+    run = tmp_path / "run"
+    process = started(run, SECOND, *LONG)
+    (run / "run.lock").unlink()
+    assert_stopped(process, run)
+    thawslide.ok("resume", run, "--end", run_facts(run)["simulated_time_s"] + 1)

@@ -1,4 +1,4 @@
-"""The program and the report read reported values with the same quantities, units and ranges."""
+"""The program and the report read reported values and force records by the same rules."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import re
 from pathlib import Path
 
 import pytest
-from conftest import Program, sets
-
+from conftest import ROOT, Program, Ran, sets
 from thawslide import ReportError
-from thawslide.targets import QUANTITIES, read_targets
+from thawslide.force_record import read_force_record
+from thawslide.targets import QUANTITIES, Band, read_targets
 
 HEADER = "quantity,time_s,value,unit,source\n"
 
@@ -121,6 +121,62 @@ def test_values_beyond_the_run_are_reported_before_it(thawslide: Program, case: 
         "of 1000000000 s in line 3. The run is not compared with it.\n"
     )
     run = case.parent / "run"
-    assert note in thawslide("check", case).stdout
-    assert note in thawslide("run", case, "--output", run).stdout
+    assert note in thawslide.ok("check", case)
+    assert note in thawslide.ok("run", case, "--output", run)
     assert note not in thawslide("check", case, *sets(time__end=2e9, time__output_interval=1e9)).stdout
+
+
+RECORD = "time_s,up_N,north_N,east_N\n"
+RANGE = "time_s,up_N,north_N,east_N,up_low_N,up_high_N,north_low_N,north_high_N,east_low_N,east_high_N\n"
+
+
+@pytest.fixture
+def recorded(small_case: Path) -> Path:
+    """Return a case with a force record."""
+    file = small_case / "case.toml"
+    keys = '\n[report]\nforce_record = "force.csv"\nforce_periods = [10.0, 200.0]\n'
+    file.write_text(file.read_text() + keys)
+    return small_case
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "time_s,up_N,north_N\n0,0,0\n1,0,0\n",
+        "time_s,up_N,north_N,east_N,west_N\n0,0,0,0,0\n1,0,0,0,0\n",
+        RECORD,
+        RECORD + "0,0,0,0\n",
+        RECORD + "0,0,0\n1,0,0,0\n",
+        RECORD + "0,0,0,0\n0,0,0,0\n",
+        RECORD + "0,0,0,0\n2,0,0,0\n1,0,0,0\n",
+        RECORD + "0,0,fast,0\n1,0,0,0\n",
+        RECORD + "0,0,nan,0\n1,0,0,0\n",
+        RECORD.rstrip() + ",up_low_N\n0,0,0,0,0\n1,0,0,0,0\n",
+        "# one\n" + RANGE + "0,0,0,0,-1,1,-1,1,-1,1\n1,0,0,5,-1,1,-1,1,-1,4\n",
+        RANGE + "0,0,0,0,-1,1,1,2,-1,1\n1,0,0,0,-1,1,-1,1,-1,1\n",
+    ],
+)
+def test_program_and_report_have_the_same_messages_about_forces(thawslide: Program, recorded: Path, text: str) -> None:
+    file = recorded / "force.csv"
+    file.write_text(text)
+    (found,) = re.findall(r"report\.force_record: (.*)$", thawslide.error("check", recorded), re.MULTILINE)
+    with pytest.raises(ReportError) as error:
+        read_force_record(file, Band(10.0, 200.0), "")
+    assert str(error.value) == found
+
+
+def test_program_and_report_read_the_records_of_the_cases(thawslide: Program) -> None:
+    for name in ("lamplugh", "lamplugh-columns"):
+        thawslide.ok("check", ROOT / "cases" / name)
+        record = read_force_record(ROOT / "cases" / name / "lamplugh_force.csv", Band(10.0, 200.0), "")
+        assert len(record.time) == 171 and record.low and record.high
+
+
+def test_a_run_with_a_changed_record_can_be_resumed(ran: Ran, thawslide: Program, recorded: Path) -> None:
+    """Only figures use it: a corrected copy needs no new run."""
+    (recorded / "force.csv").write_text(RECORD + "0,0,0,0\n1,0,0,0\n")
+    run = ran(case=recorded)
+    (run / "inputs" / "force.csv").write_text(RECORD + "0,1,0,0\n1,0,0,0\n")
+    end = float(re.findall(r"\[time\][^\[]*?\nend = ([\d.]+)", (run / "case.toml").read_text())[0])
+    thawslide.ok("resume", run, "--end", str(1.5 * end))

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import math
 import re
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, Program
-from slope_files import SOUTH, WEST, write_release, write_slope
+from conftest import ROOT, Program, Ran, columns_of, history
+from terrain_files import SOUTH, WEST, write_rectangle, write_slope
 
 PAGE = ROOT / "docs" / "coming-from-ramms-avaframe.md"
 
@@ -17,13 +16,9 @@ PAGE = ROOT / "docs" / "coming-from-ramms-avaframe.md"
 @pytest.fixture
 def case(tmp_path: Path) -> Path:
     """Write the page's case next to the files that it names: a slope of 30 degrees and a release on it."""
-    text, _ = re.findall(
-        r"^```toml\n(.*?)^```$",
-        PAGE.read_text(encoding="utf-8"),
-        re.DOTALL | re.MULTILINE,
-    )
+    text, _ = re.findall(r"^```toml\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
     write_slope(tmp_path / "dem.tif")
-    write_release(tmp_path / "release.geojson", WEST + 50.0, SOUTH + 250.0)
+    write_rectangle(tmp_path / "release.geojson", WEST + 50.0, SOUTH + 250.0)
     path = tmp_path / "case.toml"
     path.write_text(text)
     return path
@@ -41,21 +36,16 @@ def test_page_case_as_block_stays_below_its_terminal_velocity(thawslide: Program
     for turbulence in ("500", "100"):
         rows = tmp_path / f"block-{turbulence}.csv"
         words = ["--set", f"basal.turbulent_friction={turbulence}", "--output", rows]
-        outcome = thawslide("block", case, *words)
-        assert outcome.returncode == 0, outcome.stderr
-        with rows.open() as file:
-            fastest[turbulence] = max(float(row["velocity_m_s"]) for row in csv.DictReader(file))
+        thawslide.ok("block", case, *words)
+        fastest[turbulence] = columns_of(rows)["velocity_m_s"].max()
         angle = math.radians(30.0)
         terminal = math.sqrt(float(turbulence) * 20.0 * (math.sin(angle) - 0.15 * math.cos(angle)))
         assert 0.5 * terminal < fastest[turbulence] < 1.02 * terminal
     assert fastest["100"] < fastest["500"]
 
 
-def test_page_case_runs(thawslide: Program, case: Path, tmp_path: Path) -> None:
-    run = tmp_path / "run"
+def test_page_case_runs(ran: Ran, case: Path) -> None:
     words = ["--set", "time.end=2.0", "--threads", "1"]
-    outcome = thawslide("run", case, "--output", run, *words)
-    assert outcome.returncode == 0, outcome.stderr
-    header, *_, last = (run / "history.csv").read_text().splitlines()
-    assert float(last.split(",")[header.split(",").index("mean_velocity_m_s")]) > 1.0
+    run = ran(*words, case=case)
+    assert history(run)["mean_velocity_m_s"][-1] > 1.0
     assert "turbulent_friction = 500.0  # m/s2" in (run / "case.toml").read_text()

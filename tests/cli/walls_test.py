@@ -13,13 +13,7 @@ FRONT, SPEED = 50.0, 20.0  # m, m/s
 CELL = 5.0  # m
 EARLY = 0.3 * CELL  # m
 HALF_PARTICLE = CELL / 4.0  # m
-FOOT = {
-    "thick57.5": 57.5,
-    "thick59": 59.0,
-    "thick61": 61.0,
-    "thin59": 59.0,
-    "thin61": 61.0,
-}  # m
+FOOT = {"thick57.5": 57.5, "thick59": 59.0, "thick61": 61.0, "thin59": 59.0, "thin61": 61.0}  # m
 RAMPS = {"ramp20": 20.0, "ramp30": 30.0, "ramp45": 45.0, "ramp60": 60.0, "ramp80": 80.0, "ramp89.99": 89.99}  # degrees
 RAMP_FOOT = DYKE_FOOT = 59.0  # m
 FRICTIONAL = {"contact__between_bodies": "frictional", "contact__friction_angle": 0.0}
@@ -30,8 +24,7 @@ pytestmark = pytest.mark.skipif(not WALLS.is_dir(), reason=f"no folder {WALLS}")
 def distance_at_loss(thawslide: Program, case: Path, run: Path, foot: float, **words: object) -> float:
     """Return the distance [m] to the foot of a wall at which 1 % of the velocity is lost; negative: beyond it."""
     end = (foot + CELL - FRONT) / SPEED
-    done = thawslide("run", case, "--output", run, *sets(time__end=end, terrain__extend="true", **words))
-    assert done.returncode == 0, done.stderr
+    thawslide.ok("run", case, "--output", run, *sets(time__end=end, terrain__extend="true", **words))
     rows = history(run)
     has_changed = np.abs(rows["mean_velocity_m_s"] / SPEED - 1.0) > 0.01
     assert has_changed.any(), "the wall does not act"
@@ -55,8 +48,7 @@ def test_velocity_is_constant_until_the_block_reaches_a_ramp(thawslide: Program,
 
 def places_and_speeds(thawslide: Program, case: Path, run: Path, **words: object) -> list[tuple[np.ndarray, ...]]:
     """Run a case; return x and the velocity along x of the particles of each body, for each snapshot."""
-    done = thawslide("run", case, "--output", run, *sets(time__output_interval=0.1, **words))
-    assert done.returncode == 0, done.stderr
+    thawslide.ok("run", case, "--output", run, *sets(time__output_interval=0.1, **words))
     found: list[tuple[np.ndarray, ...]] = []
     for file in snapshot_files(run):
         data = datasets(file)
@@ -104,5 +96,5 @@ def test_block_behind_the_dyke_does_not_move_when_another_hits_it(
 def test_a_wall_thinner_than_a_cell_has_a_warning(thawslide: Program) -> None:
     """Bonded bodies push each other through a dyke of 2 m on cells of 5 m, and not on cells of 2 m."""
     warning = "the terrain has a wall thinner than a cell (5 m), 40 m high"
-    assert warning in thawslide("check", WALLS / "case.toml").stdout
-    assert "a wall thinner" not in thawslide("check", WALLS / "case.toml", *sets(grid__cell=2, time__step=0.002)).stdout
+    assert warning in thawslide.ok("check", WALLS / "case.toml")
+    assert "a wall thinner" not in thawslide.ok("check", WALLS / "case.toml", *sets(grid__cell=2, time__step=0.002))

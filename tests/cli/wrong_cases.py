@@ -19,12 +19,7 @@ VALID_2D: dict[str, dict[str, str]] = {
     "time": {"end": "0.2", "step": "0.001"},
     "grid": {"cell": "1.0", "min": "[0.0, -2.0]", "max": "[20.0, 10.0]"},
     "terrain": {"type": '"flat"'},
-    "material.rock": {
-        "youngs_modulus": "1e8",
-        "poisson_ratio": "0.2",
-        "friction_angle": "35.0",
-        "cohesion": "1e5",
-    },
+    "material.rock": {"youngs_modulus": "1e8", "poisson_ratio": "0.2", "friction_angle": "35.0", "cohesion": "1e5"},
     "body.block": {"material": '"rock"', "min": "[10.0, 0.0]", "max": "[14.0, 3.0]", "porosity": "0.3"},
     "basal": {"friction_angle": "10.0"},
 }
@@ -37,13 +32,7 @@ VALID_3D: dict[str, dict[str, str]] = VALID_2D | {
 NEEDED: dict[str, dict[str, str]] = {
     "frame.lid": {"min": "[1.0, 5.0]", "max": "[2.0, 6.0]", "axis": '"x"', "velocity": "0.0"},
     "substrate.ice": {"x_min": "12.0", "friction": '"coefficient"', "friction_coefficient": "0.1"},
-    "bed": {
-        "law": '"momentum"',
-        "depth": "0.5",
-        "strength": "1e3",
-        "depth_per_slip": "0.1",
-        "material": '"rock"',
-    },
+    "bed": {"law": '"momentum"', "depth": "0.5", "strength": "1e3", "depth_per_slip": "0.1", "material": '"rock"'},
     "contact_pair.touch": {"bodies": '["block", "other"]', "contact": '"frictional"', "friction_angle": "20.0"},
     "band": {"thickness": "0.2"},
     "probe.bridge": {"point": "[15.0, 4.0]"},

@@ -7,9 +7,9 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
-from slope_files import SOUTH, WEST, write_release, write_slope
+from terrain_files import SOUTH, WEST, write_rectangle, write_slope
 
 folder = Path(sys.argv[1])
 folder.mkdir(exist_ok=True)
 write_slope(folder / "dem.tif")
-write_release(folder / "release.geojson", WEST + 50.0, SOUTH + 250.0)
+write_rectangle(folder / "release.geojson", WEST + 50.0, SOUTH + 250.0)

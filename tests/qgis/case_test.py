@@ -9,7 +9,7 @@ from pathlib import Path
 
 import rasterio
 from conftest import Algorithm, Script
-from slope_files import SOUTH, WEST
+from terrain_files import SOUTH, WEST
 from virtual_dem import write_vrt
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from slope_files import SOUTH, WEST, write_release, write_slope
+from terrain_files import SOUTH, WEST, write_rectangle, write_slope
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = Path(__file__).parent / "scripts"
@@ -99,7 +99,7 @@ def slope(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with dem.tif and release.geojson: a slope of 30 degrees."""
     folder = tmp_path_factory.mktemp("slope")
     write_slope(folder / "dem.tif")
-    write_release(folder / "release.geojson", WEST + 50.0, SOUTH + 250.0)
+    write_rectangle(folder / "release.geojson", WEST + 50.0, SOUTH + 250.0)
     return folder
 
 

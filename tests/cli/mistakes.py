@@ -1,0 +1,235 @@
+"""The twenty most common mistakes of new users and further ones, with the complete messages."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from dataclasses import dataclass
+from pathlib import Path
+
+# Blocks of: name; one change of the small case (OLD -> NEW), options, or files (NAME: TEXT), where | is a new line; the
+# message, of which each LINE:COLUMN follows the path of the case file. {case} is its folder.
+COMMON = """
+a key misspelt
+  youngs_modulus -> young_modulus
+    19:1: key 'material.rock.youngs_modulus' is missing: it is needed when mechanics.enabled is true. Add
+    'youngs_modulus = ...' to [material.rock]: Young's modulus, a number, > 0 [Pa].
+    21:1: key 'material.rock.young_modulus' is not known in [material.rock]; did you mean 'youngs_modulus'? Allowed
+    here: law, youngs_modulus, poisson_ratio, friction_angle, dilation_angle, cohesion, residual_cohesion,
+    residual_friction_angle, softening_strain, softening_slip, tension_cutoff, gaps_close_first, viscosity_time,
+    hydraulic_conductivity.
+
+a key left out
+  step = 0.001| ->
+    4:1: key 'time.step' is missing: it is needed when time.stepping is "fixed". Add 'step = ...' to [time]: fixed time
+    step, or upper limit of the adaptive time step, a number, > 0 [s].
+
+a key in the wrong table
+  elevation = 0.0 -> elevation = 0.0|porosity = 0.3
+    18:1: key 'terrain.porosity' is not known in [terrain]; it belongs in [body.NAME] or [bed]. Allowed here: type,
+    elevation, slope, file, extend, representation, layers, crs, resample, smooth.
+
+a number in quotes
+  end = 0.2 -> end = "0.2"
+    5:7: time.end is the text "0.2"; allowed: a number, > 0 [s]; remove the quotes.
+
+a number with its unit
+  cell = 1.0 -> cell = 1.0 m
+    11:12: this is not TOML: Error while parsing key-value pair: expected a comment or whitespace, saw 'm'. Write
+    numbers without units, and text in quotes. Correct the line; see https://toml.io for the syntax.
+
+a decimal comma
+  cell = 1.0 -> cell = 1,0
+    11:9: this is not TOML: Error while parsing key-value pair: expected a comment or whitespace, saw ','. Write a
+    decimal point, not a comma. Correct the line; see https://toml.io for the syntax.
+
+a key twice
+  end = 0.2 -> end = 0.2|end = 0.3
+    6:7: this is not TOML: Error while parsing key-value pair: cannot redefine existing floating-point 'end'. A table
+    contains a key only once. Correct the line; see https://toml.io for the syntax.
+
+a keyword misspelt
+  law = "mohr_coulomb" -> law = "mohr-coulomb"
+    20:7: material.rock.law is "mohr-coulomb"; did you mean 'mohr_coulomb'? Allowed: "elastic", "mohr_coulomb". Correct
+    it, or leave it out for the default "mohr_coulomb".
+
+yes instead of true
+  elevation = 0.0 -> extend = "yes"
+    17:10: terrain.extend is the text "yes"; allowed: true or false. Correct it, or leave it out for the default false.
+
+a fraction in percent
+  porosity = 0.3 -> porosity = 30
+    32:12: body.block.porosity is 30; allowed: > 0 and <= 0.95 (porosity n at t = 0: volume fraction of ice and water);
+    if it is in percent, it is 0.3. Correct it, or leave it out for the default 0.375.
+
+a temperature in kelvin
+  temperature = -10.0 -> temperature = 263.15
+    31:15: body.block.temperature is 263.15; allowed: > -273.15 and <= 100 C (temperature at t = 0; depth is vertical,
+    below the surface of the body [m]); if it is in kelvin, it is -10 C. Correct it, or leave it out for the default
+    -10.0.
+
+a body without a name
+  [body.block] -> [body]
+    26:1: the case has no body; add a table [body.NAME] with its material and shape.
+    27:1: 'material' stands in [body], which needs a name; write [body.NAME] with a name of your choice above it.
+    28:1: 'shape' stands in [body], which needs a name; write [body.NAME] with a name of your choice above it.
+    29:1: 'min' stands in [body], which needs a name; write [body.NAME] with a name of your choice above it.
+    30:1: 'max' stands in [body], which needs a name; write [body.NAME] with a name of your choice above it.
+    31:1: 'temperature' stands in [body], which needs a name; write [body.NAME] with a name of your choice above it.
+    32:1: 'porosity' stands in [body], which needs a name; write [body.NAME] with a name of your choice above it.
+
+a material that does not exist
+  material = "rock" -> material = "rocks"
+    27:12: body.block.material is 'rocks', and there is no [material.rocks]; did you mean 'rock'? Allowed: rock.
+
+three numbers in 2D
+  min = [0.0, -2.0] -> min = [0.0, 0.0, -2.0]
+    12:7: grid.min is an array of 3 numbers; allowed: 2 numbers, as case.dimension is 2.
+
+a domain of no whole number of cells
+  max = [20.0, 10.0] -> max = [20.5, 10.0]
+    13:7: the domain is 20.5 m long along x, which is 20.5 cells of 1 m; allowed: a whole number. Move grid.max along x
+    to 21.
+
+a body outside the domain
+  max = [14.0, 3.0] -> max = [24.0, 3.0]
+    30:7: body.block reaches from (10, 0) to (24, 3), outside the domain, which is (0, -2) to (20, 10); move the body,
+    or widen grid.min and grid.max.
+
+a body below the ground
+  min = [10.0, 0.0] -> min = [10.0, -1.0]
+    29:7: body.block is below the terrain: at x = 10 m its elevation is -1 m and the ground's 0 m; allowed: on the
+    ground or above it. Lift the body, or lower the terrain.
+
+a step too long
+  step = 0.001 -> step = 0.01
+    6:8: time.step is 0.01 s, above the limit of 0.00444 s set by the elastic wave of material 'rock' (225 m/s) on cells
+    of 1 m, with a Young's modulus of 1e+08 Pa and 2,200 kg/m3. Use a smaller time.step, or time.stepping = "adaptive".
+
+a file that does not exist
+  type = "flat"|elevation = 0.0 -> type = "profile"|file = "profil.csv"
+  profile.csv: distance_m,terrain_elevation_m|0,0|20,0|
+    17:8: terrain.file is "profil.csv": no such file ({case}); did you mean 'profile.csv'? Allowed: a file, relative to
+    the folder of the case file.
+
+a profile with semicolons
+  type = "flat"|elevation = 0.0 -> type = "profile"|file = "profile.csv"
+  profile.csv: distance_m;terrain_elevation_m|0;0|20;0|
+    17:8: terrain.file: {case}/profile.csv:1: the header is 'distance_m;terrain_elevation_m'; allowed:
+    distance_m,terrain_elevation_m[,surface_elevation_m], separated by commas.
+"""
+FURTHER = """
+an equals sign twice
+  cell = 1.0 -> cell = = 1.0
+    11:8: this is not TOML: Error while parsing value: could not determine value type. Correct the line; see
+    https://toml.io for the syntax.
+
+a text in place of a number
+  end = 0.2 -> end = "soon"
+    5:7: time.end is the text "soon"; allowed: a number, > 0 [s].
+
+a DEM in two dimensions
+  type = "flat"|elevation = 0.0 -> type = "dem"|file = "dem.asc"
+  dem.asc:
+    16:8: terrain.type is "dem", and case.dimension is 2; a DEM is the ground of a 3D case. Set case.dimension = 3, or
+    cut a 2D case out of the DEM with `thawslide section`.
+
+a key without effect
+  --set body.block.taper=5
+    --set body.block.taper=5: body.block.taper has a meaning only when the shape is "release". Remove it, or change
+    body.block.shape.
+
+a table misspelt
+  [terrain] -> [terain]
+    15:2: table [terain] is not known; did you mean 'terrain'? Allowed: [case], [time], [grid], [grid.boundary],
+    [guards], [terrain], [checkpoint], [maps], [probe.NAME], [report], [phases], [freezing], [material.NAME],
+    [body.NAME], [frame.NAME], [initial], [mechanics], [basal], [substrate.NAME], [bed], [contact], [contact_pair.NAME],
+    [mechanisms], [band], [heat], [heat.boundary], [pressure], [block].
+
+several mistakes at once
+  --set time.end=-1 --set body.block.porosity=2 --set time.stp=1
+    --set time.end=-1: time.end is -1; allowed: > 0 s (simulated time at which the run ends).
+    --set time.stp=1: key 'time.stp' is not known in [time]; did you mean 'step'? Allowed here: end, stepping, step,
+    safety, output_interval, history_interval, stop_at_rest, rest_time.
+    --set body.block.porosity=2: body.block.porosity is 2; allowed: > 0 and <= 0.95 (porosity n at t = 0: volume
+    fraction of ice and water); if it is in percent, it is 0.02. Correct it, or leave it out for the default 0.375.
+
+a material of another kind
+  --set 'body.block.material="ice"'
+    --set body.block.material="ice": body.block.material is 'ice', and there is no [material.ice]. Allowed: rock.
+
+an incompressible material
+  --set material.rock.poisson_ratio=0.5
+    --set material.rock.poisson_ratio=0.5: material.rock.poisson_ratio is 0.5; allowed: between -1 and 0.5, ends
+    excluded (Poisson's ratio).
+
+an end that is no number
+  --set time.end=nan
+    --set time.end=nan: time.end is nan; allowed: > 0 s (simulated time at which the run ends).
+
+fractional cells along one axis
+  --set grid.cell=0.8 --set 'grid.max=[20.0,10.1]'
+    --set grid.max=[20.0,10.1]: the domain is 12.1 m long along y, which is 15.125 cells of 0.8 m; allowed: a whole
+    number. Move grid.max along y to 10.
+
+an option without a value
+  --set time.end
+    --set time.end: allowed: TABLE.KEY=VALUE, for example --set band.thickness=0.1.
+
+a profile that folds back
+  type = "flat"|elevation = 0.0 -> type = "profile"|file = "profile.csv"
+  profile.csv: distance_m,terrain_elevation_m|0,0|10,0|9,0|20,0|
+    17:8: terrain.file: {case}/profile.csv:4: the profile folds back: distance_m is 9 after 10; allowed: strictly
+    increasing distances. Sort the rows, and leave out overhangs and repeated points.
+
+a file outside the folder of the case
+  type = "flat"|elevation = 0.0 -> type = "profile"|file = "../profile.csv"
+  ../profile.csv: distance_m,terrain_elevation_m|0,0|20,0|
+    17:8: terrain.file is "../profile.csv", which lies outside the folder of the case file; allowed: a file in that
+    folder. Copy it there, or give its path with --set terrain.file=PATH.
+
+a particle faster than the step allows
+  --set 'body.block.velocity=[1000.0,0.0]'
+    6:8: time.step is 0.001 s, above the limit of 0.0005 s set by the particle speed of 1,000 m/s. Use a smaller
+    time.step, or time.stepping = "adaptive".
+"""
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """One change of a valid case, and the message."""
+
+    name: str
+    changes: list[str]  # of the case file, as OLD -> NEW
+    words: list[str]  # options of the command
+    files: dict[str, str]
+    text: str
+
+    def write(self, case: str, folder: Path) -> None:
+        """Write the case with the mistake; `case`: conftest.SMALL_CASE."""
+        for change in self.changes:
+            old, _, new = change.partition(" ->")
+            assert case.count(old) == 1, self.name
+            case = case.replace(old, new.removeprefix(" "))
+        for name, text in ({"case.toml": case} | self.files).items():
+            (folder / name).write_text(text)
+
+    def message(self, folder: Path) -> str:
+        """Return the complete message about the case in a folder."""
+        lines = re.sub(r"(?:^| )(\d+:\d+: |--set \S+=\S+: )", r"\n\1", self.text).strip()
+        located = re.sub(r"^(?=\d+:\d+: )", "{case}/case.toml:", lines, flags=re.MULTILINE)
+        return f"error: {located}\n".replace("{case}", str(folder))
+
+
+def parsed(block: str) -> Mistake:
+    """Return the mistake of a block."""
+    name, *lines = block.splitlines()
+    given = [line[2:].replace("|", "\n") for line in lines if line[2] != " "]
+    changes = [line for line in given if " ->" in line]
+    words = [word for line in given if line.startswith("--") for word in shlex.split(line)]
+    files = dict(re.split(": ?", line, maxsplit=1) for line in given if " ->" not in line and line[:2] != "--")
+    return Mistake(name, changes, words, files, " ".join(line.strip() for line in lines if line[2] == " "))
+
+
+COMMON_MISTAKES = [parsed(block) for block in COMMON.strip().split("\n\n")]
+FURTHER_MISTAKES = [parsed(block) for block in FURTHER.strip().split("\n\n")]
