@@ -93,7 +93,7 @@ TEST(Incline, CohesionHoldsOrBrakes) {
   record.expect_near("acceleration with 0.04 MPa over exact", slow.acceleration / expected, 1.0, 2e-2);
 }
 
-TEST(Incline, LinearShapeFunctionsSlideAsWell) {
+TEST(Incline, QuadraticShapeFunctionsSlideAsWell) {
   expect_slide("quadratic shape functions", slide<2>(turned_2d, {"mechanics.shape_function=quadratic"}), 15.0, 2e-2);
 }
 
