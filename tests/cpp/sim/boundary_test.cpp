@@ -60,7 +60,7 @@ TEST(Frame, DrivesNodesWithinAndCountsItsWork) {
   const Sets pushed =
       "time.step=0.001; grid.cell=2; grid.max=[40,20]; material.rock.viscosity_time=0.01; body.block.min=[4,4]; "
       "body.block.max=[12,12]; frame.pusher.min=[0,0]; frame.pusher.max=[40,20]; frame.pusher.axis=x; "
-      "frame.pusher.velocity=3; heat.enabled=true; pressure.enabled=true";
+      "frame.pusher.velocity=3; mechanics.initial_stress=geostatic; heat.enabled=true; pressure.enabled=true";
   Simulation<2> simulation(published_case("free", pushed));
   run_until(simulation, 1.0);
   const auto row = history_row(simulation);
