@@ -304,8 +304,7 @@ def test_narrow_maps_use_the_width_of_the_page() -> None:
 
 @pytest.mark.parametrize("inches", [0.6, 0.9, 1.0, 1.2, 2.0, 3.5, 6.8])
 @pytest.mark.parametrize(
-    ("low", "high"),
-    [(5_199_140.0, 5_199_690.0), (380_000.0, 389_000.0), (6_500_000.0, 6_504_400.0), (-210.0, 130.0)],
+    ("low", "high"), [(5_199_140.0, 5_199_690.0), (380_000.0, 389_000.0), (6_500_000.0, 6_504_400.0), (-210.0, 130.0)]
 )
 def test_labels_of_coordinates_do_not_overlap(low: float, high: float, inches: float) -> None:
     found = coordinates(low, high, inches)

@@ -86,7 +86,7 @@ def test_wrong_number_is_reported_with_its_line() -> None:
     wrong, compared = differences(page_of(PEAK), SOURCE, {"peak": 80.27, "rise": 30.9})
     assert compared == 2
     assert [str(each) for each in wrong] == [
-        "page.md:3: says 84, the run gives 80.3 ('a peak of 84 m/s, 31 s after the start': peak)",
+        "page.md:3: says 84, the run gives 80.3 ('a peak of 84 m/s, 31 s after the start': peak)"
     ]
 
 

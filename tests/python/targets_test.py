@@ -101,10 +101,7 @@ INVALID = [
         ROWS + "mean_velocity,4,9,m/s,x\n",
         ":3: mean_velocity at this time from this source is in line 2 already; keep one of the two",
     ),
-    (
-        KINDS + "mean_velocity,4,8,m/s,guess\n",
-        f":2: the kind 'guess' {ALLOWED_KINDS}",
-    ),
+    (KINDS + "mean_velocity,4,8,m/s,guess\n", f":2: the kind 'guess' {ALLOWED_KINDS}"),
     (KINDS + "mean_velocity,4,8,m/s,\n", f":2: no kind {ALLOWED_KINDS}"),
     (HEADER.encode() + b"mean_velocity,4,8,m/s,M\xfcller\n", ":2: byte 0xfc is not UTF-8"),
     (HEADER.encode("utf-16"), ": encoded as UTF-16; save it as UTF-8"),
