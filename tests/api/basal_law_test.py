@@ -1,7 +1,5 @@
 """Basal laws written in Python."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any

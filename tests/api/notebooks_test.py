@@ -1,7 +1,5 @@
 """Notebooks of the documentation: they run in a copy of the repository's layout, and have outputs."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,7 +1,5 @@
 """Reading of runs: histories, maps and key numbers."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

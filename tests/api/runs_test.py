@@ -1,7 +1,5 @@
 """Runs in folders and the block model from Python, and cases."""
 
-from __future__ import annotations
-
 import json
 import signal
 import threading

@@ -1,7 +1,5 @@
 """Simulations in memory: they are those of the command line."""
 
-from __future__ import annotations
-
 import signal
 import threading
 from pathlib import Path

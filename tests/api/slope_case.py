@@ -1,7 +1,5 @@
 """A case of a block that slides down a slope with band columns, for the tests of the package and of sweeps."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 CASE = """[case]

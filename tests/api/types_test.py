@@ -1,7 +1,5 @@
 """Types of the package: a user's script passes `mypy --strict`, and wrong types are found."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Commands and snippets of the pages run, with the output that the pages show."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Reading of blocks, and comparison of outputs."""
 
-from __future__ import annotations
-
 import time
 from pathlib import Path
 

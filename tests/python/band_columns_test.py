@@ -1,7 +1,5 @@
 """Reports of runs with band columns: stresses, temperatures, boiling, heat and water."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import h5py

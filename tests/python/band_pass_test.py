@@ -1,7 +1,5 @@
 """Band-pass filter of forces, and reported forces with a band."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Averages of particles on a grid: volumes are conserved, fractions are exact, means are mass-weighted."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import h5py

@@ -1,7 +1,5 @@
 """Interactive plots of a page in headless Chromium without a network: slider, fields, hover."""
 
-from __future__ import annotations
-
 import html
 import json
 import re

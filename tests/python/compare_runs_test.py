@@ -1,7 +1,5 @@
 """Page that compares runs, and its command."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

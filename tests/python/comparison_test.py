@@ -1,7 +1,5 @@
 """Comparison with AvaFrame: terrains, and results from maps."""
 
-from __future__ import annotations
-
 import math
 import struct
 from pathlib import Path

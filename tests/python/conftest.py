@@ -1,7 +1,5 @@
 """Constructed run folders, with the files and shapes of a run."""
 
-from __future__ import annotations
-
 import functools
 import json
 import shutil

@@ -1,7 +1,5 @@
 """Polygons of a map above a threshold, and their files."""
 
-from __future__ import annotations
-
 import json
 import sqlite3
 import subprocess

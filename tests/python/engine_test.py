@@ -1,7 +1,5 @@
 """The runner of studies: reuse of runs, failures, selection, order, exit codes, skipped and frozen studies."""
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Sequence

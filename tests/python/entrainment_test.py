@@ -1,7 +1,5 @@
 """Reports of runs with an erodible bed, in which the number of particles changes."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import h5py

@@ -1,7 +1,5 @@
 """Contents of figures: data of the run, units and terrain; and figures of runs with little data."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import h5py

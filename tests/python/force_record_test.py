@@ -1,7 +1,5 @@
 """Force of a run compared with one inverted from seismic waves: file, projection, filter, alignment, figure."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

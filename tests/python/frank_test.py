@@ -1,7 +1,5 @@
 """Comparisons with SHALTOP and of cells: deposits, orders of convergence."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Layers of a GeoPackage: kinds of geometries, and messages of errors."""
 
-from __future__ import annotations
-
 import struct
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Reports of damaged run folders: intact data are plotted, damage is named."""
 
-from __future__ import annotations
-
 import json
 import warnings
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Laboratory experiments: lines from particles, and values of figures."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

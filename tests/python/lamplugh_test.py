@@ -1,7 +1,5 @@
 """Measures of Sec. 4, and rows of the one-at-a-time table, on constructed run folders."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

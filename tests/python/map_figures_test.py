@@ -1,7 +1,5 @@
 """Figures of a 3D run on a DEM: values of the files, units, coordinates and terrain."""
 
-from __future__ import annotations
-
 import struct
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Constructed run folders of 3D runs on a DEM: a slab that slides down a plane to the east; parts of their figures."""
 
-from __future__ import annotations
-
 import sqlite3
 import struct
 from contextlib import closing

@@ -1,7 +1,5 @@
 """Maps: reading, cropping, thinning, interpolation, and messages of errors."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from pathlib import Path

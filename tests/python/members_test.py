@@ -1,7 +1,5 @@
 """Page of members with initial noise: results of a run, met rows, variants, aligned times."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Times of snapshots in figures, and velocities from displacement."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import h5py

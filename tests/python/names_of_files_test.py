@@ -1,7 +1,5 @@
 """Names of files of a run: files that the simulator removes with a run, temporary files, and other kinds of files."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path

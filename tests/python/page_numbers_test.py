@@ -1,7 +1,5 @@
 """Comparison of numbers of pages with runs."""
 
-from __future__ import annotations
-
 import random
 import re
 from decimal import Decimal

@@ -1,7 +1,5 @@
 """Reference solutions of the figures of the paper, and the table of sentences."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 import re

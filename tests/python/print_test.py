@@ -1,7 +1,5 @@
 """Figures for journals: width of two columns, letters in order, readable type, 150 dots per inch."""
 
-from __future__ import annotations
-
 import re
 import struct
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The command thawslide of the Python package executes the program of the package."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

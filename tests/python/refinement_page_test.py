@@ -1,7 +1,5 @@
 """The tables of docs/refinement.md: observed orders and limits."""
 
-from __future__ import annotations
-
 import pytest
 
 from reproduction.studies import refinement_page

@@ -1,7 +1,5 @@
 """Hillshade compared with Horn's formula, and round numbers of contour lines and scale bars."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

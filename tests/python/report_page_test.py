@@ -1,7 +1,5 @@
 """Self-contained page of a run: balances, inputs, kept figures, data of the interactive view, published events."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

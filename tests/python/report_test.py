@@ -1,7 +1,5 @@
 """Report page, key numbers, and the command with its exit codes."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

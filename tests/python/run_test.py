@@ -1,7 +1,5 @@
 """Reading a run folder: values of the files, and messages of errors."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Refused releases: the message states the problem, the exit code is 2, and no file is written."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

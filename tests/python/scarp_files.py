@@ -1,7 +1,5 @@
 """DEMs and outlines of releases."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Sloping local base level against discrete closed forms, the published iteration, and given depths and volumes."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Releases from planes and ellipsoids against closed forms, their files, and matched volumes."""
 
-from __future__ import annotations
-
 import math
 import struct
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Cross sections of a 3D run: along a given path, or along the extended track of the centre of mass."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

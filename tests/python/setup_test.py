@@ -1,7 +1,5 @@
 """Figures of the setup of a 2D case and of a case on a DEM: contents of their files."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Figures of an incomplete run state its ending and time."""
 
-from __future__ import annotations
-
 import errno
 import fcntl
 import os

@@ -1,7 +1,5 @@
 """Two-page summary for non-experts."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

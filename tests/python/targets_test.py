@@ -1,7 +1,5 @@
 """Reported values: conversion of units, and messages of errors with lines."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

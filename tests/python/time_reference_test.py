@@ -1,7 +1,5 @@
 """Common time reference of all figures of a run: a target start_velocity, or the start of the run."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Warnings inside figures: panels and numbers."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import h5py

@@ -1,7 +1,5 @@
 """Wedge factor and apparent friction of the comparison: exact on planes, in V channels and on a circle."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Section with a variable width: extensive columns, and sizes of particles."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from conftest import MakeRun

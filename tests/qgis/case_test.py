@@ -1,7 +1,5 @@
 """The algorithms 'New case' and 'Check case'."""
 
-from __future__ import annotations
-
 import sqlite3
 import subprocess
 from contextlib import closing

@@ -1,7 +1,5 @@
 """Fixtures that run the algorithms of the plugin in QGIS, with a profile into which its ZIP file is installed."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

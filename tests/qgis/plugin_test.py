@@ -1,7 +1,5 @@
 """The ZIP file of the plugin, the list of its algorithms, and the choice of the program."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import subprocess

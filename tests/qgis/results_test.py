@@ -1,7 +1,5 @@
 """The algorithm 'Load results with styles': group, layers and styles of the saved project, and its picture."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The algorithms 'Run case' and 'Resume run'."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """A DEM in a format that the program does not read."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import rasterio

@@ -1,7 +1,5 @@
 """The words and the sentence lengths of pages, messages and labels are within their limits."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import tomllib

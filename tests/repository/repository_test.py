@@ -1,7 +1,5 @@
 """Checks of the repository: includes between modules, sizes, words, agreement of documents and code."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 from pathlib import Path

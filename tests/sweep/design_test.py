@@ -1,7 +1,5 @@
 """Varied keys and designs: their forms on the command line, distributions, samples, seeds and limits."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

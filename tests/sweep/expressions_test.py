@@ -1,7 +1,5 @@
 """Expressions of history columns: values, and refusal of everything else."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

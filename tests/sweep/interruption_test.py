@@ -1,7 +1,5 @@
 """Members whose files cannot be written: they are interrupted, not failed, and continue later."""
 
-from __future__ import annotations
-
 import errno
 import fcntl
 import os

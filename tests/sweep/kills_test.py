@@ -1,7 +1,5 @@
 """A sweep that is killed at ten random moments, driver and workers, gives the table of an undisturbed one."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import random

@@ -1,7 +1,5 @@
 """Labels of a sweep's page: names and units of keys and results."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 

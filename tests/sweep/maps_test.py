@@ -1,7 +1,5 @@
 """Sweeps of a 3D case: probability maps equal those of the members' maps, and maps that are not kept are removed."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

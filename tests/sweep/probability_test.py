@@ -1,7 +1,5 @@
 """Probability and quantile maps against NumPy, extents, and refused rasters."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Sensitivity: published indices of the Ishigami function, Morris effects of a line, and failed members."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Sweeps end to end: tables, restarts, failures, deaths of workers, and errors before any run."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal
