@@ -26,8 +26,7 @@ def test_a_notebook_runs(notebook: Path, tmp_path: Path) -> None:
     shutil.copy(notebook, copy)
     (tmp_path / "cases").symlink_to(ROOT / "cases")
     (tmp_path / "runs").mkdir()
-    paths = f"{ROOT}:{ROOT / 'python'}"
-    environment = os.environ | {"PYTHONPATH": paths, "JUPYTER_PLATFORM_DIRS": "1"}
+    environment = os.environ | {"PYTHONPATH": f"{ROOT}:{ROOT / 'python'}", "JUPYTER_PLATFORM_DIRS": "1"}
     words = f"import pathlib; from reproduction.studies import notebooks as n; n.execute(pathlib.Path({str(copy)!r}))"
     command = [sys.executable, "-c", words]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=600)

@@ -191,8 +191,7 @@ def test_a_copied_case_is_independent(slope: Path) -> None:
 
 def test_a_case_from_text_is_that_of_its_file(slope: Path) -> None:
     text = slope.read_text()
-    case = Case.from_text(text, {"terrain.file": slope.parent / "profile.csv"})
-    assert case["grid"] == Case(slope)["grid"]
+    assert Case.from_text(text, {"terrain.file": slope.parent / "profile.csv"})["grid"] == Case(slope)["grid"]
     with pytest.raises(UserError, match=r"'grid\.cel' is not known in"):
         Case.from_text(text.replace("cell = 5.0", "cel = 5.0"), {"terrain.file": slope.parent / "profile.csv"})
 

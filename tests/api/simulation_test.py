@@ -140,8 +140,7 @@ def test_another_thread_may_not_use_a_simulation_at_work(slope: Path) -> None:
 
 def test_a_callback_is_called_at_intervals_and_may_stop(slope: Path) -> None:
     times: list[float] = []
-    simulation = Simulation(slope, threads=1, on_message=silent)
-    simulation.run(callback=lambda now: times.append(now.time), every=0.25)
+    Simulation(slope, threads=1, on_message=silent).run(callback=lambda now: times.append(now.time), every=0.25)
     assert times == pytest.approx([0.25, 0.5, 0.75, 1.0])
     steps: list[int] = []
 

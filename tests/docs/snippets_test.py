@@ -75,8 +75,7 @@ def test_dots_match_lines_and_text() -> None:
 
 
 def test_diff_shows_only_lines_that_differ() -> None:
-    shown = difference(["a [..]", "b"], ["a 1", "c"])
-    assert shown.splitlines()[3:] == [" a [..]", "-b", "+c"]
+    assert difference(["a [..]", "b"], ["a 1", "c"]).splitlines()[3:] == [" a [..]", "-b", "+c"]
 
 
 def test_commands_of_a_page_run_in_one_folder(tmp_path: Path) -> None:
@@ -87,8 +86,7 @@ def test_commands_of_a_page_run_in_one_folder(tmp_path: Path) -> None:
         "```console\n$ ls\na.txt\n$ ls ../run ../cases/incline/D.toml\n...\n```\n"
         "<!-- long: a minute -->\n```console\n$ false\n```\n"
     )
-    scratch = Scratch(tmp_path / "clone")
-    assert page_failures(page, scratch, long=False) == []
+    assert page_failures(page, Scratch(tmp_path / "clone"), long=False) == []
     (failure,) = page_failures(page.replace("a.txt\none\n", "a.txt\ntwo\n"), Scratch(tmp_path / "other"), long=False)
     assert failure.startswith("line 7: $ cat a.txt\ndoes not come: two\n")
     assert "-two\n+one" in failure

@@ -98,8 +98,7 @@ def test_boiling_temperature_of_nan_is_nan() -> None:
 
 def test_stresses_are_in_one_panel(columns_run: Path) -> None:
     run = Run(columns_run)
-    figure = FIGURES["band"].plot(run)
-    stresses = titled(figure, "(a)")
+    stresses = titled(FIGURES["band"].plot(run), "(a)")
     assert stresses.get_ylabel() == "stress (MPa)"
     load, pore_pressure = run.history["band_normal_pressure_Pa"], run.history["band_pore_pressure_Pa"]
     for label, values in (
@@ -130,8 +129,7 @@ def test_legend_does_not_cover_the_stresses(columns_run: Path) -> None:
 
 
 def test_basal_segments_are_sorted_along_the_section(columns_run: Path) -> None:
-    run = Run(columns_run)
-    figure = FIGURES["base_along"].plot(run)
+    figure = FIGURES["base_along"].plot(Run(columns_run))
     stress, heat = figure.axes[-2], figure.axes[-1]
     x, load = line(stress, "normal pressure N")
     np.testing.assert_array_equal(x, np.arange(20.0, 40.0))

@@ -39,11 +39,9 @@ def test_fractions_outside_the_grid_are_excluded() -> None:
 
 def test_thickness_of_a_slab_is_exact(map_run: Path) -> None:
     run = Run(map_run)
-    grid = Maps(run)["release"].grid
-    columns = gather(grid, run.snapshot(0, fields=FIELDS), 10.0)
+    columns = gather(Maps(run)["release"].grid, run.snapshot(0, fields=FIELDS), 10.0)
     assert columns.thickness.volume() == pytest.approx(LENGTH * WIDTH * THICKNESS, rel=1e-12)
-    inside = columns.thickness.at(np.array([WEST + 100.0]), np.array([MIDDLE]))
-    assert inside == pytest.approx(THICKNESS)
+    assert columns.thickness.at(np.array([WEST + 100.0]), np.array([MIDDLE])) == pytest.approx(THICKNESS)
     assert np.nanmax(columns.speed.values) == pytest.approx(SPEED)
     assert np.nanmin(columns.speed.values) == pytest.approx(SPEED)
     assert np.isnan(columns.speed.values[0, 0])
@@ -67,5 +65,4 @@ def test_invalid_particles_are_excluded(map_run: Path) -> None:
 
 
 def test_only_requested_fields_are_read(map_run: Path) -> None:
-    shot = Run(map_run).snapshot(0, fields=FIELDS)
-    assert sorted(shot) == sorted(FIELDS)
+    assert sorted(Run(map_run).snapshot(0, fields=FIELDS)) == sorted(FIELDS)

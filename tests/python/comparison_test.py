@@ -15,8 +15,7 @@ SLOPE = math.tan(math.radians(30.0))
 
 
 def test_plane_has_no_kink_between_slope_parabola_and_level_terrain() -> None:
-    x = np.arange(0.0, 2_600.0, 0.5)
-    slope = np.diff(grounds.plane_profile(x)) / 0.5
+    slope = np.diff(grounds.plane_profile(np.arange(0.0, 2_600.0, 0.5))) / 0.5
     assert slope[:1_699] == pytest.approx(-SLOPE, abs=1e-9)
     assert slope[2_300:] == pytest.approx(0.0, abs=1e-9)
     assert np.abs(np.diff(slope)).max() == pytest.approx(SLOPE * 0.5 / 300.0, rel=1e-6)
@@ -53,8 +52,7 @@ def test_first_ring_of_a_shapefile_is_read(tmp_path: Path) -> None:
 
 def dem(profile: np.ndarray) -> Map:
     """Return a DEM of 5 m whose sections along x are all this profile [m]."""
-    grid = Grid(0.0, 0.0, 5.0, 5.0, len(profile), 41)
-    return Map(grid, np.tile(profile, (41, 1)))
+    return Map(Grid(0.0, 0.0, 5.0, 5.0, len(profile), 41), np.tile(profile, (41, 1)))
 
 
 def square(x: float) -> list[list[float]]:

@@ -147,8 +147,7 @@ def update_facts(folder: Path, **facts: Any) -> None:
 
 def page_of(folder: Path, *names: str) -> str:
     """Return the page of a run with the figure `motion` or those named."""
-    report = make_report(Run(folder), names=names or ["motion"], dpi=50)
-    return report.page.read_text(encoding="utf-8")
+    return make_report(Run(folder), names=names or ["motion"], dpi=50).page.read_text(encoding="utf-8")
 
 
 Fails = Callable[[list[str], str], None]

@@ -67,8 +67,7 @@ def test_entrainment_has_a_figure_and_a_key_number(bed_run: Path) -> None:
     assert "entrainment" in figures_of(run)
     figure = FIGURES["entrainment"].plot(run)
     np.testing.assert_allclose(line(titled(figure, "(b)"), "work of entrainment")[1][-1], 10.0)  # MJ
-    found = {row.words: row.value for row in key_numbers(run)}
-    assert found["Entrained bed volume"] == "222 m³"
+    assert {row.words: row.value for row in key_numbers(run)}["Entrained bed volume"] == "222 m³"
 
 
 def test_report_accepts_more_particles_at_the_end(bed_run: Path) -> None:

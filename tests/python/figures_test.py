@@ -143,8 +143,7 @@ def test_overview_has_the_range_of_each_panel(make_run: MakeRun) -> None:
     assert bars.get_xlabel().startswith("distance (m)")
     shown = np.asarray(bars.lines[2].get_xdata(), dtype=float)
     assert tuple(shown) == pytest.approx(titled(figure, "(b)").get_xlim())
-    covered = np.asarray(bars.lines[3].get_xdata(), dtype=float)
-    assert tuple(covered) == pytest.approx((68.5, 87.5))
+    assert tuple(np.asarray(bars.lines[3].get_xdata(), dtype=float)) == pytest.approx((68.5, 87.5))
 
 
 def test_without_terrain_there_is_no_fill_and_no_strip(make_run: MakeRun) -> None:
@@ -189,8 +188,7 @@ def test_window_exaggerates_only_long_flat_sections() -> None:
 
 
 def test_colour_range_excludes_outliers() -> None:
-    values = np.concatenate([np.linspace(0.0, 1.0, 1000), [50.0]])
-    low, high, extend = colour_range(values, from_zero=True)
+    low, high, extend = colour_range(np.concatenate([np.linspace(0.0, 1.0, 1000), [50.0]]), from_zero=True)
     assert (low, extend) == (0.0, "max")
     assert 0.99 < high <= 1.0
     low, high, extend = colour_range(np.full(5, -10.0), from_zero=False)
@@ -294,8 +292,7 @@ def test_reported_force_requires_a_width_and_a_target(make_run: MakeRun) -> None
 
 def test_seismic_force_in_three_dimensions_has_three_components(make_run: MakeRun) -> None:
     figure = FIGURES["force"].plot(Run(make_run(dimension=3)))
-    labels = [found.get_label() for found in titled(figure, "(b)").lines]
-    assert labels == ["x (along)", "y (across)", "z (up)"]
+    assert [found.get_label() for found in titled(figure, "(b)").lines] == ["x (along)", "y (across)", "z (up)"]
 
 
 def test_band_has_the_history_with_gaps(make_run: MakeRun) -> None:
@@ -351,8 +348,7 @@ def test_residual_is_none_if_nothing_changes(make_run: MakeRun) -> None:
 
 @pytest.mark.parametrize("name", ["motion", *SNAPSHOT_FIGURES, "force", "band", "energy"])
 def test_figures_of_one_row_and_one_snapshot_are_written(make_run: MakeRun, tmp_path: Path, name: str) -> None:
-    run = Run(make_run(rows=1, snapshots=1, targets=False))
-    FIGURES[name].plot(run).savefig(tmp_path / "figure.png")
+    FIGURES[name].plot(Run(make_run(rows=1, snapshots=1, targets=False))).savefig(tmp_path / "figure.png")
     assert (tmp_path / "figure.png").stat().st_size > 5000
 
 

@@ -149,8 +149,7 @@ def test_projection_is_the_component_in_a_direction() -> None:
     for azimuth in np.arange(-180.0, 180.0, 17.0):
         across = projected(north, east, azimuth + 90.0)
         np.testing.assert_allclose(projected(north, east, azimuth) ** 2 + across**2, north**2 + east**2)
-        own = float(np.degrees(np.arctan2(east[0], north[0])))
-        assert projected(north, east, own)[0] == pytest.approx(5.0)
+        assert projected(north, east, float(np.degrees(np.arctan2(east[0], north[0]))))[0] == pytest.approx(5.0)
 
 
 def test_projected_range_bounds_all_components() -> None:

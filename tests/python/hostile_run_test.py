@@ -163,8 +163,7 @@ def test_title_is_not_a_template(make_run: MakeRun) -> None:
 
 
 def test_failed_write_keeps_the_previous_file(make_run: MakeRun) -> None:
-    folder = make_run()
-    report = make_report(Run(folder), names=["motion"], dpi=50)
+    report = make_report(Run(make_run()), names=["motion"], dpi=50)
     before = {path: path.read_bytes() for path in (report.page, report.figures["motion"])}
     for path in before:
         with pytest.raises(OSError, match="full"), atomic_file(path) as temporary:

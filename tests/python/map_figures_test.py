@@ -116,8 +116,7 @@ def test_scale_of_elevation_change_is_symmetric(map_run: Path) -> None:
     assert (norm.vmin, norm.vmax) == pytest.approx((-45.8, 45.8))
     assert norm(-10.0) + norm(10.0) == pytest.approx(1.0)
     bar = figure.axes[-1]
-    ticks = [label.get_text() for label in bar.get_yticklabels()]
-    assert {"−50", "−25", "0", "25", "50"} <= set(ticks)
+    assert {"−50", "−25", "0", "25", "50"} <= {label.get_text() for label in bar.get_yticklabels()}
 
 
 @pytest.mark.parametrize("largest", [THICKNESS, 1.2e27])

@@ -1,7 +1,5 @@
 """Page of members with initial noise: results of a run, met rows, variants, aligned times."""
 
-import json
-
 import numpy as np
 import pytest
 from band_columns_test import column_history
@@ -89,8 +87,7 @@ def test_rows_are_met_by_the_median_and_pressure_by_every_member() -> None:
     assert median(found, ACCEPTED["peak"]) == 80.0
     assert all(is_met(found, each) for each in QUANTITIES)
     assert is_met([changed(ratio=1.0 + 1e-12)], ACCEPTED["ratio"])
-    pressed = [*found[:4], changed(ratio=1.01)]
-    assert not is_met(pressed, ACCEPTED["ratio"])
+    assert not is_met([*found[:4], changed(ratio=1.01)], ACCEPTED["ratio"])
     assert not is_met([changed(failure="bad"), GOOD], ACCEPTED["ratio"])
     assert "- maximum P over averaged N: not every member ended" in verdict([changed(failure="bad"), GOOD])
     table = members_table(found).splitlines()

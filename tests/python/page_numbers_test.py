@@ -89,8 +89,7 @@ def test_wrong_number_is_reported_with_its_line() -> None:
 
 
 def test_violated_bound_is_reported() -> None:
-    page = page_of(phrase_of(["a peak of {84} m/s", "peak at most"]))
-    wrong, _ = differences(page, SOURCE, {"peak": 84.5})
+    wrong, _ = differences(page_of(phrase_of(["a peak of {84} m/s", "peak at most"])), SOURCE, {"peak": 84.5})
     assert [str(each) for each in wrong] == [
         "page.md:3: says at most 84, the run gives 84.5 ('a peak of 84 m/s': peak)"
     ]
@@ -157,8 +156,7 @@ def test_checked_phrase_must_occur_once(text: str, count: int) -> None:
     wrong = misplaced(page_of(phrase_of([text, "x"])), SOURCE)
     assert len(wrong) == 1 - count
     assert all(f"as declared (found {count} times; allowed 1)" in line for line in wrong)
-    twice = misplaced(page_of(phrase_of([text, "x"])), SOURCE + SOURCE)
-    assert len(twice) == 1
+    assert len(misplaced(page_of(phrase_of([text, "x"])), SOURCE + SOURCE)) == 1
 
 
 def test_given_phrase_must_occur_at_least_once() -> None:

@@ -60,8 +60,7 @@ def test_figures_without_title_have_larger_panels(make_run: MakeRun) -> None:
 
 @pytest.mark.parametrize("name", ["motion", "velocity"])
 def test_images_have_150_dots_per_inch(make_run: MakeRun, name: str) -> None:
-    run = Run(make_run())
-    image = make_report(run, names=[name]).figures[name].read_bytes()
+    image = make_report(Run(make_run()), names=[name]).figures[name].read_bytes()
     width = struct.unpack(">I", image[16:20])[0]  # of a PNG's first block
     assert width == int(150 * COLUMN_WIDTH)
 

@@ -230,8 +230,7 @@ def test_map_view_has_the_volume_of_the_mass(map_run: Path) -> None:
         assert np.nanmax(unpacked(data, speed["values"][index])) == pytest.approx(expected, rel=1e-3)
     reached = unpacked(data, field_of(parts, "maximum flow thickness")["values"][0])
     assert np.count_nonzero(reached > 0.1) * area == pytest.approx(16_800.0)
-    elevation = unpacked(data, parts["elevation"])
-    assert len(elevation) == len(reached)
+    assert len(unpacked(data, parts["elevation"])) == len(reached)
     assert {line["words"] for line in parts["lines"]} == {"release", "affected area", "flow path"}
     assert list(parts["probes"]) == ["gate"]
 

@@ -89,8 +89,7 @@ def read(path: Path) -> SetupOnMap:
 
 
 def test_both_panels_have_bodies_terrain_and_frame(write: Write) -> None:
-    figure = plotted_section(write(section()))
-    overview, zoom = figure.axes
+    overview, zoom = plotted_section(write(section())).axes
     assert overview.get_title(loc="left") == "(a) whole domain, true scale; box: (b)"
     assert zoom.get_title(loc="left") == "(b) bodies, true scale, cells of 0.2 m"
     assert (zoom.get_xlabel(), zoom.get_ylabel()) == ("distance (m)", "elevation (m)")

@@ -161,8 +161,7 @@ def test_observations_and_results_of_other_models_are_separate(make_run: MakeRun
     folder = make_run(targets=HEADER.rstrip() + ",kind\n" + rows)
     run = Run(folder)
     assert [target.kind for target in run.targets] == ["observation", "model", "model", "observation", "assumption"]
-    page = page_of(folder)
-    kinds = re.findall(r"<h3>(.*?)</h3>\n(.*?)</table>", page, re.DOTALL)
+    kinds = re.findall(r"<h3>(.*?)</h3>\n(.*?)</table>", page_of(folder), re.DOTALL)
     assert [kind for kind, _ in kinds] == ["Observations", "Results of other models", "Assumptions"]
     sources = [re.findall(r"<td>(radar|survey|blocks|guess)</td>", table) for _, table in kinds]
     assert sources == [["radar", "survey"], ["blocks", "blocks"], ["guess"]]

@@ -97,8 +97,7 @@ def test_sources_of_cases_are_publications_in_legends(make_run: MakeRun, path: P
 
 def test_two_reported_forces_of_one_value_can_be_distinguished(make_run: MakeRun) -> None:
     rows = "max_seismic_force,5,280,GN,One\nmax_seismic_force_2_8_s,5,280,GN,Two\n"
-    run = Run(make_run(targets="quantity,time_s,value,unit,source\n" + rows))
-    size = FIGURES["force"].plot(run).axes[0]
+    size = FIGURES["force"].plot(Run(make_run(targets="quantity,time_s,value,unit,source\n" + rows))).axes[0]
     one, two = (found for found in size.lines if "maximum" in str(found.get_label()))
     np.testing.assert_array_equal(one.get_ydata(), two.get_ydata())
     (passed,) = (found for found in size.lines if "band-pass" in str(found.get_label()))

@@ -51,8 +51,7 @@ def test_band_above_the_boiling_point_has_a_warning(make_run: MakeRun) -> None:
     found = warnings(FIGURES["band"].plot(Run(folder)))
     time, load = load_on_band(Run(folder))
     ratio = np.interp(time, columns["time_s"], columns["band_pore_pressure_Pa"]) / load
-    over = f"⚠ unphysical: P/overburden up to {number_text(np.nanmax(ratio))}"
-    assert found == {"(a)": words, "(b)": over}
+    assert found == {"(a)": words, "(b)": f"⚠ unphysical: P/overburden up to {number_text(np.nanmax(ratio))}"}
     # Higher pressure raises the boiling point.
     hot = 1.002 * float(boiling_temperature(columns["band_pore_pressure_Pa"][50]))
     for temperature, warned in ((hot, True), (0.999 * hot, False)):
@@ -79,8 +78,7 @@ def test_warnings_are_above_the_curves(make_run: MakeRun) -> None:
     figure = FIGURES["band"].plot(Run(make_run(history={"band_temperature_C": np.full(101, 400.0)})))
     figure.draw_without_rendering()
     (box,) = [text for text in figure.findobj(Text) if text.get_text().startswith("⚠ unphysical: 400 °C")]
-    bottom = box.axes.transData.inverted().transform(box.get_window_extent().corners())[:, 1].min()
-    assert bottom > 400.0
+    assert box.axes.transData.inverted().transform(box.get_window_extent().corners())[:, 1].min() > 400.0
 
 
 def test_unapplied_pore_pressure_is_marked(make_run: MakeRun) -> None:

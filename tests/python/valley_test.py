@@ -42,8 +42,7 @@ def test_floor_has_the_slope_of_the_profile_without_a_kink(script: ModuleType) -
     foot, across = script.valley_coordinates(*points[chosen].T)
     assert np.abs(foot - along[chosen]).max() < 1e-6
     assert np.abs(across).max() < 1e-6
-    fine = np.arange(-500.0, 9_000.0, 0.5)
-    slope = np.diff(script.long_profile(fine)) / 0.5
+    slope = np.diff(script.long_profile(np.arange(-500.0, 9_000.0, 0.5))) / 0.5
     assert np.abs(np.diff(slope)).max() < 0.06  # points of the profile are 10 m apart
     assert slope.min() == pytest.approx(-np.tan(np.radians(48.0)), abs=1e-3)
 

@@ -64,8 +64,7 @@ def test_curved_terrain_adds_the_centrifugal_force() -> None:
 
 def test_bumps_cancel_in_the_load() -> None:
     # Bumps along the motion, an integer number of waves below evenly spaced particles.
-    length = 40.0
-    ground = wedge.derivatives(Map(GRID, 0.2 * np.sin(2.0 * math.pi * X / length)))
+    ground = wedge.derivatives(Map(GRID, 0.2 * np.sin(2.0 * math.pi * X / 40.0)))
     x = np.arange(-80.0, 80.0, 5.0)
     points = np.column_stack([x, np.zeros_like(x), np.zeros_like(x)])
     velocity = np.column_stack([np.full_like(x, 40.0), np.zeros_like(x), np.zeros_like(x)])

@@ -45,8 +45,7 @@ def test_missing_program_is_reported_with_the_setting(algorithm: Algorithm, case
     lost = {"THAWSLIDE_BINARY": "", "PATH": str(tmp_path)}
     message = algorithm("checkcase", environment_too=lost, CASE=case, code=None).stderr
     assert "Settings > Options > Processing > Providers > Thawslide" in message
-    wrong = {"THAWSLIDE_BINARY": str(tmp_path)}
-    refused = algorithm("checkcase", environment_too=wrong, CASE=case, code=1)
+    refused = algorithm("checkcase", environment_too={"THAWSLIDE_BINARY": str(tmp_path)}, CASE=case, code=1)
     assert f"THAWSLIDE_BINARY: {tmp_path} is not a program" in refused.stderr
 
 

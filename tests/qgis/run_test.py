@@ -31,8 +31,7 @@ def test_run_writes_its_folder_and_shows_progress(finished: tuple[Path, Outcome]
 def test_wrong_setting_shows_the_message_of_the_program(
     algorithm: Algorithm, case: Path, tmp_path: Path, settings: str, message: str
 ) -> None:
-    refused = algorithm("runcase", CASE=case, OUTPUT=tmp_path / "run", SETTINGS=settings, code=1)
-    assert message in refused.stderr
+    assert message in algorithm("runcase", CASE=case, OUTPUT=tmp_path / "run", SETTINGS=settings, code=1).stderr
     assert not (tmp_path / "run" / "run.json").exists()
 
 
@@ -45,8 +44,7 @@ def test_several_settings_are_separated_by_lines(algorithm: Algorithm, case: Pat
 def test_a_run_is_replaced_on_request_only(algorithm: Algorithm, case: Path, tmp_path: Path) -> None:
     parameters = {"CASE": case, "OUTPUT": tmp_path / "run", "THREADS": 1, "SETTINGS": "time.end=0.1"}
     algorithm("runcase", **parameters)
-    refused = algorithm("runcase", **parameters, code=1)
-    assert "--overwrite" in refused.stderr
+    assert "--overwrite" in algorithm("runcase", **parameters, code=1).stderr
     algorithm("runcase", **parameters, OVERWRITE="true")
 
 
@@ -69,5 +67,4 @@ def test_cancelled_run_writes_its_checkpoint_and_is_resumed(
 
 
 def test_resume_refuses_a_folder_without_a_run(algorithm: Algorithm, tmp_path: Path) -> None:
-    refused = algorithm("resumerun", RUN=tmp_path, code=1)
-    assert f"error: {tmp_path} is not a run folder" in refused.stderr
+    assert f"error: {tmp_path} is not a run folder" in algorithm("resumerun", RUN=tmp_path, code=1).stderr

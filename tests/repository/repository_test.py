@@ -50,8 +50,7 @@ def own_files() -> list[Path]:
 def documents() -> list[Path]:
     """Return the documents, without the generated reference."""
     inside = [path for folder in ["docs", "cases", "benchmarks"] for path in (ROOT / folder).rglob("*.md")]
-    found = [*ROOT.glob("*.md"), *inside]
-    return sorted(path for path in found if path.name != "reference.md")
+    return sorted(path for path in [*ROOT.glob("*.md"), *inside] if path.name != "reference.md")
 
 
 def includes_of(text: str) -> list[str]:
@@ -75,8 +74,7 @@ def place(path: Path) -> str:
 
 
 def test_the_modules_are_those_of_the_table() -> None:
-    modules = {path.name for path in SOURCE.iterdir() if path.is_dir()}
-    assert modules == set(ALLOWED)
+    assert {path.name for path in SOURCE.iterdir() if path.is_dir()} == set(ALLOWED)
 
 
 def test_modules_include_only_allowed_modules() -> None:
@@ -262,8 +260,7 @@ def test_code_files_and_tests_that_pages_name_exist() -> None:
     recipe = {"src/physics/basal/weakening_friction.hpp"}  # the reader creates it
     wrong = []
     for page in documents():
-        words = " ".join(names_in_backticks(page))
-        named = set(re.findall(r"[\w/.]*\w\.(?:hpp|cpp|cu)\b", words)) - recipe
+        named = set(re.findall(r"[\w/.]*\w\.(?:hpp|cpp|cu)\b", " ".join(names_in_backticks(page)))) - recipe
         wrong += [f"{place(page)}: {name}" for name in named if not any(file.endswith(f"/{name}") for file in files)]
         named = {name for name in names_in_backticks(page) if re.fullmatch(r"[A-Z]\w+\.[A-Z]\w+", name)}
         wrong += [f"{place(page)}: {name}" for name in named - tests]

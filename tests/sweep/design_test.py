@@ -28,8 +28,7 @@ def test_samples_have_their_size_and_depend_on_the_seed_only(method: str, count:
 
 
 def test_a_latin_hypercube_has_one_member_in_each_interval() -> None:
-    members = Design(("case",), RANGES, "lhs", 50, 1).members()
-    values = np.sort([member.changes["a"] for member in members])
+    values = np.sort([member.changes["a"] for member in Design(("case",), RANGES, "lhs", 50, 1).members()])
     assert np.array_equal(np.floor(values * 50.0), np.arange(50))
 
 

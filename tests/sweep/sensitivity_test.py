@@ -52,8 +52,7 @@ def test_rank_correlation_of_a_list_is_that_of_its_values() -> None:
     """The order in which values are given has no effect; texts have no rank."""
     variables = (Levels("a", (30.0, 10.0, 20.0)), Levels("b", ("x", "y")))
     for design in (Design(("case",), variables), Design(("case",), variables, "lhs", 40, 1)):
-        values = np.array([member.changes["a"] for member in design.members()])
-        found = indices_of(design, values)
+        found = indices_of(design, np.array([member.changes["a"] for member in design.members()]))
         assert [each.key for each in found] == ["a"]
         assert found[0].value == pytest.approx(1.0)
     with pytest.raises(NotInRunError, match="no varied key has numbers"):

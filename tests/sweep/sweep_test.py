@@ -173,8 +173,7 @@ def test_a_block_sweep_has_the_numbers_of_single_blocks(slope: Path, tmp_path: P
         slope, tmp_path / "sweep", ranges={"basal.friction_angle": (10.0, 30.0)}, sample="lhs:6", seed=4, block=True,
         progress=False,
     )  # fmt: skip
-    angle = float(table["basal.friction_angle"][3])
-    rows = thawslide.block(Case(slope, {"basal.friction_angle": angle}))
+    rows = thawslide.block(Case(slope, {"basal.friction_angle": float(table["basal.friction_angle"][3])}))
     assert table["peak_speed_m_s"][3] == rows["velocity_m_s"].max()
     plan = json.loads((tmp_path / "sweep" / "sweep.json").read_text())
     assert plan["design"]["seed"] == 4 and plan["design"]["method"] == "lhs"
