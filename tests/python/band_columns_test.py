@@ -119,8 +119,7 @@ def test_legend_does_not_cover_the_stresses(columns_run: Path) -> None:
         figure.draw_without_rendering()
         stresses = titled(figure, "(a)")
         legend = stresses.get_legend()
-        assert legend is not None
-        assert len(legend.get_texts()) == 4 + bool(reported)
+        assert legend is not None and len(legend.get_texts()) == 4 + bool(reported)
         box, panel = legend.get_window_extent(), stresses.get_window_extent()
         assert box.y1 <= panel.y1
         assert panel.x0 <= box.x0 < box.x1 <= panel.x1
@@ -237,5 +236,4 @@ def test_figures_of_columns_without_contact_are_written(columns_run: Path, tmp_p
 
 def test_stop_time_is_the_last_time_above_a_speed(make_run: MakeRun) -> None:
     run = Run(make_run())  # 12 sin2(pi t/10) in rows of 0.1 s: below 0.1 m/s from 9.709 s on
-    assert stop_time(run, 0.1) == pytest.approx(9.8)
-    assert stop_time(run, 20.0) is None
+    assert stop_time(run, 0.1) == pytest.approx(9.8) and stop_time(run, 20.0) is None

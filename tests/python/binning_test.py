@@ -20,8 +20,7 @@ def test_sums_are_conserved_for_any_width(width: float) -> None:
     x, y = random.uniform(4.0, 16.0, 500), random.uniform(4.0, 20.0, 500)
     amounts = [random.random(500), random.normal(size=500)]
     for total, amount in zip(spread(GRID, x, y, width, amounts), amounts, strict=True):
-        assert total.shape == (12, 20)
-        assert total.sum() == pytest.approx(amount.sum(), rel=1e-12)
+        assert (total.shape, total.sum()) == ((12, 20), pytest.approx(amount.sum(), rel=1e-12))
 
 
 def test_fractions_are_areas() -> None:
@@ -43,8 +42,7 @@ def test_thickness_of_a_slab_is_exact(map_run: Path) -> None:
     assert columns.thickness.volume() == pytest.approx(LENGTH * WIDTH * THICKNESS, rel=1e-12)
     assert columns.thickness.at(np.array([WEST + 100.0]), np.array([MIDDLE])) == pytest.approx(THICKNESS)
     assert np.nanmax(columns.speed.values) == pytest.approx(SPEED)
-    assert np.nanmin(columns.speed.values) == pytest.approx(SPEED)
-    assert np.isnan(columns.speed.values[0, 0])
+    assert np.nanmin(columns.speed.values) == pytest.approx(SPEED) and np.isnan(columns.speed.values[0, 0])
 
 
 def test_temperature_is_that_of_particles_next_to_the_terrain(map_run: Path) -> None:

@@ -16,8 +16,7 @@ SLOPE = math.tan(math.radians(30.0))
 
 def test_plane_has_no_kink_between_slope_parabola_and_level_terrain() -> None:
     slope = np.diff(grounds.plane_profile(np.arange(0.0, 2_600.0, 0.5))) / 0.5
-    assert slope[:1_699] == pytest.approx(-SLOPE, abs=1e-9)
-    assert slope[2_300:] == pytest.approx(0.0, abs=1e-9)
+    assert (slope[:1_699], slope[2_300:]) == (pytest.approx(-SLOPE, abs=1e-9), pytest.approx(0.0, abs=1e-9))
     assert np.abs(np.diff(slope)).max() == pytest.approx(SLOPE * 0.5 / 300.0, rel=1e-6)
 
 
@@ -90,10 +89,8 @@ def test_numbers_of_a_known_outcome_are_exact() -> None:
         "X", *(Map(terrain.grid, each) for each in (thickness, speed, final)), 7, 60.0, 1e3, 0.0, 1.0
     )
     found = results.numbers(outcome, terrain, square(502.5))
-    assert found.area == 25.0 * 5 * 105
-    assert found.max_speed == 30.0
-    assert found.usual_speed == 10.0
-    assert found.max_thickness == 2.0
+    assert (found.area, found.max_speed) == (25.0 * 5 * 105, 30.0)
+    assert (found.usual_speed, found.max_thickness) == (10.0, 2.0)
     # From the top of the release, x = 485, its first row at y = 85, to the farthest corner of the area reached.
     assert found.travel == pytest.approx(math.hypot(1_000.0 - 485.0, 110.0 - 85.0))
     assert found.reach_angle == pytest.approx(math.degrees(math.atan2(0.5 * (1_000.0 - 485.0), found.travel)))
@@ -104,8 +101,7 @@ def test_coarser_map_covers_the_cells_of_the_terrain_in_blocks() -> None:
     terrain = Map(Grid(2.5, 2.5, 5.0, 5.0, 7, 5), np.zeros((5, 7)))
     coarse = Map(Grid(15.0, 5.0, 10.0, 10.0, 2, 3), np.array([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]))
     placed = results.on_grid(coarse, terrain).values
-    assert np.isnan(placed[:, :2]).all()
-    assert np.isnan(placed[:, 6]).all()
+    assert np.isnan(placed[:, :2]).all() and np.isnan(placed[:, 6]).all()
     assert placed[:, 2:6].tolist() == [
         [1.0, 1.0, 2.0, 2.0],
         [1.0, 1.0, 2.0, 2.0],

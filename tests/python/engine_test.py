@@ -77,8 +77,7 @@ JOBS = (Job("a"), Job("b", sets=("x=1",)), Job("block", subcommand="block"))
 
 def test_complete_runs_are_reused(place: Place, lines: list[str]) -> None:
     assert place.perform(JOBS) == []
-    assert lines[0] == "3 runs, 0 of them complete"
-    assert lines[-1].startswith("3 of 3, about 0 min left: ")
+    assert lines[0] == "3 runs, 0 of them complete" and lines[-1].startswith("3 of 3, about 0 min left: ")
     stamp = (place.runs / "a" / "run.json").stat().st_mtime_ns
     assert place.perform(JOBS) == []
     assert lines[4:] == ["3 runs, 3 of them complete"]
@@ -134,8 +133,7 @@ def test_failed_runs_are_kept_and_stated(place: Place, lines: list[str]) -> None
     assert failure(place.runs / "none") == "not run"
     assert log_file(place.runs / "broken").read_text() == "error: the run failed at 3 s\n"
     # A run that failed keeps its results and is not repeated; one without results is.
-    assert is_current(place.task(jobs[2]))
-    assert not is_current(place.task(jobs[1]))
+    assert is_current(place.task(jobs[2])) and not is_current(place.task(jobs[1]))
     tolerant = Place(
         place.program, place.runs, place.pages, cases=place.cases, report=lines.append, tolerates_failures=True
     )
@@ -144,8 +142,7 @@ def test_failed_runs_are_kept_and_stated(place: Place, lines: list[str]) -> None
 
 def test_run_without_results_is_not_complete(tmp_path: Path) -> None:
     task = Task("a", (sys.executable, "-c", "print('moving')"), tmp_path / "a")
-    assert execute(task).message == "a was not written"
-    assert log_file(task.results).read_text() == "moving\n"
+    assert (execute(task).message, log_file(task.results).read_text()) == ("a was not written", "moving\n")
     assert not is_done(task.results)
 
 
@@ -216,8 +213,7 @@ def test_all_studies_are_made_although_some_fail(
     output = capsys.readouterr().out
     assert "made: staged, last; skipped: absent; failed: refused, wrong\n" in output
     assert "absent: skipped: not found: " in output and "none.tif. Copy it." in output
-    assert "refused: error: x: error: no such key bad" in output
-    assert "wrong: a number differs" in output
+    assert "refused: error: x: error: no such key bad" in output and "wrong: a number differs" in output
     written = place.runs / "quick" / "written" / "docs"
     assert sorted(path.name for path in written.iterdir()) == ["last.md", "staged.md", "wrong.md"]
     assert (place.runs / "quick" / "pages" / "staged" / "second" / "run.json").is_file()

@@ -89,8 +89,7 @@ def test_snapshot_figures_have_one_panel_per_time_and_a_common_scale(
     assert [axes.get_title(loc="left") for axes in panels] == ["(a) t = 0 s", "(b) t = 4 s", "(c) t = 7 s"]
     assert all(texts(axes)[0] == "true scale" for axes in panels)
     values = particles(panels[2]).get_array()
-    assert values is not None
-    assert np.max(values) == pytest.approx(high)
+    assert values is not None and np.max(values) == pytest.approx(high)
     assert panels[0].get_ylabel() == "elevation (m)"
 
 

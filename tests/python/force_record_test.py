@@ -181,8 +181,7 @@ def test_reversal_is_interpolated_between_rows() -> None:
             pytest.approx(20.0, abs=2e-3), pytest.approx(30.0, abs=1e-3), pytest.approx(40.0, abs=2e-3),
         )  # fmt: skip
         assert found.duration == pytest.approx(20.0, abs=4e-3)
-    assert reversal(time, np.ones_like(time)) is None
-    assert reversal(time, -np.ones_like(time)) is None
+    assert reversal(time, np.ones_like(time)) is None and reversal(time, -np.ones_like(time)) is None
     assert reversal(time, time - 50.0) is None, "downward first"
 
 
@@ -263,8 +262,7 @@ def test_caption_has_the_difference_of_two_inversions(folder: Path) -> None:
     assert "Maximum force without a specified band, compared in 10 to 200 s (Them): 70 GN reported. " in words
     assert re.search(r"in 2 to 8 s \(Third\): 1 GN reported\. The run has [\d.]+ GN\.", words), "not in the record"
     page = page_of(folder, "force_record")
-    assert '<h2 id="force_record">' in page
-    assert "The two inversions differ by a factor of" in page
+    assert '<h2 id="force_record">' in page and "The two inversions differ by a factor of" in page
 
 
 def test_x_is_east_in_three_dimensions(make_run: MakeRun) -> None:

@@ -158,8 +158,7 @@ def test_title_is_not_a_template(make_run: MakeRun) -> None:
     folder = make_run()
     edit(folder / "case.toml", "Block on a slope & <more>", "BODY of TITLE")
     page = page_of(folder)
-    assert "<title>BODY of TITLE</title>" in page
-    assert page.count("<h1>") == 1
+    assert "<title>BODY of TITLE</title>" in page and page.count("<h1>") == 1
 
 
 def test_failed_write_keeps_the_previous_file(make_run: MakeRun) -> None:
@@ -169,8 +168,7 @@ def test_failed_write_keeps_the_previous_file(make_run: MakeRun) -> None:
         with pytest.raises(OSError, match="full"), atomic_file(path) as temporary:
             temporary.write_bytes(b"the first half")
             raise OSError("full")
-        assert path.read_bytes() == before[path]
-        assert not list(path.parent.glob(".*part*"))
+        assert path.read_bytes() == before[path] and not list(path.parent.glob(".*part*"))
 
 
 def test_ticks_of_powers_are_formulas(map_run: Path, make_run: MakeRun) -> None:

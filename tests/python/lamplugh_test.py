@@ -32,8 +32,7 @@ def test_zones_adjoin_and_contain_their_fraction_of_the_volume(make_run: MakeRun
     assert "".join(zone.letter for zone in found) == "BCDEF"
     assert [zone.end for zone in found[:-1]] == [zone.start for zone in found[1:]]
     assert found[0].start == pytest.approx(1000.0, abs=20.0)
-    assert found[0].end == pytest.approx(2000.0, abs=20.0)
-    assert found[-1].end == FRONT
+    assert (found[0].end, found[-1].end) == (pytest.approx(2000.0, abs=20.0), FRONT)
     # A quarter of the particles into each of B, D and F, another beyond the front.
     with h5py.File(folder / "snapshots" / "000010.vtkhdf", "r+") as file:
         points = file["VTKHDF/Points"]
@@ -69,34 +68,27 @@ def test_measures_of_blocks_are_those_of_their_histories(make_run: MakeRun) -> N
         rows = "0,0,0,90,100\n1,4,2,50,100\n2,0,4,50,100\n3,0,4,50,9\n"
         (folder.parent / f"{block.key}.csv").write_text(header + rows)
     found = block_measures(Run(folder))
-    assert found["lamplugh_block_561_peak"] == 4.0
-    assert found["lamplugh_block_561_stop"] == 2.0
-    assert found["lamplugh_block_561_safety"] == 0.9
-    assert found["lamplugh_block_displacement"] == 4.0
+    assert (found["lamplugh_block_561_peak"], found["lamplugh_block_561_stop"]) == (4.0, 2.0)
+    assert (found["lamplugh_block_561_safety"], found["lamplugh_block_displacement"]) == (0.9, 4.0)
     assert read_block(folder.parent / "lamplugh-block.csv")["time_s"].tolist() == [0, 1, 2, 3]
 
 
 def test_rest_differs_from_a_pause_at_the_start() -> None:
     times = [float(t) for t in range(121)]
     moving = [max(0.0, 10.0 - abs(t - 50.0)) for t in times]
-    assert not at_rest(times[:30], moving[:30])
-    assert not at_rest(times[:66], moving[:66])
-    assert at_rest(times[:72], moving[:72])
-    assert at_rest(times, [0.3] * 121)
+    assert not at_rest(times[:30], moving[:30]) and not at_rest(times[:66], moving[:66])
+    assert at_rest(times[:72], moving[:72]) and at_rest(times, [0.3] * 121)
     assert not at_rest([], [])
 
 
 def test_outcome_has_the_results_of_a_run(make_run: MakeRun) -> None:
     found = outcome(make_run())
-    assert found.failure == ""
-    assert found.peak == pytest.approx(12.0)
+    assert (found.failure, found.peak) == ("", pytest.approx(12.0))
     assert found.peak_time == pytest.approx(5.0)
     assert found.start_time == pytest.approx(3.0409, abs=2e-3)  # 12 sin2 = 8
-    assert found.stop_time == pytest.approx(9.7, abs=0.1)
-    assert found.displacement == pytest.approx(80.0)
+    assert (found.stop_time, found.displacement) == (pytest.approx(9.7, abs=0.1), pytest.approx(80.0))
     assert (found.runout, found.front) == (pytest.approx(160.0), pytest.approx(120.0))
-    assert end_of(found) == "stopped"
-    assert found.length == pytest.approx(19.0)
+    assert (end_of(found), found.length) == ("stopped", pytest.approx(19.0))
 
 
 def test_rows_state_failures() -> None:

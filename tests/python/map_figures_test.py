@@ -126,8 +126,7 @@ def test_remarks_are_next_to_all_titles_or_in_all_maps(map_run: Path, largest: f
     panels = maps_of(plotted("impact_maps", map_run))
     titles = [axes.get_title(loc="right") for axes in panels]
     inside = [[text.get_text() for text in axes.texts if "max" in text.get_text()] for axes in panels]
-    assert all(titles) == any(titles)
-    assert any(titles) != any(inside)
+    assert all(titles) == any(titles) and any(titles) != any(inside)
     assert number_text(largest) in (titles[1] or inside[1][0])
 
 
@@ -186,18 +185,14 @@ def test_report_has_figures_animation_and_maps(map_run: Path) -> None:
     page = report.page.read_text(encoding="utf-8")
     assert '<video controls loop muted src="data:video/mp4;base64,' in page
     assert '<th scope="row">max_pressure.tif</th><td>max pressure</td><td>Pa</td>' in page
-    assert '<p>Folder: <a href="maps">maps</a></p>' in page
-    assert "Missing figures" not in page
+    assert '<p>Folder: <a href="maps">maps</a></p>' in page and "Missing figures" not in page
 
 
 def test_key_numbers_of_the_deposit_are_those_of_run_json(map_run: Path) -> None:
     found = {row.words: row.value for row in key_numbers(Run(map_run))}
-    assert found["Deposit volume"] == "28,800 m³"
-    assert found["Deposit area"] == "4,800 m²"
-    assert found["Travel distance L"] == "280 m"
-    assert "Runout distance L" not in found
-    assert found["H/L"] == "0.4"
-    assert found["Affected area"] == "16,800 m²"
+    assert (found["Deposit volume"], found["Deposit area"]) == ("28,800 m³", "4,800 m²")
+    assert found["Travel distance L"] == "280 m" and "Runout distance L" not in found
+    assert (found["H/L"], found["Affected area"]) == ("0.4", "16,800 m²")
     assert found["Stop time"] == "8.5 s"
 
 
@@ -217,8 +212,7 @@ def test_mass_that_is_not_at_rest_has_no_deposit(map_run: Path) -> None:
     assert figure._suptitle.get_text() == "Slab on a plane: extent, up to 10 s (not at rest)"
     assert any("flow thickness at 10 s (not at rest)" in axes.get_title(loc="left") for axes in figure.axes)
     page = page_of(map_run)
-    assert f'<p class="note">Warning: {warning}</p>' in page
-    assert "eposit" not in page
+    assert f'<p class="note">Warning: {warning}</p>' in page and "eposit" not in page
 
 
 def test_outline_is_the_polygon_of_the_affected_area(map_run: Path) -> None:
@@ -275,8 +269,7 @@ def test_maps_of_a_run_without_motion_are_plotted(map_run: Path) -> None:
 def test_large_terrain_is_thinned() -> None:
     heights = np.add.outer(np.arange(3000.0), np.arange(3000.0))
     scene = make_scene(Map(Grid(5.0, 5.0, 10.0, 10.0, 3000, 3000), heights), (0.0, 30_000.0, 0.0, 30_000.0))
-    assert max(scene.shade.shape) <= MOST_CELLS
-    assert scene.terrain.grid.cell_x == 40.0
+    assert max(scene.shade.shape) <= MOST_CELLS and scene.terrain.grid.cell_x == 40.0
 
 
 @pytest.mark.parametrize("bar", [0.0, 0.72])
@@ -328,6 +321,5 @@ def test_scale_bar_is_in_the_empty_corner() -> None:
     values[:12, :] = 1.0
     values[12:, 12:] = 1.0
     found = Map(Grid(0.5, 0.5, 1.0, 1.0, 30, 30), values)
-    assert quiet_corner(found, found.grid.box) == "upper left"
-    assert covered_box(found) == (0.0, 30.0, 0.0, 30.0)
+    assert (quiet_corner(found, found.grid.box), covered_box(found)) == ("upper left", (0.0, 30.0, 0.0, 30.0))
     assert covered_box(found, 2.0) is None

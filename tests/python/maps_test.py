@@ -52,10 +52,8 @@ def test_thinning_keeps_means_or_maxima_of_cells_with_data() -> None:
     whole = Map(Grid(0.5, 0.5, 1.0, 1.0, 7, 5), values)
     mean, maximum = whole.thinned(4), whole.thinned(4, "maximum")
     assert mean.grid == Grid(1.0, 1.0, 2.0, 2.0, 4, 3)
-    assert mean.values[0, 0] == pytest.approx((1.0 + 7.0 + 8.0) / 3.0)
-    assert np.isnan(mean.values[1, 1])
-    assert maximum.values[2, 3] == 34.0
-    assert maximum.values.shape == (3, 4)
+    assert mean.values[0, 0] == pytest.approx((1.0 + 7.0 + 8.0) / 3.0) and np.isnan(mean.values[1, 1])
+    assert (maximum.values[2, 3], maximum.values.shape) == (34.0, (3, 4))
     assert whole.thinned(7) is whole
 
 

@@ -127,8 +127,7 @@ def test_corrected_page_differs_only_in_its_numbers(seed: int) -> None:
     assert len(wrong) == 18
     new_source, new_declarations = corrected(source, declarations, wrong)
     new_page = page_of(*(phrase_of([line, "one", "two"]) for line in new_declarations.splitlines()))
-    assert differences(new_page, new_source, names) == ([], 18)
-    assert len(new_page.checked) == 9
+    assert (differences(new_page, new_source, names), len(new_page.checked)) == (([], 18), 9)
     words = [re.sub(r"[-+]?[\d,]*\.?\d+(?= |\n)", "#", each) for each in (source, new_source)]
     assert words[0] == words[1]
 
@@ -208,10 +207,8 @@ TABLES = """| e | quantity | 5 m |
 
 def test_number_of_a_table_is_found_by_column_and_row() -> None:
     assert from_table(TABLES, "5 m", "0.3", "runout") == 8.4
-    assert from_table(TABLES, "runout", "the case") == 9.0
-    assert from_table(TABLES, "band", "the case") == 192.0
-    assert from_table(TABLES, "runout", "none") == 1023.0
-    assert from_table(TABLES, "band", "none") == -10.0
+    assert (from_table(TABLES, "runout", "the case"), from_table(TABLES, "band", "the case")) == (9.0, 192.0)
+    assert (from_table(TABLES, "runout", "none"), from_table(TABLES, "band", "none")) == (1023.0, -10.0)
     with pytest.raises(KeyError, match=r"no table has the column 'band' and a row that begins with \('0.3',\)"):
         from_table(TABLES, "band", "0.3")
 

@@ -25,8 +25,7 @@ def test_limits_of_deposits_are_of_first_order(cells: tuple[float, ...]) -> None
     table = refinement_page.deposit_table([deposit(cell) for cell in cells])
     rows = {line.split("|")[1].strip(): [text.strip() for text in line.split("|")[2:-1]] for line in table.splitlines()}
     assert rows["cells across the release"] == [*(f"{PLANE_THICKNESS / cell:.3g}" for cell in cells), ""]
-    assert rows["deposit area (m2)"][-1] == "1,000"
-    assert rows["affected area (m2)"][-1] == "3,000"
+    assert (rows["deposit area (m2)"][-1], rows["affected area (m2)"][-1]) == ("1,000", "3,000")
     assert rows["standard deviation of the deposit across the slope (m)"][-1] == "100"
     assert rows["maximum thickness of the deposit (m)"] == [*(f"{8.0 + 0.15 * cell:.1f}" for cell in cells), ""]
 

@@ -71,8 +71,7 @@ def test_page_with_selected_figures_keeps_the_others(make_run: MakeRun) -> None:
     folder = make_run()
     make_report(Run(folder), names=["motion", "band"], dpi=50)
     report = make_report(Run(folder), names=["force"], dpi=50)
-    assert list(report.figures) == ["force"]
-    assert list(report.kept) == ["motion", "band"]
+    assert (list(report.figures), list(report.kept)) == (["force"], ["motion", "band"])
     page = report.page.read_text(encoding="utf-8")
     headings = re.findall(r'<h2 id="(\w+)">', page)
     assert [name for name in headings if name != "interactive"] == ["motion", "force", "band"], "order of the page"
@@ -123,12 +122,10 @@ def test_mobility_of_a_section_is_that_of_profile_and_history(make_run: MakeRun)
     run = Run(make_run())
     found = mobility_of(run)
     # 80 particles of 1 m3 per metre of width, 10 m wide; the highest is 3.5 m above the slope 1/2 at x = 20.5 m.
-    assert found.volume == pytest.approx(800.0)
-    assert found.length == pytest.approx(160.0)
+    assert (found.volume, found.length) == (pytest.approx(800.0), pytest.approx(160.0))
     assert found.height == pytest.approx(0.5 * (160.0 - 20.5) + 3.5)
     rows = {row.words: row.value for row in main_numbers(run)}
-    assert rows["Release volume"] == "800 m³"
-    assert rows["H/L"] == "0.46"
+    assert (rows["Release volume"], rows["H/L"]) == ("800 m³", "0.46")
     assert rows["Peak flow thickness"] == "4 m"
     assert rows["Arrival time"] == "9.9 s"  # of 40 + 12 t >= 0.99 * 160
 
@@ -171,12 +168,9 @@ def test_mobility_with_tilted_gravity_of_a_run_towards_minus_x(make_run: MakeRun
 
 def test_main_numbers_of_a_map_run_are_those_of_its_maps(map_run: Path) -> None:
     rows = {row.words: row.value for row in main_numbers(Run(map_run))}
-    assert rows["Release volume"] == "28,800 m³"
-    assert rows["Peak speed"] == "20 m/s"
-    assert rows["Peak flow thickness"] == "6 m"
-    assert rows["H/L"] == "0.4"
-    assert rows["Latest arrival time"] == "9.8 s"
-    assert rows["Arrival time at probe gate"] == "5 s"
+    assert (rows["Release volume"], rows["Peak speed"]) == ("28,800 m³", "20 m/s")
+    assert (rows["Peak flow thickness"], rows["H/L"]) == ("6 m", "0.4")
+    assert (rows["Latest arrival time"], rows["Arrival time at probe gate"]) == ("9.8 s", "5 s")
 
 
 def test_thickness_of_a_level_block_is_its_height(make_run: MakeRun) -> None:
@@ -194,8 +188,7 @@ def test_packed_arrays_return_with_16_bits() -> None:
     places = [packing.add(values), packing.add(constant), packing.add(np.full(2, np.nan)), packing.add(np.zeros(0))]
     text = packing.text()
     assert unpacked(text, places[0]) == pytest.approx(values.ravel(), abs=10_003.0 / 131_068, nan_ok=True)
-    assert unpacked(text, places[1]).tolist() == [7.25] * 3
-    assert np.isnan(unpacked(text, places[2])).all()
+    assert unpacked(text, places[1]).tolist() == [7.25] * 3 and np.isnan(unpacked(text, places[2])).all()
     assert unpacked(text, places[3]).size == 0
 
 
@@ -252,8 +245,7 @@ def test_amount_of_data_is_limited() -> None:
 def test_damaged_snapshot_leaves_the_page_without_a_view(map_run: Path) -> None:
     (map_run / "maps" / "terrain.tif").write_bytes(b"II*\0 damaged")
     page = page_of(map_run)
-    assert 'id="view-parts"' not in page
-    assert '<th scope="row">Interactive view</th>' in page
+    assert 'id="view-parts"' not in page and '<th scope="row">Interactive view</th>' in page
 
 
 def test_published_events_are_plausible_and_named() -> None:

@@ -26,11 +26,9 @@ def numbers(run: Run) -> dict[str, tuple[str, str]]:
 
 def test_key_numbers_are_those_of_the_history(make_run: MakeRun) -> None:
     found = numbers(Run(make_run()))
-    assert found["Peak mean velocity"] == ("12 m/s", "at 5 s")
-    assert found["Runout distance L"][0] == "160 m"
+    assert (found["Peak mean velocity"], found["Runout distance L"][0]) == (("12 m/s", "at 5 s"), "160 m")
     assert "initial length 40 m" in found["Runout distance L"][1]
-    assert found["Front travel distance"][0] == "120 m"
-    assert found["Mean displacement"][0] == "80 m"
+    assert (found["Front travel distance"][0], found["Mean displacement"][0]) == ("120 m", "80 m")
     assert found["Maximum mean band temperature"] == ("110 °C", "at 10 s")
     assert found["Maximum mean band pore pressure"] == ("1.5 MPa", "at 5 s")
     # sin(pi t / 10)^2 < 0.01 from t = 9.68 s on; rows are 0.1 s apart.
@@ -96,10 +94,8 @@ def test_report_has_all_figures_and_the_page(make_run: MakeRun) -> None:
     report = make_report(Run(folder), dpi=50, progress=lines.append)
     assert list(report.figures) == IN_SECTION
     for name, path in report.figures.items():
-        assert path == folder / "figures" / f"{name}.png"
-        assert path.read_bytes().startswith(PNG)
-    assert len(lines) == len(IN_SECTION)
-    assert lines[0] == f"[1/8] motion: {folder / 'figures' / 'motion.png'}"
+        assert path == folder / "figures" / f"{name}.png" and path.read_bytes().startswith(PNG)
+    assert (len(lines), lines[0]) == (len(IN_SECTION), f"[1/8] motion: {folder / 'figures' / 'motion.png'}")
 
     page = report.page.read_text(encoding="utf-8")
     assert "<h1>Block on a slope &amp; &lt;more&gt;</h1>" in page
@@ -133,8 +129,7 @@ def test_command_lists_missing_figures(make_run: MakeRun, capsys: pytest.Capture
     assert out.rstrip().endswith(f"report: {folder / 'report.html'}")
     assert not (folder / "figures" / "velocity.png").exists()
     page = (folder / "report.html").read_text(encoding="utf-8")
-    assert "<h2>Missing figures</h2>" in page
-    assert "velocity.png" not in page
+    assert "<h2>Missing figures</h2>" in page and "velocity.png" not in page
 
 
 def test_command_writes_the_requested_figures_into_the_output_folder(make_run: MakeRun, tmp_path: Path) -> None:

@@ -159,8 +159,7 @@ def test_setup_on_a_dem_is_read(write: Write) -> None:
     np.testing.assert_allclose(found.terrain.values[3:], ground(x, y)[3:])
     assert found.domain == (WEST + 20.0, WEST + 580.0, SOUTH + 20.0, SOUTH + 280.0)
     (release,) = found.releases
-    assert release.thickness is not None
-    assert release.thickness.volume() == pytest.approx(28800.0)
+    assert release.thickness is not None and release.thickness.volume() == pytest.approx(28800.0)
 
 
 def test_both_maps_have_domain_release_path_and_probes(write: Write) -> None:

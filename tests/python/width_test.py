@@ -18,8 +18,7 @@ def test_relative_width_is_one_at_the_first_place(make_run: MakeRun) -> None:
     assert (run.width, run.per_metre) == (10.0, False)
     assert run.relative_width(np.array([0.0, 20.0, 30.0, 40.0, 900.0])).tolist() == [1.0, 1.0, 2.5, 4.0, 4.0]
     run = Run(make_run(name="one", width=10.0))
-    assert run.width == 10.0
-    assert run.relative_width(np.array([0.0, 900.0])).tolist() == [1.0, 1.0]
+    assert run.width == 10.0 and run.relative_width(np.array([0.0, 900.0])).tolist() == [1.0, 1.0]
     assert Run(make_run(name="none", width=0.0)).per_metre
 
 

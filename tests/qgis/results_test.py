@@ -21,8 +21,7 @@ def project(
     folder = tmp_path_factory.mktemp("project")
     assert script("load_results.py", run, folder / "slope.qgz")["is_saved"]
     read = script("read_project.py", folder / "slope.qgz", folder / "map.png")
-    assert read["errors"] == []
-    assert list(read["groups"]) == ["slope"]
+    assert (read["errors"], list(read["groups"])) == ([], ["slope"])
     return read["groups"]["slope"], folder / "map.png", run
 
 
@@ -54,8 +53,7 @@ def test_maps_have_the_colours_of_their_style_files(project: tuple[list[dict[str
 def test_outlines_have_the_styles_of_the_geopackage(project: tuple[list[dict[str, Any]], Path, Path]) -> None:
     styles = {layer["name"]: layer for layer in project[0]}
     assert styles["affected_area"]["color"] == "#b2182b"
-    assert styles["path"]["renderer"] == "singleSymbol"
-    assert styles["terrain"]["renderer"] == "hillshade"
+    assert (styles["path"]["renderer"], styles["terrain"]["renderer"]) == ("singleSymbol", "hillshade")
 
 
 def test_picture_shows_the_release_on_the_terrain(project: tuple[list[dict[str, Any]], Path, Path]) -> None:

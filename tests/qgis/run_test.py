@@ -15,10 +15,8 @@ def state_of(run: Path) -> Any:
 
 def test_run_writes_its_folder_and_shows_progress(finished: tuple[Path, Outcome]) -> None:
     folder, outcome = finished
-    assert state_of(folder)["status"] == "done"
-    assert state_of(folder)["simulated_time_s"] == 2.0
-    assert "0...10" in outcome.stdout
-    assert f"results in {folder}" in outcome.stdout
+    assert (state_of(folder)["status"], state_of(folder)["simulated_time_s"]) == ("done", 2.0)
+    assert "0...10" in outcome.stdout and f"results in {folder}" in outcome.stdout
 
 
 @pytest.mark.parametrize(

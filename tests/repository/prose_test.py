@@ -41,8 +41,7 @@ def test_an_unused_justification_and_an_unknown_file_are_refused(tmp_path: Path)
     assert unused.returncode == 1
     assert unused.stdout == "README.md: no hit for the justified phrase: no such phrase\n"
     unknown = subprocess.run([script, "NONE.md"], capture_output=True, text=True, timeout=600, check=False)
-    assert unknown.returncode == 2
-    assert "no prose in NONE.md" in unknown.stderr
+    assert unknown.returncode == 2 and "no prose in NONE.md" in unknown.stderr
 
 
 def test_a_term_is_found_with_its_line_and_replacement() -> None:

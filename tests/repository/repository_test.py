@@ -286,17 +286,14 @@ def test_every_exit_code_is_documented() -> None:
 
 def test_run_prints_its_help_without_setup() -> None:
     helped = subprocess.run([ROOT / "run", "--help"], capture_output=True, text=True, timeout=600, check=False)
-    assert helped.returncode == 0
-    assert "--setup" in helped.stdout
+    assert helped.returncode == 0 and "--setup" in helped.stdout
     bare = subprocess.run([ROOT / "run"], capture_output=True, text=True, timeout=600, check=False)
-    assert bare.returncode == 2
-    assert "./run CASE" in bare.stderr
+    assert bare.returncode == 2 and "./run CASE" in bare.stderr
 
 
 def test_test_refuses_unknown_options() -> None:
     refused = subprocess.run([ROOT / "test", "--fast"], capture_output=True, text=True, timeout=600, check=False)
-    assert refused.returncode == 2
-    assert "--full" in refused.stderr
+    assert refused.returncode == 2 and "--full" in refused.stderr
 
 
 @pytest.mark.parametrize("script", ["run", "test", "scripts/setup", ".ci/run"])
