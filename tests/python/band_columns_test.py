@@ -22,27 +22,14 @@ def column_history(rows: int = 101) -> dict[str, np.ndarray]:
     columns = history_columns(rows, 2)
     t = columns["time_s"]
     columns |= {
-        "band_normal_pressure_Pa": np.full(rows, 1.0e6),
-        "band_shear_Pa": 4.0e5 - 2.0e4 * t,
-        "band_thickness_m": np.full(rows, 0.55),
-        "dilation_fraction": 0.003 * t,
-        "band_max_temperature_C": 17.0 * t,
-        "band_max_pressure_ratio": 0.1 * t,
-        "base_area_m2": np.full(rows, 1.0e6),
-        "column_heat_J": -3e12 + 0.1e12 * t,
-        "column_intake_J": -3e12 - 0.1e12 * t,
-        "column_drained_J": 0.05e12 * t,
-        "column_steam_J": 0.15e12 * t,
-        "column_left_J": np.zeros(rows),
-        "column_water_kg": 3e9 + 1e7 * t,
-        "column_intake_kg": 3e9 + 4e7 * t,
-        "column_drained_kg": 2e7 * t,
-        "column_steam_kg": 1e7 * t,
-        "column_left_kg": np.zeros(rows),
-        "column_water_residual_kg": 1e-3 * t,
-        "column_opening_m3": 50.0 * t,
-        "column_void_m3": 2e4 - 100.0 * t,
-    }
+        "band_normal_pressure_Pa": np.full(rows, 1.0e6), "band_shear_Pa": 4.0e5 - 2.0e4 * t,
+        "band_thickness_m": np.full(rows, 0.55), "dilation_fraction": 0.003 * t, "band_max_temperature_C": 17.0 * t,
+        "band_max_pressure_ratio": 0.1 * t, "base_area_m2": np.full(rows, 1.0e6), "column_heat_J": -3e12 + 0.1e12 * t,
+        "column_intake_J": -3e12 - 0.1e12 * t, "column_drained_J": 0.05e12 * t, "column_steam_J": 0.15e12 * t,
+        "column_left_J": np.zeros(rows), "column_water_kg": 3e9 + 1e7 * t, "column_intake_kg": 3e9 + 4e7 * t,
+        "column_drained_kg": 2e7 * t, "column_steam_kg": 1e7 * t, "column_left_kg": np.zeros(rows),
+        "column_water_residual_kg": 1e-3 * t, "column_opening_m3": 50.0 * t, "column_void_m3": 2e4 - 100.0 * t,
+    }  # fmt: skip
     return columns
 
 

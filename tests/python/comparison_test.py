@@ -103,12 +103,8 @@ def test_coarser_map_covers_the_cells_of_the_terrain_in_blocks() -> None:
     placed = results.on_grid(coarse, terrain).values
     assert np.isnan(placed[:, :2]).all() and np.isnan(placed[:, 6]).all()
     assert placed[:, 2:6].tolist() == [
-        [1.0, 1.0, 2.0, 2.0],
-        [1.0, 1.0, 2.0, 2.0],
-        [3.0, 3.0, 4.0, 4.0],
-        [3.0, 3.0, 4.0, 4.0],
-        [5.0, 5.0, 6.0, 6.0],
-    ]
+        [1.0, 1.0, 2.0, 2.0], [1.0, 1.0, 2.0, 2.0], [3.0, 3.0, 4.0, 4.0], [3.0, 3.0, 4.0, 4.0], [5.0, 5.0, 6.0, 6.0],
+    ]  # fmt: skip
     same = Map(Grid(7.5, 2.5, 5.0, 5.0, 2, 2), np.array([[1.0, 2.0], [3.0, 4.0]]))
     assert results.on_grid(same, terrain).values[:2, 1:3].tolist() == [[1.0, 2.0], [3.0, 4.0]]
 

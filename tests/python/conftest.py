@@ -41,45 +41,27 @@ def history_columns(rows: int, dimension: int) -> dict[str, np.ndarray]:
     t = np.linspace(0.0, 10.0, rows) if rows > 1 else np.zeros(1)
     band = np.where(t < 2.0, np.nan, 1.0)  # no contact in the first two seconds
     columns = {
-        "time_s": t,
-        "step": t * 100,
-        "dt_s": np.full(rows, 0.01),
+        "time_s": t, "step": t * 100, "dt_s": np.full(rows, 0.01),
         "mean_velocity_m_s": 12.0 * np.sin(np.pi * t / 10.0) ** 2,
-        "max_velocity_m_s": 15.0 * np.sin(np.pi * t / 10.0) ** 2,
-        "mean_displacement_m": 8.0 * t,
-        "front_position_m": 40.0 + 12.0 * t,
-        "runout_m": 40.0 + 12.0 * t,
-        "band_temperature_C": band * (-30.0 + 14.0 * t),
-        "band_saturation": band * (0.1 + 0.08 * t),
+        "max_velocity_m_s": 15.0 * np.sin(np.pi * t / 10.0) ** 2, "mean_displacement_m": 8.0 * t,
+        "front_position_m": 40.0 + 12.0 * t, "runout_m": 40.0 + 12.0 * t,
+        "band_temperature_C": band * (-30.0 + 14.0 * t), "band_saturation": band * (0.1 + 0.08 * t),
         "band_pore_pressure_Pa": band * 1.5e6 * np.sin(np.pi * t / 10.0),
-        "band_friction_coefficient": band * (0.8 - 0.05 * t),
-        "mean_plastic_strain": 0.03 * t,
-    }
+        "band_friction_coefficient": band * (0.8 - 0.05 * t), "mean_plastic_strain": 0.03 * t,
+    }  # fmt: skip
     for number, axis in enumerate("xyz"[:dimension]):
         columns[f"basal_force_{axis}_N"] = 1e11 * (number + 1) * t
         columns[f"seismic_force_{axis}_N"] = 1e11 * (number - 0.5) * np.sin(t)
     fallen = 1e12 * t
     columns |= {
-        "kinetic_J": 0.4 * fallen,
-        "potential_J": 5e13 - fallen,
-        "strain_J": 0.05 * fallen,
-        "plastic_J": 0.05 * fallen,
-        "viscous_J": np.zeros(rows),
-        "damping_J": np.zeros(rows),
-        "friction_work_J": 0.5 * fallen,
-        "contact_loss_J": np.zeros(rows),
-        "frame_work_J": np.zeros(rows),
-        "friction_heat_J": 0.2 * fallen,
-        "converted_J": 0.3 * fallen,
-        "sensible_J": -7e13 + 0.15 * fallen,
-        "latent_J": 0.05 * fallen,
-        "boundary_heat_J": np.zeros(rows),
-        "band_rescale_J": np.zeros(rows),
-        "advection_J": np.zeros(rows),
-        "numerical_J": np.zeros(rows),
-        "mechanical_residual_J": 1e3 * t,
+        "kinetic_J": 0.4 * fallen, "potential_J": 5e13 - fallen, "strain_J": 0.05 * fallen,
+        "plastic_J": 0.05 * fallen, "viscous_J": np.zeros(rows), "damping_J": np.zeros(rows),
+        "friction_work_J": 0.5 * fallen, "contact_loss_J": np.zeros(rows), "frame_work_J": np.zeros(rows),
+        "friction_heat_J": 0.2 * fallen, "converted_J": 0.3 * fallen, "sensible_J": -7e13 + 0.15 * fallen,
+        "latent_J": 0.05 * fallen, "boundary_heat_J": np.zeros(rows), "band_rescale_J": np.zeros(rows),
+        "advection_J": np.zeros(rows), "numerical_J": np.zeros(rows), "mechanical_residual_J": 1e3 * t,
         "thermal_residual_J": -2e2 * t,
-    }
+    }  # fmt: skip
     columns |= {f"{phase}_kg": np.full(rows, 1e6) for phase in ("mass", "rock", "ice", "water")}
     return columns
 
@@ -102,24 +84,15 @@ def write_snapshot(path: Path, time: float, dimension: int) -> None:
     velocity = np.zeros((n, 3))
     velocity[:, 0], velocity[:, 1 if dimension == 2 else 2] = 3.0 * time, -4.0 * time
     fields: dict[str, tuple[Any, str]] = {
-        "id": (np.arange(n), "1"),
-        "body": (np.zeros(n, dtype=np.int32), "1"),
-        "mass": (np.full(n, 2000.0), "kg"),
-        "volume": (np.ones(n), "m3"),
-        "velocity": (velocity, "m/s"),
-        "displacement": (np.zeros((n, 3)), "m"),
-        "path_length": (np.full(n, 12.0 * time), "m"),
-        "stress": (np.zeros((n, 6)), "Pa"),
-        "plastic_strain": (0.1 * time * np.exp(-up), "1"),
-        "temperature": (-10.0 + 2.0 * time * np.exp(-up), "C"),
-        "liquid_saturation": (np.full(n, 0.2), "1"),
-        "porosity": (np.full(n, 0.3), "1"),
-        "ice_pressure": (np.zeros(n), "Pa"),
-        "liquid_pressure": (np.zeros(n), "Pa"),
-        "pore_pressure": (2.0e5 * time * np.exp(-up), "Pa"),
-        "slip": (np.full(n, 12.0 * time), "m"),
+        "id": (np.arange(n), "1"), "body": (np.zeros(n, dtype=np.int32), "1"), "mass": (np.full(n, 2000.0), "kg"),
+        "volume": (np.ones(n), "m3"), "velocity": (velocity, "m/s"), "displacement": (np.zeros((n, 3)), "m"),
+        "path_length": (np.full(n, 12.0 * time), "m"), "stress": (np.zeros((n, 6)), "Pa"),
+        "plastic_strain": (0.1 * time * np.exp(-up), "1"), "temperature": (-10.0 + 2.0 * time * np.exp(-up), "C"),
+        "liquid_saturation": (np.full(n, 0.2), "1"), "porosity": (np.full(n, 0.3), "1"),
+        "ice_pressure": (np.zeros(n), "Pa"), "liquid_pressure": (np.zeros(n), "Pa"),
+        "pore_pressure": (2.0e5 * time * np.exp(-up), "Pa"), "slip": (np.full(n, 12.0 * time), "m"),
         "in_band": ((up < 1.0).astype(np.int32), "1"),
-    }
+    }  # fmt: skip
     with h5py.File(path, "w") as file:
         group = file.create_group("VTKHDF")
         group.attrs["time"], group.attrs["step"] = time, int(100 * time)

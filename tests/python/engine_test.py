@@ -8,18 +8,7 @@ from pathlib import Path
 import pytest
 
 from reproduction import __main__ as command
-from reproduction.engine import (
-    Task,
-    commit_of,
-    execute,
-    failure,
-    is_current,
-    is_done,
-    log_file,
-    perform,
-    processor_time,
-    read_record,
-)
+from reproduction import engine
 from reproduction.studies import STUDIES
 from reproduction.study import ROOT, Job, Place, Study, StudyError
 from reproduction.tables import markdown, rewrapped, with_marks
@@ -82,19 +71,19 @@ def test_complete_runs_are_reused(place: Place, lines: list[str]) -> None:
     assert place.perform(JOBS) == []
     assert lines[4:] == ["3 runs, 3 of them complete"]
     assert (place.runs / "a" / "run.json").stat().st_mtime_ns == stamp
-    words = read_record(place.runs / "b").command  # type: ignore[union-attr]
+    words = engine.read_record(place.runs / "b").command  # type: ignore[union-attr]
     assert words[1:] == [
         "run", str(place.cases / "case.toml"), "--output", str(place.runs / "b"), "--threads", "1", "--set", "x=1",
     ]  # fmt: skip
-    assert is_done(place.runs / "block.csv")
-    assert 0.0 < processor_time(place.runs / "a") < 10.0
+    assert engine.is_done(place.runs / "block.csv")
+    assert 0.0 < engine.processor_time(place.runs / "a") < 10.0
 
 
 @pytest.mark.parametrize("change", ["case", "settings", "commit", "results", "record"])
 def test_runs_are_repeated_after_a_change(place: Place, change: str) -> None:
     job = Job("a")
     place.perform([job])
-    assert is_current(place.task(job))
+    assert engine.is_current(place.task(job))
     if change == "case":
         (place.cases / "case.toml").write_text("# two")
     elif change == "settings":
@@ -105,23 +94,23 @@ def test_runs_are_repeated_after_a_change(place: Place, change: str) -> None:
         (place.runs / "a").rename(place.runs / "moved")
     else:
         (place.runs / "a.record.json").write_text("{")
-    assert not is_current(place.task(job))
+    assert not engine.is_current(place.task(job))
 
 
 def test_runs_of_the_same_commit_by_a_program_elsewhere_are_repeated_only_if_its_tree_had_changes(place: Place) -> None:
-    assert commit_of(place.program) == place.version == "0123abcd"
+    assert engine.commit_of(place.program) == place.version == "0123abcd"
     dirty = write_program(place.program, "0123abcd-dirty")
     changed = with_program(place, dirty)
     assert len(changed.version) == 64
     changed.perform([Job("a")])
-    assert is_current(changed.task(Job("a")))
+    assert engine.is_current(changed.task(Job("a")))
     dirty.write_text(dirty.read_text() + "# changed\n")
-    assert not is_current(with_program(place, dirty).task(Job("a")))
+    assert not engine.is_current(with_program(place, dirty).task(Job("a")))
 
 
 def test_program_without_a_version_is_an_error(place: Place) -> None:
     with pytest.raises(ReportError, match=r"Build it with \./run --setup\."):
-        commit_of(Path("/bin/false"))
+        engine.commit_of(Path("/bin/false"))
 
 
 def test_failed_runs_are_kept_and_stated(place: Place, lines: list[str]) -> None:
@@ -129,11 +118,11 @@ def test_failed_runs_are_kept_and_stated(place: Place, lines: list[str]) -> None
     with pytest.raises(StudyError, match=r"bad: error: no such key bad; broken: error: the run failed at 3 s\. The"):
         place.perform(jobs)
     assert any("min left: bad: error: no such key bad" in line for line in lines)
-    assert failure(place.runs / "good") == ""
-    assert failure(place.runs / "none") == "not run"
-    assert log_file(place.runs / "broken").read_text() == "error: the run failed at 3 s\n"
+    assert engine.failure(place.runs / "good") == ""
+    assert engine.failure(place.runs / "none") == "not run"
+    assert engine.log_file(place.runs / "broken").read_text() == "error: the run failed at 3 s\n"
     # A run that failed keeps its results and is not repeated; one without results is.
-    assert is_current(place.task(jobs[2])) and not is_current(place.task(jobs[1]))
+    assert engine.is_current(place.task(jobs[2])) and not engine.is_current(place.task(jobs[1]))
     tolerant = Place(
         place.program, place.runs, place.pages, cases=place.cases, report=lines.append, tolerates_failures=True
     )
@@ -141,24 +130,27 @@ def test_failed_runs_are_kept_and_stated(place: Place, lines: list[str]) -> None
 
 
 def test_run_without_results_is_not_complete(tmp_path: Path) -> None:
-    task = Task("a", (sys.executable, "-c", "print('moving')"), tmp_path / "a")
-    assert (execute(task).message, log_file(task.results).read_text()) == ("a was not written", "moving\n")
-    assert not is_done(task.results)
+    task = engine.Task("a", (sys.executable, "-c", "print('moving')"), tmp_path / "a")
+    assert (engine.execute(task).message, engine.log_file(task.results).read_text()) == (
+        "a was not written",
+        "moving\n",
+    )
+    assert not engine.is_done(task.results)
 
 
 def test_run_at_rest_is_stopped_and_complete(place: Place) -> None:
     place.perform([Job("a", sets=("slow=1",), until_rest=True)])
-    record = read_record(place.runs / "a")
+    record = engine.read_record(place.runs / "a")
     assert record is not None and record.is_done and record.code == -15 and record.wall_s < 30.0
-    assert is_current(place.task(Job("a", sets=("slow=1",), until_rest=True)))
+    assert engine.is_current(place.task(Job("a", sets=("slow=1",), until_rest=True)))
 
 
 def test_expensive_runs_start_first_and_names_are_unique(place: Place, lines: list[str]) -> None:
     tasks = [place.task(Job(key, cost=cost)) for key, cost in (("a", 1.0), ("b", 3.0), ("c", 2.0))]
-    perform(tasks, 1, lines.append)
+    engine.perform(tasks, 1, lines.append)
     assert [line.split(": ")[1].split()[0] for line in lines[1:]] == ["b", "c", "a"]
     with pytest.raises(ValueError, match=r"runs with the same name: \['a'\]"):
-        perform([tasks[0], tasks[0]], 1, lines.append)
+        engine.perform([tasks[0], tasks[0]], 1, lines.append)
 
 
 def test_parts_select_runs(place: Place) -> None:

@@ -21,15 +21,10 @@ BED_DENSITY, JOINED = 900.0, 8  # kg/m3; particles of the bed in the last snapsh
 def bed_run(make_run: MakeRun) -> Path:
     t = np.linspace(0.0, 10.0, 101)
     columns = {
-        "entrained_mass_kg": 2e4 * t,
-        "entrained_volume_m3": 2e4 * t / BED_DENSITY,
-        "entrained_work_J": 1e6 * t,
-        "entrained_heat_J": 4e5 * t,
-        "loose_mass_kg": np.full(101, 1e3),
-        "bed_mass_kg": 1e6 - 2e4 * t,
-        "bed_residual_kg": np.zeros(101),
-        "bed_residual_J": np.zeros(101),
-    }
+        "entrained_mass_kg": 2e4 * t, "entrained_volume_m3": 2e4 * t / BED_DENSITY, "entrained_work_J": 1e6 * t,
+        "entrained_heat_J": 4e5 * t, "loose_mass_kg": np.full(101, 1e3), "bed_mass_kg": 1e6 - 2e4 * t,
+        "bed_residual_kg": np.zeros(101), "bed_residual_J": np.zeros(101),
+    }  # fmt: skip
     tables = '[body.block]\nmaterial = "rock"\n[bed]\nlaw = "momentum"\ndepth = 1.0\n'
     folder = make_run(history=columns, tables=tables)
     last = folder / "snapshots" / "000010.vtkhdf"

@@ -64,11 +64,9 @@ def write_long_run(folder: Path, towards: float = 1.0) -> None:
     columns = history_columns(2001, 2)
     time = np.linspace(0.0, 200.0, 2001)
     columns |= {
-        "time_s": time,
-        "front_position_m": 40.0 + towards * time,
-        "seismic_force_x_N": towards * 1e11 * push(time),
+        "time_s": time, "front_position_m": 40.0 + towards * time, "seismic_force_x_N": towards * 1e11 * push(time),
         "seismic_force_y_N": 1e11 * pulse(time, 60.0),
-    }
+    }  # fmt: skip
     write_history(folder / "history.csv", columns)
 
 

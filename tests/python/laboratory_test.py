@@ -63,14 +63,9 @@ def bars(cell: float, offset: float) -> laboratory.Bars:
     failure = laboratory.read_points(laboratory.MEASURED / "failure.csv")
     lifted = failure[1] + offset
     return laboratory.Bars(
-        cell,
-        surface[1] + offset,
-        (surface[0], surface[1] + offset),
-        dict.fromkeys(laboratory.MOVED, lifted),
-        (failure[0], lifted),
-        0.442 + offset,
-        0.02,
-    )
+        cell, surface[1] + offset, (surface[0], surface[1] + offset), dict.fromkeys(laboratory.MOVED, lifted),
+        (failure[0], lifted), 0.442 + offset, 0.02,
+    )  # fmt: skip
 
 
 def test_figure_of_bars_has_runs_and_measurements() -> None:

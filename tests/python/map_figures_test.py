@@ -24,18 +24,9 @@ from map_runs import (
 from matplotlib.figure import Figure
 
 from thawslide import NotInRunError, ReportError, Run
-from thawslide.figures import FIGURES
+from thawslide.figures import FIGURES, map_panel
 from thawslide.figures.animation import MOST_FRAMES, Animation
 from thawslide.figures.map_page import HIGHEST, WIDTH, layout
-from thawslide.figures.map_panel import (
-    MOST_CELLS,
-    coordinate_text,
-    coordinates,
-    covered_box,
-    make_scene,
-    page_box,
-    quiet_corner,
-)
 from thawslide.figures.site import make_site
 from thawslide.key_numbers import key_numbers
 from thawslide.maps import Grid, Map
@@ -85,11 +76,9 @@ def test_extent_maps_have_titles_units_and_legend(map_run: Path) -> None:
     figure = plotted("extent_maps", map_run)
     panels = maps_of(figure)
     assert [(axes.get_title(loc="left"), axes.get_title(loc="right")) for axes in panels] == [
-        ("(a) maximum flow thickness", "max 6 m"),
-        ("(b) maximum speed", "max 20 m/s"),
-        ("(c) arrival time", "0 to 9.8 s"),
-        ("(d) flow thickness at 10 s", "max 6 m"),
-    ]
+        ("(a) maximum flow thickness", "max 6 m"), ("(b) maximum speed", "max 20 m/s"),
+        ("(c) arrival time", "0 to 9.8 s"), ("(d) flow thickness at 10 s", "max 6 m"),
+    ]  # fmt: skip
     assert {"m, square-root scale\nblue: below 0.1 m", "m/s", "s"} <= labels(figure)
     assert " Outline: thickness > 0.1 m. " in notes(figure)
     final = field(panels[3]).get_array()
@@ -268,8 +257,8 @@ def test_maps_of_a_run_without_motion_are_plotted(map_run: Path) -> None:
 
 def test_large_terrain_is_thinned() -> None:
     heights = np.add.outer(np.arange(3000.0), np.arange(3000.0))
-    scene = make_scene(Map(Grid(5.0, 5.0, 10.0, 10.0, 3000, 3000), heights), (0.0, 30_000.0, 0.0, 30_000.0))
-    assert max(scene.shade.shape) <= MOST_CELLS and scene.terrain.grid.cell_x == 40.0
+    scene = map_panel.make_scene(Map(Grid(5.0, 5.0, 10.0, 10.0, 3000, 3000), heights), (0.0, 30_000.0, 0.0, 30_000.0))
+    assert max(scene.shade.shape) <= map_panel.MOST_CELLS and scene.terrain.grid.cell_x == 40.0
 
 
 @pytest.mark.parametrize("bar", [0.0, 0.72])
@@ -297,10 +286,10 @@ def test_narrow_maps_use_the_width_of_the_page() -> None:
     ("low", "high"), [(5_199_140.0, 5_199_690.0), (380_000.0, 389_000.0), (6_500_000.0, 6_504_400.0), (-210.0, 130.0)]
 )
 def test_labels_of_coordinates_do_not_overlap(low: float, high: float, inches: float) -> None:
-    found = coordinates(low, high, inches)
+    found = map_panel.coordinates(low, high, inches)
     assert 1 <= len(found) <= 5
     assert low <= found[0] and found[-1] <= high
-    texts = [coordinate_text(place) for place in found]
+    texts = [map_panel.coordinate_text(place) for place in found]
     for before, after, text, following in zip(found, found[1:], texts, texts[1:], strict=False):
         space = (after - before) * inches / (high - low)
         assert space > 0.07 * 0.5 * (len(text) + len(following))
@@ -310,10 +299,10 @@ def test_labels_of_coordinates_do_not_overlap(low: float, high: float, inches: f
 
 def test_boxes_fit_a_page_and_the_terrain() -> None:
     whole = (0.0, 1000.0, 0.0, 2000.0)
-    west, east, south, north = page_box((900.0, 1100.0, 0.0, 2000.0), whole)
+    west, east, south, north = map_panel.page_box((900.0, 1100.0, 0.0, 2000.0), whole)
     assert (east, south, north) == (1000.0, 0.0, 2000.0)
     assert (east - west) / (north - south) == pytest.approx(0.45)
-    assert page_box((100.0, 500.0, 100.0, 400.0), whole) == (100.0, 500.0, 100.0, 400.0)
+    assert map_panel.page_box((100.0, 500.0, 100.0, 400.0), whole) == (100.0, 500.0, 100.0, 400.0)
 
 
 def test_scale_bar_is_in_the_empty_corner() -> None:
@@ -321,5 +310,8 @@ def test_scale_bar_is_in_the_empty_corner() -> None:
     values[:12, :] = 1.0
     values[12:, 12:] = 1.0
     found = Map(Grid(0.5, 0.5, 1.0, 1.0, 30, 30), values)
-    assert (quiet_corner(found, found.grid.box), covered_box(found)) == ("upper left", (0.0, 30.0, 0.0, 30.0))
-    assert covered_box(found, 2.0) is None
+    assert (map_panel.quiet_corner(found, found.grid.box), map_panel.covered_box(found)) == (
+        "upper left",
+        (0.0, 30.0, 0.0, 30.0),
+    )
+    assert map_panel.covered_box(found, 2.0) is None

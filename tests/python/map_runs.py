@@ -121,16 +121,10 @@ def write_particles(path: Path, time: float) -> None:
     velocity = np.zeros((count, 3))
     velocity[:, 0], velocity[:, 2] = 0.6 * SPEED, 0.8 * SPEED
     fields = {
-        "id": np.arange(count),
-        "body": np.zeros(count, dtype=np.int32),
-        "mass": np.full(count, 1e5),
-        "volume": np.full(count, 50.0),
-        "velocity": velocity,
-        "temperature": np.where(up < 2.0, time, -50.0),
-        "in_band": (up < 2.0).astype(np.int32),
-        "plastic_strain": np.zeros(count),
-        "pore_pressure": np.zeros(count),
-    }
+        "id": np.arange(count), "body": np.zeros(count, dtype=np.int32), "mass": np.full(count, 1e5),
+        "volume": np.full(count, 50.0), "velocity": velocity, "temperature": np.where(up < 2.0, time, -50.0),
+        "in_band": (up < 2.0).astype(np.int32), "plastic_strain": np.zeros(count), "pore_pressure": np.zeros(count),
+    }  # fmt: skip
     with h5py.File(path, "w") as file:
         group = file.create_group("VTKHDF")
         group.attrs["time"], group.attrs["step"] = time, int(100 * time)

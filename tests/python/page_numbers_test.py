@@ -7,21 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from reproduction import page_numbers
 from reproduction.__main__ import main
 from reproduction.page_measures import from_table
-from reproduction.page_numbers import (
-    DeclarationError,
-    Page,
-    Phrase,
-    corrected,
-    differences,
-    misplaced,
-    number_of,
-    phrase_of,
-    read_declarations,
-    shown_step,
-    undeclared,
-)
+from reproduction.page_numbers import DeclarationError, Phrase, differences, number_of, phrase_of
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = """# A case
@@ -36,8 +25,8 @@ Cells of 10 m.
 PEAK = phrase_of(["a peak of {84} m/s, {31} s after the start", "peak", "rise"])
 
 
-def page_of(*checked: Phrase, given: tuple[str, ...] = ()) -> Page:
-    return Page("page.md", checked, tuple(Phrase(each) for each in given))
+def page_of(*checked: Phrase, given: tuple[str, ...] = ()) -> page_numbers.Page:
+    return page_numbers.Page("page.md", checked, tuple(Phrase(each) for each in given))
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -49,7 +38,7 @@ def test_number_agrees_only_with_values_that_round_to_it(seed: int) -> None:
         text = f"{stated:,.{decimals}f}"
         number = number_of(text, "x")
         step = 10.0**-decimals
-        assert shown_step(text) == pytest.approx(step, rel=1e-12)
+        assert page_numbers.shown_step(text) == pytest.approx(step, rel=1e-12)
         apart = chosen.uniform(-3.0, 3.0)
         if abs(abs(apart) - 0.5) > 1e-3:
             assert number.agrees(float(stated) + apart * step) == (abs(apart) < 0.5), (text, apart)
@@ -125,7 +114,7 @@ def test_corrected_page_differs_only_in_its_numbers(seed: int) -> None:
     names = {"one": chosen.uniform(-5e3, 5e4), "two": chosen.uniform(-50.0, 50.0)}
     wrong, _ = differences(page, source, names)
     assert len(wrong) == 18
-    new_source, new_declarations = corrected(source, declarations, wrong)
+    new_source, new_declarations = page_numbers.corrected(source, declarations, wrong)
     new_page = page_of(*(phrase_of([line, "one", "two"]) for line in new_declarations.splitlines()))
     assert (differences(new_page, new_source, names), len(new_page.checked)) == (([], 18), 9)
     words = [re.sub(r"[-+]?[\d,]*\.?\d+(?= |\n)", "#", each) for each in (source, new_source)]
@@ -152,25 +141,25 @@ def test_value_has_the_format_of_the_number_in_the_page(text: str, expression: s
 
 @pytest.mark.parametrize(("text", "count"), [("a peak of {85} m/s", 0), ("{1} km", 1), ("{10} m", 1)])
 def test_checked_phrase_must_occur_once(text: str, count: int) -> None:
-    wrong = misplaced(page_of(phrase_of([text, "x"])), SOURCE)
+    wrong = page_numbers.misplaced(page_of(phrase_of([text, "x"])), SOURCE)
     assert len(wrong) == 1 - count
     assert all(f"as declared (found {count} times; allowed 1)" in line for line in wrong)
-    assert len(misplaced(page_of(phrase_of([text, "x"])), SOURCE + SOURCE)) == 1
+    assert len(page_numbers.misplaced(page_of(phrase_of([text, "x"])), SOURCE + SOURCE)) == 1
 
 
 def test_given_phrase_must_occur_at_least_once() -> None:
-    assert misplaced(page_of(given=("Cells of 10 m",)), SOURCE + SOURCE) == []
-    assert misplaced(page_of(given=("Cells of 20 m",)), SOURCE) == [
+    assert page_numbers.misplaced(page_of(given=("Cells of 10 m",)), SOURCE + SOURCE) == []
+    assert page_numbers.misplaced(page_of(given=("Cells of 20 m",)), SOURCE) == [
         "page.md: the page does not state 'Cells of 20 m' as declared (found 0 times; allowed 1 or more). Write in the "
         "declarations what the page says."
     ]
 
 
 def test_undeclared_number_is_reported() -> None:
-    assert undeclared(page_of(PEAK, given=("Cells of 10 m",)), SOURCE) == []
-    assert undeclared(page_of(PEAK, given=("## Inputs",)), SOURCE) == []
-    assert undeclared(page_of(PEAK), SOURCE) == ["page.md:8: '10 m' is not declared"]
-    assert undeclared(page_of(given=("## Inputs",)), SOURCE) == [
+    assert page_numbers.undeclared(page_of(PEAK, given=("Cells of 10 m",)), SOURCE) == []
+    assert page_numbers.undeclared(page_of(PEAK, given=("## Inputs",)), SOURCE) == []
+    assert page_numbers.undeclared(page_of(PEAK), SOURCE) == ["page.md:8: '10 m' is not declared"]
+    assert page_numbers.undeclared(page_of(given=("## Inputs",)), SOURCE) == [
         "page.md:3: '84 m/s' is not declared",
         "page.md:3: '31 s' is not declared",
     ]
@@ -187,10 +176,10 @@ def test_declarations_are_read_with_texts_runs_and_pages(tmp_path: Path) -> None
         '[texts]\nPAGE = "a.md"\n[runs]\nshort = "cases/block/e050.toml time.end=1 \'b = [1, 2]\'"\n'
         '[[page]]\nfile = "page.md"\nchecked = [["a {1} m", "short.peak"]]\ngiven = ["2 m"]\n'
     )
-    found = read_declarations(file)
+    found = page_numbers.read_declarations(file)
     assert found.texts == {"PAGE": "a.md"}
     assert found.runs == {"short": ("cases/block/e050.toml", "time.end=1", "b = [1, 2]")}
-    assert found.pages == (Page("page.md", (phrase_of(["a {1} m", "short.peak"]),), (Phrase("2 m"),)),)
+    assert found.pages == (page_numbers.Page("page.md", (phrase_of(["a {1} m", "short.peak"]),), (Phrase("2 m"),)),)
     assert found.pages[0].checked[0].numbers[0].names == {"short"}
 
 

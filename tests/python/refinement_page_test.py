@@ -10,14 +10,9 @@ def deposit(cell: float) -> Deposit:
     """Return a deposit with errors of first order: 1,000 m2, 3,000 m2, 8 m and 100 m on cells of no size."""
     error = cell / 40.0
     return Deposit(
-        cell=cell,
-        covered=1_000.0 - 400.0 * error,
-        affected=3_000.0 - 900.0 * error,
-        thickness=8.0 + 6.0 * error,
-        width=100.0 - 30.0 * error,
-        dilation=0.2,
-        map_cell=1.5 * cell,
-    )
+        cell=cell, covered=1_000.0 - 400.0 * error, affected=3_000.0 - 900.0 * error, thickness=8.0 + 6.0 * error,
+        width=100.0 - 30.0 * error, dilation=0.2, map_cell=1.5 * cell,
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("cells", [PLANE_CELLS, PLANE_CELLS[:-1], PLANE_CELLS[:2]])

@@ -126,13 +126,9 @@ def test_grid_lines_of_small_cells_are_thinned(write: Write) -> None:
 def test_legend_has_all_parts(write: Write) -> None:
     (legend,) = plotted_section(write(section())).legends
     assert [text.get_text() for text in legend.get_texts()] == [
-        "block (ice): 50 particles, spacing 0.1 m",
-        "terrain",
-        "frame pusher, 2 m/s along x",
-        "roller: x min, x max",
-        "fixed: y min",
-        "open: y max",
-    ]
+        "block (ice): 50 particles, spacing 0.1 m", "terrain", "frame pusher, 2 m/s along x", "roller: x min, x max",
+        "fixed: y min", "open: y max",
+    ]  # fmt: skip
 
 
 def test_boundaries_have_line_styles(write: Write) -> None:

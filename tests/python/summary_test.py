@@ -16,12 +16,9 @@ from thawslide.pages.summary_text import arrival_rows, limits, plain_numbers, sc
 
 def test_numbers_are_those_of_the_run_in_common_units(map_run: Path) -> None:
     assert [(each.name, each.value) for each in plain_numbers(Run(map_run))] == [
-        ("released volume", "28,800 m³"),
-        ("travel distance", "280 m"),
-        ("affected area", "16,800 m²"),
-        ("maximum thickness", "6 m"),
-        ("maximum speed", "72 km/h"),
-    ]
+        ("released volume", "28,800 m³"), ("travel distance", "280 m"), ("affected area", "16,800 m²"),
+        ("maximum thickness", "6 m"), ("maximum speed", "72 km/h"),
+    ]  # fmt: skip
     assert plain_numbers(Run(map_run))[1].meaning == "It falls 112 m over this distance."
 
 

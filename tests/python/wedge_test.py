@@ -90,12 +90,9 @@ class FakeRun:
         self.speed = 3.0  # m/s, horizontal
         lost = 0.3 * 7.0 * 9.81 * self.speed * time
         self.history = {
-            "time_s": time,
-            "friction_work_J": 0.9 * lost,
-            "contact_loss_J": 0.1 * lost,
-            "plastic_J": 0.2 * lost,
+            "time_s": time, "friction_work_J": 0.9 * lost, "contact_loss_J": 0.1 * lost, "plastic_J": 0.2 * lost,
             "viscous_J": 0.05 * lost,
-        }
+        }  # fmt: skip
 
     def snapshot(self, index: int, fields: tuple[str, ...]) -> FakeSnapshot:
         """Return the particle at a whole second."""

@@ -33,12 +33,9 @@ def test_provider_lists_its_algorithms(environment: dict[str, str], plugin: None
     ).stdout
     found = re.findall(r"^\s*(thawslide:\w+)\t(.+)$", listed, re.MULTILINE)
     assert sorted(found) == [
-        ("thawslide:checkcase", "Check case"),
-        ("thawslide:loadresults", "Load results with styles"),
-        ("thawslide:newcase", "New case"),
-        ("thawslide:resumerun", "Resume run"),
-        ("thawslide:runcase", "Run case"),
-    ]
+        ("thawslide:checkcase", "Check case"), ("thawslide:loadresults", "Load results with styles"),
+        ("thawslide:newcase", "New case"), ("thawslide:resumerun", "Resume run"), ("thawslide:runcase", "Run case"),
+    ]  # fmt: skip
 
 
 def test_missing_program_is_reported_with_the_setting(algorithm: Algorithm, case: Path, tmp_path: Path) -> None:
