@@ -27,8 +27,7 @@ def bed_run(make_run: MakeRun) -> Path:
     }  # fmt: skip
     tables = '[body.block]\nmaterial = "rock"\n[bed]\nlaw = "momentum"\ndepth = 1.0\n'
     folder = make_run(history=columns, tables=tables)
-    last = folder / "snapshots" / "000010.vtkhdf"
-    with h5py.File(last, "r+") as file:
+    with h5py.File(folder / "snapshots" / "000010.vtkhdf", "r+") as file:
         group = file["VTKHDF"]
         for owner, name in [(group, "Points"), *((group["PointData"], name) for name in list(group["PointData"]))]:
             values = owner[name][:]

@@ -74,8 +74,7 @@ def test_figure_of_bars_has_runs_and_measurements() -> None:
         for transfer in laboratory.TRANSFERS
         for cell in laboratory.BAR_CELLS
     }
-    figure = laboratory_page.bar_figure(found)
-    for panel, transfer in zip(figure.axes, laboratory.TRANSFERS, strict=True):
+    for panel, transfer in zip(laboratory_page.bar_figure(found).axes, laboratory.TRANSFERS, strict=True):
         lines = {str(line.get_label()): line for line in panel.lines}
         for cell in laboratory.BAR_CELLS[1:]:
             for words, profile in (

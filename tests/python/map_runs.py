@@ -38,8 +38,7 @@ def centres(columns: int = COLUMNS, rows: int = ROWS, cell: float = CELL) -> tup
 def slab(x: np.ndarray, y: np.ndarray, time: float) -> np.ndarray:
     """Return the thickness [m] of the slab at a time [s]."""
     start = WEST + 60.0 + SPEED * time
-    inside = (x > start) & (x < start + LENGTH) & (np.abs(y - MIDDLE) < 0.5 * WIDTH)
-    return np.where(inside, THICKNESS, 0.0)
+    return np.where((x > start) & (x < start + LENGTH) & (np.abs(y - MIDDLE) < 0.5 * WIDTH), THICKNESS, 0.0)
 
 
 def write_map(

@@ -53,8 +53,7 @@ def test_wedge_factor_in_a_v_channel_is_exact(opening: float, slope: float, dire
 
 def test_curved_terrain_adds_the_centrifugal_force() -> None:
     radius, speed = 1_000.0, 20.0
-    height = radius - np.sqrt(radius**2 - X**2)
-    ground = wedge.derivatives(Map(GRID, height))
+    ground = wedge.derivatives(Map(GRID, radius - np.sqrt(radius**2 - X**2)))
     x = 100.0
     cosine = math.sqrt(1.0 - (x / radius) ** 2)
     load, wedged = wedge.rates(ground, *one_particle(x, 0.0, 0.0, speed * cosine))

@@ -105,8 +105,7 @@ def slope(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def case(algorithm: Algorithm, slope: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the case file that 'New case' makes."""
     folder = tmp_path_factory.mktemp("cases") / "slope"
-    release = slope / "release.geojson"
-    algorithm("newcase", DEM=slope / "dem.tif", RELEASE=release, THICKNESS=24, OUTPUT=folder)
+    algorithm("newcase", DEM=slope / "dem.tif", RELEASE=slope / "release.geojson", THICKNESS=24, OUTPUT=folder)
     return folder / "case.toml"
 
 
