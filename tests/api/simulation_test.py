@@ -99,8 +99,7 @@ def test_fields_are_read_only_views(slope: Path) -> None:
     assert not temperature.flags.writeable and simulation.field("temperature").ctypes.data == temperature.ctypes.data
     blocks = simulation.blocks("velocity")
     assert blocks.ndim == 3 and blocks.shape[1:] == (8, 2) and not blocks.flags.writeable
-    velocity = simulation.field("velocity")
-    mass = simulation.field("mass")
+    velocity, mass = simulation.field("velocity"), simulation.field("mass")
     assert velocity.shape == (simulation.particle_count, 2)
     mean = np.linalg.norm((mass[:, None] * velocity).sum(axis=0) / mass.sum())
     simulation.run(until=simulation.time + 0.01)

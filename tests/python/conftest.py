@@ -78,8 +78,7 @@ def write_snapshot(path: Path, time: float, dimension: int) -> None:
     along, up = (grid.ravel() for grid in np.meshgrid(np.arange(0.5, 20.0), np.arange(0.5, 4.0)))
     n = len(along)
     x = 20.0 + along + 12.0 * time
-    z = ground(x) + up
-    across = np.arange(n) % 3 + 0.5
+    z, across = ground(x) + up, np.arange(n) % 3 + 0.5
     points = np.stack([x, z, np.zeros(n)] if dimension == 2 else [x, across, z], axis=1)
     velocity = np.zeros((n, 3))
     velocity[:, 0], velocity[:, 1 if dimension == 2 else 2] = 3.0 * time, -4.0 * time

@@ -96,8 +96,7 @@ def test_snapshot_figures_have_one_panel_per_time_and_a_common_scale(
 def test_snapshot_panels_have_particles_of_their_size_on_the_terrain(make_run: MakeRun) -> None:
     run = Run(make_run())
     figure = FIGURES["velocity"].plot(run)
-    panel = titled(figure, "(b)")
-    shot = run.snapshot(4)
+    panel, shot = titled(figure, "(b)"), run.snapshot(4)
     np.testing.assert_allclose(centres(panel), shot.points[:, :2])
     # Cubes of 1 m on cells of 2 m: gaps narrower than a cell are closed.
     np.testing.assert_allclose([(b.width, b.height) for b in extents(panel)], [(2.0, 1.0)] * len(shot.points))
@@ -311,8 +310,7 @@ def test_band_has_the_history_with_gaps(make_run: MakeRun) -> None:
 
 
 def test_empty_panels_of_the_band_state_the_reason(make_run: MakeRun) -> None:
-    folder = make_run()
-    columns = history_columns(11, 2)
+    folder, columns = make_run(), history_columns(11, 2)
     del columns["band_saturation"]
     columns["band_temperature_C"][:] = np.nan
     columns["band_friction_coefficient"][:] = np.nan

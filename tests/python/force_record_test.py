@@ -61,8 +61,7 @@ def folder(make_run: MakeRun) -> Path:
 
 
 def write_long_run(folder: Path, towards: float = 1.0) -> None:
-    columns = history_columns(2001, 2)
-    time = np.linspace(0.0, 200.0, 2001)
+    columns, time = history_columns(2001, 2), np.linspace(0.0, 200.0, 2001)
     columns |= {
         "time_s": time, "front_position_m": 40.0 + towards * time, "seismic_force_x_N": towards * 1e11 * push(time),
         "seismic_force_y_N": 1e11 * pulse(time, 60.0),
@@ -185,8 +184,7 @@ def test_reversal_is_interpolated_between_rows() -> None:
 
 @pytest.mark.parametrize("period", [6.0, 12.0, 30.0, 60.0, 120.0, 300.0])
 def test_long_sinusoid_is_filtered_exactly(period: float) -> None:
-    time = np.arange(0.0, 4000.0, 0.25)
-    at = np.arange(1500.0, 2500.0, 0.25)
+    time, at = np.arange(0.0, 4000.0, 0.25), np.arange(1500.0, 2500.0, 0.25)
     wave = np.sin(2.0 * np.pi * time / period + 0.3)
     factor = response(np.array([1.0 / period]), BAND.shortest, BAND.longest)[0]
     expected = factor * np.sin(2.0 * np.pi * at / period + 0.3)
@@ -208,8 +206,7 @@ def test_padded_step_is_filtered_as_an_infinite_one() -> None:
 
 
 def test_history_is_extended_by_its_end_values() -> None:
-    time = np.array([0.0, 1.0, 2.0])
-    at = np.arange(-100.0, 100.0, 1.0)
+    time, at = np.array([0.0, 1.0, 2.0]), np.arange(-100.0, 100.0, 1.0)
     np.testing.assert_allclose(filtered(time, np.full(3, 7.0), at, BAND), 0.0, atol=1e-12)
     rises = filtered(time, np.array([np.nan, 0.0, 1.0]), at, BAND)
     assert rises[at == 3.0][0] > 0.2 > abs(rises[at == -60.0][0]), "a row without a number counts as 0"

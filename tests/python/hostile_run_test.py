@@ -124,8 +124,7 @@ def test_damaged_maps_affect_only_their_figures(
 
 
 def test_overflow_affects_only_its_figures(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = make_run()
-    columns = history_columns(11, 2)
+    folder, columns = make_run(), history_columns(11, 2)
     for name, values in columns.items():
         if name not in ("time_s", "step"):
             values[5:] = [1e30, 1e200, -1e308, np.inf, -np.inf, np.nan]

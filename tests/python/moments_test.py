@@ -26,8 +26,7 @@ def move(folder: Path, number: int, points: np.ndarray | None = None, **fields: 
 
 
 def test_moments_are_fractions_of_the_mean_displacement(make_run: MakeRun) -> None:
-    folder = make_run(times="[]")
-    columns = history_columns(101, 2)
+    folder, columns = make_run(times="[]"), history_columns(101, 2)
     displacement = np.minimum(columns["time_s"] ** 2, 36.0)  # stop at 6 s
     write_history(folder / "history.csv", columns | {"mean_displacement_m": displacement})
     run = Run(folder)
@@ -88,8 +87,7 @@ def test_vibration_at_rest_has_no_velocity(make_run: MakeRun) -> None:
 
 
 def test_velocities_of_particles_in_one_neighbouring_snapshot(make_run: MakeRun) -> None:
-    folder = make_run()
-    ids = np.arange(80)
+    folder, ids = make_run(), np.arange(80)
     move(folder, 4, id=np.where(ids == 79, 500, ids))  # without 79
     move(folder, 6, id=np.where(ids == 79, 500, np.where(ids == 78, 400, ids)))  # without 78 and 79
     run = Run(folder)

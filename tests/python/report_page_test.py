@@ -182,8 +182,7 @@ def test_thickness_of_a_level_block_is_its_height(make_run: MakeRun) -> None:
 
 
 def test_packed_arrays_return_with_16_bits() -> None:
-    packing = Packing()
-    values = np.array([[1.5, np.nan], [-3.0, 1e4]])
+    packing, values = Packing(), np.array([[1.5, np.nan], [-3.0, 1e4]])
     constant = np.full(3, 7.25)
     places = [packing.add(values), packing.add(constant), packing.add(np.full(2, np.nan)), packing.add(np.zeros(0))]
     text = packing.text()

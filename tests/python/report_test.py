@@ -57,8 +57,7 @@ def test_stop_time_of_a_moving_mass_has_its_velocity(make_run: MakeRun) -> None:
 
 
 def test_dilation_and_removed_mass_are_rows(make_run: MakeRun) -> None:
-    folder = make_run()
-    columns = history_columns(11, 2)
+    folder, columns = make_run(), history_columns(11, 2)
     assert "Volume change by dilation" not in numbers(Run(folder)), "history of an earlier version"
     columns["dilation_fraction"] = np.linspace(0.0, 0.0625, 11)
     columns["dilation_volume_m3"] = np.linspace(0.0, 250.0, 11)

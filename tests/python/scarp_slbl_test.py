@@ -47,8 +47,7 @@ def test_row_of_cells_has_the_depth_of_the_difference_equation(tmp_path: Path) -
 
 def test_long_strip_has_a_parabolic_section(tmp_path: Path) -> None:
     # 4 C = -(d_(i-1) - 2 d_i + d_(i+1)): d_i = 2 C i (n - i), far from the ends of the strip
-    depth = depth_in(tmp_path, 9, 101, Slbl(tolerance=0.2))
-    i = np.arange(1, 10)
+    depth, i = depth_in(tmp_path, 9, 101, Slbl(tolerance=0.2)), np.arange(1, 10)
     assert depth[50] == pytest.approx(0.4 * i * (10.0 - i), rel=1e-6)
 
 

@@ -101,8 +101,7 @@ def test_pore_pressure_is_compared_with_the_overburden(make_run: MakeRun) -> Non
     run = Run(folder)
     shot = run.snapshot(4)
     # Columns of two particles of 2,000 kg/m over a cell of 2 m, in up to four rows of stairs on the slope.
-    weight = overburden(run, shot)
-    cell = np.floor(shot.points[:, 0] / 2.0)
+    weight, cell = overburden(run, shot), np.floor(shot.points[:, 0] / 2.0)
     for number in np.flatnonzero(cell == cell[25]):
         higher = (cell == cell[number]) & (shot.points[:, 1] > shot.points[number, 1])
         assert weight[number] == pytest.approx(9.81 / 2.0 * (shot["mass"][higher].sum() + 0.5 * 2000.0))

@@ -29,8 +29,7 @@ def test_volume_of_the_source_includes_the_width(make_run: MakeRun) -> None:
 
 def test_size_of_particles_is_that_of_their_area(make_run: MakeRun) -> None:
     run = Run(make_run(width=WIDENING))
-    shot = run.snapshot(0)
-    one = Run(make_run(name="one"))
+    shot, one = run.snapshot(0), Run(make_run(name="one"))
     expected = particle_size(one, one.snapshot(0)) / np.sqrt(run.relative_width(shot.points[:, 0]))
     assert particle_size(run, shot) == pytest.approx(expected, rel=1e-15)
     assert expected.min() < 0.6 * expected.max(), "the body is across the widening"
