@@ -15,7 +15,6 @@ NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
 
 
 def code_of(notebook: Path) -> list[dict[str, Any]]:
-    """Return the code cells of a notebook."""
     return [cell for cell in json.loads(notebook.read_text())["cells"] if cell["cell_type"] == "code"]
 
 

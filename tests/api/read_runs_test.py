@@ -14,14 +14,12 @@ from thawslide import Case, NotInRunError, ReportError, Run, UserError
 
 @pytest.fixture(scope="module")
 def map_run(tmp_path_factory: pytest.TempPathFactory) -> Run:
-    """Return a short 3D run with maps."""
     folder = tmp_path_factory.mktemp("map") / "run"
     case = Case(thawslide_cases() / "valley3d", {"time.end": 0.4, "time.output_interval": 0.2, "grid.cell": 40.0})
     return thawslide.run(case, folder, threads=1, progress=False)
 
 
 def thawslide_cases() -> Path:
-    """Return the folder of the cases of the repository."""
     return Path(__file__).resolve().parents[2] / "cases"
 
 

@@ -18,7 +18,6 @@ from thawslide.report_page import figures_of
 
 
 def column_history(rows: int = 101) -> dict[str, np.ndarray]:
-    """Return every column of a run with band columns."""
     columns = history_columns(rows, 2)
     t = columns["time_s"]
     columns |= {

@@ -53,7 +53,6 @@ PROBE = """
 
 
 def states(folder: Path, tmp_path: Path, actions: str) -> dict[str, Any]:
-    """Return the states that actions record on the page of a run."""
     page = make_report(Run(folder), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
     path = tmp_path / "page.html"
     path.write_text(page.replace("</body>", PROBE.replace("ACTIONS", actions) + "</body>"), encoding="utf-8")

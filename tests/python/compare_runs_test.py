@@ -62,7 +62,7 @@ def test_maps_have_one_scale(map_run: Path, tmp_path: Path) -> None:
     assert maps[0].get_xlim() == maps[1].get_xlim()
 
 
-def test_command_writes_the_page_into_the_first_run(
+def test_command_writes_into_the_first_run(
     two_runs: list[Run], capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     folders = [str(run.folder) for run in two_runs]

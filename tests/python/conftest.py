@@ -101,7 +101,6 @@ def write_snapshot(path: Path, time: float, dimension: int) -> None:
 
 
 def edit(path: Path, old: str, new: str) -> None:
-    """Replace a part of a text file."""
     text = path.read_text()
     assert old in text
     path.write_text(text.replace(old, new))
@@ -113,7 +112,6 @@ def write_facts(folder: Path, **facts: Any) -> None:
 
 
 def update_facts(folder: Path, **facts: Any) -> None:
-    """Replace some facts in run.json."""
     (folder / "run.json").write_text(json.dumps(json.loads((folder / "run.json").read_text()) | facts))
 
 
@@ -202,5 +200,4 @@ def whole_map_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def map_run(tmp_path: Path, whole_map_run: Path) -> Path:
-    """Return a copy of the run on a DEM."""
     return shutil.copytree(whole_map_run, tmp_path / "slab")

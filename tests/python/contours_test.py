@@ -46,7 +46,6 @@ def test_holes_are_rings_of_their_polygon(tmp_path: Path) -> None:
 
 
 def test_area_reached_before_a_time_has_no_zero_around_it(tmp_path: Path) -> None:
-    """Cells without data belong to no area."""
     x = WEST + CELL * (np.arange(20) + 0.5)
     times = np.tile((x - x[0]) / 10.0, (10, 1))  # 1 s per cell
     times[:2] = np.nan

@@ -173,7 +173,6 @@ def made(name: str, done: list[str], **more: object) -> Study:
 
 
 def stage_of(place: Place) -> list[Job]:
-    """Return a run that needs the results of the stage before."""
     return [Job("second", sets=(f"n={len((place.runs / 'first' / 'history.csv').read_text())}",))]
 
 
@@ -197,7 +196,7 @@ def call(place: Place, *words: str) -> int:
     return command.main([*words, "--program", str(place.program), "--output", str(place.runs), "--quick"])
 
 
-def test_all_studies_are_made_although_some_fail(
+def test_studies_are_made_although_some_fail(
     place: Place, studies: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert call(place) == 1
@@ -223,16 +222,12 @@ def test_all_studies_are_made_although_some_fail(
         (["--only", "none"], [], 2),
     ],
 )
-def test_studies_are_selected(
-    place: Place, studies: list[str], words: list[str], expected: list[str], code: int
-) -> None:
+def test_studies_are_chosen(place: Place, studies: list[str], words: list[str], expected: list[str], code: int) -> None:
     assert call(place, *words) == code
     assert studies == expected
 
 
-def test_list_states_times_pages_and_what_is_absent(
-    place: Place, studies: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_list_states_times_and_absences(place: Place, studies: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert call(place, "--list") == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "staged           1 min  docs/staged.md"

@@ -29,7 +29,6 @@ SNAPSHOT_FIGURES = ("velocity", "plastic_strain", "temperature", "pore_pressure"
 
 
 def titled(figure: Figure, start: str) -> Axes:
-    """Return the one panel whose left title starts so."""
     (found,) = [axes for axes in figure.axes if axes.get_title(loc="left").startswith(start)]
     return found
 
@@ -53,7 +52,6 @@ def legend_notes(axes: Axes) -> list[str]:
 
 
 def particles(axes: Axes) -> PolyCollection:
-    """Return the particles of a panel without the filled terrain."""
     (found,) = [
         c for c in axes.collections if isinstance(c, PolyCollection) and not isinstance(c, FillBetweenPolyCollection)
     ]
@@ -66,7 +64,6 @@ def centres(axes: Axes) -> np.ndarray:
 
 
 def extents(axes: Axes) -> list[Bbox]:
-    """Return the boxes of the particles of a panel."""
     return [path.get_extents() for path in particles(axes).get_paths()]
 
 
@@ -79,9 +76,7 @@ def extents(axes: Axes) -> list[Bbox]:
         ("pore_pressure", "pore pressure (kPa)", 0.0, 1400.0 * np.exp(-0.5)),
     ],
 )
-def test_snapshot_figures_have_one_panel_per_time_and_a_common_scale(
-    make_run: MakeRun, name: str, label: str, low: float, high: float
-) -> None:
+def test_snapshot_panels_have_a_common_scale(make_run: MakeRun, name: str, label: str, low: float, high: float) -> None:
     figure = FIGURES[name].plot(Run(make_run()))
     (bar,) = [axes for axes in figure.axes if axes.get_xlabel() == label]
     assert bar.get_xlim() == pytest.approx((low, high))

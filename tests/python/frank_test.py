@@ -77,7 +77,7 @@ def test_grid_file_is_read_from_south_to_north(tmp_path: Path) -> None:
         (25, 1.02, 1538, 2147, 2210),
     ],
 )
-def test_results_of_shaltop_have_the_numbers_that_their_source_states(
+def test_results_of_shaltop_are_those_of_their_source(
     angle: int, area: float, x: float, y: float, farthest: float
 ) -> None:
     if not DATA.is_dir():

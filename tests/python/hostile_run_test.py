@@ -26,7 +26,6 @@ def report(folder: Path, capsys: pytest.CaptureFixture[str], *only: str) -> tupl
 
 
 def history(change: Callable[[str], str]) -> Callable[[Path], None]:
-    """Return a function that changes the history."""
     return lambda folder: write(folder / "history.csv", change((folder / "history.csv").read_text()))
 
 
@@ -111,9 +110,7 @@ def test_damaged_field_affects_only_its_figures(make_run: MakeRun, capsys: pytes
 
 
 @pytest.mark.parametrize("damaged", ["max_thickness.tif", "terrain.tif", "results.gpkg"])
-def test_damaged_maps_affect_only_their_figures(
-    map_run: Path, damaged: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_damaged_maps_affect_their_figures(map_run: Path, damaged: str, capsys: pytest.CaptureFixture[str]) -> None:
     whole = (map_run / "maps" / damaged).read_bytes()
     (map_run / "maps" / damaged).write_bytes(whole[: len(whole) // 2])
     code, errors, page = report(map_run, capsys)

@@ -51,9 +51,7 @@ ON_MAP = [
         ("slide_temperature", "basal temperature (°C)", 10.0),
     ],
 )
-def test_maps_at_report_times_have_the_values_of_the_particles(
-    map_run: Path, name: str, label: str, value: float
-) -> None:
+def test_maps_at_report_times_have_values_of_particles(map_run: Path, name: str, label: str, value: float) -> None:
     figure = plotted(name, map_run)
     panels = maps_of(figure)
     assert [axes.get_title(loc="left") for axes in panels] == [

@@ -17,7 +17,6 @@ from thawslide.maps import Maps
 
 
 def move(folder: Path, number: int, points: np.ndarray | None = None, **fields: np.ndarray | float) -> None:
-    """Change points and fields of a snapshot."""
     with h5py.File(folder / "snapshots" / f"{number:06d}.vtkhdf", "r+") as file:
         if points is not None:
             file["VTKHDF/Points"][:] = points
@@ -55,7 +54,6 @@ def test_velocities_are_those_of_displacement(make_run: MakeRun) -> None:
 
 
 def velocity_label(run: Run) -> str:
-    """Return the label of the velocities of the figure."""
     labels = [axes.get_xlabel() for axes in FIGURES["velocity"].plot(run).axes]
     return next(label for label in labels if label.startswith("speed"))
 

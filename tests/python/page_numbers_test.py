@@ -59,9 +59,7 @@ def test_number_agrees_only_with_values_that_round_to_it(seed: int) -> None:
         ("1", "x", (), (float("nan"), float("inf"))),
     ],
 )
-def test_number_agrees_by_its_rule(
-    text: str, expression: str, right: tuple[float, ...], wrong: tuple[float, ...]
-) -> None:
+def test_number_has_its_rule(text: str, expression: str, right: tuple[float, ...], wrong: tuple[float, ...]) -> None:
     number = number_of(text, expression)
     assert number.expression == "x"
     assert [number.agrees(value) for value in right] == [True] * len(right)

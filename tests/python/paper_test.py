@@ -161,7 +161,6 @@ def test_water_in_frozen_equilibrium_has_lower_pressure() -> None:
 
 
 def short_run(folder: Path, columns: dict[str, list[float]]) -> Run:
-    """Return a run folder with a history of these columns."""
     folder.mkdir()
     write_facts(folder)
     (folder / "case.toml").write_text("")

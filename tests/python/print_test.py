@@ -65,9 +65,7 @@ def test_images_have_150_dots_per_inch(make_run: MakeRun, name: str) -> None:
     assert width == int(150 * COLUMN_WIDTH)
 
 
-def test_profile_of_a_deposit_states_its_vertical_exaggeration(
-    make_run: MakeRun, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_profile_of_a_deposit_states_its_exaggeration(make_run: MakeRun, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(lamplugh, "deposit", lambda run: (np.array([50.0, 150.0]), np.array([3.0, 4.0])))
     monkeypatch.setattr(lamplugh, "zones", lambda run: [])
     figure = lamplugh.figure_deposit({"lamplugh": Run(make_run())})

@@ -26,7 +26,6 @@ MEGABYTE = 1_000_000
 
 
 def element(page: str, name: str) -> str:
-    """Return the text of an element of data."""
     found = re.search(rf'<script type="[^"]+" id="{name}">(.*?)</script>', page, re.DOTALL)
     assert found, name
     return found[1]
@@ -45,7 +44,6 @@ def field_of(parts: dict[str, Any], words: str) -> dict[str, Any]:
 
 @pytest.fixture(params=["2D", "3D"])
 def any_run(request: pytest.FixtureRequest, make_run: MakeRun) -> Path:
-    """Return the folder of a 2D run, then that of a 3D run."""
     if request.param == "2D":
         return make_run()
     folder: Path = request.getfixturevalue("map_run")

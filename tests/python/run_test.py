@@ -57,7 +57,6 @@ def test_vertical_axis_depends_on_the_dimension(make_run: MakeRun) -> None:
 
 
 def expect(folder: Path, text: str, kind: type[ReportError] = ReportError) -> None:
-    """Read everything in a folder and check the text of the error."""
     with pytest.raises(kind, match=re.escape(text)):
         run = Run(folder)
         _ = run.case, run.history, run.terrain, run.targets, run.facts, run.times, run.snapshot(0)

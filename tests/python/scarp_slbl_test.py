@@ -19,7 +19,6 @@ def tilted(x: Numbers, y: Numbers) -> Numbers:
 
 
 def rough(x: Numbers, y: Numbers) -> Numbers:
-    """Return a slope with ridges, gullies and noise."""
     noise = np.random.default_rng(5).normal(size=x.shape)
     return 2000.0 - 0.7 * x + 20.0 * np.sin(x / 25.0) * np.cos(y / 30.0) + noise
 

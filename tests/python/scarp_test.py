@@ -24,12 +24,10 @@ DIFFERENCE = math.tan(math.radians(STEEP)) - math.tan(math.radians(GENTLE))
 
 
 def slope(x: Numbers, _y: Numbers) -> Numbers:
-    """Return a plane of 40 degrees that falls to the east."""
     return 2000.0 - math.tan(math.radians(STEEP)) * x
 
 
 def flat(x: Numbers, _y: Numbers) -> Numbers:
-    """Return level ground."""
     return 0.0 * x + 1500.0
 
 
@@ -86,7 +84,6 @@ def test_part_of_a_spiral_is_found() -> None:
 
 
 def ellipsoid_error(path: Path, cell: float, azimuth: float) -> float:
-    """Return the relative error of the volume below a slope."""
     dem = write_dem(path, slope, cell)
     release = thawslide.scarp(dem, Ellipsoid(X + 1.3, Y - 2.1, 300.0, 150.0, azimuth, depth=60.0))
     exact = 2.0 / 3.0 * math.pi * 300.0 * 150.0 * 60.0
@@ -131,7 +128,6 @@ def test_plane_reaches_a_volume_in_an_outline(tmp_path: Path) -> None:
 
 
 def write_shapefile(path: Path, *rings: Ring) -> Path:
-    """Write a polygon as a Shapefile with its projection."""
     points = np.concatenate([np.array(ring) for ring in rings])
     starts = np.cumsum([0, *(len(ring) for ring in rings[:-1])])
     content = struct.pack("<i4d2i", 5, 0.0, 0.0, 0.0, 0.0, len(rings), len(points))

@@ -68,7 +68,6 @@ def on_map(**changes: Any) -> dict[str, Any]:
 
 @pytest.fixture
 def write(tmp_path: Path) -> Write:
-    """Return a function that writes a setup."""
 
     def write_setup(data: Any) -> Path:
         path = tmp_path / "setup.json"

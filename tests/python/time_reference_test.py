@@ -22,7 +22,6 @@ SHIFT = 40.0 - 10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0))  # s: 12 sin2(pi t/
 
 @pytest.fixture
 def folder(make_run: MakeRun) -> Path:
-    """Return a run whose targets align its times."""
     rows = "start_velocity,40,8,m/s,x\nmean_velocity,42,9,m/s,x\n"
     return make_run(targets="quantity,time_s,value,unit,source\n" + rows)
 

@@ -9,7 +9,6 @@ from conftest import Algorithm, Outcome, Script
 
 
 def state_of(run: Path) -> Any:
-    """Return the contents of run.json."""
     return json.loads((run / "run.json").read_text())
 
 
@@ -26,7 +25,7 @@ def test_run_writes_its_folder_and_shows_progress(finished: tuple[Path, Outcome]
         ("time.end", "error: --set time.end"),
     ],
 )
-def test_wrong_setting_shows_the_message_of_the_program(
+def test_wrong_setting_has_its_message(
     algorithm: Algorithm, case: Path, tmp_path: Path, settings: str, message: str
 ) -> None:
     assert message in algorithm("runcase", CASE=case, OUTPUT=tmp_path / "run", SETTINGS=settings, code=1).stderr
@@ -51,7 +50,7 @@ def test_temporary_folder_is_refused(algorithm: Algorithm, case: Path) -> None:
     assert "OUTPUT: a temporary folder is deleted when QGIS is closed." in refused.stderr
 
 
-def test_cancelled_run_writes_its_checkpoint_and_is_resumed(
+def test_cancelled_run_has_a_checkpoint_to_resume(
     algorithm: Algorithm, script: Script, case: Path, tmp_path: Path
 ) -> None:
     folder = tmp_path / "run"

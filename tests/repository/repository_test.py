@@ -30,7 +30,6 @@ LONGEST_LINE = 120  # characters, in documents; clang-format and ruff check the 
 
 
 def code_files(*folders: str) -> list[Path]:
-    """Return the C++ and CUDA files below the folders."""
     return sorted(
         path for folder in folders for kind in ("[ch]pp", "cu") for path in (ROOT / folder).rglob(f"*.{kind}")
     )
@@ -48,28 +47,23 @@ def own_files() -> list[Path]:
 
 
 def documents() -> list[Path]:
-    """Return the documents, without the generated reference."""
     inside = [path for folder in ["docs", "cases", "benchmarks"] for path in (ROOT / folder).rglob("*.md")]
     return sorted(path for path in [*ROOT.glob("*.md"), *inside] if path.name != "reference.md")
 
 
 def includes_of(text: str) -> list[str]:
-    """Return the includes with quotes in a file."""
     return re.findall(r'^\s*#\s*include\s+"([^"]+)"', text, re.MULTILINE)
 
 
 def module_of(include: str) -> str:
-    """Return the module an include names."""
     return "generated" if include == "version.hpp" else include.split("/")[0]
 
 
 def heading_anchor(title: str) -> str:
-    """Return the anchor that a Markdown heading gets."""
     return re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", "-")
 
 
 def place(path: Path) -> str:
-    """Return a path as messages show it."""
     return str(path.relative_to(ROOT))
 
 
@@ -242,7 +236,6 @@ def test_code_cites_sections_that_the_theory_has() -> None:
 
 
 def names_in_backticks(path: Path) -> set[str]:
-    """Return all words formatted as code in a document."""
     return set(re.findall(r"`([^`\n]+)`", path.read_text()))
 
 

@@ -30,7 +30,6 @@ def start(case: Path, sweep: Path) -> subprocess.Popen[bytes]:
 
 
 def workers_of(driver: int) -> list[int]:
-    """Return the processes that the driver started."""
     try:
         files = list(Path(f"/proc/{driver}/task").glob("*/children"))
         return [int(number) for file in files for number in file.read_text().split()]
@@ -39,7 +38,6 @@ def workers_of(driver: int) -> list[int]:
 
 
 def is_running(folder: SweepFolder, driver: int) -> bool:
-    """Return whether a worker of the driver runs a member."""
     workers = workers_of(driver)
     records = [folder.record(number) for number in range(MEMBERS)]
     return any(record["status"] == RUNNING and record["process"] in workers for record in records)

@@ -15,7 +15,6 @@ CELL, NO_DATA = 10.0, -9999.0
 
 
 def write(path: Path, values: Numbers, west: float = 0.0, north: float = 1000.0, cell: float = CELL) -> Path:
-    """Write a raster with nan as no data."""
     path.parent.mkdir(parents=True, exist_ok=True)
     rows, columns = values.shape
     with rasterio.open(
@@ -27,7 +26,6 @@ def write(path: Path, values: Numbers, west: float = 0.0, north: float = 1000.0,
 
 
 def read(path: Path) -> Numbers:
-    """Read a raster with nan for no data."""
     with rasterio.open(path) as file:
         return np.ma.filled(file.read(1, masked=True), np.nan)
 
@@ -65,16 +63,14 @@ def test_maps_match_numpy_exactly(ensemble: tuple[list[Path], dict[str, Numbers]
         assert np.array_equal(read(output / f"arrival_p{percent}.tif"), expected, equal_nan=True)
 
 
-def test_each_map_has_a_style_a_unit_and_a_description(
-    ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path
-) -> None:
+def test_each_map_has_style_unit_and_text(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path) -> None:
     paths = write_probability_maps(rasters_in(ensemble[0]), tmp_path / "out")
     assert all("colorrampshader" in path.with_suffix(".qml").read_text() for path in paths)
     with rasterio.open(tmp_path / "out" / "speed_p50.tif") as file:
         assert file.units == ("m/s",) and file.descriptions == ("50 % quantile of maximum speed",)
 
 
-def test_the_map_of_reached_cells_states_its_threshold(
+def test_map_of_reached_cells_has_its_threshold(
     ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path
 ) -> None:
     folders, _ = ensemble
@@ -119,9 +115,7 @@ def test_folders_without_maps_are_refused(tmp_path: Path, capsys: pytest.Capture
     assert main([str(tmp_path / "absent")]) == 2 and "no such file or folder" in capsys.readouterr().err
 
 
-def test_a_quantity_without_thresholds_has_the_default_ones(
-    ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path
-) -> None:
+def test_quantities_have_default_thresholds(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path) -> None:
     names = {path.stem for path in write_probability_maps(rasters_in(ensemble[0]), tmp_path, {"speed": [7.0]})}
     assert {"speed_above_7", "thickness_above_0.5", "thickness_above_1", "thickness_above_5"} <= names
     assert "speed_above_5" not in names
