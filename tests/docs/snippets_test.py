@@ -27,15 +27,12 @@ a = b
 """
 
 
-def test_blocks_have_line_language_text_and_marks() -> None:
+def test_blocks_have_marks_and_commands_their_output() -> None:
     console, plain = blocks_of(PAGE)
     assert (console.line, console.language) == (7, "console")
     assert console.marks == {"long": "a minute", "exit code": "2"}
     assert plain == Block(16, "", "a = b\n", {})
-
-
-def test_commands_have_their_output() -> None:
-    first, second = commands_of(blocks_of(PAGE)[0])
+    first, second = commands_of(console)
     assert (first.line, first.text) == (8, "thawslide run \\\n  nothing")
     assert first.expected == ["error", "", "  indented"]
     assert (second.line, second.expected) == (13, [])
@@ -62,7 +59,7 @@ def test_form_of_a_block(language: str, text: str, marks: dict[str, str], words:
     assert (words in fault) if words else not fault
 
 
-def test_dots_match_lines_and_text() -> None:
+def test_dots_match_lines_and_diffs_show_the_others() -> None:
     output = ["particles: 10", "", "time 3.1 s", "done"]
     assert missing_line(output, output) is None
     assert missing_line(["...", "time [..] s", "..."], output) is None
@@ -72,9 +69,6 @@ def test_dots_match_lines_and_text() -> None:
     assert missing_line(["particles: 10", "..."], ["x", *output]) == "particles: 10"
     assert missing_line(["particles: 10"], output) == "(end of the output)"
     assert missing_line([], ["unexpected"]) == "(end of the output)"
-
-
-def test_diff_shows_only_lines_that_differ() -> None:
     assert difference(["a [..]", "b"], ["a 1", "c"]).splitlines()[3:] == [" a [..]", "-b", "+c"]
 
 

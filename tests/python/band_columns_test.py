@@ -76,9 +76,6 @@ def test_boiling_follows_clausius_and_clapeyron() -> None:
         weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
         log_of_pressure = (end - 100.0) / steps / 3.0 * float(weights @ slope)
         assert boiling_temperature(101325.0 * np.expm1(log_of_pressure)) == pytest.approx(end, abs=1e-7)
-
-
-def test_boiling_temperature_of_nan_is_nan() -> None:
     assert np.isnan(boiling_temperature([np.nan, 0.0])).tolist() == [True, False]
 
 
@@ -128,13 +125,6 @@ def test_basal_segments_are_sorted_along_the_section(columns_run: Path) -> None:
     ]  # fmt: skip
 
 
-def test_snapshots_without_basal_segments_have_no_such_figure(make_run: MakeRun) -> None:
-    run = Run(make_run())
-    assert not FIGURES["base_along"].suits(run)
-    with pytest.raises(NotInRunError, match="no basal segments in the snapshots"):
-        FIGURES["base_along"].plot(run)
-
-
 def test_temperatures_and_boiling_are_in_one_panel(columns_run: Path) -> None:
     run = Run(columns_run)
     figure = FIGURES["band"].plot(run)
@@ -178,7 +168,7 @@ def test_water_terms_have_their_panels(columns_run: Path) -> None:
     assert titled(figure, "(d)").get_yscale() == "log"
 
 
-def test_runs_without_columns_have_no_figures_of_columns(make_run: MakeRun) -> None:
+def test_runs_without_columns_have_no_figures_of_columns_but_a_stop_time(make_run: MakeRun) -> None:
     run = Run(make_run())
     assert "water" not in figures_of(run)
     with pytest.raises(NotInRunError, match="found no band columns"):
@@ -188,6 +178,11 @@ def test_runs_without_columns_have_no_figures_of_columns(make_run: MakeRun) -> N
     thermal = titled(FIGURES["energy"].plot(run), "(b)")
     assert not any("column" in str(found.get_label()) for found in thermal.lines)
     assert "Maximum temperature of all columns" not in [row.words for row in key_numbers(run)]
+    assert not FIGURES["base_along"].suits(run)
+    with pytest.raises(NotInRunError, match="no basal segments in the snapshots"):
+        FIGURES["base_along"].plot(run)
+    # 12 sin2(pi t/10) in rows of 0.1 s: below 0.1 m/s from 9.709 s on
+    assert stop_time(run, 0.1) == pytest.approx(9.8) and stop_time(run, 20.0) is None
 
 
 def test_report_of_columns_has_their_figures_and_numbers(columns_run: Path) -> None:
@@ -218,8 +213,3 @@ def test_figures_of_columns_without_contact_are_written(columns_run: Path, tmp_p
         FIGURES[name].plot(run).savefig(tmp_path / "figure.png")
     assert texts(titled(FIGURES["band"].plot(run), "(d)")) == ["no contact"]
     assert texts(titled(FIGURES["water"].plot(run), "(d)")) == ["residual is zero"]
-
-
-def test_stop_time_is_the_last_time_above_a_speed(make_run: MakeRun) -> None:
-    run = Run(make_run())  # 12 sin2(pi t/10) in rows of 0.1 s: below 0.1 m/s from 9.709 s on
-    assert stop_time(run, 0.1) == pytest.approx(9.8) and stop_time(run, 20.0) is None

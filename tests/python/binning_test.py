@@ -23,30 +23,23 @@ def test_sums_are_conserved_for_any_width(width: float) -> None:
         assert (total.shape, total.sum()) == ((12, 20), pytest.approx(amount.sum(), rel=1e-12))
 
 
-def test_fractions_are_areas() -> None:
+def test_fractions_are_areas_inside_the_grid() -> None:
     (one,) = spread(GRID, np.array([5.75]), np.array([9.0]), 2.0, [np.array([8.0])])
     # 4.75..6.75 m of x: a quarter of a cell, one, three quarters; 8..10 m of y: the fifth row.
     wanted = np.zeros((12, 20))
     wanted[4, 4:7] = 1.0, 4.0, 3.0
     np.testing.assert_allclose(one, wanted, atol=1e-12)
-
-
-def test_fractions_outside_the_grid_are_excluded() -> None:
     (one,) = spread(GRID, np.array([0.0, 20.0, -30.0]), np.array([1.0, 23.0, 1.0]), 2.0, [np.ones(3)])
     assert one.sum() == pytest.approx(1.0)
 
 
-def test_thickness_of_a_slab_is_exact(map_run: Path) -> None:
+def test_thickness_and_basal_temperature_of_a_slab_are_exact(map_run: Path) -> None:
     run = Run(map_run)
     columns = gather(Maps(run)["release"].grid, run.snapshot(0, fields=FIELDS), 10.0)
     assert columns.thickness.volume() == pytest.approx(LENGTH * WIDTH * THICKNESS, rel=1e-12)
     assert columns.thickness.at(np.array([WEST + 100.0]), np.array([MIDDLE])) == pytest.approx(THICKNESS)
     assert np.nanmax(columns.speed.values) == pytest.approx(SPEED)
     assert np.nanmin(columns.speed.values) == pytest.approx(SPEED) and np.isnan(columns.speed.values[0, 0])
-
-
-def test_temperature_is_that_of_particles_next_to_the_terrain(map_run: Path) -> None:
-    run = Run(map_run)
     columns = gather(Maps(run)["release"].grid, run.snapshot(5, fields=FIELDS), 10.0)
     values = columns.temperature.values[np.isfinite(columns.temperature.values)]
     np.testing.assert_allclose(values, 10.0)  # those above are at -50

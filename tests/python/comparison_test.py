@@ -58,7 +58,7 @@ def square(x: float) -> list[list[float]]:
     return [[x - 19.0, 81.0], [x + 19.0, 81.0], [x + 19.0, 119.0], [x - 19.0, 119.0], [x - 19.0, 81.0]]
 
 
-def test_point_mass_on_a_straight_slope_up_and_down_follows_the_energy_line() -> None:
+def test_point_mass_follows_the_energy_line_and_must_stop() -> None:
     x = 5.0 * np.arange(400)
     friction = 0.3
     # On a V of slopes 0.5, its single bend dissipates energy too: the fraction exp(-2 friction turn) remains.
@@ -67,10 +67,6 @@ def test_point_mass_on_a_straight_slope_up_and_down_follows_the_energy_line() ->
     assert found.max_speed == pytest.approx(math.sqrt(2.0 * 9.81 * head), rel=0.02)
     left = head * math.exp(-2.0 * friction * 2.0 * math.atan(0.5))
     assert found.travel == pytest.approx(500.0 + left / (0.5 + friction), rel=0.02)
-
-
-def test_point_mass_that_does_not_stop_is_an_error() -> None:
-    x = 5.0 * np.arange(400)
     with pytest.raises(ReportError, match="the point mass leaves the DEM"):
         results.point_mass(dem(-0.5 * x), square(500.0), 0.3)
 

@@ -64,7 +64,7 @@ def with_program(place: Place, program: Path) -> Place:
 JOBS = (Job("a"), Job("b", sets=("x=1",)), Job("block", subcommand="block"))
 
 
-def test_complete_runs_are_reused(place: Place, lines: list[str]) -> None:
+def test_complete_runs_are_reused_and_recorded(place: Place, lines: list[str]) -> None:
     assert place.perform(JOBS) == []
     assert lines[0] == "3 runs, 0 of them complete" and lines[-1].startswith("3 of 3, about 0 min left: ")
     stamp = (place.runs / "a" / "run.json").stat().st_mtime_ns
@@ -77,6 +77,9 @@ def test_complete_runs_are_reused(place: Place, lines: list[str]) -> None:
     ]  # fmt: skip
     assert engine.is_done(place.runs / "block.csv")
     assert 0.0 < engine.processor_time(place.runs / "a") < 10.0
+    facts = json.loads((place.runs / "a.record.json").read_text())
+    assert list(facts["inputs"]) == [str(place.cases / "case.toml")]
+    assert facts["program"] == "0123abcd" and facts["code"] == 0
 
 
 @pytest.mark.parametrize("change", ["case", "settings", "commit", "results", "record"])
@@ -108,9 +111,11 @@ def test_runs_of_the_same_commit_by_a_program_elsewhere_are_repeated_only_if_its
     assert not engine.is_current(with_program(place, dirty).task(Job("a")))
 
 
-def test_program_without_a_version_is_an_error(place: Place) -> None:
+def test_missing_program_or_version_has_its_remedy(place: Place, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(ReportError, match=r"Build it with \./run --setup\."):
         engine.commit_of(Path("/bin/false"))
+    assert command.main(["--program", str(place.cases / "none")]) == 2
+    assert "Build it with ./run --setup." in capsys.readouterr().err
 
 
 def test_failed_runs_are_kept_and_stated(place: Place, lines: list[str]) -> None:
@@ -235,11 +240,6 @@ def test_list_states_times_and_absences(place: Place, studies: list[str], capsys
     assert studies == []
 
 
-def test_missing_program_is_an_error_with_its_remedy(place: Place, capsys: pytest.CaptureFixture[str]) -> None:
-    assert command.main(["--program", str(place.cases / "none")]) == 2
-    assert "Build it with ./run --setup." in capsys.readouterr().err
-
-
 def test_every_page_of_results_names_the_command_that_makes_it() -> None:
     for study in STUDIES.values():
         for page in study.pages:
@@ -256,10 +256,3 @@ def test_pages_have_tables_marks_and_wrapped_paragraphs() -> None:
     assert max(map(len, lines)) <= 120 and lines[0] == "# A" and lines[-2:] == ["| a |", "| - |"]
     assert [line for line in lines if line.startswith("  long")]
     assert rewrapped("\n".join(lines)) == "\n".join(lines) + "\n"
-
-
-def test_records_are_readable(place: Place) -> None:
-    place.perform([Job("a")])
-    facts = json.loads((place.runs / "a.record.json").read_text())
-    assert list(facts["inputs"]) == [str(place.cases / "case.toml")]
-    assert facts["program"] == "0123abcd" and facts["code"] == 0

@@ -120,15 +120,11 @@ def test_block_on_a_tilted_plane_is_drawn_once(make_run: MakeRun) -> None:
     assert not found & {"height above\nterrain (m)", "elevation (m)"}
 
 
-def test_strips_have_heights_above_the_terrain(make_run: MakeRun) -> None:
+def test_strips_have_heights_and_the_overview_the_range_of_each_panel(make_run: MakeRun) -> None:
     figure = FIGURES["velocity"].plot(Run(make_run()))
     strips = [axes for axes in figure.axes if axes.get_ylabel() == "height above\nterrain (m)"]
     assert len(strips) == 3
     np.testing.assert_allclose(np.unique(np.round(centres(strips[1])[:, 1], 9)), [0.5, 1.5, 2.5, 3.5])
-
-
-def test_overview_has_the_range_of_each_panel(make_run: MakeRun) -> None:
-    figure = FIGURES["velocity"].plot(Run(make_run()))
     overview = titled(figure, "whole profile")
     title = "whole profile, true scale; grey: t = 0 s, red: t = 7 s; time: 0 at the start of the run"
     assert overview.get_title(loc="left") == title
@@ -159,12 +155,15 @@ def test_times_with_a_common_snapshot_have_one_panel(make_run: MakeRun) -> None:
     assert [shot.time for shot in shots] == [0.0, 9.0, 10.0]
 
 
-def test_ticks_of_a_bar_with_two_scales_are_round() -> None:
+def test_ticks_are_round_and_prefixes_give_numbers_below_1000() -> None:
     figure = Figure()
     norm, _ = normalization(np.linspace(-9.45, 35.8, 1000), TEMPERATURE)
     bar = figure.colorbar(ScalarMappable(norm), cax=figure.add_subplot(), orientation="horizontal")
     label_bar(bar, norm)
     assert [label.get_text() for label in bar.ax.get_xticklabels()] == ["−5", "0", "10", "20", "30"]
+    assert prefixed([-2.8e11, np.nan], "N") == (1e9, "GN")
+    assert prefixed([999.0], "Pa") == (1.0, "Pa")
+    assert prefixed([np.nan], "J") == (1.0, "J")
 
 
 def test_window_exaggerates_only_long_flat_sections() -> None:
@@ -191,7 +190,7 @@ def test_colour_range_excludes_outliers() -> None:
     assert colour_range(np.full(3, np.nan), from_zero=False) == (0.0, 1.0, "neither")
 
 
-def test_motion_has_reported_values(make_run: MakeRun) -> None:
+def test_motion_has_reported_values_only_with_targets(make_run: MakeRun) -> None:
     run = Run(make_run())
     figure = FIGURES["motion"].plot(run)
     speed, distance = titled(figure, "(a) speed"), titled(figure, "(b) distance")
@@ -207,6 +206,10 @@ def test_motion_has_reported_values(make_run: MakeRun) -> None:
         np.testing.assert_array_equal(line(axes, label), expected)
     assert (speed.get_ylabel(), distance.get_ylabel()) == ("speed (m/s)", "distance (m)")
     assert (speed.get_xlabel(), distance.get_xlabel()) == (UNALIGNED, UNALIGNED)
+    figure = FIGURES["motion"].plot(Run(make_run(name="bare", targets=False)))
+    labels = [str(found.get_label()) for axes in figure.axes for found in axes.lines]
+    assert len(labels) == 5
+    assert not any("reported" in label for label in labels)
 
 
 def test_maximum_velocity_ends_at_rest(make_run: MakeRun) -> None:
@@ -249,13 +252,6 @@ def test_reported_values_before_the_start_are_counted_in_the_legend(make_run: Ma
     assert legend_notes(speed) == [note]
 
 
-def test_motion_without_targets_has_curves_only(make_run: MakeRun) -> None:
-    figure = FIGURES["motion"].plot(Run(make_run(targets=False)))
-    labels = [str(found.get_label()) for axes in figure.axes for found in axes.lines]
-    assert len(labels) == 5
-    assert not any("reported" in label for label in labels)
-
-
 def test_seismic_force_has_components_and_reported_maxima(make_run: MakeRun) -> None:
     run = Run(make_run())
     figure = FIGURES["force"].plot(run)
@@ -272,6 +268,8 @@ def test_seismic_force_has_components_and_reported_maxima(make_run: MakeRun) -> 
     assert size.get_ylabel() == "force (GN)"
     (strain,) = titled(figure, "(c)").lines
     np.testing.assert_array_equal(strain.get_ydata(), run.history["mean_plastic_strain"])
+    figure = FIGURES["force"].plot(Run(make_run(name="space", dimension=3)))
+    assert [found.get_label() for found in titled(figure, "(b)").lines] == ["x (along)", "y (across)", "z (up)"]
 
 
 def test_reported_force_requires_a_width_and_a_target(make_run: MakeRun) -> None:
@@ -281,11 +279,6 @@ def test_reported_force_requires_a_width_and_a_target(make_run: MakeRun) -> None
     assert thin.get_ylabel() == "force (GN/m of width)"
     assert [found.get_label() for found in thin.lines] == ["run", "run, band-pass 2 to 8 s"]
     assert texts(thin) == ["reported force not shown: no case.width"]
-
-
-def test_seismic_force_in_three_dimensions_has_three_components(make_run: MakeRun) -> None:
-    figure = FIGURES["force"].plot(Run(make_run(dimension=3)))
-    assert [found.get_label() for found in titled(figure, "(b)").lines] == ["x (along)", "y (across)", "z (up)"]
 
 
 def test_band_has_the_history_with_gaps(make_run: MakeRun) -> None:
@@ -332,21 +325,18 @@ def test_energy_terms_are_changes_and_residuals_are_relative(make_run: MakeRun) 
     np.testing.assert_allclose(line(residual, "thermal")[1][1:], 2e2 * t[1:] / 2e12)
 
 
-def test_residual_is_none_if_nothing_changes(make_run: MakeRun) -> None:
+def test_one_row_is_a_marker_without_a_residual(make_run: MakeRun) -> None:
     run = Run(make_run(rows=1))
     assert relative_residual(run, "mechanical_residual_J") is None
     assert texts(titled(FIGURES["energy"].plot(run), "(a)")) == ["no change of any term"]
+    speed = titled(FIGURES["motion"].plot(Run(make_run(name="bare", rows=1, targets=False))), "(a)")
+    assert [found.get_marker() for found in speed.lines] == ["o", "o"]
 
 
 @pytest.mark.parametrize("name", ["motion", *SNAPSHOT_FIGURES, "force", "band", "energy"])
 def test_figures_of_one_row_and_one_snapshot_are_written(make_run: MakeRun, tmp_path: Path, name: str) -> None:
     FIGURES[name].plot(Run(make_run(rows=1, snapshots=1, targets=False))).savefig(tmp_path / "figure.png")
     assert (tmp_path / "figure.png").stat().st_size > 5000
-
-
-def test_one_row_is_a_marker(make_run: MakeRun) -> None:
-    speed = titled(FIGURES["motion"].plot(Run(make_run(rows=1, targets=False))), "(a)")
-    assert [found.get_marker() for found in speed.lines] == ["o", "o"]
 
 
 def test_figures_require_snapshots_budget_and_force(make_run: MakeRun) -> None:
@@ -359,12 +349,6 @@ def test_figures_require_snapshots_budget_and_force(make_run: MakeRun) -> None:
     ):
         with pytest.raises(NotInRunError, match=text):
             FIGURES[name].plot(Run(folder))
-
-
-def test_prefixes_give_numbers_below_1000() -> None:
-    assert prefixed([-2.8e11, np.nan], "N") == (1e9, "GN")
-    assert prefixed([999.0], "Pa") == (1.0, "Pa")
-    assert prefixed([np.nan], "J") == (1.0, "J")
 
 
 def test_scale_of_high_temperatures_is_logarithmic_up_to_the_maximum(make_run: MakeRun) -> None:

@@ -138,7 +138,7 @@ def test_range_surrounds_the_record(folder: Path) -> None:
             assert heights.max() == pytest.approx(best[middle] + high / 1e9, abs=1e-6)
 
 
-def test_projection_is_the_component_in_a_direction() -> None:
+def test_projection_is_a_component_and_its_range_bounds_all() -> None:
     north, east = np.array([3.0, -1.0, 0.0]), np.array([4.0, 2.0, 5.0])
     np.testing.assert_allclose(projected(north, east, 0.0), north)
     np.testing.assert_allclose(projected(north, east, 90.0), east, atol=1e-15)
@@ -147,9 +147,6 @@ def test_projection_is_the_component_in_a_direction() -> None:
         across = projected(north, east, azimuth + 90.0)
         np.testing.assert_allclose(projected(north, east, azimuth) ** 2 + across**2, north**2 + east**2)
         assert projected(north, east, float(np.degrees(np.arctan2(east[0], north[0]))))[0] == pytest.approx(5.0)
-
-
-def test_projected_range_bounds_all_components() -> None:
     low = {"north": np.array([-2.0]), "east": np.array([1.0])}
     high = {"north": np.array([1.0]), "east": np.array([3.0])}
     inside = [(n, e) for n in np.linspace(-2.0, 1.0, 7) for e in np.linspace(1.0, 3.0, 7)]
@@ -191,7 +188,11 @@ def test_long_sinusoid_is_filtered_exactly(period: float) -> None:
     np.testing.assert_allclose(filtered(time, wave, at, BAND), expected, atol=2e-3)
 
 
-def test_padded_step_is_filtered_as_an_infinite_one() -> None:
+def test_history_is_extended_by_its_end_values() -> None:
+    time, at = np.array([0.0, 1.0, 2.0]), np.arange(-100.0, 100.0, 1.0)
+    np.testing.assert_allclose(filtered(time, np.full(3, 7.0), at, BAND), 0.0, atol=1e-12)
+    rises = filtered(time, np.array([np.nan, 0.0, 1.0]), at, BAND)
+    assert rises[at == 3.0][0] > 0.2 > abs(rises[at == -60.0][0]), "a row without a number counts as 0"
     """Without padding, the jump to 0 at the end would change the result by 0.5."""
     short, long = np.arange(0.0, 100.0, 0.1), np.arange(-3000.0, 3000.0, 0.1)
     step = [np.where(time < 40.0, 0.0, 1.0) for time in (short, long)]
@@ -203,13 +204,6 @@ def test_padded_step_is_filtered_as_an_infinite_one() -> None:
     exact = np.trapezoid(response(f := np.linspace(1e-6, 2.0, 400001), 10.0, 200.0) * np.sin(2.0 * np.pi * f * 5.0)
                          / (np.pi * f), f)  # fmt: skip
     assert np.interp(45.0, at, padded) == pytest.approx(float(exact), abs=0.02)
-
-
-def test_history_is_extended_by_its_end_values() -> None:
-    time, at = np.array([0.0, 1.0, 2.0]), np.arange(-100.0, 100.0, 1.0)
-    np.testing.assert_allclose(filtered(time, np.full(3, 7.0), at, BAND), 0.0, atol=1e-12)
-    rises = filtered(time, np.array([np.nan, 0.0, 1.0]), at, BAND)
-    assert rises[at == 3.0][0] > 0.2 > abs(rises[at == -60.0][0]), "a row without a number counts as 0"
 
 
 def test_times_without_a_reversal_are_not_aligned(folder: Path) -> None:
@@ -272,15 +266,12 @@ def test_x_is_east_in_three_dimensions(make_run: MakeRun) -> None:
     assert "with x as east and y as north" in FIGURES["force_record"].caption_of(Run(made))
 
 
-def test_case_without_a_record_has_no_such_figure(make_run: MakeRun) -> None:
+def test_figure_requires_a_record_and_a_width(make_run: MakeRun) -> None:
     run = Run(make_run())
     assert not FIGURES["force_record"].suits(run)
     with pytest.raises(NotInRunError, match=r"^case\.toml: no force record\. "):
         compared(run)
-
-
-def test_run_without_a_width_has_the_reason_on_the_page(make_run: MakeRun) -> None:
-    made = make_run(width=0.0)
+    made = make_run(name="thin", width=0.0)
     write_record(made)
     report = make_report(Run(made), names=None, dpi=40)
     reason = "case.toml: the force record cannot be compared without a width. Specify case.width."

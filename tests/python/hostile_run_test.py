@@ -150,15 +150,12 @@ def test_special_characters_are_text(make_run: MakeRun) -> None:
     assert len(make_report(Run(folder), dpi=50).figures) == 8
 
 
-def test_title_is_not_a_template(make_run: MakeRun) -> None:
+def test_title_is_no_template_and_a_failed_write_keeps_the_file(make_run: MakeRun) -> None:
     folder = make_run()
     edit(folder / "case.toml", "Block on a slope & <more>", "BODY of TITLE")
     page = page_of(folder)
     assert "<title>BODY of TITLE</title>" in page and page.count("<h1>") == 1
-
-
-def test_failed_write_keeps_the_previous_file(make_run: MakeRun) -> None:
-    report = make_report(Run(make_run()), names=["motion"], dpi=50)
+    report = make_report(Run(folder), names=["motion"], dpi=50)
     before = {path: path.read_bytes() for path in (report.page, report.figures["motion"])}
     for path in before:
         with pytest.raises(OSError, match="full"), atomic_file(path) as temporary:

@@ -90,14 +90,11 @@ def test_figure_of_bars_has_runs_and_measurements() -> None:
             assert np.array_equal(line.get_xdata(), x) and np.array_equal(line.get_ydata(), height)
 
 
-def test_table_of_bars_has_the_offsets() -> None:
+def test_table_of_bars_has_offsets_and_stays_in_the_page() -> None:
     found = {("flip", 10.0): bars(10.0, 0.002), ("flip", 5.0): bars(5.0, -0.003)}
     rows = [line.split(" | ") for line in laboratory_page.bar_table(found).splitlines()]
     assert (rows[2][1:], rows[3][1:]) == (["2.0", "3.0 |"], ["+2.0", "-3.0 |"])
     assert (rows[4][1:], rows[5][1:]) == (["+2", "-3 |"], ["", "5.0 |"])
-
-
-def test_filled_page_keeps_tables_and_lists() -> None:
     page = "# Title\n\n- one\n  two\n- " + "word " * 40 + "\n\n| a |\n| --- |\n\nlast"
     lines = rewrapped(page).splitlines()
     assert lines[:4] == ["# Title", "", "- one two", "- " + "word " * 22 + "word"]

@@ -44,7 +44,7 @@ def test_zones_adjoin_and_contain_their_fraction_of_the_volume(make_run: MakeRun
     assert fractions["F"][1] == pytest.approx(0.25 * volume / 1000.0)
 
 
-def test_base_traction_follows_from_the_deceleration(make_run: MakeRun) -> None:
+def test_base_traction_and_particles_near_the_terrain(make_run: MakeRun) -> None:
     folder = make_run(rows=201, history={"mean_velocity_m_s": 50.0 - 0.8 * np.linspace(0.0, 10.0, 201)})
     (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n-1e4,0.0\n1e4,0.0\n")
     run = Run(folder)
@@ -52,11 +52,8 @@ def test_base_traction_follows_from_the_deceleration(make_run: MakeRun) -> None:
     # 80 particles of 2,000 kg on 20 m in rows of 4: 0.5 % and 99.5 % of the mass are the first and the last of them.
     assert base_traction(run, 2.0, 8.0) == pytest.approx(80 * 2000.0 * 0.8 / (x[-1] - x[0]) / 1e3)
     assert math.isnan(base_traction(run))
-
-
-def test_particles_near_the_terrain_are_counted_normal_to_it(make_run: MakeRun) -> None:
     # Rows 0.5, 1.5, 2.5 and 3.5 m up a slope of one half: 0.447, 1.342, 2.236, 3.130 m normal to it, two per 2 m.
-    run = Run(make_run())
+    run = Run(make_run(name="near"))
     assert near_ground(run, 0.0, height=1.3, column=2.0) == 2.0
     assert near_ground(run, 0.0, height=1.4, column=2.0) == 4.0
 

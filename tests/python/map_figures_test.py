@@ -87,12 +87,14 @@ def test_extent_maps_have_titles_units_and_legend(map_run: Path) -> None:
     assert "gate" in {text.get_text() for text in panels[0].texts}
 
 
-def test_impact_maps_exclude_maps_without_values(map_run: Path) -> None:
+def test_impact_maps_have_values_and_forces_point_east_and_north(map_run: Path) -> None:
     titles = [axes.get_title(loc="left")[4:] for axes in maps_of(plotted("impact_maps", map_run))]
     assert titles == [
         "maximum dynamic pressure", "maximum momentum flux", "maximum pore pressure", "maximum basal temperature",
         "elevation change at 10 s",
     ]  # fmt: skip
+    components = FIGURES["force"].plot(Run(map_run)).axes[1]
+    assert [text.get_text() for text in components.get_legend().get_texts()] == ["x (east)", "y (north)", "z (up)"]
 
 
 def test_scale_of_elevation_change_is_symmetric(map_run: Path) -> None:
@@ -148,13 +150,10 @@ def test_animation_has_a_different_frame_with_even_sides_for_each_snapshot(map_r
     assert np.any(first != last)
 
 
-def test_unwritable_animation_is_an_error(map_run: Path, tmp_path: Path) -> None:
+def test_animation_has_limit_and_writable_file(map_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     video = Animation(Run(map_run))
     with pytest.raises(ReportError, match=r"video\.mp4: cannot be written \("):
         video.write(tmp_path / "no such folder" / "video.mp4", 40)
-
-
-def test_number_of_frames_is_limited(map_run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     run = Run(map_run)
     monkeypatch.setitem(run.__dict__, "times", np.arange(1000.0))
     video = Animation(run)
@@ -217,11 +216,6 @@ def test_outline_is_the_polygon_of_the_affected_area(map_run: Path) -> None:
     np.testing.assert_array_equal(np.column_stack(axes.lines[0].get_data()), ring)
 
 
-def test_components_of_the_force_on_a_map_are_east_and_north(map_run: Path) -> None:
-    components = FIGURES["force"].plot(Run(map_run)).axes[1]
-    assert [text.get_text() for text in components.get_legend().get_texts()] == ["x (east)", "y (north)", "z (up)"]
-
-
 def test_missing_maps_are_errors(map_run: Path, fails: Fails) -> None:
     (map_run / "maps" / "results.gpkg").unlink()
     with pytest.raises(NotInRunError, match=r"results\.gpkg: no flow path\. Specify maps\.path"):
@@ -253,10 +247,27 @@ def test_maps_of_a_run_without_motion_are_plotted(map_run: Path) -> None:
     assert [axes.get_title(loc="left") for axes in maps_of(plotted("extent_maps", map_run))] == ["(a) arrival time"]
 
 
-def test_large_terrain_is_thinned() -> None:
+def test_maps_fit_a_page_and_their_terrain() -> None:
     heights = np.add.outer(np.arange(3000.0), np.arange(3000.0))
     scene = map_panel.make_scene(Map(Grid(5.0, 5.0, 10.0, 10.0, 3000, 3000), heights), (0.0, 30_000.0, 0.0, 30_000.0))
     assert max(scene.shade.shape) <= map_panel.MOST_CELLS and scene.terrain.grid.cell_x == 40.0
+    found = layout(7, 0.49, 0.62, 0.3, 1.2)
+    assert found.columns == 3
+    assert found.columns * (found.width + 0.62) > 0.7 * WIDTH
+    whole = (0.0, 1000.0, 0.0, 2000.0)
+    west, east, south, north = map_panel.page_box((900.0, 1100.0, 0.0, 2000.0), whole)
+    assert (east, south, north) == (1000.0, 0.0, 2000.0)
+    assert (east - west) / (north - south) == pytest.approx(0.45)
+    assert map_panel.page_box((100.0, 500.0, 100.0, 400.0), whole) == (100.0, 500.0, 100.0, 400.0)
+    values = np.zeros((30, 30))
+    values[:12, :] = 1.0
+    values[12:, 12:] = 1.0
+    found = Map(Grid(0.5, 0.5, 1.0, 1.0, 30, 30), values)
+    assert (map_panel.quiet_corner(found, found.grid.box), map_panel.covered_box(found)) == (
+        "upper left",
+        (0.0, 30.0, 0.0, 30.0),
+    )
+    assert map_panel.covered_box(found, 2.0) is None
 
 
 @pytest.mark.parametrize("bar", [0.0, 0.72])
@@ -270,13 +281,6 @@ def test_maps_fill_a_page_within_its_margins(count: int, aspect: float, bar: flo
     assert rows * (found.height + 0.3) + 1.5 <= HIGHEST + 1e-9
     assert rows * found.columns - count <= 1
     assert found.width >= 1.15
-
-
-def test_narrow_maps_use_the_width_of_the_page() -> None:
-    """Two columns would leave half of the page empty; (count, aspect) of the comparison on a slope of the Alps."""
-    found = layout(7, 0.49, 0.62, 0.3, 1.2)
-    assert found.columns == 3
-    assert found.columns * (found.width + 0.62) > 0.7 * WIDTH
 
 
 @pytest.mark.parametrize("inches", [0.6, 0.9, 1.0, 1.2, 2.0, 3.5, 6.8])
@@ -293,23 +297,3 @@ def test_labels_of_coordinates_do_not_overlap(low: float, high: float, inches: f
         assert space > 0.07 * 0.5 * (len(text) + len(following))
     if inches >= 2.0:
         assert len(found) >= 2
-
-
-def test_boxes_fit_a_page_and_the_terrain() -> None:
-    whole = (0.0, 1000.0, 0.0, 2000.0)
-    west, east, south, north = map_panel.page_box((900.0, 1100.0, 0.0, 2000.0), whole)
-    assert (east, south, north) == (1000.0, 0.0, 2000.0)
-    assert (east - west) / (north - south) == pytest.approx(0.45)
-    assert map_panel.page_box((100.0, 500.0, 100.0, 400.0), whole) == (100.0, 500.0, 100.0, 400.0)
-
-
-def test_scale_bar_is_in_the_empty_corner() -> None:
-    values = np.zeros((30, 30))
-    values[:12, :] = 1.0
-    values[12:, 12:] = 1.0
-    found = Map(Grid(0.5, 0.5, 1.0, 1.0, 30, 30), values)
-    assert (map_panel.quiet_corner(found, found.grid.box), map_panel.covered_box(found)) == (
-        "upper left",
-        (0.0, 30.0, 0.0, 30.0),
-    )
-    assert map_panel.covered_box(found, 2.0) is None

@@ -16,7 +16,7 @@ from thawslide.maps import Grid, Map, Maps, on_map, read_map
 from thawslide.relief import hillshade
 
 
-def test_map_has_grid_unit_and_reference_system(tmp_path: Path) -> None:
+def test_map_has_grid_unit_and_perhaps_a_reference_system(tmp_path: Path) -> None:
     x, y = centres()
     values = ground(x, y)
     values[2, 5] = np.nan
@@ -28,9 +28,6 @@ def test_map_has_grid_unit_and_reference_system(tmp_path: Path) -> None:
     assert found.grid.box == (WEST, WEST + COLUMNS * CELL, SOUTH, SOUTH + ROWS * CELL)
     assert (found.unit, found.description) == ("m3/s2", "momentum flux")
     assert found.crs == "MGI / Austria Lambert (EPSG:31287)"
-
-
-def test_reference_system_can_be_missing(tmp_path: Path) -> None:
     write_map(tmp_path / "a.tif", np.ones((3, 4)), crs=None)
     assert read_map(tmp_path / "a.tif").crs == ""
 
@@ -45,7 +42,7 @@ def test_cropped_map_has_the_cells_of_the_box() -> None:
     assert whole.cropped((WEST + 1e6, WEST + 2e6, SOUTH, SOUTH + 5.0)).values.shape == (1, 1)
 
 
-def test_thinning_keeps_means_or_maxima_of_cells_with_data() -> None:
+def test_thinning_keeps_means_maxima_and_volume() -> None:
     values = np.arange(35, dtype=float).reshape(5, 7)
     values[0, 0] = np.nan
     values[2:4, 2:4] = np.nan
@@ -55,9 +52,6 @@ def test_thinning_keeps_means_or_maxima_of_cells_with_data() -> None:
     assert mean.values[0, 0] == pytest.approx((1.0 + 7.0 + 8.0) / 3.0) and np.isnan(mean.values[1, 1])
     assert (maximum.values[2, 3], maximum.values.shape) == (34.0, (3, 4))
     assert whole.thinned(7) is whole
-
-
-def test_thinning_a_full_map_keeps_its_volume() -> None:
     values = np.random.default_rng(1).random((12, 18))
     whole = Map(Grid(0.0, 0.0, 2.0, 3.0, 18, 12), values)
     assert whole.thinned(6).volume() == pytest.approx(whole.volume(), rel=1e-12)

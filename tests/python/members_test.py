@@ -36,7 +36,7 @@ def changed(**values: float | str) -> Observed:
     return Observed(**(vars(GOOD) | values))  # type: ignore[arg-type]
 
 
-def test_observed_has_the_results_of_a_run(make_run: MakeRun) -> None:
+def test_observed_has_the_results_of_a_run_and_no_stop_in_motion(make_run: MakeRun) -> None:
     folder = make_run(history=column_history())
     found = members.observed(folder)
     assert (found.failure, found.start) == ("", pytest.approx(START, abs=2e-3))
@@ -48,6 +48,12 @@ def test_observed_has_the_results_of_a_run(make_run: MakeRun) -> None:
     assert (found.hottest, found.ratio) == (pytest.approx(170.0), pytest.approx(1.0))
     assert found.dilation == pytest.approx(3.0)
     assert np.isnan(found.reversal), "no record in the case"
+    columns = column_history()
+    columns["mean_velocity_m_s"] = 1.0 * columns["time_s"]
+    folder = make_run(name="moving", history=columns, facts={"status": "failed", "message": "it left"})
+    found = members.observed(folder)
+    assert (found.stop, found.failure) == (float("inf"), "it left")
+    assert members.observed(folder.parent / "none").failure == "not run"
 
 
 def test_reversal_is_that_of_the_force_figure(make_run: MakeRun) -> None:
@@ -58,15 +64,6 @@ def test_reversal_is_that_of_the_force_figure(make_run: MakeRun) -> None:
     found = compared(Run(folder)).run.reversal
     assert found is not None and 8.0 < found.duration < 20.0
     assert members.observed(folder).reversal == found.duration
-
-
-def test_moving_run_has_no_stop(make_run: MakeRun) -> None:
-    columns = column_history()
-    columns["mean_velocity_m_s"] = 1.0 * columns["time_s"]
-    folder = make_run(history=columns, facts={"status": "failed", "message": "it left"})
-    found = members.observed(folder)
-    assert (found.stop, found.failure) == (float("inf"), "it left")
-    assert members.observed(folder.parent / "none").failure == "not run"
 
 
 def test_rows_are_met_by_the_median_and_pressure_by_every_member() -> None:
@@ -102,15 +99,12 @@ def test_verdict_lists_rows_that_are_met_and_not_met() -> None:
     assert "- runout: no member has it (accepted: 9 to 11.5)" in verdict([Observed("not run")])
 
 
-def test_middle_member_is_nearest_to_the_medians() -> None:
-    found = [changed(peak=78.0), changed(peak=79.0, failure="bad"), changed(peak=81.0, runout=11.0), changed(peak=80.0)]
-    assert members.middle_member(found) == 3
-
-
-def test_members_differ_only_in_their_seed() -> None:
+def test_members_differ_in_their_seed_and_one_is_in_the_middle() -> None:
     rows = members.member_rows()
     assert [row.sets for row in rows] == [("initial.noise=0.1", f"initial.seed={seed}") for seed in range(1, 21)]
     assert len({row.key for row in rows}) == 20
+    found = [changed(peak=78.0), changed(peak=79.0, failure="bad"), changed(peak=81.0, runout=11.0), changed(peak=80.0)]
+    assert members.middle_member(found) == 3
 
 
 def test_variants_differ_from_the_case() -> None:

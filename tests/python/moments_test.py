@@ -24,7 +24,7 @@ def move(folder: Path, number: int, points: np.ndarray | None = None, **fields: 
             file[f"VTKHDF/PointData/{name}"][:] = values
 
 
-def test_moments_are_fractions_of_the_mean_displacement(make_run: MakeRun) -> None:
+def test_moments_are_fractions_of_the_displacement_without_times(make_run: MakeRun) -> None:
     folder, columns = make_run(times="[]"), history_columns(101, 2)
     displacement = np.minimum(columns["time_s"] ** 2, 36.0)  # stop at 6 s
     write_history(folder / "history.csv", columns | {"mean_displacement_m": displacement})
@@ -34,10 +34,7 @@ def test_moments_are_fractions_of_the_mean_displacement(make_run: MakeRun) -> No
     for still in (0.0, np.nan):
         write_history(folder / "history.csv", columns | {"mean_displacement_m": np.full(101, still)})
         assert moments(Run(folder)) == [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]
-
-
-def test_times_of_the_case_have_priority(make_run: MakeRun) -> None:
-    assert [shot.time for shot in chosen_snapshots(Run(make_run(times="[1.0, 9.0]")))] == [1.0, 9.0]
+    assert [shot.time for shot in chosen_snapshots(Run(make_run(name="given", times="[1.0, 9.0]")))] == [1.0, 9.0]
 
 
 def test_velocities_are_those_of_displacement(make_run: MakeRun) -> None:

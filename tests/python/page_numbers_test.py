@@ -66,30 +66,24 @@ def test_number_has_its_rule(text: str, expression: str, right: tuple[float, ...
     assert [number.agrees(value) for value in wrong] == [False] * len(wrong)
 
 
-def test_wrong_number_is_reported_with_its_line() -> None:
+def test_wrong_number_and_violated_bound_are_reported_with_their_line() -> None:
     assert differences(page_of(PEAK), SOURCE, {"peak": 84.4, "rise": 30.9}) == ([], 2)
     wrong, compared = differences(page_of(PEAK), SOURCE, {"peak": 80.27, "rise": 30.9})
     assert compared == 2
     assert [str(each) for each in wrong] == [
         "page.md:3: says 84, the run gives 80.3 ('a peak of 84 m/s, 31 s after the start': peak)"
     ]
-
-
-def test_violated_bound_is_reported() -> None:
     wrong, _ = differences(page_of(phrase_of(["a peak of {84} m/s", "peak at most"])), SOURCE, {"peak": 84.5})
     assert [str(each) for each in wrong] == [
         "page.md:3: says at most 84, the run gives 84.5 ('a peak of 84 m/s': peak)"
     ]
 
 
-def test_unknown_name_is_reported_and_absent_run_is_not() -> None:
+def test_names_and_expressions_without_a_value_are_reported() -> None:
     assert differences(page_of(PEAK), SOURCE, {"peak": 84.4}, {"rise"}) == ([], 1)
     wrong, compared = differences(page_of(PEAK), SOURCE, {"peak": 84.4})
     assert compared == 2
     assert [str(each) for each in wrong] == ["page.md:3: 'rise' has no value: name 'rise' is not defined"]
-
-
-def test_expression_without_a_value_is_reported() -> None:
     page = page_of(phrase_of(["a peak of {84} m/s", 'peak["speed"]']))
     wrong, compared = differences(page, SOURCE, {"peak": {}})
     assert compared == 1
@@ -145,15 +139,12 @@ def test_checked_phrase_must_occur_once(text: str, count: int) -> None:
     assert len(page_numbers.misplaced(page_of(phrase_of([text, "x"])), SOURCE + SOURCE)) == 1
 
 
-def test_given_phrase_must_occur_at_least_once() -> None:
+def test_given_phrases_occur_and_undeclared_numbers_are_reported() -> None:
     assert page_numbers.misplaced(page_of(given=("Cells of 10 m",)), SOURCE + SOURCE) == []
     assert page_numbers.misplaced(page_of(given=("Cells of 20 m",)), SOURCE) == [
         "page.md: the page does not state 'Cells of 20 m' as declared (found 0 times; allowed 1 or more). Write in the "
         "declarations what the page says."
     ]
-
-
-def test_undeclared_number_is_reported() -> None:
     assert page_numbers.undeclared(page_of(PEAK, given=("Cells of 10 m",)), SOURCE) == []
     assert page_numbers.undeclared(page_of(PEAK, given=("## Inputs",)), SOURCE) == []
     assert page_numbers.undeclared(page_of(PEAK), SOURCE) == ["page.md:8: '10 m' is not declared"]

@@ -141,12 +141,9 @@ def test_figures_and_sentences_are_complete() -> None:
             assert (test[1] == "within") <= (len(test) == 4)
 
 
-def test_runs_have_unique_names() -> None:
+def test_runs_have_unique_names_and_sentences_a_tolerance_of_a_tenth() -> None:
     names = [run.key for run in all_runs()]
     assert len(set(names)) == len(names) == 39
-
-
-def test_numbers_in_sentences_have_a_tolerance_of_a_tenth() -> None:
     # The page states it for all rows; the tolerance of saturations is 0.1.
     for row in claims():
         for left, kind, right, *width in row.get("tests", []):
@@ -154,10 +151,13 @@ def test_numbers_in_sentences_have_a_tolerance_of_a_tenth() -> None:
                 assert width[0] == pytest.approx(0.1 * right, rel=0.01), (row["text"], left)
 
 
-def test_water_in_frozen_equilibrium_has_lower_pressure() -> None:
+def test_equations_4_and_25_have_their_limits() -> None:
     # Eq. 4 with the usual sign: rho_L L_f ln(263.15/273.15) at -10 C, nothing at 0 C.
     assert clapeyron(-10.0) == pytest.approx(-12.4387, abs=1e-3)
     assert clapeyron(0.0) == 0.0
+    assert friction_coefficient(0.95, 1.0) == pytest.approx(0.0, abs=1e-12)
+    assert friction_coefficient(0.225, 0.0) == pytest.approx(math.tan(math.radians(40.0)))
+    assert friction_coefficient(0.375, 0.0) == pytest.approx(0.82599, abs=1e-5)  # initial value of D
 
 
 def short_run(folder: Path, columns: dict[str, list[float]]) -> Run:
@@ -191,12 +191,6 @@ def test_cohesion_of_he_et_al_is_that_of_a_slab_of_50_m() -> None:
     found = balance(block, 6e5)
     assert found["lamplugh_balance"] == pytest.approx(0.61)
     assert found["lamplugh_short"] == pytest.approx(100.0 * (1.0 - 0.751 / 0.8))
-
-
-def test_coefficient_of_eq_25_has_its_limits() -> None:
-    assert friction_coefficient(0.95, 1.0) == pytest.approx(0.0, abs=1e-12)
-    assert friction_coefficient(0.225, 0.0) == pytest.approx(math.tan(math.radians(40.0)))
-    assert friction_coefficient(0.375, 0.0) == pytest.approx(0.82599, abs=1e-5)  # initial value of D
 
 
 def test_basal_resistance_is_work_over_displacement(tmp_path: Path) -> None:

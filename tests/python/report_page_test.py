@@ -81,16 +81,12 @@ def test_page_with_selected_figures_keeps_the_others(make_run: MakeRun) -> None:
     assert page.count("Plotted before the last change of history.csv.") == 2
 
 
-def test_linked_figures_are_not_kept(make_run: MakeRun, tmp_path: Path) -> None:
+def test_linked_figures_are_not_kept_and_inputs_have_hashes(make_run: MakeRun, tmp_path: Path) -> None:
     folder = make_run()
     make_report(Run(folder), names=["motion"], dpi=50)
     (tmp_path / "secret.png").write_bytes(b"private")
     (folder / "figures" / "band.png").symlink_to(tmp_path / "secret.png")
     assert not make_report(Run(folder), names=["motion"], dpi=50).kept
-
-
-def test_inputs_have_their_hashes(make_run: MakeRun) -> None:
-    folder = make_run()
     file = {"path": "/cases/x/slope.csv", "sha256": "ab12" * 16, "bytes": 1234}
     update_facts(folder, inputs=[file, {"path": 5}, "text"])
     page = page_of(folder)
@@ -114,18 +110,6 @@ def test_balances_have_a_verdict(make_run: MakeRun) -> None:
         "<td>maximum residual 2 % of the maximum change of any term</td>" in page
     )
     assert "The balance of mechanical energy does not close." in page
-
-
-def test_mobility_of_a_section_is_that_of_profile_and_history(make_run: MakeRun) -> None:
-    run = Run(make_run())
-    found = mobility_of(run)
-    # 80 particles of 1 m3 per metre of width, 10 m wide; the highest is 3.5 m above the slope 1/2 at x = 20.5 m.
-    assert (found.volume, found.length) == (pytest.approx(800.0), pytest.approx(160.0))
-    assert found.height == pytest.approx(0.5 * (160.0 - 20.5) + 3.5)
-    rows = {row.words: row.value for row in main_numbers(run)}
-    assert (rows["Release volume"], rows["H/L"]) == ("800 m³", "0.46")
-    assert rows["Peak flow thickness"] == "4 m"
-    assert rows["Arrival time"] == "9.9 s"  # of 40 + 12 t >= 0.99 * 160
 
 
 @pytest.mark.parametrize("tilt", [40.0, -20.0])
@@ -164,19 +148,36 @@ def test_mobility_with_tilted_gravity_of_a_run_towards_minus_x(make_run: MakeRun
     assert mobility_of(Run(folder)).length == pytest.approx(30.0 * np.cos(angle))  # from x = 40 m to 10 m
 
 
-def test_main_numbers_of_a_map_run_are_those_of_its_maps(map_run: Path) -> None:
+def test_main_numbers_of_a_map_run_are_those_of_its_maps_and_an_event(map_run: Path) -> None:
     rows = {row.words: row.value for row in main_numbers(Run(map_run))}
     assert (rows["Release volume"], rows["Peak speed"]) == ("28,800 m³", "20 m/s")
     assert (rows["Peak flow thickness"], rows["H/L"]) == ("6 m", "0.4")
     assert (rows["Latest arrival time"], rows["Arrival time at probe gate"]) == ("9.8 s", "5 s")
+    parts = json.loads(element(page_of(map_run), "events-parts"))
+    *published, run = parts["traces"]
+    assert sum(len(trace["x"]) for trace in published) == len(published_events())
+    assert run["name"] == "this run"
+    assert (run["x"], run["y"]) == ([pytest.approx(0.0288)], [pytest.approx(112.0 / 280.0)])
+    assert parts["layout"]["xaxis"]["type"] == "log"
+    for travelled in (None, 0.0, -5.0):
+        update_facts(map_run, travel_distance_m=travelled)
+        assert events_part({"x": mobility_of(Run(map_run))}) == ""
 
 
-def test_thickness_of_a_level_block_is_its_height(make_run: MakeRun) -> None:
+def test_mobility_and_thickness_of_a_section_are_those_of_profile_and_history(make_run: MakeRun) -> None:
     run = Run(make_run())
     shot = run.snapshot(0)
     thickness = particle_thickness(run, shot)
     inner = (shot.points[:, 0] > 23.0) & (shot.points[:, 0] < 37.0)
     assert thickness[inner] == pytest.approx(np.full(int(inner.sum()), 4.0))
+    found = mobility_of(run)
+    # 80 particles of 1 m3 per metre of width, 10 m wide; the highest is 3.5 m above the slope 1/2 at x = 20.5 m.
+    assert (found.volume, found.length) == (pytest.approx(800.0), pytest.approx(160.0))
+    assert found.height == pytest.approx(0.5 * (160.0 - 20.5) + 3.5)
+    rows = {row.words: row.value for row in main_numbers(run)}
+    assert (rows["Release volume"], rows["H/L"]) == ("800 m³", "0.46")
+    assert rows["Peak flow thickness"] == "4 m"
+    assert rows["Arrival time"] == "9.9 s"  # of 40 + 12 t >= 0.99 * 160
 
 
 def test_packed_arrays_return_with_16_bits() -> None:
@@ -252,18 +253,3 @@ def test_published_events_are_plausible_and_named() -> None:
         assert 0.05 < event.ratio < 0.7, event
         assert 1e4 < event.volume < 1e9, event
         assert re.search(r"\(\d{4}\)$", event.source), event
-
-
-def test_map_run_is_among_the_published_events(map_run: Path) -> None:
-    parts = json.loads(element(page_of(map_run), "events-parts"))
-    *published, run = parts["traces"]
-    assert sum(len(trace["x"]) for trace in published) == len(published_events())
-    assert run["name"] == "this run"
-    assert (run["x"], run["y"]) == ([pytest.approx(0.0288)], [pytest.approx(112.0 / 280.0)])
-    assert parts["layout"]["xaxis"]["type"] == "log"
-
-
-def test_run_without_a_distance_is_not_among_the_events(map_run: Path) -> None:
-    for travelled in (None, 0.0, -5.0):
-        update_facts(map_run, travel_distance_m=travelled)
-        assert events_part({"x": mobility_of(Run(map_run))}) == ""

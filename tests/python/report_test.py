@@ -43,15 +43,12 @@ def test_front_travel_distance_begins_at_the_first_known_front(make_run: MakeRun
     assert found["Front travel distance"] == ("96 m", "front at 10 s minus front at 2 s, the first known")
 
 
-def test_unknown_front_has_no_distances(make_run: MakeRun) -> None:
+def test_unknown_front_and_moving_mass_have_no_numbers(make_run: MakeRun) -> None:
     unknown = np.full(11, np.nan)
     reason = "no flow path: maps.path is not specified, and the mass has barely moved"
     found = numbers(Run(make_run(rows=11, history={"front_position_m": unknown, "runout_m": unknown})))
     assert found["Runout distance L"] == found["Front travel distance"] == ("not available", reason)
-
-
-def test_stop_time_of_a_moving_mass_has_its_velocity(make_run: MakeRun) -> None:
-    run = Run(make_run(rows=11, history={"mean_velocity_m_s": np.arange(11.0)}))
+    run = Run(make_run(name="moving", rows=11, history={"mean_velocity_m_s": np.arange(11.0)}))
     assert stop_time(run) is None
     assert numbers(run)["Stop time"] == ("not reached", "mean velocity at 10 s: 10 m/s")
 
@@ -106,13 +103,10 @@ def test_report_has_all_figures_and_the_page(make_run: MakeRun) -> None:
     assert "This run is incomplete" not in page
 
 
-def test_no_note_on_boiling_below_100_degrees(make_run: MakeRun) -> None:
+def test_page_has_the_message_of_the_end_and_no_note_below_boiling(make_run: MakeRun) -> None:
     folder = make_run(rows=11, history={"band_temperature_C": np.full(11, 99.0)})
     assert "Water does not boil" not in page_of(folder)
-
-
-def test_page_has_the_message_of_the_end(make_run: MakeRun) -> None:
-    folder = make_run(facts={"status": "failed", "message": "particle 7 left the domain"})
+    folder = make_run(name="failed", facts={"status": "failed", "message": "particle 7 left the domain"})
     assert "This run is incomplete (failed): particle 7 left the domain." in page_of(folder)
     write_facts(folder, message="the whole slide has left.")
     page = page_of(folder)

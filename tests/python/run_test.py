@@ -62,16 +62,13 @@ def expect(folder: Path, text: str, kind: type[ReportError] = ReportError) -> No
         _ = run.case, run.history, run.terrain, run.targets, run.facts, run.times, run.snapshot(0)
 
 
-def test_other_folders_are_errors(make_run: MakeRun, tmp_path: Path) -> None:
+def test_other_folders_and_missing_targets_are_errors(make_run: MakeRun, tmp_path: Path) -> None:
     expect(tmp_path / "nowhere", "no such folder. Select the folder of a run, e.g. runs/lamplugh.")
     expect(tmp_path, "not a run folder (found no case.toml and no history.csv). Select the folder of a run.")
     folder = make_run()
     (folder / "history.csv").unlink()
     expect(folder, "not a run folder (found no history.csv).")
-
-
-def test_missing_targets_file_names_the_key(make_run: MakeRun) -> None:
-    folder = make_run()
+    folder = make_run(name="targets")
     (folder / "inputs" / "targets.csv").unlink()
     expect(folder, "targets.csv: no such file. Correct report.targets in ")
 

@@ -44,13 +44,10 @@ def test_row_of_cells_has_the_depth_of_the_difference_equation(tmp_path: Path) -
     assert depth[0] == pytest.approx(3.0 * (1.0 - np.cosh(k * (i - 10.0)) / np.cosh(k * 10.0)), abs=1e-6)
 
 
-def test_long_strip_has_a_parabolic_section(tmp_path: Path) -> None:
+def test_long_strips_have_parabolic_sections(tmp_path: Path) -> None:
     # 4 C = -(d_(i-1) - 2 d_i + d_(i+1)): d_i = 2 C i (n - i), far from the ends of the strip
     depth, i = depth_in(tmp_path, 9, 101, Slbl(tolerance=0.2)), np.arange(1, 10)
     assert depth[50] == pytest.approx(0.4 * i * (10.0 - i), rel=1e-6)
-
-
-def test_strip_of_cells_that_are_not_square_has_a_parabolic_section(tmp_path: Path) -> None:
     # The neighbours along x have the weight 20^2 / (2 (10^2 + 20^2)) = 0.4 each.
     depth = depth_in(tmp_path, 9, 51, Slbl(tolerance=0.2), cell_y=20.0)
     i = np.arange(1, 10)

@@ -111,14 +111,11 @@ def test_given_tilt_of_an_ellipsoid_is_that_of_the_slope(tmp_path: Path) -> None
     assert given.failure_surface[deepest] == pytest.approx(slope(np.array(x - X), np.array(y - Y)) - 60.0, abs=0.06)
 
 
-def test_ellipsoid_reaches_a_volume(tmp_path: Path) -> None:
+def test_ellipsoids_and_planes_reach_a_volume(tmp_path: Path) -> None:
     dem = write_dem(tmp_path / "dem.tif", slope, 5.0)
     release = thawslide.scarp(dem, Ellipsoid(X, Y, 300.0, 150.0, 10.0), volume=3e6)
     assert release.volume == pytest.approx(3e6, rel=1e-3) and isinstance(release.surface, Ellipsoid)
     assert release.surface.depth == pytest.approx(3e6 / (2.0 / 3.0 * math.pi * 300.0 * 150.0), rel=2e-3)
-
-
-def test_plane_reaches_a_volume_in_an_outline(tmp_path: Path) -> None:
     dem = write_dem(tmp_path / "dem.tif", slope)
     within = write_outline(tmp_path / "within.geojson", rectangle((-300.0, 0.0), (-100.0, 100.0)))
     exact = 0.5 * DIFFERENCE * 300.0**2 * 200.0

@@ -14,22 +14,21 @@ from thawslide.pages.summary import make_summary
 from thawslide.pages.summary_text import arrival_rows, limits, plain_numbers, scenario
 
 
-def test_numbers_are_those_of_the_run_in_common_units(map_run: Path) -> None:
+def test_numbers_and_arrivals_are_those_of_the_run(map_run: Path) -> None:
     assert [(each.name, each.value) for each in plain_numbers(Run(map_run))] == [
         ("released volume", "28,800 m³"), ("travel distance", "280 m"), ("affected area", "16,800 m²"),
         ("maximum thickness", "6 m"), ("maximum speed", "72 km/h"),
     ]  # fmt: skip
     assert plain_numbers(Run(map_run))[1].meaning == "It falls 112 m over this distance."
+    assert arrival_rows(Run(map_run)) == [("gate", "5 s", "6 m")]
 
 
-def test_scenario_states_rest_or_motion(map_run: Path) -> None:
+def test_scenario_states_rest_or_motion_and_limits_the_warnings(map_run: Path) -> None:
     assert "The mass is at rest from 8.5 s on." in scenario(Run(map_run))
     update_facts(map_run, at_rest=False, rest_since_s=None)
     assert "The mass was still moving at the end: the affected area can become larger." in scenario(Run(map_run))
-
-
-def test_arrivals_are_those_at_the_probes(map_run: Path) -> None:
-    assert arrival_rows(Run(map_run)) == [("gate", "5 s", "6 m")]
+    update_facts(map_run, warnings=["one", "two"])
+    assert limits(Run(map_run))[-1].startswith("The program reported 2 warnings on this run")
 
 
 def test_many_probes_leave_space_for_the_map(map_run: Path) -> None:
@@ -43,11 +42,6 @@ def test_many_probes_leave_space_for_the_map(map_run: Path) -> None:
     page, document = make_summary(Run(map_run), dpi=30)
     assert page.read_text().count(">place ") == 40
     assert document.stat().st_size > 10_000
-
-
-def test_limits_count_the_warnings(map_run: Path) -> None:
-    update_facts(map_run, warnings=["one", "two"])
-    assert limits(Run(map_run))[-1].startswith("The program reported 2 warnings on this run")
 
 
 def test_classes_cover_the_maps(map_run: Path) -> None:

@@ -58,12 +58,9 @@ def test_snapshots_have_aligned_times(folder: Path) -> None:
     assert found == pytest.approx([SHIFT, SHIFT + 4.0, SHIFT + 7.0], abs=0.05)
 
 
-def test_page_has_the_times_of_its_figures(folder: Path) -> None:
+def test_page_and_figures_of_band_columns_have_aligned_times(folder: Path) -> None:
     (peak,) = [row for row in key_numbers(Run(folder)) if row.words == "Peak mean velocity"]
     assert float(peak.remark.split()[1]) == pytest.approx(5.0 + SHIFT, abs=0.06)
-
-
-def test_figures_of_band_columns_have_aligned_times(folder: Path) -> None:
     write_history(folder / "history.csv", column_history())
     run = Run(folder)
     for name in ("band", "water"):

@@ -74,15 +74,12 @@ def test_limit_of_boiling_columns_is_the_melting_point_of_rock(make_run: MakeRun
     }
 
 
-def test_warnings_are_above_the_curves(make_run: MakeRun) -> None:
+def test_warnings_are_above_curves_and_unapplied_pressure_is_marked(make_run: MakeRun) -> None:
     figure = FIGURES["band"].plot(Run(make_run(history={"band_temperature_C": np.full(101, 400.0)})))
     figure.draw_without_rendering()
     (box,) = [text for text in figure.findobj(Text) if text.get_text().startswith("⚠ unphysical: 400 °C")]
     assert box.axes.transData.inverted().transform(box.get_window_extent().corners())[:, 1].min() > 400.0
-
-
-def test_unapplied_pore_pressure_is_marked(make_run: MakeRun) -> None:
-    folder = make_run(tables="[mechanisms]\npressurization = false\n")
+    folder = make_run(name="dry", tables="[mechanisms]\npressurization = false\n")
     labels = [text.get_text() for text in FIGURES["band"].plot(Run(folder)).findobj(Text)]
     assert "pore pressure P, computed but not applied\n(mechanisms.pressurization = false)" in labels
 

@@ -63,11 +63,14 @@ def test_maps_match_numpy_exactly(ensemble: tuple[list[Path], dict[str, Numbers]
         assert np.array_equal(read(output / f"arrival_p{percent}.tif"), expected, equal_nan=True)
 
 
-def test_each_map_has_style_unit_and_text(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path) -> None:
+def test_maps_have_styles_and_thresholds(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path) -> None:
     paths = write_probability_maps(rasters_in(ensemble[0]), tmp_path / "out")
     assert all("colorrampshader" in path.with_suffix(".qml").read_text() for path in paths)
     with rasterio.open(tmp_path / "out" / "speed_p50.tif") as file:
         assert file.units == ("m/s",) and file.descriptions == ("50 % quantile of maximum speed",)
+    names = {path.stem for path in write_probability_maps(rasters_in(ensemble[0]), tmp_path, {"speed": [7.0]})}
+    assert {"speed_above_7", "thickness_above_0.5", "thickness_above_1", "thickness_above_5"} <= names
+    assert "speed_above_5" not in names
 
 
 def test_map_of_reached_cells_has_its_threshold(
@@ -113,9 +116,3 @@ def test_folders_without_maps_are_refused(tmp_path: Path, capsys: pytest.Capture
     (tmp_path / "empty").mkdir()
     assert main([str(tmp_path / "empty")]) == 2 and "no map" in capsys.readouterr().err
     assert main([str(tmp_path / "absent")]) == 2 and "no such file or folder" in capsys.readouterr().err
-
-
-def test_quantities_have_default_thresholds(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path) -> None:
-    names = {path.stem for path in write_probability_maps(rasters_in(ensemble[0]), tmp_path, {"speed": [7.0]})}
-    assert {"speed_above_7", "thickness_above_0.5", "thickness_above_1", "thickness_above_5"} <= names
-    assert "speed_above_5" not in names
