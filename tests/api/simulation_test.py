@@ -65,18 +65,6 @@ def test_a_changed_run_is_that_of_resume(slope: Path, tmp_path: Path, command_li
     assert_identical(simulation.history, history_of(run))
 
 
-def test_a_restored_simulation_continues_bitwise(slope: Path) -> None:
-    whole = Simulation(slope, threads=1, on_message=silent)
-    whole.run(until=0.4)
-    checkpoint = whole.checkpoint()
-    whole.run()
-    other = Simulation(slope, threads=2, on_message=silent)
-    other.restore(checkpoint)
-    assert other.time == pytest.approx(0.4)
-    other.run()
-    assert_identical(other.history, whole.history)
-
-
 def test_a_damaged_checkpoint_and_one_of_another_case_are_refused(slope: Path) -> None:
     simulation = Simulation(slope, threads=1, on_message=silent)
     checkpoint = simulation.checkpoint()
@@ -110,7 +98,7 @@ def test_fields_are_read_only_views(slope: Path) -> None:
         simulation.field("speed")
 
 
-def test_views_stay_readable_after_a_restoration(slope: Path) -> None:
+def test_a_restored_simulation_continues_bitwise_with_its_views(slope: Path) -> None:
     simulation = Simulation(slope, threads=1, on_message=silent)
     temperature = simulation.field("temperature")
     expected = temperature.copy()
@@ -118,6 +106,15 @@ def test_views_stay_readable_after_a_restoration(slope: Path) -> None:
     filled = [np.full(temperature.size, 7.7) for _ in range(100)]
     np.testing.assert_array_equal(temperature, expected)
     assert len(filled) == 100
+    whole = Simulation(slope, threads=1, on_message=silent)
+    whole.run(until=0.4)
+    checkpoint = whole.checkpoint()
+    whole.run()
+    other = Simulation(slope, threads=2, on_message=silent)
+    other.restore(checkpoint)
+    assert other.time == pytest.approx(0.4)
+    other.run()
+    assert_identical(other.history, whole.history)
 
 
 def test_another_thread_may_not_use_a_simulation_at_work(slope: Path) -> None:

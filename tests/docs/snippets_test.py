@@ -72,7 +72,7 @@ def test_dots_match_lines_and_diffs_show_the_others() -> None:
     assert difference(["a [..]", "b"], ["a 1", "c"]).splitlines()[3:] == [" a [..]", "-b", "+c"]
 
 
-def test_commands_of_a_page_run_in_one_folder(tmp_path: Path) -> None:
+def test_commands_run_in_one_folder_within_their_limit(tmp_path: Path) -> None:
     page = (
         "<!-- file: data/a.txt -->\n```text\none\n```\n"
         "```console\n$ cd data\n$ cat a.txt\none\n```\n"
@@ -83,10 +83,7 @@ def test_commands_of_a_page_run_in_one_folder(tmp_path: Path) -> None:
     assert page_failures(page, Scratch(tmp_path / "clone"), long=False) == []
     (failure,) = page_failures(page.replace("a.txt\none\n", "a.txt\ntwo\n"), Scratch(tmp_path / "other"), long=False)
     assert failure.startswith("line 7: $ cat a.txt\ndoes not come: two\n") and "-two\n+one" in failure
-
-
-def test_a_command_over_its_limit_is_stopped_with_its_processes(tmp_path: Path) -> None:
-    scratch = Scratch(tmp_path / "clone")
+    scratch = Scratch(tmp_path / "limited")
     code, output = scratch.run("(sleep 3; touch late) & sleep 30", 0.5)
     assert (code, output) == (-1, ["(stopped after 0.5 s)"])
     time.sleep(4.0)

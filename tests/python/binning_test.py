@@ -46,14 +46,11 @@ def test_thickness_and_basal_temperature_of_a_slab_are_exact(map_run: Path) -> N
     assert columns.time == 10.0
 
 
-def test_invalid_particles_are_excluded(map_run: Path) -> None:
+def test_invalid_particles_and_other_fields_are_excluded(map_run: Path) -> None:
     with h5py.File(map_run / "snapshots" / "000000.vtkhdf", "a") as file:
         file["VTKHDF/Points"][0] = np.nan
         file["VTKHDF/PointData/volume"][1] = np.nan
     run = Run(map_run)
     columns = gather(Maps(run)["release"].grid, run.snapshot(0, fields=FIELDS), 10.0)
     assert columns.thickness.volume() == pytest.approx(LENGTH * WIDTH * THICKNESS - 2 * 50.0, rel=1e-12)
-
-
-def test_only_requested_fields_are_read(map_run: Path) -> None:
     assert sorted(Run(map_run).snapshot(0, fields=FIELDS)) == sorted(FIELDS)

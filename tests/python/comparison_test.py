@@ -14,13 +14,10 @@ from thawslide.maps import Grid, Map, read_map
 SLOPE = math.tan(math.radians(30.0))
 
 
-def test_plane_has_no_kink_between_slope_parabola_and_level_terrain() -> None:
+def test_terrains_have_the_specified_values_without_a_kink(tmp_path: Path) -> None:
     slope = np.diff(grounds.plane_profile(np.arange(0.0, 2_600.0, 0.5))) / 0.5
     assert (slope[:1_699], slope[2_300:]) == (pytest.approx(-SLOPE, abs=1e-9), pytest.approx(0.0, abs=1e-9))
     assert np.abs(np.diff(slope)).max() == pytest.approx(SLOPE * 0.5 / 300.0, rel=1e-6)
-
-
-def test_terrains_have_the_specified_values(tmp_path: Path) -> None:
     for ground, place, height in [
         (grounds.PLANE, (400_302.5, 400_502.5), SLOPE * (1_000.0 - 302.5)),
         (grounds.BOWL, (400_302.5, 400_902.5), (597.5**2 + 2.5**2) / 2_000.0),

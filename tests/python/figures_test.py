@@ -232,7 +232,7 @@ def test_front_travel_distance_begins_at_the_first_known_front(make_run: MakeRun
     np.testing.assert_allclose(front, [np.nan, np.nan, *(12.0 * np.arange(9.0))], atol=1e-12)
 
 
-def test_reported_values_after_the_end_are_counted_in_the_legend(make_run: MakeRun) -> None:
+def test_reported_values_outside_the_run_are_counted_in_the_legend(make_run: MakeRun) -> None:
     until_5_s = {name: values[:51] for name, values in history_columns(101, 2).items()}
     figure = FIGURES["motion"].plot(Run(make_run(history=until_5_s)))
     speed, distance = titled(figure, "(a) speed"), titled(figure, "(b) distance")
@@ -242,11 +242,8 @@ def test_reported_values_after_the_end_are_counted_in_the_legend(make_run: MakeR
         "1 reported value of mean displacement after the end of the run",
         "1 reported value of runout distance after the end of the run",
     ]
-
-
-def test_reported_values_before_the_start_are_counted_in_the_legend(make_run: MakeRun) -> None:
     targets = "quantity,time_s,value,unit\nmean_velocity,-100,9,m/s\nmean_velocity,99,9,m/s\n"
-    (speed, _) = FIGURES["motion"].plot(Run(make_run(targets=targets))).axes
+    (speed, _) = FIGURES["motion"].plot(Run(make_run(name="outside", targets=targets))).axes
     assert not [marks for marks in speed.lines if str(marks.get_label()).startswith("reported")]
     note = "1 reported value before the start of the run, 1 reported value after the end of the run"
     assert legend_notes(speed) == [note]

@@ -99,14 +99,6 @@ def test_verdict_lists_rows_that_are_met_and_not_met() -> None:
     assert "- runout: no member has it (accepted: 9 to 11.5)" in verdict([Observed("not run")])
 
 
-def test_members_differ_in_their_seed_and_one_is_in_the_middle() -> None:
-    rows = members.member_rows()
-    assert [row.sets for row in rows] == [("initial.noise=0.1", f"initial.seed={seed}") for seed in range(1, 21)]
-    assert len({row.key for row in rows}) == 20
-    found = [changed(peak=78.0), changed(peak=79.0, failure="bad"), changed(peak=81.0, runout=11.0), changed(peak=80.0)]
-    assert members.middle_member(found) == 3
-
-
 def test_variants_differ_from_the_case() -> None:
     sets = [row.sets[0] for row in members.variant_rows(CASE)]
     assert len(sets) == 16 and "band.growth_per_slip=1e-12" not in sets
@@ -135,10 +127,15 @@ def test_values_outside_the_intervals_are_bold() -> None:
     assert broken == "- hot failed: it left"
 
 
-def test_numbers_have_names_of_medians_and_variants() -> None:
+def test_members_differ_in_their_seed_and_have_medians_and_a_middle() -> None:
     named = members.numbers([GOOD, changed(peak=70.0)], {"e-0.35": changed(runout=8.0)})
     assert (named["median_peak"], named["least_peak"], named["most_peak"]) == (75.0, 70.0, 80.0)
     assert named["e_0_35_runout"] == 8.0
+    rows = members.member_rows()
+    assert [row.sets for row in rows] == [("initial.noise=0.1", f"initial.seed={seed}") for seed in range(1, 21)]
+    assert len({row.key for row in rows}) == 20
+    found = [changed(peak=78.0), changed(peak=79.0, failure="bad"), changed(peak=81.0, runout=11.0), changed(peak=80.0)]
+    assert members.middle_member(found) == 3
 
 
 def test_members_have_aligned_times(make_run: MakeRun) -> None:

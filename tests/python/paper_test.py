@@ -129,7 +129,7 @@ def test_verdicts_follow_from_comparisons() -> None:
     assert filled("{x:.1f}", {"x": -2.0}) == "−2.0"
 
 
-def test_figures_and_sentences_are_complete() -> None:
+def test_runs_figures_and_sentences_are_complete() -> None:
     assert sorted(row["name"] for row in table("figures")) == sorted(NAMES)
     for row in table("figures"):
         assert all(row[key].strip() for key in ("heading", "paper", "result", "why"))
@@ -139,9 +139,6 @@ def test_figures_and_sentences_are_complete() -> None:
         for test in row.get("tests", []):
             assert test[1] in ("<", ">", "within") and len(test) in (3, 4)
             assert (test[1] == "within") <= (len(test) == 4)
-
-
-def test_runs_have_unique_names_and_sentences_a_tolerance_of_a_tenth() -> None:
     names = [run.key for run in all_runs()]
     assert len(set(names)) == len(names) == 39
     # The page states it for all rows; the tolerance of saturations is 0.1.

@@ -180,7 +180,7 @@ def test_mobility_and_thickness_of_a_section_are_those_of_profile_and_history(ma
     assert rows["Arrival time"] == "9.9 s"  # of 40 + 12 t >= 0.99 * 160
 
 
-def test_packed_arrays_return_with_16_bits() -> None:
+def test_packed_arrays_return_with_16_bits_in_a_limited_amount() -> None:
     packing, values = Packing(), np.array([[1.5, np.nan], [-3.0, 1e4]])
     constant = np.full(3, 7.25)
     places = [packing.add(values), packing.add(constant), packing.add(np.full(2, np.nan)), packing.add(np.zeros(0))]
@@ -188,6 +188,17 @@ def test_packed_arrays_return_with_16_bits() -> None:
     assert unpacked(text, places[0]) == pytest.approx(values.ravel(), abs=10_003.0 / 131_068, nan_ok=True)
     assert unpacked(text, places[1]).tolist() == [7.25] * 3 and np.isnan(unpacked(text, places[2])).all()
     assert unpacked(text, places[3]).size == 0
+    assert len(spaced(1000, MOST_SNAPSHOTS)) == MOST_SNAPSHOTS
+    assert spaced(1000, MOST_SNAPSHOTS)[-1] == 999
+    assert spaced(3, MOST_SNAPSHOTS) == [0, 1, 2]
+    assert spaced(0, MOST_SNAPSHOTS) == []
+    ids = np.arange(1_000_000)
+    rows = chosen_particles(ids, len(ids))
+    assert len(rows) == pytest.approx(MOST_PARTICLES, rel=0.05)
+    counts, _ = np.histogram(rows, bins=10, range=(0, len(ids)))
+    assert counts.min() > 0.8 * MOST_PARTICLES / 10, "distributed over the body"
+    later = chosen_particles(ids[500_000:], len(ids))
+    assert np.array_equal(ids[500_000:][later], rows[rows >= 500_000]), "the same particles"
 
 
 def test_section_view_has_the_particles_of_each_snapshot(make_run: MakeRun) -> None:
@@ -224,20 +235,6 @@ def test_map_view_has_the_volume_of_the_mass(map_run: Path) -> None:
     assert len(unpacked(data, parts["elevation"])) == len(reached)
     assert {line["words"] for line in parts["lines"]} == {"release", "affected area", "flow path"}
     assert list(parts["probes"]) == ["gate"]
-
-
-def test_amount_of_data_is_limited() -> None:
-    assert len(spaced(1000, MOST_SNAPSHOTS)) == MOST_SNAPSHOTS
-    assert spaced(1000, MOST_SNAPSHOTS)[-1] == 999
-    assert spaced(3, MOST_SNAPSHOTS) == [0, 1, 2]
-    assert spaced(0, MOST_SNAPSHOTS) == []
-    ids = np.arange(1_000_000)
-    rows = chosen_particles(ids, len(ids))
-    assert len(rows) == pytest.approx(MOST_PARTICLES, rel=0.05)
-    counts, _ = np.histogram(rows, bins=10, range=(0, len(ids)))
-    assert counts.min() > 0.8 * MOST_PARTICLES / 10, "distributed over the body"
-    later = chosen_particles(ids[500_000:], len(ids))
-    assert np.array_equal(ids[500_000:][later], rows[rows >= 500_000]), "the same particles"
 
 
 def test_damaged_snapshot_leaves_the_page_without_a_view(map_run: Path) -> None:

@@ -36,15 +36,12 @@ def depth_in(tmp_path: Path, columns: int, rows: int, surface: Slbl, **dem: obje
     return depth
 
 
-def test_row_of_cells_has_the_depth_of_the_difference_equation(tmp_path: Path) -> None:
+def test_rows_of_cells_and_long_strips_have_closed_forms(tmp_path: Path) -> None:
     # 4 d_i - d_(i-1) - d_(i+1) = 4 C, with d = 0 at the ends, has the solution
     # d_i = 2 C [1 - cosh(k (i - n/2)) / cosh(k n/2)], cosh k = 2.
     depth = depth_in(tmp_path, 19, 1, Slbl(tolerance=1.5))
     k, i = np.arccosh(2.0), np.arange(1, 20)
     assert depth[0] == pytest.approx(3.0 * (1.0 - np.cosh(k * (i - 10.0)) / np.cosh(k * 10.0)), abs=1e-6)
-
-
-def test_long_strips_have_parabolic_sections(tmp_path: Path) -> None:
     # 4 C = -(d_(i-1) - 2 d_i + d_(i+1)): d_i = 2 C i (n - i), far from the ends of the strip
     depth, i = depth_in(tmp_path, 9, 101, Slbl(tolerance=0.2)), np.arange(1, 10)
     assert depth[50] == pytest.approx(0.4 * i * (10.0 - i), rel=1e-6)

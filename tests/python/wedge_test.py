@@ -51,7 +51,7 @@ def test_wedge_factor_in_a_v_channel_is_exact(opening: float, slope: float, dire
     assert wedged / load == pytest.approx(1.0 / math.sin(half), rel=1e-9)
 
 
-def test_curved_terrain_adds_the_centrifugal_force() -> None:
+def test_curved_terrain_adds_the_centrifugal_force_and_bumps_cancel() -> None:
     radius, speed = 1_000.0, 20.0
     ground = wedge.derivatives(Map(GRID, radius - np.sqrt(radius**2 - X**2)))
     x = 100.0
@@ -59,9 +59,6 @@ def test_curved_terrain_adds_the_centrifugal_force() -> None:
     load, wedged = wedge.rates(ground, *one_particle(x, 0.0, 0.0, speed * cosine))
     assert load == pytest.approx(7.0 * speed * (9.81 * cosine + speed**2 / radius), rel=1e-4)
     assert wedged == pytest.approx(load, rel=1e-12)
-
-
-def test_bumps_cancel_in_the_load() -> None:
     # Bumps along the motion, an integer number of waves below evenly spaced particles.
     ground = wedge.derivatives(Map(GRID, 0.2 * np.sin(2.0 * math.pi * X / 40.0)))
     x = np.arange(-80.0, 80.0, 5.0)

@@ -9,13 +9,10 @@ from pathlib import Path
 from conftest import LIMIT, QGIS_PROCESS, ROOT, Algorithm
 
 
-def test_zip_file_has_the_same_bytes_each_time(zip_file: Path, tmp_path: Path) -> None:
+def test_zip_file_has_the_same_bytes_and_one_folder_with_metadata(zip_file: Path, tmp_path: Path) -> None:
     again = tmp_path / "again.zip"
     subprocess.run([ROOT / "scripts" / "qgis-plugin", again], check=True)
     assert again.read_bytes() == zip_file.read_bytes()
-
-
-def test_zip_file_contains_one_folder_with_licence_and_metadata(zip_file: Path) -> None:
     names = zipfile.ZipFile(zip_file).namelist()
     assert {name.split("/")[0] for name in names} == {"thawslide_qgis"}
     assert {"thawslide_qgis/LICENSE", "thawslide_qgis/metadata.txt", "thawslide_qgis/icon.svg"} <= set(names)

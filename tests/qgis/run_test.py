@@ -45,9 +45,10 @@ def test_a_run_is_replaced_on_request_only(algorithm: Algorithm, case: Path, tmp
     algorithm("runcase", **parameters, OVERWRITE="true")
 
 
-def test_temporary_folder_is_refused(algorithm: Algorithm, case: Path) -> None:
+def test_temporary_folders_and_missing_runs_are_refused(algorithm: Algorithm, case: Path, tmp_path: Path) -> None:
     refused = algorithm("runcase", CASE=case, OUTPUT="TEMPORARY_OUTPUT", code=1)
     assert "OUTPUT: a temporary folder is deleted when QGIS is closed." in refused.stderr
+    assert f"error: {tmp_path} is not a run folder" in algorithm("resumerun", RUN=tmp_path, code=1).stderr
 
 
 def test_cancelled_run_has_a_checkpoint_to_resume(
@@ -61,7 +62,3 @@ def test_cancelled_run_has_a_checkpoint_to_resume(
     assert 0.0 < reached < 100.0
     algorithm("resumerun", RUN=folder, THREADS=1, END=round(reached + 0.5, 1))
     assert state_of(folder)["status"] == "done"
-
-
-def test_resume_refuses_a_folder_without_a_run(algorithm: Algorithm, tmp_path: Path) -> None:
-    assert f"error: {tmp_path} is not a run folder" in algorithm("resumerun", RUN=tmp_path, code=1).stderr

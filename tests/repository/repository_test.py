@@ -103,11 +103,16 @@ def test_only_base_names_the_parallel_backend() -> None:
     assert {user for user in users if not user.startswith("src/base/")} == set()
 
 
-def test_physics_uses_no_arrays_input_or_output() -> None:
+def test_physics_uses_no_arrays_input_or_output_and_names_its_source() -> None:
     allowed = {"cmath", "limits", "utility", "variant", "array"}
     for path in code_files("src/physics"):
         used = set(re.findall(r"#include <([^>]+)>", path.read_text()))
         assert used <= allowed, f"{place(path)} includes {sorted(used - allowed)}"
+    for path in (path for path in code_files("src/physics") if path.suffix == ".hpp"):
+        opening = path.read_text().split("#pragma once")[0]
+        assert re.search(r"Eqs?\. ?\d|\d{4}|chapter|docs/theory/", opening), (
+            f"{place(path)} cites no equation and no paper"
+        )
 
 
 def test_physics_includes_only_device_code() -> None:
@@ -131,25 +136,14 @@ def test_core_neither_prints_nor_exits_nor_catches_signals() -> None:
         assert not found, f"{place(path)}: {found.group() if found else ''} belongs in src/app"
 
 
-def test_headers_have_a_guard_and_a_purpose() -> None:
+def test_headers_have_a_guard_and_sources_a_purpose() -> None:
     for path in (path for path in code_files("src") if path.suffix == ".hpp"):
         lines = path.read_text().splitlines()
         assert lines[0].startswith("// "), f"{place(path)} does not open with a comment"
         assert "#pragma once" in lines, f"{place(path)} lacks #pragma once"
-
-
-def test_sources_without_a_header_have_a_purpose() -> None:
     for path in (path for path in code_files("src") if path.suffix == ".cpp"):
         if not path.with_suffix(".hpp").exists():
             assert path.read_text().startswith("// "), f"{place(path)} has no header and no opening comment"
-
-
-def test_physics_files_name_their_source() -> None:
-    for path in (path for path in code_files("src/physics") if path.suffix == ".hpp"):
-        opening = path.read_text().split("#pragma once")[0]
-        assert re.search(r"Eqs?\. ?\d|\d{4}|chapter|docs/theory/", opening), (
-            f"{place(path)} cites no equation and no paper"
-        )
 
 
 @pytest.mark.parametrize(

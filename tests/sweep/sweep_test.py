@@ -70,12 +70,9 @@ def test_a_changed_case_or_input_is_another_sweep(
     assert main(command) == 2
 
 
-def test_a_title_may_be_longer_than_a_file_name(slope: Path, tmp_path: Path) -> None:
+def test_titles_may_be_long_and_columns_may_not_replace_others(slope: Path, tmp_path: Path) -> None:
     command = [str(slope), "--block", "--set", f"case.title={'x' * 300}", "--vary", "basal.friction_angle=20,30"]
     assert main([*command, "--output", str(tmp_path / "sweep")]) == 0
-
-
-def test_a_column_may_not_replace_another_one(slope: Path, tmp_path: Path) -> None:
     for name in ("status", "peak_speed_m_s", "probe_dam_speed_m_s", "runs"):
         command = [str(slope), "--block", "--vary", "basal.friction_angle=20,30", "--output", str(tmp_path / name)]
         assert main([*command, "--column", f"{name}=last(velocity_m_s)"]) == (0 if name == "runs" else 2)
