@@ -1,7 +1,5 @@
 """Basal laws written in Python."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any
@@ -15,7 +13,6 @@ from thawslide.basal_law import BasalLaw
 
 
 def simulated(case: Case | Path, law: BasalLaw | None = None, threads: int = 1) -> Simulation:
-    """Return a simulation at its end."""
     simulation = Simulation(case, threads=threads, on_message=silent, basal_law=law)
     simulation.run()
     return simulation

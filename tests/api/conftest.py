@@ -1,7 +1,5 @@
 """The program and a small case, for tests that compare the Python package with the command line."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """Notebooks of the documentation: they run in a copy of the repository's layout, and have outputs."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil
@@ -17,7 +15,6 @@ NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
 
 
 def code_of(notebook: Path) -> list[dict[str, Any]]:
-    """Return the code cells of a notebook."""
     return [cell for cell in json.loads(notebook.read_text())["cells"] if cell["cell_type"] == "code"]
 
 
@@ -28,8 +25,7 @@ def test_a_notebook_runs(notebook: Path, tmp_path: Path) -> None:
     shutil.copy(notebook, copy)
     (tmp_path / "cases").symlink_to(ROOT / "cases")
     (tmp_path / "runs").mkdir()
-    paths = f"{ROOT}:{ROOT / 'python'}"
-    environment = os.environ | {"PYTHONPATH": paths, "JUPYTER_PLATFORM_DIRS": "1"}
+    environment = os.environ | {"PYTHONPATH": f"{ROOT}:{ROOT / 'python'}", "JUPYTER_PLATFORM_DIRS": "1"}
     words = f"import pathlib; from reproduction.studies import notebooks as n; n.execute(pathlib.Path({str(copy)!r}))"
     command = [sys.executable, "-c", words]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=600)

@@ -1,7 +1,5 @@
 """Reading of runs: histories, maps and key numbers."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 
@@ -16,18 +14,16 @@ from thawslide import Case, NotInRunError, ReportError, Run, UserError
 
 @pytest.fixture(scope="module")
 def map_run(tmp_path_factory: pytest.TempPathFactory) -> Run:
-    """Return a short 3D run with maps."""
     folder = tmp_path_factory.mktemp("map") / "run"
     case = Case(thawslide_cases() / "valley3d", {"time.end": 0.4, "time.output_interval": 0.2, "grid.cell": 40.0})
     return thawslide.run(case, folder, threads=1, progress=False)
 
 
 def thawslide_cases() -> Path:
-    """Return the folder of the cases of the repository."""
     return Path(__file__).resolve().parents[2] / "cases"
 
 
-def test_a_history_is_a_table(slope: Path, tmp_path: Path) -> None:
+def test_a_2d_run_has_a_table_and_no_maps(slope: Path, tmp_path: Path) -> None:
     run = thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
     pd.testing.assert_frame_equal(
         run.history.to_pandas(), pd.read_csv(run.folder / "history.csv").astype(float), check_exact=True
@@ -35,6 +31,8 @@ def test_a_history_is_a_table(slope: Path, tmp_path: Path) -> None:
     shot = run.snapshot(-1)
     assert shot.time == pytest.approx(1.0) and shot.points.shape == (len(shot["mass"]), 3)
     assert shot.unit("temperature") == "C"
+    with pytest.raises(NotInRunError, match="Only a 3D run on a DEM writes maps"):
+        _ = run.maps
 
 
 def test_key_numbers_are_in_the_units_of_their_names(slope: Path, tmp_path: Path) -> None:
@@ -67,12 +65,6 @@ def test_a_map_is_an_array_of_xarray(map_run: Run) -> None:
     np.testing.assert_array_equal(array.values, thickness.values)
     assert float(array.sel(x=array.x[3]).y[-1]) == thickness.grid.y[-1]
     assert array.rio.resolution() == (thickness.grid.cell_x, thickness.grid.cell_y)
-
-
-def test_a_2d_run_has_no_maps(slope: Path, tmp_path: Path) -> None:
-    run = thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
-    with pytest.raises(NotInRunError, match="Only a 3D run on a DEM writes maps"):
-        _ = run.maps
 
 
 def test_a_report_is_that_of_the_command_line(slope: Path, tmp_path: Path) -> None:

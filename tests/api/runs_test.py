@@ -1,7 +1,5 @@
 """Runs in folders and the block model from Python, and cases."""
 
-from __future__ import annotations
-
 import json
 import signal
 import threading
@@ -24,13 +22,6 @@ def test_a_run_has_the_files_of_the_command_line(slope: Path, tmp_path: Path, co
     for name in ("history.csv", "terrain.csv"):
         assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "shell" / name).read_bytes()
     assert run.history["time_s"][-1] == pytest.approx(1.0)
-
-
-def test_a_run_in_a_used_folder_is_refused_unless_it_is_replaced(slope: Path, tmp_path: Path) -> None:
-    thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
-    with pytest.raises(UserError, match="overwrite"):
-        thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
-    thawslide.run(slope, tmp_path / "run", overwrite=True, threads=1, progress=False)
 
 
 def test_a_failed_run_keeps_its_results(slope: Path, tmp_path: Path) -> None:
@@ -125,7 +116,7 @@ def test_an_exception_of_on_message_leaves_a_simulation_usable(slope: Path) -> N
     assert simulation.time == pytest.approx(0.1)
 
 
-def test_runs_simulations_and_resumes_end_within_half_a_step(
+def test_runs_and_resumes_end_within_half_a_step(
     slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     case = Case(slope, {"time.step": 0.003, "time.end": 0.199, "time.history_interval": 0.0})
@@ -143,10 +134,13 @@ def test_runs_simulations_and_resumes_end_within_half_a_step(
     assert run.history["time_s"][-1] == pytest.approx(0.2) and simulation.time == pytest.approx(0.2)
 
 
-def test_progress_and_lines_are_printed(slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_run_prints_lines_and_may_be_replaced(slope: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     thawslide.run(slope, tmp_path / "run", threads=1)
     shown = capfd.readouterr().err
     assert "Block on a slope: " in shown and f"results in {tmp_path / 'run'}" in shown
+    with pytest.raises(UserError, match="overwrite"):
+        thawslide.run(slope, tmp_path / "run", threads=1, progress=False)
+    thawslide.run(slope, tmp_path / "run", overwrite=True, threads=1, progress=False)
 
 
 def test_a_block_is_that_of_the_command_line(slope: Path, tmp_path: Path, command_line: CommandLine) -> None:
@@ -155,7 +149,7 @@ def test_a_block_is_that_of_the_command_line(slope: Path, tmp_path: Path, comman
     pd.testing.assert_frame_equal(thawslide.block(slope), expected, check_exact=True, check_dtype=False)
 
 
-def test_a_case_reads_and_replaces_keys(slope: Path) -> None:
+def test_a_case_reads_and_replaces_keys_and_its_copy_is_independent(slope: Path) -> None:
     case = Case(slope)
     assert case.title == "Block on a slope" and case.dimension == 2 and case.end == 1.0
     assert case["grid.cell"] == 5.0 and case["band"]["thickness"] == 0.1 and case["time.stepping"] == "fixed"
@@ -169,9 +163,10 @@ def test_a_case_reads_and_replaces_keys(slope: Path) -> None:
         case["band.width"]
     with pytest.raises(TypeError, match="no value of type object"):
         case["band.thickness"] = object()
-
-
-def test_texts_of_all_alphabets_are_valid_values(slope: Path) -> None:
+    case = Case(slope)
+    other = case.copy()
+    other["grid.cell"] = 10.0
+    assert case["grid.cell"] == 5.0 and other["grid.cell"] == 10.0
     case = Case(slope, {"case.title": 'Gletscher \u00e4\u00f6\u00fc \U0001f3d4 "A"'})
     assert case.title == 'Gletscher \u00e4\u00f6\u00fc \U0001f3d4 "A"'
 
@@ -184,17 +179,9 @@ def test_a_negative_number_of_threads_is_refused(slope: Path, tmp_path: Path) ->
     assert not (tmp_path / "run").exists()
 
 
-def test_a_copied_case_is_independent(slope: Path) -> None:
-    case = Case(slope)
-    other = case.copy()
-    other["grid.cell"] = 10.0
-    assert case["grid.cell"] == 5.0 and other["grid.cell"] == 10.0
-
-
 def test_a_case_from_text_is_that_of_its_file(slope: Path) -> None:
     text = slope.read_text()
-    case = Case.from_text(text, {"terrain.file": slope.parent / "profile.csv"})
-    assert case["grid"] == Case(slope)["grid"]
+    assert Case.from_text(text, {"terrain.file": slope.parent / "profile.csv"})["grid"] == Case(slope)["grid"]
     with pytest.raises(UserError, match=r"'grid\.cel' is not known in"):
         Case.from_text(text.replace("cell = 5.0", "cel = 5.0"), {"terrain.file": slope.parent / "profile.csv"})
 

@@ -1,7 +1,5 @@
 """Simulations in memory: they are those of the command line."""
 
-from __future__ import annotations
-
 import signal
 import threading
 from pathlib import Path
@@ -20,19 +18,17 @@ def silent(_line: str) -> None:
 
 
 def history_of(folder: Path) -> pd.DataFrame:
-    """Return history.csv as written, with numbers of full precision."""
     return pd.read_csv(folder / "history.csv")
 
 
 def assert_identical(found: pd.DataFrame, expected: pd.DataFrame) -> None:
-    """Require the same columns and bitwise identical numbers."""
     assert list(found.columns) == list(expected.columns)
     for column in expected.columns:
         np.testing.assert_array_equal(found[column].to_numpy(float), expected[column].to_numpy(float), err_msg=column)
 
 
 @pytest.mark.parametrize("stepping", ["fixed", "adaptive"])
-def test_history_is_bitwise_that_of_the_command_line(
+def test_history_is_that_of_the_command_line(
     slope: Path, tmp_path: Path, command_line: CommandLine, stepping: str
 ) -> None:
     done = command_line("run", slope, "--output", tmp_path / "run", "--set", f"time.stepping={stepping}")
@@ -69,18 +65,6 @@ def test_a_changed_run_is_that_of_resume(slope: Path, tmp_path: Path, command_li
     assert_identical(simulation.history, history_of(run))
 
 
-def test_a_restored_simulation_continues_bitwise(slope: Path) -> None:
-    whole = Simulation(slope, threads=1, on_message=silent)
-    whole.run(until=0.4)
-    checkpoint = whole.checkpoint()
-    whole.run()
-    other = Simulation(slope, threads=2, on_message=silent)
-    other.restore(checkpoint)
-    assert other.time == pytest.approx(0.4)
-    other.run()
-    assert_identical(other.history, whole.history)
-
-
 def test_a_damaged_checkpoint_and_one_of_another_case_are_refused(slope: Path) -> None:
     simulation = Simulation(slope, threads=1, on_message=silent)
     checkpoint = simulation.checkpoint()
@@ -101,8 +85,7 @@ def test_fields_are_read_only_views(slope: Path) -> None:
     assert not temperature.flags.writeable and simulation.field("temperature").ctypes.data == temperature.ctypes.data
     blocks = simulation.blocks("velocity")
     assert blocks.ndim == 3 and blocks.shape[1:] == (8, 2) and not blocks.flags.writeable
-    velocity = simulation.field("velocity")
-    mass = simulation.field("mass")
+    velocity, mass = simulation.field("velocity"), simulation.field("mass")
     assert velocity.shape == (simulation.particle_count, 2)
     mean = np.linalg.norm((mass[:, None] * velocity).sum(axis=0) / mass.sum())
     simulation.run(until=simulation.time + 0.01)
@@ -115,7 +98,7 @@ def test_fields_are_read_only_views(slope: Path) -> None:
         simulation.field("speed")
 
 
-def test_views_stay_readable_after_a_restoration(slope: Path) -> None:
+def test_a_restored_simulation_continues_bitwise_with_its_views(slope: Path) -> None:
     simulation = Simulation(slope, threads=1, on_message=silent)
     temperature = simulation.field("temperature")
     expected = temperature.copy()
@@ -123,6 +106,15 @@ def test_views_stay_readable_after_a_restoration(slope: Path) -> None:
     filled = [np.full(temperature.size, 7.7) for _ in range(100)]
     np.testing.assert_array_equal(temperature, expected)
     assert len(filled) == 100
+    whole = Simulation(slope, threads=1, on_message=silent)
+    whole.run(until=0.4)
+    checkpoint = whole.checkpoint()
+    whole.run()
+    other = Simulation(slope, threads=2, on_message=silent)
+    other.restore(checkpoint)
+    assert other.time == pytest.approx(0.4)
+    other.run()
+    assert_identical(other.history, whole.history)
 
 
 def test_another_thread_may_not_use_a_simulation_at_work(slope: Path) -> None:
@@ -142,8 +134,7 @@ def test_another_thread_may_not_use_a_simulation_at_work(slope: Path) -> None:
 
 def test_a_callback_is_called_at_intervals_and_may_stop(slope: Path) -> None:
     times: list[float] = []
-    simulation = Simulation(slope, threads=1, on_message=silent)
-    simulation.run(callback=lambda now: times.append(now.time), every=0.25)
+    Simulation(slope, threads=1, on_message=silent).run(callback=lambda now: times.append(now.time), every=0.25)
     assert times == pytest.approx([0.25, 0.5, 0.75, 1.0])
     steps: list[int] = []
 
@@ -164,7 +155,7 @@ def test_a_callback_is_called_at_intervals_and_may_stop(slope: Path) -> None:
     ("key", "value", "text"),
     [("basal.frction_angle", 10.0, "10.0"), ("basal.friction_angle", 100.0, "100.0"), ("grid.cell", "big", '"big"')],
 )
-def test_a_wrong_key_has_the_message_of_the_command_line(
+def test_a_wrong_key_has_its_message(
     slope: Path, command_line: CommandLine, key: str, value: object, text: str
 ) -> None:
     with pytest.raises(UserError) as error:
@@ -185,9 +176,7 @@ def test_a_restored_end_at_rest_remains_one(slope: Path) -> None:
     assert not other.is_done
 
 
-def test_an_end_before_the_present_time_is_refused_as_by_resume(
-    slope: Path, tmp_path: Path, command_line: CommandLine
-) -> None:
+def test_an_end_before_the_present_time_is_refused(slope: Path, tmp_path: Path, command_line: CommandLine) -> None:
     simulation = Simulation(slope, threads=1, on_message=silent)
     simulation.run()
     with pytest.raises(UserError) as error:
@@ -196,9 +185,7 @@ def test_an_end_before_the_present_time_is_refused_as_by_resume(
     assert command_line("resume", tmp_path / "run", "--end", 0.5).stderr == f"error: {error.value}\n"
 
 
-def test_a_key_that_may_not_change_has_the_message_of_resume(
-    slope: Path, tmp_path: Path, command_line: CommandLine
-) -> None:
+def test_a_fixed_key_has_the_message_of_resume(slope: Path, tmp_path: Path, command_line: CommandLine) -> None:
     simulation = Simulation(slope, threads=1, on_message=silent)
     simulation.step(1)
     with pytest.raises(UserError) as error:
@@ -209,9 +196,7 @@ def test_a_key_that_may_not_change_has_the_message_of_resume(
     assert simulation.case["grid.cell"] == 5.0
 
 
-def test_a_failed_run_has_the_message_of_the_command_line(
-    slope: Path, tmp_path: Path, command_line: CommandLine
-) -> None:
+def test_a_failure_has_the_message_of_the_command_line(slope: Path, tmp_path: Path, command_line: CommandLine) -> None:
     changes = {"body.block.velocity": [0.0, 300.0]}
     shown = command_line("run", slope, "--output", tmp_path / "run", "--set", "body.block.velocity=[0.0, 300.0]")
     assert shown.returncode == 3

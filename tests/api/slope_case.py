@@ -1,26 +1,13 @@
 """A case of a block that slides down a slope with band columns, for the tests of the package and of sweeps."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
-CASE = """[case]
-title = "Block on a slope"
-
-[time]
-end = {end}
-step = 0.005
-output_interval = 0.25
-history_interval = 0.05
-
-[grid]
-cell = {cell}
-min = [0.0, -20.0]
-max = [200.0, 140.0]
-
-[terrain]
-type = "profile"
-file = "profile.csv"
+CASE = """case = {{ title = "Block on a slope" }}
+time = {{ end = {end}, step = 0.005, output_interval = 0.25, history_interval = 0.05 }}
+grid = {{ cell = {cell}, min = [0.0, -20.0], max = [200.0, 140.0] }}
+terrain = {{ type = "profile", file = "profile.csv" }}
+basal = {{ friction = "{friction}", friction_angle = 10.0 }}
+band = {{ thickness = 0.1 }}
 
 [material.rock]
 law = "mohr_coulomb"
@@ -35,13 +22,6 @@ shape = "polygon"
 vertices = [[40.0, 80.0], [80.0, 60.0], [80.0, 80.0], [40.0, 100.0]]
 temperature = -1.0
 porosity = 0.3
-
-[basal]
-friction = "{friction}"
-friction_angle = 10.0
-
-[band]
-thickness = 0.1
 """
 
 

@@ -1,7 +1,5 @@
 """Types of the package: a user's script passes `mypy --strict`, and wrong types are found."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path
@@ -42,9 +40,6 @@ def mypy(tmp_path: Path, script: str) -> str:
     return subprocess.run([*command, "study.py"], cwd=tmp_path, capture_output=True, text=True).stdout
 
 
-def test_a_script_of_a_user_passes_the_strict_check(tmp_path: Path) -> None:
+def test_strict_check_accepts_a_script_and_finds_a_wrong_type(tmp_path: Path) -> None:
     assert "Success: no issues found" in mypy(tmp_path, SCRIPT)
-
-
-def test_a_wrong_type_is_found(tmp_path: Path) -> None:
     assert 'has incompatible type "str"; expected "float' in mypy(tmp_path, SCRIPT.replace("until=1.0", 'until="1"'))

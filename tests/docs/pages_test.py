@@ -1,7 +1,5 @@
 """Commands and snippets of the pages run, with the output that the pages show."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,7 +9,6 @@ from snippets import ROOT, Scratch, blocks_of, fault_of, page_failures
 
 
 def pages() -> list[str]:
-    """Return the pages that have fenced blocks."""
     found = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("cases/*/*.md"), *ROOT.glob("benchmarks/*.md")]
     return sorted(str(path.relative_to(ROOT)) for path in found if blocks_of(path.read_text(encoding="utf-8")))
 

@@ -1,7 +1,5 @@
 """The friction law of CONTRIBUTING.md compiles in the list of laws and in the code that uses the list."""
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 

@@ -10,8 +10,6 @@ A comment in the line above a block specifies its test:
     <!-- merged into: CASE -->     of a toml block: `thawslide check` accepts the case with these keys
 """
 
-from __future__ import annotations
-
 import difflib
 import os
 import re

@@ -1,7 +1,5 @@
 """Reading of blocks, and comparison of outputs."""
 
-from __future__ import annotations
-
 import time
 from pathlib import Path
 
@@ -29,15 +27,12 @@ a = b
 """
 
 
-def test_blocks_have_line_language_text_and_marks() -> None:
+def test_blocks_have_marks_and_commands_their_output() -> None:
     console, plain = blocks_of(PAGE)
     assert (console.line, console.language) == (7, "console")
     assert console.marks == {"long": "a minute", "exit code": "2"}
     assert plain == Block(16, "", "a = b\n", {})
-
-
-def test_commands_have_their_output() -> None:
-    first, second = commands_of(blocks_of(PAGE)[0])
+    first, second = commands_of(console)
     assert (first.line, first.text) == (8, "thawslide run \\\n  nothing")
     assert first.expected == ["error", "", "  indented"]
     assert (second.line, second.expected) == (13, [])
@@ -64,7 +59,7 @@ def test_form_of_a_block(language: str, text: str, marks: dict[str, str], words:
     assert (words in fault) if words else not fault
 
 
-def test_dots_match_lines_and_text() -> None:
+def test_dots_match_lines_and_diffs_show_the_others() -> None:
     output = ["particles: 10", "", "time 3.1 s", "done"]
     assert missing_line(output, output) is None
     assert missing_line(["...", "time [..] s", "..."], output) is None
@@ -74,14 +69,10 @@ def test_dots_match_lines_and_text() -> None:
     assert missing_line(["particles: 10", "..."], ["x", *output]) == "particles: 10"
     assert missing_line(["particles: 10"], output) == "(end of the output)"
     assert missing_line([], ["unexpected"]) == "(end of the output)"
+    assert difference(["a [..]", "b"], ["a 1", "c"]).splitlines()[3:] == [" a [..]", "-b", "+c"]
 
 
-def test_diff_shows_only_lines_that_differ() -> None:
-    shown = difference(["a [..]", "b"], ["a 1", "c"])
-    assert shown.splitlines()[3:] == [" a [..]", "-b", "+c"]
-
-
-def test_commands_of_a_page_run_in_one_folder(tmp_path: Path) -> None:
+def test_commands_run_in_one_folder_within_their_limit(tmp_path: Path) -> None:
     page = (
         "<!-- file: data/a.txt -->\n```text\none\n```\n"
         "```console\n$ cd data\n$ cat a.txt\none\n```\n"
@@ -89,15 +80,10 @@ def test_commands_of_a_page_run_in_one_folder(tmp_path: Path) -> None:
         "```console\n$ ls\na.txt\n$ ls ../run ../cases/incline/D.toml\n...\n```\n"
         "<!-- long: a minute -->\n```console\n$ false\n```\n"
     )
-    scratch = Scratch(tmp_path / "clone")
-    assert page_failures(page, scratch, long=False) == []
+    assert page_failures(page, Scratch(tmp_path / "clone"), long=False) == []
     (failure,) = page_failures(page.replace("a.txt\none\n", "a.txt\ntwo\n"), Scratch(tmp_path / "other"), long=False)
-    assert failure.startswith("line 7: $ cat a.txt\ndoes not come: two\n")
-    assert "-two\n+one" in failure
-
-
-def test_a_command_over_its_limit_is_stopped_with_its_processes(tmp_path: Path) -> None:
-    scratch = Scratch(tmp_path / "clone")
+    assert failure.startswith("line 7: $ cat a.txt\ndoes not come: two\n") and "-two\n+one" in failure
+    scratch = Scratch(tmp_path / "limited")
     code, output = scratch.run("(sleep 3; touch late) & sleep 30", 0.5)
     assert (code, output) == (-1, ["(stopped after 0.5 s)"])
     time.sleep(4.0)

@@ -1,7 +1,5 @@
 """Reports of runs with band columns: stresses, temperatures, boiling, heat and water."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import h5py
@@ -20,31 +18,17 @@ from thawslide.report_page import figures_of
 
 
 def column_history(rows: int = 101) -> dict[str, np.ndarray]:
-    """Return every column of a run with band columns."""
     columns = history_columns(rows, 2)
     t = columns["time_s"]
     columns |= {
-        "band_normal_pressure_Pa": np.full(rows, 1.0e6),
-        "band_shear_Pa": 4.0e5 - 2.0e4 * t,
-        "band_thickness_m": np.full(rows, 0.55),
-        "dilation_fraction": 0.003 * t,
-        "band_max_temperature_C": 17.0 * t,
-        "band_max_pressure_ratio": 0.1 * t,
-        "base_area_m2": np.full(rows, 1.0e6),
-        "column_heat_J": -3e12 + 0.1e12 * t,
-        "column_intake_J": -3e12 - 0.1e12 * t,
-        "column_drained_J": 0.05e12 * t,
-        "column_steam_J": 0.15e12 * t,
-        "column_left_J": np.zeros(rows),
-        "column_water_kg": 3e9 + 1e7 * t,
-        "column_intake_kg": 3e9 + 4e7 * t,
-        "column_drained_kg": 2e7 * t,
-        "column_steam_kg": 1e7 * t,
-        "column_left_kg": np.zeros(rows),
-        "column_water_residual_kg": 1e-3 * t,
-        "column_opening_m3": 50.0 * t,
-        "column_void_m3": 2e4 - 100.0 * t,
-    }
+        "band_normal_pressure_Pa": np.full(rows, 1.0e6), "band_shear_Pa": 4.0e5 - 2.0e4 * t,
+        "band_thickness_m": np.full(rows, 0.55), "dilation_fraction": 0.003 * t, "band_max_temperature_C": 17.0 * t,
+        "band_max_pressure_ratio": 0.1 * t, "base_area_m2": np.full(rows, 1.0e6), "column_heat_J": -3e12 + 0.1e12 * t,
+        "column_intake_J": -3e12 - 0.1e12 * t, "column_drained_J": 0.05e12 * t, "column_steam_J": 0.15e12 * t,
+        "column_left_J": np.zeros(rows), "column_water_kg": 3e9 + 1e7 * t, "column_intake_kg": 3e9 + 4e7 * t,
+        "column_drained_kg": 2e7 * t, "column_steam_kg": 1e7 * t, "column_left_kg": np.zeros(rows),
+        "column_water_residual_kg": 1e-3 * t, "column_opening_m3": 50.0 * t, "column_void_m3": 2e4 - 100.0 * t,
+    }  # fmt: skip
     return columns
 
 
@@ -92,16 +76,12 @@ def test_boiling_follows_clausius_and_clapeyron() -> None:
         weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
         log_of_pressure = (end - 100.0) / steps / 3.0 * float(weights @ slope)
         assert boiling_temperature(101325.0 * np.expm1(log_of_pressure)) == pytest.approx(end, abs=1e-7)
-
-
-def test_boiling_temperature_of_nan_is_nan() -> None:
     assert np.isnan(boiling_temperature([np.nan, 0.0])).tolist() == [True, False]
 
 
 def test_stresses_are_in_one_panel(columns_run: Path) -> None:
     run = Run(columns_run)
-    figure = FIGURES["band"].plot(run)
-    stresses = titled(figure, "(a)")
+    stresses = titled(FIGURES["band"].plot(run), "(a)")
     assert stresses.get_ylabel() == "stress (MPa)"
     load, pore_pressure = run.history["band_normal_pressure_Pa"], run.history["band_pore_pressure_Pa"]
     for label, values in (
@@ -122,8 +102,7 @@ def test_legend_does_not_cover_the_stresses(columns_run: Path) -> None:
         figure.draw_without_rendering()
         stresses = titled(figure, "(a)")
         legend = stresses.get_legend()
-        assert legend is not None
-        assert len(legend.get_texts()) == 4 + bool(reported)
+        assert legend is not None and len(legend.get_texts()) == 4 + bool(reported)
         box, panel = legend.get_window_extent(), stresses.get_window_extent()
         assert box.y1 <= panel.y1
         assert panel.x0 <= box.x0 < box.x1 <= panel.x1
@@ -132,8 +111,7 @@ def test_legend_does_not_cover_the_stresses(columns_run: Path) -> None:
 
 
 def test_basal_segments_are_sorted_along_the_section(columns_run: Path) -> None:
-    run = Run(columns_run)
-    figure = FIGURES["base_along"].plot(run)
+    figure = FIGURES["base_along"].plot(Run(columns_run))
     stress, heat = figure.axes[-2], figure.axes[-1]
     x, load = line(stress, "normal pressure N")
     np.testing.assert_array_equal(x, np.arange(20.0, 40.0))
@@ -145,13 +123,6 @@ def test_basal_segments_are_sorted_along_the_section(columns_run: Path) -> None:
     assert [text.get_text() for text in legend.get_texts()] == [
         "normal pressure N", "pore pressure P", "N − P", "maximum T", "mean T", "boiling T at N",
     ]  # fmt: skip
-
-
-def test_snapshots_without_basal_segments_have_no_such_figure(make_run: MakeRun) -> None:
-    run = Run(make_run())
-    assert not FIGURES["base_along"].suits(run)
-    with pytest.raises(NotInRunError, match="no basal segments in the snapshots"):
-        FIGURES["base_along"].plot(run)
 
 
 def test_temperatures_and_boiling_are_in_one_panel(columns_run: Path) -> None:
@@ -197,7 +168,7 @@ def test_water_terms_have_their_panels(columns_run: Path) -> None:
     assert titled(figure, "(d)").get_yscale() == "log"
 
 
-def test_runs_without_columns_have_no_figures_of_columns(make_run: MakeRun) -> None:
+def test_runs_without_columns_have_no_figures_of_columns_but_a_stop_time(make_run: MakeRun) -> None:
     run = Run(make_run())
     assert "water" not in figures_of(run)
     with pytest.raises(NotInRunError, match="found no band columns"):
@@ -207,6 +178,11 @@ def test_runs_without_columns_have_no_figures_of_columns(make_run: MakeRun) -> N
     thermal = titled(FIGURES["energy"].plot(run), "(b)")
     assert not any("column" in str(found.get_label()) for found in thermal.lines)
     assert "Maximum temperature of all columns" not in [row.words for row in key_numbers(run)]
+    assert not FIGURES["base_along"].suits(run)
+    with pytest.raises(NotInRunError, match="no basal segments in the snapshots"):
+        FIGURES["base_along"].plot(run)
+    # 12 sin2(pi t/10) in rows of 0.1 s: below 0.1 m/s from 9.709 s on
+    assert stop_time(run, 0.1) == pytest.approx(9.8) and stop_time(run, 20.0) is None
 
 
 def test_report_of_columns_has_their_figures_and_numbers(columns_run: Path) -> None:
@@ -237,9 +213,3 @@ def test_figures_of_columns_without_contact_are_written(columns_run: Path, tmp_p
         FIGURES[name].plot(run).savefig(tmp_path / "figure.png")
     assert texts(titled(FIGURES["band"].plot(run), "(d)")) == ["no contact"]
     assert texts(titled(FIGURES["water"].plot(run), "(d)")) == ["residual is zero"]
-
-
-def test_stop_time_is_the_last_time_above_a_speed(make_run: MakeRun) -> None:
-    run = Run(make_run())  # 12 sin2(pi t/10) in rows of 0.1 s: below 0.1 m/s from 9.709 s on
-    assert stop_time(run, 0.1) == pytest.approx(9.8)
-    assert stop_time(run, 20.0) is None

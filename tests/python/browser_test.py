@@ -1,7 +1,5 @@
 """Interactive plots of a page in headless Chromium without a network: slider, fields, hover."""
 
-from __future__ import annotations
-
 import html
 import json
 import re
@@ -55,7 +53,6 @@ PROBE = """
 
 
 def states(folder: Path, tmp_path: Path, actions: str) -> dict[str, Any]:
-    """Return the states that actions record on the page of a run."""
     page = make_report(Run(folder), names=["motion"], dpi=50).page.read_text(encoding="utf-8")
     path = tmp_path / "page.html"
     path.write_text(page.replace("</body>", PROBE.replace("ACTIONS", actions) + "</body>"), encoding="utf-8")
@@ -95,8 +92,7 @@ def test_section_view_follows_slider_and_field(make_run: MakeRun, tmp_path: Path
     assert (found["start"]["text"], found["end"]["text"]) == ("0 s", "10 s")
     assert found["end"]["x"] - found["start"]["x"] == pytest.approx(120.0, abs=0.1)
     assert re.search(r"speed: [\d.]+ m/s.*distance 14\d m.*elevation \d+ m", found["hover"], re.DOTALL), found["hover"]
-    assert found["bar"] == "temperature (°C)"
-    assert float(found["exaggeration"]) > 0.0
+    assert found["bar"] == "temperature (°C)" and float(found["exaggeration"]) > 0.0
     low, high = found["range"]
     assert 130.0 < low < 140.5 < 159.5 < high < 170.0, "around the mass at 10 s"
 

@@ -1,7 +1,5 @@
 """Page that compares runs, and its command."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
@@ -25,14 +23,11 @@ def two_runs(make_run: MakeRun) -> list[Run]:
     return [Run(make_run(name="first")), Run(second)]
 
 
-def test_key_numbers_are_next_to_each_other(two_runs: list[Run]) -> None:
+def test_key_numbers_and_different_keys_of_the_cases_are_rows(two_runs: list[Run]) -> None:
     rows = {words: values for words, *values in number_rows(names_of(two_runs))}
     assert rows["Mean displacement"] == ["80 m", "160 m"]
     assert rows["Peak mean velocity"] == ["12 m/s (at 5 s)"] * 2
     assert rows["Thermal energy balance"] == ["closes (limit 1 %): below 0.0001 %"] * 2
-
-
-def test_only_different_keys_of_the_cases_are_rows(two_runs: list[Run]) -> None:
     assert case_rows(names_of(two_runs)) == [["grid.cell", "2.0", "4.0"]]
 
 
@@ -64,7 +59,7 @@ def test_maps_have_one_scale(map_run: Path, tmp_path: Path) -> None:
     assert maps[0].get_xlim() == maps[1].get_xlim()
 
 
-def test_command_writes_the_page_into_the_first_run(
+def test_command_writes_into_the_first_run(
     two_runs: list[Run], capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     folders = [str(run.folder) for run in two_runs]

@@ -1,7 +1,5 @@
 """Constructed run folders, with the files and shapes of a run."""
 
-from __future__ import annotations
-
 import functools
 import json
 import shutil
@@ -43,45 +41,27 @@ def history_columns(rows: int, dimension: int) -> dict[str, np.ndarray]:
     t = np.linspace(0.0, 10.0, rows) if rows > 1 else np.zeros(1)
     band = np.where(t < 2.0, np.nan, 1.0)  # no contact in the first two seconds
     columns = {
-        "time_s": t,
-        "step": t * 100,
-        "dt_s": np.full(rows, 0.01),
+        "time_s": t, "step": t * 100, "dt_s": np.full(rows, 0.01),
         "mean_velocity_m_s": 12.0 * np.sin(np.pi * t / 10.0) ** 2,
-        "max_velocity_m_s": 15.0 * np.sin(np.pi * t / 10.0) ** 2,
-        "mean_displacement_m": 8.0 * t,
-        "front_position_m": 40.0 + 12.0 * t,
-        "runout_m": 40.0 + 12.0 * t,
-        "band_temperature_C": band * (-30.0 + 14.0 * t),
-        "band_saturation": band * (0.1 + 0.08 * t),
+        "max_velocity_m_s": 15.0 * np.sin(np.pi * t / 10.0) ** 2, "mean_displacement_m": 8.0 * t,
+        "front_position_m": 40.0 + 12.0 * t, "runout_m": 40.0 + 12.0 * t,
+        "band_temperature_C": band * (-30.0 + 14.0 * t), "band_saturation": band * (0.1 + 0.08 * t),
         "band_pore_pressure_Pa": band * 1.5e6 * np.sin(np.pi * t / 10.0),
-        "band_friction_coefficient": band * (0.8 - 0.05 * t),
-        "mean_plastic_strain": 0.03 * t,
-    }
+        "band_friction_coefficient": band * (0.8 - 0.05 * t), "mean_plastic_strain": 0.03 * t,
+    }  # fmt: skip
     for number, axis in enumerate("xyz"[:dimension]):
         columns[f"basal_force_{axis}_N"] = 1e11 * (number + 1) * t
         columns[f"seismic_force_{axis}_N"] = 1e11 * (number - 0.5) * np.sin(t)
     fallen = 1e12 * t
     columns |= {
-        "kinetic_J": 0.4 * fallen,
-        "potential_J": 5e13 - fallen,
-        "strain_J": 0.05 * fallen,
-        "plastic_J": 0.05 * fallen,
-        "viscous_J": np.zeros(rows),
-        "damping_J": np.zeros(rows),
-        "friction_work_J": 0.5 * fallen,
-        "contact_loss_J": np.zeros(rows),
-        "frame_work_J": np.zeros(rows),
-        "friction_heat_J": 0.2 * fallen,
-        "converted_J": 0.3 * fallen,
-        "sensible_J": -7e13 + 0.15 * fallen,
-        "latent_J": 0.05 * fallen,
-        "boundary_heat_J": np.zeros(rows),
-        "band_rescale_J": np.zeros(rows),
-        "advection_J": np.zeros(rows),
-        "numerical_J": np.zeros(rows),
-        "mechanical_residual_J": 1e3 * t,
+        "kinetic_J": 0.4 * fallen, "potential_J": 5e13 - fallen, "strain_J": 0.05 * fallen,
+        "plastic_J": 0.05 * fallen, "viscous_J": np.zeros(rows), "damping_J": np.zeros(rows),
+        "friction_work_J": 0.5 * fallen, "contact_loss_J": np.zeros(rows), "frame_work_J": np.zeros(rows),
+        "friction_heat_J": 0.2 * fallen, "converted_J": 0.3 * fallen, "sensible_J": -7e13 + 0.15 * fallen,
+        "latent_J": 0.05 * fallen, "boundary_heat_J": np.zeros(rows), "band_rescale_J": np.zeros(rows),
+        "advection_J": np.zeros(rows), "numerical_J": np.zeros(rows), "mechanical_residual_J": 1e3 * t,
         "thermal_residual_J": -2e2 * t,
-    }
+    }  # fmt: skip
     columns |= {f"{phase}_kg": np.full(rows, 1e6) for phase in ("mass", "rock", "ice", "water")}
     return columns
 
@@ -98,30 +78,20 @@ def write_snapshot(path: Path, time: float, dimension: int) -> None:
     along, up = (grid.ravel() for grid in np.meshgrid(np.arange(0.5, 20.0), np.arange(0.5, 4.0)))
     n = len(along)
     x = 20.0 + along + 12.0 * time
-    z = ground(x) + up
-    across = np.arange(n) % 3 + 0.5
+    z, across = ground(x) + up, np.arange(n) % 3 + 0.5
     points = np.stack([x, z, np.zeros(n)] if dimension == 2 else [x, across, z], axis=1)
     velocity = np.zeros((n, 3))
     velocity[:, 0], velocity[:, 1 if dimension == 2 else 2] = 3.0 * time, -4.0 * time
     fields: dict[str, tuple[Any, str]] = {
-        "id": (np.arange(n), "1"),
-        "body": (np.zeros(n, dtype=np.int32), "1"),
-        "mass": (np.full(n, 2000.0), "kg"),
-        "volume": (np.ones(n), "m3"),
-        "velocity": (velocity, "m/s"),
-        "displacement": (np.zeros((n, 3)), "m"),
-        "path_length": (np.full(n, 12.0 * time), "m"),
-        "stress": (np.zeros((n, 6)), "Pa"),
-        "plastic_strain": (0.1 * time * np.exp(-up), "1"),
-        "temperature": (-10.0 + 2.0 * time * np.exp(-up), "C"),
-        "liquid_saturation": (np.full(n, 0.2), "1"),
-        "porosity": (np.full(n, 0.3), "1"),
-        "ice_pressure": (np.zeros(n), "Pa"),
-        "liquid_pressure": (np.zeros(n), "Pa"),
-        "pore_pressure": (2.0e5 * time * np.exp(-up), "Pa"),
-        "slip": (np.full(n, 12.0 * time), "m"),
+        "id": (np.arange(n), "1"), "body": (np.zeros(n, dtype=np.int32), "1"), "mass": (np.full(n, 2000.0), "kg"),
+        "volume": (np.ones(n), "m3"), "velocity": (velocity, "m/s"), "displacement": (np.zeros((n, 3)), "m"),
+        "path_length": (np.full(n, 12.0 * time), "m"), "stress": (np.zeros((n, 6)), "Pa"),
+        "plastic_strain": (0.1 * time * np.exp(-up), "1"), "temperature": (-10.0 + 2.0 * time * np.exp(-up), "C"),
+        "liquid_saturation": (np.full(n, 0.2), "1"), "porosity": (np.full(n, 0.3), "1"),
+        "ice_pressure": (np.zeros(n), "Pa"), "liquid_pressure": (np.zeros(n), "Pa"),
+        "pore_pressure": (2.0e5 * time * np.exp(-up), "Pa"), "slip": (np.full(n, 12.0 * time), "m"),
         "in_band": ((up < 1.0).astype(np.int32), "1"),
-    }
+    }  # fmt: skip
     with h5py.File(path, "w") as file:
         group = file.create_group("VTKHDF")
         group.attrs["time"], group.attrs["step"] = time, int(100 * time)
@@ -131,7 +101,6 @@ def write_snapshot(path: Path, time: float, dimension: int) -> None:
 
 
 def edit(path: Path, old: str, new: str) -> None:
-    """Replace a part of a text file."""
     text = path.read_text()
     assert old in text
     path.write_text(text.replace(old, new))
@@ -143,14 +112,12 @@ def write_facts(folder: Path, **facts: Any) -> None:
 
 
 def update_facts(folder: Path, **facts: Any) -> None:
-    """Replace some facts in run.json."""
     (folder / "run.json").write_text(json.dumps(json.loads((folder / "run.json").read_text()) | facts))
 
 
 def page_of(folder: Path, *names: str) -> str:
     """Return the page of a run with the figure `motion` or those named."""
-    report = make_report(Run(folder), names=names or ["motion"], dpi=50)
-    return report.page.read_text(encoding="utf-8")
+    return make_report(Run(folder), names=names or ["motion"], dpi=50).page.read_text(encoding="utf-8")
 
 
 Fails = Callable[[list[str], str], None]
@@ -233,5 +200,4 @@ def whole_map_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def map_run(tmp_path: Path, whole_map_run: Path) -> Path:
-    """Return a copy of the run on a DEM."""
     return shutil.copytree(whole_map_run, tmp_path / "slab")

@@ -1,7 +1,5 @@
 """Polygons of a map above a threshold, and their files."""
 
-from __future__ import annotations
-
 import json
 import sqlite3
 import subprocess
@@ -31,16 +29,13 @@ def cone(folder: Path, hole: float = 0.0, crs: str | None = "EPSG:31287") -> Pat
     return folder / "cone.tif"
 
 
-def test_area_of_a_cone_is_that_of_its_section(tmp_path: Path) -> None:
+def test_area_of_a_cone_is_that_of_its_section_with_holes_as_rings(tmp_path: Path) -> None:
     half, quarter = areas_beyond(read_map(cone(tmp_path)), [4.0, 6.0])
     assert half.size == pytest.approx(np.pi * 50.0**2, rel=0.01)
     assert quarter.size == pytest.approx(np.pi * 25.0**2, rel=0.04)
     ((ring,),) = half.polygons
     np.testing.assert_allclose(np.hypot(*(ring - MIDDLE).T), 50.0, atol=0.5)
     assert (ring[0] == ring[-1]).all()
-
-
-def test_holes_are_rings_of_their_polygon(tmp_path: Path) -> None:
     (area,) = areas_beyond(read_map(cone(tmp_path, hole=30.0)), [2.0])
     ((outline, hole),) = area.polygons
     assert area.size == pytest.approx(np.pi * (75.0**2 - 30.0**2), rel=0.02)
@@ -48,7 +43,6 @@ def test_holes_are_rings_of_their_polygon(tmp_path: Path) -> None:
 
 
 def test_area_reached_before_a_time_has_no_zero_around_it(tmp_path: Path) -> None:
-    """Cells without data belong to no area."""
     x = WEST + CELL * (np.arange(20) + 0.5)
     times = np.tile((x - x[0]) / 10.0, (10, 1))  # 1 s per cell
     times[:2] = np.nan

@@ -1,7 +1,5 @@
 """The runner of studies: reuse of runs, failures, selection, order, exit codes, skipped and frozen studies."""
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Sequence
@@ -10,18 +8,7 @@ from pathlib import Path
 import pytest
 
 from reproduction import __main__ as command
-from reproduction.engine import (
-    Task,
-    commit_of,
-    execute,
-    failure,
-    is_current,
-    is_done,
-    log_file,
-    perform,
-    processor_time,
-    read_record,
-)
+from reproduction import engine
 from reproduction.studies import STUDIES
 from reproduction.study import ROOT, Job, Place, Study, StudyError
 from reproduction.tables import markdown, rewrapped, with_marks
@@ -77,27 +64,29 @@ def with_program(place: Place, program: Path) -> Place:
 JOBS = (Job("a"), Job("b", sets=("x=1",)), Job("block", subcommand="block"))
 
 
-def test_complete_runs_are_reused(place: Place, lines: list[str]) -> None:
+def test_complete_runs_are_reused_and_recorded(place: Place, lines: list[str]) -> None:
     assert place.perform(JOBS) == []
-    assert lines[0] == "3 runs, 0 of them complete"
-    assert lines[-1].startswith("3 of 3, about 0 min left: ")
+    assert lines[0] == "3 runs, 0 of them complete" and lines[-1].startswith("3 of 3, about 0 min left: ")
     stamp = (place.runs / "a" / "run.json").stat().st_mtime_ns
     assert place.perform(JOBS) == []
     assert lines[4:] == ["3 runs, 3 of them complete"]
     assert (place.runs / "a" / "run.json").stat().st_mtime_ns == stamp
-    words = read_record(place.runs / "b").command  # type: ignore[union-attr]
+    words = engine.read_record(place.runs / "b").command  # type: ignore[union-attr]
     assert words[1:] == [
         "run", str(place.cases / "case.toml"), "--output", str(place.runs / "b"), "--threads", "1", "--set", "x=1",
     ]  # fmt: skip
-    assert is_done(place.runs / "block.csv")
-    assert 0.0 < processor_time(place.runs / "a") < 10.0
+    assert engine.is_done(place.runs / "block.csv")
+    assert 0.0 < engine.processor_time(place.runs / "a") < 10.0
+    facts = json.loads((place.runs / "a.record.json").read_text())
+    assert list(facts["inputs"]) == [str(place.cases / "case.toml")]
+    assert facts["program"] == "0123abcd" and facts["code"] == 0
 
 
 @pytest.mark.parametrize("change", ["case", "settings", "commit", "results", "record"])
 def test_runs_are_repeated_after_a_change(place: Place, change: str) -> None:
     job = Job("a")
     place.perform([job])
-    assert is_current(place.task(job))
+    assert engine.is_current(place.task(job))
     if change == "case":
         (place.cases / "case.toml").write_text("# two")
     elif change == "settings":
@@ -108,23 +97,25 @@ def test_runs_are_repeated_after_a_change(place: Place, change: str) -> None:
         (place.runs / "a").rename(place.runs / "moved")
     else:
         (place.runs / "a.record.json").write_text("{")
-    assert not is_current(place.task(job))
+    assert not engine.is_current(place.task(job))
 
 
 def test_runs_of_the_same_commit_by_a_program_elsewhere_are_repeated_only_if_its_tree_had_changes(place: Place) -> None:
-    assert commit_of(place.program) == place.version == "0123abcd"
+    assert engine.commit_of(place.program) == place.version == "0123abcd"
     dirty = write_program(place.program, "0123abcd-dirty")
     changed = with_program(place, dirty)
     assert len(changed.version) == 64
     changed.perform([Job("a")])
-    assert is_current(changed.task(Job("a")))
+    assert engine.is_current(changed.task(Job("a")))
     dirty.write_text(dirty.read_text() + "# changed\n")
-    assert not is_current(with_program(place, dirty).task(Job("a")))
+    assert not engine.is_current(with_program(place, dirty).task(Job("a")))
 
 
-def test_program_without_a_version_is_an_error(place: Place) -> None:
+def test_missing_program_or_version_has_its_remedy(place: Place, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(ReportError, match=r"Build it with \./run --setup\."):
-        commit_of(Path("/bin/false"))
+        engine.commit_of(Path("/bin/false"))
+    assert command.main(["--program", str(place.cases / "none")]) == 2
+    assert "Build it with ./run --setup." in capsys.readouterr().err
 
 
 def test_failed_runs_are_kept_and_stated(place: Place, lines: list[str]) -> None:
@@ -132,12 +123,11 @@ def test_failed_runs_are_kept_and_stated(place: Place, lines: list[str]) -> None
     with pytest.raises(StudyError, match=r"bad: error: no such key bad; broken: error: the run failed at 3 s\. The"):
         place.perform(jobs)
     assert any("min left: bad: error: no such key bad" in line for line in lines)
-    assert failure(place.runs / "good") == ""
-    assert failure(place.runs / "none") == "not run"
-    assert log_file(place.runs / "broken").read_text() == "error: the run failed at 3 s\n"
+    assert engine.failure(place.runs / "good") == ""
+    assert engine.failure(place.runs / "none") == "not run"
+    assert engine.log_file(place.runs / "broken").read_text() == "error: the run failed at 3 s\n"
     # A run that failed keeps its results and is not repeated; one without results is.
-    assert is_current(place.task(jobs[2]))
-    assert not is_current(place.task(jobs[1]))
+    assert engine.is_current(place.task(jobs[2])) and not engine.is_current(place.task(jobs[1]))
     tolerant = Place(
         place.program, place.runs, place.pages, cases=place.cases, report=lines.append, tolerates_failures=True
     )
@@ -145,25 +135,24 @@ def test_failed_runs_are_kept_and_stated(place: Place, lines: list[str]) -> None
 
 
 def test_run_without_results_is_not_complete(tmp_path: Path) -> None:
-    task = Task("a", (sys.executable, "-c", "print('moving')"), tmp_path / "a")
-    assert execute(task).message == "a was not written"
-    assert log_file(task.results).read_text() == "moving\n"
-    assert not is_done(task.results)
+    task = engine.Task("a", (sys.executable, "-c", "print('moving')"), tmp_path / "a")
+    assert engine.execute(task).message == "a was not written" and not engine.is_done(task.results)
+    assert engine.log_file(task.results).read_text() == "moving\n"
 
 
 def test_run_at_rest_is_stopped_and_complete(place: Place) -> None:
     place.perform([Job("a", sets=("slow=1",), until_rest=True)])
-    record = read_record(place.runs / "a")
+    record = engine.read_record(place.runs / "a")
     assert record is not None and record.is_done and record.code == -15 and record.wall_s < 30.0
-    assert is_current(place.task(Job("a", sets=("slow=1",), until_rest=True)))
+    assert engine.is_current(place.task(Job("a", sets=("slow=1",), until_rest=True)))
 
 
 def test_expensive_runs_start_first_and_names_are_unique(place: Place, lines: list[str]) -> None:
     tasks = [place.task(Job(key, cost=cost)) for key, cost in (("a", 1.0), ("b", 3.0), ("c", 2.0))]
-    perform(tasks, 1, lines.append)
+    engine.perform(tasks, 1, lines.append)
     assert [line.split(": ")[1].split()[0] for line in lines[1:]] == ["b", "c", "a"]
     with pytest.raises(ValueError, match=r"runs with the same name: \['a'\]"):
-        perform([tasks[0], tasks[0]], 1, lines.append)
+        engine.perform([tasks[0], tasks[0]], 1, lines.append)
 
 
 def test_parts_select_runs(place: Place) -> None:
@@ -186,7 +175,6 @@ def made(name: str, done: list[str], **more: object) -> Study:
 
 
 def stage_of(place: Place) -> list[Job]:
-    """Return a run that needs the results of the stage before."""
     return [Job("second", sets=(f"n={len((place.runs / 'first' / 'history.csv').read_text())}",))]
 
 
@@ -210,7 +198,7 @@ def call(place: Place, *words: str) -> int:
     return command.main([*words, "--program", str(place.program), "--output", str(place.runs), "--quick"])
 
 
-def test_all_studies_are_made_although_some_fail(
+def test_studies_are_made_although_some_fail(
     place: Place, studies: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert call(place) == 1
@@ -218,8 +206,7 @@ def test_all_studies_are_made_although_some_fail(
     output = capsys.readouterr().out
     assert "made: staged, last; skipped: absent; failed: refused, wrong\n" in output
     assert "absent: skipped: not found: " in output and "none.tif. Copy it." in output
-    assert "refused: error: x: error: no such key bad" in output
-    assert "wrong: a number differs" in output
+    assert "refused: error: x: error: no such key bad" in output and "wrong: a number differs" in output
     written = place.runs / "quick" / "written" / "docs"
     assert sorted(path.name for path in written.iterdir()) == ["last.md", "staged.md", "wrong.md"]
     assert (place.runs / "quick" / "pages" / "staged" / "second" / "run.json").is_file()
@@ -237,26 +224,17 @@ def test_all_studies_are_made_although_some_fail(
         (["--only", "none"], [], 2),
     ],
 )
-def test_studies_are_selected(
-    place: Place, studies: list[str], words: list[str], expected: list[str], code: int
-) -> None:
+def test_studies_are_chosen(place: Place, studies: list[str], words: list[str], expected: list[str], code: int) -> None:
     assert call(place, *words) == code
     assert studies == expected
 
 
-def test_list_states_times_pages_and_what_is_absent(
-    place: Place, studies: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_list_states_times_and_absences(place: Place, studies: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert call(place, "--list") == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "staged           1 min  docs/staged.md"
     assert "none.tif" in lines[3] and "made only if it is named" in lines[4]
     assert studies == []
-
-
-def test_missing_program_is_an_error_with_its_remedy(place: Place, capsys: pytest.CaptureFixture[str]) -> None:
-    assert command.main(["--program", str(place.cases / "none")]) == 2
-    assert "Build it with ./run --setup." in capsys.readouterr().err
 
 
 def test_every_page_of_results_names_the_command_that_makes_it() -> None:
@@ -275,10 +253,3 @@ def test_pages_have_tables_marks_and_wrapped_paragraphs() -> None:
     assert max(map(len, lines)) <= 120 and lines[0] == "# A" and lines[-2:] == ["| a |", "| - |"]
     assert [line for line in lines if line.startswith("  long")]
     assert rewrapped("\n".join(lines)) == "\n".join(lines) + "\n"
-
-
-def test_records_are_readable(place: Place) -> None:
-    place.perform([Job("a")])
-    facts = json.loads((place.runs / "a.record.json").read_text())
-    assert list(facts["inputs"]) == [str(place.cases / "case.toml")]
-    assert facts["program"] == "0123abcd" and facts["code"] == 0

@@ -1,7 +1,5 @@
 """Reports of runs with an erodible bed, in which the number of particles changes."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import h5py
@@ -23,19 +21,13 @@ BED_DENSITY, JOINED = 900.0, 8  # kg/m3; particles of the bed in the last snapsh
 def bed_run(make_run: MakeRun) -> Path:
     t = np.linspace(0.0, 10.0, 101)
     columns = {
-        "entrained_mass_kg": 2e4 * t,
-        "entrained_volume_m3": 2e4 * t / BED_DENSITY,
-        "entrained_work_J": 1e6 * t,
-        "entrained_heat_J": 4e5 * t,
-        "loose_mass_kg": np.full(101, 1e3),
-        "bed_mass_kg": 1e6 - 2e4 * t,
-        "bed_residual_kg": np.zeros(101),
-        "bed_residual_J": np.zeros(101),
-    }
+        "entrained_mass_kg": 2e4 * t, "entrained_volume_m3": 2e4 * t / BED_DENSITY, "entrained_work_J": 1e6 * t,
+        "entrained_heat_J": 4e5 * t, "loose_mass_kg": np.full(101, 1e3), "bed_mass_kg": 1e6 - 2e4 * t,
+        "bed_residual_kg": np.zeros(101), "bed_residual_J": np.zeros(101),
+    }  # fmt: skip
     tables = '[body.block]\nmaterial = "rock"\n[bed]\nlaw = "momentum"\ndepth = 1.0\n'
     folder = make_run(history=columns, tables=tables)
-    last = folder / "snapshots" / "000010.vtkhdf"
-    with h5py.File(last, "r+") as file:
+    with h5py.File(folder / "snapshots" / "000010.vtkhdf", "r+") as file:
         group = file["VTKHDF"]
         for owner, name in [(group, "Points"), *((group["PointData"], name) for name in list(group["PointData"]))]:
             values = owner[name][:]
@@ -69,8 +61,7 @@ def test_entrainment_has_a_figure_and_a_key_number(bed_run: Path) -> None:
     assert "entrainment" in figures_of(run)
     figure = FIGURES["entrainment"].plot(run)
     np.testing.assert_allclose(line(titled(figure, "(b)"), "work of entrainment")[1][-1], 10.0)  # MJ
-    found = {row.words: row.value for row in key_numbers(run)}
-    assert found["Entrained bed volume"] == "222 m³"
+    assert {row.words: row.value for row in key_numbers(run)}["Entrained bed volume"] == "222 m³"
 
 
 def test_report_accepts_more_particles_at_the_end(bed_run: Path) -> None:

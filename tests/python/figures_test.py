@@ -1,7 +1,5 @@
 """Contents of figures: data of the run, units and terrain; and figures of runs with little data."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import h5py
@@ -31,7 +29,6 @@ SNAPSHOT_FIGURES = ("velocity", "plastic_strain", "temperature", "pore_pressure"
 
 
 def titled(figure: Figure, start: str) -> Axes:
-    """Return the one panel whose left title starts so."""
     (found,) = [axes for axes in figure.axes if axes.get_title(loc="left").startswith(start)]
     return found
 
@@ -55,7 +52,6 @@ def legend_notes(axes: Axes) -> list[str]:
 
 
 def particles(axes: Axes) -> PolyCollection:
-    """Return the particles of a panel without the filled terrain."""
     (found,) = [
         c for c in axes.collections if isinstance(c, PolyCollection) and not isinstance(c, FillBetweenPolyCollection)
     ]
@@ -68,7 +64,6 @@ def centres(axes: Axes) -> np.ndarray:
 
 
 def extents(axes: Axes) -> list[Bbox]:
-    """Return the boxes of the particles of a panel."""
     return [path.get_extents() for path in particles(axes).get_paths()]
 
 
@@ -81,9 +76,7 @@ def extents(axes: Axes) -> list[Bbox]:
         ("pore_pressure", "pore pressure (kPa)", 0.0, 1400.0 * np.exp(-0.5)),
     ],
 )
-def test_snapshot_figures_have_one_panel_per_time_and_a_common_scale(
-    make_run: MakeRun, name: str, label: str, low: float, high: float
-) -> None:
+def test_snapshot_panels_have_a_common_scale(make_run: MakeRun, name: str, label: str, low: float, high: float) -> None:
     figure = FIGURES[name].plot(Run(make_run()))
     (bar,) = [axes for axes in figure.axes if axes.get_xlabel() == label]
     assert bar.get_xlim() == pytest.approx((low, high))
@@ -91,16 +84,14 @@ def test_snapshot_figures_have_one_panel_per_time_and_a_common_scale(
     assert [axes.get_title(loc="left") for axes in panels] == ["(a) t = 0 s", "(b) t = 4 s", "(c) t = 7 s"]
     assert all(texts(axes)[0] == "true scale" for axes in panels)
     values = particles(panels[2]).get_array()
-    assert values is not None
-    assert np.max(values) == pytest.approx(high)
+    assert values is not None and np.max(values) == pytest.approx(high)
     assert panels[0].get_ylabel() == "elevation (m)"
 
 
 def test_snapshot_panels_have_particles_of_their_size_on_the_terrain(make_run: MakeRun) -> None:
     run = Run(make_run())
     figure = FIGURES["velocity"].plot(run)
-    panel = titled(figure, "(b)")
-    shot = run.snapshot(4)
+    panel, shot = titled(figure, "(b)"), run.snapshot(4)
     np.testing.assert_allclose(centres(panel), shot.points[:, :2])
     # Cubes of 1 m on cells of 2 m: gaps narrower than a cell are closed.
     np.testing.assert_allclose([(b.width, b.height) for b in extents(panel)], [(2.0, 1.0)] * len(shot.points))
@@ -129,15 +120,11 @@ def test_block_on_a_tilted_plane_is_drawn_once(make_run: MakeRun) -> None:
     assert not found & {"height above\nterrain (m)", "elevation (m)"}
 
 
-def test_strips_have_heights_above_the_terrain(make_run: MakeRun) -> None:
+def test_strips_have_heights_and_the_overview_the_range_of_each_panel(make_run: MakeRun) -> None:
     figure = FIGURES["velocity"].plot(Run(make_run()))
     strips = [axes for axes in figure.axes if axes.get_ylabel() == "height above\nterrain (m)"]
     assert len(strips) == 3
     np.testing.assert_allclose(np.unique(np.round(centres(strips[1])[:, 1], 9)), [0.5, 1.5, 2.5, 3.5])
-
-
-def test_overview_has_the_range_of_each_panel(make_run: MakeRun) -> None:
-    figure = FIGURES["velocity"].plot(Run(make_run()))
     overview = titled(figure, "whole profile")
     title = "whole profile, true scale; grey: t = 0 s, red: t = 7 s; time: 0 at the start of the run"
     assert overview.get_title(loc="left") == title
@@ -145,8 +132,7 @@ def test_overview_has_the_range_of_each_panel(make_run: MakeRun) -> None:
     assert bars.get_xlabel().startswith("distance (m)")
     shown = np.asarray(bars.lines[2].get_xdata(), dtype=float)
     assert tuple(shown) == pytest.approx(titled(figure, "(b)").get_xlim())
-    covered = np.asarray(bars.lines[3].get_xdata(), dtype=float)
-    assert tuple(covered) == pytest.approx((68.5, 87.5))
+    assert tuple(np.asarray(bars.lines[3].get_xdata(), dtype=float)) == pytest.approx((68.5, 87.5))
 
 
 def test_without_terrain_there_is_no_fill_and_no_strip(make_run: MakeRun) -> None:
@@ -169,12 +155,15 @@ def test_times_with_a_common_snapshot_have_one_panel(make_run: MakeRun) -> None:
     assert [shot.time for shot in shots] == [0.0, 9.0, 10.0]
 
 
-def test_ticks_of_a_bar_with_two_scales_are_round() -> None:
+def test_ticks_are_round_and_prefixes_give_numbers_below_1000() -> None:
     figure = Figure()
     norm, _ = normalization(np.linspace(-9.45, 35.8, 1000), TEMPERATURE)
     bar = figure.colorbar(ScalarMappable(norm), cax=figure.add_subplot(), orientation="horizontal")
     label_bar(bar, norm)
     assert [label.get_text() for label in bar.ax.get_xticklabels()] == ["−5", "0", "10", "20", "30"]
+    assert prefixed([-2.8e11, np.nan], "N") == (1e9, "GN")
+    assert prefixed([999.0], "Pa") == (1.0, "Pa")
+    assert prefixed([np.nan], "J") == (1.0, "J")
 
 
 def test_window_exaggerates_only_long_flat_sections() -> None:
@@ -191,8 +180,7 @@ def test_window_exaggerates_only_long_flat_sections() -> None:
 
 
 def test_colour_range_excludes_outliers() -> None:
-    values = np.concatenate([np.linspace(0.0, 1.0, 1000), [50.0]])
-    low, high, extend = colour_range(values, from_zero=True)
+    low, high, extend = colour_range(np.concatenate([np.linspace(0.0, 1.0, 1000), [50.0]]), from_zero=True)
     assert (low, extend) == (0.0, "max")
     assert 0.99 < high <= 1.0
     low, high, extend = colour_range(np.full(5, -10.0), from_zero=False)
@@ -202,7 +190,7 @@ def test_colour_range_excludes_outliers() -> None:
     assert colour_range(np.full(3, np.nan), from_zero=False) == (0.0, 1.0, "neither")
 
 
-def test_motion_has_reported_values(make_run: MakeRun) -> None:
+def test_motion_has_reported_values_only_with_targets(make_run: MakeRun) -> None:
     run = Run(make_run())
     figure = FIGURES["motion"].plot(run)
     speed, distance = titled(figure, "(a) speed"), titled(figure, "(b) distance")
@@ -218,6 +206,10 @@ def test_motion_has_reported_values(make_run: MakeRun) -> None:
         np.testing.assert_array_equal(line(axes, label), expected)
     assert (speed.get_ylabel(), distance.get_ylabel()) == ("speed (m/s)", "distance (m)")
     assert (speed.get_xlabel(), distance.get_xlabel()) == (UNALIGNED, UNALIGNED)
+    figure = FIGURES["motion"].plot(Run(make_run(name="bare", targets=False)))
+    labels = [str(found.get_label()) for axes in figure.axes for found in axes.lines]
+    assert len(labels) == 5
+    assert not any("reported" in label for label in labels)
 
 
 def test_maximum_velocity_ends_at_rest(make_run: MakeRun) -> None:
@@ -240,7 +232,7 @@ def test_front_travel_distance_begins_at_the_first_known_front(make_run: MakeRun
     np.testing.assert_allclose(front, [np.nan, np.nan, *(12.0 * np.arange(9.0))], atol=1e-12)
 
 
-def test_reported_values_after_the_end_are_counted_in_the_legend(make_run: MakeRun) -> None:
+def test_reported_values_outside_the_run_are_counted_in_the_legend(make_run: MakeRun) -> None:
     until_5_s = {name: values[:51] for name, values in history_columns(101, 2).items()}
     figure = FIGURES["motion"].plot(Run(make_run(history=until_5_s)))
     speed, distance = titled(figure, "(a) speed"), titled(figure, "(b) distance")
@@ -250,21 +242,11 @@ def test_reported_values_after_the_end_are_counted_in_the_legend(make_run: MakeR
         "1 reported value of mean displacement after the end of the run",
         "1 reported value of runout distance after the end of the run",
     ]
-
-
-def test_reported_values_before_the_start_are_counted_in_the_legend(make_run: MakeRun) -> None:
     targets = "quantity,time_s,value,unit\nmean_velocity,-100,9,m/s\nmean_velocity,99,9,m/s\n"
-    (speed, _) = FIGURES["motion"].plot(Run(make_run(targets=targets))).axes
+    (speed, _) = FIGURES["motion"].plot(Run(make_run(name="outside", targets=targets))).axes
     assert not [marks for marks in speed.lines if str(marks.get_label()).startswith("reported")]
     note = "1 reported value before the start of the run, 1 reported value after the end of the run"
     assert legend_notes(speed) == [note]
-
-
-def test_motion_without_targets_has_curves_only(make_run: MakeRun) -> None:
-    figure = FIGURES["motion"].plot(Run(make_run(targets=False)))
-    labels = [str(found.get_label()) for axes in figure.axes for found in axes.lines]
-    assert len(labels) == 5
-    assert not any("reported" in label for label in labels)
 
 
 def test_seismic_force_has_components_and_reported_maxima(make_run: MakeRun) -> None:
@@ -283,6 +265,8 @@ def test_seismic_force_has_components_and_reported_maxima(make_run: MakeRun) -> 
     assert size.get_ylabel() == "force (GN)"
     (strain,) = titled(figure, "(c)").lines
     np.testing.assert_array_equal(strain.get_ydata(), run.history["mean_plastic_strain"])
+    figure = FIGURES["force"].plot(Run(make_run(name="space", dimension=3)))
+    assert [found.get_label() for found in titled(figure, "(b)").lines] == ["x (along)", "y (across)", "z (up)"]
 
 
 def test_reported_force_requires_a_width_and_a_target(make_run: MakeRun) -> None:
@@ -292,12 +276,6 @@ def test_reported_force_requires_a_width_and_a_target(make_run: MakeRun) -> None
     assert thin.get_ylabel() == "force (GN/m of width)"
     assert [found.get_label() for found in thin.lines] == ["run", "run, band-pass 2 to 8 s"]
     assert texts(thin) == ["reported force not shown: no case.width"]
-
-
-def test_seismic_force_in_three_dimensions_has_three_components(make_run: MakeRun) -> None:
-    figure = FIGURES["force"].plot(Run(make_run(dimension=3)))
-    labels = [found.get_label() for found in titled(figure, "(b)").lines]
-    assert labels == ["x (along)", "y (across)", "z (up)"]
 
 
 def test_band_has_the_history_with_gaps(make_run: MakeRun) -> None:
@@ -317,8 +295,7 @@ def test_band_has_the_history_with_gaps(make_run: MakeRun) -> None:
 
 
 def test_empty_panels_of_the_band_state_the_reason(make_run: MakeRun) -> None:
-    folder = make_run()
-    columns = history_columns(11, 2)
+    folder, columns = make_run(), history_columns(11, 2)
     del columns["band_saturation"]
     columns["band_temperature_C"][:] = np.nan
     columns["band_friction_coefficient"][:] = np.nan
@@ -345,22 +322,18 @@ def test_energy_terms_are_changes_and_residuals_are_relative(make_run: MakeRun) 
     np.testing.assert_allclose(line(residual, "thermal")[1][1:], 2e2 * t[1:] / 2e12)
 
 
-def test_residual_is_none_if_nothing_changes(make_run: MakeRun) -> None:
+def test_one_row_is_a_marker_without_a_residual(make_run: MakeRun) -> None:
     run = Run(make_run(rows=1))
     assert relative_residual(run, "mechanical_residual_J") is None
     assert texts(titled(FIGURES["energy"].plot(run), "(a)")) == ["no change of any term"]
+    speed = titled(FIGURES["motion"].plot(Run(make_run(name="bare", rows=1, targets=False))), "(a)")
+    assert [found.get_marker() for found in speed.lines] == ["o", "o"]
 
 
 @pytest.mark.parametrize("name", ["motion", *SNAPSHOT_FIGURES, "force", "band", "energy"])
 def test_figures_of_one_row_and_one_snapshot_are_written(make_run: MakeRun, tmp_path: Path, name: str) -> None:
-    run = Run(make_run(rows=1, snapshots=1, targets=False))
-    FIGURES[name].plot(run).savefig(tmp_path / "figure.png")
+    FIGURES[name].plot(Run(make_run(rows=1, snapshots=1, targets=False))).savefig(tmp_path / "figure.png")
     assert (tmp_path / "figure.png").stat().st_size > 5000
-
-
-def test_one_row_is_a_marker(make_run: MakeRun) -> None:
-    speed = titled(FIGURES["motion"].plot(Run(make_run(rows=1, targets=False))), "(a)")
-    assert [found.get_marker() for found in speed.lines] == ["o", "o"]
 
 
 def test_figures_require_snapshots_budget_and_force(make_run: MakeRun) -> None:
@@ -373,12 +346,6 @@ def test_figures_require_snapshots_budget_and_force(make_run: MakeRun) -> None:
     ):
         with pytest.raises(NotInRunError, match=text):
             FIGURES[name].plot(Run(folder))
-
-
-def test_prefixes_give_numbers_below_1000() -> None:
-    assert prefixed([-2.8e11, np.nan], "N") == (1e9, "GN")
-    assert prefixed([999.0], "Pa") == (1.0, "Pa")
-    assert prefixed([np.nan], "J") == (1.0, "J")
 
 
 def test_scale_of_high_temperatures_is_logarithmic_up_to_the_maximum(make_run: MakeRun) -> None:

@@ -1,7 +1,5 @@
 """Force of a run compared with one inverted from seismic waves: file, projection, filter, alignment, figure."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
@@ -63,14 +61,11 @@ def folder(make_run: MakeRun) -> Path:
 
 
 def write_long_run(folder: Path, towards: float = 1.0) -> None:
-    columns = history_columns(2001, 2)
-    time = np.linspace(0.0, 200.0, 2001)
+    columns, time = history_columns(2001, 2), np.linspace(0.0, 200.0, 2001)
     columns |= {
-        "time_s": time,
-        "front_position_m": 40.0 + towards * time,
-        "seismic_force_x_N": towards * 1e11 * push(time),
+        "time_s": time, "front_position_m": 40.0 + towards * time, "seismic_force_x_N": towards * 1e11 * push(time),
         "seismic_force_y_N": 1e11 * pulse(time, 60.0),
-    }
+    }  # fmt: skip
     write_history(folder / "history.csv", columns)
 
 
@@ -143,7 +138,7 @@ def test_range_surrounds_the_record(folder: Path) -> None:
             assert heights.max() == pytest.approx(best[middle] + high / 1e9, abs=1e-6)
 
 
-def test_projection_is_the_component_in_a_direction() -> None:
+def test_projection_is_a_component_and_its_range_bounds_all() -> None:
     north, east = np.array([3.0, -1.0, 0.0]), np.array([4.0, 2.0, 5.0])
     np.testing.assert_allclose(projected(north, east, 0.0), north)
     np.testing.assert_allclose(projected(north, east, 90.0), east, atol=1e-15)
@@ -151,11 +146,7 @@ def test_projection_is_the_component_in_a_direction() -> None:
     for azimuth in np.arange(-180.0, 180.0, 17.0):
         across = projected(north, east, azimuth + 90.0)
         np.testing.assert_allclose(projected(north, east, azimuth) ** 2 + across**2, north**2 + east**2)
-        own = float(np.degrees(np.arctan2(east[0], north[0])))
-        assert projected(north, east, own)[0] == pytest.approx(5.0)
-
-
-def test_projected_range_bounds_all_components() -> None:
+        assert projected(north, east, float(np.degrees(np.arctan2(east[0], north[0]))))[0] == pytest.approx(5.0)
     low = {"north": np.array([-2.0]), "east": np.array([1.0])}
     high = {"north": np.array([1.0]), "east": np.array([3.0])}
     inside = [(n, e) for n in np.linspace(-2.0, 1.0, 7) for e in np.linspace(1.0, 3.0, 7)]
@@ -184,22 +175,24 @@ def test_reversal_is_interpolated_between_rows() -> None:
             pytest.approx(20.0, abs=2e-3), pytest.approx(30.0, abs=1e-3), pytest.approx(40.0, abs=2e-3),
         )  # fmt: skip
         assert found.duration == pytest.approx(20.0, abs=4e-3)
-    assert reversal(time, np.ones_like(time)) is None
-    assert reversal(time, -np.ones_like(time)) is None
+    assert reversal(time, np.ones_like(time)) is None and reversal(time, -np.ones_like(time)) is None
     assert reversal(time, time - 50.0) is None, "downward first"
 
 
 @pytest.mark.parametrize("period", [6.0, 12.0, 30.0, 60.0, 120.0, 300.0])
 def test_long_sinusoid_is_filtered_exactly(period: float) -> None:
-    time = np.arange(0.0, 4000.0, 0.25)
-    at = np.arange(1500.0, 2500.0, 0.25)
+    time, at = np.arange(0.0, 4000.0, 0.25), np.arange(1500.0, 2500.0, 0.25)
     wave = np.sin(2.0 * np.pi * time / period + 0.3)
     factor = response(np.array([1.0 / period]), BAND.shortest, BAND.longest)[0]
     expected = factor * np.sin(2.0 * np.pi * at / period + 0.3)
     np.testing.assert_allclose(filtered(time, wave, at, BAND), expected, atol=2e-3)
 
 
-def test_padded_step_is_filtered_as_an_infinite_one() -> None:
+def test_history_is_extended_by_its_end_values() -> None:
+    time, at = np.array([0.0, 1.0, 2.0]), np.arange(-100.0, 100.0, 1.0)
+    np.testing.assert_allclose(filtered(time, np.full(3, 7.0), at, BAND), 0.0, atol=1e-12)
+    rises = filtered(time, np.array([np.nan, 0.0, 1.0]), at, BAND)
+    assert rises[at == 3.0][0] > 0.2 > abs(rises[at == -60.0][0]), "a row without a number counts as 0"
     """Without padding, the jump to 0 at the end would change the result by 0.5."""
     short, long = np.arange(0.0, 100.0, 0.1), np.arange(-3000.0, 3000.0, 0.1)
     step = [np.where(time < 40.0, 0.0, 1.0) for time in (short, long)]
@@ -211,14 +204,6 @@ def test_padded_step_is_filtered_as_an_infinite_one() -> None:
     exact = np.trapezoid(response(f := np.linspace(1e-6, 2.0, 400001), 10.0, 200.0) * np.sin(2.0 * np.pi * f * 5.0)
                          / (np.pi * f), f)  # fmt: skip
     assert np.interp(45.0, at, padded) == pytest.approx(float(exact), abs=0.02)
-
-
-def test_history_is_extended_by_its_end_values() -> None:
-    time = np.array([0.0, 1.0, 2.0])
-    at = np.arange(-100.0, 100.0, 1.0)
-    np.testing.assert_allclose(filtered(time, np.full(3, 7.0), at, BAND), 0.0, atol=1e-12)
-    rises = filtered(time, np.array([np.nan, 0.0, 1.0]), at, BAND)
-    assert rises[at == 3.0][0] > 0.2 > abs(rises[at == -60.0][0]), "a row without a number counts as 0"
 
 
 def test_times_without_a_reversal_are_not_aligned(folder: Path) -> None:
@@ -266,8 +251,7 @@ def test_caption_has_the_difference_of_two_inversions(folder: Path) -> None:
     assert "Maximum force without a specified band, compared in 10 to 200 s (Them): 70 GN reported. " in words
     assert re.search(r"in 2 to 8 s \(Third\): 1 GN reported\. The run has [\d.]+ GN\.", words), "not in the record"
     page = page_of(folder, "force_record")
-    assert '<h2 id="force_record">' in page
-    assert "The two inversions differ by a factor of" in page
+    assert '<h2 id="force_record">' in page and "The two inversions differ by a factor of" in page
 
 
 def test_x_is_east_in_three_dimensions(make_run: MakeRun) -> None:
@@ -282,15 +266,12 @@ def test_x_is_east_in_three_dimensions(make_run: MakeRun) -> None:
     assert "with x as east and y as north" in FIGURES["force_record"].caption_of(Run(made))
 
 
-def test_case_without_a_record_has_no_such_figure(make_run: MakeRun) -> None:
+def test_figure_requires_a_record_and_a_width(make_run: MakeRun) -> None:
     run = Run(make_run())
     assert not FIGURES["force_record"].suits(run)
     with pytest.raises(NotInRunError, match=r"^case\.toml: no force record\. "):
         compared(run)
-
-
-def test_run_without_a_width_has_the_reason_on_the_page(make_run: MakeRun) -> None:
-    made = make_run(width=0.0)
+    made = make_run(name="thin", width=0.0)
     write_record(made)
     report = make_report(Run(made), names=None, dpi=40)
     reason = "case.toml: the force record cannot be compared without a width. Specify case.width."

@@ -1,7 +1,5 @@
 """Comparisons with SHALTOP and of cells: deposits, orders of convergence."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path
@@ -32,10 +30,8 @@ def test_numbers_of_a_known_deposit_are_exact() -> None:
     highest, speed = block(2, 40, 5.0), block(2, 40, 12.0)
     speed.values[15, 20], speed.values[30, 50] = 50.0, 99.0  # the latter where nothing was thick
     found = frank.figures(frank.Deposit(final, highest, speed), terrain, pile)
-    assert found.x == pytest.approx(30.0 + 20.0 * 34.5)
-    assert found.y == pytest.approx(30.0 + 20.0 * 14.5)
-    assert found.area == pytest.approx(100 * 400e-6)
-    assert found.passed == pytest.approx(380 * 400e-6)
+    assert (found.x, found.y) == (pytest.approx(30.0 + 20.0 * 34.5), pytest.approx(30.0 + 20.0 * 14.5))
+    assert (found.area, found.passed) == (pytest.approx(100 * 400e-6), pytest.approx(380 * 400e-6))
     assert found.farthest == 30.0 + 20.0 * 39
     assert (found.speed, found.high_speed, found.usual_speed, found.thickness) == (50.0, 12.0, 12.0, 4.0)
     assert found.volume == pytest.approx((100 * 4.0 + 100 * 0.9) * 400e-6)
@@ -45,28 +41,24 @@ def test_numbers_of_a_known_deposit_are_exact() -> None:
     assert found.reach_angle == pytest.approx(math.degrees(math.atan2(found.drop, found.travel)))
 
 
-def test_difference_of_half_overlapping_deposits_is_exact() -> None:
+def test_difference_of_deposits_and_spread_are_exact() -> None:
     empty = block(0, 0, 0.0)
     one, other = (frank.Deposit(block(first, first + 10, 4.0), empty, empty) for first in (10, 15))
     found = frank.difference(one, other)
-    assert found.overlap == pytest.approx(1.0 / 3.0)
-    assert found.moved == pytest.approx(0.5)
+    assert (found.overlap, found.moved) == (pytest.approx(1.0 / 3.0), pytest.approx(0.5))
     assert found.thickness == pytest.approx(math.sqrt(16.0 * 2.0 / 3.0))
     same = frank.difference(one, one)
     assert (same.overlap, same.moved, same.thickness) == (1.0, 0.0, 0.0)
+    assert refinement.spread([90.0, 100.0, 110.0]) == pytest.approx(0.2)
 
 
-def test_maps_are_on_the_grid_of_the_other_code() -> None:
+def test_maps_are_on_the_grid_of_the_file_of_the_other_code(tmp_path: Path) -> None:
     part = Map(Grid(10.0, 70.0, 20.0, 20.0, 3, 2), np.array([[1.0, 2.0, np.nan], [4.0, 5.0, 6.0]]))
     placed = frank.on_grid(part, GRID).values
     assert placed[2, :3].tolist() == [2.0, 0.0, 0.0]  # the first column lies outside
-    assert placed[3, :3].tolist() == [5.0, 6.0, 0.0]
-    assert placed.sum() == 13.0
+    assert (placed[3, :3].tolist(), placed.sum()) == ([5.0, 6.0, 0.0], 13.0)
     with pytest.raises(ReportError, match=r"the cells of a map .* differ from those of SHALTOP"):
         frank.on_grid(Map(Grid(35.0, 70.0, 20.0, 20.0, 3, 2), part.values), GRID)
-
-
-def test_grid_file_is_read_from_south_to_north(tmp_path: Path) -> None:
     file = tmp_path / "a.asc"
     file.write_text("ncols 3\nnrows 2\nxllcorner 20\nyllcorner 40\ncellsize 10\nNODATA_value -9999\n1 2 3\n4 5 6\n")
     found = frank.read_grid(file)
@@ -83,7 +75,7 @@ def test_grid_file_is_read_from_south_to_north(tmp_path: Path) -> None:
         (25, 1.02, 1538, 2147, 2210),
     ],
 )
-def test_results_of_shaltop_have_the_numbers_that_their_source_states(
+def test_results_of_shaltop_are_those_of_their_source(
     angle: int, area: float, x: float, y: float, farthest: float
 ) -> None:
     if not DATA.is_dir():
@@ -101,12 +93,7 @@ def test_order_and_limit_of_a_power_law_are_exact(power: float) -> None:
     found = refinement.order(*values)
     assert found == pytest.approx(power)
     assert refinement.limit(values[1], values[2], found) == pytest.approx(1_000.0)
-    assert math.isnan(refinement.order(1.0, 2.0, 1.5))
-    assert math.isnan(refinement.order(1.0, 1.0, 1.0))
-
-
-def test_spread_is_the_range_over_the_mean() -> None:
-    assert refinement.spread([90.0, 100.0, 110.0]) == pytest.approx(0.2)
+    assert math.isnan(refinement.order(1.0, 2.0, 1.5)) and math.isnan(refinement.order(1.0, 1.0, 1.0))
 
 
 @pytest.mark.parametrize("cell", refinement.ALR_CELLS)

@@ -1,7 +1,5 @@
 """Layers of a GeoPackage: kinds of geometries, and messages of errors."""
 
-from __future__ import annotations
-
 import struct
 from pathlib import Path
 
@@ -29,8 +27,7 @@ def test_lines_have_their_attributes(tmp_path: Path) -> None:
 
 
 def test_points_and_polygons_with_holes_are_read() -> None:
-    point = struct.pack("<BI2d", 1, 1, 4.0, 5.0)
-    np.testing.assert_array_equal(geometry_parts(HEAD + point)[0], [[4.0, 5.0]])
+    np.testing.assert_array_equal(geometry_parts(HEAD + struct.pack("<BI2d", 1, 1, 4.0, 5.0))[0], [[4.0, 5.0]])
     ring, hole = [[0.0, 0.0], [9.0, 0.0], [0.0, 9.0], [0.0, 0.0]], [[1.0, 1.0], [2.0, 1.0], [1.0, 2.0], [1.0, 1.0]]
     polygon = struct.pack("<BII", 1, 3, 2) + points(ring) + points(hole)
     outer, inner = geometry_parts(HEAD + polygon)

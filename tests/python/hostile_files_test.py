@@ -1,7 +1,5 @@
 """Files of any content: a value, or an error that names the file, within a limit of processor time."""
 
-from __future__ import annotations
-
 import sys
 import time
 from pathlib import Path

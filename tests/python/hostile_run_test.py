@@ -1,7 +1,5 @@
 """Reports of damaged run folders: intact data are plotted, damage is named."""
 
-from __future__ import annotations
-
 import json
 import warnings
 from collections.abc import Callable
@@ -28,7 +26,6 @@ def report(folder: Path, capsys: pytest.CaptureFixture[str], *only: str) -> tupl
 
 
 def history(change: Callable[[str], str]) -> Callable[[Path], None]:
-    """Return a function that changes the history."""
     return lambda folder: write(folder / "history.csv", change((folder / "history.csv").read_text()))
 
 
@@ -113,9 +110,7 @@ def test_damaged_field_affects_only_its_figures(make_run: MakeRun, capsys: pytes
 
 
 @pytest.mark.parametrize("damaged", ["max_thickness.tif", "terrain.tif", "results.gpkg"])
-def test_damaged_maps_affect_only_their_figures(
-    map_run: Path, damaged: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_damaged_maps_affect_their_figures(map_run: Path, damaged: str, capsys: pytest.CaptureFixture[str]) -> None:
     whole = (map_run / "maps" / damaged).read_bytes()
     (map_run / "maps" / damaged).write_bytes(whole[: len(whole) // 2])
     code, errors, page = report(map_run, capsys)
@@ -126,8 +121,7 @@ def test_damaged_maps_affect_only_their_figures(
 
 
 def test_overflow_affects_only_its_figures(make_run: MakeRun, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = make_run()
-    columns = history_columns(11, 2)
+    folder, columns = make_run(), history_columns(11, 2)
     for name, values in columns.items():
         if name not in ("time_s", "step"):
             values[5:] = [1e30, 1e200, -1e308, np.inf, -np.inf, np.nan]
@@ -156,24 +150,18 @@ def test_special_characters_are_text(make_run: MakeRun) -> None:
     assert len(make_report(Run(folder), dpi=50).figures) == 8
 
 
-def test_title_is_not_a_template(make_run: MakeRun) -> None:
+def test_title_is_no_template_and_a_failed_write_keeps_the_file(make_run: MakeRun) -> None:
     folder = make_run()
     edit(folder / "case.toml", "Block on a slope & <more>", "BODY of TITLE")
     page = page_of(folder)
-    assert "<title>BODY of TITLE</title>" in page
-    assert page.count("<h1>") == 1
-
-
-def test_failed_write_keeps_the_previous_file(make_run: MakeRun) -> None:
-    folder = make_run()
+    assert "<title>BODY of TITLE</title>" in page and page.count("<h1>") == 1
     report = make_report(Run(folder), names=["motion"], dpi=50)
     before = {path: path.read_bytes() for path in (report.page, report.figures["motion"])}
     for path in before:
         with pytest.raises(OSError, match="full"), atomic_file(path) as temporary:
             temporary.write_bytes(b"the first half")
             raise OSError("full")
-        assert path.read_bytes() == before[path]
-        assert not list(path.parent.glob(".*part*"))
+        assert path.read_bytes() == before[path] and not list(path.parent.glob(".*part*"))
 
 
 def test_ticks_of_powers_are_formulas(map_run: Path, make_run: MakeRun) -> None:

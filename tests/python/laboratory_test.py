@@ -1,7 +1,5 @@
 """Laboratory experiments: lines from particles, and values of figures."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -65,14 +63,9 @@ def bars(cell: float, offset: float) -> laboratory.Bars:
     failure = laboratory.read_points(laboratory.MEASURED / "failure.csv")
     lifted = failure[1] + offset
     return laboratory.Bars(
-        cell,
-        surface[1] + offset,
-        (surface[0], surface[1] + offset),
-        dict.fromkeys(laboratory.MOVED, lifted),
-        (failure[0], lifted),
-        0.442 + offset,
-        0.02,
-    )
+        cell, surface[1] + offset, (surface[0], surface[1] + offset), dict.fromkeys(laboratory.MOVED, lifted),
+        (failure[0], lifted), 0.442 + offset, 0.02,
+    )  # fmt: skip
 
 
 def test_figure_of_bars_has_runs_and_measurements() -> None:
@@ -81,8 +74,7 @@ def test_figure_of_bars_has_runs_and_measurements() -> None:
         for transfer in laboratory.TRANSFERS
         for cell in laboratory.BAR_CELLS
     }
-    figure = laboratory_page.bar_figure(found)
-    for panel, transfer in zip(figure.axes, laboratory.TRANSFERS, strict=True):
+    for panel, transfer in zip(laboratory_page.bar_figure(found).axes, laboratory.TRANSFERS, strict=True):
         lines = {str(line.get_label()): line for line in panel.lines}
         for cell in laboratory.BAR_CELLS[1:]:
             for words, profile in (
@@ -95,22 +87,15 @@ def test_figure_of_bars_has_runs_and_measurements() -> None:
         for words, name in (("surface", "surface"), ("failure line", "failure")):
             x, height = laboratory.read_points(laboratory.MEASURED / f"{name}.csv")
             line = lines[f"{words}, measured (MaterialPointSolver.jl; Bui et al. 2008)"]
-            assert np.array_equal(line.get_xdata(), x)
-            assert np.array_equal(line.get_ydata(), height)
+            assert np.array_equal(line.get_xdata(), x) and np.array_equal(line.get_ydata(), height)
 
 
-def test_table_of_bars_has_the_offsets() -> None:
+def test_table_of_bars_has_offsets_and_stays_in_the_page() -> None:
     found = {("flip", 10.0): bars(10.0, 0.002), ("flip", 5.0): bars(5.0, -0.003)}
     rows = [line.split(" | ") for line in laboratory_page.bar_table(found).splitlines()]
-    assert rows[2][1:] == ["2.0", "3.0 |"]
-    assert rows[3][1:] == ["+2.0", "-3.0 |"]
-    assert rows[4][1:] == ["+2", "-3 |"]
-    assert rows[5][1:] == ["", "5.0 |"]
-
-
-def test_filled_page_keeps_tables_and_lists() -> None:
+    assert (rows[2][1:], rows[3][1:]) == (["2.0", "3.0 |"], ["+2.0", "-3.0 |"])
+    assert (rows[4][1:], rows[5][1:]) == (["+2", "-3 |"], ["", "5.0 |"])
     page = "# Title\n\n- one\n  two\n- " + "word " * 40 + "\n\n| a |\n| --- |\n\nlast"
     lines = rewrapped(page).splitlines()
     assert lines[:4] == ["# Title", "", "- one two", "- " + "word " * 22 + "word"]
-    assert lines[4] == "  " + "word " * 16 + "word"
-    assert lines[5:] == ["", "| a |", "| --- |", "", "last"]
+    assert (lines[4], lines[5:]) == ("  " + "word " * 16 + "word", ["", "| a |", "| --- |", "", "last"])

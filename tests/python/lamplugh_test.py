@@ -1,7 +1,5 @@
 """Measures of Sec. 4, and rows of the one-at-a-time table, on constructed run folders."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 
@@ -34,8 +32,7 @@ def test_zones_adjoin_and_contain_their_fraction_of_the_volume(make_run: MakeRun
     assert "".join(zone.letter for zone in found) == "BCDEF"
     assert [zone.end for zone in found[:-1]] == [zone.start for zone in found[1:]]
     assert found[0].start == pytest.approx(1000.0, abs=20.0)
-    assert found[0].end == pytest.approx(2000.0, abs=20.0)
-    assert found[-1].end == FRONT
+    assert (found[0].end, found[-1].end) == (pytest.approx(2000.0, abs=20.0), FRONT)
     # A quarter of the particles into each of B, D and F, another beyond the front.
     with h5py.File(folder / "snapshots" / "000010.vtkhdf", "r+") as file:
         points = file["VTKHDF/Points"]
@@ -47,7 +44,7 @@ def test_zones_adjoin_and_contain_their_fraction_of_the_volume(make_run: MakeRun
     assert fractions["F"][1] == pytest.approx(0.25 * volume / 1000.0)
 
 
-def test_base_traction_follows_from_the_deceleration(make_run: MakeRun) -> None:
+def test_base_traction_and_particles_near_the_terrain(make_run: MakeRun) -> None:
     folder = make_run(rows=201, history={"mean_velocity_m_s": 50.0 - 0.8 * np.linspace(0.0, 10.0, 201)})
     (folder / "terrain.csv").write_text("distance_m,terrain_elevation_m\n-1e4,0.0\n1e4,0.0\n")
     run = Run(folder)
@@ -55,11 +52,8 @@ def test_base_traction_follows_from_the_deceleration(make_run: MakeRun) -> None:
     # 80 particles of 2,000 kg on 20 m in rows of 4: 0.5 % and 99.5 % of the mass are the first and the last of them.
     assert base_traction(run, 2.0, 8.0) == pytest.approx(80 * 2000.0 * 0.8 / (x[-1] - x[0]) / 1e3)
     assert math.isnan(base_traction(run))
-
-
-def test_particles_near_the_terrain_are_counted_normal_to_it(make_run: MakeRun) -> None:
     # Rows 0.5, 1.5, 2.5 and 3.5 m up a slope of one half: 0.447, 1.342, 2.236, 3.130 m normal to it, two per 2 m.
-    run = Run(make_run())
+    run = Run(make_run(name="near"))
     assert near_ground(run, 0.0, height=1.3, column=2.0) == 2.0
     assert near_ground(run, 0.0, height=1.4, column=2.0) == 4.0
 
@@ -71,34 +65,27 @@ def test_measures_of_blocks_are_those_of_their_histories(make_run: MakeRun) -> N
         rows = "0,0,0,90,100\n1,4,2,50,100\n2,0,4,50,100\n3,0,4,50,9\n"
         (folder.parent / f"{block.key}.csv").write_text(header + rows)
     found = block_measures(Run(folder))
-    assert found["lamplugh_block_561_peak"] == 4.0
-    assert found["lamplugh_block_561_stop"] == 2.0
-    assert found["lamplugh_block_561_safety"] == 0.9
-    assert found["lamplugh_block_displacement"] == 4.0
+    assert (found["lamplugh_block_561_peak"], found["lamplugh_block_561_stop"]) == (4.0, 2.0)
+    assert (found["lamplugh_block_561_safety"], found["lamplugh_block_displacement"]) == (0.9, 4.0)
     assert read_block(folder.parent / "lamplugh-block.csv")["time_s"].tolist() == [0, 1, 2, 3]
 
 
 def test_rest_differs_from_a_pause_at_the_start() -> None:
     times = [float(t) for t in range(121)]
     moving = [max(0.0, 10.0 - abs(t - 50.0)) for t in times]
-    assert not at_rest(times[:30], moving[:30])
-    assert not at_rest(times[:66], moving[:66])
-    assert at_rest(times[:72], moving[:72])
-    assert at_rest(times, [0.3] * 121)
+    assert not at_rest(times[:30], moving[:30]) and not at_rest(times[:66], moving[:66])
+    assert at_rest(times[:72], moving[:72]) and at_rest(times, [0.3] * 121)
     assert not at_rest([], [])
 
 
 def test_outcome_has_the_results_of_a_run(make_run: MakeRun) -> None:
     found = outcome(make_run())
-    assert found.failure == ""
-    assert found.peak == pytest.approx(12.0)
+    assert (found.failure, found.peak) == ("", pytest.approx(12.0))
     assert found.peak_time == pytest.approx(5.0)
     assert found.start_time == pytest.approx(3.0409, abs=2e-3)  # 12 sin2 = 8
-    assert found.stop_time == pytest.approx(9.7, abs=0.1)
-    assert found.displacement == pytest.approx(80.0)
+    assert (found.stop_time, found.displacement) == (pytest.approx(9.7, abs=0.1), pytest.approx(80.0))
     assert (found.runout, found.front) == (pytest.approx(160.0), pytest.approx(120.0))
-    assert end_of(found) == "stopped"
-    assert found.length == pytest.approx(19.0)
+    assert (end_of(found), found.length) == ("stopped", pytest.approx(19.0))
 
 
 def test_rows_state_failures() -> None:

@@ -1,7 +1,5 @@
 """Figures of a 3D run on a DEM: values of the files, units, coordinates and terrain."""
 
-from __future__ import annotations
-
 import struct
 from pathlib import Path
 
@@ -26,18 +24,9 @@ from map_runs import (
 from matplotlib.figure import Figure
 
 from thawslide import NotInRunError, ReportError, Run
-from thawslide.figures import FIGURES
+from thawslide.figures import FIGURES, map_panel
 from thawslide.figures.animation import MOST_FRAMES, Animation
 from thawslide.figures.map_page import HIGHEST, WIDTH, layout
-from thawslide.figures.map_panel import (
-    MOST_CELLS,
-    coordinate_text,
-    coordinates,
-    covered_box,
-    make_scene,
-    page_box,
-    quiet_corner,
-)
 from thawslide.figures.site import make_site
 from thawslide.key_numbers import key_numbers
 from thawslide.maps import Grid, Map
@@ -62,9 +51,7 @@ ON_MAP = [
         ("slide_temperature", "basal temperature (°C)", 10.0),
     ],
 )
-def test_maps_at_report_times_have_the_values_of_the_particles(
-    map_run: Path, name: str, label: str, value: float
-) -> None:
+def test_maps_at_report_times_have_values_of_particles(map_run: Path, name: str, label: str, value: float) -> None:
     figure = plotted(name, map_run)
     panels = maps_of(figure)
     assert [axes.get_title(loc="left") for axes in panels] == [
@@ -87,11 +74,9 @@ def test_extent_maps_have_titles_units_and_legend(map_run: Path) -> None:
     figure = plotted("extent_maps", map_run)
     panels = maps_of(figure)
     assert [(axes.get_title(loc="left"), axes.get_title(loc="right")) for axes in panels] == [
-        ("(a) maximum flow thickness", "max 6 m"),
-        ("(b) maximum speed", "max 20 m/s"),
-        ("(c) arrival time", "0 to 9.8 s"),
-        ("(d) flow thickness at 10 s", "max 6 m"),
-    ]
+        ("(a) maximum flow thickness", "max 6 m"), ("(b) maximum speed", "max 20 m/s"),
+        ("(c) arrival time", "0 to 9.8 s"), ("(d) flow thickness at 10 s", "max 6 m"),
+    ]  # fmt: skip
     assert {"m, square-root scale\nblue: below 0.1 m", "m/s", "s"} <= labels(figure)
     assert " Outline: thickness > 0.1 m. " in notes(figure)
     final = field(panels[3]).get_array()
@@ -102,12 +87,14 @@ def test_extent_maps_have_titles_units_and_legend(map_run: Path) -> None:
     assert "gate" in {text.get_text() for text in panels[0].texts}
 
 
-def test_impact_maps_exclude_maps_without_values(map_run: Path) -> None:
+def test_impact_maps_have_values_and_forces_point_east_and_north(map_run: Path) -> None:
     titles = [axes.get_title(loc="left")[4:] for axes in maps_of(plotted("impact_maps", map_run))]
     assert titles == [
         "maximum dynamic pressure", "maximum momentum flux", "maximum pore pressure", "maximum basal temperature",
         "elevation change at 10 s",
     ]  # fmt: skip
+    components = FIGURES["force"].plot(Run(map_run)).axes[1]
+    assert [text.get_text() for text in components.get_legend().get_texts()] == ["x (east)", "y (north)", "z (up)"]
 
 
 def test_scale_of_elevation_change_is_symmetric(map_run: Path) -> None:
@@ -118,8 +105,7 @@ def test_scale_of_elevation_change_is_symmetric(map_run: Path) -> None:
     assert (norm.vmin, norm.vmax) == pytest.approx((-45.8, 45.8))
     assert norm(-10.0) + norm(10.0) == pytest.approx(1.0)
     bar = figure.axes[-1]
-    ticks = [label.get_text() for label in bar.get_yticklabels()]
-    assert {"−50", "−25", "0", "25", "50"} <= set(ticks)
+    assert {"−50", "−25", "0", "25", "50"} <= {label.get_text() for label in bar.get_yticklabels()}
 
 
 @pytest.mark.parametrize("largest", [THICKNESS, 1.2e27])
@@ -129,8 +115,7 @@ def test_remarks_are_next_to_all_titles_or_in_all_maps(map_run: Path, largest: f
     panels = maps_of(plotted("impact_maps", map_run))
     titles = [axes.get_title(loc="right") for axes in panels]
     inside = [[text.get_text() for text in axes.texts if "max" in text.get_text()] for axes in panels]
-    assert all(titles) == any(titles)
-    assert any(titles) != any(inside)
+    assert all(titles) == any(titles) and any(titles) != any(inside)
     assert number_text(largest) in (titles[1] or inside[1][0])
 
 
@@ -165,13 +150,10 @@ def test_animation_has_a_different_frame_with_even_sides_for_each_snapshot(map_r
     assert np.any(first != last)
 
 
-def test_unwritable_animation_is_an_error(map_run: Path, tmp_path: Path) -> None:
+def test_animation_has_limit_and_writable_file(map_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     video = Animation(Run(map_run))
     with pytest.raises(ReportError, match=r"video\.mp4: cannot be written \("):
         video.write(tmp_path / "no such folder" / "video.mp4", 40)
-
-
-def test_number_of_frames_is_limited(map_run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     run = Run(map_run)
     monkeypatch.setitem(run.__dict__, "times", np.arange(1000.0))
     video = Animation(run)
@@ -189,18 +171,14 @@ def test_report_has_figures_animation_and_maps(map_run: Path) -> None:
     page = report.page.read_text(encoding="utf-8")
     assert '<video controls loop muted src="data:video/mp4;base64,' in page
     assert '<th scope="row">max_pressure.tif</th><td>max pressure</td><td>Pa</td>' in page
-    assert '<p>Folder: <a href="maps">maps</a></p>' in page
-    assert "Missing figures" not in page
+    assert '<p>Folder: <a href="maps">maps</a></p>' in page and "Missing figures" not in page
 
 
 def test_key_numbers_of_the_deposit_are_those_of_run_json(map_run: Path) -> None:
     found = {row.words: row.value for row in key_numbers(Run(map_run))}
-    assert found["Deposit volume"] == "28,800 m³"
-    assert found["Deposit area"] == "4,800 m²"
-    assert found["Travel distance L"] == "280 m"
-    assert "Runout distance L" not in found
-    assert found["H/L"] == "0.4"
-    assert found["Affected area"] == "16,800 m²"
+    assert (found["Deposit volume"], found["Deposit area"]) == ("28,800 m³", "4,800 m²")
+    assert found["Travel distance L"] == "280 m" and "Runout distance L" not in found
+    assert (found["H/L"], found["Affected area"]) == ("0.4", "16,800 m²")
     assert found["Stop time"] == "8.5 s"
 
 
@@ -220,8 +198,7 @@ def test_mass_that_is_not_at_rest_has_no_deposit(map_run: Path) -> None:
     assert figure._suptitle.get_text() == "Slab on a plane: extent, up to 10 s (not at rest)"
     assert any("flow thickness at 10 s (not at rest)" in axes.get_title(loc="left") for axes in figure.axes)
     page = page_of(map_run)
-    assert f'<p class="note">Warning: {warning}</p>' in page
-    assert "eposit" not in page
+    assert f'<p class="note">Warning: {warning}</p>' in page and "eposit" not in page
 
 
 def test_outline_is_the_polygon_of_the_affected_area(map_run: Path) -> None:
@@ -237,11 +214,6 @@ def test_outline_is_the_polygon_of_the_affected_area(map_run: Path) -> None:
     axes = Figure().subplots()
     site.draw_outline(axes)
     np.testing.assert_array_equal(np.column_stack(axes.lines[0].get_data()), ring)
-
-
-def test_components_of_the_force_on_a_map_are_east_and_north(map_run: Path) -> None:
-    components = FIGURES["force"].plot(Run(map_run)).axes[1]
-    assert [text.get_text() for text in components.get_legend().get_texts()] == ["x (east)", "y (north)", "z (up)"]
 
 
 def test_missing_maps_are_errors(map_run: Path, fails: Fails) -> None:
@@ -275,11 +247,25 @@ def test_maps_of_a_run_without_motion_are_plotted(map_run: Path) -> None:
     assert [axes.get_title(loc="left") for axes in maps_of(plotted("extent_maps", map_run))] == ["(a) arrival time"]
 
 
-def test_large_terrain_is_thinned() -> None:
+def test_maps_fit_a_page_and_their_terrain() -> None:
     heights = np.add.outer(np.arange(3000.0), np.arange(3000.0))
-    scene = make_scene(Map(Grid(5.0, 5.0, 10.0, 10.0, 3000, 3000), heights), (0.0, 30_000.0, 0.0, 30_000.0))
-    assert max(scene.shade.shape) <= MOST_CELLS
-    assert scene.terrain.grid.cell_x == 40.0
+    scene = map_panel.make_scene(Map(Grid(5.0, 5.0, 10.0, 10.0, 3000, 3000), heights), (0.0, 30_000.0, 0.0, 30_000.0))
+    assert max(scene.shade.shape) <= map_panel.MOST_CELLS and scene.terrain.grid.cell_x == 40.0
+    # Two columns would leave half of the page empty; (count, aspect) of the comparison on a slope of the Alps.
+    found = layout(7, 0.49, 0.62, 0.3, 1.2)
+    assert found.columns == 3
+    assert found.columns * (found.width + 0.62) > 0.7 * WIDTH
+    whole = (0.0, 1000.0, 0.0, 2000.0)
+    west, east, south, north = map_panel.page_box((900.0, 1100.0, 0.0, 2000.0), whole)
+    assert (east, south, north) == (1000.0, 0.0, 2000.0)
+    assert (east - west) / (north - south) == pytest.approx(0.45)
+    assert map_panel.page_box((100.0, 500.0, 100.0, 400.0), whole) == (100.0, 500.0, 100.0, 400.0)
+    values = np.zeros((30, 30))
+    values[:12, :] = 1.0
+    values[12:, 12:] = 1.0
+    found = Map(Grid(0.5, 0.5, 1.0, 1.0, 30, 30), values)
+    assert map_panel.quiet_corner(found, found.grid.box) == "upper left" and map_panel.covered_box(found, 2.0) is None
+    assert map_panel.covered_box(found) == (0.0, 30.0, 0.0, 30.0)
 
 
 @pytest.mark.parametrize("bar", [0.0, 0.72])
@@ -295,43 +281,17 @@ def test_maps_fill_a_page_within_its_margins(count: int, aspect: float, bar: flo
     assert found.width >= 1.15
 
 
-def test_narrow_maps_use_the_width_of_the_page() -> None:
-    """Two columns would leave half of the page empty; (count, aspect) of the comparison on a slope of the Alps."""
-    found = layout(7, 0.49, 0.62, 0.3, 1.2)
-    assert found.columns == 3
-    assert found.columns * (found.width + 0.62) > 0.7 * WIDTH
-
-
 @pytest.mark.parametrize("inches", [0.6, 0.9, 1.0, 1.2, 2.0, 3.5, 6.8])
 @pytest.mark.parametrize(
-    ("low", "high"),
-    [(5_199_140.0, 5_199_690.0), (380_000.0, 389_000.0), (6_500_000.0, 6_504_400.0), (-210.0, 130.0)],
+    ("low", "high"), [(5_199_140.0, 5_199_690.0), (380_000.0, 389_000.0), (6_500_000.0, 6_504_400.0), (-210.0, 130.0)]
 )
 def test_labels_of_coordinates_do_not_overlap(low: float, high: float, inches: float) -> None:
-    found = coordinates(low, high, inches)
+    found = map_panel.coordinates(low, high, inches)
     assert 1 <= len(found) <= 5
     assert low <= found[0] and found[-1] <= high
-    texts = [coordinate_text(place) for place in found]
+    texts = [map_panel.coordinate_text(place) for place in found]
     for before, after, text, following in zip(found, found[1:], texts, texts[1:], strict=False):
         space = (after - before) * inches / (high - low)
         assert space > 0.07 * 0.5 * (len(text) + len(following))
     if inches >= 2.0:
         assert len(found) >= 2
-
-
-def test_boxes_fit_a_page_and_the_terrain() -> None:
-    whole = (0.0, 1000.0, 0.0, 2000.0)
-    west, east, south, north = page_box((900.0, 1100.0, 0.0, 2000.0), whole)
-    assert (east, south, north) == (1000.0, 0.0, 2000.0)
-    assert (east - west) / (north - south) == pytest.approx(0.45)
-    assert page_box((100.0, 500.0, 100.0, 400.0), whole) == (100.0, 500.0, 100.0, 400.0)
-
-
-def test_scale_bar_is_in_the_empty_corner() -> None:
-    values = np.zeros((30, 30))
-    values[:12, :] = 1.0
-    values[12:, 12:] = 1.0
-    found = Map(Grid(0.5, 0.5, 1.0, 1.0, 30, 30), values)
-    assert quiet_corner(found, found.grid.box) == "upper left"
-    assert covered_box(found) == (0.0, 30.0, 0.0, 30.0)
-    assert covered_box(found, 2.0) is None

@@ -1,7 +1,5 @@
 """Constructed run folders of 3D runs on a DEM: a slab that slides down a plane to the east; parts of their figures."""
 
-from __future__ import annotations
-
 import sqlite3
 import struct
 from contextlib import closing
@@ -40,8 +38,7 @@ def centres(columns: int = COLUMNS, rows: int = ROWS, cell: float = CELL) -> tup
 def slab(x: np.ndarray, y: np.ndarray, time: float) -> np.ndarray:
     """Return the thickness [m] of the slab at a time [s]."""
     start = WEST + 60.0 + SPEED * time
-    inside = (x > start) & (x < start + LENGTH) & (np.abs(y - MIDDLE) < 0.5 * WIDTH)
-    return np.where(inside, THICKNESS, 0.0)
+    return np.where((x > start) & (x < start + LENGTH) & (np.abs(y - MIDDLE) < 0.5 * WIDTH), THICKNESS, 0.0)
 
 
 def write_map(
@@ -123,16 +120,10 @@ def write_particles(path: Path, time: float) -> None:
     velocity = np.zeros((count, 3))
     velocity[:, 0], velocity[:, 2] = 0.6 * SPEED, 0.8 * SPEED
     fields = {
-        "id": np.arange(count),
-        "body": np.zeros(count, dtype=np.int32),
-        "mass": np.full(count, 1e5),
-        "volume": np.full(count, 50.0),
-        "velocity": velocity,
-        "temperature": np.where(up < 2.0, time, -50.0),
-        "in_band": (up < 2.0).astype(np.int32),
-        "plastic_strain": np.zeros(count),
-        "pore_pressure": np.zeros(count),
-    }
+        "id": np.arange(count), "body": np.zeros(count, dtype=np.int32), "mass": np.full(count, 1e5),
+        "volume": np.full(count, 50.0), "velocity": velocity, "temperature": np.where(up < 2.0, time, -50.0),
+        "in_band": (up < 2.0).astype(np.int32), "plastic_strain": np.zeros(count), "pore_pressure": np.zeros(count),
+    }  # fmt: skip
     with h5py.File(path, "w") as file:
         group = file.create_group("VTKHDF")
         group.attrs["time"], group.attrs["step"] = time, int(100 * time)

@@ -1,31 +1,15 @@
 """Page of members with initial noise: results of a run, met rows, variants, aligned times."""
 
-from __future__ import annotations
-
-import json
-
 import numpy as np
 import pytest
 from band_columns_test import column_history
 from conftest import MakeRun, write_history
 from force_record_test import pulse, write_record
 
+from reproduction import members
 from reproduction.lamplugh import INVERSION
 from reproduction.member_figures import MEMBER, aligned, members_over_time
-from reproduction.members import (
-    QUANTITIES,
-    Observed,
-    is_met,
-    median,
-    member_rows,
-    members_table,
-    middle_member,
-    numbers,
-    observed,
-    variant_rows,
-    variants_table,
-    verdict,
-)
+from reproduction.members import Observed, is_met, verdict
 from reproduction.study import Job
 from thawslide import Run
 from thawslide.figures.force import force_in_band
@@ -37,7 +21,7 @@ GOOD = Observed(
     dilation=5.0, hottest=190.0,
     ratio=1.0,
 )  # fmt: skip
-ACCEPTED = {each.name: each for each in QUANTITIES}
+ACCEPTED = {each.name: each for each in members.QUANTITIES}
 CASE = {
     "material": {"rock_ice": {"hydraulic_conductivity": 1e-7}},
     "substrate": {"glacier": {"friction_coefficient": 0.1}},
@@ -52,11 +36,10 @@ def changed(**values: float | str) -> Observed:
     return Observed(**(vars(GOOD) | values))  # type: ignore[arg-type]
 
 
-def test_observed_has_the_results_of_a_run(make_run: MakeRun) -> None:
+def test_observed_has_the_results_of_a_run_and_no_stop_in_motion(make_run: MakeRun) -> None:
     folder = make_run(history=column_history())
-    found = observed(folder)
-    assert found.failure == ""
-    assert found.start == pytest.approx(START, abs=2e-3)
+    found = members.observed(folder)
+    assert (found.failure, found.start) == ("", pytest.approx(START, abs=2e-3))
     assert (found.peak, found.rise) == (pytest.approx(12.0), pytest.approx(5.0 - START, abs=2e-3))
     assert found.stop == pytest.approx(9.8 + 40.0 - START, abs=2e-3)  # below 0.1 m/s from 9.709 s on
     assert found.end == pytest.approx(50.0 - START, abs=2e-3)
@@ -65,6 +48,12 @@ def test_observed_has_the_results_of_a_run(make_run: MakeRun) -> None:
     assert (found.hottest, found.ratio) == (pytest.approx(170.0), pytest.approx(1.0))
     assert found.dilation == pytest.approx(3.0)
     assert np.isnan(found.reversal), "no record in the case"
+    columns = column_history()
+    columns["mean_velocity_m_s"] = 1.0 * columns["time_s"]
+    folder = make_run(name="moving", history=columns, facts={"status": "failed", "message": "it left"})
+    found = members.observed(folder)
+    assert (found.stop, found.failure) == (float("inf"), "it left")
+    assert members.observed(folder.parent / "none").failure == "not run"
 
 
 def test_reversal_is_that_of_the_force_figure(make_run: MakeRun) -> None:
@@ -74,28 +63,18 @@ def test_reversal_is_that_of_the_force_figure(make_run: MakeRun) -> None:
     write_record(folder)
     found = compared(Run(folder)).run.reversal
     assert found is not None and 8.0 < found.duration < 20.0
-    assert observed(folder).reversal == found.duration
-
-
-def test_moving_run_has_no_stop(make_run: MakeRun) -> None:
-    columns = column_history()
-    columns["mean_velocity_m_s"] = 1.0 * columns["time_s"]
-    folder = make_run(history=columns, facts={"status": "failed", "message": "it left"})
-    found = observed(folder)
-    assert (found.stop, found.failure) == (float("inf"), "it left")
-    assert observed(folder.parent / "none").failure == "not run"
+    assert members.observed(folder).reversal == found.duration
 
 
 def test_rows_are_met_by_the_median_and_pressure_by_every_member() -> None:
     found = [changed(peak=peak) for peak in (60.0, 75.0, 80.0, 87.0, 120.0)]
-    assert median(found, ACCEPTED["peak"]) == 80.0
-    assert all(is_met(found, each) for each in QUANTITIES)
+    assert members.median(found, ACCEPTED["peak"]) == 80.0
+    assert all(is_met(found, each) for each in members.QUANTITIES)
     assert is_met([changed(ratio=1.0 + 1e-12)], ACCEPTED["ratio"])
-    pressed = [*found[:4], changed(ratio=1.01)]
-    assert not is_met(pressed, ACCEPTED["ratio"])
+    assert not is_met([*found[:4], changed(ratio=1.01)], ACCEPTED["ratio"])
     assert not is_met([changed(failure="bad"), GOOD], ACCEPTED["ratio"])
     assert "- maximum P over averaged N: not every member ended" in verdict([changed(failure="bad"), GOOD])
-    table = members_table(found).splitlines()
+    table = members.members_table(found).splitlines()
     peak = "| model | peak of the mean velocity [m/s] | 80 | 72 to 88 | 80.0 | 60.0 to 120.0 | 3 of 5 | yes |"
     assert peak in table
     assert "| bound | maximum P over averaged N |  | at most 1 | 1.000 | 1.000 | 5 of 5 | yes |" in table
@@ -116,31 +95,19 @@ def test_verdict_lists_rows_that_are_met_and_not_met() -> None:
     assert words.endswith("Excluded from median and range, because they failed: seed 3 (it left).")
     going = [changed(stop=float("inf")), changed(stop=float("inf")), GOOD]
     assert "- stop: at least half of the members have none (accepted: before 200)" in verdict(going)
-    assert "| before 200 | not by 220 | 180 to not by 220 | 1 of 3 | **no** |" in members_table(going)
+    assert "| before 200 | not by 220 | 180 to not by 220 | 1 of 3 | **no** |" in members.members_table(going)
     assert "- runout: no member has it (accepted: 9 to 11.5)" in verdict([Observed("not run")])
 
 
-def test_middle_member_is_nearest_to_the_medians() -> None:
-    found = [changed(peak=78.0), changed(peak=79.0, failure="bad"), changed(peak=81.0, runout=11.0), changed(peak=80.0)]
-    assert middle_member(found) == 3
-
-
-def test_members_differ_only_in_their_seed() -> None:
-    rows = member_rows()
-    assert [row.sets for row in rows] == [("initial.noise=0.1", f"initial.seed={seed}") for seed in range(1, 21)]
-    assert len({row.key for row in rows}) == 20
-
-
 def test_variants_differ_from_the_case() -> None:
-    sets = [row.sets[0] for row in variant_rows(CASE)]
-    assert len(sets) == 16
-    assert "band.growth_per_slip=1e-12" not in sets
+    sets = [row.sets[0] for row in members.variant_rows(CASE)]
+    assert len(sets) == 16 and "band.growth_per_slip=1e-12" not in sets
     assert "substrate.glacier.friction_coefficient=0.10" not in sets  # value of this case
     assert {"pressure.frozen_rows=sealed", "band.load_time=2", "heat.steam=false", "band.growth=inertial"} < set(sets)
-    grown = [row.sets[0] for row in variant_rows(CASE | {"band": CASE["band"] | {"growth": "slip"}})]
+    grown = [row.sets[0] for row in members.variant_rows(CASE | {"band": CASE["band"] | {"growth": "slip"}})]
     assert "band.growth_per_slip=1e-12" in grown and "band.growth=inertial" not in grown
     other = CASE | {"pressure": {"frozen_rows": "sealed", "skeleton_compressibility": 1e-8}, "heat": {"steam": False}}
-    found = [row.sets[0] for row in variant_rows(other)]
+    found = [row.sets[0] for row in members.variant_rows(other)]
     assert "pressure.frozen_rows=vented" in found
     assert not {"heat.steam=false", "pressure.skeleton_compressibility=1e-8"} & set(found)
 
@@ -148,7 +115,7 @@ def test_variants_differ_from_the_case() -> None:
 def test_values_outside_the_intervals_are_bold() -> None:
     rows = [Job("a", "the case"), Job("b", "hot", ("x=1",)), Job("c", "gone", ("y=2",))]
     found = {"a": GOOD, "b": changed(hottest=300.0, failure="it left", stop=float("inf")), "c": Observed("not run")}
-    head, _, case, hot, gone, _, broken = variants_table(rows, found).splitlines()
+    head, _, case, hot, gone, _, broken = members.variants_table(rows, found).splitlines()
     assert case == "| the case | 10.0 | 0.28 | 10.0 | 80.0 | 35.0 | 5.70 | 180 | 190 | 1.000 | 20.0 |  |"
     assert head.startswith(
         "| run | observation: runout [km] | observation: force 35 to 150 s [TN] | "
@@ -160,10 +127,15 @@ def test_values_outside_the_intervals_are_bold() -> None:
     assert broken == "- hot failed: it left"
 
 
-def test_numbers_have_names_of_medians_and_variants() -> None:
-    named = numbers([GOOD, changed(peak=70.0)], {"e-0.35": changed(runout=8.0)})
+def test_members_differ_in_their_seed_and_have_medians_and_a_middle() -> None:
+    named = members.numbers([GOOD, changed(peak=70.0)], {"e-0.35": changed(runout=8.0)})
     assert (named["median_peak"], named["least_peak"], named["most_peak"]) == (75.0, 70.0, 80.0)
     assert named["e_0_35_runout"] == 8.0
+    rows = members.member_rows()
+    assert [row.sets for row in rows] == [("initial.noise=0.1", f"initial.seed={seed}") for seed in range(1, 21)]
+    assert len({row.key for row in rows}) == 20
+    found = [changed(peak=78.0), changed(peak=79.0, failure="bad"), changed(peak=81.0, runout=11.0), changed(peak=80.0)]
+    assert members.middle_member(found) == 3
 
 
 def test_members_have_aligned_times(make_run: MakeRun) -> None:

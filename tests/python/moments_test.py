@@ -1,7 +1,5 @@
 """Times of snapshots in figures, and velocities from displacement."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import h5py
@@ -19,7 +17,6 @@ from thawslide.maps import Maps
 
 
 def move(folder: Path, number: int, points: np.ndarray | None = None, **fields: np.ndarray | float) -> None:
-    """Change points and fields of a snapshot."""
     with h5py.File(folder / "snapshots" / f"{number:06d}.vtkhdf", "r+") as file:
         if points is not None:
             file["VTKHDF/Points"][:] = points
@@ -27,9 +24,8 @@ def move(folder: Path, number: int, points: np.ndarray | None = None, **fields: 
             file[f"VTKHDF/PointData/{name}"][:] = values
 
 
-def test_moments_are_fractions_of_the_mean_displacement(make_run: MakeRun) -> None:
-    folder = make_run(times="[]")
-    columns = history_columns(101, 2)
+def test_moments_are_fractions_of_the_displacement_without_times(make_run: MakeRun) -> None:
+    folder, columns = make_run(times="[]"), history_columns(101, 2)
     displacement = np.minimum(columns["time_s"] ** 2, 36.0)  # stop at 6 s
     write_history(folder / "history.csv", columns | {"mean_displacement_m": displacement})
     run = Run(folder)
@@ -38,10 +34,7 @@ def test_moments_are_fractions_of_the_mean_displacement(make_run: MakeRun) -> No
     for still in (0.0, np.nan):
         write_history(folder / "history.csv", columns | {"mean_displacement_m": np.full(101, still)})
         assert moments(Run(folder)) == [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]
-
-
-def test_times_of_the_case_have_priority(make_run: MakeRun) -> None:
-    assert [shot.time for shot in chosen_snapshots(Run(make_run(times="[1.0, 9.0]")))] == [1.0, 9.0]
+    assert [shot.time for shot in chosen_snapshots(Run(make_run(name="given", times="[1.0, 9.0]")))] == [1.0, 9.0]
 
 
 def test_velocities_are_those_of_displacement(make_run: MakeRun) -> None:
@@ -58,7 +51,6 @@ def test_velocities_are_those_of_displacement(make_run: MakeRun) -> None:
 
 
 def velocity_label(run: Run) -> str:
-    """Return the label of the velocities of the figure."""
     labels = [axes.get_xlabel() for axes in FIGURES["velocity"].plot(run).axes]
     return next(label for label in labels if label.startswith("speed"))
 
@@ -90,8 +82,7 @@ def test_vibration_at_rest_has_no_velocity(make_run: MakeRun) -> None:
 
 
 def test_velocities_of_particles_in_one_neighbouring_snapshot(make_run: MakeRun) -> None:
-    folder = make_run()
-    ids = np.arange(80)
+    folder, ids = make_run(), np.arange(80)
     move(folder, 4, id=np.where(ids == 79, 500, ids))  # without 79
     move(folder, 6, id=np.where(ids == 79, 500, np.where(ids == 78, 400, ids)))  # without 78 and 79
     run = Run(folder)
@@ -132,5 +123,4 @@ def test_thin_margins_have_a_separate_colour(map_run: Path) -> None:
     for name in ("max_thickness", "final_thickness"):
         values = Maps(Run(map_run))[name].values
         shown = _norm(values[values > 0.1], next(kind for kind in _EXTENT if kind.name == name))[0]
-        assert shown.vmax == pytest.approx(values.max())
-        assert isinstance(shown, PowerNorm)
+        assert shown.vmax == pytest.approx(values.max()) and isinstance(shown, PowerNorm)

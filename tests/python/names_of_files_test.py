@@ -1,7 +1,5 @@
 """Names of files of a run: files that the simulator removes with a run, temporary files, and other kinds of files."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path
@@ -27,11 +25,8 @@ def names_in(list_name: str) -> set[str]:
     return set(re.findall(r'"(\w+)"', found[1]))
 
 
-def test_simulator_has_all_names_of_figures() -> None:
+def test_simulator_has_all_names_of_figures_and_maps() -> None:
     assert names_in("figures_of_a_run") == set(FIGURES)
-
-
-def test_simulator_has_all_names_of_maps() -> None:
     kinds = set(re.findall(r'^ +{"(\w+)", "', (ROOT / "src" / "sim" / "map_kinds.cpp").read_text(), re.MULTILINE))
     assert len(kinds) >= 10
     assert names_in("maps_of_a_run") == kinds | {"terrain", "release"}

@@ -1,7 +1,5 @@
 """Influence of numerical parameters on the Lamplugh case with band columns: its runs and tables."""
 
-from __future__ import annotations
-
 import dataclasses
 import tomllib
 from pathlib import Path

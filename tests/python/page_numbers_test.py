@@ -1,7 +1,5 @@
 """Comparison of numbers of pages with runs."""
 
-from __future__ import annotations
-
 import random
 import re
 from decimal import Decimal
@@ -9,21 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from reproduction import page_numbers
 from reproduction.__main__ import main
 from reproduction.page_measures import from_table
-from reproduction.page_numbers import (
-    DeclarationError,
-    Page,
-    Phrase,
-    corrected,
-    differences,
-    misplaced,
-    number_of,
-    phrase_of,
-    read_declarations,
-    shown_step,
-    undeclared,
-)
+from reproduction.page_numbers import DeclarationError, Phrase, differences, number_of, phrase_of
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = """# A case
@@ -38,8 +25,8 @@ Cells of 10 m.
 PEAK = phrase_of(["a peak of {84} m/s, {31} s after the start", "peak", "rise"])
 
 
-def page_of(*checked: Phrase, given: tuple[str, ...] = ()) -> Page:
-    return Page("page.md", checked, tuple(Phrase(each) for each in given))
+def page_of(*checked: Phrase, given: tuple[str, ...] = ()) -> page_numbers.Page:
+    return page_numbers.Page("page.md", checked, tuple(Phrase(each) for each in given))
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -51,7 +38,7 @@ def test_number_agrees_only_with_values_that_round_to_it(seed: int) -> None:
         text = f"{stated:,.{decimals}f}"
         number = number_of(text, "x")
         step = 10.0**-decimals
-        assert shown_step(text) == pytest.approx(step, rel=1e-12)
+        assert page_numbers.shown_step(text) == pytest.approx(step, rel=1e-12)
         apart = chosen.uniform(-3.0, 3.0)
         if abs(abs(apart) - 0.5) > 1e-3:
             assert number.agrees(float(stated) + apart * step) == (abs(apart) < 0.5), (text, apart)
@@ -72,44 +59,37 @@ def test_number_agrees_only_with_values_that_round_to_it(seed: int) -> None:
         ("1", "x", (), (float("nan"), float("inf"))),
     ],
 )
-def test_number_agrees_by_its_rule(
-    text: str, expression: str, right: tuple[float, ...], wrong: tuple[float, ...]
-) -> None:
+def test_number_has_its_rule(text: str, expression: str, right: tuple[float, ...], wrong: tuple[float, ...]) -> None:
     number = number_of(text, expression)
     assert number.expression == "x"
     assert [number.agrees(value) for value in right] == [True] * len(right)
     assert [number.agrees(value) for value in wrong] == [False] * len(wrong)
 
 
-def test_wrong_number_is_reported_with_its_line() -> None:
+def test_wrong_number_and_violated_bound_are_reported_with_their_line() -> None:
     assert differences(page_of(PEAK), SOURCE, {"peak": 84.4, "rise": 30.9}) == ([], 2)
     wrong, compared = differences(page_of(PEAK), SOURCE, {"peak": 80.27, "rise": 30.9})
     assert compared == 2
     assert [str(each) for each in wrong] == [
-        "page.md:3: says 84, the run gives 80.3 ('a peak of 84 m/s, 31 s after the start': peak)",
+        "page.md:3: says 84, the run gives 80.3 ('a peak of 84 m/s, 31 s after the start': peak)"
     ]
-
-
-def test_violated_bound_is_reported() -> None:
-    page = page_of(phrase_of(["a peak of {84} m/s", "peak at most"]))
-    wrong, _ = differences(page, SOURCE, {"peak": 84.5})
+    wrong, _ = differences(page_of(phrase_of(["a peak of {84} m/s", "peak at most"])), SOURCE, {"peak": 84.5})
     assert [str(each) for each in wrong] == [
         "page.md:3: says at most 84, the run gives 84.5 ('a peak of 84 m/s': peak)"
     ]
 
 
-def test_unknown_name_is_reported_and_absent_run_is_not() -> None:
+def test_names_and_expressions_without_a_value_are_reported() -> None:
     assert differences(page_of(PEAK), SOURCE, {"peak": 84.4}, {"rise"}) == ([], 1)
     wrong, compared = differences(page_of(PEAK), SOURCE, {"peak": 84.4})
     assert compared == 2
     assert [str(each) for each in wrong] == ["page.md:3: 'rise' has no value: name 'rise' is not defined"]
-
-
-def test_expression_without_a_value_is_reported() -> None:
     page = page_of(phrase_of(["a peak of {84} m/s", 'peak["speed"]']))
     wrong, compared = differences(page, SOURCE, {"peak": {}})
     assert compared == 1
     assert [str(each) for each in wrong] == ["page.md:3: 'peak[\"speed\"]' has no value: 'speed'"]
+    with pytest.raises(DeclarationError, match=r"do not match \(found 1 and 2\). Give one expression for each number"):
+        phrase_of(["a peak of {84} m/s", "peak", "rise"])
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -128,10 +108,9 @@ def test_corrected_page_differs_only_in_its_numbers(seed: int) -> None:
     names = {"one": chosen.uniform(-5e3, 5e4), "two": chosen.uniform(-50.0, 50.0)}
     wrong, _ = differences(page, source, names)
     assert len(wrong) == 18
-    new_source, new_declarations = corrected(source, declarations, wrong)
+    new_source, new_declarations = page_numbers.corrected(source, declarations, wrong)
     new_page = page_of(*(phrase_of([line, "one", "two"]) for line in new_declarations.splitlines()))
-    assert differences(new_page, new_source, names) == ([], 18)
-    assert len(new_page.checked) == 9
+    assert (differences(new_page, new_source, names), len(new_page.checked)) == (([], 18), 9)
     words = [re.sub(r"[-+]?[\d,]*\.?\d+(?= |\n)", "#", each) for each in (source, new_source)]
     assert words[0] == words[1]
 
@@ -156,34 +135,25 @@ def test_value_has_the_format_of_the_number_in_the_page(text: str, expression: s
 
 @pytest.mark.parametrize(("text", "count"), [("a peak of {85} m/s", 0), ("{1} km", 1), ("{10} m", 1)])
 def test_checked_phrase_must_occur_once(text: str, count: int) -> None:
-    wrong = misplaced(page_of(phrase_of([text, "x"])), SOURCE)
+    wrong = page_numbers.misplaced(page_of(phrase_of([text, "x"])), SOURCE)
     assert len(wrong) == 1 - count
     assert all(f"as declared (found {count} times; allowed 1)" in line for line in wrong)
-    twice = misplaced(page_of(phrase_of([text, "x"])), SOURCE + SOURCE)
-    assert len(twice) == 1
+    assert len(page_numbers.misplaced(page_of(phrase_of([text, "x"])), SOURCE + SOURCE)) == 1
 
 
-def test_given_phrase_must_occur_at_least_once() -> None:
-    assert misplaced(page_of(given=("Cells of 10 m",)), SOURCE + SOURCE) == []
-    assert misplaced(page_of(given=("Cells of 20 m",)), SOURCE) == [
+def test_given_phrases_occur_and_undeclared_numbers_are_reported() -> None:
+    assert page_numbers.misplaced(page_of(given=("Cells of 10 m",)), SOURCE + SOURCE) == []
+    assert page_numbers.misplaced(page_of(given=("Cells of 20 m",)), SOURCE) == [
         "page.md: the page does not state 'Cells of 20 m' as declared (found 0 times; allowed 1 or more). Write in the "
         "declarations what the page says."
     ]
-
-
-def test_undeclared_number_is_reported() -> None:
-    assert undeclared(page_of(PEAK, given=("Cells of 10 m",)), SOURCE) == []
-    assert undeclared(page_of(PEAK, given=("## Inputs",)), SOURCE) == []
-    assert undeclared(page_of(PEAK), SOURCE) == ["page.md:8: '10 m' is not declared"]
-    assert undeclared(page_of(given=("## Inputs",)), SOURCE) == [
+    assert page_numbers.undeclared(page_of(PEAK, given=("Cells of 10 m",)), SOURCE) == []
+    assert page_numbers.undeclared(page_of(PEAK, given=("## Inputs",)), SOURCE) == []
+    assert page_numbers.undeclared(page_of(PEAK), SOURCE) == ["page.md:8: '10 m' is not declared"]
+    assert page_numbers.undeclared(page_of(given=("## Inputs",)), SOURCE) == [
         "page.md:3: '84 m/s' is not declared",
         "page.md:3: '31 s' is not declared",
     ]
-
-
-def test_expressions_must_match_the_braces() -> None:
-    with pytest.raises(DeclarationError, match=r"do not match \(found 1 and 2\). Give one expression for each number"):
-        phrase_of(["a peak of {84} m/s", "peak", "rise"])
 
 
 def test_declarations_are_read_with_texts_runs_and_pages(tmp_path: Path) -> None:
@@ -192,10 +162,10 @@ def test_declarations_are_read_with_texts_runs_and_pages(tmp_path: Path) -> None
         '[texts]\nPAGE = "a.md"\n[runs]\nshort = "cases/block/e050.toml time.end=1 \'b = [1, 2]\'"\n'
         '[[page]]\nfile = "page.md"\nchecked = [["a {1} m", "short.peak"]]\ngiven = ["2 m"]\n'
     )
-    found = read_declarations(file)
+    found = page_numbers.read_declarations(file)
     assert found.texts == {"PAGE": "a.md"}
     assert found.runs == {"short": ("cases/block/e050.toml", "time.end=1", "b = [1, 2]")}
-    assert found.pages == (Page("page.md", (phrase_of(["a {1} m", "short.peak"]),), (Phrase("2 m"),)),)
+    assert found.pages == (page_numbers.Page("page.md", (phrase_of(["a {1} m", "short.peak"]),), (Phrase("2 m"),)),)
     assert found.pages[0].checked[0].numbers[0].names == {"short"}
 
 
@@ -212,10 +182,8 @@ TABLES = """| e | quantity | 5 m |
 
 def test_number_of_a_table_is_found_by_column_and_row() -> None:
     assert from_table(TABLES, "5 m", "0.3", "runout") == 8.4
-    assert from_table(TABLES, "runout", "the case") == 9.0
-    assert from_table(TABLES, "band", "the case") == 192.0
-    assert from_table(TABLES, "runout", "none") == 1023.0
-    assert from_table(TABLES, "band", "none") == -10.0
+    assert (from_table(TABLES, "runout", "the case"), from_table(TABLES, "band", "the case")) == (9.0, 192.0)
+    assert (from_table(TABLES, "runout", "none"), from_table(TABLES, "band", "none")) == (1023.0, -10.0)
     with pytest.raises(KeyError, match=r"no table has the column 'band' and a row that begins with \('0.3',\)"):
         from_table(TABLES, "band", "0.3")
 

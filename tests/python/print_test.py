@@ -1,7 +1,5 @@
 """Figures for journals: width of two columns, letters in order, readable type, 150 dots per inch."""
 
-from __future__ import annotations
-
 import re
 import struct
 from pathlib import Path
@@ -62,15 +60,12 @@ def test_figures_without_title_have_larger_panels(make_run: MakeRun) -> None:
 
 @pytest.mark.parametrize("name", ["motion", "velocity"])
 def test_images_have_150_dots_per_inch(make_run: MakeRun, name: str) -> None:
-    run = Run(make_run())
-    image = make_report(run, names=[name]).figures[name].read_bytes()
+    image = make_report(Run(make_run()), names=[name]).figures[name].read_bytes()
     width = struct.unpack(">I", image[16:20])[0]  # of a PNG's first block
     assert width == int(150 * COLUMN_WIDTH)
 
 
-def test_profile_of_a_deposit_states_its_vertical_exaggeration(
-    make_run: MakeRun, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_profile_of_a_deposit_states_its_exaggeration(make_run: MakeRun, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(lamplugh, "deposit", lambda run: (np.array([50.0, 150.0]), np.array([3.0, 4.0])))
     monkeypatch.setattr(lamplugh, "zones", lambda run: [])
     figure = lamplugh.figure_deposit({"lamplugh": Run(make_run())})

@@ -1,7 +1,5 @@
 """The command thawslide of the Python package executes the program of the package."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -20,7 +18,6 @@ CALLER = "import sys; from pathlib import Path; from thawslide import program; p
 
 
 def write_executable(path: Path, text: str) -> Path:
-    """Write a program."""
     path.parent.mkdir(exist_ok=True)
     path.write_text(text)
     path.chmod(0o755)
@@ -44,9 +41,7 @@ def test_missing_program_is_an_error(monkeypatch: pytest.MonkeyPatch, capsys: py
     assert capsys.readouterr().err.startswith("error: /nowhere/thawslide: the program is missing")
 
 
-def test_found_program_is_the_starter_then_that_of_the_package_then_that_on_the_path(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_programs_are_found_in_order_starter_package_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     starter, own, other = (
         write_executable(tmp_path / name / "thawslide", SCRIPT) for name in ("starter", "own", "path")
     )

@@ -1,7 +1,5 @@
 """Hillshade compared with Horn's formula, and round numbers of contour lines and scale bars."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -23,34 +21,24 @@ def test_brightness_of_a_plane_is_the_cosine_to_the_light(slope_x: float, slope_
     np.testing.assert_allclose(hillshade(plane(slope_x, slope_y), 10.0, 5.0, exaggeration), wanted, atol=1e-12)
 
 
-def test_brightness_depends_on_the_aspect() -> None:
+def test_brightness_depends_on_aspect_light_and_data() -> None:
     assert hillshade(np.zeros((4, 4)), 1.0, 1.0) == pytest.approx(np.sin(np.pi / 4))
     towards = plane(np.sqrt(0.5), -np.sqrt(0.5))  # falls to the north-west by 45 degrees
     assert hillshade(towards, 10.0, 5.0) == pytest.approx(1.0)
     assert hillshade(-2.0 * towards, 10.0, 5.0) == pytest.approx(0.0)
-
-
-def test_light_from_the_east_is_on_eastern_slopes() -> None:
     assert hillshade(plane(-1.0, 0.0), 10.0, 5.0, azimuth=90.0, altitude=45.0) == pytest.approx(1.0)
+    heights = plane(0.1, 0.2)
+    heights[3, 3] = np.nan
+    shade = hillshade(heights, 10.0, 5.0)
+    assert np.isnan(shade[2:5, 2:5]).sum() >= 8 and np.isfinite(shade[:2]).all()
 
 
-def test_slopes_have_weights_one_two_one() -> None:
+def test_slopes_have_weights_one_two_one_and_two_rows() -> None:
     heights = np.zeros((3, 3))
     heights[0, 2], heights[1, 2], heights[2, 2] = 8.0, 80.0, 800.0
     slope_x, slope_y = slopes(heights, 2.0, 4.0)
     assert slope_x[1, 1] == pytest.approx((8.0 + 2 * 80.0 + 800.0) / 16.0)
     assert slope_y[1, 1] == pytest.approx((800.0 - 8.0) / 32.0)
-
-
-def test_no_shade_next_to_missing_data() -> None:
-    heights = plane(0.1, 0.2)
-    heights[3, 3] = np.nan
-    shade = hillshade(heights, 10.0, 5.0)
-    assert np.isnan(shade[2:5, 2:5]).sum() >= 8
-    assert np.isfinite(shade[:2]).all()
-
-
-def test_single_row_is_an_error() -> None:
     with pytest.raises(ValueError, match=r"at least 2 x 2 heights \(found \(1, 5\)\)"):
         slopes(np.zeros((1, 5)), 1.0, 1.0)
 
@@ -60,11 +48,6 @@ def test_single_row_is_an_error() -> None:
 )
 def test_round_number_is_not_above_the_value(value: float, found: float) -> None:
     assert round_number(value) == pytest.approx(found)
-
-
-def test_round_number_of_zero_is_an_error() -> None:
-    with pytest.raises(ValueError, match="expected a positive number, found 0"):
-        round_number(0.0)
 
 
 @pytest.mark.parametrize("span", [0.7, 3.0, 95.0, 1234.0, 3999.0])
@@ -79,6 +62,8 @@ def test_contour_levels_are_few_round_and_inside(span: float, most: int) -> None
         assert len(levels) > most / 6
 
 
-def test_level_terrain_has_no_contour_lines() -> None:
+def test_level_terrain_has_no_contour_lines_and_zero_no_round_number() -> None:
     assert not contour_levels(np.full((3, 3), 7.0), 10).size
     assert not contour_levels(np.full((3, 3), np.nan), 10).size
+    with pytest.raises(ValueError, match="expected a positive number, found 0"):
+        round_number(0.0)

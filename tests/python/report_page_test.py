@@ -1,7 +1,5 @@
 """Self-contained page of a run: balances, inputs, kept figures, data of the interactive view, published events."""
 
-from __future__ import annotations
-
 import json
 import os
 import re
@@ -28,7 +26,6 @@ MEGABYTE = 1_000_000
 
 
 def element(page: str, name: str) -> str:
-    """Return the text of an element of data."""
     found = re.search(rf'<script type="[^"]+" id="{name}">(.*?)</script>', page, re.DOTALL)
     assert found, name
     return found[1]
@@ -47,7 +44,6 @@ def field_of(parts: dict[str, Any], words: str) -> dict[str, Any]:
 
 @pytest.fixture(params=["2D", "3D"])
 def any_run(request: pytest.FixtureRequest, make_run: MakeRun) -> Path:
-    """Return the folder of a 2D run, then that of a 3D run."""
     if request.param == "2D":
         return make_run()
     folder: Path = request.getfixturevalue("map_run")
@@ -73,8 +69,7 @@ def test_page_with_selected_figures_keeps_the_others(make_run: MakeRun) -> None:
     folder = make_run()
     make_report(Run(folder), names=["motion", "band"], dpi=50)
     report = make_report(Run(folder), names=["force"], dpi=50)
-    assert list(report.figures) == ["force"]
-    assert list(report.kept) == ["motion", "band"]
+    assert (list(report.figures), list(report.kept)) == (["force"], ["motion", "band"])
     page = report.page.read_text(encoding="utf-8")
     headings = re.findall(r'<h2 id="(\w+)">', page)
     assert [name for name in headings if name != "interactive"] == ["motion", "force", "band"], "order of the page"
@@ -86,16 +81,12 @@ def test_page_with_selected_figures_keeps_the_others(make_run: MakeRun) -> None:
     assert page.count("Plotted before the last change of history.csv.") == 2
 
 
-def test_linked_figures_are_not_kept(make_run: MakeRun, tmp_path: Path) -> None:
+def test_linked_figures_are_not_kept_and_inputs_have_hashes(make_run: MakeRun, tmp_path: Path) -> None:
     folder = make_run()
     make_report(Run(folder), names=["motion"], dpi=50)
     (tmp_path / "secret.png").write_bytes(b"private")
     (folder / "figures" / "band.png").symlink_to(tmp_path / "secret.png")
     assert not make_report(Run(folder), names=["motion"], dpi=50).kept
-
-
-def test_inputs_have_their_hashes(make_run: MakeRun) -> None:
-    folder = make_run()
     file = {"path": "/cases/x/slope.csv", "sha256": "ab12" * 16, "bytes": 1234}
     update_facts(folder, inputs=[file, {"path": 5}, "text"])
     page = page_of(folder)
@@ -119,20 +110,6 @@ def test_balances_have_a_verdict(make_run: MakeRun) -> None:
         "<td>maximum residual 2 % of the maximum change of any term</td>" in page
     )
     assert "The balance of mechanical energy does not close." in page
-
-
-def test_mobility_of_a_section_is_that_of_profile_and_history(make_run: MakeRun) -> None:
-    run = Run(make_run())
-    found = mobility_of(run)
-    # 80 particles of 1 m3 per metre of width, 10 m wide; the highest is 3.5 m above the slope 1/2 at x = 20.5 m.
-    assert found.volume == pytest.approx(800.0)
-    assert found.length == pytest.approx(160.0)
-    assert found.height == pytest.approx(0.5 * (160.0 - 20.5) + 3.5)
-    rows = {row.words: row.value for row in main_numbers(run)}
-    assert rows["Release volume"] == "800 m³"
-    assert rows["H/L"] == "0.46"
-    assert rows["Peak flow thickness"] == "4 m"
-    assert rows["Arrival time"] == "9.9 s"  # of 40 + 12 t >= 0.99 * 160
 
 
 @pytest.mark.parametrize("tilt", [40.0, -20.0])
@@ -171,34 +148,57 @@ def test_mobility_with_tilted_gravity_of_a_run_towards_minus_x(make_run: MakeRun
     assert mobility_of(Run(folder)).length == pytest.approx(30.0 * np.cos(angle))  # from x = 40 m to 10 m
 
 
-def test_main_numbers_of_a_map_run_are_those_of_its_maps(map_run: Path) -> None:
+def test_main_numbers_of_a_map_run_are_those_of_its_maps_and_an_event(map_run: Path) -> None:
     rows = {row.words: row.value for row in main_numbers(Run(map_run))}
-    assert rows["Release volume"] == "28,800 m³"
-    assert rows["Peak speed"] == "20 m/s"
-    assert rows["Peak flow thickness"] == "6 m"
-    assert rows["H/L"] == "0.4"
-    assert rows["Latest arrival time"] == "9.8 s"
-    assert rows["Arrival time at probe gate"] == "5 s"
+    assert (rows["Release volume"], rows["Peak speed"]) == ("28,800 m³", "20 m/s")
+    assert (rows["Peak flow thickness"], rows["H/L"]) == ("6 m", "0.4")
+    assert (rows["Latest arrival time"], rows["Arrival time at probe gate"]) == ("9.8 s", "5 s")
+    parts = json.loads(element(page_of(map_run), "events-parts"))
+    *published, run = parts["traces"]
+    assert sum(len(trace["x"]) for trace in published) == len(published_events())
+    assert run["name"] == "this run"
+    assert (run["x"], run["y"]) == ([pytest.approx(0.0288)], [pytest.approx(112.0 / 280.0)])
+    assert parts["layout"]["xaxis"]["type"] == "log"
+    for travelled in (None, 0.0, -5.0):
+        update_facts(map_run, travel_distance_m=travelled)
+        assert events_part({"x": mobility_of(Run(map_run))}) == ""
 
 
-def test_thickness_of_a_level_block_is_its_height(make_run: MakeRun) -> None:
+def test_mobility_and_thickness_of_a_section_are_those_of_profile_and_history(make_run: MakeRun) -> None:
     run = Run(make_run())
     shot = run.snapshot(0)
     thickness = particle_thickness(run, shot)
     inner = (shot.points[:, 0] > 23.0) & (shot.points[:, 0] < 37.0)
     assert thickness[inner] == pytest.approx(np.full(int(inner.sum()), 4.0))
+    found = mobility_of(run)
+    # 80 particles of 1 m3 per metre of width, 10 m wide; the highest is 3.5 m above the slope 1/2 at x = 20.5 m.
+    assert (found.volume, found.length) == (pytest.approx(800.0), pytest.approx(160.0))
+    assert found.height == pytest.approx(0.5 * (160.0 - 20.5) + 3.5)
+    rows = {row.words: row.value for row in main_numbers(run)}
+    assert (rows["Release volume"], rows["H/L"]) == ("800 m³", "0.46")
+    assert rows["Peak flow thickness"] == "4 m"
+    assert rows["Arrival time"] == "9.9 s"  # of 40 + 12 t >= 0.99 * 160
 
 
-def test_packed_arrays_return_with_16_bits() -> None:
-    packing = Packing()
-    values = np.array([[1.5, np.nan], [-3.0, 1e4]])
+def test_packed_arrays_return_with_16_bits_in_a_limited_amount() -> None:
+    packing, values = Packing(), np.array([[1.5, np.nan], [-3.0, 1e4]])
     constant = np.full(3, 7.25)
     places = [packing.add(values), packing.add(constant), packing.add(np.full(2, np.nan)), packing.add(np.zeros(0))]
     text = packing.text()
     assert unpacked(text, places[0]) == pytest.approx(values.ravel(), abs=10_003.0 / 131_068, nan_ok=True)
-    assert unpacked(text, places[1]).tolist() == [7.25] * 3
-    assert np.isnan(unpacked(text, places[2])).all()
+    assert unpacked(text, places[1]).tolist() == [7.25] * 3 and np.isnan(unpacked(text, places[2])).all()
     assert unpacked(text, places[3]).size == 0
+    assert len(spaced(1000, MOST_SNAPSHOTS)) == MOST_SNAPSHOTS
+    assert spaced(1000, MOST_SNAPSHOTS)[-1] == 999
+    assert spaced(3, MOST_SNAPSHOTS) == [0, 1, 2]
+    assert spaced(0, MOST_SNAPSHOTS) == []
+    ids = np.arange(1_000_000)
+    rows = chosen_particles(ids, len(ids))
+    assert len(rows) == pytest.approx(MOST_PARTICLES, rel=0.05)
+    counts, _ = np.histogram(rows, bins=10, range=(0, len(ids)))
+    assert counts.min() > 0.8 * MOST_PARTICLES / 10, "distributed over the body"
+    later = chosen_particles(ids[500_000:], len(ids))
+    assert np.array_equal(ids[500_000:][later], rows[rows >= 500_000]), "the same particles"
 
 
 def test_section_view_has_the_particles_of_each_snapshot(make_run: MakeRun) -> None:
@@ -232,31 +232,15 @@ def test_map_view_has_the_volume_of_the_mass(map_run: Path) -> None:
         assert np.nanmax(unpacked(data, speed["values"][index])) == pytest.approx(expected, rel=1e-3)
     reached = unpacked(data, field_of(parts, "maximum flow thickness")["values"][0])
     assert np.count_nonzero(reached > 0.1) * area == pytest.approx(16_800.0)
-    elevation = unpacked(data, parts["elevation"])
-    assert len(elevation) == len(reached)
+    assert len(unpacked(data, parts["elevation"])) == len(reached)
     assert {line["words"] for line in parts["lines"]} == {"release", "affected area", "flow path"}
     assert list(parts["probes"]) == ["gate"]
-
-
-def test_amount_of_data_is_limited() -> None:
-    assert len(spaced(1000, MOST_SNAPSHOTS)) == MOST_SNAPSHOTS
-    assert spaced(1000, MOST_SNAPSHOTS)[-1] == 999
-    assert spaced(3, MOST_SNAPSHOTS) == [0, 1, 2]
-    assert spaced(0, MOST_SNAPSHOTS) == []
-    ids = np.arange(1_000_000)
-    rows = chosen_particles(ids, len(ids))
-    assert len(rows) == pytest.approx(MOST_PARTICLES, rel=0.05)
-    counts, _ = np.histogram(rows, bins=10, range=(0, len(ids)))
-    assert counts.min() > 0.8 * MOST_PARTICLES / 10, "distributed over the body"
-    later = chosen_particles(ids[500_000:], len(ids))
-    assert np.array_equal(ids[500_000:][later], rows[rows >= 500_000]), "the same particles"
 
 
 def test_damaged_snapshot_leaves_the_page_without_a_view(map_run: Path) -> None:
     (map_run / "maps" / "terrain.tif").write_bytes(b"II*\0 damaged")
     page = page_of(map_run)
-    assert 'id="view-parts"' not in page
-    assert '<th scope="row">Interactive view</th>' in page
+    assert 'id="view-parts"' not in page and '<th scope="row">Interactive view</th>' in page
 
 
 def test_published_events_are_plausible_and_named() -> None:
@@ -266,18 +250,3 @@ def test_published_events_are_plausible_and_named() -> None:
         assert 0.05 < event.ratio < 0.7, event
         assert 1e4 < event.volume < 1e9, event
         assert re.search(r"\(\d{4}\)$", event.source), event
-
-
-def test_map_run_is_among_the_published_events(map_run: Path) -> None:
-    parts = json.loads(element(page_of(map_run), "events-parts"))
-    *published, run = parts["traces"]
-    assert sum(len(trace["x"]) for trace in published) == len(published_events())
-    assert run["name"] == "this run"
-    assert (run["x"], run["y"]) == ([pytest.approx(0.0288)], [pytest.approx(112.0 / 280.0)])
-    assert parts["layout"]["xaxis"]["type"] == "log"
-
-
-def test_run_without_a_distance_is_not_among_the_events(map_run: Path) -> None:
-    for travelled in (None, 0.0, -5.0):
-        update_facts(map_run, travel_distance_m=travelled)
-        assert events_part({"x": mobility_of(Run(map_run))}) == ""

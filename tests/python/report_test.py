@@ -1,7 +1,5 @@
 """Report page, key numbers, and the command with its exit codes."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
@@ -28,11 +26,9 @@ def numbers(run: Run) -> dict[str, tuple[str, str]]:
 
 def test_key_numbers_are_those_of_the_history(make_run: MakeRun) -> None:
     found = numbers(Run(make_run()))
-    assert found["Peak mean velocity"] == ("12 m/s", "at 5 s")
-    assert found["Runout distance L"][0] == "160 m"
+    assert (found["Peak mean velocity"], found["Runout distance L"][0]) == (("12 m/s", "at 5 s"), "160 m")
     assert "initial length 40 m" in found["Runout distance L"][1]
-    assert found["Front travel distance"][0] == "120 m"
-    assert found["Mean displacement"][0] == "80 m"
+    assert (found["Front travel distance"][0], found["Mean displacement"][0]) == ("120 m", "80 m")
     assert found["Maximum mean band temperature"] == ("110 °C", "at 10 s")
     assert found["Maximum mean band pore pressure"] == ("1.5 MPa", "at 5 s")
     # sin(pi t / 10)^2 < 0.01 from t = 9.68 s on; rows are 0.1 s apart.
@@ -47,22 +43,18 @@ def test_front_travel_distance_begins_at_the_first_known_front(make_run: MakeRun
     assert found["Front travel distance"] == ("96 m", "front at 10 s minus front at 2 s, the first known")
 
 
-def test_unknown_front_has_no_distances(make_run: MakeRun) -> None:
+def test_unknown_front_and_moving_mass_have_no_numbers(make_run: MakeRun) -> None:
     unknown = np.full(11, np.nan)
     reason = "no flow path: maps.path is not specified, and the mass has barely moved"
     found = numbers(Run(make_run(rows=11, history={"front_position_m": unknown, "runout_m": unknown})))
     assert found["Runout distance L"] == found["Front travel distance"] == ("not available", reason)
-
-
-def test_stop_time_of_a_moving_mass_has_its_velocity(make_run: MakeRun) -> None:
-    run = Run(make_run(rows=11, history={"mean_velocity_m_s": np.arange(11.0)}))
+    run = Run(make_run(name="moving", rows=11, history={"mean_velocity_m_s": np.arange(11.0)}))
     assert stop_time(run) is None
     assert numbers(run)["Stop time"] == ("not reached", "mean velocity at 10 s: 10 m/s")
 
 
 def test_dilation_and_removed_mass_are_rows(make_run: MakeRun) -> None:
-    folder = make_run()
-    columns = history_columns(11, 2)
+    folder, columns = make_run(), history_columns(11, 2)
     assert "Volume change by dilation" not in numbers(Run(folder)), "history of an earlier version"
     columns["dilation_fraction"] = np.linspace(0.0, 0.0625, 11)
     columns["dilation_volume_m3"] = np.linspace(0.0, 250.0, 11)
@@ -98,15 +90,12 @@ def test_report_has_all_figures_and_the_page(make_run: MakeRun) -> None:
     report = make_report(Run(folder), dpi=50, progress=lines.append)
     assert list(report.figures) == IN_SECTION
     for name, path in report.figures.items():
-        assert path == folder / "figures" / f"{name}.png"
-        assert path.read_bytes().startswith(PNG)
-    assert len(lines) == len(IN_SECTION)
-    assert lines[0] == f"[1/8] motion: {folder / 'figures' / 'motion.png'}"
+        assert path == folder / "figures" / f"{name}.png" and path.read_bytes().startswith(PNG)
+    assert (len(lines), lines[0]) == (len(IN_SECTION), f"[1/8] motion: {folder / 'figures' / 'motion.png'}")
 
     page = report.page.read_text(encoding="utf-8")
     assert "<h1>Block on a slope &amp; &lt;more&gt;</h1>" in page
-    links = re.findall(r'src="([^"]+)"', page)
-    assert links == [file_data(report.figures[name]) for name in IN_SECTION]
+    assert re.findall(r'src="([^"]+)"', page) == [file_data(report.figures[name]) for name in IN_SECTION]
     assert '<th scope="row">Peak mean velocity</th><td>12 m/s</td><td>at 5 s</td>' in page
     assert '<th scope="row">particle steps per second</th><td>3,100,000</td>' in page
     assert '<th scope="row">momentum to grid</th><td>1.25</td>' in page
@@ -114,13 +103,10 @@ def test_report_has_all_figures_and_the_page(make_run: MakeRun) -> None:
     assert "This run is incomplete" not in page
 
 
-def test_no_note_on_boiling_below_100_degrees(make_run: MakeRun) -> None:
+def test_page_has_the_message_of_the_end_and_no_note_below_boiling(make_run: MakeRun) -> None:
     folder = make_run(rows=11, history={"band_temperature_C": np.full(11, 99.0)})
     assert "Water does not boil" not in page_of(folder)
-
-
-def test_page_has_the_message_of_the_end(make_run: MakeRun) -> None:
-    folder = make_run(facts={"status": "failed", "message": "particle 7 left the domain"})
+    folder = make_run(name="failed", facts={"status": "failed", "message": "particle 7 left the domain"})
     assert "This run is incomplete (failed): particle 7 left the domain." in page_of(folder)
     write_facts(folder, message="the whole slide has left.")
     page = page_of(folder)
@@ -136,8 +122,7 @@ def test_command_lists_missing_figures(make_run: MakeRun, capsys: pytest.Capture
     assert out.rstrip().endswith(f"report: {folder / 'report.html'}")
     assert not (folder / "figures" / "velocity.png").exists()
     page = (folder / "report.html").read_text(encoding="utf-8")
-    assert "<h2>Missing figures</h2>" in page
-    assert "velocity.png" not in page
+    assert "<h2>Missing figures</h2>" in page and "velocity.png" not in page
 
 
 def test_command_writes_the_requested_figures_into_the_output_folder(make_run: MakeRun, tmp_path: Path) -> None:

@@ -1,7 +1,5 @@
 """Reading a run folder: values of the files, and messages of errors."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
@@ -16,8 +14,7 @@ from thawslide import NotInRunError, ReportError, Run
 def test_history_has_all_columns_and_nan(make_run: MakeRun) -> None:
     history = Run(make_run()).history
     written = history_columns(101, 2)
-    assert list(history) == list(written)
-    assert history.rows == 101
+    assert (list(history), history.rows) == (list(written), 101)
     for name, values in written.items():
         np.testing.assert_array_equal(history[name], values)
     assert np.isnan(history["band_temperature_C"][0])
@@ -25,10 +22,8 @@ def test_history_has_all_columns_and_nan(make_run: MakeRun) -> None:
 
 def test_terrain_case_and_targets_are_read(make_run: MakeRun) -> None:
     run = Run(make_run())
-    assert run.title == "Block on a slope & <more>"
-    assert run.report_times == [0.0, 4.0, 7.4]
-    assert not run.per_metre
-    assert run.terrain is not None
+    assert (run.title, run.report_times) == ("Block on a slope & <more>", [0.0, 4.0, 7.4])
+    assert not run.per_metre and run.terrain is not None
     np.testing.assert_allclose(run.terrain[1], ground(run.terrain[0]))
     velocities = [("mean_velocity", 4.0, 9.0), ("mean_velocity", 6.0, 11.0)]
     assert [(t.quantity, t.time, t.value) for t in run.targets[:2]] == velocities
@@ -39,23 +34,19 @@ def test_optional_files_can_be_missing(make_run: MakeRun) -> None:
     folder = make_run(terrain=False, targets=False, width=0.0, times="[]")
     (folder / "run.json").unlink()
     run = Run(folder)
-    assert run.terrain is None
-    assert run.targets == []
-    assert run.facts == {}
-    assert run.report_times == []
+    assert run.terrain is None and run.targets == []
+    assert (run.facts, run.report_times) == ({}, [])
     assert run.per_metre
 
 
 def test_snapshots_are_read_by_index_and_by_nearest_time(make_run: MakeRun) -> None:
     run = Run(make_run())
     np.testing.assert_array_equal(run.times, np.arange(11.0))
-    assert run.snapshot(3).time == 3.0
-    assert run.snapshot(-1).time == 10.0
+    assert (run.snapshot(3).time, run.snapshot(-1).time) == (3.0, 10.0)
     assert run.snapshot(time=7.4).time == 7.0
     snapshot = run.snapshot(time=1e9)
     assert (snapshot.time, snapshot.step) == (10.0, 1000)
-    assert snapshot.points.shape == (80, 3)
-    assert snapshot["stress"].shape == (80, 6)
+    assert (snapshot.points.shape, snapshot["stress"].shape) == ((80, 3), (80, 6))
     assert snapshot.unit("temperature") == "C"
     np.testing.assert_allclose(np.linalg.norm(snapshot["velocity"], axis=1), 50.0)
 
@@ -66,22 +57,18 @@ def test_vertical_axis_depends_on_the_dimension(make_run: MakeRun) -> None:
 
 
 def expect(folder: Path, text: str, kind: type[ReportError] = ReportError) -> None:
-    """Read everything in a folder and check the text of the error."""
     with pytest.raises(kind, match=re.escape(text)):
         run = Run(folder)
         _ = run.case, run.history, run.terrain, run.targets, run.facts, run.times, run.snapshot(0)
 
 
-def test_other_folders_are_errors(make_run: MakeRun, tmp_path: Path) -> None:
+def test_other_folders_and_missing_targets_are_errors(make_run: MakeRun, tmp_path: Path) -> None:
     expect(tmp_path / "nowhere", "no such folder. Select the folder of a run, e.g. runs/lamplugh.")
     expect(tmp_path, "not a run folder (found no case.toml and no history.csv). Select the folder of a run.")
     folder = make_run()
     (folder / "history.csv").unlink()
     expect(folder, "not a run folder (found no history.csv).")
-
-
-def test_missing_targets_file_names_the_key(make_run: MakeRun) -> None:
-    folder = make_run()
+    folder = make_run(name="targets")
     (folder / "inputs" / "targets.csv").unlink()
     expect(folder, "targets.csv: no such file. Correct report.targets in ")
 
@@ -98,8 +85,7 @@ def test_incomplete_last_row_is_ignored_with_a_warning(make_run: MakeRun) -> Non
     folder = make_run(rows=11)
     (folder / "history.csv").write_text((folder / "history.csv").read_text()[:-20])
     run = Run(folder)
-    assert run.history.rows == 10
-    assert run.history["time_s"][-1] == 9.0
+    assert (run.history.rows, run.history["time_s"][-1]) == (10, 9.0)
     assert run.warnings == [f"{folder / 'history.csv'}: the last row is incomplete and is ignored"]
 
 

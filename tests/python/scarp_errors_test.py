@@ -1,7 +1,5 @@
 """Refused releases: the message states the problem, the exit code is 2, and no file is written."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
@@ -21,7 +19,6 @@ INSIDE = rectangle((-200.0, 200.0), (-100.0, 100.0))
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """Return a folder with DEMs and outlines."""
     write_dem(tmp_path / "dem.tif", slope)
     write_dem(tmp_path / "flat.tif", flat)
     write_dem(tmp_path / "hole.tif", slope, no_data=(50, 52))

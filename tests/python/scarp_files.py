@@ -1,7 +1,5 @@
 """DEMs and outlines of releases."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -30,8 +28,7 @@ def write_dem(
     cell_y = cell_y or cell
     columns, rows = round(size / cell), round(size / cell_y)
     x = cell * (np.arange(columns) + 0.5) - size / 2
-    y = size / 2 - cell_y * (np.arange(rows) + 0.5)
-    heights = shape(*np.meshgrid(x, y))
+    heights = shape(*np.meshgrid(x, size / 2 - cell_y * (np.arange(rows) + 0.5)))
     if no_data:
         heights[no_data] = -9999.0
     with rasterio.open(

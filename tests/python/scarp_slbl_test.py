@@ -1,7 +1,5 @@
 """Sloping local base level against discrete closed forms, the published iteration, and given depths and volumes."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +19,6 @@ def tilted(x: Numbers, y: Numbers) -> Numbers:
 
 
 def rough(x: Numbers, y: Numbers) -> Numbers:
-    """Return a slope with ridges, gullies and noise."""
     noise = np.random.default_rng(5).normal(size=x.shape)
     return 2000.0 - 0.7 * x + 20.0 * np.sin(x / 25.0) * np.cos(y / 30.0) + noise
 
@@ -39,22 +36,15 @@ def depth_in(tmp_path: Path, columns: int, rows: int, surface: Slbl, **dem: obje
     return depth
 
 
-def test_row_of_cells_has_the_depth_of_the_difference_equation(tmp_path: Path) -> None:
+def test_rows_of_cells_and_long_strips_have_closed_forms(tmp_path: Path) -> None:
     # 4 d_i - d_(i-1) - d_(i+1) = 4 C, with d = 0 at the ends, has the solution
     # d_i = 2 C [1 - cosh(k (i - n/2)) / cosh(k n/2)], cosh k = 2.
     depth = depth_in(tmp_path, 19, 1, Slbl(tolerance=1.5))
     k, i = np.arccosh(2.0), np.arange(1, 20)
     assert depth[0] == pytest.approx(3.0 * (1.0 - np.cosh(k * (i - 10.0)) / np.cosh(k * 10.0)), abs=1e-6)
-
-
-def test_long_strip_has_a_parabolic_section(tmp_path: Path) -> None:
     # 4 C = -(d_(i-1) - 2 d_i + d_(i+1)): d_i = 2 C i (n - i), far from the ends of the strip
-    depth = depth_in(tmp_path, 9, 101, Slbl(tolerance=0.2))
-    i = np.arange(1, 10)
+    depth, i = depth_in(tmp_path, 9, 101, Slbl(tolerance=0.2)), np.arange(1, 10)
     assert depth[50] == pytest.approx(0.4 * i * (10.0 - i), rel=1e-6)
-
-
-def test_strip_of_cells_that_are_not_square_has_a_parabolic_section(tmp_path: Path) -> None:
     # The neighbours along x have the weight 20^2 / (2 (10^2 + 20^2)) = 0.4 each.
     depth = depth_in(tmp_path, 9, 51, Slbl(tolerance=0.2), cell_y=20.0)
     i = np.arange(1, 10)
@@ -98,7 +88,6 @@ def test_maximum_depth_and_volume_are_reached(tmp_path: Path) -> None:
     deep = thawslide.scarp(dem, Slbl(max_depth=60.0), within=within)
     assert deep.max_thickness == pytest.approx(60.0, rel=1e-6)
     large = thawslide.scarp(dem, Slbl(), within=within, volume=4e6)
-    assert large.volume == pytest.approx(4e6, rel=1e-3)
-    assert isinstance(large.surface, Slbl)
+    assert large.volume == pytest.approx(4e6, rel=1e-3) and isinstance(large.surface, Slbl)
     again = thawslide.scarp(dem, Slbl(tolerance=large.surface.tolerance), within=within)
     assert again.thickness == pytest.approx(large.thickness, abs=1e-5)

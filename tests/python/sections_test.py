@@ -1,7 +1,5 @@
 """Cross sections of a 3D run: along a given path, or along the extended track of the centre of mass."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
@@ -16,8 +14,7 @@ from thawslide.maps import read_map
 
 
 def test_sections_have_terrain_and_maximum_thickness(map_run: Path) -> None:
-    figure = plotted("cross_sections", map_run)
-    panels = maps_of(figure)
+    panels = maps_of(plotted("cross_sections", map_run))
     assert panels[0].get_title(loc="left").startswith("(a) flow path")
     assert [axes.get_title(loc="left")[: len("(c) cross section at")] for axes in panels[2:]] == [
         f"({c}) cross section at" for c in "cdef"
@@ -25,14 +22,12 @@ def test_sections_have_terrain_and_maximum_thickness(map_run: Path) -> None:
     (surface,) = [line for line in panels[0].lines if line.get_color() == "#6B6459"]
     x, z = (np.asarray(values, dtype=float) for values in surface.get_data())
     np.testing.assert_allclose(z, ground(WEST + 20.0 + x, np.full(len(x), MIDDLE)), rtol=1e-9)
-    largest = panels[1].lines[0]
-    assert float(np.max(np.asarray(largest.get_ydata(), dtype=float))) == pytest.approx(THICKNESS)
+    assert float(np.max(np.asarray(panels[1].lines[0].get_ydata(), dtype=float))) == pytest.approx(THICKNESS)
 
 
 def test_release_is_not_thicker_than_the_maximum_on_coarser_cells(map_run: Path) -> None:
     """The release has cells of 10 m; the maximum, the same slab, has cells of 30 m."""
-    release = read_map(map_run / "maps" / "release.tif").values
-    coarse = release.reshape(10, 3, 20, 3).mean(axis=(1, 3))
+    coarse = read_map(map_run / "maps" / "release.tif").values.reshape(10, 3, 20, 3).mean(axis=(1, 3))
     for name in ("max_thickness", "final_thickness"):
         write_map(map_run / "maps" / f"{name}.tif", coarse, cell=30.0)
     thickness = maps_of(plotted("cross_sections", map_run))[1]
@@ -53,13 +48,11 @@ def test_section_of_a_steep_path_ends_with_the_path(map_run: Path) -> None:
 
 
 def test_exaggeration_of_small_thicknesses_is_stated(map_run: Path) -> None:
-    y = centres()[1]
-    thin = np.where(np.abs(y - MIDDLE) < 30.0, 0.5, 0.0)
+    thin = np.where(np.abs(centres()[1] - MIDDLE) < 30.0, 0.5, 0.0)
     for name in ("release", "max_thickness", "final_thickness"):
         write_map(map_run / "maps" / f"{name}.tif", thin)
     panel = maps_of(plotted("cross_sections", map_run))[0]
-    note = panel.texts[0].get_text()
-    times = float(note.split("thickness exaggeration ")[1].removesuffix("×"))
+    times = float(panel.texts[0].get_text().split("thickness exaggeration ")[1].removesuffix("×"))
     assert times > 5.0
     (line,) = [line for line in panel.lines if line.get_color() == "#D55E00"]
     distance, height = (np.asarray(values, dtype=float) for values in line.get_data())
@@ -75,8 +68,7 @@ def corridor(*boxes: tuple[float, float, float, float]) -> np.ndarray:
 
 
 def test_extended_track_ends_with_the_covered_area() -> None:
-    line = np.array([[0.0, 0.0], [100.0, 0.0]])
-    found = extended(line, corridor((-200.0, 300.0, -50.0, 50.0)), 100.0)
+    found = extended(np.array([[0.0, 0.0], [100.0, 0.0]]), corridor((-200.0, 300.0, -50.0, 50.0)), 100.0)
     np.testing.assert_allclose(found[[0, -1]], [[-195.0, 0.0], [295.0, 0.0]], atol=1e-9)
     np.testing.assert_allclose(found[:, 1], 0.0, atol=1e-9)
 

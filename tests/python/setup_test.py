@@ -1,7 +1,5 @@
 """Figures of the setup of a 2D case and of a case on a DEM: contents of their files."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -70,7 +68,6 @@ def on_map(**changes: Any) -> dict[str, Any]:
 
 @pytest.fixture
 def write(tmp_path: Path) -> Write:
-    """Return a function that writes a setup."""
 
     def write_setup(data: Any) -> Path:
         path = tmp_path / "setup.json"
@@ -91,8 +88,7 @@ def read(path: Path) -> SetupOnMap:
 
 
 def test_both_panels_have_bodies_terrain_and_frame(write: Write) -> None:
-    figure = plotted_section(write(section()))
-    overview, zoom = figure.axes
+    overview, zoom = plotted_section(write(section())).axes
     assert overview.get_title(loc="left") == "(a) whole domain, true scale; box: (b)"
     assert zoom.get_title(loc="left") == "(b) bodies, true scale, cells of 0.2 m"
     assert (zoom.get_xlabel(), zoom.get_ylabel()) == ("distance (m)", "elevation (m)")
@@ -108,7 +104,7 @@ def test_both_panels_have_bodies_terrain_and_frame(write: Write) -> None:
     assert (box.get_x(), box.get_x() + box.get_width()) == pytest.approx(zoom.get_xlim())
 
 
-def test_grid_lines_are_the_borders_of_cells(write: Write) -> None:
+def test_grid_lines_are_borders_of_cells_and_thinned_if_small(write: Write) -> None:
     _, zoom = plotted_section(write(section())).axes
     (grid,) = [c for c in zoom.collections if isinstance(c, LineCollection)]
     upright = sorted(s[0][0] for s in (np.asarray(p.vertices) for p in grid.get_paths()) if s[0][0] == s[1][0])
@@ -117,28 +113,18 @@ def test_grid_lines_are_the_borders_of_cells(write: Write) -> None:
     np.testing.assert_allclose(cells, np.arange(cells[0], cells[0] + len(cells)), atol=1e-9)
     np.testing.assert_allclose(cells, np.round(cells), atol=1e-9)
     assert left - 1e-9 <= upright[0] and upright[-1] <= right and len(upright) > 10
-
-
-def test_grid_lines_of_small_cells_are_thinned(write: Write) -> None:
     _, zoom = plotted_section(write(section(cell=0.002))).axes
     assert zoom.get_title(loc="left").startswith("(b) bodies, true scale, cells of 0.002 m, one grid line per ")
     (grid,) = [c for c in zoom.collections if isinstance(c, LineCollection)]
     assert len(grid.get_paths()) < 500
 
 
-def test_legend_has_all_parts(write: Write) -> None:
+def test_legend_has_all_parts_and_boundaries_have_line_styles(write: Write) -> None:
     (legend,) = plotted_section(write(section())).legends
     assert [text.get_text() for text in legend.get_texts()] == [
-        "block (ice): 50 particles, spacing 0.1 m",
-        "terrain",
-        "frame pusher, 2 m/s along x",
-        "roller: x min, x max",
-        "fixed: y min",
-        "open: y max",
-    ]
-
-
-def test_boundaries_have_line_styles(write: Write) -> None:
+        "block (ice): 50 particles, spacing 0.1 m", "terrain", "frame pusher, 2 m/s along x", "roller: x min, x max",
+        "fixed: y min", "open: y max",
+    ]  # fmt: skip
     overview, _ = plotted_section(write(section())).axes
     sides = [found for found in overview.lines if found.get_color() == "black"]
     assert [found.get_linestyle() for found in sides] == ["--", "--", "-", ":"]
@@ -162,8 +148,7 @@ def test_setup_on_a_dem_is_read(write: Write) -> None:
     np.testing.assert_allclose(found.terrain.values[3:], ground(x, y)[3:])
     assert found.domain == (WEST + 20.0, WEST + 580.0, SOUTH + 20.0, SOUTH + 280.0)
     (release,) = found.releases
-    assert release.thickness is not None
-    assert release.thickness.volume() == pytest.approx(28800.0)
+    assert release.thickness is not None and release.thickness.volume() == pytest.approx(28800.0)
 
 
 def test_both_maps_have_domain_release_path_and_probes(write: Write) -> None:

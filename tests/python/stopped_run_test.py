@@ -1,7 +1,5 @@
 """Figures of an incomplete run state its ending and time."""
 
-from __future__ import annotations
-
 import errno
 import fcntl
 import os
@@ -87,7 +85,7 @@ def test_ending_is_undetermined_without_locks(map_run: Path, monkeypatch: pytest
     assert Run(map_run).ending is Ending.DONE
 
 
-def test_lock_is_checked_without_keeping_it(tmp_path: Path) -> None:
+def test_lock_is_checked_without_keeping_it_or_blocking(tmp_path: Path) -> None:
     lock = tmp_path / LOCK
     lock.touch()
     with lock.open() as other:
@@ -96,9 +94,6 @@ def test_lock_is_checked_without_keeping_it(tmp_path: Path) -> None:
     with lock.open() as starts:
         assert not is_held(lock)
         fcntl.flock(starts, fcntl.LOCK_EX | fcntl.LOCK_NB)
-
-
-def test_other_files_in_place_of_the_lock_do_not_block(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
     assert not is_held(tmp_path / "pipe")
     assert not is_held(tmp_path / "nothing")
@@ -116,20 +111,14 @@ def test_held_lock_overrides_run_json(map_run: Path, status: str | None) -> None
         assert Run(map_run).ending is Ending.RUNNING
 
 
-def test_page_of_a_killed_run_has_the_command_to_resume(map_run: Path) -> None:
+def test_page_has_warnings_and_the_command_to_resume(map_run: Path) -> None:
     write_facts(map_run, status="running")
     page = page_of(map_run)
     assert "This run terminated unexpectedly: its status in run.json is running, but no process holds run.lock." in page
     assert f"To continue from its last checkpoint: `thawslide resume {map_run}`." in page
-
-
-def test_page_has_the_warnings_of_resumed_parts(map_run: Path) -> None:
     parts = [{"warnings": []}, {}, {"warnings": ["history.csv lacks 2 of the 16 rows"]}, {"warnings": 3}, 4]
     write_facts(map_run, parts=parts)
     assert '<p class="note">history.csv lacks 2 of the 16 rows</p>' in page_of(map_run)
-
-
-def test_page_of_a_run_without_run_json_states_it(map_run: Path) -> None:
     (map_run / "run.json").unlink()
     run = Run(map_run)
     assert ending_note(run) == "There is no run.json: it is unknown whether this run is complete."

@@ -1,7 +1,5 @@
 """Two-page summary for non-experts."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
@@ -16,25 +14,12 @@ from thawslide.pages.summary import make_summary
 from thawslide.pages.summary_text import arrival_rows, limits, plain_numbers, scenario
 
 
-def test_numbers_are_those_of_the_run_in_common_units(map_run: Path) -> None:
-    assert [(each.name, each.value) for each in plain_numbers(Run(map_run))] == [
-        ("released volume", "28,800 m³"),
-        ("travel distance", "280 m"),
-        ("affected area", "16,800 m²"),
-        ("maximum thickness", "6 m"),
-        ("maximum speed", "72 km/h"),
-    ]
-    assert plain_numbers(Run(map_run))[1].meaning == "It falls 112 m over this distance."
-
-
-def test_scenario_states_rest_or_motion(map_run: Path) -> None:
+def test_scenario_states_rest_or_motion_and_limits_the_warnings(map_run: Path) -> None:
     assert "The mass is at rest from 8.5 s on." in scenario(Run(map_run))
     update_facts(map_run, at_rest=False, rest_since_s=None)
     assert "The mass was still moving at the end: the affected area can become larger." in scenario(Run(map_run))
-
-
-def test_arrivals_are_those_at_the_probes(map_run: Path) -> None:
-    assert arrival_rows(Run(map_run)) == [("gate", "5 s", "6 m")]
+    update_facts(map_run, warnings=["one", "two"])
+    assert limits(Run(map_run))[-1].startswith("The program reported 2 warnings on this run")
 
 
 def test_many_probes_leave_space_for_the_map(map_run: Path) -> None:
@@ -50,12 +35,7 @@ def test_many_probes_leave_space_for_the_map(map_run: Path) -> None:
     assert document.stat().st_size > 10_000
 
 
-def test_limits_count_the_warnings(map_run: Path) -> None:
-    update_facts(map_run, warnings=["one", "two"])
-    assert limits(Run(map_run))[-1].startswith("The program reported 2 warnings on this run")
-
-
-def test_classes_cover_the_maps(map_run: Path) -> None:
+def test_classes_numbers_and_arrivals_are_those_of_the_run(map_run: Path) -> None:
     site = make_site(Run(map_run))
     thickness = thickness_classes(site)
     assert thickness.words == ["below 1 m", "1 to 5 m", "above 5 m"]
@@ -64,6 +44,12 @@ def test_classes_cover_the_maps(map_run: Path) -> None:
     assert arrival.limits[0] == 0.0
     assert len(arrival.words) == len(arrival.limits) - 1 <= 7
     assert arrival.limits[-1] == pytest.approx(9.8)
+    assert [(each.name, each.value) for each in plain_numbers(Run(map_run))] == [
+        ("released volume", "28,800 m³"), ("travel distance", "280 m"), ("affected area", "16,800 m²"),
+        ("maximum thickness", "6 m"), ("maximum speed", "72 km/h"),
+    ]  # fmt: skip
+    assert plain_numbers(Run(map_run))[1].meaning == "It falls 112 m over this distance."
+    assert arrival_rows(Run(map_run)) == [("gate", "5 s", "6 m")]
 
 
 def test_summary_has_two_pages_and_loads_nothing(map_run: Path) -> None:
@@ -74,8 +60,7 @@ def test_summary_has_two_pages_and_loads_nothing(map_run: Path) -> None:
     sources = re.findall(r'src="([^"]*)"', text)
     assert len(sources) == 2
     assert all(source.startswith("data:image/png;base64,") for source in sources)
-    assert '<th scope="row">maximum speed</th><td>72 km/h</td>' in text
-    assert "This is one scenario." in text
+    assert '<th scope="row">maximum speed</th><td>72 km/h</td>' in text and "This is one scenario." in text
 
 
 def test_summary_is_the_same_for_the_same_run(map_run: Path, tmp_path: Path) -> None:
@@ -86,8 +71,7 @@ def test_summary_is_the_same_for_the_same_run(map_run: Path, tmp_path: Path) -> 
 def test_command_writes_the_summary(map_run: Path, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main([str(map_run), "--brief", "--output", str(tmp_path), "--dpi", "50"]) == 0
     out = capsys.readouterr().out
-    assert f"summary: {tmp_path / 'summary.html'}" in out
-    assert f"summary: {tmp_path / 'summary.pdf'}" in out
+    assert f"summary: {tmp_path / 'summary.html'}" in out and f"summary: {tmp_path / 'summary.pdf'}" in out
     assert not (map_run / "summary.html").exists()
 
 

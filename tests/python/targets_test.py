@@ -1,7 +1,5 @@
 """Reported values: conversion of units, and messages of errors with lines."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
@@ -101,10 +99,7 @@ INVALID = [
         ROWS + "mean_velocity,4,9,m/s,x\n",
         ":3: mean_velocity at this time from this source is in line 2 already; keep one of the two",
     ),
-    (
-        KINDS + "mean_velocity,4,8,m/s,guess\n",
-        f":2: the kind 'guess' {ALLOWED_KINDS}",
-    ),
+    (KINDS + "mean_velocity,4,8,m/s,guess\n", f":2: the kind 'guess' {ALLOWED_KINDS}"),
     (KINDS + "mean_velocity,4,8,m/s,\n", f":2: no kind {ALLOWED_KINDS}"),
     (HEADER.encode() + b"mean_velocity,4,8,m/s,M\xfcller\n", ":2: byte 0xfc is not UTF-8"),
     (HEADER.encode("utf-16"), ": encoded as UTF-16; save it as UTF-8"),
@@ -166,8 +161,7 @@ def test_observations_and_results_of_other_models_are_separate(make_run: MakeRun
     folder = make_run(targets=HEADER.rstrip() + ",kind\n" + rows)
     run = Run(folder)
     assert [target.kind for target in run.targets] == ["observation", "model", "model", "observation", "assumption"]
-    page = page_of(folder)
-    kinds = re.findall(r"<h3>(.*?)</h3>\n(.*?)</table>", page, re.DOTALL)
+    kinds = re.findall(r"<h3>(.*?)</h3>\n(.*?)</table>", page_of(folder), re.DOTALL)
     assert [kind for kind, _ in kinds] == ["Observations", "Results of other models", "Assumptions"]
     sources = [re.findall(r"<td>(radar|survey|blocks|guess)</td>", table) for _, table in kinds]
     assert sources == [["radar", "survey"], ["blocks", "blocks"], ["guess"]]
@@ -180,18 +174,6 @@ def test_observations_and_results_of_other_models_are_separate(make_run: MakeRun
     filled = {label: line.get_markerfacecolor() != "white" for label, line in marks.items() if ": " in label}
     of_observations = ["observed: radar", "observed mean displacement: survey"]
     assert [label for label, is_filled in filled.items() if is_filled] == of_observations
-
-
-def test_reported_values_of_cases_have_kinds() -> None:
-    root = Path(__file__).resolve().parents[2]
-    for name in ("lamplugh", "lamplugh-columns"):
-        found = read_targets(root / "cases" / name / "lamplugh_targets.csv")
-        observed = {target.quantity for target in found if target.kind == "observation"}
-        assert observed == {
-            "front_distance", "max_seismic_force", "max_seismic_force_35_150_s", "source_volume",
-            "source_mean_thickness",
-        }  # fmt: skip
-        assert {target.kind for target in found} == {"observation", "model"}
 
 
 def test_results_of_the_end_are_compared(make_run: MakeRun) -> None:
@@ -221,12 +203,20 @@ def test_file_outside_the_run_folder_is_an_error(make_run: MakeRun, name: str) -
         _ = Run(folder).targets
 
 
-def test_targets_of_the_cases_are_valid() -> None:
+def test_targets_of_the_cases_are_valid_and_have_kinds() -> None:
     root = Path(__file__).resolve().parents[2]
     found = {path.parent.name: read_targets(path) for path in root.glob("cases/*/*targets.csv")}
     assert {"lamplugh", "lamplugh-columns"} <= set(found)
     displacement = [target.value for target in found["lamplugh"] if target.quantity == "mean_displacement"]
     assert displacement == [5612.0, 5929.0]
+    for name in ("lamplugh", "lamplugh-columns"):
+        found = read_targets(root / "cases" / name / "lamplugh_targets.csv")
+        observed = {target.quantity for target in found if target.kind == "observation"}
+        assert observed == {
+            "front_distance", "max_seismic_force", "max_seismic_force_35_150_s", "source_volume",
+            "source_mean_thickness",
+        }  # fmt: skip
+        assert {target.kind for target in found} == {"observation", "model"}
 
 
 def test_reference_has_all_quantities_with_units() -> None:

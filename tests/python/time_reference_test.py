@@ -1,7 +1,5 @@
 """Common time reference of all figures of a run: a target start_velocity, or the start of the run."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
@@ -24,7 +22,6 @@ SHIFT = 40.0 - 10.0 / np.pi * np.arcsin(np.sqrt(8.0 / 12.0))  # s: 12 sin2(pi t/
 
 @pytest.fixture
 def folder(make_run: MakeRun) -> Path:
-    """Return a run whose targets align its times."""
     rows = "start_velocity,40,8,m/s,x\nmean_velocity,42,9,m/s,x\n"
     return make_run(targets="quantity,time_s,value,unit,source\n" + rows)
 
@@ -61,12 +58,9 @@ def test_snapshots_have_aligned_times(folder: Path) -> None:
     assert found == pytest.approx([SHIFT, SHIFT + 4.0, SHIFT + 7.0], abs=0.05)
 
 
-def test_page_has_the_times_of_its_figures(folder: Path) -> None:
+def test_page_and_figures_of_band_columns_have_aligned_times(folder: Path) -> None:
     (peak,) = [row for row in key_numbers(Run(folder)) if row.words == "Peak mean velocity"]
     assert float(peak.remark.split()[1]) == pytest.approx(5.0 + SHIFT, abs=0.06)
-
-
-def test_figures_of_band_columns_have_aligned_times(folder: Path) -> None:
     write_history(folder / "history.csv", column_history())
     run = Run(folder)
     for name in ("band", "water"):
@@ -99,8 +93,7 @@ def test_sources_of_cases_are_publications_in_legends(make_run: MakeRun, path: P
 
 def test_two_reported_forces_of_one_value_can_be_distinguished(make_run: MakeRun) -> None:
     rows = "max_seismic_force,5,280,GN,One\nmax_seismic_force_2_8_s,5,280,GN,Two\n"
-    run = Run(make_run(targets="quantity,time_s,value,unit,source\n" + rows))
-    size = FIGURES["force"].plot(run).axes[0]
+    size = FIGURES["force"].plot(Run(make_run(targets="quantity,time_s,value,unit,source\n" + rows))).axes[0]
     one, two = (found for found in size.lines if "maximum" in str(found.get_label()))
     np.testing.assert_array_equal(one.get_ydata(), two.get_ydata())
     (passed,) = (found for found in size.lines if "band-pass" in str(found.get_label()))

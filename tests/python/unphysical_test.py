@@ -1,7 +1,5 @@
 """Warnings inside figures: panels and numbers."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import h5py
@@ -53,8 +51,7 @@ def test_band_above_the_boiling_point_has_a_warning(make_run: MakeRun) -> None:
     found = warnings(FIGURES["band"].plot(Run(folder)))
     time, load = load_on_band(Run(folder))
     ratio = np.interp(time, columns["time_s"], columns["band_pore_pressure_Pa"]) / load
-    over = f"⚠ unphysical: P/overburden up to {number_text(np.nanmax(ratio))}"
-    assert found == {"(a)": words, "(b)": over}
+    assert found == {"(a)": words, "(b)": f"⚠ unphysical: P/overburden up to {number_text(np.nanmax(ratio))}"}
     # Higher pressure raises the boiling point.
     hot = 1.002 * float(boiling_temperature(columns["band_pore_pressure_Pa"][50]))
     for temperature, warned in ((hot, True), (0.999 * hot, False)):
@@ -77,16 +74,12 @@ def test_limit_of_boiling_columns_is_the_melting_point_of_rock(make_run: MakeRun
     }
 
 
-def test_warnings_are_above_the_curves(make_run: MakeRun) -> None:
+def test_warnings_are_above_curves_and_unapplied_pressure_is_marked(make_run: MakeRun) -> None:
     figure = FIGURES["band"].plot(Run(make_run(history={"band_temperature_C": np.full(101, 400.0)})))
     figure.draw_without_rendering()
     (box,) = [text for text in figure.findobj(Text) if text.get_text().startswith("⚠ unphysical: 400 °C")]
-    bottom = box.axes.transData.inverted().transform(box.get_window_extent().corners())[:, 1].min()
-    assert bottom > 400.0
-
-
-def test_unapplied_pore_pressure_is_marked(make_run: MakeRun) -> None:
-    folder = make_run(tables="[mechanisms]\npressurization = false\n")
+    assert box.axes.transData.inverted().transform(box.get_window_extent().corners())[:, 1].min() > 400.0
+    folder = make_run(name="dry", tables="[mechanisms]\npressurization = false\n")
     labels = [text.get_text() for text in FIGURES["band"].plot(Run(folder)).findobj(Text)]
     assert "pore pressure P, computed but not applied\n(mechanisms.pressurization = false)" in labels
 
@@ -95,8 +88,7 @@ def test_panel_of_hot_particles_has_a_warning(make_run: MakeRun) -> None:
     folder = make_run()
     change_snapshot(folder, 4, temperature=4321.0)
     found = warnings(FIGURES["temperature"].plot(Run(folder)))
-    assert list(found) == ["(b)"]
-    assert "4,320 °C exceeds" in found["(b)"]
+    assert list(found) == ["(b)"] and "4,320 °C exceeds" in found["(b)"]
     change_snapshot(folder, 4, liquid_saturation=0.0)
     assert warnings(FIGURES["temperature"].plot(Run(folder))) == {}, "dry"
 
@@ -106,8 +98,7 @@ def test_pore_pressure_is_compared_with_the_overburden(make_run: MakeRun) -> Non
     run = Run(folder)
     shot = run.snapshot(4)
     # Columns of two particles of 2,000 kg/m over a cell of 2 m, in up to four rows of stairs on the slope.
-    weight = overburden(run, shot)
-    cell = np.floor(shot.points[:, 0] / 2.0)
+    weight, cell = overburden(run, shot), np.floor(shot.points[:, 0] / 2.0)
     for number in np.flatnonzero(cell == cell[25]):
         higher = (cell == cell[number]) & (shot.points[:, 1] > shot.points[number, 1])
         assert weight[number] == pytest.approx(9.81 / 2.0 * (shot["mass"][higher].sum() + 0.5 * 2000.0))

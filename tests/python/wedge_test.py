@@ -1,7 +1,5 @@
 """Wedge factor and apparent friction of the comparison: exact on planes, in V channels and on a circle."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -53,21 +51,16 @@ def test_wedge_factor_in_a_v_channel_is_exact(opening: float, slope: float, dire
     assert wedged / load == pytest.approx(1.0 / math.sin(half), rel=1e-9)
 
 
-def test_curved_terrain_adds_the_centrifugal_force() -> None:
+def test_curved_terrain_adds_the_centrifugal_force_and_bumps_cancel() -> None:
     radius, speed = 1_000.0, 20.0
-    height = radius - np.sqrt(radius**2 - X**2)
-    ground = wedge.derivatives(Map(GRID, height))
+    ground = wedge.derivatives(Map(GRID, radius - np.sqrt(radius**2 - X**2)))
     x = 100.0
     cosine = math.sqrt(1.0 - (x / radius) ** 2)
     load, wedged = wedge.rates(ground, *one_particle(x, 0.0, 0.0, speed * cosine))
     assert load == pytest.approx(7.0 * speed * (9.81 * cosine + speed**2 / radius), rel=1e-4)
     assert wedged == pytest.approx(load, rel=1e-12)
-
-
-def test_bumps_cancel_in_the_load() -> None:
     # Bumps along the motion, an integer number of waves below evenly spaced particles.
-    length = 40.0
-    ground = wedge.derivatives(Map(GRID, 0.2 * np.sin(2.0 * math.pi * X / length)))
+    ground = wedge.derivatives(Map(GRID, 0.2 * np.sin(2.0 * math.pi * X / 40.0)))
     x = np.arange(-80.0, 80.0, 5.0)
     points = np.column_stack([x, np.zeros_like(x), np.zeros_like(x)])
     velocity = np.column_stack([np.full_like(x, 40.0), np.zeros_like(x), np.zeros_like(x)])
@@ -93,12 +86,9 @@ class FakeRun:
         self.speed = 3.0  # m/s, horizontal
         lost = 0.3 * 7.0 * 9.81 * self.speed * time
         self.history = {
-            "time_s": time,
-            "friction_work_J": 0.9 * lost,
-            "contact_loss_J": 0.1 * lost,
-            "plastic_J": 0.2 * lost,
+            "time_s": time, "friction_work_J": 0.9 * lost, "contact_loss_J": 0.1 * lost, "plastic_J": 0.2 * lost,
             "viscous_J": 0.05 * lost,
-        }
+        }  # fmt: skip
 
     def snapshot(self, index: int, fields: tuple[str, ...]) -> FakeSnapshot:
         """Return the particle at a whole second."""

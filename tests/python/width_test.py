@@ -1,7 +1,5 @@
 """Section with a variable width: extensive columns, and sizes of particles."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from conftest import MakeRun
@@ -20,20 +18,15 @@ def test_relative_width_is_one_at_the_first_place(make_run: MakeRun) -> None:
     assert (run.width, run.per_metre) == (10.0, False)
     assert run.relative_width(np.array([0.0, 20.0, 30.0, 40.0, 900.0])).tolist() == [1.0, 1.0, 2.5, 4.0, 4.0]
     run = Run(make_run(name="one", width=10.0))
-    assert run.width == 10.0
-    assert run.relative_width(np.array([0.0, 900.0])).tolist() == [1.0, 1.0]
+    assert run.width == 10.0 and run.relative_width(np.array([0.0, 900.0])).tolist() == [1.0, 1.0]
     assert Run(make_run(name="none", width=0.0)).per_metre
 
 
-def test_volume_of_the_source_includes_the_width(make_run: MakeRun) -> None:
+def test_volume_and_size_of_particles_include_the_width(make_run: MakeRun) -> None:
     volume = Target("source_volume", 0.0, 1.0, "m3", "survey")
     assert found_for(Run(make_run(width=WIDENING)), volume) == "800 m³", "80 particles of 1 m3 per metre of 10 m"
-
-
-def test_size_of_particles_is_that_of_their_area(make_run: MakeRun) -> None:
-    run = Run(make_run(width=WIDENING))
-    shot = run.snapshot(0)
-    one = Run(make_run(name="one"))
+    run = Run(make_run(name="wide", width=WIDENING))
+    shot, one = run.snapshot(0), Run(make_run(name="one"))
     expected = particle_size(one, one.snapshot(0)) / np.sqrt(run.relative_width(shot.points[:, 0]))
     assert particle_size(run, shot) == pytest.approx(expected, rel=1e-15)
     assert expected.min() < 0.6 * expected.max(), "the body is across the widening"

@@ -1,7 +1,5 @@
 """The algorithms 'New case' and 'Check case'."""
 
-from __future__ import annotations
-
 import sqlite3
 import subprocess
 from contextlib import closing
@@ -20,18 +18,13 @@ def test_new_case_is_that_of_the_command(case: Path, slope: Path, binary: Path, 
     assert case.read_text() == expected
 
 
-def test_choices_become_options(algorithm: Algorithm, slope: Path, tmp_path: Path) -> None:
+def test_choices_and_cell_size_become_options(algorithm: Algorithm, slope: Path, tmp_path: Path) -> None:
     inputs = {"DEM": slope / "dem.tif", "RELEASE": slope / "release.geojson", "THICKNESS": 24}
     algorithm("newcase", **inputs, PLACEMENT="cut", REACH_ANGLE=10, OUTPUT=tmp_path / "cut")
     text = (tmp_path / "cut" / "case.toml").read_text()
-    assert 'placement = "cut"' in text
-    assert "descends at 10 degrees" in text
+    assert 'placement = "cut"' in text and "descends at 10 degrees" in text
     standard = algorithm("newcase", **inputs, RESOLUTION="standard", OUTPUT=tmp_path / "standard")
     assert "resolution:  standard" in standard.stdout
-
-
-def test_cell_size_replaces_the_resolution(algorithm: Algorithm, slope: Path, tmp_path: Path) -> None:
-    inputs = {"DEM": slope / "dem.tif", "RELEASE": slope / "release.geojson", "THICKNESS": 24}
     algorithm("newcase", **inputs, CELL=6, OUTPUT=tmp_path / "slide")
     assert "cell = 6.0" in (tmp_path / "slide" / "case.toml").read_text()
 

@@ -1,7 +1,5 @@
 """Fixtures that run the algorithms of the plugin in QGIS, with a profile into which its ZIP file is installed."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil
@@ -107,8 +105,7 @@ def slope(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def case(algorithm: Algorithm, slope: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the case file that 'New case' makes."""
     folder = tmp_path_factory.mktemp("cases") / "slope"
-    release = slope / "release.geojson"
-    algorithm("newcase", DEM=slope / "dem.tif", RELEASE=release, THICKNESS=24, OUTPUT=folder)
+    algorithm("newcase", DEM=slope / "dem.tif", RELEASE=slope / "release.geojson", THICKNESS=24, OUTPUT=folder)
     return folder / "case.toml"
 
 

@@ -1,7 +1,5 @@
 """The algorithm 'Load results with styles': group, layers and styles of the saved project, and its picture."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 from pathlib import Path
@@ -23,21 +21,20 @@ def project(
     folder = tmp_path_factory.mktemp("project")
     assert script("load_results.py", run, folder / "slope.qgz")["is_saved"]
     read = script("read_project.py", folder / "slope.qgz", folder / "map.png")
-    assert read["errors"] == []
-    assert list(read["groups"]) == ["slope"]
+    assert (read["errors"], list(read["groups"])) == ([], ["slope"])
     return read["groups"]["slope"], folder / "map.png", run
 
 
-def test_group_contains_all_maps_and_outlines(project: tuple[list[dict[str, Any]], Path, Path]) -> None:
+def test_group_contains_maps_and_styled_outlines(project: tuple[list[dict[str, Any]], Path, Path]) -> None:
     layers, _, run = project
     maps = sorted(path.stem for path in (run / "maps").glob("*.tif"))
     assert [layer["name"] for layer in layers] == [*OUTLINES, *(name for name in maps if name != "terrain"), "terrain"]
     assert all(layer["is_valid"] for layer in layers)
-
-
-def test_one_map_outlines_and_terrain_are_visible(project: tuple[list[dict[str, Any]], Path, Path]) -> None:
     visible = [layer["name"] for layer in project[0] if layer["is_visible"]]
     assert visible == ["front", "path", "affected_area", "release_area", "max_thickness", "terrain"]
+    styles = {layer["name"]: layer for layer in project[0]}
+    assert styles["affected_area"]["color"] == "#b2182b"
+    assert (styles["path"]["renderer"], styles["terrain"]["renderer"]) == ("singleSymbol", "hillshade")
 
 
 def test_maps_have_the_colours_of_their_style_files(project: tuple[list[dict[str, Any]], Path, Path]) -> None:
@@ -51,13 +48,6 @@ def test_maps_have_the_colours_of_their_style_files(project: tuple[list[dict[str
         assert [value for value, _ in layer["stops"]] == pytest.approx([value for value, _ in stops])
         compared += 1
     assert compared >= 10
-
-
-def test_outlines_have_the_styles_of_the_geopackage(project: tuple[list[dict[str, Any]], Path, Path]) -> None:
-    styles = {layer["name"]: layer for layer in project[0]}
-    assert styles["affected_area"]["color"] == "#b2182b"
-    assert styles["path"]["renderer"] == "singleSymbol"
-    assert styles["terrain"]["renderer"] == "hillshade"
 
 
 def test_picture_shows_the_release_on_the_terrain(project: tuple[list[dict[str, Any]], Path, Path]) -> None:

@@ -1,7 +1,5 @@
 """A DEM in a format that the program does not read."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import rasterio
@@ -13,6 +11,5 @@ def write_vrt(path: Path, dem: Path) -> Path:
     copy(dem, path, driver="VRT")
     with rasterio.open(path) as file:
         assert file.driver == "VRT"
-    lines = path.read_text().splitlines(keepends=True)
-    path.write_text("".join(line for line in lines if "<SRS" not in line))
+    path.write_text("".join(line for line in path.read_text().splitlines(keepends=True) if "<SRS" not in line))
     return path

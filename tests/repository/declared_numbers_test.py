@@ -1,7 +1,5 @@
 """Declarations of numbers in hand-written pages agree with the pages and are complete."""
 
-from __future__ import annotations
-
 import builtins
 import sys
 from pathlib import Path

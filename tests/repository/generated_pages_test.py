@@ -1,7 +1,5 @@
 """Generated pages contain the help texts of the program, and the messages of the sources."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """The words and the sentence lengths of pages, messages and labels are within their limits."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import tomllib
@@ -43,38 +41,28 @@ def test_an_unused_justification_and_an_unknown_file_are_refused(tmp_path: Path)
     assert unused.returncode == 1
     assert unused.stdout == "README.md: no hit for the justified phrase: no such phrase\n"
     unknown = subprocess.run([script, "NONE.md"], capture_output=True, text=True, timeout=600, check=False)
-    assert unknown.returncode == 2
-    assert "no prose in NONE.md" in unknown.stderr
+    assert unknown.returncode == 2 and "no prose in NONE.md" in unknown.stderr
 
 
-def test_a_term_is_found_with_its_line_and_replacement() -> None:
+def test_terms_are_found_with_line_and_replacement_outside_code() -> None:
     assert hits_in("A run\nuses the\ncard now.\n") == [(3, "card", "GPU")]
     assert hits_in("The largest speed.") == [(1, "largest speed", "maximum speed")]
     assert hits_in("It ends amid\na run.") == [(1, "amid", "during")]
     assert hits_in("The run goes\non.") == [(1, "goes on", "continue|resume")]
-
-
-def test_code_addresses_and_comments_are_left_out() -> None:
     page = (
         "A `card` or ``a ` card`` in\n\n```\nthe card\n```\n\n[text](card.md) https://a.org/card\n\n<!-- a\ncard -->\n"
     )
     assert hits_in(page) == []
     assert hits_in(page + "\nA card.\n") == [(12, "card", "GPU")]
-
-
-def test_cells_headings_items_and_quotes_are_read() -> None:
     page = "# The card\n\n| card | `card` |\n|---|---|\n| `a|card` | a card |\n\n- one\n- card\n\n> a card\n"
     assert [line for line, _, _ in hits_in(page)] == [1, 3, 5, 8, 10]
 
 
-def test_a_free_relative_opens_a_sentence() -> None:
+def test_a_free_relative_opens_a_sentence_and_tokens_are_words() -> None:
     assert [words for _, words, _ in hits_in("It runs. What it notes is valid.")] == ["What it"]
     assert [words for _, words, _ in hits_in("- Where a body rests.\n")] == ["Where a"]
     assert hits_in("What is the runout? It shows what it notes.") == []
     assert hits_in("# What to try\n") == []
-
-
-def test_tokens_are_whole_words() -> None:
     assert [words for _, words, _ in hits_in("The nodes feel it, where the case gives it.")] == [
         "where the case gives",
         "nodes feel",
@@ -82,26 +70,20 @@ def test_tokens_are_whole_words() -> None:
     assert hits_in("The nodes feeling it, somewhere the case gives it.") == []
 
 
-def test_words_that_are_not_counted_are_reported() -> None:
+def test_uncounted_words_joints_and_long_paragraphs_are_reported() -> None:
     found = prose.findings(prose.texts_of_page("a.md", "A share, so that it stays where it is."), RULES)
     assert {hit.rule for hit in found.hits} == {"share", "so that", "where"}
     assert not any(hit.counted for hit in found.hits)
-
-
-def test_joints_and_long_paragraphs_are_reported() -> None:
     page = "One: two; three. Four: five.\n\n" + "Word word. " * 56 + "\n\n" + "Word word. " * 55
     found = prose.findings(prose.texts_of_page("a.md", page), RULES)
     assert [(hit.line, hit.rule, hit.counted) for hit in found.hits] == [(1, "joints", False), (3, "paragraph", False)]
 
 
-def test_words_of_a_sentence_are_counted() -> None:
+def test_words_of_a_sentence_are_counted_and_limited() -> None:
     assert lengths_in("One two three. Four *five*\n`six seven` eight.\n") == [3, 4]
     assert lengths_in("A band-like layer of 1,220.5 m at [a link](b.md).") == [9]
     assert lengths_in("By e.g. Rice et al. (2006) in Eq. 4. Next one.") == [9, 2]
     assert lengths_in("- one two\n- three\n\n| four | five six |\n|---|---|\n") == [2, 1, 1, 2]
-
-
-def test_a_sentence_is_long_above_the_limit() -> None:
     assert RULES.max_words == 28
     assert lengths_in("word " * 28 + ".", RULES.max_words) == []
     assert lengths_in("word " * 29 + ".", RULES.max_words) == [29]

@@ -1,7 +1,5 @@
 """Checks of the repository: includes between modules, sizes, words, agreement of documents and code."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 from pathlib import Path
@@ -32,7 +30,6 @@ LONGEST_LINE = 120  # characters, in documents; clang-format and ruff check the 
 
 
 def code_files(*folders: str) -> list[Path]:
-    """Return the C++ and CUDA files below the folders."""
     return sorted(
         path for folder in folders for kind in ("[ch]pp", "cu") for path in (ROOT / folder).rglob(f"*.{kind}")
     )
@@ -50,35 +47,33 @@ def own_files() -> list[Path]:
 
 
 def documents() -> list[Path]:
-    """Return the documents, without the generated reference."""
     inside = [path for folder in ["docs", "cases", "benchmarks"] for path in (ROOT / folder).rglob("*.md")]
-    found = [*ROOT.glob("*.md"), *inside]
-    return sorted(path for path in found if path.name != "reference.md")
+    return sorted(path for path in [*ROOT.glob("*.md"), *inside] if path.name != "reference.md")
 
 
 def includes_of(text: str) -> list[str]:
-    """Return the includes with quotes in a file."""
     return re.findall(r'^\s*#\s*include\s+"([^"]+)"', text, re.MULTILINE)
 
 
 def module_of(include: str) -> str:
-    """Return the module an include names."""
     return "generated" if include == "version.hpp" else include.split("/")[0]
 
 
 def heading_anchor(title: str) -> str:
-    """Return the anchor that a Markdown heading gets."""
     return re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", "-")
 
 
 def place(path: Path) -> str:
-    """Return a path as messages show it."""
     return str(path.relative_to(ROOT))
 
 
-def test_the_modules_are_those_of_the_table() -> None:
-    modules = {path.name for path in SOURCE.iterdir() if path.is_dir()}
-    assert modules == set(ALLOWED)
+def test_modules_are_those_of_the_table_without_a_cycle() -> None:
+    assert {path.name for path in SOURCE.iterdir() if path.is_dir()} == set(ALLOWED)
+    left = {module: allowed - {module, "generated"} for module, allowed in ALLOWED.items()}
+    while left:
+        free = {module for module, needs in left.items() if not needs & set(left)}
+        assert free, f"these modules include one another: {sorted(left)}"
+        left = {module: needs for module, needs in left.items() if module not in free}
 
 
 def test_modules_include_only_allowed_modules() -> None:
@@ -92,14 +87,6 @@ def test_modules_include_only_allowed_modules() -> None:
                 wrong.append(f"{place(path)} includes {include}, but {module} may not include {module_of(include)}")
     assert seen > 100
     assert wrong == []
-
-
-def test_allowed_includes_have_no_cycle() -> None:
-    left = {module: allowed - {module, "generated"} for module, allowed in ALLOWED.items()}
-    while left:
-        free = {module for module, needs in left.items() if not needs & set(left)}
-        assert free, f"these modules include one another: {sorted(left)}"
-        left = {module: needs for module, needs in left.items() if module not in free}
 
 
 def test_includes_name_their_module_and_exist() -> None:
@@ -116,11 +103,16 @@ def test_only_base_names_the_parallel_backend() -> None:
     assert {user for user in users if not user.startswith("src/base/")} == set()
 
 
-def test_physics_uses_no_arrays_input_or_output() -> None:
+def test_physics_uses_no_arrays_input_or_output_and_names_its_source() -> None:
     allowed = {"cmath", "limits", "utility", "variant", "array"}
     for path in code_files("src/physics"):
         used = set(re.findall(r"#include <([^>]+)>", path.read_text()))
         assert used <= allowed, f"{place(path)} includes {sorted(used - allowed)}"
+    for path in (path for path in code_files("src/physics") if path.suffix == ".hpp"):
+        opening = path.read_text().split("#pragma once")[0]
+        assert re.search(r"Eqs?\. ?\d|\d{4}|chapter|docs/theory/", opening), (
+            f"{place(path)} cites no equation and no paper"
+        )
 
 
 def test_physics_includes_only_device_code() -> None:
@@ -144,25 +136,14 @@ def test_core_neither_prints_nor_exits_nor_catches_signals() -> None:
         assert not found, f"{place(path)}: {found.group() if found else ''} belongs in src/app"
 
 
-def test_headers_have_a_guard_and_a_purpose() -> None:
+def test_headers_have_a_guard_and_sources_a_purpose() -> None:
     for path in (path for path in code_files("src") if path.suffix == ".hpp"):
         lines = path.read_text().splitlines()
         assert lines[0].startswith("// "), f"{place(path)} does not open with a comment"
         assert "#pragma once" in lines, f"{place(path)} lacks #pragma once"
-
-
-def test_sources_without_a_header_have_a_purpose() -> None:
     for path in (path for path in code_files("src") if path.suffix == ".cpp"):
         if not path.with_suffix(".hpp").exists():
             assert path.read_text().startswith("// "), f"{place(path)} has no header and no opening comment"
-
-
-def test_physics_files_name_their_source() -> None:
-    for path in (path for path in code_files("src/physics") if path.suffix == ".hpp"):
-        opening = path.read_text().split("#pragma once")[0]
-        assert re.search(r"Eqs?\. ?\d|\d{4}|chapter|docs/theory/", opening), (
-            f"{place(path)} cites no equation and no paper"
-        )
 
 
 @pytest.mark.parametrize(
@@ -246,7 +227,6 @@ def test_code_cites_sections_that_the_theory_has() -> None:
 
 
 def names_in_backticks(path: Path) -> set[str]:
-    """Return all words formatted as code in a document."""
     return set(re.findall(r"`([^`\n]+)`", path.read_text()))
 
 
@@ -264,8 +244,7 @@ def test_code_files_and_tests_that_pages_name_exist() -> None:
     recipe = {"src/physics/basal/weakening_friction.hpp"}  # the reader creates it
     wrong = []
     for page in documents():
-        words = " ".join(names_in_backticks(page))
-        named = set(re.findall(r"[\w/.]*\w\.(?:hpp|cpp|cu)\b", words)) - recipe
+        named = set(re.findall(r"[\w/.]*\w\.(?:hpp|cpp|cu)\b", " ".join(names_in_backticks(page)))) - recipe
         wrong += [f"{place(page)}: {name}" for name in named if not any(file.endswith(f"/{name}") for file in files)]
         named = {name for name in names_in_backticks(page) if re.fullmatch(r"[A-Z]\w+\.[A-Z]\w+", name)}
         wrong += [f"{place(page)}: {name}" for name in named - tests]
@@ -289,19 +268,13 @@ def test_every_exit_code_is_documented() -> None:
     assert set(numbers) <= set(re.findall(r"^\| (\d) \|", page.read_text(), re.MULTILINE))
 
 
-def test_run_prints_its_help_without_setup() -> None:
+def test_run_and_test_print_help_and_refuse_wrong_options() -> None:
     helped = subprocess.run([ROOT / "run", "--help"], capture_output=True, text=True, timeout=600, check=False)
-    assert helped.returncode == 0
-    assert "--setup" in helped.stdout
+    assert helped.returncode == 0 and "--setup" in helped.stdout
     bare = subprocess.run([ROOT / "run"], capture_output=True, text=True, timeout=600, check=False)
-    assert bare.returncode == 2
-    assert "./run CASE" in bare.stderr
-
-
-def test_test_refuses_unknown_options() -> None:
+    assert bare.returncode == 2 and "./run CASE" in bare.stderr
     refused = subprocess.run([ROOT / "test", "--fast"], capture_output=True, text=True, timeout=600, check=False)
-    assert refused.returncode == 2
-    assert "--full" in refused.stderr
+    assert refused.returncode == 2 and "--full" in refused.stderr
 
 
 @pytest.mark.parametrize("script", ["run", "test", "scripts/setup", ".ci/run"])

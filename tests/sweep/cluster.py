@@ -1,7 +1,5 @@
 """A Dask cluster of separate processes: a scheduler, and two workers with one thread each."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import os

@@ -3,8 +3,6 @@
 The Slurm job script is generated and parsed here; no test submits it to Slurm.
 """
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A small case for sweeps."""
 
-from __future__ import annotations
-
 import os
 import sys
 from pathlib import Path

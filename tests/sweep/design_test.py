@@ -1,7 +1,5 @@
 """Varied keys and designs: their forms on the command line, distributions, samples, seeds and limits."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -29,13 +27,9 @@ def test_samples_have_their_size_and_depend_on_the_seed_only(method: str, count:
     assert design.members() != Design(("case",), RANGES, method, count, 8).members()
 
 
-def test_a_latin_hypercube_has_one_member_in_each_interval() -> None:
-    members = Design(("case",), RANGES, "lhs", 50, 1).members()
-    values = np.sort([member.changes["a"] for member in members])
+def test_latin_hypercubes_fill_intervals_and_morris_changes_one_key() -> None:
+    values = np.sort([member.changes["a"] for member in Design(("case",), RANGES, "lhs", 50, 1).members()])
     assert np.array_equal(np.floor(values * 50.0), np.arange(50))
-
-
-def test_morris_trajectories_change_one_key_at_a_time() -> None:
     members = Design(("case",), RANGES, "morris", 4, 1).members()
     assert len(members) == 12
     for start in range(0, 12, 3):
@@ -61,14 +55,11 @@ def test_invalid_designs_are_refused() -> None:
             make()
 
 
-def test_lists_have_values_of_toml_or_text() -> None:
+def test_lists_have_values_of_toml_or_text_and_steps_both_ends() -> None:
     assert parse_levels("band.thickness=0.05,0.1,0.2") == Levels("band.thickness", (0.05, 0.1, 0.2))
     assert parse_levels("basal.friction=coulomb,lubricated").values == ("coulomb", "lubricated")
     assert parse_levels("heat.steam=true,false").values == (True, False)
     assert parse_levels("body.block.velocity=[0.0, 1.0],[0.0, 2.0]").values == ([0.0, 1.0], [0.0, 2.0])
-
-
-def test_steps_include_both_ends() -> None:
     assert parse_levels("basal.friction_angle=20:30:5").values == (20, 25, 30)
     assert parse_levels("band.thickness=0.1:0.3:0.1").values == (0.1, 0.2, 0.3)
     assert parse_levels("band.thickness=0.1:0.35:0.1").values == (0.1, 0.2, 0.3)

@@ -1,7 +1,5 @@
 """Members whose files cannot be written: they are interrupted, not failed, and continue later."""
 
-from __future__ import annotations
-
 import errno
 import fcntl
 import os
@@ -62,9 +60,7 @@ def test_a_sweep_ends_with_an_error_if_a_member_cannot_write(slope: Path, tmp_pa
     assert sweep()[1] == 2
 
 
-def test_without_locks_the_process_named_in_the_lock_decides(
-    slope: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_locks_the_named_process_decides(slope: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def no_locks(*_: object) -> None:
         raise OSError(errno.ENOLCK, "No locks available")
 

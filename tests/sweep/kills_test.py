@@ -1,7 +1,5 @@
 """A sweep that is killed at ten random moments, driver and workers, gives the table of an undisturbed one."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import random
@@ -32,7 +30,6 @@ def start(case: Path, sweep: Path) -> subprocess.Popen[bytes]:
 
 
 def workers_of(driver: int) -> list[int]:
-    """Return the processes that the driver started."""
     try:
         files = list(Path(f"/proc/{driver}/task").glob("*/children"))
         return [int(number) for file in files for number in file.read_text().split()]
@@ -41,7 +38,6 @@ def workers_of(driver: int) -> list[int]:
 
 
 def is_running(folder: SweepFolder, driver: int) -> bool:
-    """Return whether a worker of the driver runs a member."""
     workers = workers_of(driver)
     records = [folder.record(number) for number in range(MEMBERS)]
     return any(record["status"] == RUNNING and record["process"] in workers for record in records)

@@ -1,7 +1,5 @@
 """Labels of a sweep's page: names and units of keys and results."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 
@@ -11,20 +9,14 @@ from thawslide.sweeps.labels import label_of_key, label_of_result
 from thawslide.sweeps.sensitivity import MORRIS, Index
 
 
-def test_keys_have_their_declared_units(with_program: None) -> None:
+def test_keys_results_and_histories_have_declared_names_and_units(with_program: None) -> None:
     assert label_of_key("basal.friction_angle") == "basal.friction_angle (degrees)"
     assert label_of_key("body.slide.temperature") == "body.slide.temperature (°C)"
     assert label_of_key("basal.friction") == "basal.friction" and label_of_key("case") == "case"
-
-
-def test_results_have_names_and_units() -> None:
     assert label_of_result("peak_speed_m_s") == "peak speed (m/s)" and label_of_result("h_over_l") == "H/L"
     assert label_of_result("probe_bend_mean_speed_m_s") == "probe bend mean speed (m/s)"
     assert label_of_result("probe_gate_passed_volume_m3") == "probe gate passed volume (m3)"
     assert label_of_result("own") == "own"
-
-
-def test_histories_have_declared_columns(with_program: None) -> None:
     assert {"time_s", "runout_m", "basal_force_y_N"} <= {*declared_columns(is_block=False)}
     assert "velocity_m_s" in declared_columns(True) and "velocity_m_s" not in declared_columns(False)
 

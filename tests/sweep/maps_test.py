@@ -1,7 +1,5 @@
 """Sweeps of a 3D case: probability maps equal those of the members' maps, and maps that are not kept are removed."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +15,6 @@ CELL, COLUMNS, ROWS = 10.0, 24, 16
 
 
 def write(path: Path, values: np.ndarray) -> None:
-    """Write a raster whose rows are from north to south."""
     with rasterio.open(
         path, "w", driver="GTiff", dtype="float64", count=1, width=COLUMNS, height=ROWS, crs="EPSG:32608",
         nodata=-9999.0, transform=rasterio.Affine(CELL, 0.0, 400000.0, 0.0, -CELL, 6500000.0 + ROWS * CELL),
@@ -36,30 +33,14 @@ def plane(tmp_path: Path) -> Path:
     thickness[5:11, 4:9] = 20.0
     write(folder / "thickness.tif", thickness)
     (folder / "case.toml").write_text(
-        """[case]
-dimension = 3
-
-[time]
-end = 0.5
-step = 0.01
-output_interval = 0.5
-history_interval = 0.1
-
-[grid]
-cell = 10.0
-min = [400010.0, 6500010.0, 0.0]
-max = [400230.0, 6500150.0, 260.0]
-
-[terrain]
-type = "dem"
-file = "dem.tif"
-
-[material.rock]
-law = "mohr_coulomb"
-youngs_modulus = 1.0e7
-poisson_ratio = 0.2
-friction_angle = 35.0
-cohesion = 1.0e5
+        """case = { dimension = 3 }
+time = { end = 0.5, step = 0.01, output_interval = 0.5, history_interval = 0.1 }
+grid = { cell = 10.0, min = [400010.0, 6500010.0, 0.0], max = [400230.0, 6500150.0, 260.0] }
+terrain = { type = "dem", file = "dem.tif" }
+material.rock = { law = "mohr_coulomb", youngs_modulus = 1.0e7, poisson_ratio = 0.2, friction_angle = 35.0, \
+cohesion = 1.0e5 }
+basal = { friction_angle = 10.0 }
+maps = { cell = 10.0 }
 
 [body.slide]
 material = "rock"
@@ -68,26 +49,17 @@ thickness = { raster = "thickness.tif" }
 velocity = [5.0, 0.0, -3.0]
 temperature = -1.0
 porosity = 0.3
-
-[basal]
-friction_angle = 10.0
-
-[maps]
-cell = 10.0
 """
     )
     return folder
 
 
 def read(path: Path) -> np.ndarray:
-    """Read a raster with nan for no data."""
     with rasterio.open(path) as file:
         return np.ma.filled(file.read(1, masked=True), np.nan)
 
 
-def test_probability_maps_are_those_of_the_members(
-    plane: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_probability_maps_are_those_of_members(plane: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     sweep = tmp_path / "sweep"
     command = [str(plane), "--vary", "basal.friction_angle=5:35:10", "--output", str(sweep), "--thickness", "2,10"]
     assert main([*command, "--speed", "5"]) == 0
@@ -116,7 +88,7 @@ def test_probability_maps_are_those_of_the_members(
     )
 
 
-def test_maps_that_are_not_kept_are_removed_after_the_probability_maps(
+def test_maps_that_are_not_kept_are_removed_last(
     plane: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     sweep = tmp_path / "sweep"

@@ -1,7 +1,5 @@
 """Probability and quantile maps against NumPy, extents, and refused rasters."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +15,6 @@ CELL, NO_DATA = 10.0, -9999.0
 
 
 def write(path: Path, values: Numbers, west: float = 0.0, north: float = 1000.0, cell: float = CELL) -> Path:
-    """Write a raster with nan as no data."""
     path.parent.mkdir(parents=True, exist_ok=True)
     rows, columns = values.shape
     with rasterio.open(
@@ -29,7 +26,6 @@ def write(path: Path, values: Numbers, west: float = 0.0, north: float = 1000.0,
 
 
 def read(path: Path) -> Numbers:
-    """Read a raster with nan for no data."""
     with rasterio.open(path) as file:
         return np.ma.filled(file.read(1, masked=True), np.nan)
 
@@ -67,16 +63,17 @@ def test_maps_match_numpy_exactly(ensemble: tuple[list[Path], dict[str, Numbers]
         assert np.array_equal(read(output / f"arrival_p{percent}.tif"), expected, equal_nan=True)
 
 
-def test_each_map_has_a_style_a_unit_and_a_description(
-    ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path
-) -> None:
+def test_maps_have_styles_and_thresholds(ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path) -> None:
     paths = write_probability_maps(rasters_in(ensemble[0]), tmp_path / "out")
     assert all("colorrampshader" in path.with_suffix(".qml").read_text() for path in paths)
     with rasterio.open(tmp_path / "out" / "speed_p50.tif") as file:
         assert file.units == ("m/s",) and file.descriptions == ("50 % quantile of maximum speed",)
+    names = {path.stem for path in write_probability_maps(rasters_in(ensemble[0]), tmp_path, {"speed": [7.0]})}
+    assert {"speed_above_7", "thickness_above_0.5", "thickness_above_1", "thickness_above_5"} <= names
+    assert "speed_above_5" not in names
 
 
-def test_the_map_of_reached_cells_states_its_threshold(
+def test_map_of_reached_cells_has_its_threshold(
     ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path
 ) -> None:
     folders, _ = ensemble
@@ -96,19 +93,16 @@ def test_the_map_of_reached_cells_states_its_threshold(
     assert found(thickness) == ("probability of being reached: maximum flow thickness above 0.1 m", "0.1 m")
 
 
-def test_extents_can_differ_by_whole_cells(tmp_path: Path) -> None:
+def test_extents_can_differ_by_whole_cells_only(tmp_path: Path) -> None:
     files = [
         write(tmp_path / "a.tif", np.array([[1.0, 2.0]])),
         write(tmp_path / "b.tif", np.array([[3.0, 4.0]]), west=CELL),
     ]
     assert main([*map(str, files), "--output", str(tmp_path / "out"), "--thickness", "1.5"]) == 0
     assert np.array_equal(read(tmp_path / "out" / "thickness_above_1.5.tif"), [[0.0, 1.0, 0.5]])
-
-
-def test_rasters_whose_cells_do_not_coincide_are_refused(tmp_path: Path) -> None:
-    first = write(tmp_path / "a.tif", np.ones((2, 2)))
+    first = write(tmp_path / "first.tif", np.ones((2, 2)))
     for other in (
-        write(tmp_path / "b.tif", np.ones((2, 2)), west=4.0),
+        write(tmp_path / "moved.tif", np.ones((2, 2)), west=4.0),
         write(tmp_path / "c.tif", np.ones((2, 2)), cell=20.0),
     ):
         with pytest.raises(ReportError, match="cells do not coincide"):
@@ -119,11 +113,3 @@ def test_folders_without_maps_are_refused(tmp_path: Path, capsys: pytest.Capture
     (tmp_path / "empty").mkdir()
     assert main([str(tmp_path / "empty")]) == 2 and "no map" in capsys.readouterr().err
     assert main([str(tmp_path / "absent")]) == 2 and "no such file or folder" in capsys.readouterr().err
-
-
-def test_a_quantity_without_thresholds_has_the_default_ones(
-    ensemble: tuple[list[Path], dict[str, Numbers]], tmp_path: Path
-) -> None:
-    names = {path.stem for path in write_probability_maps(rasters_in(ensemble[0]), tmp_path, {"speed": [7.0]})}
-    assert {"speed_above_7", "thickness_above_0.5", "thickness_above_1", "thickness_above_5"} <= names
-    assert "speed_above_5" not in names

@@ -1,7 +1,5 @@
 """Memory of a worker: the estimate covers all members."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

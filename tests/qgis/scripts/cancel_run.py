@@ -1,7 +1,5 @@
 """Cancels 'Run case' at its first progress: cancel_run.py CASE FOLDER."""
 
-from __future__ import annotations
-
 import json
 import sys
 

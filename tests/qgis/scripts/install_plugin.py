@@ -1,7 +1,5 @@
 """Unpacks a ZIP file into the profile with the function of QGIS: install_plugin.py FILE."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

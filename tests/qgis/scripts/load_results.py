@@ -1,7 +1,5 @@
 """Loads a run into a project and saves it: load_results.py RUN PROJECT."""
 
-from __future__ import annotations
-
 import json
 import sys
 

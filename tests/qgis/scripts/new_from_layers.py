@@ -3,8 +3,6 @@
 The DEM gets its coordinate system from QGIS. The release is the selected one of two polygons in memory.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 

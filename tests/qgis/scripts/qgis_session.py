@@ -1,7 +1,5 @@
 """A session of QGIS without a window, with the algorithms of Processing and of the plugin."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Draws the visible layers of a project and prints its groups, layers and styles: read_project.py PROJECT PICTURE."""
 
-from __future__ import annotations
-
 import json
 import sys
 from typing import Any
