@@ -235,7 +235,7 @@ def test_other_threads_work_while_a_simulation_steps(slope: Path) -> None:
     worker = threading.Thread(target=count)
     worker.start()
     before = counted
-    simulation.step(200)
+    simulation.step(5000)
     during = counted - before
     stop.set()
     worker.join()
