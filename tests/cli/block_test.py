@@ -1,7 +1,5 @@
 """`thawslide block` moves as a run of the same case, on planes, profiles and in valleys, and warns of unusual paths."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

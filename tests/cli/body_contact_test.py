@@ -1,7 +1,5 @@
 """Two bodies that meet, and two that separate: start of their contact, and conserved momentum."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

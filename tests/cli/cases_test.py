@@ -1,7 +1,5 @@
 """Every case of the project runs, shortened: the first seconds of each file of `cases/`."""
 
-from __future__ import annotations
-
 import tomllib
 from pathlib import Path
 

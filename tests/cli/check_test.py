@@ -1,7 +1,5 @@
 """Errors that `check` and `run` report before a computation: in files, in intervals, in the first steps."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

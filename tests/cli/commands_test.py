@@ -1,7 +1,5 @@
 """Commands version, describe, check, block and report, and invalid commands."""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil

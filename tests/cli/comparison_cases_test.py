@@ -1,7 +1,5 @@
 """Cases of the comparisons with other codes and of cells are valid; a short run conserves the volume of the pile."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

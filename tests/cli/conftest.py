@@ -1,7 +1,5 @@
 """Fixtures that run the program: its start, a small case, and readers of its output."""
 
-from __future__ import annotations
-
 import csv
 import json
 import os

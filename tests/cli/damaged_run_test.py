@@ -1,7 +1,5 @@
 """Damaged, missing and changed files of a run: `resume` repairs them or continues without them, or refuses them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

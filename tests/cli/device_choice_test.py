@@ -1,7 +1,5 @@
 """Selection of the device of a run: --device."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

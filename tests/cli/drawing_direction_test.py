@@ -1,7 +1,5 @@
 """Results do not depend on the direction in which paths, cross sections, outlines and rasters were drawn or stored."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Runs that fail or reach unphysical temperatures: exit codes, messages with position, time and cause, last state."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from pathlib import Path

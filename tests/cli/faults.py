@@ -1,7 +1,5 @@
 """Runs that are killed or whose writing fails, and their results: for the tests and for the page of reliability."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

@@ -3,8 +3,6 @@
 These are samples; scripts/pages --only reliability performs all tests.
 """
 
-from __future__ import annotations
-
 import random
 import subprocess
 from pathlib import Path

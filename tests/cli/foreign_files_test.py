@@ -1,7 +1,5 @@
 """Links, pipes, folders and foreign files in place of a run's files: nothing outside changes, nothing blocks."""
 
-from __future__ import annotations
-
 import json
 import os
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Guards and rest: early ends of a run, removed particles, and their messages."""
 
-from __future__ import annotations
-
 import re
 import signal
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Inputs that are too large, too deep, or links: refused, or treated as docs/reference/limits.md states."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The twenty most common mistakes of new users and further ones, with the complete messages."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from dataclasses import dataclass

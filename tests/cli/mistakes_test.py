@@ -1,7 +1,5 @@
 """Mistakes in a case: exit code 2, a message with location, value and remedy, and no output files."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Names of files and folders with characters that have a meaning in TOML, in comments or in a shell."""
 
-from __future__ import annotations
-
 import os
 import shlex
 import tomllib

@@ -1,7 +1,5 @@
 """Cases by `thawslide new` run: thin releases on coarse DEMs, releases near an edge and cut out, and resolutions."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Errors about unusable DEMs and releases, and about slides that leave the known terrain."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

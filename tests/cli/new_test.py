@@ -1,7 +1,5 @@
 """Maps from a DEM and a polygon with two commands."""
 
-from __future__ import annotations
-
 import math
 import re
 import signal

@@ -1,7 +1,5 @@
 """Warnings of `thawslide new` and `thawslide check` about releases and DEMs that are valid but probably unintended."""
 
-from __future__ import annotations
-
 import json
 import re
 import sqlite3

@@ -1,7 +1,5 @@
 """The pages on output files describe the files that the program writes."""
 
-from __future__ import annotations
-
 import csv
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Studies of `scripts/pages` with coarse and short runs: the report of the paper, the pages of Lamplugh, pictures."""
 
-from __future__ import annotations
-
 import math
 import os
 import re

@@ -1,7 +1,5 @@
 """Plausibility warnings of `check` and `run` about valid cases, its advice and estimates, as text and as JSON."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Output of a run during the run and at its end: plain lines, a bar on a terminal, the summary."""
 
-from __future__ import annotations
-
 import os
 import pty
 import re

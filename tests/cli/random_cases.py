@@ -4,8 +4,6 @@
 folders of those that end in an internal error or by a signal.
 """
 
-from __future__ import annotations
-
 import os
 import resource
 import shutil

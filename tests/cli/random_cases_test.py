@@ -1,7 +1,5 @@
 """Random valid cases end with a result or a refusal, never in an internal error."""
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
 

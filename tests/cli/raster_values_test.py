@@ -3,8 +3,6 @@
 The files are those of ../shared/data/faults; their READMEs state the expected values.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

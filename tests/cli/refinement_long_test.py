@@ -3,8 +3,6 @@
 The jobs are those of the study `refinement`, whose page has finer cells and explains the differences.
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Changes of an interrupted or finished run: allowed ones, refused ones, and those that an interruption cut off."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,7 +1,5 @@
 """`resume --output`: a copy of a run continues, and the run itself stays unchanged."""
 
-from __future__ import annotations
-
 import signal
 import time
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Adaptive steps and resumed runs with other steps: rows, snapshots and times follow them."""
 
-from __future__ import annotations
-
 import shutil
 import signal
 from pathlib import Path

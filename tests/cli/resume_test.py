@@ -1,7 +1,5 @@
 """Interrupted and resumed runs: results are bitwise identical to those of uninterrupted runs."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import signal

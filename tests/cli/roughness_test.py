@@ -1,7 +1,5 @@
 """Noise on a DEM: facts and warnings of check, and the same terrain for every command."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

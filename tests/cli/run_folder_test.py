@@ -1,7 +1,5 @@
 """Files of a run, bitwise identical for any number of threads, and folders that it refuses."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import tomllib

@@ -1,7 +1,5 @@
 """thawslide section cuts a 2D case out of a DEM; thawslide block computes a 3D case along its path."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from dataclasses import dataclass

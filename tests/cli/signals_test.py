@@ -1,7 +1,5 @@
 """Signals during a run, and runs whose folder was moved, removed or unlocked."""
 
-from __future__ import annotations
-
 import shutil
 import signal
 import subprocess

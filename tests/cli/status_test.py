@@ -1,7 +1,5 @@
 """State and progress of a run, with and without file locks; one process per folder; repeated signals."""
 
-from __future__ import annotations
-
 import fcntl
 import os
 import re

@@ -1,7 +1,5 @@
 """Output that cannot be written, streams that the parent process has closed, and limits reached during a run."""
 
-from __future__ import annotations
-
 import os
 import re
 import resource

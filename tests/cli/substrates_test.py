@@ -1,7 +1,5 @@
 """Substrates of a case and sections of varying width: facts of check, gaps, overlaps, and what a run uses."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from conftest import Program, Ran, history

@@ -1,12 +1,11 @@
 """The program and the report read reported values and force records by the same rules."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
 import pytest
 from conftest import ROOT, Program, Ran, sets
+
 from thawslide import ReportError
 from thawslide.force_record import read_force_record
 from thawslide.targets import QUANTITIES, Band, read_targets

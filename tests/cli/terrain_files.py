@@ -1,7 +1,5 @@
 """Small DEMs, release areas, lines and case texts, as files of a user."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Callable

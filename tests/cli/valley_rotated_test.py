@@ -1,7 +1,5 @@
 """cases/valley3d rotated by 90 degrees, and shifted relative to the grid: equal travel within the spread of noise."""
 
-from __future__ import annotations
-
 import json
 import tomllib
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """The case of the page for users of RAMMS and AvaFrame: it is valid, and runs as a block and as a simulation."""
 
-from __future__ import annotations
-
 import math
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A block keeps its velocity until it reaches a wall, and a block behind a dyke rests."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -4,8 +4,6 @@
 knows with a value of the wrong type, one out of its range, an unknown keyword, and its key misspelt.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Device code of physics and of the step: compiled if nvcc is available, within limits of registers."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

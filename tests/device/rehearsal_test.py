@@ -3,8 +3,6 @@
 The program is thawslide_rehearsal, which emulates the GPU on the CPU; with THAWSLIDE_ON_GPU=1 it is thawslide on a GPU.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import signal

@@ -3,8 +3,6 @@
 Anything else than a value or a ReportError is a finding; so are more than 10 s or 2 GB for one input.
 """
 
-from __future__ import annotations
-
 import sys
 import warnings
 

@@ -3,8 +3,6 @@
 `check` is called by fuzz.py with bytes of the fuzzer, and by tests/python/hostile_files_test.py with those in corpus/.
 """
 
-from __future__ import annotations
-
 import json
 import tempfile
 from collections.abc import Callable
