@@ -53,7 +53,8 @@ std::string wave_text(const std::string& material, double cell, const WaveSpeeds
 template <int Dim, class Visit>
 void for_limits(const config::Case& parameters, const Model<Dim>& model, double thickness,
                 const band::StepExtremes& found, const Visit& visit) {
-  const double cell = parameters.grid.cell;
+  // On cells that follow the ground, the thickness of their layers along its normal, where it is steepest.
+  const double cell = parameters.grid.cell / std::hypot(1.0, found.slope);
   if (parameters.mechanics.enabled) {
     band::Extreme lightest = found.density, stiffest = found.elastic_density;
     if (model.bed_density > Real(0)) {  // entrained material is included from the start

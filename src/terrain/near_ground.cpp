@@ -47,6 +47,12 @@ Simd<Real> smallest_gap(const mpm::BatchStencil<Dim>& stencil, const mpm::Partic
 template <int Dim>
 void set_contact_offset(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
                         const mpm::MotionModel<Dim>& model, mpm::Particles<Dim>& particles, std::size_t first) {
+  if (grid.mapping().follows_ground) {
+    for (std::size_t p = first; p < particles.size(); ++p) {
+      particles.contact_offset(p) = model.sizes.half(static_cast<std::size_t>(particles.body(p))) * grid.cell();
+    }
+    return;
+  }
   // in units of a particle's contact offset
   constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off);
   mpm::PatchOf<mpm::Planes, Dim> patch;
@@ -97,14 +103,16 @@ void to_candidates(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& gr
 template <int Dim>
 void near_ground_to_grid(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
                          const mpm::MotionModel<Dim>& model, mpm::Particles<Dim>& particles, mpm::Nodes<Dim>& nodes) {
-  to_candidates<mpm::NearGround, mpm::Clearance>(grid, ground, model,
-                                                 AddNearGround<Dim>{model.phases, model.lubrication}, particles, nodes);
+  to_candidates<mpm::NearGround, mpm::Clearance>(
+      grid, ground, model, AddNearGround<Dim>{model.phases, model.lubrication, grid.mapping().follows_ground},
+      particles, nodes);
 }
 
 template <int Dim>
 void clearance_to_grid(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
                        const mpm::MotionModel<Dim>& model, mpm::Particles<Dim>& particles, mpm::Nodes<Dim>& nodes) {
-  to_candidates<mpm::Clearance>(grid, ground, model, LowerClearance<Dim>{}, particles, nodes);
+  to_candidates<mpm::Clearance>(grid, ground, model, LowerClearance<Dim>{grid.mapping().follows_ground}, particles,
+                                nodes);
 }
 
 #define THAWSLIDE_INSTANTIATE(Dim)                                                                            \
