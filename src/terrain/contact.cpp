@@ -134,14 +134,17 @@ struct GivenStrengths {
 };
 
 template <int Dim>
-void add_loaded_nodes(const mpm::SparseGrid<Dim>& grid, std::size_t b, const BlockContact<Dim>& contact,
-                      LoadedNodes& nodes) {
+void add_loaded_nodes(const mpm::SparseGrid<Dim>& grid, const typename GroundOnGrid<Dim>::Block& known, std::size_t b,
+                      const BlockContact<Dim>& contact, LoadedNodes& nodes) {
   const BasalNodes& basal = contact.basal;
   const auto append = [&](auto& all, const auto& column) {
     all.insert(all.end(), column.begin(), column.begin() + static_cast<std::ptrdiff_t>(basal.count));
   };
   for (std::size_t c = 0; c < basal.count; ++c) {
-    const Vector<Real, Dim> position = mpm::node_position(grid, b, contact.node[c]);
+    Vector<Real, Dim> position = mpm::node_position(grid, b, contact.node[c]);
+    if (grid.mapping().follows_ground) {
+      position[Dim - 1] = known[contact.node[c]].elevation;
+    }
     nodes.position.insert(nodes.position.end(), position.data(), position.data() + Dim);
   }
   append(nodes.area, contact.area);
@@ -171,7 +174,7 @@ GivenStrengths strengths_by(const StrengthLaw& law, const mpm::SparseGrid<Dim>& 
       BlockContact<Dim> contact;
       find_contact(grid, ground, known, model, mpm::BlockConstraints<Dim>(grid, constraints, b, time), b, time, dt,
                    nodes, contact, [](const NodeState<Dim>& /*state*/, std::size_t /*k*/) {});
-      add_loaded_nodes(grid, b, contact, given.nodes);
+      add_loaded_nodes(grid, *known, b, contact, given.nodes);
     }
   }
   const std::size_t count = given.nodes.strength.size();

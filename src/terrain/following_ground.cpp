@@ -209,6 +209,7 @@ void FollowingGround<Dim>::at_block(const NodeIndex& first, double cell, int edg
       point[a] = at[static_cast<std::size_t>(a)] * cell;
     }
     const Resolved ground = resolved(at);
+    const double height = column_height(at);
     double bend = 1.0, scale = 0.0;
     if (!is_above) {
       const double of_terrain = terrain_->column_means(point, cell).area / ground.resultant;
@@ -227,6 +228,7 @@ void FollowingGround<Dim>::at_block(const NodeIndex& first, double cell, int edg
       GroundAtNode<Dim>& node = nodes[c + k * columns];
       node.substrate = 0;
       node.candidate = layer <= 0;
+      node.elevation = static_cast<Real>(height + layer * cell);
       node.normal = normal.template cast<Real>();
       node.bend = static_cast<Real>(bend);
       node.area = static_cast<Real>(layer == 0 ? across * face * bend * ground.resultant : 0.0);

@@ -170,6 +170,7 @@ class GroundOnGrid {
       known.plane = static_cast<Real>(nodes[n].plane);
       known.space = static_cast<Real>(nodes[n].space);
       known.distance = static_cast<Real>(nodes[n].distance);
+      known.elevation = static_cast<Real>(nodes[n].elevation);
       known.plane_scale = static_cast<Real>(nodes[n].plane_scale);
       any_candidate_[k] |= known.candidate ? 1 : 0;
     }

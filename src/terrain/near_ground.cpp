@@ -47,14 +47,16 @@ Simd<Real> smallest_gap(const mpm::BatchStencil<Dim>& stencil, const mpm::Partic
 template <int Dim>
 void set_contact_offset(const mpm::SparseGrid<Dim>& grid, const GroundOnGrid<Dim>& ground,
                         const mpm::MotionModel<Dim>& model, mpm::Particles<Dim>& particles, std::size_t first) {
+  // in units of a particle's contact offset
+  constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off);
   if (grid.mapping().follows_ground) {
     for (std::size_t p = first; p < particles.size(); ++p) {
-      particles.contact_offset(p) = model.sizes.half(static_cast<std::size_t>(particles.body(p))) * grid.cell();
+      const Real half = model.sizes.half(static_cast<std::size_t>(particles.body(p))) * grid.cell();
+      const Real height = particles.height_above_ground(p);
+      particles.contact_offset(p) = height < within_lowest_layer * half ? height : half;
     }
     return;
   }
-  // in units of a particle's contact offset
-  constexpr Real within_lowest_layer = Real(2) * (Real(1) + round_off);
   mpm::PatchOf<mpm::Planes, Dim> patch;
   mpm::with_shape(model.shape, [&](auto shape) {
     const mpm::MomentumWeights<decltype(shape), Dim> weights{model.sizes, model.sides};

@@ -21,6 +21,7 @@ struct GroundAtNode {
                          // infinite unless the node is a candidate
   Real space = 0;        // integral of the shape function over the space above the ground [m3]
   Real distance = 0;     // from the ground, positive above it [m]
+  Real elevation = 0;    // of the node, only on cells that follow the ground [m]
   Real plane_scale = 1;  // factor of both sides of x.n = c.n; `plane` includes it (terrain/following_ground.hpp)
 };
 

@@ -163,7 +163,7 @@ TEST(Mistakes, OutOfRange) {
 }
 
 TEST(Mistakes, UnknownKey) {
-  const std::string here = " Allowed here: cell, min, max, leaving, boundary.";
+  const std::string here = " Allowed here: cell, min, max, leaving, follows_terrain, boundary.";
   const auto with_key = [](const std::string& key) {
     return error_of_changed({{"cell = 5.0", "cell = 5.0\n" + key + " = 1.0"}});
   };
@@ -242,7 +242,7 @@ TEST(Mistakes, SeveralInOrderOfTheirLocations) {
             "stepping, step, safety, output_interval, history_interval, stop_at_rest, rest_time.\n"
             "FOLDER/case.toml:5:8: grid.cell is -5; allowed: > 0 m (side length of a grid cell).\n"
             "FOLDER/case.toml:6:1: key 'grid.colour' is not known in [grid]. Allowed here: cell, min, max, leaving, "
-            "boundary.\n"
+            "follows_terrain, boundary.\n"
             "--set basal.friction_angle=95: basal.friction_angle is 95; allowed: >= 0 and < 90 degrees (basal friction "
             "angle phi_f).\n"
             "--set band.thicknes=0.1: key 'band.thicknes' is not known in [band]; did you mean 'thickness'? Allowed "

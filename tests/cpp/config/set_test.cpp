@@ -68,7 +68,7 @@ TEST(Set, NeedsAKeyAndAValue) {
 TEST(Set, OfAnUnknownKeyIsRefused) {
   EXPECT_EQ(error_of_text(valid_case, {"grid.cel=1"}),
             "--set grid.cel=1: key 'grid.cel' is not known in [grid]; did you mean 'cell'? Allowed here: cell, min, "
-            "max, leaving, boundary.");
+            "max, leaving, follows_terrain, boundary.");
   EXPECT_EQ(error_of_text(valid_case, {"body.blok.temperature=1"}),
             "--set body.blok.temperature=1: there is no body 'blok'; did you mean 'block'? In the case file: block.");
   EXPECT_EQ(error_of_text(valid_case, {"frame.wall.velocity=1"}),

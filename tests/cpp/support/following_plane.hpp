@@ -66,8 +66,8 @@ friction_angle = 35.0
 cohesion = 0.0
 viscosity_time = 0.004
 [basal]
-friction = "coefficient"
-friction_coefficient = 0.02
+friction = "constant"
+friction_angle = 1.14576283817255  # coefficient 0.02
 [heat]
 enabled = false
 [pressure]
