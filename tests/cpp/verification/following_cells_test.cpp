@@ -178,7 +178,7 @@ LinearErrors errors_of_linear_field(const Matrix<double, Dim>& gradient) {
   });
   double work_of_particles = 0.0, size_of_work = 0.0, heat_of_particles = 0.0, size_of_heat = 0.0;
   for (std::size_t p = 0; p < in.particles.size(); ++p) {
-    const auto stress = mpm::full_tensor<Dim>(in.particles, p);
+    const auto stress = mpm::full_tensor<Dim>(in.particles.stress, p);
     Matrix<double, 3> full;
     full << stress[0], stress[3], stress[5], stress[3], stress[1], stress[4], stress[5], stress[4], stress[2];
     const Matrix<double, Dim> in_plane = full.template topLeftCorner<Dim, Dim>();
